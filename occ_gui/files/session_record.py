@@ -14,9 +14,15 @@ from occ_gui.core.step_history import History, StepChange
 from occ_gui.core.workspace import FIRST_SETTINGS, Step, Workspace
 from occ_gui.files.preferences import text_of
 from occ_gui.values.film_choice import FRAMES, FilmChoice
-from occ_gui.values.match_choice import KNOWN, SENT, MatchChoice
-from occ_gui.values.photo_choice import PhotoChoice, PhotoFrame, PhotoReading
-from occ_gui.values.placement import MODES
+from occ_gui.values.photo_choice import (
+    KNOWN,
+    MODES,
+    SENT,
+    MatchChoice,
+    PhotoChoice,
+    PhotoFrame,
+    PhotoReading,
+)
 from occ_gui.values.room_choice import RoomChoice
 from occ_gui.values.simulated import PinnedScene, Pins, SimulationRequest
 from occ_model.effects.registry import NAMES

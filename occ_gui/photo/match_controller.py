@@ -5,13 +5,12 @@ from datetime import date
 
 from PySide6.QtCore import QObject, Signal
 
-from occ_gui.photo.assumption import is_certain
+from occ_gui.photo.match_figures import is_certain
 from occ_gui.photo.photo_part import PhotoPart
 from occ_gui.photo.photo_work import match_work
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.results import Board
-from occ_gui.values.match_choice import MatchChoice
-from occ_gui.values.photo_choice import MatchAsked
+from occ_gui.values.photo_choice import MatchAsked, MatchChoice
 from occ_gui.values.photo_results import FoundMatch
 from occ_model.errors import OccError
 from occ_model.photo.match_facts import known_of
@@ -29,13 +28,7 @@ _RECORDED = ("exposure_time", "f_number", "iso")
 def sources_of(
     found: Match, photo_name: str, known: str, day: date, *, assumed: bool
 ) -> dict[str, str]:
-    """Write the source and uncertainty of every value that a match estimated.
-
-    Parameters
-    ----------
-    found, photo_name
-        The match, and the name of its photo.
-    """
+    """Write the source and uncertainty of every value that a match estimated."""
     given = quantity(known)
     value = given.format(float(found.scene.value(known)))
     how = "assumed to be" if assumed else "being"
@@ -59,19 +52,10 @@ def cure_of_match(found: Match) -> Cure:
 
 
 class MatchController(QObject):
-    """Runs matches, and puts their results into the scene or a preset.
+    """Runs matches, and puts their results into the scene or a preset."""
 
-    Parameters
-    ----------
-    scenes
-        The scene with the known values, which also takes the result.
-    """
-
-    failed = Signal(str)
-    """Why a match failed, or a setting could not be taken over."""
-
-    saved = Signal(str)
-    """The name of the preset that was saved."""
+    failed = Signal(str)  # why a match failed, or a setting could not be taken over
+    saved = Signal(str)  # the name of the preset that was saved
 
     def __init__(self, scenes: SceneStore, board: Board) -> None:
         super().__init__()
@@ -92,7 +76,6 @@ class MatchController(QObject):
 
     @property
     def photo(self) -> Photo | None:
-        """The photo to be matched, None if none is open."""
         return self._board.results.photo
 
     @property
@@ -101,11 +84,9 @@ class MatchController(QObject):
 
     @property
     def match(self) -> Match | None:
-        """The match that is shown; None where none was found."""
         return self._part.match
 
     def start(self, choice: MatchChoice) -> None:
-        """Match the photo with the current scene."""
         opened, workspace = self._board.results.opened, self._store.workspace
         if opened is not None:
             asked = MatchAsked(opened.source, workspace.scene, choice, self._part.part)

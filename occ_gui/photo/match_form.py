@@ -2,25 +2,26 @@
 
 from collections.abc import Mapping
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Signal
 from PySide6.QtWidgets import (
     QCheckBox,
     QGridLayout,
     QHBoxLayout,
     QLabel,
     QProgressBar,
-    QPushButton,
     QVBoxLayout,
     QWidget,
 )
 
-from occ_gui.photo.assumption import is_certain
+from occ_gui.photo.match_figures import is_certain
 from occ_gui.scene.gesture import new_gesture
 from occ_gui.scene.parameter_rows import explain
 from occ_gui.scene.quantity_edit import QuantityEdit
 from occ_gui.scene.refusal_notice import RefusalNotice
-from occ_gui.values.match_choice import KNOWN, MatchChoice
+from occ_gui.values.photo_choice import KNOWN, MatchChoice
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
+from occ_gui.widgets.layouts import filled
+from occ_gui.widgets.named import named, paragraph, push_button
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 from occ_model.scene.square_wave import CHIPS_OF_A_CYCLE, SQUARE_FREQUENCY
@@ -28,34 +29,24 @@ from occ_model.scene.units import HERTZ
 
 _FREQUENCY = KNOWN[0]
 
-_STEPS = 1000
-"""Number of steps of the progress bar."""
+_STEPS = 1000  # of the progress bar
 
 
 class MatchForm(QWidget):
-    """The choices of a match, the button that starts it, and its progress."""
-
-    asked = Signal(object)
-    """The user starts a match: a MatchChoice."""
-
+    asked = Signal(object)  # the user starts a match: a MatchChoice
     edited = Signal(str, object, int)
     """A known value was entered: name, value in SI units, and the number of the gesture."""
 
-    chosen = Signal(object)
-    """Another choice was made: a MatchChoice."""
-
+    chosen = Signal(object)  # another choice was made: a MatchChoice
     certain_chosen = Signal(str, object)
     """A known value was confirmed for this photo, in SI units, or is only assumed: None."""
 
     cancelled = Signal()
-    refused = Signal(str)
-    """Why an entered value is refused."""
+    refused = Signal(str)  # why an entered value is refused
+    mended = Signal()  # an allowed value was entered, whether or not it differs from the last one
 
-    mended = Signal()
-    """An allowed value was entered, whether or not it differs from the last one."""
-
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self._scene: Scene | None = None
         self._shown = MatchChoice()
         self._certain: Mapping[str, float] = {}
@@ -63,11 +54,9 @@ class MatchForm(QWidget):
         """The values that were confirmed of the photos before."""
         self.sent = KeyedComboBox(
             "What was sent",
-            (
-                "What the LED in the photo sent: what the scene sends, a square wave of so many "
-                "cycles per second, or whatever can be read from the stripes.\n"
-                "Find out: what the scene sends if that explains the stripes, else read."
-            ),
+            "What the LED in the photo sent: what the scene sends, a square wave of so many "
+            "cycles per second, or whatever can be read from the stripes.\n"
+            "Find out: what the scene sends if that explains the stripes, else read.",
             {
                 "auto": "Find out: as the scene, else read",
                 "scene": "What the scene sends",
@@ -75,15 +64,12 @@ class MatchForm(QWidget):
                 "read": "Unknown: read it from the stripes",
             },
         )
-        self.square = QuantityEdit(SQUARE_FREQUENCY)
-        self.square.setAccessibleName(SQUARE_FREQUENCY.label)
-        self.square.setToolTip(f"{SQUARE_FREQUENCY.label}\n{SQUARE_FREQUENCY.meaning}")
+        tip = f"{SQUARE_FREQUENCY.label}\n{SQUARE_FREQUENCY.meaning}"
+        self.square = named(QuantityEdit(SQUARE_FREQUENCY), SQUARE_FREQUENCY.label, tip)
         self.estimate = KeyedComboBox(
             "What is estimated",
-            (
-                "Stripes determine only the product of readout time (in µs) and switching "
-                "frequency (in kHz): one of them must be known, and is taken from the scene."
-            ),
+            "Stripes determine only the product of readout time (in µs) and switching "
+            "frequency (in kHz): one of them must be known, and is taken from the scene.",
             {
                 "readout_time": "Readout time, frequency known",
                 "switching_frequency": "Frequency, readout time known",
@@ -94,7 +80,6 @@ class MatchForm(QWidget):
         self.gamma.setToolTip(
             "Estimate the camera's gamma from the shape of the stripes' edges as well."
         )
-        self._make_notices()
         self._make_run()
         self._lay_out()
         self.sent.chosen.connect(self._take_sent)
@@ -109,14 +94,14 @@ class MatchForm(QWidget):
     def _make_known(self) -> None:
         """Make the fields of the known values, which can also be entered here."""
         self.known: dict[str, QuantityEdit] = {}
+        note = "A known value of the photo; entering it changes the scene."
         for name in KNOWN:
             declared = quantity(name)
-            field = self.known[name] = QuantityEdit(declared)
-            field.setAccessibleName(f"Known: {declared.label}")
-            note = "A known value of the photo; entering it changes the scene."
-            field.setToolTip(f"{note}\n\n{explain(declared)}")
+            tip = f"{note}\n\n{explain(declared)}"
+            field = named(QuantityEdit(declared), f"Known: {declared.label}", tip)
             field.edited.connect(lambda value, name=name: self._edit(name, value))
-        self.hint = QLabel(wordWrap=True, textFormat=Qt.TextFormat.PlainText)
+            self.known[name] = field
+        self.hint = paragraph()
         self.certain = QCheckBox("certain")
         self.certain.setToolTip(
             "Whether this value is known of this photo. What is found with a value that is "
@@ -124,10 +109,8 @@ class MatchForm(QWidget):
             "certain."
         )
         self.certain.clicked.connect(self._click_certain)
-
-    def _make_notices(self) -> None:
-        """Make the sentences that say, under each field, why its last input was refused."""
         self.notices: dict[QuantityEdit, RefusalNotice] = {}
+        """The sentences that say, under each field, why its last input was refused."""
         for field in (self.square, *self.known.values()):
             notice = self.notices[field] = RefusalNotice(field)
             field.refused.connect(notice.show_problem)
@@ -143,13 +126,8 @@ class MatchForm(QWidget):
         self.square.setFocus()
         self.square.selectAll()
 
-    def end_refusals(self) -> None:
-        """Remove the sentences: the fields show other values."""
-        for notice in self.notices.values():
-            notice.end()
-
     def _edit(self, name: str, value: float) -> None:
-        self._set_certain(name, value)
+        self.certain_chosen.emit(name, value)
         self.edited.emit(name, value, new_gesture())
 
     def _tell(self) -> None:
@@ -160,10 +138,11 @@ class MatchForm(QWidget):
         if sent == "square":  # who chooses it says that its frequency is that of the lamp
             self._confirm_square(self.square.value())
         elif self._certain.get(_FREQUENCY) == CHIPS_OF_A_CYCLE * self.square.value():
-            self._set_certain(_FREQUENCY, None)  # what was confirmed was the square wave's
+            # What was confirmed was the square wave's.
+            self.certain_chosen.emit(_FREQUENCY, None)
 
     def _confirm_square(self, cycles: float) -> None:
-        self._set_certain(_FREQUENCY, CHIPS_OF_A_CYCLE * cycles)
+        self.certain_chosen.emit(_FREQUENCY, CHIPS_OF_A_CYCLE * cycles)
 
     def _known_name(self) -> str:
         """Return which of frequency and readout time is known."""
@@ -171,51 +150,36 @@ class MatchForm(QWidget):
 
     def _click_certain(self, certain: bool) -> None:
         name = self._known_name()
-        self._set_certain(name, self.known[name].value() if certain else None)
-
-    def _set_certain(self, name: str, value: float | None) -> None:
-        self.certain_chosen.emit(name, value)
+        self.certain_chosen.emit(name, self.known[name].value() if certain else None)
 
     def _make_run(self) -> None:
-        self.start = QPushButton("&Match photo")
-        self.start.setToolTip("Find the settings that explain the photo's stripes.")
-        self.start.clicked.connect(lambda: self.asked.emit(self.choice()))
-        self.progress = QProgressBar()
+        self.start = push_button(
+            "&Match photo",
+            "Find the settings that explain the photo's stripes.",
+            lambda: self.asked.emit(self.choice()),
+        )
+        self.progress = named(QProgressBar(), "Progress of the match, in percent")
         self.progress.setRange(0, _STEPS)
-        self.progress.setAccessibleName("Progress of the match, in percent")
-        self.cancel = QPushButton("&Cancel")
-        self.cancel.setToolTip("Cancel this match; the previous result stays.")
-        self.cancel.clicked.connect(self.cancelled)
+        self.cancel = push_button(
+            "&Cancel", "Cancel this match; the previous result stays.", self.cancelled
+        )
         self.show_running(False)
 
     def _lay_out(self) -> None:
         grid = QGridLayout()
         grid.setContentsMargins(0, 0, 0, 0)
         grid.setVerticalSpacing(3)
-        grid.addWidget(QLabel("Sent"), 0, 0)
+        for row, label in ((0, "Sent"), (2, "Estimate"), (3, "Known")):
+            grid.addWidget(QLabel(label), row, 0)
         grid.addWidget(self.sent, 0, 1)
         grid.addWidget(self.square, 0, 2)
-        grid.addWidget(QLabel("Estimate"), 2, 0)
         grid.addWidget(self.estimate, 2, 1, 1, 2)
-        known = QHBoxLayout()
-        for field in self.known.values():
-            known.addWidget(field)
-        known.addWidget(self.certain)
-        known.addStretch()
-        grid.addWidget(QLabel("Known"), 3, 0)
+        known = filled(QHBoxLayout(), *self.known.values(), self.certain, None)
         grid.addLayout(known, 3, 1, 1, 2)
         grid.addWidget(self.hint, 4, 1, 1, 2)
         grid.setColumnStretch(1, 1)
-        run = QHBoxLayout()
-        run.addWidget(self.gamma)
-        run.addStretch()
-        for widget in (self.start, self.progress, self.cancel):
-            run.addWidget(widget)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(3)
-        layout.addLayout(grid)
-        layout.addLayout(run)
+        run = filled(QHBoxLayout(), self.gamma, None, self.start, self.progress, self.cancel)
+        filled(QVBoxLayout(self), grid, run, margins=0, spacing=3)
 
     def choice(self) -> MatchChoice:
         """Return the choices, including values that are typed but not yet entered."""
@@ -245,9 +209,10 @@ class MatchForm(QWidget):
         self._show_known()
 
     def show_scene(self, scene: Scene) -> None:
-        """Show the known values of this scene."""
+        """Show the known values of this scene, which are no longer those that were refused."""
         self._scene = scene
-        self.end_refusals()
+        for notice in self.notices.values():
+            notice.end()
         self._show_known()
 
     def show_running(self, running: bool) -> None:
@@ -287,13 +252,12 @@ class MatchForm(QWidget):
         self.certain.setChecked(is_certain(name, known, self._certain))
         lines = []
         if of_frequency:
-            blinking = HERTZ.format(self.known[_FREQUENCY].value() / CHIPS_OF_A_CYCLE, 4)
-            text = (
-                "two chips a cycle of {cycles}"
+            cycles = HERTZ.format(self.known[_FREQUENCY].value() / CHIPS_OF_A_CYCLE, 4)
+            lines.append(
+                f"two chips a cycle of {cycles}"
                 if square
-                else "of chips; an LED that only blinks does so at {cycles}"
+                else f"of chips; an LED that only blinks does so at {cycles}"
             )
-            lines.append(text.format(cycles=blinking))
         if not self.certain.isChecked() and is_certain(name, known, self._forgotten):
             lines.append(
                 "Only assumed here: it was certain of another photo. Tick “certain” if it "

@@ -1,91 +1,132 @@
 """Result of a match: the verdict first, then the figures, and buttons that use them."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
-from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtCore import QEvent, Qt, Signal
+from PySide6.QtGui import QPalette
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
 
-from occ_gui.photo.assumption import is_stale
-from occ_gui.photo.match_values import MatchValues, condition_of
-from occ_gui.photo.paste_lines import PasteLines
-from occ_gui.photo.verdict_view import VerdictView
+from occ_gui.photo.match_figures import MatchValues, PasteLines, condition_of, is_stale
+from occ_gui.widgets.layouts import filled
+from occ_gui.widgets.named import named, paragraph, push_button
 from occ_gui.widgets.outdated_mark import DELAY, OutdatedMark
+from occ_gui.widgets.state_look import State, colours_of
 from occ_model.photo.many.other_programs import lines_of_match
 from occ_model.photo.match_facts import known_of
 from occ_model.results.bands import Cure
 from occ_model.results.match import Match
+from occ_model.results.photo_table import DOUBTFUL, REFUSED, SURE, UNREADABLE
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import HERTZ, SECOND
+
+SIGNS = {SURE: "●", DOUBTFUL: "◐", REFUSED: "○", UNREADABLE: "✕"}
+"""A sign for each verdict, so that none rests on a colour alone."""
+
+STATES = {SURE: State.GOOD, DOUBTFUL: State.DOUBTFUL}
+"""Whose colours the plate has, as the bar at the top has."""
+
+_MARGIN = 4
+
+
+class VerdictView(QWidget):
+    """Whether a match is sure or doubtful: a word on a coloured plate, and reasons in sentences."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.word = named(QLabel(textFormat=Qt.TextFormat.PlainText), "Verdict on the match")
+        self.word.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        font = self.word.font()
+        font.setBold(True)
+        self.word.setFont(font)
+        self.word.setContentsMargins(_MARGIN, 0, _MARGIN, 0)
+        self.reasons = paragraph(name="Reasons of the verdict", is_selectable=True)
+        fixed, least = QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Minimum
+        self.word.setSizePolicy(fixed, fixed)
+        self.reasons.setSizePolicy(QSizePolicy.Policy.Preferred, least)
+        self._verdict, self._is_outdated = "", False
+        row = filled(QHBoxLayout(), self.word, None)
+        filled(QVBoxLayout(self), row, self.reasons, margins=0, spacing=_MARGIN)
+
+    def show_verdict(self, verdict: str, reasons: Sequence[str]) -> None:
+        """Show a verdict, SURE or DOUBTFUL, and its reasons, each a sentence."""
+        self._verdict = verdict
+        self.reasons.setText("\n".join(f"• {reason}" for reason in reasons))
+        self.reasons.setVisible(bool(reasons))
+        self.show_outdated(False)
+
+    def show_outdated(self, outdated: bool) -> None:
+        """Show whether the verdict is on something else than is asked about now."""
+        self._is_outdated = outdated
+        sign = "Before:" if outdated else SIGNS[self._verdict]
+        self.word.setText(f"{sign} {self._verdict}")
+        self.word.setAutoFillBackground(not outdated)
+        palette = QPalette()
+        if not outdated:
+            colours = colours_of(STATES[self._verdict], self.palette())
+            palette.setColor(QPalette.ColorRole.Window, colours.paper)
+            palette.setColor(QPalette.ColorRole.WindowText, colours.ink)
+        self.word.setPalette(palette)
+        self.reasons.setEnabled(not outdated)
+
+    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.PaletteChange and self._verdict:
+            self.show_outdated(self._is_outdated)
 
 
 class MatchResult(QWidget):
     """How sure a match is, its figures, and buttons to use them."""
 
     apply_asked = Signal()
-    """The user applies the matched scene."""
+    save_asked = Signal()  # the user saves the matched scene as a preset
+    cure_asked = Signal()  # the user wants to see the picture at a shutter speed without bars
 
-    save_asked = Signal()
-    """The user saves the matched scene as a preset."""
-
-    cure_asked = Signal()
-    """The user wants to see the picture at a shutter speed that shows no bars."""
-
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self._match: Match | None = None
         self._cure: Cure | None = None
         self._noted: float | None = None
         self._scene: Scene | None = None
         self._given = math.nan
         self._certain: Mapping[str, float] = {}
-        self.verdict, self.figures = VerdictView(), MatchValues()
-        self.paste = PasteLines()
         self._turned = False
+        self.verdict, self.figures, self.paste = VerdictView(), MatchValues(), PasteLines()
         self.mark = OutdatedMark(self.figures)
-        self.condition, self.stale, self.cure = (
-            QLabel(wordWrap=True, textFormat=Qt.TextFormat.PlainText) for _ in range(3)
-        )
-        self.condition.setAccessibleName("What the figures rest on")
-        self.stale.setAccessibleName("Whether the match still belongs to the known value")
+        self.condition = paragraph(name="What the figures rest on")
+        self.stale = paragraph(name="Whether the match still belongs to the known value")
         self.stale.hide()
+        self.cure = paragraph()
         self._make_buttons()
-        buttons = QHBoxLayout()
-        buttons.addWidget(self.apply)
-        buttons.addWidget(self.save)
-        buttons.addStretch()
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(4)
-        # The cure is what most photographers came for: it needs no scrolling.
-        for label in (self.verdict, self.stale, self.condition, self.cure):
-            layout.addWidget(label)
-        layout.addWidget(self.without_bars, alignment=Qt.AlignmentFlag.AlignLeft)
-        for part in (self.figures, self.paste):
-            layout.addWidget(part)
-        layout.addLayout(buttons)
-        layout.addStretch()
+        filled(
+            QVBoxLayout(self),
+            # The cure is what most photographers came for: it needs no scrolling.
+            self.verdict, self.stale, self.condition, self.cure,
+            (self.without_bars, 0, Qt.AlignmentFlag.AlignLeft), self.figures, self.paste,
+            filled(QHBoxLayout(), self.apply, self.save, None), None,
+            margins=0, spacing=4,
+        )  # fmt: skip
 
     def _make_buttons(self) -> None:
-        self.apply = QPushButton("&Apply to the scene")
-        self.apply.setToolTip(
+        self.apply = push_button(
+            "&Apply to the scene",
             "Put the result into the scene, as one step that can be undone: its picture then "
-            "lies on the photo."
+            "lies on the photo.",
+            self.apply_asked,
         )
-        self.apply.clicked.connect(self.apply_asked)
-        self.save = QPushButton("&Save as preset…")
-        self.save.setToolTip(
+        self.save = push_button(
+            "&Save as preset…",
             "Save the result as a preset of your own, with the photo and the uncertainties as "
-            "its sources."
+            "its sources.",
+            self.save_asked,
         )
-        self.save.clicked.connect(self.save_asked)
-        self.without_bars = QPushButton("&Without bars")
-        self.without_bars.setToolTip(
+        self.without_bars = push_button(
+            "&Without bars",
             "Simulate the picture at a shutter speed that shows no bars, beside the photo: one "
-            "step that can be undone."
+            "step that can be undone.",
+            self.cure_asked,
         )
-        self.without_bars.clicked.connect(self.cure_asked)
 
     @property
     def values(self) -> dict[str, QLabel]:
@@ -97,12 +138,8 @@ class MatchResult(QWidget):
     ) -> None:
         """Show a match.
 
-        Parameters
-        ----------
-        noted
-            The exposure time in seconds that the camera noted, if it did.
-        given
-            The known value of the scene when the match was asked for, in SI units.
+        ``noted``: the exposure time in seconds that the camera noted, if it did.
+        ``given``: the known value of the scene when the match was asked for, in SI units.
         """
         self._match, self._noted, self._turned = match, noted, turned
         self._cure, self._given = None, given
@@ -141,7 +178,6 @@ class MatchResult(QWidget):
         return f"bars of {' to '.join(ends)} % of its light at {exposure}, "
 
     def show_certain(self, certain: Mapping[str, float]) -> None:
-        """Show which known values, in SI units by name, are confirmed and not only assumed."""
         self._certain = certain
         self._show_stale()
         if self._match is not None:
@@ -156,7 +192,7 @@ class MatchResult(QWidget):
         self.condition.setText(f"What follows holds {condition.removesuffix(': ')}.")
         self.condition.setVisible(bool(condition))
         self.figures.show_match(match, self._certain, self._noted)
-        self.paste.show_lines_if(condition, lines_of_match(match, turned=self._turned))
+        self.paste.show_lines(lines_of_match(match, turned=self._turned), condition)
 
     def show_outdated(self, why: str, usable: bool) -> None:
         """Show why the match is not the present one, empty if it is, and whether it can be used."""

@@ -5,39 +5,33 @@ from dataclasses import replace
 from pyqtgraph.GraphicsScene.mouseEvents import MouseClickEvent
 from PySide6.QtCore import Signal
 
-from occ_gui.photo.lamp_outlines import LampOutlines
+from occ_gui.photo.lamp_views import LampOutlines
 from occ_gui.photo.many.many_controller import ManyPhotosController
 from occ_gui.photo.match_controller import MatchController, cure_of_match
 from occ_gui.photo.part_edits import PartEdits
-from occ_gui.photo.photo_comparison import compared, photo_profile
 from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.photo.photo_part import PhotoPart
 from occ_gui.photo.photo_view import PhotoView
-from occ_gui.photo.photo_work import chip_reading, lamp_search, stripe_search
+from occ_gui.photo.photo_work import (
+    chip_reading,
+    compared,
+    lamp_search,
+    photo_profile,
+    stripe_search,
+)
 from occ_gui.picture.image_view import ImageView
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Pane
 from occ_gui.shell.results import Board
-from occ_gui.values.match_choice import MatchChoice
-from occ_gui.values.photo_choice import Placed
+from occ_gui.values.photo_choice import MODES, MatchChoice, Placed, Placement
 from occ_gui.values.photo_results import FoundMatch
-from occ_gui.values.placement import MODES, Placement
 from occ_model.results.decoding import Region
 
 
 class PhotoPane(Pane[PhotoPart]):
-    """The view of a photo with the work on it.
+    """The view of a photo with the work on it; the photo lies beside or on the picture."""
 
-    Parameters
-    ----------
-    scenes
-        The scene that a photo is matched with.
-    image
-        The pane of the picture, which the photo lies beside or on.
-    """
-
-    match_shown = Signal(object)
-    """The match that is shown from now on, or None."""
+    match_shown = Signal(object)  # the match that is shown from now on, or None
 
     def __init__(
         self, scenes: SceneStore, photos: PhotoController, image: ImageView, board: Board
@@ -103,11 +97,9 @@ class PhotoPane(Pane[PhotoPart]):
 
     @property
     def placement(self) -> Placement:
-        """Where the photo lies on the picture."""
         return self._shown.placement
 
     def show_part(self, part: PhotoPart) -> None:
-        """Show what differs from what is shown."""
         shown, self._shown = self._shown, part
         self._show(part, shown)
         self._follow(part, shown)
@@ -176,11 +168,9 @@ class PhotoPane(Pane[PhotoPart]):
     # What the user does.
 
     def match(self) -> None:
-        """Match the photo with the choices of the pane."""
         self.matching.start(self.view.form.choice())
 
     def match_all(self) -> None:
-        """Match the photos of the table with the choices of the pane."""
         self.many.start(self.view.form.choice())
 
     def _take_form(self, form: MatchChoice) -> None:
@@ -204,7 +194,6 @@ class PhotoPane(Pane[PhotoPart]):
         self._lay(MODES[0])
 
     def _lay(self, mode: str) -> None:
-        """Lay the photo beside the picture or over it."""
         self._store.put(replace(self._store.workspace, overlay=mode))
 
     def _let_move(self, by_mouse: bool) -> None:

@@ -24,18 +24,15 @@ class PartEdits(QObject):
 
     @property
     def part(self) -> Part:
-        """What is matched."""
         return part_of(self._store.workspace.photo, self._board.results)
 
     def find(self) -> None:
-        """Find the lamps of the photo."""
         workspace, opened = self._store.workspace, self._board.results.opened
         if opened is not None:
             photo = replace(workspace.photo, lamps_asked=Asked(opened.source))
             self._store.put(replace(workspace, photo=photo))
 
     def choose(self, index: int) -> None:
-        """Match this lamp."""
         lamps = self._board.results.lamps
         if 0 <= index < len(lamps):
             self._match(lamps[index])
@@ -65,7 +62,6 @@ class PartEdits(QObject):
         self.draw(self.part.region if isinstance(self.part, Lamp) else middle)
 
     def match_whole(self) -> None:
-        """Match the whole photo."""
         self._match(None)
 
     def _match(self, part: Part) -> None:

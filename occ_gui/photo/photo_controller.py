@@ -14,8 +14,7 @@ from occ_gui.shell.work import Work
 from occ_gui.values.photo_choice import PhotoChoice, PhotoSource
 from occ_gui.values.photo_results import OpenPhoto
 
-KEPT = 3
-"""Photos that are shown again at once: the user's own after a lesson with two."""
+KEPT = 3  # photos that are shown again at once: the user's own after a lesson with two
 
 
 def _read(source: PhotoSource, report: Report) -> OpenPhoto:
@@ -32,11 +31,8 @@ def _put(results: Results, opened: OpenPhoto | None) -> Results:
 class PhotoController(QObject):
     """Opens and closes photos, and reads them again along another axis or in another channel."""
 
-    opened = Signal(object)
-    """The photo that is shown now, or None."""
-
-    failed = Signal(str)
-    """Why a photo could not be read; the previous one stays."""
+    opened = Signal(object)  # the photo that is shown now, or None
+    failed = Signal(str)  # why a photo could not be read; the previous one stays
 
     def __init__(self, store: Store, board: Board) -> None:
         super().__init__()
@@ -53,29 +49,24 @@ class PhotoController(QObject):
 
     @property
     def path(self) -> Path | None:
-        """The path of the photo that is shown, None if none is open."""
         photo = self._board.results.photo
         return None if photo is None else photo.path
 
     @property
     def choice(self) -> PhotoChoice:
-        """What the user has set about photos."""
         return self._store.workspace.photo
 
     @property
     def awaited(self) -> Path | None:
-        """The path of the photo that is being read, None if none is."""
         return None if self.work.task.is_idle else self.choice.path
 
     def edit(self, change: Callable[[PhotoChoice], PhotoChoice]) -> None:
-        """Change what is set about photos."""
         if self.work.task.is_idle:
             self._settled = self.choice
         workspace = self._store.workspace
         self._store.put(replace(workspace, photo=change(workspace.photo)))
 
     def open(self, path: Path) -> None:
-        """Read a photo and show it."""
         self.edit(lambda choice: choice.opened(path))
 
     def cancel(self) -> None:
@@ -85,14 +76,16 @@ class PhotoController(QObject):
 
     def scan_along(self, scan_axis: str) -> None:
         """Set the axis of the file that the shutter scanned, and read the open photo again."""
-        self.edit(lambda each: replace(each, reading=replace(each.reading, scan_axis=scan_axis)))
+        self._read_by(scan_axis=scan_axis)
 
     def take_channel(self, channel: str) -> None:
         """Set the channel, and read the open photo again."""
-        self.edit(lambda each: replace(each, reading=replace(each.reading, channel=channel)))
+        self._read_by(channel=channel)
+
+    def _read_by(self, **changes: str) -> None:
+        self.edit(lambda each: replace(each, reading=replace(each.reading, **changes)))
 
     def close(self) -> None:
-        """Close the photo."""
         self.edit(PhotoChoice.closed)
 
     def _settle(self) -> None:

@@ -6,9 +6,8 @@ from typing import TypeAlias
 from occ_gui.core.workspace import Workspace
 from occ_gui.shell.results import Results
 from occ_gui.simulation.snapshot import ColumnView, Reading
-from occ_gui.values.photo_choice import PhotoChoice, PhotoFrame
+from occ_gui.values.photo_choice import PhotoChoice, PhotoFrame, Placement
 from occ_gui.values.photo_results import FoundMatch, StripeSearch
-from occ_gui.values.placement import Placement
 from occ_model.errors import ParameterError
 from occ_model.photo.reading.load import Photo, region_within
 from occ_model.results.decoding import Region
@@ -72,20 +71,8 @@ def automatic_placement(
 
 @dataclass(frozen=True, slots=True)
 class PhotoPart:
-    """What the photo's pane shows.
-
-    Parameters
-    ----------
-    reading
-        What is read of the simulated scene.
-    is_by_hand
-        Whether the photo lies where the user has put it.
-    is_late
-        Whether another photo is being read than the one that is shown.
-    """
-
     scene: Scene
-    reading: Reading | None
+    reading: Reading | None  # what is read of the simulated scene
     choice: PhotoChoice
     photo: Photo | None = None
     lamps: tuple[Lamp, ...] = ()
@@ -93,13 +80,12 @@ class PhotoPart:
     found: FoundMatch | None = None
     searched: StripeSearch | None = None
     placement: Placement = field(default_factory=Placement)
-    is_by_hand: bool = False
-    is_late: bool = False
+    is_by_hand: bool = False  # whether the photo lies where the user has put it
+    is_late: bool = False  # whether another photo is being read than the one that is shown
     is_enhanced: bool = False
 
     @classmethod
     def of(cls, workspace: Workspace, results: Results) -> "PhotoPart":
-        """Return what is to be shown."""
         choice, opened, reading = workspace.photo, results.opened, results.reading
         there = cls(workspace.scene, reading, choice)
         if opened is None:
@@ -142,7 +128,6 @@ class PhotoPart:
 
     @property
     def match(self) -> Match | None:
-        """The match of the photo; None where there is none."""
         return None if self.found is None else self.found.match
 
     @property

@@ -4,18 +4,19 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from PySide6.QtCore import QPoint, QSize, Qt, Signal
-from PySide6.QtWidgets import QFrame, QLabel, QPushButton, QStackedWidget, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QFrame, QStackedWidget, QVBoxLayout, QWidget
 
-from occ_gui.photo.lamp_form import LampForm
+from occ_gui.photo.lamp_views import LampForm
 from occ_gui.photo.many.many_view import ManyPhotosView
 from occ_gui.photo.match_form import MatchForm
 from occ_gui.photo.match_result import MatchResult
 from occ_gui.photo.photo_facts import PhotoFacts
-from occ_gui.photo.photo_steps import EARLIER, PhotoSteps
-from occ_gui.photo.photo_verdict_bar import PhotoVerdictBar
+from occ_gui.photo.photo_verdict import EARLIER, PhotoSteps, PhotoVerdictBar
 from occ_gui.photo.placement_form import PlacementForm
 from occ_gui.values.photo_choice import PhotoChoice
 from occ_gui.values.photo_results import FoundMatch
+from occ_gui.widgets.layouts import filled
+from occ_gui.widgets.named import paragraph, push_button
 from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_model.photo.reading.load import Photo
 from occ_model.results.bands import Cure
@@ -25,33 +26,24 @@ from occ_model.scene.scene import Scene
 _SCROLL_BAR = 20
 _LEAST_HEIGHT = 200
 
-_ABOVE = 4
-"""Pixels above a part that is scrolled to."""
+_ABOVE = 4  # pixels above a part that is scrolled to
 
 
 class PhotoView(QWidget):
     """The forms of the open photo; without one, an invitation to open one."""
 
     open_asked = Signal()
-    """The user opens a photo."""
+    sample_chosen = Signal(Path)  # the user opens one of the sample photos
+    refused = Signal(str)  # why a value that was entered in a form is refused
+    mended = Signal()  # an allowed value was entered in a form
 
-    sample_chosen = Signal(Path)
-    """The user opens one of the sample photos."""
-
-    refused = Signal(str)
-    """Why a value that was entered in a form is refused."""
-
-    mended = Signal()
-    """An allowed value was entered in a form."""
-
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         unseen = QWidget(self)
         unseen.hide()
         self.many = ManyPhotosView(unseen)
         """The table of several photos, until a pane of its own takes it."""
-        self.facts, self.form = PhotoFacts(), MatchForm()
-        self.lamps = LampForm()
+        self.facts, self.form, self.lamps = PhotoFacts(), MatchForm(), LampForm()
         self.result, self.placement = MatchResult(), PlacementForm()
         self.verdict = PhotoVerdictBar()
         """The verdict on the photo, for the place where it is first seen."""
@@ -61,15 +53,12 @@ class PhotoView(QWidget):
         self.verdict.step_taken.connect(self._match_square)
         self.steps = PhotoSteps()
         self.steps.chosen.connect(self._go_to_step)
+        self._photo: Photo | None = None
         self._match: Match | None = None
         self._is_outdated = False
         self._scene: Scene | None = None
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(4, 0, 4, 0)
-        layout.addWidget(self.steps)
-        layout.addWidget(self._pages)
+        filled(QVBoxLayout(self), self.steps, self._pages, margins=(4, 0, 4, 0))
         self.result.hide()
-        self._photo: Photo | None = None
         self.many.files_shown.connect(self._show_page)
         self.many.rows_changed.connect(self._show_row)
         for form in (self.form, self.placement):
@@ -77,51 +66,41 @@ class PhotoView(QWidget):
             form.mended.connect(self.mended)
 
     def _make_invitation(self) -> QWidget:
-        page = QWidget()
-        text = QLabel(
+        text = paragraph(
             "No photo is open. Drop one or several on the window, or open them, to lay one "
             "over the simulation and find the settings that explain its stripes."
         )
-        text.setWordWrap(True)
-        button = QPushButton("&Open photos…")
-        button.setToolTip("Choose a photo of a rolling-shutter camera, or several together.")
-        button.clicked.connect(self.open_asked)
-        layout = QVBoxLayout(page)
-        layout.addWidget(text)
-        layout.addWidget(button, 0, Qt.AlignmentFlag.AlignLeft)
-        self._samples = QVBoxLayout()
-        layout.addLayout(self._samples)
-        layout.addStretch()
+        button = push_button(
+            "&Open photos…",
+            "Choose a photo of a rolling-shutter camera, or several together.",
+            self.open_asked,
+        )
+        page, self._samples = QWidget(), QVBoxLayout()
+        at_left = Qt.AlignmentFlag.AlignLeft
+        filled(QVBoxLayout(page), text, (button, 0, at_left), self._samples, None)
         return page
 
     def show_samples(self, files: Mapping[str, Path]) -> None:
         """Offer sample photos, by what they show, where no photo is open."""
         for text, path in files.items():
-            button = QPushButton(f"Sample: {text} (simulated)")
-            button.setToolTip("Open this photo with its scene, to try a match.")
-            button.clicked.connect(lambda _=False, path=path: self.sample_chosen.emit(path))
+            button = push_button(
+                f"Sample: {text} (simulated)",
+                "Open this photo with its scene, to try a match.",
+                lambda _=False, path=path: self.sample_chosen.emit(path),
+            )
             self._samples.addWidget(button, 0, Qt.AlignmentFlag.AlignLeft)
 
     def _make_page(self) -> QWidget:
         page = self._page = QWidget()
-        layout = QVBoxLayout(page)
-        layout.setContentsMargins(6, 4, 6, 4)
-        layout.setSpacing(5)
-        layout.addWidget(self.facts)
-        layout.addWidget(_line())
-        layout.addWidget(self.lamps)
-        layout.addWidget(_line())
-        layout.addWidget(self.form)
-        layout.addWidget(self.result)
-        layout.addWidget(_line())
-        layout.addWidget(self.placement)
-        layout.addStretch()
+        filled(
+            QVBoxLayout(page), self.facts, _line(), self.lamps, _line(), self.form, self.result,
+            _line(), self.placement, None, margins=(6, 4, 6, 4), spacing=5,
+        )  # fmt: skip
         least = QSize(page.minimumSizeHint().width() + _SCROLL_BAR, _LEAST_HEIGHT)
         self._scroll = ScrollPane(page, least)
         return self._scroll
 
     def show_photo(self, photo: Photo | None) -> None:
-        """Show this photo in place of the previous one, or none."""
         if photo is not None and (self._photo is None or self._photo.path != photo.path):
             self._scroll.verticalScrollBar().setValue(0)  # its name stands at the top
         self._photo, self._match, self._is_outdated = photo, None, False
@@ -147,7 +126,6 @@ class PhotoView(QWidget):
 
     @property
     def has_photo(self) -> bool:
-        """Whether a photo is open."""
         return self._photo is not None
 
     def _show_page(self) -> None:
@@ -157,18 +135,14 @@ class PhotoView(QWidget):
             part.setVisible(self.has_photo)
 
     def show_scene(self, scene: Scene) -> None:
-        """Show the known values of this scene."""
         self._scene = scene
         self._show_steps()
-        self.form.show_scene(scene)
-        self.result.show_scene(scene)
-        self.many.show_scene(scene)
+        for part in (self.form, self.result, self.many):
+            part.show_scene(scene)
 
     def _show_steps(self) -> None:
-        match = self._match
-        is_applied = (
-            match is not None and self._scene is not None and match.is_applied_to(self._scene)
-        )
+        match, scene = self._match, self._scene
+        is_applied = match is not None and scene is not None and match.is_applied_to(scene)
         self.verdict.show_applied(is_applied)
         worth = "" if match is None else EARLIER if self._is_outdated else match.verdict
         self.steps.show_state(has_photo=self.has_photo, match=worth, is_applied=is_applied)
@@ -190,7 +164,6 @@ class PhotoView(QWidget):
         self.form.match_square()
 
     def show_match_begun(self) -> None:
-        """Show that a match is running."""
         self.form.show_running(True)
         self.verdict.show_begun()
 

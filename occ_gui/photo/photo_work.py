@@ -1,31 +1,41 @@
-"""What is worked out of the open photo in the background: lamps, stripes, chips and the match."""
+"""What is worked out of the open photo: lamps, stripes, chips and the match, and a comparison."""
 
 from dataclasses import replace
+
+import numpy as np
 
 import occ_model as occ
 from occ_gui.background.task import Report, Task
 from occ_gui.core.store import Store
 from occ_gui.core.workspace import Workspace
-from occ_gui.photo.known_scene import known_scene
 from occ_gui.photo.photo_controller import KEPT
-from occ_gui.photo.photo_part import Part, part_of
+from occ_gui.photo.photo_part import Part, PhotoPart, part_of
 from occ_gui.shell.results import Board, Results
 from occ_gui.shell.work import Work
-from occ_gui.values.match_choice import KNOWN
-from occ_gui.values.photo_choice import Asked, MatchAsked
-from occ_gui.values.photo_results import FoundMatch, StripeSearch
+from occ_gui.simulation.snapshot import Reading
+from occ_gui.values.photo_choice import KNOWN, Asked, MatchAsked, MatchChoice
+from occ_gui.values.photo_results import FoundMatch, PhotoProfile, StripeSearch
+from occ_model.camera.enhancement import enhance
 from occ_model.errors import MatchError
+from occ_model.photo.comparison import compare, enhance_comparison
 from occ_model.photo.reading.load import Photo
 from occ_model.photo.stripes.find import find_stripes
 from occ_model.results.lamp import Lamp
-from occ_model.results.match import ChipReading
+from occ_model.results.match import ChipReading, Comparison
+from occ_model.scene.scene import Scene
+from occ_model.scene.square_wave import blinking
 
 PartOfPhoto = tuple[Photo, Part]
 """A photo, and the part of it that is matched."""
 
-
 AskedOfPhoto = tuple[Photo, Asked]
 """A photo, and the search that was asked for."""
+
+MatchRequest = tuple[Photo, MatchAsked]
+"""A photo that was read, and the match that was asked for."""
+
+_LEAST_SWING = 0.5
+"""Swing in grey levels below which the simulated columns show no stripes."""
 
 
 def lamp_search(store: Store, board: Board) -> Work[AskedOfPhoto, tuple[Lamp, ...]]:
@@ -86,10 +96,6 @@ def chip_reading(store: Store, board: Board) -> Work[PartOfPhoto, ChipReading | 
     return Work(store, board, task, _part, put)
 
 
-MatchRequest = tuple[Photo, MatchAsked]
-"""A photo that was read, and the match that was asked for."""
-
-
 def match_work(store: Store, board: Board) -> Work[MatchRequest, FoundMatch]:
     """Match a photo, when that is asked for."""
 
@@ -104,7 +110,6 @@ def match_work(store: Store, board: Board) -> Work[MatchRequest, FoundMatch]:
 
 
 def match(request: MatchRequest, report: Report) -> FoundMatch:
-    """Match a photo."""
     report(0.0)
     photo, asked = request
     choice = asked.choice
@@ -132,3 +137,50 @@ def _put_match(results: Results, found: FoundMatch | None) -> Results:
     if found is not None and found.refusal and last is not None and last.photo is found.photo:
         found = replace(last, refusal=found.refusal, refused_part=found.part)
     return replace(results, match=found)
+
+
+def known_scene(scene: Scene, choice: MatchChoice) -> tuple[Scene, str]:
+    """Return the scene with what the user knows, and where the sent pattern is taken from."""
+    if choice.sent != "square":
+        return scene, choice.sent
+    # A lamp that is dimmed by the width of its pulses blinks too: "scene" would refuse it.
+    return blinking(scene, choice.square_frequency), "auto"
+
+
+def compared(part: PhotoPart) -> tuple[object, ...]:
+    """Return what a comparison follows from."""
+    found = (part.compared_stripes, part.why_no_stripes)
+    return (part.photo, part.reading, *found, part.placement, part.is_enhanced)
+
+
+def photo_profile(part: PhotoPart) -> PhotoProfile | None:
+    """Place the photo's profile beside the simulated one; None where there are not both."""
+    photo, reading, placement = part.photo, part.reading, part.placement
+    if photo is None or reading is None:
+        return None
+    comparison, sentence = None, part.why_no_stripes
+    try:
+        comparison = _compare(part, reading)
+    except MatchError as error:
+        sentence = str(error)
+    if comparison is not None and float(np.ptp(comparison.simulated)) < _LEAST_SWING:
+        # A photo scaled to no swing at all would agree with any simulation.
+        comparison, sentence = None, "The simulation has no stripes there to compare."
+    raw = photo.profile
+    if part.is_enhanced:
+        raw = enhance(raw, reading.scene.model.enhancement).astype(np.float64)
+    is_outdated = reading.scene != part.scene
+    place = placement.column, placement.scale
+    return PhotoProfile(comparison, raw, *place, sentence, photo, is_outdated)
+
+
+def _compare(part: PhotoPart, reading: Reading) -> Comparison | None:
+    placement, stripes = part.placement, part.compared_stripes
+    if stripes is None:
+        return None
+    first = placement.column + stripes.region.first_column * placement.scale
+    swing = stripes.high - stripes.low
+    comparison = compare(stripes.flattened, reading.profile, first, placement.scale, swing)
+    if not part.is_enhanced:
+        return comparison
+    return enhance_comparison(comparison, reading.signal, reading.scene.model.enhancement)

@@ -1,41 +1,41 @@
 """Form of the photo's placement on the simulated picture: shift and scale."""
 
+from dataclasses import astuple
+
 from PySide6.QtCore import QSignalBlocker, QSize, Qt, Signal
-from PySide6.QtWidgets import (
-    QGridLayout,
-    QHBoxLayout,
-    QLabel,
-    QPushButton,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from occ_gui.scene.number_edits import DecimalEdit
 from occ_gui.scene.parameter_rows import explain
 from occ_gui.scene.refusal_notice import RefusalNotice
-from occ_gui.values.placement import LARGEST_SCALE, LEAST_SCALE, Placement
+from occ_gui.values.photo_choice import LARGEST_SCALE, LEAST_SCALE, Placement
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
+from occ_gui.widgets.layouts import filled
+from occ_gui.widgets.named import named, push_button
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.units import NONE, PIXEL
 
-_FARTHEST = 1e6
-"""Largest shift of a photo in pixels."""
+_FARTHEST = 1e6  # largest shift of a photo in pixels
 
-COLUMN = Quantity(
+
+def _shift(name: str, label: str, meaning: str) -> Quantity:
+    return Quantity(
+        name, label, "", meaning, unit=PIXEL, low=-_FARTHEST, high=_FARTHEST,
+        slider=(0.0, 5000.0), scale="linear", default=0.0,
+    )  # fmt: skip
+
+
+COLUMN = _shift(
     "photo_column",
     "Column of the photo",
-    "",
     "Column of the simulation under the photo's first column, in pixels.",
-    unit=PIXEL, low=-_FARTHEST, high=_FARTHEST, slider=(0.0, 5000.0), scale="linear", default=0.0,
-)  # fmt: skip
+)
 
-ROW = Quantity(
+ROW = _shift(
     "photo_row",
     "Row of the photo",
-    "",
     "Row of the simulation under the photo's first row, in pixels.",
-    unit=PIXEL, low=-_FARTHEST, high=_FARTHEST, slider=(0.0, 5000.0), scale="linear", default=0.0,
-)  # fmt: skip
+)
 
 SCALE = Quantity(
     "photo_scale",
@@ -45,9 +45,7 @@ SCALE = Quantity(
     unit=NONE, low=LEAST_SCALE, high=LARGEST_SCALE, slider=(0.1, 10.0), scale="log", default=1.0,
 )  # fmt: skip
 
-
-_FIELD = 12
-"""Digits for which a field has room at the least, its arrows and frame among them."""
+_FIELD = 12  # digits for which a field has room at the least, its arrows and frame among them
 
 
 class _PlaceField(DecimalEdit):
@@ -64,46 +62,37 @@ class _PlaceField(DecimalEdit):
 class PlacementForm(QWidget):
     """Shift and scale of the photo, by numbers or by the mouse, and a reset button."""
 
-    placed = Signal(object)
-    """The user moved or scaled the photo: a Placement."""
-
+    placed = Signal(object)  # the user moved or scaled the photo: a Placement
     reset_asked = Signal()
-    refused = Signal(str)
-    """Why an entered value is refused."""
+    refused = Signal(str)  # why an entered value is refused
+    mended = Signal()  # an allowed value was entered, whether or not it differs from the last one
+    moving_chosen = Signal(bool)  # whether the user moves and scales the photo by the mouse
 
-    mended = Signal()
-    """An allowed value was entered, whether or not it differs from the last one."""
-
-    moving_chosen = Signal(bool)
-    """Whether the user moves and scales the photo by the mouse."""
-
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self._placement = Placement()
         self.notices: dict[DecimalEdit, RefusalNotice] = {}
         self.column, self.row = self._field(COLUMN, 2), self._field(ROW, 2)
         self.scale = self._field(SCALE, 5)
         self.scale.setSingleStep(0.01)
-        self.by_mouse = QPushButton("Mo&ve by mouse")
-        self.by_mouse.setCheckable(True)
-        self.by_mouse.setToolTip(
+        self.by_mouse = push_button(
+            "Mo&ve by mouse",
             "Show a frame round the photo while it lies on the simulation: drag it to move "
-            "the photo, its corners to scale it."
+            "the photo, its corners to scale it.",
         )
+        self.by_mouse.setCheckable(True)
         self.by_mouse.toggled.connect(self.moving_chosen)
-        self.reset = QPushButton("&Reset")
-        self.reset.setToolTip(
+        self.reset = push_button(
+            "&Reset",
             "Place the photo automatically: pixel on pixel if both pictures have the same "
-            "size, else at the panel's corner."
+            "size, else at the panel's corner.",
+            self.reset_asked,
         )
-        self.reset.clicked.connect(self.reset_asked)
         self._lay_out()
         self.show_placement(Placement(), by_hand=False)
 
     def _field(self, declared: Quantity, decimals: int) -> DecimalEdit:
-        field = _PlaceField(declared, decimals)
-        field.setAccessibleName(declared.label)
-        field.setToolTip(explain(declared))
+        field = named(_PlaceField(declared, decimals), declared.label, explain(declared))
         field.setAlignment(Qt.AlignmentFlag.AlignRight)
         field.valueChanged.connect(self._emit_placement)
         keep_wheel_for_scrolling(field)
@@ -118,42 +107,27 @@ class PlacementForm(QWidget):
         grid = QGridLayout()
         grid.setContentsMargins(0, 0, 0, 0)
         grid.setVerticalSpacing(2)
-        fields = (
-            ("Photo at column", self.column),
-            ("row", self.row),
-            ("scaled by", self.scale),
-        )
-        for place, (text, field) in enumerate(fields):
+        texts = ("Photo at column", "row", "scaled by")
+        for place, (text, field) in enumerate(zip(texts, self.notices, strict=True)):
             grid.addWidget(QLabel(text), 0, place)
             grid.addWidget(field, 1, place)
             grid.setColumnStretch(place, 1)
-        buttons = QHBoxLayout()
-        buttons.addWidget(self.by_mouse)
-        buttons.addWidget(self.reset)
-        buttons.addStretch()
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(4)
-        layout.addLayout(grid)
-        layout.addLayout(buttons)
+        buttons = filled(QHBoxLayout(), self.by_mouse, self.reset, None)
+        filled(QVBoxLayout(self), grid, buttons, margins=0, spacing=4)
 
     def show_placement(self, placement: Placement, by_hand: bool) -> None:
         """Show the placement without emitting a signal."""
         self._placement = placement
-        for notice in self.notices.values():
+        for (field, notice), value in zip(self.notices.items(), astuple(placement), strict=True):
             notice.end()
-        shown = ((self.column, placement.column), (self.row, placement.row))
-        for field, value in (*shown, (self.scale, placement.scale)):
             with QSignalBlocker(field):
                 field.setValue(value)
         self.reset.setEnabled(by_hand)
 
     def _emit_placement(self) -> None:
         # A field that was not edited keeps the digits that it does not show.
-        shown, fields = self._placement, (self.column, self.row, self.scale)
-        values = (shown.column, shown.row, shown.scale)
         new = [
             field.value() if abs(field.value() - value) > 10.0 ** -field.decimals() / 2 else value
-            for field, value in zip(fields, values, strict=True)
+            for field, value in zip(self.notices, astuple(self._placement), strict=True)
         ]
         self.placed.emit(Placement(*new))

@@ -9,7 +9,7 @@ from occ_gui.core.workspace import Workspace
 from occ_gui.shell.feature import Draw, Feature, Figure, NothingToDraw, Pane
 from occ_gui.shell.results import Results
 from occ_gui.simulation.snapshot import Snapshot
-from occ_gui.values.placement import MODES
+from occ_gui.values.photo_choice import MODES, Placement
 
 if TYPE_CHECKING:
     from occ_gui.picture.image_view import ImageView
@@ -101,7 +101,6 @@ def _with_photo(view: "ImageView", opened: "Photo", shown: Snapshot, mode: str, 
     def draw() -> "Drawing":
         from occ_gui.picture.difference_image import difference_cells
         from occ_gui.picture.photo_overlay import rect_of
-        from occ_gui.values.placement import Placement
         from occ_model.figures.overlay import Difference, PhotoLayer
         from occ_model.figures.window_panes import MOST_CELLS, picture_drawing
 

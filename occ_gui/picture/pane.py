@@ -9,7 +9,7 @@ from occ_gui.shell.feature import Pane
 from occ_gui.shell.results import of_picture
 from occ_gui.simulation.preview import Picture
 from occ_gui.simulation.snapshot import Reading, Snapshot
-from occ_gui.values.placement import MODES
+from occ_gui.values.photo_choice import MODES
 from occ_model.results.frame import PICTURES
 
 PicturePart: TypeAlias = tuple[

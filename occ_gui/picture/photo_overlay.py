@@ -8,7 +8,7 @@ from PySide6.QtCore import QObject, QPointF, QRectF, Signal
 
 from occ_gui.picture.averaged_image import AveragedImage
 from occ_gui.picture.difference_image import DifferenceImage
-from occ_gui.values.placement import MODES, Placement
+from occ_gui.values.photo_choice import MODES, Placement
 from occ_gui.widgets.pens import PHOTO, REGION
 from occ_model.arrays import ByteArray
 

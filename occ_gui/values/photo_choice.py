@@ -6,8 +6,6 @@ from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Self
 
-from occ_gui.values.match_choice import MatchChoice
-from occ_gui.values.placement import Placement
 from occ_model.photo.reading.choices import CHANNELS, SCAN_AXES
 from occ_model.results.decoding import Region
 from occ_model.scene.scene import Scene
@@ -16,6 +14,39 @@ if TYPE_CHECKING:
     from occ_model.results.lamp import Lamp
 
 _openings = count(1)
+
+MODES = ("beside", "blend", "split", "difference")
+"""Ways of showing a photo with the simulated picture."""
+
+LEAST_SCALE, LARGEST_SCALE = 0.01, 100.0
+
+KNOWN = ("switching_frequency", "readout_time")
+"""Stripes determine only the product of these two: one must be known to estimate the other."""
+
+SENT = ("auto", "scene", "square", "read")
+"""What an LED has sent: to be found out, what the scene does, a square wave, or to be read."""
+
+
+@dataclass(frozen=True, slots=True)
+class MatchChoice:
+    sent: str = "auto"  # what was sent, one of SENT
+    square_frequency: float = 1000.0  # cycles per second of the square wave, in Hz, if one was sent
+    # ``"readout_time"`` or ``"switching_frequency"``; the other one is known
+    estimate: str = "readout_time"
+    fit_gamma: bool = False  # whether gamma is estimated too
+
+
+@dataclass(frozen=True, slots=True)
+class Placement:
+    """Where a photo lies on the simulated picture."""
+
+    column: float = 0.0  # the pixel of the simulated picture under the photo's first pixel
+    row: float = 0.0
+    scale: float = 1.0  # pixels of the simulated picture per pixel of the photo
+
+    def within_limits(self) -> Self:
+        """Give it a scale that is neither too small nor too large."""
+        return replace(self, scale=min(max(self.scale, LEAST_SCALE), LARGEST_SCALE))
 
 
 @dataclass(frozen=True, slots=True)

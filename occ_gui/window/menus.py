@@ -8,7 +8,7 @@ from PySide6.QtCore import QObject
 from PySide6.QtGui import QAction, QActionGroup, QKeySequence, QUndoStack
 from PySide6.QtWidgets import QDockWidget, QMainWindow, QMenu
 
-from occ_gui.values.placement import MODES as OVERLAYS
+from occ_gui.values.photo_choice import MODES as OVERLAYS
 from occ_gui.widgets.plain_text import LONGEST, in_menu, in_tool_tip
 from occ_gui.window.full_screen import FullScreen
 from occ_gui.window.modes.mode import MODES

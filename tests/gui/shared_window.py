@@ -32,9 +32,8 @@ from occ_gui.app.application import Application
 from occ_gui.app.command_line import THEMES
 from occ_gui.core.workspace import FIRST_SETTINGS, Workspace
 from occ_gui.values.film_choice import FilmChoice
-from occ_gui.values.match_choice import MatchChoice
-from occ_gui.values.photo_choice import PhotoChoice
-from occ_gui.values.placement import MODES as OVERLAYS
+from occ_gui.values.photo_choice import MODES as OVERLAYS
+from occ_gui.values.photo_choice import MatchChoice, PhotoChoice
 from occ_gui.values.room_choice import RoomChoice
 from occ_gui.window.modes.mode import MODES
 from occ_model.receiver.decoders import DECODERS

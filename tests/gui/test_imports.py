@@ -31,7 +31,6 @@ MAY_COMPUTE = (
     "comparison",
     "feature",
     "jobs",
-    "known_scene",
     "measurement",
     "pane",
     "photo_work",

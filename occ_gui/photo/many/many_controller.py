@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject
 
 from occ_gui.background.task import Report, Task
-from occ_gui.photo.known_scene import known_scene
 from occ_gui.photo.many.many_view import ManyPhotosView
 from occ_gui.photo.photo_controller import PhotoController
+from occ_gui.photo.photo_work import known_scene
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.results import Board
-from occ_gui.values.match_choice import MatchChoice
+from occ_gui.values.photo_choice import MatchChoice
 from occ_gui.values.photo_results import ListedRows
 from occ_model.errors import OccError
 from occ_model.results.photo_table import PhotoRow, PhotoTable, known_beside
@@ -25,16 +25,13 @@ if TYPE_CHECKING:  # imported with the first match, not with the window
 
 @dataclass(frozen=True, slots=True)
 class ManyRequest:
-    """The photos to match, and how."""
-
     paths: tuple[Path, ...]
     settings: "MatchSettings"
     jobs: int | None
+    # What was found before, empty where all photos are matched, and the place of the photo that is
+    # matched again
     rows: tuple[PhotoRow, ...] = ()
-    """What was found before; empty where all photos are matched."""
-
     only: int = 0
-    """The place of the photo that is matched again, where others were matched before."""
 
 
 def match_all(request: ManyRequest, report: Report) -> PhotoTable:
@@ -63,15 +60,7 @@ def match_all(request: ManyRequest, report: Report) -> PhotoTable:
 
 
 class ManyPhotosController(QObject):
-    """Matches the photos of a table.
-
-    Parameters
-    ----------
-    photos
-        Which photos are listed, and how they are read.
-    jobs
-        Number of processes; by default one for each core.
-    """
+    """Matches the photos of a table, in so many processes; by default one for each core."""
 
     def __init__(
         self,
@@ -83,8 +72,7 @@ class ManyPhotosController(QObject):
     ) -> None:
         super().__init__()
         self._scenes, self._photos, self._board = scenes, photos, board
-        self._view = view
-        self._jobs = jobs
+        self._view, self._jobs = view, jobs
         self._settings: MatchSettings | None = None
         self._found: dict[int, PhotoRow] = {}
         self._done = 0
@@ -96,11 +84,8 @@ class ManyPhotosController(QObject):
         self.runner.finished.connect(self._take)
         self.runner.failed.connect(view.show_failed)
         view.cancelled.connect(self.cancel)
-        view.closed.connect(self._close)
+        view.closed.connect(lambda: self.choose_files(()))
         view.rows.known_given.connect(self._match_again)
-
-    def _close(self) -> None:
-        self.choose_files(())
 
     def choose_files(self, paths: Sequence[Path]) -> None:
         """List these photos in place of the previous ones; nothing is certain of them yet."""
@@ -108,14 +93,12 @@ class ManyPhotosController(QObject):
         self._photos.edit(lambda each: replace(each.uncertain() if listed else each, listed=listed))
 
     def show_files(self, paths: tuple[Path, ...]) -> None:
-        """Show the photos that are listed now."""
         self.runner.cancel()
         self._found, self.table = {}, None
         self._board.put(replace(self._board.results, listed=None))
         self._view.show_files(paths)
 
     def start(self, choice: MatchChoice) -> None:
-        """Match all photos with the current scene."""
         paths, reading = self._photos.choice.listed, self._photos.choice.reading
         if not paths:
             return

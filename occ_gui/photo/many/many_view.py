@@ -5,13 +5,13 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from PySide6.QtCore import QModelIndex, QSize, Qt, Signal
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QTableView, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QTableView, QVBoxLayout, QWidget
 
-from occ_gui.photo.assumption import condition, is_stale
 from occ_gui.photo.many.rows_model import KNOWN, NOTE, PHOTO, PhotoRowsModel
-from occ_gui.photo.match_values import what_errors_mean
-from occ_gui.photo.paste_lines import PasteLines
+from occ_gui.photo.match_figures import WHAT_ERRORS_MEAN, PasteLines, condition, is_stale
 from occ_gui.widgets.copying import copy_text
+from occ_gui.widgets.layouts import filled
+from occ_gui.widgets.named import named, paragraph, push_button
 from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_gui.widgets.work_bar import WorkBar
 from occ_model.photo.many.other_programs import frame_readout_time, lines_to_paste, stated_lines
@@ -38,26 +38,13 @@ class ManyPhotosView(QWidget):
     """The table of the photos that were dropped together, and what they measured."""
 
     match_asked = Signal()
-    """The user matches all photos."""
-
-    copied = Signal(str)
-    """A text was copied: a sentence that says so."""
-
-    save_asked = Signal(str)
-    """The user saves the table: its text as CSV."""
-
+    copied = Signal(str)  # a text was copied: a sentence that says so
+    save_asked = Signal(str)  # the user saves the table: its text as CSV
     cancelled = Signal()
-    closed = Signal()
-    """The user puts the table away."""
-
-    files_shown = Signal()
-    """Other files are shown, or none."""
-
-    rows_changed = Signal()
-    """Something else is known of a photo."""
-
-    photo_chosen = Signal(Path)
-    """The user opens one of the photos."""
+    closed = Signal()  # the user puts the table away
+    files_shown = Signal()  # other files are shown, or none
+    rows_changed = Signal()  # something else is known of a photo
+    photo_chosen = Signal(Path)  # the user opens one of the photos
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -65,25 +52,25 @@ class ManyPhotosView(QWidget):
         self.rows.modelReset.connect(self.rows_changed)
         self.rows.dataChanged.connect(self.rows_changed)
         self.rows.refused.connect(self._show_note)
-        self.title = _text("How many photos")
         self._make_buttons()
         self._make_table()
         self.work = WorkBar("Photos that are matched")
         self.work.cancelled.connect(self.cancelled)
-        self.mean, self.exposure, self.frame, self.notes = (
-            _text(name)
+        self.title, self.mean, self.exposure, self.frame, self.notes, self.stale = (
+            paragraph(name=name, is_selectable=True)
             for name in (
+                "How many photos",
                 "Mean of the photos",
                 "Mean exposure time",
                 "Readout time of the whole frame",
                 "Notes on the photos together",
+                "Whether the table still belongs to the known value",
             )
         )
         self.paste = PasteLines()
         self.paste.copied.connect(self.copied)
         for label in (self.mean, self.exposure, self.frame):
-            label.setToolTip(what_errors_mean())
-        self.stale = _text("Whether the table still belongs to the known value")
+            label.setToolTip(WHAT_ERRORS_MEAN)
         self._found: PhotoTable | None = None
         self._asked: tuple[str, Scene] | None = None
         self._counts = ""
@@ -95,48 +82,42 @@ class ManyPhotosView(QWidget):
 
     def _lay_out(self) -> None:
         """Lay the table beside the results of all photos: the pane is wide and low."""
-        self._together = QWidget()
-        together = QVBoxLayout(self._together)
-        together.setContentsMargins(0, 0, 0, 0)
-        for part in (self.stale, self.mean, self.exposure, self.frame, self.notes, self.paste):
-            together.addWidget(part)
-        together.addStretch()
-        self._beside = ScrollPane(self._together, _LEAST_BESIDE)
+        together = QWidget()
+        filled(
+            QVBoxLayout(together), self.stale, self.mean, self.exposure, self.frame, self.notes,
+            self.paste, None, margins=0,
+        )  # fmt: skip
+        self._beside = ScrollPane(together, _LEAST_BESIDE)
         self._beside.hide()
-        head = QHBoxLayout()
-        head.addWidget(self.title, 1)
-        for button in (self.start, self.copy, self.save, self.close_table):
-            head.addWidget(button)
-        below = QHBoxLayout()
-        below.addWidget(self.table, 3)
-        below.addWidget(self._beside, 2)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(4, 0, 4, 4)
-        layout.setSpacing(4)
-        layout.addLayout(head)
-        layout.addLayout(below, 1)
-        layout.addWidget(self.work)
+        head = filled(
+            QHBoxLayout(), (self.title, 1), self.start, self.copy, self.save, self.close_table
+        )
+        below = filled(QHBoxLayout(), (self.table, 3), (self._beside, 2))
+        filled(QVBoxLayout(self), head, (below, 1), self.work, margins=(4, 0, 4, 4), spacing=4)
 
     def _make_buttons(self) -> None:
-        self.start = QPushButton("Match &all")
-        self.start.setToolTip(
-            "Match every photo with the choices of the pane Photo, and combine what they measure."
+        self.start = push_button(
+            "Match &all",
+            "Match every photo with the choices of the pane Photo, and combine what they measure.",
+            self.match_asked,
         )
-        self.start.clicked.connect(self.match_asked)
-        self.copy = QPushButton("&Copy table")
-        self.copy.setToolTip("Copy the table as CSV, with the scene that it belongs to.")
-        self.copy.clicked.connect(lambda: self.copied.emit(copy_text(self.csv())))
-        self.save = QPushButton("&Save table…")
-        self.save.setToolTip("Save the table as a CSV file, with the scene that it belongs to.")
-        self.save.clicked.connect(lambda: self.save_asked.emit(self.csv()))
-        self.close_table = QPushButton("Close table")
-        self.close_table.setToolTip("Put the table away; the open photo stays.")
-        self.close_table.clicked.connect(self.closed)
+        self.copy = push_button(
+            "&Copy table",
+            "Copy the table as CSV, with the scene that it belongs to.",
+            lambda: self.copied.emit(copy_text(self.csv())),
+        )
+        self.save = push_button(
+            "&Save table…",
+            "Save the table as a CSV file, with the scene that it belongs to.",
+            lambda: self.save_asked.emit(self.csv()),
+        )
+        self.close_table = push_button(
+            "Close table", "Put the table away; the open photo stays.", self.closed
+        )
 
     def _make_table(self) -> None:
-        self.table = QTableView()
+        self.table = named(QTableView(), "Photos")
         self.table.setModel(self.rows)
-        self.table.setAccessibleName("Photos")
         self.table.setShowGrid(False)
         self.table.setWordWrap(False)
         self.table.setTextElideMode(Qt.TextElideMode.ElideMiddle)  # names often end in a number
@@ -144,12 +125,12 @@ class ManyPhotosView(QWidget):
         # The row of the open photo is marked by the model, however it was opened.
         self.table.setSelectionMode(QTableView.SelectionMode.NoSelection)
         self.table.setHorizontalScrollMode(QTableView.ScrollMode.ScrollPerPixel)
+        row, header = self.fontMetrics().height() + 6, self.table.horizontalHeader()
         self.table.verticalHeader().hide()
-        self.table.verticalHeader().setDefaultSectionSize(self.fontMetrics().height() + 6)
-        self.table.horizontalHeader().setHighlightSections(False)
-        self.table.horizontalHeader().setStretchLastSection(True)
-        row, header = self.fontMetrics().height() + 6, self.table.horizontalHeader().sizeHint()
-        self.table.setMinimumHeight(header.height() + _ROWS_SEEN * row)
+        self.table.verticalHeader().setDefaultSectionSize(row)
+        header.setHighlightSections(False)
+        header.setStretchLastSection(True)
+        self.table.setMinimumHeight(header.sizeHint().height() + _ROWS_SEEN * row)
         self.table.clicked.connect(self._choose)
         self.table.activated.connect(self._choose)
 
@@ -209,9 +190,7 @@ class ManyPhotosView(QWidget):
             rests_on = self._rests_on(*self._asked)
             self.rows.show_condition(rests_on)
             if rests_on:
-                text += ". What is measured holds only {condition}.".format(
-                    condition=rests_on.removesuffix(": ")
-                )
+                text += f". What is measured holds only {rests_on.removesuffix(': ')}."
         self.title.setText(text)
 
     def show_row(self, place: int, row: PhotoRow, done: int) -> None:
@@ -220,7 +199,6 @@ class ManyPhotosView(QWidget):
         self._show_done(done)
 
     def show_ended(self) -> None:
-        """Show that no more photos are matched."""
         self.work.end()
         self.rows.is_busy = False
         self.start.setEnabled(True)
@@ -237,7 +215,6 @@ class ManyPhotosView(QWidget):
         self._beside.show()
 
     def show_table(self, table: PhotoTable) -> None:
-        """Show the complete table, and the mean."""
         self.rows.show_table(table)
         self.show_ended()
         self._asked = (table.estimate, table.scene)
@@ -246,7 +223,6 @@ class ManyPhotosView(QWidget):
         self._show_found(table)
 
     def show_certain(self, certain: Mapping[str, float]) -> None:
-        """Show which known values, in SI units by name, are confirmed and not only assumed."""
         self._certain = certain
         self._show_title()
         self._show_found(self._found)
@@ -296,7 +272,7 @@ class ManyPhotosView(QWidget):
                 time = estimate_text(quantity("readout_time"), *frame)
                 texts[self.frame] = f"Readout of the whole frame, sure photos: {rests_on + time}"
             texts[self.notes] = "\n".join(table.notes)
-            self.paste.show_lines_if(rests_on, lines_to_paste(table))
+            self.paste.show_lines(lines_to_paste(table), rests_on)
         else:
             self.paste.show_lines({})
         for label, text in texts.items():
@@ -309,14 +285,13 @@ class ManyPhotosView(QWidget):
             return ""
         declared = quantity(name)
         value = estimate_text(declared, found.value, found.uncertainty)
-        text = (
-            "{label}: {value}, mean of {count} sure photos"
-            if found.count > 1
-            else "{label}: {value}, of the one sure photo"
-        ).format(label=LABELS[name], value=condition + value, count=found.count)
+        text = f"{LABELS[name]}: {condition}{value}, of the one sure photo"
         if found.count > 1:
             how = "they agree" if found.agrees else "they do not agree"
-            text += f"; χ² {found.chi_square:.3g} of {found.degrees_of_freedom}: {how}"
+            text = (
+                f"{LABELS[name]}: {condition}{value}, mean of {found.count} sure photos; "
+                f"χ² {found.chi_square:.3g} of {found.degrees_of_freedom}: {how}"
+            )
         if found.outliers:
             text += f"; {len(found.outliers)} left out"
         return text
@@ -328,10 +303,3 @@ class ManyPhotosView(QWidget):
             return ""
         rests_on = self._rests_on(table.estimate, table.scene)
         return csv_text(table, stated_lines(table, rests_on), rests_on)
-
-
-def _text(name: str) -> QLabel:
-    label = QLabel(wordWrap=True, textFormat=Qt.TextFormat.PlainText)
-    label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-    label.setAccessibleName(name)
-    return label

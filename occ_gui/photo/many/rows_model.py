@@ -14,7 +14,7 @@ from PySide6.QtCore import (
 )
 from PySide6.QtGui import QGuiApplication, QPalette
 
-from occ_gui.photo.verdict_view import SIGNS
+from occ_gui.photo.match_result import SIGNS
 from occ_gui.widgets.plain_text import LONGEST, in_tool_tip
 from occ_model.errors import ParameterError, one_line
 from occ_model.photo.match_facts import LABELS, estimate_text
@@ -36,8 +36,7 @@ class PhotoRowsModel(QAbstractTableModel):
     known_given = Signal(int)
     """The known value of the photo at this place was given, or taken back."""
 
-    refused = Signal(str)
-    """Why a known value is refused; the last one stays."""
+    refused = Signal(str)  # why a known value is refused; the last one stays
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
@@ -92,7 +91,6 @@ class PhotoRowsModel(QAbstractTableModel):
         self.endResetModel()
 
     def show_row(self, place: int, row: PhotoRow) -> None:
-        """Show what was found in a photo."""
         self._rows[place] = row
         self.dataChanged.emit(self.index(place, PHOTO), self.index(place, NOTE))
 
@@ -118,7 +116,6 @@ class PhotoRowsModel(QAbstractTableModel):
         return next((row for row in self._rows.values() if row.path == path), None)
 
     def rowCount(self, parent: _Index = QModelIndex()) -> int:  # noqa: B008, N802 - Qt's
-        """Count the photos."""
         return 0 if parent.isValid() else len(self.paths)
 
     def columnCount(self, parent: _Index = QModelIndex()) -> int:  # noqa: B008, N802 - Qt's
@@ -127,36 +124,25 @@ class PhotoRowsModel(QAbstractTableModel):
     def headerData(  # noqa: N802 - Qt's name
         self, section: int, orientation: Qt.Orientation, role: int = Qt.ItemDataRole.DisplayRole
     ) -> Any:
-        """Return the titles of the columns."""
         if orientation != Qt.Orientation.Horizontal:
             return None
         if role == Qt.ItemDataRole.TextAlignmentRole:
             return _alignment(section)
-        return self._titles()[section] if role == Qt.ItemDataRole.DisplayRole else None
-
-    def _titles(self) -> tuple[str, ...]:
-        return (
-            "Photo",
-            "Verdict",
-            # Short: the times beside it are to stay in view.
-            f"given {quantity(self.known).symbol}",
-            LABELS[self._estimate],
-            LABELS["exposure_time"],
-            "As noted",
-            "Correlation",
-            "Why",
-        )
+        # That of the known value is short: the times beside it are to stay in view.
+        known = f"given {quantity(self.known).symbol}"
+        times = LABELS[self._estimate], LABELS["exposure_time"]
+        titles = "Photo", "Verdict", known, *times, "As noted", "Correlation", "Why"
+        return titles[section] if role == Qt.ItemDataRole.DisplayRole else None
 
     def data(self, index: _Index, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
-        """Return the text, tooltip and alignment of a cell."""
         place, column = index.row(), index.column()
         match role:
             case Qt.ItemDataRole.DisplayRole:
                 return self.text(place, column)
-            case Qt.ItemDataRole.ToolTipRole:
-                return in_tool_tip(self._tip(place, column))
             case Qt.ItemDataRole.EditRole if column == KNOWN:
                 return self.text(place, column)
+            case Qt.ItemDataRole.ToolTipRole:
+                return in_tool_tip(self._tip(place, column))
             case Qt.ItemDataRole.TextAlignmentRole:
                 return _alignment(column)
             case Qt.ItemDataRole.BackgroundRole if self.paths[place] == self._open:
@@ -214,7 +200,6 @@ class PhotoRowsModel(QAbstractTableModel):
         return str(self.paths[place])
 
     def text(self, place: int, column: int) -> str:
-        """Return the text of a cell."""
         if column == PHOTO:
             return one_line(self.paths[place].name)
         if column == KNOWN:

@@ -30,7 +30,7 @@ from occ_gui.photo.feature import photo
 from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.picture.feature import picture
 from occ_gui.profile.feature import profile
-from occ_gui.values.placement import MODES
+from occ_gui.values.photo_choice import MODES
 from occ_model.figures import drawing
 from occ_model.results.accuracy import AccuracyPoint
 from occ_model.results.sweep_request import SweepPoint

@@ -31,8 +31,7 @@ from occ_gui.files.session import Session, restored
 from occ_gui.files.session_file import SessionFile
 from occ_gui.files.session_record import Kept, kept_in, record_of
 from occ_gui.values.film_choice import FilmChoice
-from occ_gui.values.match_choice import MatchChoice
-from occ_gui.values.photo_choice import PhotoChoice, PhotoFrame, PhotoReading
+from occ_gui.values.photo_choice import MatchChoice, PhotoChoice, PhotoFrame, PhotoReading
 from occ_gui.values.room_choice import RoomChoice
 from occ_gui.values.simulated import PinnedScene, SimulationRequest
 from occ_gui.window.modes.mode import MODES

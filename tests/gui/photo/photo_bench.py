@@ -10,8 +10,7 @@ from occ_gui.photo.photo_part import PhotoPart
 from occ_gui.photo.photo_view import PhotoView
 from occ_gui.shell.results import Board
 from occ_gui.simulation.snapshot import Reading
-from occ_gui.values.match_choice import MatchChoice
-from occ_gui.values.photo_choice import PhotoChoice, PhotoSource
+from occ_gui.values.photo_choice import MatchChoice, PhotoChoice, PhotoSource
 from occ_gui.values.photo_results import FoundMatch, OpenPhoto
 from occ_model.photo.match_facts import known_of
 from occ_model.photo.reading.load import Photo

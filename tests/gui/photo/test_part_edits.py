@@ -16,8 +16,7 @@ from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from occ_gui.files.session_record import Kept, kept_in, record_of
-from occ_gui.photo.lamp_form import LampForm
-from occ_gui.photo.lamp_outlines import LampOutlines
+from occ_gui.photo.lamp_views import LampForm, LampOutlines
 from occ_gui.photo.part_edits import PartEdits
 from occ_gui.values.photo_choice import PhotoChoice, PhotoFrame
 from occ_model.photo.reading.load import Photo

@@ -15,11 +15,10 @@ from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.photo import photo_work
-from occ_gui.photo.photo_comparison import photo_profile
+from occ_gui.photo.photo_work import photo_profile
 from occ_gui.simulation.snapshot import Snapshot
-from occ_gui.values.photo_choice import Placed
+from occ_gui.values.photo_choice import Placed, Placement
 from occ_gui.values.photo_results import FoundMatch, PhotoProfile
-from occ_gui.values.placement import Placement
 from occ_model.camera.enhancement import enhance
 from occ_model.errors import MatchError
 from occ_model.photo.comparison import compare

@@ -9,7 +9,7 @@ from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
-from occ_gui.photo.photo_verdict_bar import PhotoVerdictBar
+from occ_gui.photo.photo_verdict import PhotoVerdictBar
 from occ_gui.widgets.state_look import State
 from occ_model.photo.reading.load import Photo
 from occ_model.results.match import PLAIN_STRIPES, Match

@@ -13,8 +13,8 @@ from PySide6.QtGui import QAccessible
 from PySide6.QtWidgets import QApplication, QCommonStyle, QPushButton, QWidget
 from pytestqt.qtbot import QtBot
 
-from occ_gui.photo.photo_steps import STEPS, PhotoSteps
-from occ_gui.values.placement import Placement
+from occ_gui.photo.photo_verdict import STEPS, PhotoSteps
+from occ_gui.values.photo_choice import Placement
 from occ_model.photo.reading.choices import CHANNELS, SCAN_AXES
 from occ_model.photo.reading.load import Photo
 from occ_model.results.match import Match
@@ -207,9 +207,8 @@ def test_each_step_says_how_far_it_is(
     assert spoken(steps) == words
     assert (steps.buttons["match"].text() == "? Match") == (match == "doubtful")
     enabled = [name for name, button in steps.buttons.items() if button.isEnabled()]
-    assert enabled == list(
-        STEPS[: 1 if not has_photo else 4 if match in {"sure", "doubtful"} else 3]
-    )
+    able = 1 if not has_photo else 4 if match in {"sure", "doubtful"} else 3
+    assert enabled == list(STEPS)[:able]
 
 
 def test_a_scene_that_differs_by_rounding_is_the_matched_one(

@@ -14,7 +14,7 @@ from occ_gui.picture.averaged_image import AveragedImage
 from occ_gui.picture.image_view import ImageView
 from occ_gui.picture.picture_pane import PicturePane
 from occ_gui.simulation.preview import Picture
-from occ_gui.values.placement import MODES, Placement
+from occ_gui.values.photo_choice import MODES, Placement
 from occ_model.photo.reading.load import Photo
 from occ_model.results.decoding import DecodeResult, Region
 from occ_model.scene.scene import Scene

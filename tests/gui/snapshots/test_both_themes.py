@@ -15,7 +15,7 @@ from PySide6.QtWidgets import QApplication, QVBoxLayout, QWidget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.detection_map.limit_cards import LimitCards
-from occ_gui.photo.photo_verdict_bar import PhotoVerdictBar
+from occ_gui.photo.photo_verdict import PhotoVerdictBar
 from occ_gui.simulation.preview import Picture
 from occ_gui.story.story_view import StoryView
 from occ_gui.video.film_reading import Marks, frame_marks

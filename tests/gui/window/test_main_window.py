@@ -20,7 +20,7 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
 from occ_gui.app.command_line import PANES
-from occ_gui.values.placement import MODES as OVERLAYS
+from occ_gui.values.photo_choice import MODES as OVERLAYS
 from occ_gui.window.full_screen import FullScreen
 from occ_gui.window.modes.mode import MODES
 

@@ -34,8 +34,7 @@ def session_text() -> str:
     from occ_gui.files.session_file import SessionFile
     from occ_gui.files.session_record import Kept
     from occ_gui.values.film_choice import FilmChoice
-    from occ_gui.values.match_choice import MatchChoice
-    from occ_gui.values.photo_choice import PhotoChoice, PhotoFrame, PhotoReading
+    from occ_gui.values.photo_choice import MatchChoice, PhotoChoice, PhotoFrame, PhotoReading
     from occ_gui.values.room_choice import RoomChoice
     from occ_gui.values.simulated import PinnedScene, SimulationRequest
     from occ_model.room.rooms import load_room

@@ -1,18 +1,82 @@
-"""Verdict bar of a photo: how far it is explained, first of all that is said in its mode."""
+"""How far a photo is explained: the steps to a scene that explains it, and the verdict so far."""
 
 from collections.abc import Mapping, Sequence
 
-from occ_gui.photo.match_values import condition_of
-from occ_gui.photo.verdict_view import STATES
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QHBoxLayout, QPushButton, QSizePolicy, QWidget
+
+from occ_gui.photo.match_figures import condition_of
+from occ_gui.photo.match_result import STATES
 from occ_gui.widgets.chip_row import Chip
+from occ_gui.widgets.layouts import filled
+from occ_gui.widgets.named import push_button
 from occ_gui.widgets.state_bar import StateBar
 from occ_gui.widgets.state_look import State
 from occ_model.errors import one_line
 from occ_model.photo.match_facts import estimate_text, known_of
 from occ_model.photo.reading.load import Photo
 from occ_model.results.match import PLAIN_STRIPES, Match
-from occ_model.results.photo_table import SURE, PhotoRow
+from occ_model.results.photo_table import SURE, PhotoRow, known_beside
 from occ_model.scene.parameters import quantity
+
+STEPS = {
+    "open": ("Open", "Open a photo of a rolling-shutter camera."),
+    "sent": ("Sent?", "Say what the LED sent, as far as it is known."),
+    "match": ("Match", "Find the settings that explain the photo's stripes."),
+    "apply": ("Apply", "Take over the settings that were found."),
+}
+"""The steps in their order, each with its word and its meaning."""
+
+EARLIER = "earlier"
+"""What a match is worth that was made of something else than what is to be matched now."""
+
+
+class PhotoSteps(QWidget):
+    """A button for each step, which says whether the step is done, is next, or must wait."""
+
+    chosen = Signal(str)  # the step that the user goes to, one of STEPS
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.buttons: dict[str, QPushButton] = {}
+        self._shown: tuple[bool, str, bool] | None = None
+        for name, (_, meaning) in STEPS.items():
+            go = lambda _=False, name=name: self.chosen.emit(name)  # noqa: E731
+            button = self.buttons[name] = push_button("", meaning, go)
+            button.setObjectName("step")
+            button.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        filled(QHBoxLayout(self), *self.buttons.values(), margins=(0, 4, 0, 4), spacing=4)
+        self.show_state(has_photo=False, match="", is_applied=False)
+
+    def show_state(self, *, has_photo: bool, match: str, is_applied: bool) -> None:
+        """Show how far the photo is explained.
+
+        ``match``: what its match is worth, ``"sure"`` or ``"doubtful"``; EARLIER if it answers
+        another question than the present one; empty if there is none.
+        """
+        shown = (has_photo, match, is_applied)
+        if shown == self._shown:  # at each change of the scene, and styles are slow to apply
+            return
+        self._shown = shown
+        signs = {"": "", EARLIER: "", "sure": "✓", "doubtful": "?"}  # of a match, as its verdict
+        is_present = match not in {"", EARLIER}
+        done = {
+            "open": "✓" if has_photo else "",
+            "sent": "✓" if match else "",
+            "match": signs[match],
+            "apply": "✓" if is_present and is_applied else "",
+        }
+        able = {"open": True, "sent": has_photo, "match": has_photo, "apply": is_present}
+        current = next((name for name in STEPS if not done[name]), "")
+        for place, (name, button) in enumerate(self.buttons.items(), 1):
+            word, sign = STEPS[name][0], done[name]
+            state = "next step" if name == current else {"✓": "done", "?": "doubtful"}.get(sign)
+            button.setText(f"{sign or place} {word}")
+            button.setEnabled(able[name])
+            button.setAccessibleName(f"{word}: {state}" if state else word)
+            button.setProperty("current", name == current)
+            button.style().unpolish(button)
+            button.style().polish(button)
 
 
 class PhotoVerdictBar(StateBar):
@@ -39,7 +103,6 @@ class PhotoVerdictBar(StateBar):
         self._write()
 
     def show_photo(self, photo: Photo | None) -> None:
-        """Show how far this photo is explained, or that none is open."""
         self._photo, self._match = photo, None
         self._why_not, self._outdated = (), ""
         self._write()
@@ -50,7 +113,6 @@ class PhotoVerdictBar(StateBar):
         self._write()
 
     def show_begun(self) -> None:
-        """Show that a match is running."""
         self._is_running, self._why_not = True, ()
         self._write()
 
@@ -60,7 +122,6 @@ class PhotoVerdictBar(StateBar):
         self._write()
 
     def show_match(self, match: Match | None) -> None:
-        """Show this match in place of the previous one, or that there is none."""
         self._match, self._outdated = match, ""
         self.show_ended()
 
@@ -70,12 +131,10 @@ class PhotoVerdictBar(StateBar):
         self._write()
 
     def show_certain(self, certain: Mapping[str, float]) -> None:
-        """Show which known values, in SI units by name, are confirmed and not only assumed."""
         self._certain = certain
         self._write()
 
     def show_applied(self, applied: bool) -> None:
-        """Show whether the scene is the matched one."""
         if applied != self._is_applied:
             self._is_applied = applied
             self._write()
@@ -106,7 +165,7 @@ class PhotoVerdictBar(StateBar):
             sentence = "Open one, say what was sent as far as you know, and match it."
             return State.NEUTRAL, ("No photo is open", sentence)
         if self._why_not:
-            reasons = (" ".join(self._why_not), self._first_of(self._why_not))
+            reasons = (" ".join(self._why_not), _first_of(self._why_not))
             return State.BAD, ("Photo: not matched", *reasons)
         if self._match is None and self._row is not None:
             return self._listed(self._row)
@@ -114,9 +173,7 @@ class PhotoVerdictBar(StateBar):
             sentence = "Say what was sent as far as you know, and match it."
             return State.NEUTRAL, ("Photo: no match yet", sentence)
         if self._outdated:
-            title = "Photo: an earlier match is shown"
-            why = f"It is {self._outdated}."
-            return State.WAITING, (title, why)
+            return State.WAITING, ("Photo: an earlier match is shown", f"It is {self._outdated}.")
         return self._worth(self._match)
 
     def _worth(self, match: Match) -> tuple[State, tuple[str, ...]]:
@@ -126,15 +183,8 @@ class PhotoVerdictBar(StateBar):
         if match.verdict == SURE:
             title = "Photo: sure, but for the exposure"
             return State.GOOD, (title, " ".join((*match.all_reasons, found)), found)
-        reasons = match.all_reasons
-        reason = self._first_of(reasons)
-        title = "Photo: doubtful match"
-        return State.DOUBTFUL, (title, f"{reason} {found}", reason)
-
-    def _first_of(self, reasons: Sequence[str]) -> str:
-        """Return the first reason, and how many more there are."""
-        more = len(reasons) - 1
-        return reasons[0] + (f" And {more} more." if more else "")
+        reason = _first_of(match.all_reasons)
+        return State.DOUBTFUL, ("Photo: doubtful match", f"{reason} {found}", reason)
 
     def about(self) -> str:
         """Return the photo's name, and what its match is worth and has found, for a figure."""
@@ -146,12 +196,10 @@ class PhotoVerdictBar(StateBar):
         verdict = self._match.verdict
         if self._match.only_exposure_is_doubtful:
             verdict = f"{verdict} but for the exposure time"
-        text = (
-            "{photo}, the match is {verdict}. {found}"
-            if self._is_applied
-            else "{photo}; its match is {verdict}, but not this scene's. {found}"
-        )
-        return text.format(photo=name, verdict=verdict, found=self._found(self._match))
+        found = self._found(self._match)
+        if self._is_applied:
+            return f"{name}, the match is {verdict}. {found}"
+        return f"{name}; its match is {verdict}, but not this scene's. {found}"
 
     def _listed(self, row: PhotoRow) -> tuple[State, tuple[str, ...]]:
         """Return what the table has found, whose numbers stand in its row."""
@@ -163,10 +211,8 @@ class PhotoVerdictBar(StateBar):
 
     def _found(self, match: Match) -> str:
         """Return what was found, in one sentence."""
-        given = known_of(match)
-        estimated = next(name for name in ("readout_time", "switching_frequency") if name != given)
         parts = []
-        for name in (estimated, "exposure_time"):
+        for name in (known_beside(known_of(match)), "exposure_time"):
             declared, spread = quantity(name), match.uncertainties.get(name)
             value = estimate_text(declared, getattr(match, name), spread)
             if name == "readout_time":
@@ -176,3 +222,9 @@ class PhotoVerdictBar(StateBar):
             parts.append(f"{declared.label.lower()} {value}")
         found = condition_of(match, self._certain) + ", ".join(parts)
         return f"{found[0].upper()}{found[1:]}."
+
+
+def _first_of(reasons: Sequence[str]) -> str:
+    """Return the first reason, and how many more there are."""
+    more = len(reasons) - 1
+    return reasons[0] + (f" And {more} more." if more else "")

@@ -1,0 +1,263 @@
+"""Lamps of a photo, and a region drawn by hand: as a form with a table, and on the photo itself."""
+
+import weakref
+from collections.abc import Sequence
+
+import pyqtgraph as pg
+from pyqtgraph.GraphicsScene.mouseEvents import MouseDragEvent
+from PySide6.QtCore import QObject, QPointF, QRectF, QSignalBlocker, Qt, Signal
+from PySide6.QtGui import QPen, QPolygonF
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QHBoxLayout,
+    QHeaderView,
+    QLabel,
+    QTableWidget,
+    QTableWidgetItem,
+    QVBoxLayout,
+    QWidget,
+)
+
+from occ_gui.widgets.guarded_paint import guarded
+from occ_gui.widgets.layouts import filled
+from occ_gui.widgets.named import named, push_button
+from occ_gui.widgets.pens import PHOTO, REGION
+from occ_model.results.decoding import Region
+from occ_model.results.lamp import Lamp
+from occ_model.scene.units import NONE
+
+_MOST_ROWS = 6  # of the table that are seen without scrolling
+_ROW_HEIGHT = 24
+
+_THIN, _THICK = 2, 4
+_ABOVE = 20
+
+_HALF_SIDE = 1e6  # of the area for drawing, in pixels
+_HANDLE = 9  # half the size of a corner's handle in pixels: large enough to be hit
+
+
+class LampForm(QWidget):
+    """What of a photo is matched: all of it, one of its lamps, or a rectangle drawn by hand."""
+
+    find_asked = Signal()
+    chosen = Signal(int)  # the user chose the lamp of this index
+    by_hand_chosen = Signal(bool)  # whether the user matches a rectangle drawn on the photo
+    whole_asked = Signal()  # the user matches the whole photo again
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.search = push_button(
+            "Find &lamps",
+            "Find every lamp in the photo, and whether its light changes while the picture is "
+            "read out. Choose one to match it by itself.",
+            self.find_asked,
+        )
+        self.by_hand = push_button(
+            "Re&gion by hand",
+            "Match only a rectangle: drag on the photo beside it to draw another one, its "
+            "middle to move it, and its corners to make it larger or smaller.",
+        )
+        self.by_hand.setCheckable(True)
+        self.by_hand.toggled.connect(self.by_hand_chosen)
+        self.whole = push_button(
+            "&Whole photo", "Search the whole photo for stripes again.", self.whole_asked
+        )
+        self.place = named(QLabel(wordWrap=True), "What is matched")
+        self._make_table()
+        buttons = filled(QHBoxLayout(), self.search, self.by_hand, self.whole, None)
+        filled(QVBoxLayout(self), buttons, self.table, self.place, margins=0, spacing=4)
+        self.show_lamps((), None)
+        self.show_region(None)
+
+    def _make_table(self) -> None:
+        self.table = named(
+            QTableWidget(0, 4),
+            "Lamps in the photo",
+            "The lamps, the brightest first: the columns that each covers, the columns of a chip "
+            "with their standard deviation, and the periods in view. A doubtful lamp says why.",
+        )
+        self.table.setHorizontalHeaderLabels(["Lamp", "Columns", "Chip (px)", "Periods"])
+        self.table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
+        self.table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
+        self.table.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
+        self.table.verticalHeader().hide()
+        self.table.verticalHeader().setDefaultSectionSize(_ROW_HEIGHT)
+        self.table.setTabKeyNavigation(False)  # so that the keyboard can leave it
+        header = self.table.horizontalHeader()
+        header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
+        header.setStretchLastSection(True)
+        self.table.itemSelectionChanged.connect(self._choose)
+
+    def show_lamps(self, lamps: Sequence[Lamp], chosen: int | None) -> None:
+        """Show these lamps, one of them chosen, in place of the previous ones."""
+        with QSignalBlocker(self.table):
+            self.table.setRowCount(len(lamps))
+            for row, lamp in enumerate(lamps):
+                for column, text in enumerate(self._texts(row, lamp)):
+                    item = QTableWidgetItem(text)
+                    item.setToolTip("\n".join(f"Doubtful: {doubt}." for doubt in lamp.doubts))
+                    self.table.setItem(row, column, item)
+            self.table.clearSelection()
+            if chosen is not None:
+                self.table.selectRow(chosen)
+        rows = min(len(lamps), _MOST_ROWS)
+        header = self.table.horizontalHeader().sizeHint().height()
+        self.table.setFixedHeight(header + rows * _ROW_HEIGHT + 4)
+        self.table.setVisible(bool(lamps))
+
+    def _texts(self, row: int, lamp: Lamp) -> tuple[str, str, str, str]:
+        region = lamp.region
+        columns = f"{region.first_column}\u2013{region.last_column - 1}"
+        product = lamp.switching_frequency_times_readout
+        if product is None:
+            return str(row + 1), columns, "no stripes", ""
+        error = None if lamp.product_uncertainty is None else lamp.product_uncertainty / product**2
+        chip = NONE.format_estimate(1.0 / product, error)
+        doubt = ", doubtful" if lamp.is_doubtful else ""
+        periods = "code" if lamp.periods is None else f"{lamp.periods:.1f}"
+        return str(row + 1), columns, chip, f"{periods}{doubt}"
+
+    def show_sentence(self, sentence: str) -> None:
+        """Show what became of the search for lamps."""
+        self.place.setText(sentence)
+
+    def show_region(self, region: Region | None, lamp: int | None = None) -> None:
+        """Show what is matched: a rectangle, a lamp of this index, or the whole photo."""
+        self.whole.setEnabled(region is not None)
+        if region is None:
+            self.place.setText("The whole photo will be searched for stripes.")
+            return
+        what = "A region by hand" if lamp is None else f"Lamp {lamp + 1}"
+        how = " Drag on the photo to draw another one." if lamp is None else ""
+        self.place.setText(
+            f"{what} will be matched: columns {region.first_column} to {region.last_column - 1}, "
+            f"rows {region.first_row} to {region.last_row - 1}.{how}"
+        )
+
+    def show_by_hand(self, by_hand: bool) -> None:
+        """Show whether a rectangle is drawn by hand, without emitting a signal."""
+        with QSignalBlocker(self.by_hand):
+            self.by_hand.setChecked(by_hand)
+
+    def show_searching(self) -> None:
+        self.search.setEnabled(False)
+        self.place.setText("Searching for lamps…")
+
+    def show_searched(self) -> None:
+        self.search.setEnabled(True)
+
+    def _choose(self) -> None:
+        rows = {item.row() for item in self.table.selectedItems()}
+        if len(rows) == 1:
+            self.chosen.emit(rows.pop())
+
+
+class _DrawingArea(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has no types
+    """Takes drags of the left button anywhere on a photo: each draws a rectangle."""
+
+    dragged = Signal(object, bool)
+    """The rectangle from where the button was pressed, and whether the drag has ended."""
+
+    def boundingRect(self) -> QRectF:  # noqa: N802 - Qt's name
+        """Return an area larger than any photo."""
+        return QRectF(-_HALF_SIDE, -_HALF_SIDE, 2.0 * _HALF_SIDE, 2.0 * _HALF_SIDE)
+
+    @guarded
+    def paint(self, *_arguments: object) -> None:
+        """Draw nothing."""
+
+    def mouseDragEvent(self, event: MouseDragEvent) -> None:  # noqa: N802 - pyqtgraph's name
+        """Draw a rectangle; other buttons move the picture."""
+        if event.button() != Qt.MouseButton.LeftButton:
+            event.ignore()
+            return
+        event.accept()
+        corners = QRectF(event.buttonDownPos(), event.pos()).normalized()
+        self.dragged.emit(corners, event.isFinish())
+
+
+class LampOutlines(QObject):
+    """Draws on the view of a photo, whose first pixel's centre is at (0, 0)."""
+
+    clicked = Signal(int)  # the user clicked the lamp of this index
+    drawn = Signal(object)  # the user drew another rectangle: a Region, which may leave the photo
+
+    def __init__(self, box: pg.ViewBox) -> None:
+        super().__init__()
+        # Weak: a signal of the rectangle, which the view holds, holds this object.
+        self._box = weakref.proxy(box)
+        self._lamps: Sequence[Lamp] = ()
+        self.items: list[tuple[pg.PlotCurveItem, pg.TextItem]] = []
+        self._updating = False
+        self.rectangle = pg.ROI((0, 0), (1, 1), pen=pg.mkPen(REGION, width=_THIN))
+        self.rectangle.handleSize = _HANDLE
+        for corner in ((0, 0), (0, 1), (1, 0), (1, 1)):
+            self.rectangle.addScaleHandle(corner, (1 - corner[0], 1 - corner[1]))
+        self.rectangle.sigRegionChangeFinished.connect(self._follow)
+        self.area = _DrawingArea()
+        self.area.setCursor(Qt.CursorShape.CrossCursor)
+        self.area.dragged.connect(self._draw_rectangle)
+        # The area is under the rectangle, which moves by itself.
+        for height, item in enumerate((self.area, self.rectangle), _ABOVE):
+            item.setZValue(height)
+            item.hide()
+            box.addItem(item, ignoreBounds=True)
+
+    def show_lamps(self, lamps: Sequence[Lamp], chosen: int | None) -> None:
+        """Draw the outlines of these lamps, that of the chosen one thicker."""
+        for item in (item for items in self.items for item in items):
+            self._box.removeItem(item)
+        self._lamps = lamps
+        self.items = [self._draw(place, lamp, place == chosen) for place, lamp in enumerate(lamps)]
+
+    def _draw(
+        self, index: int, lamp: Lamp, is_chosen: bool
+    ) -> tuple[pg.PlotCurveItem, pg.TextItem]:
+        pen = QPen(REGION if is_chosen else PHOTO, _THICK if is_chosen else _THIN)
+        pen.setCosmetic(True)
+        if not lamp.modulated:
+            pen.setStyle(Qt.PenStyle.DotLine)
+        outline = lamp.outline
+        curve = pg.PlotCurveItem(outline[:, 0], outline[:, 1], pen=pen)
+        number = pg.TextItem(str(index + 1), color=pen.color(), anchor=(0, 1), fill=(0, 0, 0, 160))
+        number.setPos(lamp.region.first_column, lamp.region.first_row)
+        for item in (curve, number):
+            item.setZValue(_ABOVE)
+            self._box.addItem(item, ignoreBounds=True)
+        return curve, number
+
+    def click(self, position: QPointF) -> None:
+        """Choose the lamp at a place in the photo, if there is one."""
+        row, column = round(position.y()), round(position.x())
+        for index, lamp in enumerate(self._lamps):
+            outline = QPolygonF([QPointF(x, y) for x, y in lamp.outline.tolist()])
+            if lamp.covers(row, column) or outline.containsPoint(position, Qt.FillRule.OddEvenFill):
+                self.clicked.emit(index)
+                return
+
+    def show_rectangle(self, region: Region | None) -> None:
+        """Draw this rectangle for the mouse, or none."""
+        self.rectangle.setVisible(region is not None)
+        self.area.setVisible(region is not None)
+        if region is not None:
+            left, top = region.first_column - 0.5, region.first_row - 0.5
+            self._place(QRectF(left, top, region.columns, region.rows))
+
+    def _place(self, rect: QRectF) -> None:
+        self._updating = True
+        self.rectangle.setPos(rect.topLeft(), update=False)
+        self.rectangle.setSize(rect.size())
+        self._updating = False
+
+    def _draw_rectangle(self, corners: QRectF, has_ended: bool) -> None:
+        self._place(corners)
+        if has_ended:
+            self._follow()
+
+    def _follow(self) -> None:
+        if self._updating:
+            return
+        corner, size = self.rectangle.pos(), self.rectangle.size()
+        rect = QRectF(corner.x(), corner.y(), size.x(), size.y()).normalized()
+        rows, columns = (rect.top(), rect.bottom()), (rect.left(), rect.right())
+        self.drawn.emit(Region(*(round(edge + 0.5) for edge in (*rows, *columns))))

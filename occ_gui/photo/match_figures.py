@@ -1,0 +1,155 @@
+"""Figures of a match, what they rest on, and lines of them to paste into other programs."""
+
+import math
+from collections.abc import Mapping
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QFontDatabase
+from PySide6.QtWidgets import QGridLayout, QLabel, QToolButton, QVBoxLayout, QWidget
+
+from occ_gui.widgets.copying import copy_text
+from occ_gui.widgets.elided_label import ElidedLabel
+from occ_gui.widgets.layouts import filled
+from occ_gui.widgets.named import named, paragraph
+from occ_model.photo.many.other_programs import note_on
+from occ_model.photo.match_facts import ESTIMATES, LABELS, known_of, match_facts
+from occ_model.results.assumption import assumption
+from occ_model.results.match import Match
+
+WHAT_ERRORS_MEAN = (
+    "± is one standard deviation, of the fit alone: the error of the value that is known comes "
+    "on top.\nA limit, as in “below 36 µs”, lies two standard deviations above the value.\n"
+    "“Sure” means that no check found a reason to doubt the match; the reasons of a "
+    "doubtful one are listed."
+)
+
+
+def is_certain(name: str, value: float, certain: Mapping[str, float]) -> bool:
+    """Whether a known value is among those, in SI units, that the user has confirmed."""
+    return math.isclose(value, certain.get(name, math.nan), rel_tol=1e-9)
+
+
+def is_stale(
+    name: str, then: float, given: float, now: float, certain: Mapping[str, float]
+) -> bool:
+    """Whether the scene has another known value now than ``then``, when a result was found.
+
+    What is certain of a photo holds whatever the scene becomes. ``given`` is what the scene had
+    when the result was found: a square wave is known by its own frequency.
+    """
+    return now not in {then, given} and not is_certain(name, then, certain)
+
+
+def condition(name: str, value: float, certain: Mapping[str, float], chips: int) -> str:
+    """Name the value that estimates rest on, as ``"if f = 10 kHz: "``; empty where it is certain.
+
+    A lamp that only blinks, with two ``chips`` a period, is known by its cycles.
+    """
+    return "" if is_certain(name, value, certain) else assumption(name, value, chips)
+
+
+def condition_of(match: Match, certain: Mapping[str, float]) -> str:
+    """Name the value that a match's estimates of time rest on, unless the user is certain of it."""
+    name = known_of(match)
+    return condition(name, float(getattr(match, name)), certain, len(match.pattern))
+
+
+def _grid(parent: QWidget | None = None) -> QGridLayout:
+    # A form would not give lines that wrap their height.
+    grid = QGridLayout(parent)
+    grid.setContentsMargins(0, 0, 0, 0)
+    grid.setVerticalSpacing(2)
+    grid.setColumnStretch(1, 1)
+    return grid
+
+
+class MatchValues(QWidget):
+    """The figures as a table: a row that says nothing is hidden."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        grid = _grid(self)
+        self.labels: dict[str, QLabel] = {}
+        self._titled: dict[str, QLabel] = {}
+        for row, (name, title) in enumerate(LABELS.items()):
+            # A pattern can be of any length.
+            label = ElidedLabel() if name == "pattern" else paragraph()
+            label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+            named(label, title, WHAT_ERRORS_MEAN if name in (*ESTIMATES, "frame") else "")
+            self.labels[name], self._titled[name] = label, QLabel(title)
+            grid.addWidget(self._titled[name], row, 0, Qt.AlignmentFlag.AlignTop)
+            grid.addWidget(label, row, 1)
+        fixed = QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont)
+        self.labels["pattern"].setFont(fixed)
+        self.labels["region"].setToolTip(
+            "Between the first edge of a stripe and the last: the applied scene is dark outside."
+        )
+
+    def show_match(self, match: Match, certain: Mapping[str, float], noted: float | None) -> None:
+        """Show a match; the camera may have noted the exposure time in seconds."""
+        condition = condition_of(match, certain)
+        facts = match_facts(match, condition, noted)
+        # What they rest on is said once, above them.
+        shown = [(fact.key, str(fact).replace(condition, "")) for fact in facts]
+        others = [f"• {text}" for key, text in shown if key == "alternative"]
+        texts = dict(shown) | {"alternative": "\n".join(others)}
+        if "gamma" not in match.uncertainties:  # the scene's says nothing of the photo
+            texts["gamma"] = ""
+        for name, label in self.labels.items():
+            text = texts.get(name, "")
+            if isinstance(label, ElidedLabel):
+                label.set_full_text(text)
+            else:
+                label.setText(text)
+            for part in (label, self._titled[name]):
+                part.setVisible(bool(text))
+
+
+class PasteLines(QWidget):
+    """A line for each program, with a button that copies it, or a sentence why there is none."""
+
+    copied = Signal(str)  # a text was copied: a sentence that says so
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.lines: dict[str, QLabel] = {}
+        self.why_none = paragraph(name="Why there is no line for other programs")
+        self.note = paragraph(name="What the lines for other programs assume")
+        self._grid = _grid()
+        self._parts: list[QWidget] = []
+        filled(QVBoxLayout(self), self.why_none, self._grid, self.note, margins=0)
+        self.show_lines({})
+
+    def show_lines(self, lines: Mapping[str, str], condition: str = "") -> None:
+        """Show lines by their programs, or where they rest on a condition only that.
+
+        A line that is pasted elsewhere leaves behind what it rests on.
+        """
+        why_none = ""
+        if condition and lines:
+            why_none = (
+                f"Lines for {' and '.join(lines)} hold only {condition.removesuffix(': ')}. They "
+                "are given once this is confirmed: enter the value, or tick “certain”."
+            )
+            lines = {}
+        self.why_none.setText(why_none)
+        self.why_none.setVisible(bool(why_none))
+        for part in self._parts:
+            part.setParent(None)
+            part.deleteLater()
+        self._parts, self.lines = [], {}
+        for row, (program, line) in enumerate(lines.items()):
+            # Wrapped: the number stands at the end.
+            field = self.lines[program] = paragraph(
+                line, name=f"Line for {program}", is_selectable=True
+            )
+            copy = QToolButton()
+            copy.setText("Copy")
+            copy.setToolTip(f"Copy the line for {program}.")
+            copy.clicked.connect(lambda _=False, text=line: self.copied.emit(copy_text(text)))
+            for column, part in enumerate((QLabel(program), field, copy)):
+                self._grid.addWidget(part, row, column)
+                self._parts.append(part)
+        self.note.setText(note_on(lines))
+        self.note.setVisible(bool(self.note.text()))
+        self.setVisible(bool(lines or why_none))

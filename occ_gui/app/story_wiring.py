@@ -12,9 +12,9 @@ from occ_gui.story.story_view import StoryView
 from occ_gui.widgets.copying import copy_text
 
 if TYPE_CHECKING:
-    from occ_gui.explanation.exposure_controller import ExposureController
+    from occ_gui.explanation.pane import ExposureController
     from occ_gui.photo.photo_view import PhotoView
-    from occ_gui.picture.pane import PicturesPane
+    from occ_gui.picture.image_view import PicturesPane
 
 
 def connect_story(parts: Parts) -> None:

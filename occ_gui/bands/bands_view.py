@@ -12,9 +12,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from occ_gui.bands.depth_plot import DepthPlot
+from occ_gui.bands.bands_plots import DepthPlot, RiskPlot
 from occ_gui.bands.jobs import ShownBands
-from occ_gui.bands.risk_plot import RiskPlot
 from occ_gui.widgets.layouts import filled
 from occ_gui.widgets.named import paragraph
 from occ_gui.widgets.outdated_mark import OutdatedMark

@@ -1,6 +1,7 @@
 """Pane of the bench: its choices, its plots, its table, and the state of the measurement."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QPalette, QResizeEvent
@@ -13,10 +14,14 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from occ_gui.bench.bench_choice import BITS as EFFORTS
-from occ_gui.bench.bench_choice import OF_SCENE, PUBLISHED, BenchChoice
-from occ_gui.bench.bench_plot import BITS, COLOURS, RATES, SYMBOLS, BenchPlots
-from occ_gui.bench.bench_table import BenchTable
+from occ_gui.bench.bench_results import (
+    BITS,
+    COLOURS,
+    RATES,
+    SYMBOLS,
+    BenchPlots,
+    BenchTable,
+)
 from occ_gui.scene.quantity_edit import QuantityEdit
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
@@ -33,6 +38,21 @@ from occ_model.scene.recording import FRAME_RATE
 _LEAST_WITH_TABLE = 420  # pixels of height from which the table stands below the plots
 
 _SAMPLE = QSize(14, 14)
+
+
+PUBLISHED, OF_SCENE = "published", "scene"
+"""Whose code and timing: those of the published benchmark, or those of the scene."""
+
+_EFFORTS = (2_560, 10_240, 102_400)  # bits at each point that can be chosen
+
+
+@dataclass(frozen=True, slots=True)
+class BenchChoice:
+    """What is to be measured."""
+
+    whose: str = PUBLISHED
+    decoders: tuple[str, ...] = ()
+    bits: int = _EFFORTS[1]
 
 
 class BenchView(QWidget):
@@ -77,22 +97,19 @@ class BenchView(QWidget):
         return invitation
 
     def _make_choices(self, decoders: Sequence[str], chosen: Sequence[str]) -> None:
-        words = {
-            PUBLISHED: "the published benchmark's code",
-            OF_SCENE: "the scene's code and timing",
-        }
         self.whose = KeyedComboBox(
             "Code that is measured",
-            (
-                "Manchester, 256 bits, 5 rows a symbol; or the scheme, the number of bits, the "
-                "frequency and the readout time of the scene. Only exposure and noise are as below."
-            ),
-            words,
+            "Manchester, 256 bits, 5 rows a symbol; or the scheme, the number of bits, the "
+            "frequency and the readout time of the scene. Only exposure and noise are as below.",
+            {
+                PUBLISHED: "the published benchmark's code",
+                OF_SCENE: "the scene's code and timing",
+            },
         )
         self.effort = KeyedComboBox(
             "Bits at each point",
             "More bits take longer and make the intervals narrower.",
-            {str(bits): f"{bits:,} bits a point" for bits in EFFORTS},
+            {str(bits): f"{bits:,} bits a point" for bits in _EFFORTS},
         )
         self.effort.show_key(str(BenchChoice().bits))
         self.what = KeyedComboBox(
@@ -114,24 +131,16 @@ class BenchView(QWidget):
         self.what.chosen.connect(self._show_what)
 
     def _lay_out(self) -> None:
-        head, second, foot = QHBoxLayout(), QHBoxLayout(), QHBoxLayout()
-        head.addWidget(self.whose, 3)
-        head.addWidget(self.effort, 2)
-        head.addWidget(self.measure)
-        for box in self.decoders.values():
-            second.addWidget(box)
-        second.addStretch(1)
-        second.addWidget(self.frame_rate)
-        second.addWidget(self.what, 1)
-        foot.addWidget(self.state, 1)
-        foot.addWidget(self.work)
-        column = filled(
-            QVBoxLayout(self), head, second, (self._pages, 3), margins=(4, 2, 4, 2), spacing=2
+        head = filled(QHBoxLayout(), (self.whose, 3), (self.effort, 2), self.measure)
+        second = filled(
+            QHBoxLayout(), *self.decoders.values(), (None, 1), self.frame_rate, (self.what, 1)
         )
         self._legend_place = filled(QHBoxLayout(), self.legend, (None, 1))
-        column.addLayout(self._legend_place)
-        column.addWidget(self.table, 2)
-        column.addLayout(foot)
+        foot = filled(QHBoxLayout(), (self.state, 1), self.work)
+        filled(
+            QVBoxLayout(self), head, second, (self._pages, 3), self._legend_place, (self.table, 2),
+            foot, margins=(4, 2, 4, 2), spacing=2,
+        )  # fmt: skip
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         super().resizeEvent(event)
@@ -241,15 +250,10 @@ class BenchView(QWidget):
         self._show_state()
 
     def _show_state(self) -> None:
-        if not self._setting:
-            text = self._ended
-        else:
-            parts = (
-                self._refusal if self.what.key() == BITS else "",
-                self._ended,
-                self._progress,
-                self._setting,
-            )
+        text = self._ended
+        if self._setting:
+            refusal = self._refusal if self.what.key() == BITS else ""
+            parts = (refusal, self._ended, self._progress, self._setting)
             text = "; ".join(part.removesuffix(".") for part in parts if part) + "."
             if self._is_outdated:
                 text = f"Earlier setting: {text}"

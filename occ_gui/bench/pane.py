@@ -1,15 +1,157 @@
-"""The pane of the bench, with what measures for it."""
+"""The pane of the bench: what is asked for in its view is measured in the background."""
 
+from collections.abc import Iterator
 from dataclasses import replace
 
+from PySide6.QtCore import QObject
+
 from occ_gui.background.signals import JobChannel
-from occ_gui.bench.bench_controller import BenchController
-from occ_gui.bench.bench_view import BenchView
+from occ_gui.bench.bench_view import PUBLISHED, BenchChoice, BenchView
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Pane
+from occ_model.camera.projection import panel_corners
+from occ_model.effects.paper_view import region_of
+from occ_model.errors import OccError, ParameterError
+from occ_model.parallel.job import Job, Stage
 from occ_model.receiver.decoders import decoders
+from occ_model.results.bench import BenchBounds, BenchPoint, BenchRequest
+from occ_model.scene.scene import Scene
+from occ_model.study.bench.bench import bench_scene, check_bench, measure_bench_point
+from occ_model.study.bench.bounds import bench_bounds
+from occ_model.study.bit_error_rate import check_frame_rate
 
 FIRST_DECODERS = ("threshold", "equalizer", "sequence")
+
+_RANK = -1  # below all others: somebody waits for it
+
+
+def request_of(choice: BenchChoice, scene: Scene) -> BenchRequest:
+    """Make the request.
+
+    ``scene``: its scheme, number of bits, switching frequency, readout time and the columns of its
+    panel are used, where its own code is measured.
+    """
+    request = BenchRequest(decoders=choice.decoders, bits=choice.bits)
+    if choice.whose == PUBLISHED:
+        return request
+    sent, camera = scene.transmitter, scene.camera
+    if sent.pattern:
+        raise ParameterError("The scene sends a raw chip pattern, which has no bits to count.")
+    region = region_of(panel_corners(scene), camera.rows, camera.columns)
+    if region is None:
+        raise ParameterError("The scene's picture shows no panel.")
+    return replace(
+        request,
+        schemes=(f"{sent.line_code}/{sent.framing}",),
+        payload_bits=sent.payload_length,
+        preamble=sent.preamble,
+        error_correction=sent.error_correction,
+        rows_a_symbol=sent.switching_period / camera.readout_time,
+        rows=region.columns,
+        readout_time=camera.readout_time,
+    )
+
+
+def setting_of(request: BenchRequest) -> BenchRequest:
+    """Return a request without its decoders and its effort, which change no curve."""
+    return replace(request, decoders=(), bits=1)
+
+
+class BenchController(QObject):
+    def __init__(self, scenes: SceneStore, channel: JobChannel, pane: BenchView) -> None:
+        super().__init__()
+        self._scenes = scenes
+        self._frame_rate = scenes.store.select(lambda workspace: workspace.frame_rate)
+        self.channel, self._pane = channel, pane
+        self._choice = BenchChoice()
+        self._request: BenchRequest | None = None
+        self._points: list[BenchPoint] = []
+        channel.results_ready.connect(self._take)
+        channel.finished.connect(self._finish)
+        channel.failed.connect(pane.show_ended)
+        scenes.changed.connect(self._mark)
+        self._frame_rate.changed.connect(self._show_frame_rate)
+        pane.show_frame_rate(self._frame_rate.value, "")
+
+    @property
+    def full(self) -> tuple[BenchRequest, tuple[BenchPoint, ...]] | None:
+        """The request and all its points, None while some are missing."""
+        request = self._request
+        wanted = 0 if request is None else len(request.points) * len(request.decoders)
+        if request is None or len(self._points) != wanted:
+            return None
+        return request, tuple(self._points)
+
+    def choose(self, choice: BenchChoice) -> None:
+        """Measure this when asked next; what is shown of something else is marked."""
+        self._choice = choice
+        self._mark()
+
+    def start(self) -> None:
+        self.channel.cancel()
+        try:
+            request = request_of(self._choice, self._scenes.scene)
+            check_bench(request)
+        except OccError as refusal:
+            self._pane.show_ended(str(refusal))
+            return
+        if not request.decoders:
+            self._pane.show_ended("No decoder is chosen.")
+            return
+        self._request, self._points = request, []
+        self._pane.show_begun(request)
+        self._pane.show_progress(0, len(request.points))
+        self._show_frame_rate()
+        self._mark()
+        self.channel.put(request, lambda: self._stages(request))
+
+    @staticmethod
+    def _stages(request: BenchRequest) -> Iterator[Stage]:
+        jobs = (Job(measure_bench_point, (request, place)) for place in request.points)
+        yield Stage(_RANK, (Job(bench_bounds, (request,)), *jobs))
+
+    def cancel(self) -> None:
+        """Stop measuring; the points that are known stay."""
+        if not self.channel.is_idle:
+            self.channel.cancel()
+            self._pane.show_ended("Cancelled: some points are missing.")
+
+    def _take(
+        self, request: BenchRequest, results: list[BenchBounds | tuple[BenchPoint, ...]]
+    ) -> None:
+        if request != self._request:
+            return
+        for found in results:
+            if isinstance(found, BenchBounds):
+                self._pane.show_bounds(found)
+            else:
+                self._points += found
+        order = {place: number for number, place in enumerate(request.points)}
+        self._points.sort(key=lambda one: order[one.scheme, one.axis, one.exposure, one.decibels])
+        self._pane.show_points(self._points)
+        self._pane.show_progress(len(self._points) // len(request.decoders), len(request.points))
+
+    def _finish(self, _request: BenchRequest) -> None:
+        self._pane.show_ended("")
+
+    def _show_frame_rate(self) -> None:
+        refusal, request = "", self._request
+        try:
+            if request is not None:
+                check_frame_rate(bench_scene(request, request.schemes[0]), self._frame_rate.value)
+        except OccError as error:
+            refusal = str(error)
+        self._pane.show_frame_rate(self._frame_rate.value, refusal)
+
+    def _mark(self) -> None:
+        if self._request is None:
+            return
+        try:
+            now = request_of(self._choice, self._scenes.scene)
+        except OccError:
+            self._pane.show_outdated(True)
+            return
+        self._pane.show_outdated(setting_of(now) != setting_of(self._request))
 
 
 class BenchPane(Pane[None]):

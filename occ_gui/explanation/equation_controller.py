@@ -1,7 +1,6 @@
 """Controller of the equations: their current numbers, and which parameters have just changed."""
 
-from collections.abc import Sequence
-from typing import Protocol
+from collections.abc import Callable, Sequence
 
 from PySide6.QtCore import QObject
 
@@ -13,17 +12,14 @@ from occ_model.teaching.equations import equations
 _NAMES = tuple(name for names in GROUPS.values() for name in names)
 
 
-class EquationPane(Protocol):
-    def show_equations(self, equations: Sequence[Equation], changed: frozenset[str]) -> None: ...
-
-
 class EquationController(QObject):
-    """Updates the equations with the scene while they are visible."""
+    """Shows the equations with the scene, and what has changed, while they are visible."""
 
-    def __init__(self, scenes: SceneStore, pane: EquationPane) -> None:
+    def __init__(
+        self, scenes: SceneStore, show: Callable[[Sequence[Equation], frozenset[str]], None]
+    ) -> None:
         super().__init__()
-        self._scenes = scenes
-        self._pane = pane
+        self._scenes, self._tell = scenes, show
         self._seen = False
         self._shown: Scene | None = None
         self._only = ""
@@ -47,4 +43,4 @@ class EquationController(QObject):
         if last is not None:
             changed = frozenset(n for n in _NAMES if last.value(n) != scene.value(n))
         chosen = tuple(e for e in equations(scene) if self._only in ("", e.name))
-        self._pane.show_equations(chosen, changed)
+        self._tell(chosen, changed)

@@ -1,9 +1,10 @@
-"""Plot of one column's exposure on the LED's waveform over time."""
+"""Exposure of one column, which is picked in the plot of the profile, on the LED's waveform."""
 
 import numpy as np
 import pyqtgraph as pg
-from PySide6.QtCore import QSignalBlocker, Qt, Signal
-from PySide6.QtGui import QBrush, QColor, QResizeEvent
+from pyqtgraph.GraphicsScene.mouseEvents import MouseClickEvent
+from PySide6.QtCore import QEvent, QObject, QPointF, QSignalBlocker, Qt, Signal
+from PySide6.QtGui import QBrush, QColor, QKeyEvent, QPalette, QResizeEvent
 from PySide6.QtWidgets import (
     QCheckBox,
     QHBoxLayout,
@@ -17,8 +18,9 @@ from PySide6.QtWidgets import (
 from occ_gui.widgets.contrast import pen_on
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
 from occ_gui.widgets.layouts import filled
+from occ_gui.widgets.named import named, paragraph
 from occ_gui.widgets.pens import BAND, REGION, SIMULATION, thin
-from occ_gui.widgets.plot import new_plot
+from occ_gui.widgets.plot import Plot, new_plot
 from occ_model.results.teaching import ExposureWindow
 from occ_model.scene.units import SECOND
 
@@ -27,6 +29,84 @@ _SHADE = 60
 _LEAST_HEIGHT = 92
 
 _LEAST_SPAN = 1e-6  # smallest range of the time axis, as a fraction of the time that is drawn
+
+
+_STEPS = {
+    Qt.Key.Key_Left: -1,
+    Qt.Key.Key_Right: 1,
+    Qt.Key.Key_PageDown: -10,
+    Qt.Key.Key_PageUp: 10,
+}
+
+
+class ColumnPicker(QObject):
+    """Marks a column of a plot, and emits a signal for the column that the user picks."""
+
+    hovered = Signal(int)
+    clicked = Signal(int)
+
+    stepped = Signal(int)  # the number of columns to move on, negative to the left
+
+    released = Signal()
+
+    def __init__(self, plot: Plot) -> None:
+        super().__init__(plot)
+        self._plot = plot
+        self._box = plot.getViewBox()
+        self._active = False
+        self._last: int | None = None
+        self._held = False
+        self.marker = pg.InfiniteLine(angle=90)
+        self.marker.setZValue(20)
+        self.marker.hide()
+        plot.addItem(self.marker, ignoreBounds=True)
+        plot.scene().sigMouseMoved.connect(self._hover)
+        plot.scene().sigMouseClicked.connect(self._click)
+        plot.installEventFilter(self)
+        plot.dress_with(self._dress)
+
+    def set_active(self, active: bool) -> None:
+        self._active = active
+        self.marker.setVisible(active)
+
+    def show_column(self, column: int, held: bool) -> None:
+        """Mark a column by a dashed line, or by a solid line if it is held."""
+        self._held = held
+        self._dress(self._plot.palette())
+        self.marker.setValue(column)
+        self._last = column
+
+    def _dress(self, palette: QPalette) -> None:
+        style = Qt.PenStyle.SolidLine if self._held else Qt.PenStyle.DashLine
+        self.marker.setPen(thin(palette.color(QPalette.ColorRole.Text), style))
+
+    def _hover(self, place: QPointF) -> None:
+        column = self._column_at(place)
+        if self._active and column is not None and column != self._last:
+            self._last = column
+            self.hovered.emit(column)
+
+    def _click(self, event: MouseClickEvent) -> None:
+        column = self._column_at(event.scenePos())
+        if self._active and column is not None and event.button() == Qt.MouseButton.LeftButton:
+            self.clicked.emit(column)
+
+    def _column_at(self, place: QPointF) -> int | None:
+        if not self._box.sceneBoundingRect().contains(place):
+            return None
+        return int(round(self._box.mapSceneToView(place).x()))  # noqa: RUF046 - it has no type
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
+        """Move from column to column by the arrow keys, and release the held one by Escape."""
+        if self._active and event.type() == QEvent.Type.KeyPress and isinstance(event, QKeyEvent):
+            key = Qt.Key(event.key())
+            if key in _STEPS:
+                self.stepped.emit(_STEPS[key])
+                return True
+            if key == Qt.Key.Key_Escape:
+                self.released.emit()
+                return True
+        return super().eventFilter(watched, event)
 
 
 class ExposurePlot(QWidget):
@@ -38,9 +118,8 @@ class ExposurePlot(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self.sentence = QLabel(wordWrap=True, textFormat=Qt.TextFormat.PlainText)
+        self.sentence = paragraph(name="Exposure of the column")
         self.sentence.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
-        self.sentence.setAccessibleName("Exposure of the column")
         self._make_plot()
         self._make_controls()
         row = filled(QHBoxLayout(), QLabel("Column"), self.column, self.hold, (None, 1))
@@ -70,14 +149,8 @@ class ExposurePlot(QWidget):
         colour.setAlpha(_SHADE)
         self.shade = pg.LinearRegionItem(brush=colour, pen=thin(REGION), movable=False)
         self.shade.setZValue(-10)
-        self.lit = pg.BarGraphItem(
-            x0=[],
-            x1=[],
-            y0=0.0,
-            y1=1.0,
-            pen=thin(BAND),
-            brush=QBrush(BAND, Qt.BrushStyle.BDiagPattern),
-        )
+        hatched = QBrush(BAND, Qt.BrushStyle.BDiagPattern)
+        self.lit = pg.BarGraphItem(x0=[], x1=[], y0=0.0, y1=1.0, pen=thin(BAND), brush=hatched)
         self.chips = pg.PlotCurveItem()
         self.plot.dress_with(lambda palette: self.chips.setPen(pen_on(palette, thin(SIMULATION))))
         for item in (self.shade, self.lit, self.chips):
@@ -86,13 +159,13 @@ class ExposurePlot(QWidget):
         self.plot.setYRange(-0.12, 1.25, padding=0)
 
     def _make_controls(self) -> None:
-        self.column = QSpinBox()
-        self.column.setKeyboardTracking(False)
-        self.column.setAccessibleName("Column whose exposure is shown")
-        self.column.setToolTip(
+        self.column = named(
+            QSpinBox(),
+            "Column whose exposure is shown",
             "The column of the picture whose exposure is shown. Moving the mouse over the "
-            "profile chooses one too, and so do the arrow keys there."
+            "profile chooses one too, and so do the arrow keys there.",
         )
+        self.column.setKeyboardTracking(False)
         keep_wheel_for_scrolling(self.column)
         self.column.valueChanged.connect(self.column_chosen)
         self.hold = QCheckBox("Hold")

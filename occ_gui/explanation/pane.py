@@ -1,19 +1,86 @@
 """The pane of the equations: it explains the scene, and the exposure of a column."""
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtWidgets import QSplitter, QVBoxLayout, QWidget
 
-from occ_gui.explanation.column_picker import ColumnPicker
 from occ_gui.explanation.equation_controller import EquationController
 from occ_gui.explanation.equation_text import EquationText
-from occ_gui.explanation.exposure_controller import ExposureController
-from occ_gui.explanation.exposure_plot import ExposurePlot
+from occ_gui.explanation.exposure_plot import ColumnPicker, ExposurePlot
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Pane
 from occ_gui.shell.results import of_snapshot
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.widgets.layouts import filled
 from occ_gui.widgets.plot import Plot
+from occ_model.teaching.exposure_window import exposure_window
+
+
+class ExposureController(QObject):
+    """Keeps the chosen column, held or under the mouse, and computes its exposure while visible."""
+
+    held = Signal(int)  # the column that the user has chosen, until another is
+
+    def __init__(self, pane: ExposurePlot, mark: ColumnPicker) -> None:
+        super().__init__()
+        self._pane, self._mark = pane, mark
+        self._snapshot: Snapshot | None = None
+        self._column: int | None = None
+        self._held = False
+        self._seen = False
+
+    def set_seen(self, seen: bool) -> None:
+        self._seen = seen
+        self._mark.set_active(seen)
+        self._show()
+
+    def show_snapshot(self, snapshot: Snapshot) -> None:
+        self._snapshot = snapshot
+        self._show()
+
+    def hover(self, column: int) -> None:
+        """Show the column under the mouse, unless a column is held."""
+        if not self._held:
+            self._choose(column, held=False)
+
+    def click(self, column: int) -> None:
+        if self._held and column == self._column:
+            self._choose(column, held=False)
+        else:
+            self.choose(column)
+
+    def step(self, columns: int) -> None:
+        if self._column is not None:
+            self.choose(self._column + columns)
+
+    def choose(self, column: int) -> None:
+        self._choose(column, held=True)
+        self.held.emit(self._column)
+
+    def follow(self, column: int) -> None:
+        if column != self._column:
+            self._choose(column, held=self._held)
+
+    def hold(self, held: bool) -> None:
+        """Hold the column that is shown, or let the mouse choose the column."""
+        self._held = held
+        self._show()
+
+    def _choose(self, column: int, held: bool) -> None:
+        self._column, self._held = column, held
+        self._show()
+
+    def _show(self) -> None:
+        snapshot = self._snapshot
+        if snapshot is None or not self._seen:
+            return
+        profile = snapshot.frame.profile
+        if self._column is None:  # in the first packet, which the profile shows
+            self._column = int(snapshot.panel_origin[0] + snapshot.packet_columns / 2)
+        self._column = min(max(self._column, 0), len(profile) - 1)
+        self._pane.show_column(self._column, len(profile), self._held)
+        self._mark.show_column(self._column, self._held)
+        window = exposure_window(snapshot.frame.scene, self._column)
+        self._pane.show_window(window, float(profile[self._column]))
 
 
 class ExplanationView(QWidget):
@@ -35,21 +102,19 @@ class ExplanationPane(Pane[Snapshot]):
     """Connects the equations of the scene, and the exposure of the column under the mouse."""
 
     def __init__(self, scenes: SceneStore, plot: Plot) -> None:
-        pane = ExplanationView()
-        super().__init__(pane)
-        self.pane = pane
-        self.made_of = {
-            pane.exposure: of_snapshot
-        }  # it tells a level; the equations need no picture
+        self.view = view = ExplanationView()
+        super().__init__(view)
+        # It tells a level; the equations need no picture.
+        self.made_of = {view.exposure: of_snapshot}
         self.picker = ColumnPicker(plot)
-        self._equations = EquationController(scenes, self.pane.equations)
-        exposure = self.exposure = ExposureController(self.pane.exposure, self.picker)
+        self._equations = EquationController(scenes, view.equations.show_equations)
+        exposure = self.exposure = ExposureController(view.exposure, self.picker)
         self.picker.hovered.connect(exposure.hover)
         self.picker.clicked.connect(exposure.click)
         self.picker.stepped.connect(exposure.step)
         self.picker.released.connect(lambda: exposure.hold(False))
-        self.pane.exposure.column_chosen.connect(exposure.choose)
-        self.pane.exposure.hold_chosen.connect(exposure.hold)
+        view.exposure.column_chosen.connect(exposure.choose)
+        view.exposure.hold_chosen.connect(exposure.hold)
 
     def set_seen(self, seen: bool) -> None:
         self._equations.set_seen(seen)

@@ -6,14 +6,18 @@ from collections.abc import Sequence
 import cv2
 import numpy as np
 import pyqtgraph as pg
-from PySide6.QtCore import QRect, QRectF
-from PySide6.QtGui import QImage, QPainter
+from PySide6.QtCore import QPointF, QRect, QRectF, Qt
+from PySide6.QtGui import QFontMetricsF, QImage, QPainter, QTransform
 from PySide6.QtWidgets import QStyleOptionGraphicsItem, QWidget
 
-from occ_gui.picture.pixel_values import draw_pixel_values
 from occ_gui.simulation.preview import halved
 from occ_gui.widgets.guarded_paint import guarded
 from occ_model.arrays import ByteArray
+
+_LEAST_WIDTH = 1.3  # of a pixel whose value is written, relative to that of the widest value
+_WIDEST = "255"
+_MAX_VALUES = 5000  # that are written: more pixels than that cannot be so large on any screen
+_MIDDLE_GREY = 128
 
 
 class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has no types
@@ -81,7 +85,7 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
             painter.setClipRect(self._rect.adjusted(0, self._first_row - self._rect.top(), 0, 0))
         painter.drawImage(target, self._drawn[2])
         if self._with_values:
-            self.values_drawn = draw_pixel_values(painter, self._image, part, target)
+            self.values_drawn = _draw_values(painter, self._image, part, target)
 
     def _visible_part(self) -> QRect:
         """Return the pixels of the image that are in view."""
@@ -142,3 +146,28 @@ def _mean_of_cells(pixels: ByteArray, columns: int, rows: int) -> ByteArray:
         return pixels
     smaller = cv2.resize(pixels, (columns, rows), interpolation=cv2.INTER_AREA)
     return np.asarray(smaller, dtype=np.uint8)
+
+
+def _draw_values(painter: QPainter, image: ByteArray, part: QRect, target: QRectF) -> int:
+    """Write the grey levels of some pixels into them, if they are large enough."""
+    to_screen = painter.worldTransform()
+    place = to_screen.mapRect(target)
+    width, height = place.width() / part.width(), place.height() / part.height()
+    metrics = QFontMetricsF(painter.font())
+    least = _LEAST_WIDTH * metrics.horizontalAdvance(_WIDEST)
+    count = part.width() * part.height()
+    if width < least or height < metrics.height() or count > _MAX_VALUES:
+        return 0
+    painter.save()
+    painter.setWorldTransform(QTransform())
+    flipped = to_screen.m22() < 0.0
+    for row in range(part.height()):
+        line = part.height() - 1 - row if flipped else row
+        for column in range(part.width()):
+            level = int(image[part.top() + row, part.left() + column])
+            painter.setPen(Qt.GlobalColor.black if level >= _MIDDLE_GREY else Qt.GlobalColor.white)
+            corner = QPointF(place.left() + column * width, place.top() + line * height)
+            box = QRectF(corner.x(), corner.y(), width, height)
+            painter.drawText(box, Qt.AlignmentFlag.AlignCenter, str(level))
+    painter.restore()
+    return count

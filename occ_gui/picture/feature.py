@@ -12,8 +12,7 @@ from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.values.photo_choice import MODES, Placement
 
 if TYPE_CHECKING:
-    from occ_gui.picture.image_view import ImageView
-    from occ_gui.picture.pane import PicturePart, PicturesPane
+    from occ_gui.picture.image_view import ImageView, PicturePart, PicturesPane
     from occ_model.figures.drawing import Drawing
     from occ_model.photo.reading.load import Photo
 
@@ -25,7 +24,7 @@ def picture(store: Store, about_photo: Callable[[], str]) -> "Feature[PicturePar
     """
 
     def make() -> "Pane[PicturePart]":
-        from occ_gui.picture.pane import PicturesPane
+        from occ_gui.picture.image_view import PicturesPane
 
         return PicturesPane(store)
 
@@ -99,8 +98,7 @@ def _with_photo(view: "ImageView", opened: "Photo", shown: Snapshot, mode: str, 
     laid, times = opacities.get(mode), over.times
 
     def draw() -> "Drawing":
-        from occ_gui.picture.difference_image import difference_cells
-        from occ_gui.picture.photo_overlay import rect_of
+        from occ_gui.picture.photo_overlay import difference_cells, rect_of
         from occ_model.figures.overlay import Difference, PhotoLayer
         from occ_model.figures.window_panes import MOST_CELLS, picture_drawing
 

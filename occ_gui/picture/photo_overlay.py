@@ -2,20 +2,25 @@
 
 import math
 
+import cv2
 import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import QObject, QPointF, QRectF, Signal
+from PySide6.QtGui import QImage, QPainter
+from PySide6.QtWidgets import QStyleOptionGraphicsItem, QWidget
 
 from occ_gui.picture.averaged_image import AveragedImage
-from occ_gui.picture.difference_image import DifferenceImage
 from occ_gui.values.photo_choice import MODES, Placement
+from occ_gui.widgets.guarded_paint import guarded
 from occ_gui.widgets.pens import PHOTO, REGION
-from occ_model.arrays import ByteArray
+from occ_model.arrays import ByteArray, FloatArray
 
 _NO_IMAGE: ByteArray = np.zeros((0, 0), dtype=np.uint8)
 
 _LINE_PEN = pg.mkPen(REGION, width=2)
 _FRAME_PEN = pg.mkPen(PHOTO, width=2)
+
+_Layer = tuple[ByteArray, QRectF]
 
 
 def rect_of(image: ByteArray, placement: Placement) -> QRectF:
@@ -28,6 +33,128 @@ def rect_of(image: ByteArray, placement: Placement) -> QRectF:
         columns * placement.scale,
         rows * placement.scale,
     )
+
+
+class DifferenceImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has no types
+    """The absolute difference of two images where they overlap, black where they are equal.
+
+    Both are averaged over the pixels of the screen first: only the visible part is computed, and
+    stripes finer than a pixel of the screen do not appear as coarser ones.
+    """
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._layers: tuple[_Layer, _Layer] = ((_NO_IMAGE, QRectF()), (_NO_IMAGE, QRectF()))
+        self.gain = 1
+        self._means: dict[int, tuple[QRectF, tuple[int, int], FloatArray]] = {}
+
+    def set_image(self, layer: int, image: ByteArray, rect: QRectF) -> None:
+        first, second = self._layers
+        new = (image, QRectF(rect))
+        self.prepareGeometryChange()
+        self._layers = (new, second) if layer == 0 else (first, new)
+        self._means.pop(layer, None)
+        self.update()
+
+    def set_gain(self, gain: int) -> None:
+        self.gain = gain
+        self.update()
+
+    def boundingRect(self) -> QRectF:  # noqa: N802 - Qt's name
+        (_, first), (_, second) = self._layers
+        return first.intersected(second)
+
+    @guarded
+    def paint(
+        self,
+        painter: QPainter,
+        _option: QStyleOptionGraphicsItem,
+        _widget: QWidget | None = None,
+    ) -> None:
+        view = self.viewRect()
+        grid = QRectF() if view is None else view.intersected(self.boundingRect())
+        if grid.isEmpty():
+            return
+        on_screen = painter.deviceTransform().mapRect(grid)
+        shape = (max(1, math.ceil(on_screen.height())), max(1, math.ceil(on_screen.width())))
+        difference = np.abs(self._averaged(0, grid, shape) - self._averaged(1, grid, shape))
+        levels = np.minimum(self.gain * difference + 0.5, 255.0).astype(np.uint8, order="C")
+        rows, columns = shape
+        painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform, False)
+        image = QImage(levels.data, columns, rows, columns, QImage.Format.Format_Grayscale8)
+        painter.drawImage(grid, image)
+
+    def _averaged(self, layer: int, grid: QRectF, shape: tuple[int, int]) -> FloatArray:
+        """Return an image averaged over the screen's pixels, computed anew only if needed."""
+        known = self._means.get(layer)
+        if known is not None and known[:2] == (grid, shape):
+            return known[2]
+        means = cell_means(*self._layers[layer], grid, shape)
+        self._means[layer] = (QRectF(grid), shape, means)
+        return means
+
+
+def difference_cells(first: _Layer, second: _Layer, most: int) -> tuple[FloatArray, QRectF] | None:
+    """Return the absolute difference of two images in grey levels, and the rectangle they share.
+
+    It is averaged over at most so many cells a side, none smaller than a unit of the rectangles;
+    None where the images do not overlap.
+    """
+    grid = first[1].intersected(second[1])
+    if grid.isEmpty():
+        return None
+    side = max(1.0, max(grid.width(), grid.height()) / most)
+    shape = (max(1, round(grid.height() / side)), max(1, round(grid.width() / side)))
+    return np.abs(cell_means(*first, grid, shape) - cell_means(*second, grid, shape)), grid
+
+
+def cell_means(image: ByteArray, rect: QRectF, grid: QRectF, shape: tuple[int, int]) -> FloatArray:
+    """Average an image over the cells of a grid of this shape, in grey levels.
+
+    Two images of different sizes are compared without false stripes: each cell holds the exact
+    mean of the pixels under it, weighted by the area they share with the cell.
+    """
+    rows, columns = image.shape
+    x = _edges(grid.left() - rect.left(), grid.width(), columns / rect.width(), shape[1], columns)
+    y = _edges(grid.top() - rect.top(), grid.height(), rows / rect.height(), shape[0], rows)
+    # At least one pixel, even of a grid that only touches the image's edge.
+    left, top = min(int(x[0]), columns - 1), min(int(y[0]), rows - 1)
+    right, bottom = max(int(np.ceil(x[-1])), left + 1), max(int(np.ceil(y[-1])), top + 1)
+    pixels = image[top:bottom, left:right]
+    pixels, x, y = _halved(pixels, x - left, y - top)
+    # The running integral is bilinear within each pixel, so this interpolation is exact.
+    integral = cv2.integral(np.ascontiguousarray(pixels), sdepth=cv2.CV_64F)
+    total = _interpolated(_interpolated(np.asarray(integral, dtype=np.float64), y).T, x).T
+    area = np.outer(np.diff(y), np.diff(x))
+    means = np.diff(np.diff(total, axis=0), axis=1) / np.maximum(area, 1e-12)
+    return np.asarray(means, dtype=np.float64)
+
+
+def _edges(start: float, width: float, scale: float, cells: int, pixels: int) -> FloatArray:
+    edges = (start + width * np.arange(cells + 1) / cells) * scale
+    return np.asarray(np.clip(edges, 0.0, pixels), dtype=np.float64)
+
+
+def _halved(
+    pixels: ByteArray, x: FloatArray, y: FloatArray
+) -> tuple[ByteArray, FloatArray, FloatArray]:
+    """Halve an image, which is fast, as long as a cell spans at least two of its pixels."""
+    while min(_span(x), _span(y)) >= 4.0 and min(pixels.shape) >= 2:
+        half = (pixels.shape[1] // 2, pixels.shape[0] // 2)
+        even = pixels[: 2 * half[1], : 2 * half[0]]
+        pixels = np.asarray(cv2.resize(even, half, interpolation=cv2.INTER_AREA), dtype=np.uint8)
+        x, y = np.minimum(x / 2, half[0]), np.minimum(y / 2, half[1])
+    return pixels, x, y
+
+
+def _span(edges: FloatArray) -> float:
+    return float(edges[-1] - edges[0]) / (len(edges) - 1)
+
+
+def _interpolated(values: FloatArray, places: FloatArray) -> FloatArray:
+    below = np.minimum(places.astype(np.intp), len(values) - 2)
+    share = (places - below)[:, None]
+    return np.asarray(values[below] * (1 - share) + values[below + 1] * share, dtype=np.float64)
 
 
 class PhotoOverlay(QObject):

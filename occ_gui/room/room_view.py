@@ -14,8 +14,7 @@ from PySide6.QtWidgets import (
 )
 
 from occ_gui.room.jobs import FloorMap, RoomPlan, ShownRoom
-from occ_gui.room.picture_plot import PicturePlot
-from occ_gui.room.plan_plot import PlanPlot
+from occ_gui.room.room_plots import PicturePlot, PlanPlot
 from occ_gui.widgets.layouts import filled
 from occ_gui.widgets.named import paragraph, push_button
 from occ_gui.widgets.text_scale import TextSize, scaled

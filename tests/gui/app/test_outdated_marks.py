@@ -86,7 +86,7 @@ def test_each_pane_is_marked_while_its_result_is_outdated(
         application.view("profile"),
         application.view("decode"),
         *application.view("accuracy").of_scene,
-        application.shell.pane("equations").pane.exposure,
+        application.shell.pane("equations").view.exposure,
     }
     assert all(mark.isHidden() for mark in marks(application))
     application.store.change(iso=60.0, jpeg_quality=jpeg)

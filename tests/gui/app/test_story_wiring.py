@@ -162,7 +162,7 @@ def test_the_equations_explain_the_column_that_the_story_shows(
     dock = application.window.docks["equations"]
     application.window.bring_to_front("equations")
     qtbot.waitUntil(lambda: not dock.visibleRegion().isEmpty())
-    pane = application.shell.pane("equations").pane.exposure
+    pane = application.shell.pane("equations").view.exposure
     assert pane.column.value() == 700
     crosshair.choose(640)
     assert pane.column.value() == 640

@@ -16,14 +16,11 @@ from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from occ_gui.background.signals import WorkQueue
-from occ_gui.bench import bench_plot
-from occ_gui.bench.bench_choice import OF_SCENE, PUBLISHED, BenchChoice
-from occ_gui.bench.bench_controller import BenchController
-from occ_gui.bench.bench_measurement import request_of
-from occ_gui.bench.bench_plot import BITS, RATES, drawn
-from occ_gui.bench.bench_table import cell_text
-from occ_gui.bench.bench_view import BenchView
+from occ_gui.bench import bench_results
+from occ_gui.bench.bench_results import BITS, RATES, cell_text, drawn
+from occ_gui.bench.bench_view import OF_SCENE, PUBLISHED, BenchChoice, BenchView
 from occ_gui.bench.feature import bench
+from occ_gui.bench.pane import BenchController, request_of
 from occ_gui.detection_map.slider_strip_controller import RANKS
 from occ_model.errors import ParameterError
 from occ_model.parallel.job import Job, JobResult, Stage
@@ -214,7 +211,7 @@ def test_a_cell_tells_its_note_and_every_point_is_in_view(measuring: Measuring) 
         for value in (curve.seen.getData()[1], curve.intervals.getData()[1])
     ]
     shown = np.concatenate(values)
-    above = shown[shown > bench_plot._FLOOR[RATES]]
+    above = shown[shown > bench_results._FLOOR[RATES]]
     assert above.size < shown.size  # an interval that begins at no error goes on below
     for plot in plots.plots.values():
         low, high = plot.viewRange()[1]

@@ -1,7 +1,6 @@
 """The equations with the current numbers, and the marks on what has just changed."""
 
 import re
-from collections.abc import Sequence
 
 import pytest
 from gui.kinds import show_widget
@@ -16,7 +15,6 @@ from occ_gui.explanation.equation_controller import EquationController
 from occ_gui.explanation.equation_text import EquationText
 from occ_gui.explanation.feature import equations as equations_pane
 from occ_gui.profile.feature import profile
-from occ_model.results.teaching import Equation
 from occ_model.scene.scene import Scene
 from occ_model.teaching.equations import equations
 
@@ -103,38 +101,28 @@ def test_a_reader_stays_where_he_is_while_numbers_change(
     assert bar.value() == pytest.approx(bar.maximum() // 2, abs=20)
 
 
-class Pane:
-    """Notes what it is shown."""
-
-    def __init__(self) -> None:
-        self.shown: list[tuple[Sequence[Equation], frozenset[str]]] = []
-
-    def show_equations(self, equations: Sequence[Equation], changed: frozenset[str]) -> None:
-        self.shown.append((equations, changed))
-
-
 def test_equations_follow_the_scene_only_while_they_are_seen(small_scene: Scene) -> None:
-    pane, store = Pane(), store_of(small_scene)
-    controller = EquationController(store, pane)
+    store, shown = store_of(small_scene), list[object]()
+    controller = EquationController(store, lambda *what: shown.append(what))
     store.change(iso=200.0)
-    assert pane.shown == []
+    assert shown == []
     controller.set_seen(True)
-    assert pane.shown == [(equations(store.scene), NOTHING)]
+    assert shown == [(equations(store.scene), NOTHING)]
     store.change(iso=300.0, exposure_time=1e-4)
-    assert pane.shown[1:] == [(equations(store.scene), {"iso", "exposure_time"})]
+    assert shown[1:] == [(equations(store.scene), {"iso", "exposure_time"})]
     controller.set_seen(False)
     store.change(iso=400.0)
     controller.set_seen(True)
-    assert pane.shown[2:] == [(equations(store.scene), NOTHING)]
+    assert shown[2:] == [(equations(store.scene), NOTHING)]
     controller.set_seen(False)
     controller.set_seen(True)
-    assert len(pane.shown) == 3
+    assert len(shown) == 3
 
 
 def test_a_change_arrives_in_the_equations_that_are_seen(qtbot: QtBot, small_scene: Scene) -> None:
     bench = PaneBench(qtbot, small_scene)
     plot = bench.add(profile(bench.store, bench.board, str)).view.plot
-    text = bench.add(equations_pane(bench.scenes, lambda: plot), seen=False).pane.equations
+    text = bench.add(equations_pane(bench.scenes, lambda: plot), seen=False).view.equations
     bench.scenes.change(exposure_time=90e-6)
     assert "90 µs" not in text.toPlainText()
     bench.see("equations")

@@ -2,20 +2,18 @@
 
 import numpy as np
 import pytest
-from gui.kinds import SnapshotOf, show_widget
+from gui.kinds import not_none, show_widget
 from gui.pane_bench import PaneBench
 from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
 from PySide6.QtGui import QMouseEvent
 from PySide6.QtWidgets import QApplication, QSplitter, QWidget
 from pytestqt.qtbot import QtBot
 
-from occ_gui.explanation.exposure_controller import ExposureController
 from occ_gui.explanation.exposure_plot import ExposurePlot
 from occ_gui.explanation.feature import equations
 from occ_gui.explanation.pane import ExplanationPane
 from occ_gui.profile.feature import profile
 from occ_gui.widgets.plot import Plot
-from occ_model.results.teaching import ExposureWindow
 from occ_model.scene.scene import Scene
 from occ_model.teaching.exposure_window import exposure_window
 
@@ -102,95 +100,6 @@ def test_a_column_in_the_dark_has_no_time_on_and_what_is_not_drawn_is_named(
     assert plot.shade.getRegion()[1] <= plot.chips.getData()[0][-1]
 
 
-class Pane:
-    """Notes what it is shown."""
-
-    def __init__(self) -> None:
-        self.columns: list[tuple[int, bool]] = []
-        self.windows: list[tuple[int, float]] = []
-
-    def show_column(self, column: int, columns: int, held: bool) -> None:
-        assert 0 <= column < columns
-        self.columns.append((column, held))
-
-    def show_window(self, window: ExposureWindow, level: float) -> None:
-        self.windows.append((window.column, level))
-
-
-class Mark:
-    """Marks nothing."""
-
-    active = False
-
-    def set_active(self, active: bool) -> None:
-        self.active = active
-
-    def show_column(self, column: int, held: bool) -> None:
-        """Do nothing."""
-
-
-@pytest.fixture
-def pane() -> Pane:
-    return Pane()
-
-
-@pytest.fixture
-def controller(pane: Pane, bare_snapshot_of: SnapshotOf) -> ExposureController:
-    controller = ExposureController(pane, Mark())
-    controller.set_seen(True)
-    controller.show_snapshot(bare_snapshot_of())
-    return controller
-
-
-def test_the_level_shown_is_that_of_the_profile(
-    controller: ExposureController, pane: Pane, bare_snapshot_of: SnapshotOf
-) -> None:
-    profile = bare_snapshot_of().frame.profile
-    controller.hover(1234)
-    assert pane.windows[-1] == (1234, profile[1234])
-
-
-def test_a_column_that_is_held_stays_until_it_is_let_go(
-    controller: ExposureController, pane: Pane
-) -> None:
-    controller.hover(10)
-    controller.click(20)
-    controller.hover(30)
-    assert pane.columns[-1] == (20, True)
-    controller.step(1)
-    controller.step(-3)
-    assert pane.columns[-1] == (18, True)
-    controller.click(18)
-    assert pane.columns[-1] == (18, False)
-    controller.hover(40)
-    assert pane.columns[-1] == (40, False)
-    controller.choose(50)
-    controller.hold(False)
-    controller.hover(60)
-    assert pane.columns[-1] == (60, False)
-
-
-def test_no_column_outside_of_the_picture_is_shown(
-    controller: ExposureController, pane: Pane, bare_snapshot_of: SnapshotOf
-) -> None:
-    controller.hover(-5)
-    assert pane.columns[-1][0] == 0
-    controller.hover(10**9)
-    last = pane.columns[-1][0]
-    assert last == len(bare_snapshot_of().frame.profile) - 1
-    controller.show_snapshot(bare_snapshot_of(columns=500))
-    assert pane.columns[-1][0] == 499
-
-
-def test_nothing_is_worked_out_unseen(pane: Pane, bare_snapshot_of: SnapshotOf) -> None:
-    controller = ExposureController(pane, Mark())
-    controller.show_snapshot(bare_snapshot_of())
-    controller.hover(5)
-    assert pane.windows == []
-    controller.set_seen(True)
-    assert [column for column, _ in pane.windows] == [5]
-
-
 class Bench(PaneBench):
     """The equations beside the profile, in which their column is picked."""
 
@@ -198,7 +107,13 @@ class Bench(PaneBench):
         super().__init__(qtbot, scene)
         self.plot = self.add(profile(self.store, self.board, str)).view.plot
         self.pane: ExplanationPane = self.add(equations(self.scenes, lambda: self.plot))
+        self.view = self.pane.view.exposure
         self.simulate()
+
+    @property
+    def shown(self) -> tuple[int, bool]:
+        """The column, and whether it is held."""
+        return self.view.column.value(), self.view.hold.isChecked()
 
 
 def place_of(plot: Plot, column: float) -> QPoint:
@@ -223,7 +138,7 @@ def seen(qtbot: QtBot, small_scene: Scene) -> Bench:
 
 
 def test_mouse_click_and_keys_over_the_profile_choose_a_column(seen: Bench, qtbot: QtBot) -> None:
-    exposure, plot = seen.pane.pane.exposure, seen.plot
+    exposure, plot = seen.view, seen.plot
     viewport = plot.viewport()
     first, last = plot.getViewBox().viewRange()[0]
     there, place = (round(first + share * (last - first)) for share in (0.3, 0.6))
@@ -246,7 +161,7 @@ def test_mouse_click_and_keys_over_the_profile_choose_a_column(seen: Bench, qtbo
 
 
 def test_a_number_typed_chooses_and_holds_a_column(seen: Bench, qtbot: QtBot) -> None:
-    exposure = seen.pane.pane.exposure
+    exposure = seen.view
     exposure.column.selectAll()
     qtbot.keyClicks(exposure.column, "1100")
     qtbot.keyClick(exposure.column, Qt.Key.Key_Return)
@@ -257,7 +172,7 @@ def test_a_number_typed_chooses_and_holds_a_column(seen: Bench, qtbot: QtBot) ->
 
 
 def test_the_profiles_mark_stays_while_the_exposure_is_visible(seen: Bench, qtbot: QtBot) -> None:
-    marker, sentence = seen.pane.picker.marker, seen.pane.pane.exposure.sentence
+    marker, sentence = seen.pane.picker.marker, seen.view.sentence
     assert marker.isVisible()
     seen.see("equations", False)
     assert not marker.isVisible()
@@ -268,23 +183,54 @@ def test_the_profiles_mark_stays_while_the_exposure_is_visible(seen: Bench, qtbo
 
 
 def test_the_exposure_follows_the_scene(seen: Bench) -> None:
-    exposure = seen.pane.pane.exposure
+    exposure = seen.view
     levels = seen.simulate(exposure_time=136e-6).profile
     assert "136 µs exposure" in exposure.sentence.text()
     assert f"{levels[exposure.column.value()]:.1f} grey levels" in exposure.sentence.text()
 
 
+def test_a_column_that_is_held_stays_until_it_is_let_go(seen: Bench) -> None:
+    controller = seen.pane.exposure
+    controller.hover(10)
+    controller.click(20)
+    controller.hover(30)
+    assert seen.shown == (20, True)
+    controller.step(1)
+    controller.step(-3)
+    assert seen.shown == (18, True)
+    controller.click(18)
+    assert seen.shown == (18, False)
+    controller.hover(40)
+    assert seen.shown == (40, False)
+    controller.choose(50)
+    controller.hold(False)
+    controller.hover(60)
+    assert seen.shown == (60, False)
+
+
+def test_no_column_outside_of_the_picture_is_shown(seen: Bench) -> None:
+    controller = seen.pane.exposure
+    controller.hover(-5)
+    assert seen.shown[0] == 0
+    controller.hover(10**9)
+    assert seen.shown[0] == len(not_none(seen.board.results.snapshot).profile) - 1
+    seen.simulate(columns=500)
+    assert seen.shown[0] == 499
+    seen.see("equations", False)
+    controller.hover(5)
+    assert seen.shown[0] == 499, "nothing is worked out unseen"
+    seen.see("equations")
+    assert seen.shown[0] == 5
+
+
 def test_the_column_shown_first_is_in_the_panels_first_packet(
-    pane: Pane, bare_snapshot_of: SnapshotOf
+    qtbot: QtBot, small_scene: Scene
 ) -> None:
-    snapshot = bare_snapshot_of(panel_width=0.3)
+    seen = Bench(qtbot, small_scene.replace(panel_width=0.3))
+    snapshot = not_none(seen.board.results.snapshot)
     first, above = snapshot.panel_origin
     assert abs(first - above) > snapshot.packet_columns
-    controller = ExposureController(pane, Mark())
-    controller.set_seen(True)
-    controller.show_snapshot(snapshot)
-    ((column, _),) = pane.columns
-    assert first < column < first + snapshot.packet_columns
+    assert first < seen.shown[0] < first + snapshot.packet_columns
 
 
 def test_every_control_says_what_it_does_and_a_click_on_hold_is_told(

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from PySide6.QtCore import QRectF
 
-from occ_gui.picture.difference_image import cell_means, difference_cells
+from occ_gui.picture.photo_overlay import cell_means, difference_cells
 
 
 def noise(rows: int, columns: int) -> Grey:

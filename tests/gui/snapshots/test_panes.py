@@ -21,9 +21,8 @@ from occ_gui.accuracy.accuracy_view import AccuracyView
 from occ_gui.accuracy.cost_measurement import SceneCosts
 from occ_gui.bands.bands_view import BandsView
 from occ_gui.bands.jobs import shown_bands
-from occ_gui.bench.bench_choice import PUBLISHED, BenchChoice
-from occ_gui.bench.bench_measurement import request_of
-from occ_gui.bench.bench_view import BenchView
+from occ_gui.bench.bench_view import PUBLISHED, BenchChoice, BenchView
+from occ_gui.bench.pane import request_of
 from occ_gui.decoding.decode_view import DecodeView
 from occ_gui.detection_map.map_view import MapView
 from occ_gui.detection_map.rate_map import LINES, RateMap, TheoryFields, lattice

@@ -1,14 +1,14 @@
-"""Plan of a room: lamps, camera and what it sees; both can be dragged."""
+"""Plots of a room: its plan, in which camera and aim are dragged, and the camera's picture."""
 
 import math
 
 import numpy as np
 import pyqtgraph as pg
-from PySide6.QtCore import QPointF, QSignalBlocker, Qt, Signal, SignalInstance
+from PySide6.QtCore import QPointF, QRectF, QSignalBlocker, Qt, Signal, SignalInstance
 from PySide6.QtGui import QPalette
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
-from occ_gui.room.jobs import FloorMap, RoomPlan
+from occ_gui.room.jobs import FloorMap, RoomPlan, ShownRoom
 from occ_gui.scene.gesture import Gestures
 from occ_gui.widgets.contrast import pen_on
 from occ_gui.widgets.layouts import filled
@@ -25,6 +25,8 @@ _SEEN_SIZE = 0.04  # fraction of the plan's width from which an ellipse can be s
 _MARGIN = 0.8  # metres around the lamps
 
 _DASHES = Qt.PenStyle.DashLine
+
+_NAME = 0.025  # fraction of the picture's height that half a name takes
 
 
 class PlanPlot(QWidget):
@@ -127,13 +129,49 @@ class PlanPlot(QWidget):
         if found is None:
             self.floor.setData([], [])
             return
-        places = [found.request.place(point.index) for point in found.points]
-        spots = [
-            {"pos": place, "brush": pg.mkBrush(colour), "size": 9}
-            for place, colour in zip(
-                places,
-                [SIMULATION if point.sure else BAND for point in found.points],
-                strict=True,
-            )
-        ]
-        self.floor.setData(spots)
+        brushes = {True: pg.mkBrush(SIMULATION), False: pg.mkBrush(BAND)}
+        self.floor.setData(
+            [
+                {
+                    "pos": found.request.place(point.index),
+                    "brush": brushes[bool(point.sure)],
+                    "size": 9,
+                }
+                for point in found.points
+            ]
+        )
+
+
+class PicturePlot(QWidget):
+    def __init__(self) -> None:
+        super().__init__()
+        self.plot = new_plot("The camera's picture", "column", "row", self.palette())
+        self.plot.setAspectLocked(True)
+        self.plot.invertY(True)
+        self.plot.setMouseEnabled(False, False)
+        self.image = pg.ImageItem(axisOrder="row-major")
+        self.plot.addItem(self.image)
+        self._over: list[pg.GraphicsObject] = []
+        filled(QVBoxLayout(self), self.plot, margins=0)
+
+    def show_room(self, shown: ShownRoom) -> None:
+        rows, columns = shown.image.shape
+        margin = _NAME * rows
+        self.image.setImage(shown.picture, levels=(0, 255))
+        self.image.setRect(QRectF(-0.5, -0.5, columns, rows))
+        self.plot.setXRange(0, columns, padding=0)
+        self.plot.setYRange(0, rows, padding=0)
+        for item in self._over:
+            self.plot.removeItem(item)
+        self._over = []
+        for read in shown.reading.lamps if shown.reading else ():
+            colour = SIMULATION if read.name else BAND
+            closed = np.vstack([read.hull, read.hull[:1]])
+            outline = pg.PlotCurveItem(closed[:, 0], closed[:, 1], pen=thin(colour))
+            name = pg.TextItem(read.name or "?", color="w", fill=colour, anchor=(0.5, 0.5))
+            # Of a lamp at the edge too, the whole name is seen.
+            middle = np.clip(read.hull.mean(axis=0), margin, (columns - margin, rows - margin))
+            name.setPos(*middle.tolist())
+            for item in (outline, name):
+                self.plot.addItem(item, ignoreBounds=True)
+                self._over.append(item)

@@ -1,4 +1,4 @@
-"""Plots of the bench: bit error rates or bits a second, over the exposure and over the noise."""
+"""What the bench has measured: bit error rates or bits a second, in two plots and in a table."""
 
 import math
 from collections.abc import Sequence
@@ -9,13 +9,20 @@ import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QPalette
-from PySide6.QtWidgets import QHBoxLayout, QWidget
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QHBoxLayout,
+    QHeaderView,
+    QTableWidget,
+    QTableWidgetItem,
+    QWidget,
+)
 
 from occ_gui.widgets.axes import LogAxis
 from occ_gui.widgets.contrast import seen_on
 from occ_gui.widgets.pens import BAND, NOISE, PHOTO, REGION, SIMULATION, thin
 from occ_gui.widgets.plot import Plot, new_plot
-from occ_model.results.bench import BenchBounds, BenchPoint
+from occ_model.results.bench import BenchBounds, BenchPoint, BenchRequest
 
 RATES, BITS = "rates", "bits"  # what is drawn: bit error rates, or bits a second
 
@@ -196,3 +203,51 @@ def _draw(curve: _Curve, points: Sequence[Drawn]) -> None:
     curve.intervals.setData(at, [end for point in points for end in (point.low, point.high)])
     unseen = [point for point in points if math.isnan(point.value)]
     curve.unseen.setData([point.at for point in unseen], [point.high for point in unseen])
+
+
+class BenchTable(QTableWidget):
+    """Bit error rates or bits a second, with their intervals; why nothing is read as a tooltip."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._places: dict[tuple[str, float, float], int] = {}
+        self._decoders: tuple[str, ...] = ()
+        self.setAccessibleName("Table of the bench")
+        self.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
+        self.setAlternatingRowColors(True)
+        self.verticalHeader().hide()
+
+    def show_begun(self, request: BenchRequest) -> None:
+        self.clear()
+        self._decoders = request.decoders
+        self._places = {point[1:]: row for row, point in enumerate(request.points)}
+        self.setRowCount(len(request.points))
+        self.setColumnCount(2 + len(request.decoders))
+        self.setHorizontalHeaderLabels(["exposure (symbols)", "SNR (dB)", *request.decoders])
+        for row, (_, _, exposure, decibels) in enumerate(request.points):
+            for column, value in enumerate((exposure, decibels)):
+                self._put(row, column, f"{value:g}")
+        header = self.horizontalHeader()
+        header.setSectionResizeMode(QHeaderView.ResizeMode.Stretch)
+        for column in (0, 1):
+            header.setSectionResizeMode(column, QHeaderView.ResizeMode.ResizeToContents)
+
+    def show_points(self, points: Sequence[BenchPoint], what: str, frames_a_second: float) -> None:
+        for point in points:
+            row = self._places[point.axis, point.exposure, point.decibels]
+            column = 2 + self._decoders.index(point.errors.decoder)
+            self._put(row, column, cell_text(point, what, frames_a_second), point.explanation)
+
+    def _put(self, row: int, column: int, text: str, tip: str = "") -> None:
+        item = QTableWidgetItem(text)
+        item.setTextAlignment(Qt.AlignmentFlag.AlignCenter)
+        item.setToolTip(tip)
+        self.setItem(row, column, item)
+
+
+def cell_text(point: BenchPoint, what: str, frames_a_second: float) -> str:
+    errors = point.errors
+    if what == RATES:
+        return f"{errors.rate:.2g} ({errors.low:.2g} – {errors.high:.2g})"  # noqa: RUF001
+    low, high = errors.bits_a_second_interval(frames_a_second)
+    return f"{errors.bits_a_second(frames_a_second):,.0f} ({low:,.0f} – {high:,.0f})"  # noqa: RUF001

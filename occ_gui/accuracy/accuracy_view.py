@@ -9,17 +9,12 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from occ_gui.accuracy.accuracy_plot import AccuracyPlot
 from occ_gui.accuracy.cost_measurement import SceneCosts
-from occ_gui.accuracy.cost_sentences import (
-    ends_sentence,
-    forecast_sentence,
-    picture_sentence,
-    switch_sentence,
-)
+from occ_gui.accuracy.cost_sentences import ends_sentence, forecast_sentence, picture_sentence
 from occ_gui.accuracy.effect_detail import EffectDetail
-from occ_gui.accuracy.effect_rows import rows_of
+from occ_gui.accuracy.effect_rows import rows_of, slowest_of
 from occ_gui.accuracy.effect_table import EffectTable
 from occ_gui.accuracy.panels import Panel, Panels
-from occ_gui.accuracy.row_order import slowest_of
+from occ_gui.accuracy.plan_changes import switch_sentence
 from occ_gui.accuracy.tolerance_slider import ToleranceSlider, marks_of
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.values.simulated import SimulationRequest
@@ -99,11 +94,6 @@ class AccuracyView(QWidget):
             Panel("Ways to compute", self.plot, _PLOT_WIDTH, 3),
             Panel("Selected effect", self.detail, _DETAIL_WIDTH, 2),
         )
-        # What the study tells is shown by the plot alone.
-        self.show_study_begun, self.show_point = self.plot.show_study_begun, self.plot.show_point
-        self.show_study_finished = self.plot.show_study_finished
-        self.show_study_outdated = self.plot.show_study_outdated
-        self.show_study_failed = self.plot.show_study_failed
         self._lay_out()
 
     def _lay_out(self) -> None:

@@ -1,59 +1,29 @@
 """Controller of the accuracy study: it runs while the scene is unchanged and the pane visible."""
 
-from dataclasses import dataclass
-from typing import Protocol
+from typing import TypeAlias
 
 from PySide6.QtCore import QObject, QTimer
 
+from occ_gui.accuracy.accuracy_view import AccuracyView
 from occ_gui.accuracy.cost_measurement import CostMeasurement, Measured, SceneCosts
 from occ_gui.background.task import Task
 from occ_gui.scene.scene_store import SceneStore
-from occ_gui.scene.settings_store import SettingsStore
 from occ_gui.simulation.controller import SimulationController
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.values.simulated import SimulationRequest
-from occ_model.results.accuracy import AccuracyPoint
 from occ_model.results.effect_costs import Forecast, MeasuredCosts, TimeShares
 from occ_model.study.forecast import forecast
 
 IDLE_MS = 700  # milliseconds without a change after which the study starts
 
 
-class AccuracyPane(Protocol):
-    def show_costs(self, costs: SceneCosts) -> None: ...
-
-    def show_forecast(self, request: SimulationRequest, expected: Forecast) -> None:
-        """Show what a picture with the present settings would take, and how exact it would be."""
-
-    def show_study_begun(self) -> None: ...
-
-    def show_point(self, point: AccuracyPoint, number: int, total: int) -> None: ...
-
-    def show_study_finished(self) -> None: ...
-
-    def show_study_outdated(self) -> None:
-        """Show that the points belong to an earlier scene, and that no more will be measured."""
-
-    def show_study_failed(self, sentence: str) -> None: ...
+_Asked: TypeAlias = tuple[SimulationRequest, MeasuredCosts]
+"""A simulation whose time and error are to be predicted from what was measured."""
 
 
-@dataclass(frozen=True, slots=True)
-class ForecastRequest:
-    """A simulation whose time and error are to be predicted from what was measured."""
-
-    request: SimulationRequest
-    costs: MeasuredCosts
-
-
-@dataclass(frozen=True, slots=True)
-class _Predicted:
-    request: SimulationRequest
-    expected: Forecast
-
-
-def _predict(asked: ForecastRequest) -> _Predicted:
-    request = asked.request
-    return _Predicted(request, forecast(request.scene, request.settings, asked.costs))
+def _predict(asked: _Asked, _report: object) -> tuple[SimulationRequest, Forecast]:
+    request, costs = asked
+    return request, forecast(request.scene, request.settings, costs)
 
 
 class AccuracyController(QObject):
@@ -66,17 +36,10 @@ class AccuracyController(QObject):
     """
 
     def __init__(
-        self,
-        scenes: SceneStore,
-        settings: SettingsStore,
-        simulation: SimulationController,
-        pane: AccuracyPane,
+        self, scenes: SceneStore, simulation: SimulationController, pane: AccuracyView
     ) -> None:
         super().__init__()
-        self._scenes = scenes
-        self._settings = settings
-        self._simulation = simulation
-        self._pane = pane
+        self._scenes, self._simulation, self._pane = scenes, simulation, pane
         self._seen = False
         self._done: SimulationRequest | None = None
         self._count = 0
@@ -90,11 +53,11 @@ class AccuracyController(QObject):
         self.runner.reported.connect(self._show)
         self.runner.finished.connect(self._finish)
         self.runner.failed.connect(self._fail)
-        self.forecasts: Task[ForecastRequest, _Predicted] = Task(
-            lambda request, _: _predict(request), "forecast of costs"
+        self.forecasts: Task[_Asked, tuple[SimulationRequest, Forecast]] = Task(
+            _predict, "forecast of costs"
         )
-        self.forecasts.finished.connect(self._show_forecast)
-        for store in (scenes, settings):
+        self.forecasts.finished.connect(lambda found: pane.show_forecast(*found))
+        for store in (scenes, scenes.settings):
             store.changed.connect(self._restart)
         simulation.runner.idle.connect(self._wait_until_idle)
 
@@ -104,7 +67,7 @@ class AccuracyController(QObject):
         return not busy and self.forecasts.is_idle
 
     def _request(self) -> SimulationRequest:
-        return SimulationRequest(self._scenes.scene, self._settings.settings)
+        return SimulationRequest(self._scenes.scene, self._scenes.settings.settings)
 
     def set_seen(self, seen: bool) -> None:
         """Measure while the pane is visible, and stop when it is hidden."""
@@ -116,13 +79,13 @@ class AccuracyController(QObject):
         self._idle_timer.stop()
         if not self.runner.is_idle:
             self.runner.cancel()
-            self._pane.show_study_outdated()
+            self._pane.plot.show_study_outdated()
 
     def _restart(self) -> None:
         self._idle_timer.stop()
         self.runner.cancel()
         self._done = None
-        self._pane.show_study_outdated()
+        self._pane.plot.show_study_outdated()
         self._predict()
         self._wait_until_idle()
 
@@ -138,10 +101,7 @@ class AccuracyController(QObject):
             return
         times = TimeShares.of(snapshot.frame)
         costs = MeasuredCosts(times) if self._costs is None else self._costs.of(request, times)
-        self.forecasts.ask(ForecastRequest(request, costs))
-
-    def _show_forecast(self, found: _Predicted) -> None:
-        self._pane.show_forecast(found.request, found.expected)
+        self.forecasts.ask((request, costs))
 
     def _wait_until_idle(self) -> None:
         if self._seen and self.runner.is_idle and self._done is None:
@@ -152,7 +112,7 @@ class AccuracyController(QObject):
             return  # it starts again when the simulation is idle
         self._count = 0
         self.runner.ask(self._request())
-        self._pane.show_study_begun()
+        self._pane.plot.show_study_begun()
 
     def _show(self, found: SceneCosts | Measured) -> None:
         if isinstance(found, SceneCosts):
@@ -161,15 +121,15 @@ class AccuracyController(QObject):
             self._predict()
             return
         self._count += 1
-        self._pane.show_point(found.point, self._count, found.total)
+        self._pane.plot.show_point(found.point, self._count, found.total)
 
     def _finish(self, _result: object) -> None:
         self._done = self._request()
-        self._pane.show_study_finished()
+        self._pane.plot.show_study_finished()
 
     def _fail(self, sentence: str) -> None:
         self._done = self._request()  # it would fail again
-        self._pane.show_study_failed(sentence)
+        self._pane.plot.show_study_failed(sentence)
 
     def stop(self) -> None:
         self._idle_timer.stop()

@@ -1,12 +1,10 @@
 """Sentences on what a picture costs, and on what another would."""
 
 import math
-from collections.abc import Sequence
 
 from occ_gui.accuracy.effect_rows import levels, milliseconds
 from occ_model.results.effect_costs import Forecast, MeasuredCosts, TimeShares
 from occ_model.results.frame import Frame
-from occ_model.results.plan import Decision
 
 
 def picture_sentence(costs: MeasuredCosts, made: float, expected: Forecast | None) -> str:
@@ -73,13 +71,3 @@ def _promise(expected: Forecast) -> str:
     if off_by_hand or plan.tolerance == math.inf:
         return "error not measured yet"
     return f"error about {levels(plan.left_out)} {plan.unit} (estimated)"
-
-
-def switch_sentence(switched: Sequence[Decision]) -> str:
-    """Name the effects that were switched; what each takes stands in the table, and only there."""
-    parts = []
-    for included, way in ((True, "in"), (False, "out")):
-        labels = [decision.label for decision in switched if decision.included is included]
-        if labels:
-            parts.append(f"Switched {way}: {', '.join(labels)}")
-    return ". ".join(parts)

@@ -16,18 +16,20 @@ from PySide6.QtGui import QColor, QMouseEvent, QPalette, QResizeEvent
 from PySide6.QtWidgets import QComboBox, QHeaderView, QTableView
 
 from occ_gui.accuracy.effect_cells import ErrorCell, PictureCell, TimeCell, levels_at
-from occ_gui.accuracy.effect_rows import ELSE, EffectRow, longest_of
-from occ_gui.accuracy.row_order import (
+from occ_gui.accuracy.effect_rows import (
     AS_LIGHT_TRAVELS,
     EFFECT,
+    ELSE,
     ERROR,
     PICTURE,
     SORTED,
     STAGE,
     SWITCH,
     TIME,
+    EffectRow,
     Order,
     arranged,
+    longest_of,
 )
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
 from occ_gui.widgets.pens import REGION

@@ -24,7 +24,7 @@ class AccuracyPane(Pane[AccuracyPart]):
         super().__init__(view)
         settings = scenes.settings
         self.made_of = dict.fromkeys(view.of_scene, of_snapshot)
-        self.study = AccuracyController(scenes, settings, simulation, view)
+        self.study = AccuracyController(scenes, simulation, view)
         self.measures = (self.study,)
         self._snapshot: Snapshot | None = None
         view.tolerance_edited.connect(settings.set_tolerance)

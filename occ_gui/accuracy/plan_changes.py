@@ -1,5 +1,7 @@
 """Changes of the simulation plan: the effects that it last switched in or out."""
 
+from collections.abc import Sequence
+
 from PySide6.QtCore import QObject, QTimer, Signal
 
 from occ_gui.simulation.snapshot import Snapshot
@@ -9,29 +11,6 @@ from occ_model.results.plan import Decision
 _NEW_MS = 8000  # for how long what the plan has switched is marked, and stated in the status line
 
 
-class PlanChanges:
-    """Compares each picture's plan with that of the previous picture."""
-
-    def __init__(self) -> None:
-        self._last: Frame | None = None
-        self.switched: tuple[Decision, ...] = ()
-        """The new decisions on the effects of the latest change, until they are forgotten."""
-
-    def update(self, frame: Frame) -> bool:
-        """Compare the next picture; return whether its plan includes other effects."""
-        last, self._last = self._last, frame
-        if last is None:
-            return False
-        before, after = set(last.plan.included), set(frame.plan.included)
-        if before == after:
-            return False
-        self.switched = tuple(d for d in frame.plan.decisions if d.effect in before ^ after)
-        return True
-
-    def forget(self) -> None:
-        self.switched = ()
-
-
 class PlanNews(QObject):
     """Tells for a while what the plan of the latest picture has switched."""
 
@@ -39,16 +18,31 @@ class PlanNews(QObject):
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
-        self._changes = PlanChanges()
+        self._last: Frame | None = None
         self._forgetting = QTimer(self, singleShot=True)
         self._forgetting.setInterval(_NEW_MS)
         self._forgetting.timeout.connect(self._forget)
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
-        if self._changes.update(snapshot.frame):
-            self.changed.emit(self._changes.switched)
+        """Compare the plan of the next picture with that of the one before."""
+        last, self._last = self._last, snapshot.frame
+        if last is None:
+            return
+        plan = snapshot.frame.plan
+        switched = set(last.plan.included) ^ set(plan.included)
+        if switched:
+            self.changed.emit(tuple(d for d in plan.decisions if d.effect in switched))
             self._forgetting.start()
 
     def _forget(self) -> None:
-        self._changes.forget()
         self.changed.emit(())
+
+
+def switch_sentence(switched: Sequence[Decision]) -> str:
+    """Name the effects that were switched; what each takes stands in the table, and only there."""
+    parts = []
+    for included, way in ((True, "in"), (False, "out")):
+        labels = [decision.label for decision in switched if decision.included is included]
+        if labels:
+            parts.append(f"Switched {way}: {', '.join(labels)}")
+    return ". ".join(parts)

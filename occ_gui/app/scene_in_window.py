@@ -4,7 +4,7 @@ from typing import Any
 
 from PySide6.QtCore import QObject
 
-from occ_gui.accuracy.plan_changes import PlanNews
+from occ_gui.accuracy.plan_changes import PlanNews, switch_sentence
 from occ_gui.app.parts import Parts
 from occ_gui.picture.before_controller import BeforeController
 from occ_gui.scene.control_panel import MAIN
@@ -68,7 +68,6 @@ class SceneInWindow(QObject):
 
     def _tell_switched(self, switched: tuple[Decision, ...]) -> None:
         # Not at the start: it imports all of the accuracy study's results.
-        from occ_gui.accuracy.cost_sentences import switch_sentence
 
         self._parts.window.show_plan_change(switch_sentence(switched) if switched else "")
 

@@ -7,9 +7,8 @@ from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QFormLayout, QLabel, QSizePolicy, QTabBar, QVBoxLayout, QWidget
 
-from occ_gui.decoding.bit_strip import BitStrip
+from occ_gui.decoding.bit_strip import BitStrip, PayloadText
 from occ_gui.decoding.decode_steps import RunLengthPlot, SignalPlot
-from occ_gui.decoding.payload_text import PayloadText
 from occ_gui.simulation.snapshot import Reading
 from occ_gui.simulation.verdict import is_right, left_out_in_words, result_of, verdict_on
 from occ_gui.widgets.named import paragraph

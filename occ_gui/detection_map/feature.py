@@ -42,7 +42,7 @@ def map_figure(store: Store) -> Figure:
             raise NothingToDraw(
                 "The detection map is not complete yet: open its pane and wait a moment."
             )
-        from occ_gui.detection_map.sweep_table import table_of
+        from occ_gui.detection_map.map_schedule import table_of
 
         workspace = store.workspace
         table, what = table_of(*there, workspace.frame_rate), workspace.shown

@@ -1,84 +1,27 @@
 """Controller of the detection map: it measures success rates while the map is seen."""
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from functools import partial
-from typing import Any, Protocol
 
-import numpy as np
 from PySide6.QtCore import QObject
 
 from occ_gui.background.result_age import ResultAges
 from occ_gui.background.signals import JobChannel
 from occ_gui.core.store import NO_GESTURE
-from occ_gui.detection_map.map_schedule import IMAGES, SHAPE, map_request, map_stages
-from occ_gui.detection_map.rate_map import PointFacts, RateMap, TheoryFields, lattice
+from occ_gui.detection_map.map_schedule import MapRequest
+from occ_gui.detection_map.map_view import MapView
+from occ_gui.detection_map.rate_map import PointFacts, RateMap, TheoryFields
 from occ_gui.detection_map.worker import UNSEEN, left_out
 from occ_gui.scene.scene_store import SceneStore
-from occ_model.arrays import FloatArray
-from occ_model.parallel.job import Stage
-from occ_model.receiver.decoders import QUICK_DECODERS
-from occ_model.results.sweep_request import Shown, SweepPoint
+from occ_model.results.sweep_request import SweepPoint
 from occ_model.scene.parameters import quantity
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.study.sweep.counts import rate_intervals
 from occ_model.study.sweep.points import MeasuredPoints
 
 FIRST_AXES = ("switching_frequency", "distance")
 
 
-class MapPane(Protocol):
-    def show_axes(self, x: str, y: str) -> None: ...
-
-    def show_map(self, rates: RateMap) -> None: ...
-
-    def show_scene(self, scene: Scene) -> None: ...
-
-    def show_progress(self, known: int, total: int, images: int) -> None:
-        """Show how many points are known, and the least number of images of any of them."""
-
-    def show_failure(self, sentence: str) -> None:
-        """Show why the map is not of the current scene, or what happened meanwhile."""
-
-    def show_age(self, age: float) -> None:
-        """Show for how many seconds the map has been of an earlier scene; zero if it is not."""
-
-    def show_left_out(self, effects: tuple[str, ...]) -> None: ...
-
-    def show_facts(self, facts: PointFacts | None) -> None: ...
-
-    def show_bits(self, shown: Shown, frames_a_second: float) -> None: ...
-
-
-@dataclass(frozen=True, slots=True)
-class MapRequest:
-    scene: Scene  # the scene, with everything that the map does not depend on at its default
-    x: str
-    y: str
-    settings: SimulationSettings
-    # Whether rows of the picture are simulated where the scene calls for them
-    with_image_effects: bool
-
-    def stages(
-        self, images: Any, with_theory: bool, found_slow: Callable[[], object] = lambda: None
-    ) -> Iterator[Stage]:
-        """Return the stages of the work that is left; say if even the first points take long."""
-        requests = tuple(
-            map_request(
-                self.scene, self.x, self.y, self.settings, QUICK_DECODERS,
-                images=number, with_image_effects=self.with_image_effects,
-            )
-            for number in IMAGES
-        )  # fmt: skip
-        slow = self.with_image_effects and bool(left_out(self.scene, self.settings))
-        if slow:
-            found_slow()
-        return map_stages(requests, images, with_theory, slow)
-
-
 class DetectionMapController(QObject):
-    def __init__(self, scenes: SceneStore, channel: JobChannel, pane: MapPane) -> None:
+    def __init__(self, scenes: SceneStore, channel: JobChannel, pane: MapView) -> None:
         super().__init__()
         self._scenes = scenes
         self.channel, self._pane = channel, pane
@@ -162,23 +105,11 @@ class DetectionMapController(QObject):
         self._asked = request
         self._pane.show_failure("")
         held = self.map if request == self._shown else None
-        known = self._empty(request) if held is None else held
+        known = request.empty_map() if held is None else held
         self._awaited = request if held is None else None
         found_slow = partial(self._wait_no_more, request)
         stages = partial(request.stages, known.images.copy(), known.theory is None, found_slow)
         self.channel.put(request, stages)
-
-    def _empty(self, request: MapRequest) -> RateMap:
-        x, y = request.x, request.y
-        values = (lattice(x, SHAPE[0]), lattice(y, SHAPE[1]))
-        camera = request.scene.camera
-        readout: list[FloatArray] = [
-            np.array(along) if name == "readout_time" else np.array([camera.readout_time])
-            for name, along in zip((x, y), values, strict=True)
-        ]
-        # Only one of the axes can be the readout time.
-        times = readout[0][:, None] * readout[1] / camera.readout_time * camera.columns
-        return RateMap(x, y, *values, QUICK_DECODERS, times)
 
     def _show_left_out(self) -> None:
         scene, settings = self._scenes.scene, self._scenes.settings.settings
@@ -191,7 +122,7 @@ class DetectionMapController(QObject):
     def _take(self, request: MapRequest, results: list[MeasuredPoints | TheoryFields]) -> None:
         self._wait_no_more(request)
         if request != self._shown or self.map is None:
-            self.map, self._shown = self._empty(request), request
+            self.map, self._shown = request.empty_map(), request
         for result in results:
             if isinstance(result, TheoryFields):
                 self.map.theory = result

@@ -1,6 +1,8 @@
 """Map of one decoder over two parameters: rates, axes, theoretical limits, current setting."""
 
+import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import (
@@ -17,10 +19,57 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from occ_gui.detection_map.axis_ticks import axis_title, ticks
 from occ_gui.widgets.guarded_paint import guarded
+from occ_gui.widgets.round_step import round_step
 from occ_model.arrays import FloatArray, IndexArray
 from occ_model.scene.parameter_kinds import Quantity
+
+
+@dataclass(frozen=True, slots=True)
+class Tick:
+    place: float  # position along the slider, from 0 to 1
+    text: str  # the number, in the axis's unit
+
+
+def axis_unit(quantity: Quantity) -> tuple[str, float]:
+    """Choose the unit of an axis: its symbol and its factor in SI units."""
+    low, high = quantity.slider
+    middle = math.sqrt(low * high) if quantity.scale == "log" else max(abs(low), abs(high))
+    return quantity.unit.display(middle)
+
+
+def axis_title(quantity: Quantity, short: bool = False) -> str:
+    """Return the title of an axis with its unit; a short one uses the quantity's symbol if any."""
+    symbol = axis_unit(quantity)[0]
+    name = quantity.symbol.replace("_", "") if short and quantity.symbol else quantity.label
+    return f"{name} ({symbol})" if symbol else name
+
+
+def ticks(quantity: Quantity, most: int) -> list[Tick]:
+    factor = axis_unit(quantity)[1]
+    values = _log_values if quantity.scale == "log" else _linear_values
+    low, high = (end / factor for end in quantity.slider)
+    chosen = values(low, high, max(2, most))
+    return [Tick(quantity.fraction(value * factor), f"{value:g}") for value in chosen]
+
+
+def _log_values(low: float, high: float, most: int) -> list[float]:
+    powers = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
+    found: list[float] = []
+    for steps in ((1.0, 2.0, 5.0), (1.0, 3.0), (1.0,)):
+        # Rounded as decimal text: 2e-05, not 2.0000000000000003e-05.
+        values = [float(f"{step}e{power}") for power in powers for step in steps]
+        found = [v for v in values if low * (1 - 1e-9) <= v <= high * (1 + 1e-9)]
+        if len(found) <= most:
+            break
+    return found[:: math.ceil(len(found) / most)] if found else [low, high]
+
+
+def _linear_values(low: float, high: float, most: int) -> list[float]:
+    step = round_step((high - low) / most)
+    first, last = math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9)
+    return [float(f"{number * step:.12g}") for number in range(first, last + 1)]
+
 
 STYLES: dict[str, Qt.PenStyle] = {
     "band": Qt.PenStyle.SolidLine,

@@ -1,17 +1,22 @@
-"""Stages of a detection map: a coarse map first, then all points, then more images of each."""
+"""A detection map as work: what is asked, its stages from coarse to sure, and its table."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, replace
 from itertools import groupby, islice
 
 import numpy as np
 
-from occ_gui.detection_map.rate_map import STRIDES, lattice
-from occ_gui.detection_map.worker import rate_settings, theory_fields
-from occ_model.arrays import IndexArray
+from occ_gui.detection_map.rate_map import STRIDES, RateMap, lattice
+from occ_gui.detection_map.worker import left_out, rate_settings, theory_fields
+from occ_model.arrays import FloatArray, IndexArray
 from occ_model.parallel.job import Job, Stage
-from occ_model.results.sweep_request import SweepRequest
+from occ_model.receiver.decoders import QUICK_DECODERS
+from occ_model.results.bit_errors import FRAMES_A_SECOND
+from occ_model.results.sweep import SweepTable
+from occ_model.results.sweep_request import SweepPoint, SweepRequest
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.study.sweep.counts import rate_intervals
 from occ_model.study.sweep.points import measure_points
 
 SHAPE = (25, 13)
@@ -27,19 +32,63 @@ _THEORY_SHAPES = ((7, 5), (17, 9))
 """Points along both axes at which the limits of theory are computed, at first and then."""
 
 
-def map_request(
-    scene: Scene,
-    x: str,
-    y: str,
-    settings: SimulationSettings,
-    decoders: tuple[str, ...],
-    *,
-    images: int = IMAGES[0],
-    with_image_effects: bool = True,
-) -> SweepRequest:
-    axes = {x: lattice(x, SHAPE[0]), y: lattice(y, SHAPE[1])}
-    measured = rate_settings(settings, images, decoders, with_image_effects)
-    return SweepRequest(scene, axes, measured)
+@dataclass(frozen=True, slots=True)
+class MapRequest:
+    scene: Scene  # the scene, with everything that the map does not depend on at its default
+    x: str
+    y: str
+    settings: SimulationSettings
+    # Whether rows of the picture are simulated where the scene calls for them
+    with_image_effects: bool = True
+
+    def empty_map(self) -> RateMap:
+        values = (lattice(self.x, SHAPE[0]), lattice(self.y, SHAPE[1]))
+        camera = self.scene.camera
+        readout: list[FloatArray] = [
+            np.array(along) if name == "readout_time" else np.array([camera.readout_time])
+            for name, along in zip((self.x, self.y), values, strict=True)
+        ]
+        # Only one of the axes can be the readout time.
+        times = readout[0][:, None] * readout[1] / camera.readout_time * camera.columns
+        return RateMap(self.x, self.y, *values, QUICK_DECODERS, times)
+
+    def sweep(self, images: int, decoders: tuple[str, ...] = QUICK_DECODERS) -> SweepRequest:
+        axes = {self.x: lattice(self.x, SHAPE[0]), self.y: lattice(self.y, SHAPE[1])}
+        measured = rate_settings(self.settings, images, decoders, self.with_image_effects)
+        return SweepRequest(self.scene, axes, measured)
+
+    def stages(
+        self,
+        images: IndexArray,
+        with_theory: bool,
+        found_slow: Callable[[], object] = lambda: None,
+    ) -> Iterator[Stage]:
+        """Return the stages of the work that is left; say if even the first points take long."""
+        slow = self.with_image_effects and bool(left_out(self.scene, self.settings))
+        if slow:
+            found_slow()
+        return map_stages(tuple(map(self.sweep, IMAGES)), images, with_theory, slow)
+
+
+def table_of(
+    rates: RateMap, asked: MapRequest, frames_a_second: float = FRAMES_A_SECOND
+) -> SweepTable:
+    """Return a complete map as a table; later points do not change it."""
+    request = asked.sweep(rates.least_images, rates.decoders)
+    settings = replace(request.settings, frames_a_second=frames_a_second)
+    sent, right = rates.sent.copy(), rates.right.copy()
+    ends = np.array(
+        [
+            rate_intervals(SweepPoint(index, int(bits), tuple(map(int, read))), settings.images)
+            for index, (bits, read) in enumerate(
+                zip(sent.ravel(), right.reshape(sent.size, -1), strict=True)
+            )
+        ]
+    ).reshape(*right.shape, 2)
+    return SweepTable(
+        replace(request, settings=settings), sent, right, ends[..., 0], ends[..., 1],
+        dict(rates.notes), rates.whole.copy(),
+    )  # fmt: skip
 
 
 def map_stages(

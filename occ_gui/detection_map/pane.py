@@ -4,10 +4,9 @@ from dataclasses import replace
 
 from PySide6.QtCore import Signal
 
-from occ_gui.detection_map.advice_controller import AdvisorController
 from occ_gui.detection_map.map_controller import DetectionMapController
 from occ_gui.detection_map.map_view import MapView
-from occ_gui.detection_map.most_bits_controller import MostBitsController
+from occ_gui.detection_map.search_controller import AdvisorController, MostBitsController
 from occ_gui.detection_map.wiring import Measuring
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Pane

@@ -1,6 +1,6 @@
 """Strips as tracks of the sliders: the fraction of bits that a decoder would read along each."""
 
-from typing import TYPE_CHECKING
+from dataclasses import dataclass
 
 import numpy as np
 from PySide6.QtCore import QEvent, QObject, QPointF, QRectF, QSize, Qt, QTimer, Signal
@@ -14,9 +14,6 @@ from occ_gui.widgets.guarded_paint import guarded
 from occ_gui.widgets.outdated_mark import DELAY
 from occ_model.scene.parameters import PARAMETERS
 
-if TYPE_CHECKING:
-    from occ_gui.detection_map.own_rate_controller import OwnRate
-
 IMAGES = 5  # pictures of a position: as many as a point of the map has in the end
 
 _HEIGHT = 6
@@ -25,6 +22,17 @@ _BAR, _GAP = QSize(56, 6), 6  # of the legend: its bar, and pixels beside it
 _OUTDATED_OPACITY = 0.35
 
 _AT_HANDLE = 3  # pixels that the present scene's colour is seen on either side of the handle
+
+
+@dataclass(frozen=True, slots=True)
+class OwnRate:
+    """The fraction of right bits, from 0 to 1, with its 95 % interval, in so many pictures."""
+
+    share: float
+    low: float
+    high: float
+    images: int
+    whole: int
 
 
 class SliderStrip(QWidget):
@@ -74,7 +82,7 @@ class SliderStrip(QWidget):
         self._explain()
         self.update()
 
-    def show_present(self, rate: "OwnRate | None") -> None:
+    def show_present(self, rate: OwnRate | None) -> None:
         """Show the rate at the scene's own value, which the handle stands at; None if unknown."""
         if rate != self.present:
             self.present = rate
@@ -215,7 +223,7 @@ class SliderStrips(QObject):
         """Show the fraction of bits read correctly at positions of a slider, None if not known."""
         self.strips[name].show_shares(shares)
 
-    def show_present(self, rate: "OwnRate | None") -> None:
+    def show_present(self, rate: OwnRate | None) -> None:
         for strip in self.strips.values():
             strip.show_present(rate)
 

@@ -1,29 +1,96 @@
-"""Controller of the slider strips: it measures success rates along each of the main sliders."""
+"""Success rates along each of the main sliders, and at the scene's own values, once it rests."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 from functools import partial
-from typing import Protocol
+from typing import Any
 
+from PySide6.QtCore import QObject, QTimer, Signal
+
+from occ_gui.background.result_age import PAUSE
 from occ_gui.background.signals import JobChannel
 from occ_gui.detection_map.rate_map import lattice
-from occ_gui.detection_map.resting_controller import RateRequest, RestingController
-from occ_gui.detection_map.slider_strip import IMAGES
-from occ_gui.detection_map.worker import Along, left_out, measure_along, rate_settings
+from occ_gui.detection_map.slider_strip import IMAGES, OwnRate, SliderStrips
+from occ_gui.detection_map.worker import UNSEEN, Along, left_out, measure_along, rate_settings
 from occ_gui.scene.scene_store import SceneStore
 from occ_model.parallel.job import Job, Stage
+from occ_model.receiver.decoders import PAPER_DECODER
 from occ_model.results.sweep_request import SweepPoint
+from occ_model.scene.parameters import quantity
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.study.confidence import interval_of_pictures
+from occ_model.study.sweep.points import MeasuredPoints, measure_points
+
+
+@dataclass(frozen=True, slots=True)
+class RateRequest:
+    scene: Scene
+    settings: SimulationSettings
+    decoder: str
+
+    def along(self, name: str) -> "RateRequest":
+        """Return the request of one slider's strip, which does not depend on the slider itself."""
+        given = {**UNSEEN, name: quantity(name).default}
+        return replace(self, scene=self.scene.replace(**given))
+
+
+class RestingController(QObject):
+    """Measures, while it is seen, what the present scene, settings and decoder ask for.
+
+    A subclass says in :meth:`_move_on` what the present request changes, in :meth:`_measure` what
+    to put into the channel, and in :meth:`_take` what to do with results.
+    """
+
+    def __init__(self, scenes: SceneStore, channel: JobChannel) -> None:
+        super().__init__()
+        self._scenes, self._channel = scenes, channel
+        self._decoder = PAPER_DECODER
+        self._seen = False
+        self._asked: RateRequest | None = None
+        self._resting = QTimer(self, singleShot=True)
+        self._resting.setInterval(round(1e3 * PAUSE))
+        self._resting.timeout.connect(self._measure)
+        channel.results_ready.connect(self._take)
+        for store in (scenes, scenes.settings):
+            store.changed.connect(self._move_on)
+        decoder = scenes.store.select(lambda workspace: workspace.decoder)
+        decoder.changed.connect(self._move_on)
+
+    @property
+    def is_idle(self) -> bool:
+        return self._channel.is_idle and not self._resting.isActive()
+
+    def set_seen(self, seen: bool) -> None:
+        self._seen = seen
+        if seen:
+            self._move_on()
+        else:
+            self._resting.stop()
+            self._channel.cancel()
+            self._forget()
+
+    def _forget(self) -> None:
+        self._asked = None
+
+    def _present(self) -> RateRequest:
+        decoder = self._scenes.store.workspace.decoder
+        return RateRequest(self._scenes.scene, self._scenes.settings.settings, decoder)
+
+    def _move_on(self) -> None:
+        raise NotImplementedError
+
+    def _measure(self) -> None:
+        raise NotImplementedError
+
+    def _take(self, request: RateRequest, results: list[Any]) -> None:
+        raise NotImplementedError
+
 
 POSITIONS = 29
 
 STRIDES = (4, 1)  # distances between measured positions: a coarse strip first, then all positions
 RANKS = (3, 3)  # after all points of a map that is seen, before further images of them
-
-
-class SliderStripPane(Protocol):
-    def show_shares(self, name: str, shares: tuple[float | None, ...]) -> None:
-        """Show the fraction of correct bits at positions along a slider, None: not known."""
-
-    def show_outdated(self, name: str, outdated: bool) -> None: ...
 
 
 def strip_stages(
@@ -67,11 +134,8 @@ class SliderStripController(RestingController):
     once it rests: until then the cores are free for the picture that follows the slider.
     """
 
-    def __init__(
-        self, scenes: SceneStore, channel: JobChannel, pane: SliderStripPane, names: Iterable[str]
-    ) -> None:
+    def __init__(self, scenes: SceneStore, channel: JobChannel, pane: SliderStrips) -> None:
         self._pane = pane
-        self._names = tuple(names)
         self._known: dict[str, tuple[RateRequest, dict[int, float | None]]] = {}
         self._missing: dict[str, tuple[RateRequest, set[int]]] = {}
         super().__init__(scenes, channel)
@@ -83,7 +147,7 @@ class SliderStripController(RestingController):
         if request == self._asked:
             return
         is_first, self._asked = self._asked is None, request
-        for name in self._names:
+        for name in self._pane.strips:
             wanted = request.along(name)
             known = self._known.get(name)
             is_present = known is not None and known[0] == wanted
@@ -123,3 +187,60 @@ def _nearest(shares: Mapping[int, float | None], place: int) -> float | None:
     if place in shares:
         return shares[place]
     return shares.get(round(place / STRIDES[0]) * STRIDES[0])
+
+
+OWN_IMAGES = 20  # pictures of which the rate is: as many as those of the limits
+OWN_RANK = 1  # after a first answer of the map, before all else
+
+
+class OwnRateController(RestingController):
+    """Measures the rate of the present scene once it rests, while it is seen."""
+
+    changed = Signal(object)
+    """The rate, an :class:`OwnRate`; None where it is not known of the present scene."""
+
+    def __init__(self, scenes: SceneStore, channel: JobChannel) -> None:
+        super().__init__(scenes, channel)
+        self.rate: OwnRate | None = None
+
+    def _forget(self) -> None:
+        super()._forget()
+        self._show(None)
+
+    def _show(self, rate: OwnRate | None) -> None:
+        if rate != self.rate:
+            self.rate = rate
+            self.changed.emit(rate)
+
+    def _move_on(self) -> None:
+        present = self._present()
+        request = replace(present, scene=present.scene.replace(**UNSEEN))
+        if not self._seen or request == self._asked:
+            return
+        self._channel.cancel()
+        self._forget()
+        self._asked = request
+        self._resting.start()
+
+    def _measure(self) -> None:
+        if self._asked is not None:
+            self._channel.put(self._asked, partial(own_rate_stages, self._asked))
+
+    def _take(self, request: RateRequest, results: list[MeasuredPoints]) -> None:
+        if request == self._asked and results:
+            self._show(own_rate(results[-1]))
+
+
+def own_rate_stages(request: RateRequest) -> Iterator[Stage]:
+    settings = rate_settings(request.settings, OWN_IMAGES, (request.decoder,), True)
+    yield Stage(OWN_RANK, (Job(measure_points, (request.scene, settings, ((0, {}),))),))
+
+
+def own_rate(measured: MeasuredPoints) -> OwnRate | None:
+    """Return the rate of a single point; None where the model refuses it."""
+    (point,) = measured.points
+    if not point.sent:
+        return None
+    low, high = interval_of_pictures(point.right[0], point.sent, measured.images)
+    share, (whole,) = point.right[0] / point.sent, point.whole
+    return OwnRate(share, low / 100.0, high / 100.0, measured.images, whole)

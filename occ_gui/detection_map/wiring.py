@@ -11,8 +11,10 @@ from occ_gui.scene.scene_store import SceneStore
 
 if TYPE_CHECKING:
     from occ_gui.background.signals import JobChannel, WorkQueue
-    from occ_gui.detection_map.own_rate_controller import OwnRateController
-    from occ_gui.detection_map.slider_strip_controller import SliderStripController
+    from occ_gui.detection_map.slider_strip_controller import (
+        OwnRateController,
+        SliderStripController,
+    )
     from occ_model.parallel.job import Workers
 
 PROCESSES = 2
@@ -69,12 +71,11 @@ class Measuring(QObject):
     def slider_strips(self) -> "SliderStripController":
         from occ_gui.detection_map.slider_strip_controller import SliderStripController
 
-        strips = self._strips
-        return SliderStripController(self._scenes, self.channel("strips"), strips, strips.strips)
+        return SliderStripController(self._scenes, self.channel("strips"), self._strips)
 
     @cached_property
     def own_rate(self) -> "OwnRateController":
-        from occ_gui.detection_map.own_rate_controller import OwnRateController
+        from occ_gui.detection_map.slider_strip_controller import OwnRateController
 
         own = OwnRateController(self._scenes, self.channel("own rate"))
         own.changed.connect(self._strips.show_present)

@@ -13,7 +13,7 @@ _CONTROLS = {"controls": "guide.md#set-up-a-scene"}
 
 def manual(window: QMainWindow, shell: Shell, current_pane: Callable[[], str]) -> Feature[None]:
     def make() -> Service:
-        from occ_gui.help.manual import Manual
+        from occ_gui.help.help_window import Manual
 
         return Manual(window, current_pane, {**_CONTROLS, **shell.help_pages})
 

@@ -1,10 +1,21 @@
-"""A browser of local Markdown pages, with their pictures and with headings as link targets."""
+"""A browser of local Markdown pages: pictures, headings as link targets, and their look."""
 
 from PySide6.QtCore import QEvent, Qt, QUrl
-from PySide6.QtGui import QImage, QResizeEvent, QTextCursor, QTextDocument
+from PySide6.QtGui import (
+    QColor,
+    QImage,
+    QPalette,
+    QResizeEvent,
+    QTextBlock,
+    QTextBlockFormat,
+    QTextCursor,
+    QTextDocument,
+    QTextFormat,
+    QTextFrameFormat,
+    QTextTable,
+)
 from PySide6.QtWidgets import QTextBrowser
 
-from occ_gui.help.page_style import style_page
 from occ_gui.help.pages import heading_id
 
 _MARGIN = 12
@@ -82,3 +93,58 @@ class HelpBrowser(QTextBrowser):
 
     def _style(self) -> None:
         style_page(self.document(), self.palette())
+
+
+_CODE = QTextFormat.Property.BlockCodeFence
+_CODE_MARGIN, _HEADING_ABOVE, _NEAR = 14, 16, 4
+
+
+def style_page(document: QTextDocument, palette: QPalette) -> None:
+    """Set the margins of headings, the ground of code blocks and the lines of tables."""
+    ground, line = palette.alternateBase(), palette.mid().color()
+    tables: set[int] = set()
+    document.pageCount()  # lays out all: of a page changed before that Qt leaves out paragraphs
+    block = document.begin()
+    while block.isValid():
+        cursor = QTextCursor(block)
+        if block.blockFormat().headingLevel():
+            cursor.mergeBlockFormat(_heading_format())
+        elif block.blockFormat().hasProperty(_CODE):
+            code = _code_format(block)
+            code.setBackground(ground)
+            cursor.mergeBlockFormat(code)
+        elif (table := cursor.currentTable()) is not None and table.firstPosition() not in tables:
+            tables.add(table.firstPosition())
+            _style_table(table, line)
+        block = block.next()
+
+
+def _heading_format() -> QTextBlockFormat:
+    changes = QTextBlockFormat()
+    changes.setTopMargin(_HEADING_ABOVE)
+    changes.setBottomMargin(_NEAR)
+    return changes
+
+
+def _code_format(block: QTextBlock) -> QTextBlockFormat:
+    """Indent a line of code, keep the lines of a block together, and let a long one wrap."""
+    changes = QTextBlockFormat()
+    changes.setLeftMargin(_CODE_MARGIN)
+    changes.setNonBreakableLines(False)
+    if not block.previous().blockFormat().hasProperty(_CODE):
+        changes.setTopMargin(_NEAR)
+    if not block.next().blockFormat().hasProperty(_CODE):
+        changes.setBottomMargin(2 * _NEAR)
+    return changes
+
+
+def _style_table(table: QTextTable, line: QColor) -> None:
+    changes = table.format()
+    changes.setBorderCollapse(True)
+    changes.setBorder(1)
+    changes.setBorderStyle(QTextFrameFormat.BorderStyle.BorderStyle_Solid)
+    changes.setBorderBrush(line)
+    changes.setCellPadding(_NEAR)
+    changes.setTopMargin(_NEAR)
+    changes.setBottomMargin(2 * _NEAR)
+    table.setFormat(changes)

@@ -1,6 +1,8 @@
-"""The pages of the manual: where they are, their order."""
+"""The pages of the manual: where they are, their order, and the search in all of them."""
 
 import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 from occ_model.files.resources import resource_path
@@ -34,3 +36,52 @@ def pages(folder: Path) -> list[tuple[str, str]]:
 def heading_id(text: str) -> str:
     """Return the anchor of a heading, as the usual viewers of Markdown make it."""
     return re.sub(r"[^\w\- ]", "", text.strip().lower()).replace(" ", "-")
+
+
+_HEADING = re.compile(r"#+ (.+)")
+
+
+@dataclass(frozen=True, slots=True)
+class Section:
+    title: str
+    """The page's title in the table of contents, and the heading where it is not the page's own."""
+    link: str  # page and heading, such as ``guide.md#set-up-a-scene``
+    heading: str
+    text: str
+
+
+def sections(folder: Path) -> list[Section]:
+    """Read the sections of all pages but the table of contents, in its order."""
+    found = []
+    for title, name in pages(folder)[1:]:
+        parts = _parts((folder / name).read_text(encoding="utf-8"))
+        for place, (heading, text) in enumerate(parts):
+            shown, link = (title, name) if place == 0 else (f"{title}: {heading}", "")
+            found.append(Section(shown, link or f"{name}#{heading_id(heading)}", heading, text))
+    return found
+
+
+def _parts(page: str) -> Iterator[tuple[str, str]]:
+    """Divide a page into headings and the text below each; a comment in an example is neither."""
+    heading, lines, is_example = "", list[str](), False
+    for line in page.splitlines():
+        is_example ^= line.startswith("```")
+        match = None if is_example else _HEADING.match(line)
+        if match is None:
+            lines.append(line)
+            continue
+        if heading:
+            yield heading, "\n".join(lines)
+        heading, lines = match[1], []
+    yield heading, "\n".join(lines)
+
+
+def search(of: Sequence[Section], text: str) -> list[Section]:
+    """Return the sections that contain every word, those first whose headings do."""
+    words = text.lower().split()
+
+    def has_all(where: str) -> bool:
+        return all(word in where.lower() for word in words)
+
+    there = [section for section in of if has_all(f"{section.title}\n{section.text}")]
+    return sorted(there, key=lambda section: not has_all(section.title))

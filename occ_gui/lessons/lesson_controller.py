@@ -9,7 +9,6 @@ from occ_gui.core.store import Store
 from occ_gui.core.workspace import FIRST_SETTINGS, Workspace
 from occ_gui.files.file_controller import sample_photos
 from occ_gui.lessons.answers import LessonAnswers, MatchedPhoto
-from occ_gui.lessons.changed_scene import changed_sentence
 from occ_gui.lessons.lesson_view import LessonView
 from occ_gui.photo.photo_part import found_in
 from occ_gui.scene.gesture import new_gesture
@@ -19,6 +18,9 @@ from occ_gui.widgets.first_periods import PACKETS_IN_VIEW
 from occ_gui.widgets.plain_text import LONGEST
 from occ_model.errors import OccError, one_line
 from occ_model.results.lessons import Lesson, LessonList, Step
+from occ_model.scene.parameter_kinds import distinguished
+from occ_model.scene.parameters import PARAMETERS
+from occ_model.scene.scene import GROUPS, Scene
 from occ_model.teaching.explanations import explanation
 from occ_model.teaching.exposure_window import rolling_shutter
 from occ_model.teaching.lessons import lessons
@@ -279,3 +281,29 @@ class LessonController(QObject):
 
 def is_own(photo: PhotoChoice) -> bool:
     return photo.path not in {None, *sample_photos()}
+
+
+_MOST_NAMED = 2
+
+
+def changed_sentence(step: Step, scene: Scene) -> str:
+    """Say what differs from the step's scene, and what is about which.
+
+    Empty where the scene is that of the step or of its check, and where the step is about a photo,
+    whose match changes the scene when it is applied.
+    """
+    if step.own_photo or step.photo or scene in {step.scene, step.asked}:
+        return ""
+    changes = []
+    for name in (name for names in GROUPS.values() for name in names):
+        now, own = scene.value(name), step.scene.value(name)
+        if now != own:
+            texts = (text or "empty" for text in distinguished(PARAMETERS[name], now, own))
+            changes.append(f"{PARAMETERS[name].label} is {next(texts)} instead of {next(texts)}")
+    named = changes[:_MOST_NAMED]
+    if len(changes) > _MOST_NAMED:
+        named.append(f"{len(changes) - _MOST_NAMED} more")
+    return (
+        f"You have changed the scene: {' and '.join(named)}. Picture, formula, check and report "
+        "are of your scene; the numbers in the text are of the lesson's own."
+    )

@@ -2,15 +2,175 @@
 
 from collections.abc import Mapping, Sequence
 
-from PySide6.QtCore import QSize, Signal
-from PySide6.QtWidgets import QStackedWidget, QVBoxLayout, QWidget
+from PySide6.QtCore import QEvent, QSize, Signal
+from PySide6.QtWidgets import (
+    QHBoxLayout,
+    QLineEdit,
+    QPushButton,
+    QStackedWidget,
+    QVBoxLayout,
+    QWidget,
+)
 
-from occ_gui.lessons.end_page import EndPage
-from occ_gui.lessons.lesson_list import LessonList
 from occ_gui.lessons.step_page import LEAST, StepPage
+from occ_gui.lessons.texts import heading, paragraph
 from occ_gui.widgets.layouts import filled
+from occ_gui.widgets.named import push_button
+from occ_gui.widgets.plain_text import in_menu
 from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_model.results.lessons import CheckedAnswer, Lesson
+
+_LONGEST_NAME = 120
+
+
+class EndPage(QWidget):
+    """The answers of a lesson that is done, with buttons for the next one and the report."""
+
+    report_asked = Signal()
+    next_asked = Signal()
+    list_asked = Signal()
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.title, self.answers = heading(), paragraph()
+        self.report = push_button(
+            "Save the report…",
+            "Save one page with your answers and figures, as PDF.",
+            self.report_asked,
+        )
+        self.author = QLineEdit()
+        self.author.setPlaceholderText("Your name, for the report")
+        self.author.setAccessibleName("Your name, as it shall stand on the report")
+        self.author.setToolTip("The name that stands on the report; it is kept for the next one.")
+        self.author.setMaxLength(_LONGEST_NAME)
+        self.all = push_button(
+            "All lessons", "Go back to the list, and to your own scene.", self.list_asked
+        )
+        self.next = push_button(
+            "Next lesson", "Begin the lesson that follows in the list.", self.next_asked
+        )
+        content = QWidget()
+        filled(QVBoxLayout(content), self.title, self.answers, None, margins=8, spacing=8)
+        row = filled(QHBoxLayout(), margins=(8, 0, 8, 4), spacing=8)
+        named = filled(QHBoxLayout(), self.author, margins=(8, 0, 8, 4))
+        # Where the button was that ended the lesson stands one that a second click may press.
+        row.addWidget(self.report, 1)
+        row.addWidget(self.all, 1)
+        above = filled(QHBoxLayout(), self.next, margins=(8, 0, 8, 4))
+        filled(QVBoxLayout(self), (ScrollPane(content, LEAST), 1), above, named, row, margins=0)
+
+    def show_answers(
+        self, lesson: Lesson, answers: Sequence[CheckedAnswer | None], following: str
+    ) -> None:
+        self.next.setText(f"Next lesson: {following}")
+        self.next.setVisible(bool(following))
+        self.title.setText(f"Done: {lesson.title}")
+        lines = []
+        for place, (step, answer) in enumerate(zip(lesson.steps, answers, strict=True), 1):
+            given = "no answer"
+            if answer is not None:
+                given = f"{step.with_unit(answer.text)}. {answer.sentence}"
+            lines.append(f"{place}. {step.question}\n    {given}")
+        self.answers.setText("\n\n".join(lines))
+
+
+_LEFT = "text-align: left; padding: 8px;"
+
+
+class LessonList(QWidget):
+    """A button for each lesson, with its summary below."""
+
+    chosen = Signal(str)  # the name of the lesson to begin or continue
+    folder_asked = Signal()  # the folder of the user's own lessons is to be opened
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.choices: list[QPushButton] = []
+        self._boxes: list[QWidget] = []
+        self.message = paragraph()
+        self.problems = paragraph()
+        self._rows = QVBoxLayout()
+        self._rows.setSpacing(8)
+        self.folder = push_button(
+            "Folder of your own lessons",
+            "Open the folder of lessons of your own; the guide tells how to write one.",
+            self.folder_asked,
+        )
+        foot = filled(QHBoxLayout(), None, self.folder)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(8, 8, 8, 8)
+        layout.setSpacing(8)
+        layout.addWidget(heading("Lessons"))
+        layout.addWidget(self.message)
+        layout.addLayout(self._rows)
+        layout.addWidget(self.problems)
+        layout.addStretch()
+        layout.addLayout(foot)
+
+    def show_lessons(
+        self,
+        found: Sequence[Lesson],
+        reached: Mapping[str, int],
+        failure: str,
+        problems: Mapping[str, str],
+    ) -> None:
+        self.message.setText(
+            failure
+            or (
+                "Each step sets a scene and asks for something that you find by trying. At the end "
+                "your own scene returns."
+            )
+        )
+        self.problems.setText("\n".join(problems.values()))
+        self.problems.setVisible(bool(problems))
+        for box in self._boxes:
+            self._rows.removeWidget(box)
+            box.deleteLater()
+        self.choices, self._boxes = [], []
+        for lesson in (each for each in found if not each.is_sheet):
+            self._add(lesson, reached.get(lesson.name))
+        sheets = [each for each in found if each.is_sheet]
+        if sheets:
+            self._add_heading("Lab sheets")
+        for sheet in sheets:
+            self._add(sheet, reached.get(sheet.name))
+
+    def _add_heading(self, text: str) -> None:
+        label = heading(text)
+        self._boxes.append(label)
+        self._rows.addWidget(label)
+
+    def _add(self, lesson: Lesson, reached: int | None) -> None:
+        count = len(lesson.steps)
+        title = in_menu(lesson.title)
+        words = {None: f"{title}  ({count} steps)", count: f"✓  {title}"}
+        text = words.get(reached, f"{title}  (step {(reached or 0) + 1} of {count})")
+        choice = push_button(text, "Set the scene of its step and show its question.")
+        choice.setAccessibleDescription(lesson.summary)
+        choice.setStyleSheet(_LEFT)
+        choice.setProperty("lesson", lesson.name)
+        choice.clicked.connect(self._choose)
+        self.choices.append(choice)
+        box = QWidget()
+        self._boxes.append(box)
+        column = filled(QVBoxLayout(box), choice, margins=0, spacing=2)
+        if lesson.summary:
+            summary = paragraph(lesson.summary)
+            summary.setContentsMargins(8, 0, 8, 0)
+            column.addWidget(summary)
+        self._rows.addWidget(box)
+
+    def _choose(self) -> None:
+        self.chosen.emit(self.sender().property("lesson"))
+
+    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
+        """Follow the theme: a button with a style sheet keeps its first colours."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.PaletteChange:
+            for choice in self.choices:
+                choice.setStyleSheet("")
+                choice.setStyleSheet(_LEFT)
+
 
 _WANTED_HEIGHT = 320
 

@@ -1,8 +1,9 @@
-"""Column axis: the columns in view, shared by all rows of the story, and the column pointed at."""
+"""What all rows of the story share: the columns in view, the crosshair, and room for text."""
+
+from collections.abc import Sequence
 
 from PySide6.QtCore import QObject, Signal
-
-from occ_gui.story.measure_cursors import MeasureCursors
+from PySide6.QtGui import QFont, QFontMetrics
 
 GUTTER = 104
 """Pixels at the left of each row, for its name and its levels, in text of the usual size."""
@@ -10,6 +11,13 @@ GUTTER = 104
 MARGIN = 12  # pixels at the right of each row
 _LEAST_SPAN = 4.0  # fewest columns in view
 _MARGIN_FRACTION = 0.5  # most empty space beside the picture, as a part of what is in view
+
+_WIDEST_WORD = "chips"  # the widest of the words beside a row's name
+GAPS = 14  # pixels between and around a name and what stands beside it
+_WIDEST = 2 * GUTTER  # more would leave the columns too little room
+
+CURSOR_NAMES = ("1", "2")  # A and B are pins
+_START = (0.3, 0.6)  # where the cursors stand at first, as parts of what is in view
 
 
 class ColumnAxis(QObject):
@@ -98,6 +106,30 @@ class ColumnAxis(QObject):
             self.changed.emit()
 
 
+class MeasureCursors(QObject):
+    """Two columns that the user moves, or none while nothing is measured."""
+
+    changed = Signal()  # a cursor has moved, or they have been switched on or off
+
+    def __init__(self, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self.columns: list[float] = []  # empty while nothing is measured
+
+    def switch(self, on: bool, first: float, last: float) -> None:
+        self.columns = [first + part * (last - first) for part in _START] if on else []
+        self.changed.emit()
+
+    def move(self, place: int, column: float, columns: int) -> None:
+        if self.columns:
+            self.columns[place] = min(max(column, 0.0), columns - 1.0)
+            self.changed.emit()
+
+    def near(self, column: float, reach: float) -> int | None:
+        found = [(abs(each - column), place) for place, each in enumerate(self.columns)]
+        within = [pair for pair in found if pair[0] <= reach]
+        return min(within)[1] if within else None
+
+
 class Crosshair(QObject):
     """The column under the mouse, the column whose exposure is shown, and the cursors."""
 
@@ -139,3 +171,22 @@ class Crosshair(QObject):
     def read(self) -> int | None:
         """The column whose values are read out: that under the mouse, else the chosen one."""
         return self.column if self.pointed is None else self.pointed
+
+
+def line_height(metrics: QFontMetrics, usual: int, around: int = 2) -> int:
+    """Return the height of a line of text in pixels, with so many above and below it."""
+    return max(usual, metrics.height() + around)
+
+
+def gutter_of(font: QFont, names: Sequence[str]) -> int:
+    """Return the width in pixels that the names of the rows need, with what stands beside them."""
+    widest = max(needed_by(name, font) for name in names)
+    return min(max(GUTTER, widest + GAPS), _WIDEST)
+
+
+def needed_by(name: str, font: QFont) -> int:
+    """Return the width in pixels of a row's name and what stands beside it, without gaps."""
+    bold = QFont(font)
+    bold.setBold(True)
+    beside = QFontMetrics(font).horizontalAdvance(_WIDEST_WORD)
+    return QFontMetrics(bold).horizontalAdvance(name) + beside

@@ -1,13 +1,15 @@
-"""Values of one column: its time, the light, the grey level, and what was read there."""
+"""Values of one column, and what is measured between two of them."""
 
 from dataclasses import dataclass
 
 from occ_gui.story.code_row import CodeRow
+from occ_gui.story.column_axis import MeasureCursors
 from occ_gui.story.light_row import LightRow
 from occ_gui.story.profile_row import ProfileRow
 from occ_gui.widgets.state_look import State
+from occ_model.arrays import FloatArray
 from occ_model.scene.scene import Scene
-from occ_model.scene.units import SECOND
+from occ_model.scene.units import HERTZ, SECOND
 
 _MICRO = 1e6
 _MOST_CHIPS = 20_000  # chips in an exposure up to which its light is added up while the mouse moves
@@ -74,3 +76,38 @@ def _light(light: float) -> str:
     if light in (0.0, 1.0):
         return "light on" if light else "light off"
     return f"light {100.0 * light:.0f} %"
+
+
+@dataclass(frozen=True, slots=True)
+class Measured:
+    columns: float  # from the first to the second, negative where the second is at the left
+    time: float  # the same in seconds
+    # How much higher the profile is at the second, in grey levels; None outside of it
+    levels: float | None
+    chips: float  # the same time in chips
+
+
+def measure(cursors: MeasureCursors, scene: Scene, profile: FloatArray | None) -> Measured | None:
+    if not cursors.columns:
+        return None
+    first, second = cursors.columns
+    columns = second - first
+    time = columns * scene.camera.readout_time
+    places = [round(first), round(second)]
+    levels = None
+    if profile is not None and all(0 <= place < len(profile) for place in places):
+        levels = float(profile[places[1]] - profile[places[0]])
+    return Measured(columns, time, levels, time * scene.transmitter.switching_frequency)
+
+
+def difference_in_words(measured: Measured) -> str:
+    parts = [
+        f"1 to 2: {measured.columns:.1f} columns",
+        SECOND.format(measured.time, 4),
+    ]
+    if measured.levels is not None:
+        parts.append(f"{measured.levels:+.1f} levels")
+    parts.append(f"{measured.chips:.2f} chips")
+    if measured.time:
+        parts.append(f"as a period {HERTZ.format(1 / abs(measured.time), 4)}")
+    return "  ·  ".join(parts)

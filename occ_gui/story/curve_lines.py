@@ -1,4 +1,4 @@
-"""Lines of a curve: a stroke of two pixels, drawn line by line.
+"""Curves: reduced to the extremes that a screen shows, and drawn line by line.
 
 Qt's raster engine draws separate lines ten times faster than a path of the same points: measured
 at 1800 points, 1.1 ms of processor time in place of 12 ms.
@@ -52,3 +52,28 @@ def lines_of(
 def _between(xs: FloatArray, ys: FloatArray) -> list[QLineF]:
     x, y = xs.tolist(), ys.tolist()
     return list(map(QLineF, x, y, x[1:], y[1:]))
+
+
+def envelope(
+    positions: FloatArray, values: FloatArray, left: float, right: float, cells: int
+) -> tuple[FloatArray, FloatArray]:
+    """Reduce a curve of evenly spaced points to its extremes over the cells of a screen.
+
+    What is in view and the point beyond each end are returned; of each cell with more than two
+    points the lowest and the highest one, in their order.
+    """
+    first = max(int(np.searchsorted(positions, left)) - 1, 0)
+    last = int(np.searchsorted(positions, right, side="right")) + 1
+    positions, values = positions[first:last], values[first:last]
+    a_cell = len(values) // max(cells, 1)
+    if a_cell < 2:
+        return positions, values
+    groups = len(values) // a_cell
+    rest = groups * a_cell
+    folded = values[:rest].reshape(groups, a_cell)
+    low, high = folded.argmin(axis=1), folded.argmax(axis=1)
+    starts = np.arange(groups) * a_cell
+    both = np.sort(np.stack([low, high], axis=1), axis=1) + starts[:, None]
+    picked = np.concatenate([[0], both.ravel(), np.arange(rest, len(values)), [len(values) - 1]])
+    picked = np.unique(picked)
+    return positions[picked], values[picked]

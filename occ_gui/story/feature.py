@@ -1,15 +1,93 @@
 """The story in the middle of the window, declared."""
 
 from collections.abc import Sequence
+from dataclasses import replace
+from typing import TypeAlias
 
+from PySide6.QtCore import Qt, QTimer
 from PySide6.QtWidgets import QWidget
 
+from occ_gui.core.store import NO_GESTURE
 from occ_gui.core.workspace import Workspace
 from occ_gui.scene.scene_store import SceneStore
-from occ_gui.shell.feature import Feature
-from occ_gui.shell.results import Results
+from occ_gui.shell.feature import Feature, Pane
+from occ_gui.shell.results import Results, of_picture, of_reading
 from occ_gui.simulation.controller import SimulationController
-from occ_gui.story.pane import StoryPane, StoryPart
+from occ_gui.simulation.preview import Picture
+from occ_gui.simulation.snapshot import Reading
+from occ_gui.story.column_facts import Step
+from occ_gui.story.story_view import StoryView
+from occ_gui.values.photo_results import PhotoProfile
+from occ_model.receiver.decoders import decoders
+
+StoryPart: TypeAlias = tuple[Reading | None, Picture | None, PhotoProfile | None, str, str]
+"""Reading, picture and profile of a photo, whose result is shown, and whose picture."""
+
+
+_REST_MS = 250  # milliseconds from the first picture to the look for further decoders
+
+
+class StoryPane(Pane[StoryPart]):
+    def __init__(
+        self,
+        scenes: SceneStore,
+        simulation: SimulationController,
+        picture: QWidget,
+        built_in: Sequence[str],
+    ) -> None:
+        self.view = view = StoryView(picture, built_in)
+        super().__init__(view)
+        # The stripes' picture comes later than the reading.
+        self.made_of = {view.rows: of_reading, view.rows.stripes: of_picture}
+        self.verdicts = (view.verdict,)
+        self._scenes = scenes
+        # Looking for plug-ins takes some 40 ms: not before the first picture is painted.
+        self._plugins = QTimer(self, singleShot=True)
+        self._plugins.setInterval(_REST_MS)
+        self._plugins.timeout.connect(self._offer)
+        shown = scenes.store.workspace
+        self._shown: StoryPart = (None, None, None, shown.decoder, shown.whose)
+        view.picture_chosen.connect(self._choose_picture)
+        view.decoder_chosen.connect(self.choose_decoder)
+        view.verdict.step_chosen.connect(self._take)
+        once = Qt.ConnectionType.SingleShotConnection
+        simulation.snapshot_shown.connect(self._plugins.start, once)
+        simulation.failed.connect(view.verdict.show_failure)
+        simulation.submitted.connect(view.verdict.end_failure)
+
+    def show_part(self, part: StoryPart) -> None:
+        view, shown, self._shown = self.view, self._shown, part
+        reading, picture, photo, decoder, whose = part
+        if decoder != shown[3]:
+            view.choose_decoder(decoder)
+        if whose != shown[4]:
+            view.choose_picture(whose)
+        if reading is not None and reading is not shown[0]:
+            view.show_reading(reading)
+        if picture is not None and picture is not shown[1]:
+            view.show_picture(picture)
+        if photo is not shown[2]:
+            view.show_photo_profile(photo)
+
+    def stop(self) -> None:
+        self._plugins.stop()
+
+    def _offer(self) -> None:
+        self.view.offer(decoders())
+
+    def choose_decoder(self, name: str) -> None:
+        store = self._scenes.store
+        store.put(replace(store.workspace, decoder=name))
+
+    def _choose_picture(self, whose: str) -> None:
+        store, is_enhanced = self._scenes.store, whose == "receiver"
+        store.put(replace(store.workspace, whose=whose, is_enhanced=is_enhanced))
+
+    def _take(self, step: Step) -> None:
+        if step.decoder:
+            self.choose_decoder(step.decoder)
+        else:
+            self._scenes.change(NO_GESTURE, **step.changes)
 
 
 def story(

@@ -9,8 +9,7 @@ from PySide6.QtGui import QColor, QPainter, QPalette, QPen
 from occ_gui.simulation.snapshot import ColumnView
 from occ_gui.story.column_axis import ColumnAxis, Crosshair
 from occ_gui.story.column_facts import threshold_levels
-from occ_gui.story.column_means import envelope
-from occ_gui.story.curve_lines import DASH, lines_of
+from occ_gui.story.curve_lines import DASH, envelope, lines_of
 from occ_gui.story.story_row import StoryRow
 from occ_gui.values.photo_results import PhotoProfile
 from occ_gui.widgets.contrast import mixed, seen_on

@@ -6,8 +6,7 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QPainter, QPaintEvent, QPalette, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from occ_gui.story.column_axis import ColumnAxis
-from occ_gui.story.text_room import line_height
+from occ_gui.story.column_axis import ColumnAxis, line_height
 from occ_gui.widgets.guarded_paint import guarded
 from occ_gui.widgets.round_step import round_step
 from occ_model.scene.scene import Scene

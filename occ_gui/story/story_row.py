@@ -17,9 +17,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from occ_gui.story.column_axis import ColumnAxis, Crosshair
-from occ_gui.story.measure_cursors import NAMES
-from occ_gui.story.text_room import GAPS, needed_by
+from occ_gui.story.column_axis import CURSOR_NAMES, GAPS, ColumnAxis, Crosshair, needed_by
 from occ_gui.widgets.guarded_paint import guarded
 from occ_model.arrays import FloatArray
 
@@ -189,7 +187,7 @@ class StoryRow(QWidget):
     def _draw_cursors(self, painter: QPainter, area: QRectF) -> None:
         colour = self.colour(QPalette.ColorRole.Highlight)
         metrics = painter.fontMetrics()
-        for name, column in zip(NAMES, self.crosshair.cursors.columns, strict=False):
+        for name, column in zip(CURSOR_NAMES, self.crosshair.cursors.columns, strict=False):
             x = self.x_of(column)
             painter.setPen(QPen(colour, 2))
             painter.drawLine(QPointF(x, area.top()), QPointF(x, area.bottom()))

@@ -8,16 +8,19 @@ from occ_gui.simulation.preview import Picture, PictureView
 from occ_gui.simulation.snapshot import ColumnView
 from occ_gui.simulation.verdict import result_of
 from occ_gui.story.code_row import CodeRow
-from occ_gui.story.column_axis import MARGIN, ColumnAxis, Crosshair
-from occ_gui.story.column_values import ColumnValues, in_words, values_at
+from occ_gui.story.column_axis import MARGIN, ColumnAxis, Crosshair, gutter_of
+from occ_gui.story.column_values import (
+    ColumnValues,
+    difference_in_words,
+    in_words,
+    measure,
+    values_at,
+)
 from occ_gui.story.curve_legend import CurveLegend, LegendLine
 from occ_gui.story.light_row import LightRow
-from occ_gui.story.measure_cursors import in_words as difference_in_words
-from occ_gui.story.measure_cursors import measure
 from occ_gui.story.profile_row import ProfileRow
 from occ_gui.story.scales import ColumnScale, TimeScale
 from occ_gui.story.stripes_row import StripesRow
-from occ_gui.story.text_room import gutter_of
 from occ_gui.values.photo_results import PhotoProfile
 from occ_gui.widgets.first_periods import PACKETS_IN_VIEW, first_periods
 from occ_gui.widgets.layouts import filled

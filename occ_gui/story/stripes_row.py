@@ -2,6 +2,7 @@
 
 import math
 
+import cv2
 import numpy as np
 from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtGui import QImage, QPainter, QPaintEvent, QPalette, QPen, QResizeEvent
@@ -9,7 +10,6 @@ from PySide6.QtWidgets import QAbstractButton, QWidget
 
 from occ_gui.simulation.preview import PictureView
 from occ_gui.story.column_axis import GUTTER, ColumnAxis, Crosshair
-from occ_gui.story.column_means import resampled, shrunk
 from occ_gui.story.story_row import StoryRow
 from occ_gui.widgets.guarded_paint import guarded
 from occ_gui.widgets.pens import REGION
@@ -169,3 +169,50 @@ class FrameThumbnail(QAbstractButton):
         painter.setPen(QPen(self.palette().color(role), 2 if marked else 1))
         painter.drawRect(place)
         painter.end()
+
+
+def resampled(pixels: ByteArray, edges: FloatArray, rows: int) -> ByteArray:
+    """Average a picture over cells of the screen, exactly, whatever their size: (rows, cells).
+
+    ``edges``: where each cell begins and the last one ends, in columns from the left edge of the
+    first; beyond the picture, this goes on with its last column.
+    ``rows``: at most those of the picture are averaged, more are repeated.
+    """
+    height = min(rows, pixels.shape[0])
+    low = cv2.resize(pixels, (pixels.shape[1], height), interpolation=cv2.INTER_AREA)
+    columns = low.shape[1]
+    # The running sum along each row: a cell's mean is the difference of two of its values. They
+    # are whole numbers below 2^24 for as many columns as a picture can show at once, so exact.
+    kind = np.float32 if 255 * columns < 2**24 else np.float64
+    sums = np.zeros((height, columns + 1), dtype=kind)
+    np.cumsum(low, axis=1, dtype=kind, out=sums[:, 1:])
+    places = np.clip(edges, 0.0, columns)
+    whole = np.minimum(places.astype(np.int64), columns - 1)
+    at = sums.take(whole, axis=1)
+    at += low.take(whole, axis=1) * (places - whole).astype(kind)
+    means = at[:, 1:] - at[:, :-1]
+    widths = np.diff(places)
+    empty = widths <= 0.0
+    means *= (1.0 / np.where(empty, 1.0, widths)).astype(kind)
+    if empty.any():  # beyond the picture
+        nearest = np.clip(np.floor(edges[:-1][empty]).astype(np.int64), 0, columns - 1)
+        means[:, empty] = low[:, nearest]
+    means += 0.5
+    found = means.astype(np.uint8)
+    if height < rows:
+        found = cv2.resize(found, (found.shape[1], rows), interpolation=cv2.INTER_NEAREST_EXACT)
+    return np.ascontiguousarray(found)
+
+
+def shrunk(pixels: ByteArray, rows: int, columns: int) -> ByteArray:
+    """Average a picture over the cells of a much coarser grid.
+
+    First over whole pixels, which OpenCV does many times faster than over parts of them; what is
+    left over at the lower and right edge, less than half a cell, is left out.
+    """
+    high, wide = max(1, pixels.shape[0] // (2 * rows)), max(1, pixels.shape[1] // (2 * columns))
+    height, width = pixels.shape[0] // high, pixels.shape[1] // wide
+    even = pixels[: height * high, : width * wide]
+    small = cv2.resize(even, (width, height), interpolation=cv2.INTER_AREA)
+    small = cv2.resize(small, (columns, rows), interpolation=cv2.INTER_AREA)
+    return np.asarray(small, dtype=np.uint8)

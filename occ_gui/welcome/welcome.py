@@ -1,11 +1,110 @@
-"""Shows the welcome page, and leads through the door that the user chooses."""
+"""Welcome page: three doors into the program, shown at the first start and from the menu."""
+
+from PySide6.QtCore import QEvent, QSize, Qt, Signal
+from PySide6.QtGui import QPalette
+from PySide6.QtWidgets import QDialog, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from occ_gui.files.file_controller import FileController
 from occ_gui.files.preferences import Preferences
 from occ_gui.shell.feature import Service
 from occ_gui.shell.shell import Shell
-from occ_gui.welcome.welcome_dialog import WelcomeDialog
+from occ_gui.widgets.icons import pixmap
+from occ_gui.widgets.layouts import filled
+from occ_gui.widgets.named import paragraph
+from occ_gui.widgets.text_scale import emboldened
 from occ_gui.window.main_window import MainWindow
+
+_PICTURE = 96
+_DOOR_TITLE = 1.2
+_LEAST_SIDE = 208
+
+
+class Door(QPushButton):
+    def __init__(
+        self, picture: str, title: str, sentence: str, parent: QWidget | None = None
+    ) -> None:
+        super().__init__(parent)
+        self._name = picture
+        self._picture, self._sentence = QLabel(), QLabel(sentence)
+        self._title = emboldened(QLabel(title), _DOOR_TITLE)
+        self.setAccessibleName(title)
+        self.setAccessibleDescription(sentence)
+        layout = self._layout = QVBoxLayout(self)
+        layout.setContentsMargins(16, 16, 16, 16)
+        layout.setSpacing(8)
+        for label in (self._picture, self._title, self._sentence):
+            label.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+            label.setAlignment(Qt.AlignmentFlag.AlignHCenter)
+            label.setWordWrap(label is not self._picture)
+            layout.addWidget(label)
+        layout.addStretch()
+        self._draw()
+
+    def size_for(self, width: int = _LEAST_SIDE) -> QSize:
+        """Return the size that shows all texts, at least as wide as asked for and no narrower."""
+        width = max(width, self._layout.minimumSize().width())
+        return QSize(width, max(_LEAST_SIDE, self._layout.heightForWidth(width)))
+
+    def _draw(self) -> None:
+        colour = self.palette().color(QPalette.ColorRole.ButtonText)
+        self._picture.setPixmap(pixmap(self._name, colour, _PICTURE, self.devicePixelRatioF()))
+
+    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
+        super().changeEvent(event)
+        if event.type() in (QEvent.Type.PaletteChange, QEvent.Type.DevicePixelRatioChange):
+            self._draw()
+
+
+_TITLE = 1.5
+
+
+class WelcomeDialog(QDialog):
+    """Asks what the user wants to do first; closing it means to explore freely."""
+
+    chosen = Signal(str)  # the door: ``learn``, ``photo`` or ``explore``
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setWindowTitle("Welcome")
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        title = emboldened(QLabel("Light that carries bits"), _TITLE)
+        about = paragraph(
+            "An LED panel blinks a code, a phone's camera photographs it as stripes, and the "
+            "code is read back from them. See how, and where it ends."
+        )
+        self.doors = {
+            "learn": Door(
+                "door-learn",
+                "Learn in five minutes",
+                "See how a rolling shutter turns a blinking lamp into stripes.",
+            ),
+            "photo": Door(
+                "door-photo",
+                "Match my photo",
+                "Open a photo of a blinking LED, and measure the camera with it.",
+            ),
+            "explore": Door(
+                "door-explore",
+                "Free exploration",
+                "Move the sliders, and watch picture, profile and code follow.",
+            ),
+        }
+        width = max(door.size_for().width() for door in self.doors.values())
+        height = max(door.size_for(width).height() for door in self.doors.values())
+        row = QHBoxLayout()
+        row.setSpacing(16)
+        for name, door in self.doors.items():
+            door.setFixedSize(width, height)
+            door.setProperty("door", name)
+            door.clicked.connect(self._choose)
+            row.addWidget(door)
+        filled(QVBoxLayout(self), title, about, row, margins=24, spacing=16)
+
+    def _choose(self) -> None:
+        name = self.sender().property("door")
+        self.accept()
+        self.chosen.emit(name)
+
 
 _SEEN = "welcome/seen"
 _MODES = {"learn": "lessons", "photo": "photo", "explore": "explore"}

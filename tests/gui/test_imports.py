@@ -37,7 +37,6 @@ MAY_COMPUTE = (
     "record",
     "report",
     "schedule",
-    "sweep_table",
     "wiring",
     "worker",
 )

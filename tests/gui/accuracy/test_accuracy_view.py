@@ -17,7 +17,7 @@ from occ_gui.accuracy.cost_measurement import SceneCosts
 from occ_gui.accuracy.effect_rows import EffectRow
 from occ_gui.accuracy.feature import accuracy
 from occ_gui.accuracy.pane import AccuracyPane
-from occ_gui.accuracy.plan_changes import PlanChanges, PlanNews
+from occ_gui.accuracy.plan_changes import PlanNews
 from occ_model.effects.plan import plan_with
 from occ_model.results.effect_costs import Forecast
 from occ_model.scene.scene import Scene
@@ -251,19 +251,10 @@ def frame_of(*included: str) -> Any:
     return SimpleNamespace(plan=SimpleNamespace(included=included, decisions=decisions))
 
 
-def switched_by(changes: PlanChanges) -> list[str]:
-    decisions: tuple[Any, ...] = changes.switched
-    return [decision.effect for decision in decisions]
-
-
-def test_what_is_switched_in_or_out_is_told_until_it_is_forgotten() -> None:
-    changes = PlanChanges()
-    assert not changes.update(frame_of("a", "b"))  # the first picture changes nothing
-    assert not changes.update(frame_of("a", "b"))
-    assert changes.switched == ()
-    assert changes.update(frame_of("b", "c"))
-    assert switched_by(changes) == ["a", "c"]
-    assert not changes.update(frame_of("b", "c"))
-    assert switched_by(changes) == ["a", "c"]
-    changes.forget()
-    assert changes.switched == ()
+def test_what_is_switched_in_or_out_is_told_once() -> None:
+    news = PlanNews()
+    told = collect(news.changed)
+    for included in ("ab", "ab", "bc", "bc"):  # the first picture changes nothing
+        snapshot: Any = SimpleNamespace(frame=frame_of(*included))
+        news.show_snapshot(snapshot)
+    assert [[decision.effect for decision in switched] for switched in told] == [["a", "c"]]

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from itertools import pairwise
 from types import SimpleNamespace
+from typing import Any
 
 import pytest
 from gui.stores import store_of
@@ -34,7 +35,7 @@ class RecordingPane:
     """A pane that keeps all that it receives."""
 
     def __init__(self) -> None:
-        self.received: list[str] = []
+        self.plot, self.received = self, list[str]()
         self.costs: list[SceneCosts] = []
         self.forecasts: list[Forecast] = []
 
@@ -71,7 +72,8 @@ class Bench:
         self.settings = self.scenes.settings
         self.simulation = SimulationController(self.scenes)
         self.pane = RecordingPane()
-        self.controller = AccuracyController(self.scenes, self.settings, self.simulation, self.pane)
+        pane: Any = self.pane
+        self.controller = AccuracyController(self.scenes, self.simulation, pane)
         self.simulation.snapshot_shown.connect(self.controller.show_snapshot)
 
     def study(

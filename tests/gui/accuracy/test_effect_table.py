@@ -13,9 +13,17 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.accuracy.effect_cells import _fitted, levels_at, place_of
 from occ_gui.accuracy.effect_detail import EffectDetail
-from occ_gui.accuracy.effect_rows import ELSE, rows_of
+from occ_gui.accuracy.effect_rows import (
+    EFFECT,
+    ELSE,
+    ERROR,
+    STAGE,
+    SWITCH,
+    TIME,
+    rows_of,
+    slowest_of,
+)
 from occ_gui.accuracy.effect_table import HIGHEST_ROW, LOWEST_ROW, EffectTable
-from occ_gui.accuracy.row_order import EFFECT, ERROR, STAGE, SWITCH, TIME, slowest_of
 from occ_model.results.effect_costs import (
     EffectCrop,
     EffectDifference,

@@ -18,13 +18,16 @@ import occ_model as occ
 from occ_gui.app.application import Application
 from occ_gui.detection_map import wiring
 from occ_gui.detection_map.colour_map import RATES, to_colours
-from occ_gui.detection_map.map_schedule import map_request
-from occ_gui.detection_map.own_rate_controller import IMAGES as OWN_IMAGES
-from occ_gui.detection_map.own_rate_controller import own_rate, own_rate_stages
+from occ_gui.detection_map.map_schedule import MapRequest
 from occ_gui.detection_map.rate_map import lattice
-from occ_gui.detection_map.resting_controller import RateRequest as Request
 from occ_gui.detection_map.slider_strip import IMAGES
-from occ_gui.detection_map.slider_strip_controller import POSITIONS
+from occ_gui.detection_map.slider_strip_controller import (
+    OWN_IMAGES,
+    POSITIONS,
+    own_rate,
+    own_rate_stages,
+)
+from occ_gui.detection_map.slider_strip_controller import RateRequest as Request
 from occ_gui.detection_map.worker import SEED, UNSEEN, measure_along, rate_settings
 from occ_gui.simulation.verdict import verdict_on
 from occ_gui.widgets.state_look import State
@@ -174,9 +177,8 @@ def test_six_doors_give_the_same_number(
         elsewhere, rate_settings(settings, images, (decoder,), True), "switching_frequency", at,
         lambda: None,
     ).points[0]  # fmt: skip
-    asked = map_request(
-        elsewhere, "switching_frequency", "distance", settings, (decoder,), images=images
-    )
+    request = MapRequest(elsewhere, "switching_frequency", "distance", settings)
+    asked = request.sweep(images, (decoder,))
     there = ((0, own_place | {"distance": scene.pose.distance}),)
     of_map = measure_points(asked.scene, asked.settings, there, lambda: None).points[0]
     counts = RateSettings(images, (decoder,), SEED)

@@ -4,7 +4,7 @@ import pytest
 from gui.kinds import add_widget
 from pytestqt.qtbot import QtBot
 
-from occ_gui.decoding.payload_text import PayloadText
+from occ_gui.decoding.bit_strip import PayloadText
 from occ_model.scene.payload import bits_of_payload
 
 

@@ -13,8 +13,8 @@ from PySide6.QtWidgets import QApplication, QLabel, QPushButton
 from pytestqt.qtbot import QtBot
 
 from occ_gui.background.signals import JobChannel
-from occ_gui.detection_map import advice_controller as module
 from occ_gui.detection_map import advice_worker, map_schedule
+from occ_gui.detection_map import search_controller as module
 from occ_gui.detection_map.advice_sentences import advice_lines
 from occ_gui.detection_map.advice_view import AdviceView
 from occ_model.commands.limits import row, sentences

@@ -15,9 +15,9 @@ from pytestqt.qtbot import QtBot
 import occ_model as occ
 from occ_gui.background.signals import WorkQueue
 from occ_gui.core.workspace import FIRST_SETTINGS
-from occ_gui.detection_map import map_controller as module
 from occ_gui.detection_map import map_schedule
-from occ_gui.detection_map.map_controller import DetectionMapController, MapPane
+from occ_gui.detection_map.map_controller import DetectionMapController
+from occ_gui.detection_map.map_view import MapView
 from occ_gui.detection_map.rate_map import RateMap
 from occ_gui.detection_map.worker import IMAGE_EFFECTS
 from occ_model.parallel.job import Job, JobResult
@@ -59,7 +59,7 @@ class Bench:
         self.queue = WorkQueue(1, lambda: workers)
         self.scenes = store_of(scene)
         self.settings = self.scenes.settings
-        self.pane = create_autospec(MapPane, instance=True)
+        self.pane = create_autospec(MapView, instance=True)
         self.controller = DetectionMapController(self.scenes, self.queue.channels[0], self.pane)
 
     def wait_until_idle(self) -> RateMap:
@@ -77,9 +77,8 @@ def bench_of(
     qtbot: QtBot, small_scene: Scene, monkeypatch: pytest.MonkeyPatch
 ) -> Iterator[Callable[..., Bench]]:
     benches: list[Bench] = []
-    for place in (map_schedule, module):
-        monkeypatch.setattr(place, "SHAPE", SHAPE)
-        monkeypatch.setattr(place, "IMAGES", IMAGES)
+    monkeypatch.setattr(map_schedule, "SHAPE", SHAPE)
+    monkeypatch.setattr(map_schedule, "IMAGES", IMAGES)
 
     def make(**changes: Any) -> Bench:
         benches.append(Bench(qtbot, small_scene.replace(**changes), RememberingWorkers()))
@@ -275,8 +274,7 @@ def test_the_limits_of_theory_change_sides_where_theory_says(
 @pytest.fixture
 def few_points(bench_of: Callable[..., Bench], monkeypatch: pytest.MonkeyPatch) -> None:
     """Leave a map few points where a test measures maps that no other one asks for."""
-    for place in (map_schedule, module):
-        monkeypatch.setattr(place, "SHAPE", (3, 2))
+    monkeypatch.setattr(map_schedule, "SHAPE", (3, 2))
 
 
 def test_a_map_of_an_earlier_scene_ages_until_the_next_is_there(
@@ -320,7 +318,7 @@ def test_a_first_answer_is_awaited_until_it_is_there_or_found_to_take_long(
     controller.set_seen(False)
     assert not waits()
     assert controller.full is None, "it is of its own scene alone"
-    monkeypatch.setattr(module, "left_out", lambda *_: ("a lens",))
+    monkeypatch.setattr(map_schedule, "left_out", lambda *_: ("a lens",))
     request = controller._request()
     found: list[bool] = []
     list(request.stages(np.zeros(SHAPE, dtype=np.int64), True, lambda: found.append(True)))
@@ -331,8 +329,8 @@ def test_a_first_answer_is_awaited_until_it_is_there_or_found_to_take_long(
 def test_only_rows_of_pictures_take_long(
     small_scene: Scene, monkeypatch: pytest.MonkeyPatch, with_image_effects: bool
 ) -> None:
-    monkeypatch.setattr(module, "left_out", lambda *_: ("jpeg",))
-    request = module.MapRequest(
+    monkeypatch.setattr(map_schedule, "left_out", lambda *_: ("jpeg",))
+    request = map_schedule.MapRequest(
         small_scene, FREQUENCY, DISTANCE, FIRST_SETTINGS, with_image_effects
     )
     told: list[int] = []

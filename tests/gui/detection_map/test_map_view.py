@@ -14,10 +14,9 @@ from PySide6.QtGui import QColor, QImage
 from PySide6.QtWidgets import QAbstractButton, QComboBox, QWidget
 from pytestqt.qtbot import QtBot
 
-from occ_gui.detection_map.axis_ticks import axis_title, ticks
 from occ_gui.detection_map.colour_map import DIFFERENCES, RATES, to_colours
-from occ_gui.detection_map.map_legend import _SAMPLE
-from occ_gui.detection_map.map_plot import MapPlot
+from occ_gui.detection_map.decoder_maps import _SAMPLE
+from occ_gui.detection_map.map_plot import MapPlot, axis_title, ticks
 from occ_gui.detection_map.map_view import MapView
 from occ_gui.detection_map.rate_map import (
     MAP_PARAMETERS,

@@ -34,6 +34,8 @@ Shares = tuple[float | None, ...]
 class RecordingStrips:
     """Strips that keep what they show."""
 
+    strips = NAMES
+
     def __init__(self) -> None:
         self.shares: dict[str, Shares] = {}
         self.outdated: dict[str, bool] = {}
@@ -51,11 +53,10 @@ class Bench:
     def __init__(self, qtbot: QtBot, scene: Scene, workers: Any) -> None:
         self._qtbot = qtbot
         self.workers, self.strips = workers, RecordingStrips()
+        strips: Any = self.strips
         self.queue = WorkQueue(1, lambda: workers)
         self.scenes = store_of(scene)
-        self.controller = SliderStripController(
-            self.scenes, self.queue.channels[0], self.strips, NAMES
-        )
+        self.controller = SliderStripController(self.scenes, self.queue.channels[0], strips)
 
     def wait_until_idle(self) -> dict[str, Shares]:
         self._qtbot.waitUntil(lambda: self.controller.is_idle)

@@ -20,8 +20,7 @@ from occ_gui.accuracy.feature import accuracy
 from occ_gui.bands.feature import bands
 from occ_gui.decoding.feature import decoding
 from occ_gui.detection_map.feature import detection_map
-from occ_gui.detection_map.map_controller import MapRequest
-from occ_gui.detection_map.map_schedule import SHAPE
+from occ_gui.detection_map.map_schedule import SHAPE, MapRequest
 from occ_gui.detection_map.rate_map import RateMap, lattice
 from occ_gui.export import jobs
 from occ_gui.files.file_controller import FileController

@@ -5,15 +5,20 @@ import subprocess
 import sys
 from pathlib import Path
 
-from occ_gui.export.export_folder import _holds_only_files, folder_aside, remove_left_behind
-from occ_gui.export.jobs import ExportJob, export
+from occ_gui.export.jobs import (
+    ExportJob,
+    _holds_only_files,
+    export,
+    folder_aside,
+    remove_left_behind,
+)
 
 PROJECT = Path(__file__).resolve().parents[3]
 
 KILLED = """
 import os, signal, sys
 from pathlib import Path
-from occ_gui.export.export_folder import folder_aside
+from occ_gui.export.jobs import folder_aside
 
 with folder_aside(Path(sys.argv[1])) as aside:
     (aside / "profile.png").write_bytes(b"half")

@@ -15,8 +15,7 @@ from PySide6.QtWidgets import QTextBrowser, QToolBar
 from pytestqt.qtbot import QtBot
 
 from occ_gui.bands.feature import bands
-from occ_gui.help import manual as manual_module
-from occ_gui.help import page_style
+from occ_gui.help import help_browser, help_window
 from occ_gui.help.feature import manual as declaration
 from occ_gui.help.help_browser import HelpBrowser
 from occ_gui.help.help_window import HelpWindow
@@ -205,7 +204,7 @@ def test_its_entries_open_the_guide_and_the_page_of_the_pane(
 def test_a_missing_manual_is_answered_with_a_sentence(
     qtbot: QtBot, small_scene: Scene, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    monkeypatch.setattr(manual_module, "docs_folder", lambda: tmp_path)
+    monkeypatch.setattr(help_window, "docs_folder", lambda: tmp_path)
     bench = PaneBench(qtbot, small_scene)
     bench.add(declaration(bench.window, bench.shell, str)).show_page()
     assert bench.said == ["The manual cannot be read: No such file or directory."]
@@ -244,7 +243,7 @@ def test_the_start_does_not_import_the_window_of_the_manual() -> None:
 def test_code_stands_as_far_from_the_text_below_as_from_that_above(manual: HelpWindow) -> None:
     block, tops, bottoms = manual.browser.document().begin(), [], []
     while block.isValid():
-        if block.blockFormat().hasProperty(page_style._CODE):
+        if block.blockFormat().hasProperty(help_browser._CODE):
             tops.append(block.blockFormat().topMargin())
             bottoms.append(block.blockFormat().bottomMargin())
         block = block.next()

@@ -7,8 +7,7 @@ from gui.kinds import add_widget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.help.help_window import HelpWindow
-from occ_gui.help.manual_search import Section, search, sections
-from occ_gui.help.pages import docs_folder, pages
+from occ_gui.help.pages import Section, docs_folder, pages, search, sections
 
 _PAGE = "# One\nLight.\n## Bars\nDark *stripes*\n```\n# no heading\n```\n## Flicker\nBars of light."
 

@@ -15,9 +15,8 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.files.file_controller import sample_photos
 from occ_gui.lessons import answers
-from occ_gui.lessons.changed_scene import changed_sentence
-from occ_gui.lessons.lesson_list import LessonList
-from occ_gui.lessons.lesson_view import LessonView
+from occ_gui.lessons.lesson_controller import changed_sentence
+from occ_gui.lessons.lesson_view import LessonList, LessonView
 from occ_gui.lessons.step_page import StepPage
 from occ_model.results.lessons import CheckedAnswer
 from occ_model.teaching.answers import check_answer

@@ -12,7 +12,7 @@ from pytestqt.qtbot import QtBot
 from occ_gui.explanation.pane import ExplanationView
 from occ_gui.help.help_window import HelpWindow
 from occ_gui.photo.photo_view import PhotoView
-from occ_gui.welcome.welcome_dialog import WelcomeDialog
+from occ_gui.welcome.welcome import WelcomeDialog
 from occ_model.photo.reading.load import Photo
 from occ_model.scene.scene import Scene
 from occ_model.teaching.equations import equations

@@ -118,10 +118,10 @@ def test_the_accuracy_looks_as_stored(
     view.show_costs(SceneCosts(snapshot.request, (), differences, complete.errors))
     expected = Forecast(snapshot.frame.plan, 0.045, 0.0, is_measured=True)
     view.show_forecast(snapshot.request, expected)
-    view.show_study_begun()
+    view.plot.show_study_begun()
     for number, point in enumerate(EACH_WAY, 1):
-        view.show_point(point, number, len(EACH_WAY))
-    view.show_study_finished()
+        view.plot.show_point(point, number, len(EACH_WAY))
+    view.plot.show_study_finished()
     matches_its_picture(view, "accuracy")
 
 

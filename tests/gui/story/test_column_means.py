@@ -6,7 +6,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from occ_gui.story.column_means import envelope, resampled, shrunk
+from occ_gui.story.curve_lines import envelope
+from occ_gui.story.stripes_row import resampled, shrunk
 
 COLUMNS = 40
 

@@ -8,7 +8,7 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.simulation.preview import Picture
 from occ_gui.simulation.snapshot import Snapshot
-from occ_gui.story.measure_cursors import measure
+from occ_gui.story.column_values import measure
 from occ_gui.story.story_view import StoryView
 
 

@@ -21,10 +21,10 @@ from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.story import code_row, stripes_row
 from occ_gui.story.bit_cells import draw_field, have_room_for_bits, have_room_for_marks
 from occ_gui.story.column_axis import GUTTER, Crosshair
-from occ_gui.story.column_means import resampled
 from occ_gui.story.column_values import ColumnValues, in_words
 from occ_gui.story.story_row import StoryRow
 from occ_gui.story.story_rows import StoryRows
+from occ_gui.story.stripes_row import resampled
 from occ_gui.widgets.state_look import State
 
 

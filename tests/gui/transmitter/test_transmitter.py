@@ -15,11 +15,10 @@ from pytestqt.qtbot import QtBot
 import occ_model as occ
 from occ_gui.files.preferences import Preferences
 from occ_gui.scene.scene_store import SceneStore
-from occ_gui.transmitter import transmitter_controller, transmitter_jobs
+from occ_gui.transmitter import transmitter_controller
 from occ_gui.transmitter.feature import transmitter as declared
-from occ_gui.transmitter.transmitter_controller import TransmitterController
+from occ_gui.transmitter.transmitter_controller import Drawn, TransmitterController, new_folder
 from occ_gui.transmitter.transmitter_dialog import TransmitterDialog
-from occ_gui.transmitter.transmitter_jobs import Drawn, new_folder
 from occ_model.boards.transmission import Transmission
 from occ_model.errors import OutputError
 from occ_model.figures import transmitter_files
@@ -205,7 +204,7 @@ def test_what_cannot_be_saved_is_said_in_the_dialog_and_when_closed_in_the_statu
 def test_folders_of_one_name_are_numbered_up_to_a_limit(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(transmitter_jobs, "_MOST_FOLDERS", 4)
+    monkeypatch.setattr(transmitter_controller, "_MOST_FOLDERS", 4)
     made = [new_folder(tmp_path, "uno") for _ in range(3)]
     assert made == [tmp_path / name for name in ("uno", "uno-2", "uno-3")]
     assert all(folder.is_dir() for folder in made)

@@ -15,10 +15,8 @@ from occ_gui.core.workspace import Workspace
 from occ_gui.files.preferences import Preferences
 from occ_gui.files.session_file import SessionFile
 from occ_gui.files.session_record import Kept
-from occ_gui.welcome.door import Door
 from occ_gui.welcome.feature import welcome
-from occ_gui.welcome.welcome import Welcome
-from occ_gui.welcome.welcome_dialog import WelcomeDialog
+from occ_gui.welcome.welcome import Door, Welcome, WelcomeDialog
 from occ_model.scene.scene import Scene
 
 

@@ -1,0 +1,236 @@
+"""Controllers of the searches that the user asks for: limits of a scene, and what carries most."""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import Any
+
+from PySide6.QtCore import QObject, QTimer, Signal
+
+from occ_gui.background.signals import JobChannel, WorkQueue
+from occ_gui.core.store import NO_GESTURE
+from occ_gui.detection_map.advice_view import AdviceView
+from occ_gui.detection_map.advice_worker import advise, carry_most
+from occ_gui.detection_map.most_bits_card import MostBitsCard
+from occ_gui.detection_map.worker import left_out, rate_settings
+from occ_gui.scene.scene_store import SceneStore
+from occ_model.parallel.job import Job, Stage, Stages
+from occ_model.receiver.decoders import DECODERS
+from occ_model.results.most_bits import MostBits
+from occ_model.scene.parameters import quantity
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.study import most_bits
+from occ_model.study.limits import SEARCHED, usual_images
+
+RATE = 99.0  # success rate, in percent, from which a decoder counts as reading
+
+IMAGES = 20
+
+_USUAL = len(SEARCHED) * usual_images(IMAGES, RATE)
+"""Images that a decoder's search usually reads, from which its progress is estimated."""
+
+_ADVICE_COUNTERS = range(1, len(DECODERS) + 1)
+_MOST_COUNTER = len(DECODERS) + 1
+"""Counters of the pictures that were tried, of which each search has its own."""
+
+_LOOK_MS = 100
+
+ASKED, IN_TURN = -1, 3
+"""Ranks: before all else where the user asks; otherwise after all points of a map that is seen,
+before further images of them."""
+
+
+class SearchController(QObject):
+    """Searches in the background, looks how far it is, and ends where the scene has changed.
+
+    A subclass says in :meth:`_request` what would be searched for now.
+    """
+
+    went = Signal(str)  # the scene has become what was found; the decoder that reads it
+
+    _cancelled = _changed = ""  # why a search has ended, as the pane says it
+
+    def __init__(
+        self,
+        scenes: SceneStore,
+        queue: WorkQueue,
+        channel: JobChannel,
+        counters: Sequence[int],
+        show_found: Callable[[Any], None],
+        show_ended: Callable[[str], None],
+    ) -> None:
+        super().__init__()
+        self._scenes, self._queue, self.channel = scenes, queue, channel
+        self._counters, self._show_found, self._end = counters, show_found, show_ended
+        self._asked: Any = None
+        self._done = self._counted = 0
+        self._look = QTimer(self)
+        self._look.setInterval(_LOOK_MS)
+        self._look.timeout.connect(self._look_at_it)
+        channel.results_ready.connect(self._take)
+        channel.finished.connect(lambda _request: self._end(""))
+        channel.failed.connect(self._end)
+        scenes.changed.connect(self._move_on)
+
+    def _begin(self, request: Any, stages: Stages) -> None:
+        self._asked, self._done, self._counted = request, 0, self._count()
+        self.channel.put(request, stages)
+        self._look.start()
+
+    def cancel(self) -> None:
+        """Stop the search; what was found so far stays."""
+        if not self.channel.is_idle:
+            self.channel.cancel()
+            self._end(self._cancelled)
+
+    def _move_on(self) -> None:
+        if self._asked is None:
+            return
+        outdated = self._request() != self._asked
+        if outdated and not self.channel.is_idle:
+            self.channel.cancel()
+            self._end(self._changed)
+        self._show_outdated(outdated)
+
+    def _count(self) -> int:
+        return sum(map(self._queue.counted, self._counters))
+
+    def _look_at_it(self) -> None:
+        if self.channel.is_idle:
+            self._look.stop()
+        else:
+            self._show_tried(self._count() - self._counted)
+
+    def _take(self, _request: object, results: list[Any]) -> None:
+        self._done += len(results)
+        for found in results:
+            self._show_found(found)
+
+    def _request(self) -> Any:
+        raise NotImplementedError
+
+    def _show_tried(self, pictures: int) -> None:
+        raise NotImplementedError
+
+    def _show_outdated(self, outdated: bool) -> None:
+        raise NotImplementedError
+
+
+@dataclass(frozen=True, slots=True)
+class AdviceRequest:
+    scene: Scene
+    settings: SimulationSettings
+    with_image_effects: bool
+
+    def along(self, name: str) -> "AdviceRequest":
+        """Return the request without a parameter's value, which its limits do not depend on."""
+        scene = self.scene.replace(**{name: quantity(name).default})
+        return replace(self, scene=scene)
+
+    def stages(self, rank: int) -> Iterator[Stage]:
+        jobs = []
+        for counter, decoder in zip(_ADVICE_COUNTERS, DECODERS, strict=True):
+            settings = rate_settings(self.settings, IMAGES, (decoder,), self.with_image_effects)
+            jobs.append(Job(advise, (self.scene, settings, decoder, RATE), counter))
+        yield Stage(rank, tuple(jobs))
+
+
+class AdvisorController(SearchController):
+    """Searches for the limits of a scene."""
+
+    _cancelled, _changed = "Cancelled.", "The scene has changed; ask again."
+
+    def __init__(
+        self, scenes: SceneStore, queue: WorkQueue, channel: JobChannel, pane: AdviceView
+    ) -> None:
+        shown = pane.show_advice, pane.show_advice_ended
+        super().__init__(scenes, queue, channel, _ADVICE_COUNTERS, *shown)
+        self._pane = pane
+        self._with_image_effects = True
+        scenes.settings.changed.connect(self._move_on)
+
+    def use_image_effects(self, wanted: bool) -> None:
+        """Simulate rows of the picture where the scene needs them, or leave such effects out."""
+        self._with_image_effects = wanted
+        self._move_on()
+
+    def _request(self) -> AdviceRequest:
+        settings = self._scenes.settings.settings
+        return AdviceRequest(self._scenes.scene, settings, self._with_image_effects)
+
+    def start(self, rank: int = ASKED) -> None:
+        """Search for the limits of the current scene, as the user asks for them."""
+        request = self._request()
+        without = () if self._with_image_effects else left_out(request.scene, request.settings)
+        self._pane.show_advice_begun(without)
+        self._begin(request, partial(request.stages, rank))
+
+    def search_in_turn(self) -> None:
+        """Search for the limits of the current scene, which the map does not wait for."""
+        self.start(IN_TURN)
+
+    def take_there(self, name: str, value: float, decoder: str) -> None:
+        """Set the scene to a limit, in one step, and show what the decoder of the limit reads."""
+        self._scenes.change(NO_GESTURE, **{name: value})
+        self.went.emit(decoder)
+
+    def _show_tried(self, pictures: int) -> None:
+        self._pane.show_advice_progress(min(pictures / (_USUAL * len(DECODERS)), 0.99))
+
+    def _show_outdated(self, outdated: bool) -> None:
+        asked, present = self._asked, self._request()
+        reachable = [name for name in SEARCHED if asked.along(name) == present.along(name)]
+        self._pane.show_advice_outdated(outdated, frozenset(reachable))
+
+
+@dataclass(frozen=True, slots=True)
+class MostBitsRequest:
+    scene: Scene
+    frames_a_second: float
+
+    def stages(self) -> Iterator[Stage]:
+        """Return one job for each decoder, one after the other: other work keeps its process."""
+        for decoder in most_bits.DECODERS:
+            job = Job(carry_most, (self.scene, decoder, self.frames_a_second), _MOST_COUNTER)
+            yield Stage(ASKED, (job,))
+
+
+class MostBitsController(SearchController):
+    """Searches for the code, the frequency and the number of bits that carry most."""
+
+    _cancelled, _changed = "cancelled", "the scene has changed"
+
+    def __init__(
+        self, scenes: SceneStore, queue: WorkQueue, channel: JobChannel, pane: MostBitsCard
+    ) -> None:
+        shown = pane.show_found, pane.show_ended
+        super().__init__(scenes, queue, channel, [_MOST_COUNTER], *shown)
+        self._pane = pane
+        frame_rate = scenes.store.select(lambda workspace: workspace.frame_rate)
+        frame_rate.changed.connect(self._move_on)
+
+    def _request(self) -> MostBitsRequest:
+        workspace = self._scenes.store.workspace
+        return MostBitsRequest(most_bits.unvaried(workspace.scene), workspace.frame_rate)
+
+    def start(self) -> None:
+        """Search at the exposure and the distance of the current scene."""
+        request = self._request()
+        self._pane.show_begun()
+        self._begin(request, request.stages)
+        self._look_at_it()
+
+    def go(self, found: MostBits) -> None:
+        scene = most_bits.example_of(found)
+        if scene is not None:
+            changes = {name: scene.value(name) for name in most_bits.VARIED}
+            self._scenes.change(NO_GESTURE, **changes)
+            self.went.emit(found.decoder)
+
+    def _show_tried(self, pictures: int) -> None:
+        if self._done < len(most_bits.DECODERS):
+            self._pane.show_tried(most_bits.DECODERS[self._done], pictures)
+
+    def _show_outdated(self, outdated: bool) -> None:
+        self._pane.show_outdated(outdated)

@@ -1,4 +1,4 @@
-"""The pages of the manual: their links, tables, examples and commands."""
+"""The pages of the manual and the README: their links, tables, examples and commands."""
 
 import ast
 import re
@@ -18,6 +18,8 @@ from occ_model.scene.preset_file import preset_from
 
 every_page = pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 every_document = pytest.mark.parametrize("page", [README, *PAGES], ids=lambda page: page.name)
+
+_README = text_of(README)
 
 
 def headings(page: Path) -> list[str]:
@@ -148,3 +150,44 @@ def test_the_preset_of_the_manual_can_be_loaded() -> None:
     assert preset.scene.camera.readout_time == 9.2e-6
     assert preset.scene.camera.exposure_time == 136e-6
     assert set(preset.assumed) >= {"f_number"}
+
+
+def test_the_readme_has_at_most_150_lines() -> None:
+    assert len(_README.splitlines()) <= 150
+
+
+def test_every_file_that_the_readme_names_is_there() -> None:
+    named = [*links(_README), *re.findall(r"python3? ([\w/.]+\.py)", _README)]
+    assert len(named) > 8
+    assert [name for name in named if not (ROOT / name).exists()] == []
+
+
+def test_the_readme_links_to_every_page_of_the_manual_but_the_contents() -> None:
+    linked = {(ROOT / name).resolve() for name in links(_README)}
+    assert {*PAGES} - linked == {FOLDER / "index.md"}
+
+
+def test_the_readme_s_python_example_runs_in_six_lines() -> None:
+    (code,) = blocks(_README, "python")
+    assert len([line for line in code.splitlines() if line.strip()]) <= 6
+    names: dict[str, object] = {}
+    exec(compile(code, "README", "exec"), names)
+    assert names["result"].code == 718  # type: ignore[attr-defined]
+
+
+def folders(package: str) -> list[str]:
+    found = [path.parent.name for path in (ROOT / package).glob("*/__init__.py")]
+    assert len(found) > 10
+    return found
+
+
+def test_the_readme_explains_every_folder_of_the_model_in_a_line() -> None:
+    explained = re.findall(r"^    (\w+)  +\w", _README, re.MULTILINE)
+    assert sorted(explained) == sorted(folders("occ_model"))
+
+
+def test_every_folder_of_the_window_is_in_the_readme_s_drawing() -> None:
+    (drawing,) = re.findall(r"^occ_gui/.*?\n\n", _README, re.MULTILINE | re.DOTALL)
+    arrows = drawing.partition("\n")[2]
+    panes = re.findall(r"\w+", arrows)
+    assert sorted(panes) == sorted(folders("occ_gui"))

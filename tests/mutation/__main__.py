@@ -19,12 +19,21 @@ from queue import Queue
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
-from mutation.choice import choose, folder_of_tests
 from mutation.copy_of_project import ROOT, Copy, copy_of_project
 from mutation.ledger import Equivalent, Ledger, equivalents
 from mutation.mutants import Mutant, draw, is_program, mutants
 from mutation.reach import Reach, files_of, measured
-from mutation.trial import KILLED, SURVIVED, UNCLEAR, UNREACHED, Outcome, passes_unchanged, tried
+from mutation.trial import (
+    KILLED,
+    SURVIVED,
+    UNCLEAR,
+    UNREACHED,
+    Outcome,
+    choose,
+    folder_of_tests,
+    passes_unchanged,
+    tried,
+)
 
 _ALSO = {"occ_model": ("tests/physics", "tests/hard_cases"), "occ_gui": ("tests/gui/snapshots",)}
 

@@ -6,12 +6,22 @@ from pathlib import Path
 
 import pytest
 
-from mutation.choice import Choice, choose, folder_of_tests, nearness
 from mutation.copy_of_project import ROOT, Copy
 from mutation.ledger import Equivalent, Ledger, equivalents, package_of
 from mutation.mutants import Mutant, mutants
 from mutation.reach import MeasuredTest, lines_naming, moved_lines
-from mutation.trial import KILLED, SURVIVED, UNCLEAR, UNREACHED, Outcome, tried
+from mutation.trial import (
+    KILLED,
+    SURVIVED,
+    UNCLEAR,
+    UNREACHED,
+    Choice,
+    Outcome,
+    choose,
+    folder_of_tests,
+    nearness,
+    tried,
+)
 
 SOURCE = """\
 LIMIT = 3

@@ -1,19 +1,21 @@
-"""Data of a film: text that grows keeps what is selected, and figures stand in their order.
-
-The page in front alone takes height from the pictures.
-"""
+"""Views of a film: what is read stands in order, and recordings are taken as people write them."""
 
 import numpy as np
 import pytest
-from gui.kinds import show_widget
+from gui.kinds import collect, show_widget
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QTextCursor
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
+import occ_model as occ
 from occ_gui.video.data_view import DataView
 from occ_gui.video.film_reading import FilmReading
+from occ_gui.video.recording_form import RecordingForm
 from occ_gui.video.video_view import VideoView
 from occ_model.results.fact import Fact
+from occ_model.scene.recording import DECLARED
+from occ_model.scene.scene import Scene
 
 
 @pytest.fixture
@@ -83,3 +85,50 @@ def test_only_the_page_that_is_shown_takes_height_from_the_pictures(qtbot: QtBot
         QApplication.processEvents()
         heights.append(view.pictures.height())
     assert heights[1] + 100 < heights[0] == pytest.approx(heights[2], abs=2)
+
+
+@pytest.fixture
+def form(qtbot: QtBot) -> RecordingForm:
+    return show_widget(qtbot, RecordingForm())
+
+
+def enter(qtbot: QtBot, form: RecordingForm, name: str, text: str) -> None:
+    form.fields[name].selectAll()
+    qtbot.keyClicks(form.fields[name], text)
+    qtbot.keyClick(form.fields[name], Qt.Key.Key_Return)
+
+
+def test_each_declared_quantity_has_a_named_field(form: RecordingForm) -> None:
+    assert set(form.fields) == {declared.name for declared in DECLARED}
+    for declared in DECLARED:
+        assert form.fields[declared.name].accessibleName() == declared.label
+        assert declared.meaning in form.fields[declared.name].toolTip()
+
+
+def test_values_are_taken_as_people_write_them_and_refused_out_of_range(
+    form: RecordingForm, qtbot: QtBot
+) -> None:
+    changes: list[None] = []
+    form.changed.connect(lambda: changes.append(None))
+    enter(qtbot, form, "frame_rate", "120")
+    enter(qtbot, form, "frame_jitter", "20 us")
+    enter(qtbot, form, "camera_drift", "-50 ppm")
+    recording = form.recording
+    assert (recording.frame_rate, recording.frame_jitter) == (120.0, pytest.approx(20e-6))
+    assert recording.camera_drift == pytest.approx(-50e-6)
+    assert len(changes) == 3
+    refusals = collect(form.refused)
+    enter(qtbot, form, "frame_rate", "-3")
+    assert form.recording == recording
+    assert len(refusals) == 1
+    assert "Frame rate cannot be " in refusals[0]
+
+
+def test_the_gap_is_stated_or_why_there_is_none(form: RecordingForm, film_scene: Scene) -> None:
+    form.show_scene(film_scene)  # 1600 columns of 15 us each: 24 ms of 33.3 ms
+    assert (
+        form.gap.text() == "Between two frames no column is read for 9.333 ms, 28.0 % of a frame."
+    )
+    form.show_recording(occ.Recording(frame_rate=60.0))
+    form.show_scene(film_scene)
+    assert "Reading out 1600 columns" in form.gap.text()

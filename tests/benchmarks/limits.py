@@ -4,15 +4,25 @@ python tests/benchmarks/limits.py
 python tests/benchmarks/limits.py --preset phone-136us --decoder threshold
 
 How surely the ends are known is not searched, which takes several times as long.
+``--cessation`` prints, for each exposure of the paper beyond the band model, each enhancement and
+some noise, the highest frequency at which 99 % of the bits are read by the paper's decoder.
 """
 
 import argparse
 import time
 
+import numpy as np
+
 import occ_model as occ
+from occ_model.camera.photometry import level_values
 from occ_model.commands.limits import range_cells
+from occ_model.effects.effect import NoiseEffect
+from occ_model.effects.noise_spread import NoiseSpread
+from occ_model.effects.registry import NAMES, named
 from occ_model.results.limits import Limits
 from occ_model.results.sweep_request import RateSettings
+from occ_model.scene.scene import Scene
+from occ_model.study import theory
 from occ_model.study.limits import SEARCHED
 from occ_model.study.working_range import working_range
 
@@ -22,6 +32,11 @@ COLUMNS = (
 )  # fmt: skip
 
 RATE, IMAGES, SEED = 99.0, 20, 1
+
+_BEYOND = ("phone-136us", "tablet-122us")
+_METHODS = ("equalization", "stretch", "none")
+_NOISE = (0.5, 1.0, 2.0)
+"""Standard deviations of a lit pixel, in grey levels."""
 
 
 def line(preset: str, decoder: str) -> str:
@@ -35,11 +50,45 @@ def line(preset: str, decoder: str) -> str:
     return f"| {' | '.join([*cells, f'{found.bits_a_second():.4g}', f'{seconds:.1f} s'])} |"
 
 
+def with_noise(scene: Scene, levels: float) -> Scene:
+    """Change the size of the pixels until a lit one has this noise; it holds as much more light."""
+    lit = np.array([[level_values(scene)[1]]], dtype=np.float32)
+
+    def of_pitch(pitch: float) -> Scene:
+        return scene.replace(pixel_pitch=pitch)
+
+    low, high = 1e-7, 1e-4  # much noise, and little
+    for _ in range(40):
+        middle = (low * high) ** 0.5
+        found = float(NoiseSpread(named(NAMES, NoiseEffect), of_pitch(middle))(lit)[0, 0])
+        low, high = (middle, high) if found > levels else (low, middle)
+    return of_pitch(high)
+
+
+def print_cessation(images: int) -> None:
+    """Print where the threshold decoder ceases, beside the null of an alternating pattern."""
+    print("| preset | 2 / t | enhancement | as it is | 0.5 levels | 1 level | 2 levels |")
+    print("|---|---|---|---|---|---|---|")
+    for preset in _BEYOND:
+        scene = occ.load_preset(preset).replace(gain_variation=0.0)
+        null = f"{theory.null_frequency(scene) / 1e3:.2f}"
+        for method in _METHODS:
+            enhanced = scene.replace(enhancement=method)
+            scenes = [enhanced, *(with_noise(enhanced, noise) for noise in _NOISE)]
+            ends = [occ.limits(each, images=images).highest_frequency for each in scenes]
+            cells = ["none" if end is None else f"{end / 1e3:.2f}" for end in ends]
+            print(f"| {preset} | {null} | {method} | {' | '.join(cells)} |", flush=True)
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--preset", action="append", choices=occ.presets())
     parser.add_argument("--decoder", action="append", choices=occ.decoders())
+    parser.add_argument("--cessation", action="store_true", help="of the paper's decoder by noise")
     asked = parser.parse_args()
+    if asked.cessation:
+        print_cessation(IMAGES)
+        return
     print(f"| {' | '.join(COLUMNS)} |")
     print("|---" * len(COLUMNS) + "|")
     for preset in asked.preset or occ.presets():

@@ -6,10 +6,7 @@ are measured, ``--whole``: all of them; the tables of both paths are compared po
 """
 
 import argparse
-import subprocess
-import sys
 from collections.abc import Callable, Mapping, Sequence
-from functools import partial
 from time import perf_counter
 
 import numpy as np
@@ -47,34 +44,6 @@ def swept(axes: Mapping[str, Sequence[float]], **settings: object) -> occ.SweepT
     return occ.sweep(phone, axes, IMAGES, BOTH, **settings)  # type: ignore[arg-type]
 
 
-def one_by_one() -> None:
-    """Measure the same without a sweep: each decoder its own images."""
-    phone = occ.load_preset("phone-136us")
-    for exposure in EXPOSURES:
-        for frequency in FREQUENCIES:
-            for distance in DISTANCES:
-                scene = phone.replace(
-                    exposure_time=exposure, switching_frequency=frequency, distance=distance
-                )
-                for decoder in BOTH:
-                    occ.success_rate(scene, IMAGES, decoder)
-
-
-def command(jobs: int) -> None:
-    """Sweep by the command line, from the start of Python on."""
-    vary = (
-        "--vary=exposure_time=68us,136us",
-        "--vary=switching_frequency=2kHz:20kHz:2kHz",
-        "--vary=distance=0.6:2:0.2",
-    )
-    program = "import sys; from occ_model.cli import main; sys.exit(main(sys.argv[1:]))"
-    subprocess.run(
-        [sys.executable, "-c", program, "sweep", *vary, "--decoder=both", f"--jobs={jobs}"],
-        check=True,
-        capture_output=True,
-    )
-
-
 def by_images(axes: Mapping[str, Sequence[float]]) -> None:
     """Compare both paths."""
     swept(axes)
@@ -103,16 +72,10 @@ def main() -> None:
     swept(GRID, jobs=2)
     first = perf_counter() - start
     two = seconds_of(lambda: swept(GRID, jobs=2))
-    apart = seconds_of(one_by_one, 3)
     print(f"whole phone grid, in this process           {here:7.2f} s")
-    print(f"the same, success_rate one by one           {apart:7.2f} s")
     print(f"2 processes, the first time                 {first:7.2f} s")
     print(f"2 processes, from the second time on        {two:7.2f} s")
     print(f"this process against 2                      {here / two:7.2f}")
-    print(f"success_rate one by one against the sweep   {apart / here:7.2f}")
-    for jobs in (1, 2):
-        cold = seconds_of(partial(command, jobs), 3)
-        print(f"the command from its start, --jobs {jobs}        {cold:7.2f} s")
     by_images(GRID if options.whole else SOME)
 
 

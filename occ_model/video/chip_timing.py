@@ -79,17 +79,14 @@ def fit_timing(light: FloatArray, start: ChipLattice) -> ChipTiming | None:
         return None
     tried = [replace(start, phase=start.phase + shift) for shift in _SHIFTS]
     residuals = [_Levels.fitted(light, one).residual_power for one in tried]
-    lattice = tried[int(np.argmin(residuals))]
-    fitted = _timed(light, lattice)
+    fitted, freedom = _timed(light, tried[int(np.argmin(residuals))]), _MIN_FREEDOM
+    if fitted is not None:
+        freedom = _freedom(light, fitted[0])
+        if freedom > _MIN_FREEDOM:
+            fitted = _timed(light, fitted[0], freedom)
     if fitted is None:
         return None
     lattice, covariance = fitted
-    freedom = _freedom(light, lattice)
-    if freedom > _MIN_FREEDOM:
-        fitted = _timed(light, lattice, freedom)
-        if fitted is None:
-            return None
-        lattice, covariance = fitted
     levels = _Levels.fitted(light, lattice, freedom)
     ratios = _ratios(lattice, levels)
     if ((ratios > 0.0) != (lattice.values == 1)).any():

@@ -227,7 +227,7 @@ class VideoFile(Video):
     def _look(self, scan_axis: str) -> None:
         """Read the first frames: their size, their first time, and the scan axis."""
         decoder, opened = self._opened()
-        self.frame_rate, self.frame_count = opened.frame_rate, opened.frame_count
+        self.frame_rate, self.frame_count = opened
         try:
             first = decoder.read()
             if first is None:

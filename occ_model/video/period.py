@@ -9,6 +9,7 @@ from occ_model.arrays import ByteArray, IndexArray
 from occ_model.scene.scene import Scene, Transmitter
 from occ_model.transmitter.framings import c_ook
 from occ_model.transmitter.framings.framing import (
+    FrameFormat,
     find_preambles,
     is_unique,
     own_preamble,
@@ -112,19 +113,17 @@ class SentPeriod:
         if self.scheme is None:
             return ()
         if self.scheme.framing.name == c_ook.FRAMING.name:
-            return self._of_sub_packets(chips)
-        return self._of_headers(chips)
+            return self._of_sub_packets(chips, self.scheme.form)
+        return self._of_headers(chips, self.scheme.form, self.scheme.framing.name)
 
-    def _of_headers(self, chips: ByteArray) -> tuple[int, ...]:
-        assert self.scheme is not None  # noqa: S101 - the caller has asked
-        form = self.scheme.form
-        if self.scheme.framing.name == PAPER.name:
+    def _of_headers(self, chips: ByteArray, form: FrameFormat, framing: str) -> tuple[int, ...]:
+        if framing == PAPER.name:
             longest = form.line_code.longest_run
             unique = longest is not None and longest < sum(HEADER)
             found = find_headers(chips) if unique else ()
             # At the end of the view a run of ones may go on.
             found = tuple(at for at in found if at + len(HEADER) <= len(chips))
-        elif self.scheme.framing.name in (PREAMBLE.name, RAW.name):
+        elif framing in (PREAMBLE.name, RAW.name):
             preamble = preamble_of(form)
             unique = is_unique(preamble, form.line_code) or len(preamble) >= _MIN_PREAMBLE_CHIPS
             found = find_preambles(chips, preamble) if unique else ()
@@ -133,9 +132,8 @@ class SentPeriod:
         places = {-at % self.length for at in found}
         return tuple(places) if len(places) == 1 else ()
 
-    def _of_sub_packets(self, chips: ByteArray) -> tuple[int, ...]:
-        assert self.scheme is not None  # noqa: S101 - the caller has asked
-        form, length = self.scheme.form, self.part_length
+    def _of_sub_packets(self, chips: ByteArray, form: FrameFormat) -> tuple[int, ...]:
+        length = self.part_length
         found = find_preambles(chips, own_preamble(form.line_code))
         if not found or len({at % length for at in found}) > 1:
             return ()

@@ -7,7 +7,6 @@ import sys
 import threading
 import weakref
 from contextlib import suppress
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -31,14 +30,12 @@ _ENVIRONMENT = {
 }
 
 
+OpenedFilm = tuple[float | None, int | None]
+"""Frame rate and number of frames as a film states them, None where it does not."""
+
+
 class DecoderStoppedError(Exception):
     """The decoder's process has ended; the text says why, to end a sentence."""
-
-
-@dataclass(frozen=True, slots=True)
-class OpenedFilm:
-    frame_rate: float | None
-    frame_count: int | None
 
 
 class DecoderProcess:
@@ -61,7 +58,7 @@ class DecoderProcess:
         self._end = weakref.finalize(self, _end, process)
 
     def open(self, path: Path, reader: str, channel: str) -> OpenedFilm:
-        """Open a film; the one that was open is closed.
+        """Open a film, and return its frame rate and count; the one that was open is closed.
 
         Raises VideoError: there is no film in the file, or too large a one: the end of a sentence.
         """
@@ -69,7 +66,7 @@ class DecoderProcess:
         answer, _ = self._ask(
             {"do": "open", "path": str(path.resolve()), "reader": reader, "channel": channel}
         )
-        return OpenedFilm(answer["rate"], answer["count"])
+        return answer["rate"], answer["count"]
 
     def read(self) -> StoredFrame | None:
         """Return the next frame, None after the last; the one after it is asked for ahead.

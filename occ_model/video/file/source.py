@@ -105,7 +105,6 @@ class OpenCvSource(FrameSource):
         return StoredFrame(self._time(), one_channel(np.asarray(pixels, np.uint8), self._channel))
 
     def skip(self) -> bool:
-        """Pass over the next frame; tell whether there was one."""
         return bool(self._capture.grab())
 
     def seek(self, index: int, time: float, within: float) -> StoredFrame | None:
@@ -162,7 +161,6 @@ class PillowSource(FrameSource):
         return frame
 
     def skip(self) -> bool:
-        """Pass over the next frame; tell whether there was one."""
         try:
             self._picture.seek(self._next)
         except Exception:  # noqa: BLE001 - as above

@@ -68,7 +68,7 @@ if TYPE_CHECKING:  # for type checkers and editors: the names that _MODULES hold
         Match as Match,
         Stripes as Stripes,
     )
-    from occ_model.results.most_bits import MostBits as MostBits
+    from occ_model.results.bit_errors import MostBits as MostBits
     from occ_model.results.photo_table import PhotoTable as PhotoTable
     from occ_model.results.plan import (
         Decision as Decision,
@@ -126,7 +126,7 @@ if TYPE_CHECKING:  # for type checkers and editors: the names that _MODULES hold
     from occ_model.study.bands.advice import band_advice as band_advice
     from occ_model.study.bands.depth import band_depth as band_depth
     from occ_model.study.bands.eye import eye_flicker as eye_flicker
-    from occ_model.study.bands.pulse import pulse_depth as pulse_depth
+    from occ_model.study.bands.depth import pulse_depth as pulse_depth
     from occ_model.study.bit_error_rate import bit_error_rate as bit_error_rate
     from occ_model.study.confidence import wilson_interval as wilson_interval
     from occ_model.study.limits import limits as limits
@@ -187,7 +187,7 @@ _MODULES = {
     "Located": "room.pose_fit",
     "Match": "results.match",
     "MatchError": "errors",
-    "MostBits": "results.most_bits",
+    "MostBits": "results.bit_errors",
     "OccError": "errors",
     "OutputError": "errors",
     "PacketReading": "results.sent_packets",
@@ -251,7 +251,7 @@ _MODULES = {
     "panel_corners": "camera.projection",
     "plan": "effects.plan",
     "presets": "scene.presets",
-    "pulse_depth": "study.bands.pulse",
+    "pulse_depth": "study.bands.depth",
     "read_chips": "photo.chips.read",
     "read_payload": "receiver.read_payload",
     "read_room": "room.locate",

@@ -10,7 +10,7 @@ import pkgutil
 from importlib import import_module
 
 import occ_model
-from occ_model.commands.cluster import ClusterError
+from occ_model.commands.sweep import ClusterError
 from occ_model.errors import BandModelUndefined, DecodeInputError, OccError
 from occ_model.parallel.job import Abandoned, WorkersLostError
 from occ_model.scene.parameter_kinds import Choice, Count, OpenChoice, Parameter, Payload, Quantity

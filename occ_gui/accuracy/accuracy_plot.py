@@ -15,8 +15,13 @@ from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.layouts import filled
 from occ_gui.widgets.pens import BAND, NOISE, PHOTO, REGION, SIMULATION, thin
 from occ_gui.widgets.plot import new_plot
-from occ_model.results.accuracy import ACCURACY_PARTS, CLOSED_FORM, LEAST_ERROR, AccuracyPoint
-from occ_model.results.effect_costs import Forecast
+from occ_model.results.accuracy import (
+    ACCURACY_PARTS,
+    CLOSED_FORM,
+    LEAST_ERROR,
+    AccuracyPoint,
+    Forecast,
+)
 
 SYMBOLS = dict(zip(ACCURACY_PARTS, ("o", "s", "t1", "t", "d"), strict=True))
 COLOURS: dict[str, QColor] = dict(

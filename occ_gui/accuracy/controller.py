@@ -11,8 +11,8 @@ from occ_gui.scene.scene_store import SceneStore
 from occ_gui.simulation.controller import SimulationController
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.values.simulated import SimulationRequest
-from occ_model.results.effect_costs import Forecast, MeasuredCosts, TimeShares
-from occ_model.study.forecast import forecast
+from occ_model.results.accuracy import Forecast, MeasuredCosts, TimeShares
+from occ_model.study.effect_differences import forecast
 
 IDLE_MS = 700  # milliseconds without a change after which the study starts
 

@@ -8,8 +8,7 @@ from time import perf_counter
 from occ_gui.background.task import Report
 from occ_gui.values.simulated import SimulationRequest
 from occ_model.effects.plan import plan_with
-from occ_model.results.accuracy import AccuracyPoint
-from occ_model.results.effect_costs import EffectDifference, MeasuredCosts, TimeShares
+from occ_model.results.accuracy import AccuracyPoint, EffectDifference, MeasuredCosts, TimeShares
 from occ_model.simulation.render import render_with
 from occ_model.simulation.stage_timer import StageTimer
 from occ_model.study.accuracy import accuracy, point_count

@@ -3,7 +3,7 @@
 import math
 
 from occ_gui.accuracy.effect_rows import levels, milliseconds
-from occ_model.results.effect_costs import Forecast, MeasuredCosts, TimeShares
+from occ_model.results.accuracy import Forecast, MeasuredCosts, TimeShares
 from occ_model.results.frame import Frame
 
 

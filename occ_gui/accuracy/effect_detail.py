@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QLabel, QSizePolicy, QVBoxLayout, QWidget
 from occ_gui.accuracy.effect_cells import image_of
 from occ_gui.accuracy.effect_rows import ELSE, EffectRow
 from occ_gui.widgets.guarded_paint import guarded
-from occ_model.results.effect_costs import EffectCrop
+from occ_model.results.accuracy import EffectCrop
 
 _GAP = 8
 _LARGEST_SCALE = 3

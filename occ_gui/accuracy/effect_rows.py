@@ -8,7 +8,7 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from occ_model.results.effect_costs import EffectCrop, EffectDifference, Forecast, MeasuredCosts
+from occ_model.results.accuracy import EffectCrop, EffectDifference, Forecast, MeasuredCosts
 from occ_model.results.frame import Frame
 from occ_model.results.plan import Decision
 from occ_model.scene.simulation_settings import unit_of

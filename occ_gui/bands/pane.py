@@ -10,7 +10,7 @@ from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Pane
 from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_model.scene.scene import Scene
-from occ_model.study.bands.cure import as_bright
+from occ_model.study.bands.advice import as_bright
 
 _LEAST = QSize(320, 200)
 

@@ -2,8 +2,8 @@
 
 from dataclasses import dataclass
 
-from occ_model.results.advice import Advice
-from occ_model.results.advice_text import (
+from occ_model.results.advice import (
+    Advice,
     end_text,
     gaps_text,
     how_tried,

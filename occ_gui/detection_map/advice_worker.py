@@ -2,11 +2,10 @@
 
 from occ_model.parallel.job import Heartbeat
 from occ_model.results.advice import Advice
-from occ_model.results.most_bits import MostBits
+from occ_model.results.bit_errors import MostBits
 from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.scene import Scene
-from occ_model.study.advice import advice_of
-from occ_model.study.limits import limits
+from occ_model.study.limits import advice_of, limits
 from occ_model.study.most_bits import most_bits
 
 

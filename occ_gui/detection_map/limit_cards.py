@@ -13,8 +13,7 @@ from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.layouts import filled
 from occ_gui.widgets.named import paragraph, push_button
 from occ_gui.widgets.text_scale import TextSize, scaled
-from occ_model.results.advice import Advice
-from occ_model.results.advice_text import gaps_text, own_text, searched_to, written
+from occ_model.results.advice import Advice, gaps_text, own_text, searched_to, written
 from occ_model.results.bit_errors import FRAMES_A_SECOND
 from occ_model.results.limits import RangeEnd, WorkingRange
 

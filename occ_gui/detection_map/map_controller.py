@@ -14,8 +14,7 @@ from occ_gui.detection_map.worker import UNSEEN, left_out
 from occ_gui.scene.scene_store import SceneStore
 from occ_model.results.sweep_request import SweepPoint
 from occ_model.scene.parameters import quantity
-from occ_model.study.sweep.counts import rate_intervals
-from occ_model.study.sweep.points import MeasuredPoints
+from occ_model.study.sweep.points import MeasuredPoints, rate_intervals
 
 FIRST_AXES = ("switching_frequency", "distance")
 

@@ -16,8 +16,7 @@ from occ_model.results.sweep import SweepTable
 from occ_model.results.sweep_request import SweepPoint, SweepRequest
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
-from occ_model.study.sweep.counts import rate_intervals
-from occ_model.study.sweep.points import measure_points
+from occ_model.study.sweep.points import measure_points, rate_intervals
 
 SHAPE = (25, 13)
 """Points along both axes: of two processes the first stage takes some 40 ms, all of them under a

@@ -5,7 +5,7 @@ from PySide6.QtWidgets import QFrame, QHBoxLayout
 
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.named import named, push_button
-from occ_model.results.most_bits import MostBits
+from occ_model.results.bit_errors import MostBits
 from occ_model.scene.units import HERTZ
 
 _DIGITS = 3

@@ -16,7 +16,7 @@ from occ_gui.detection_map.worker import left_out, rate_settings
 from occ_gui.scene.scene_store import SceneStore
 from occ_model.parallel.job import Job, Stage, Stages
 from occ_model.receiver.decoders import DECODERS
-from occ_model.results.most_bits import MostBits
+from occ_model.results.bit_errors import MostBits
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings

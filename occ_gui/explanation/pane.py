@@ -12,7 +12,7 @@ from occ_gui.shell.results import of_snapshot
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.widgets.layouts import filled
 from occ_gui.widgets.plot import Plot
-from occ_model.teaching.exposure_window import exposure_window
+from occ_model.teaching.light_over_columns import exposure_window
 
 
 class ExposureController(QObject):

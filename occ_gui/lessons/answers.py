@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from PySide6.QtCore import QObject, Signal
 
 from occ_gui.background.task import Task
-from occ_model.results.lessons import AnsweredStep, CheckedAnswer, Lesson
 from occ_model.results.match import Match
+from occ_model.results.teaching import AnsweredStep, CheckedAnswer, Lesson
 from occ_model.scene.scene import Scene
 from occ_model.teaching.answers import check_answer
 

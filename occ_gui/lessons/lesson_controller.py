@@ -17,13 +17,13 @@ from occ_gui.values.photo_choice import PhotoChoice
 from occ_gui.widgets.first_periods import PACKETS_IN_VIEW
 from occ_gui.widgets.plain_text import LONGEST
 from occ_model.errors import OccError, one_line
-from occ_model.results.lessons import Lesson, LessonList, Step
+from occ_model.results.teaching import Lesson, LessonList, Step
 from occ_model.scene.parameter_kinds import distinguished
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import GROUPS, Scene
-from occ_model.teaching.explanations import explanation
-from occ_model.teaching.exposure_window import rolling_shutter
+from occ_model.teaching.answers import explanation
 from occ_model.teaching.lessons import lessons
+from occ_model.teaching.light_over_columns import rolling_shutter
 from occ_model.teaching.quantities import QUANTITIES
 
 

@@ -18,7 +18,7 @@ from occ_gui.widgets.layouts import filled
 from occ_gui.widgets.named import push_button
 from occ_gui.widgets.plain_text import in_menu
 from occ_gui.widgets.scroll_pane import ScrollPane
-from occ_model.results.lessons import CheckedAnswer, Lesson
+from occ_model.results.teaching import CheckedAnswer, Lesson
 
 _LONGEST_NAME = 120
 

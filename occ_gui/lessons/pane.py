@@ -21,7 +21,7 @@ from occ_gui.scene.spotlight import Spotlight
 from occ_gui.shell.feature import Pane
 from occ_gui.shell.results import Board
 from occ_model.errors import OccError, one_line
-from occ_model.results.lessons import AnsweredStep, Lesson
+from occ_model.results.teaching import AnsweredStep, Lesson
 from occ_model.teaching.lessons import begin_lessons_folder
 
 _AUTHOR = "lessons/author"

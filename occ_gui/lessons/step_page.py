@@ -22,8 +22,7 @@ from occ_gui.widgets.layouts import filled
 from occ_gui.widgets.named import push_button
 from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_gui.widgets.text_scale import emboldened
-from occ_model.results.lessons import CheckedAnswer, Lesson
-from occ_model.results.teaching import Equation
+from occ_model.results.teaching import CheckedAnswer, Equation, Lesson
 from occ_model.scene.parameters import PARAMETERS
 
 _LONGEST = 300  # characters of an answer

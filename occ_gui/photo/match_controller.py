@@ -19,7 +19,7 @@ from occ_model.results.bands import Cure
 from occ_model.results.match import Match
 from occ_model.scene.parameters import PARAMETERS, quantity
 from occ_model.scene.presets import save_preset
-from occ_model.study.bands.cure import cure_of
+from occ_model.study.bands.advice import cure_of
 
 _RECORDED = ("exposure_time", "f_number", "iso")
 """Parameters of the scene that cameras record in their photos."""

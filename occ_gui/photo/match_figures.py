@@ -13,8 +13,8 @@ from occ_gui.widgets.layouts import filled
 from occ_gui.widgets.named import named, paragraph
 from occ_model.photo.many.other_programs import note_on
 from occ_model.photo.match_facts import ESTIMATES, LABELS, known_of, match_facts
-from occ_model.results.assumption import assumption
 from occ_model.results.match import Match
+from occ_model.results.photo_table import assumption
 
 WHAT_ERRORS_MEAN = (
     "± is one standard deviation, of the fit alone: the error of the value that is known comes "

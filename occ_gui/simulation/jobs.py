@@ -16,7 +16,7 @@ from occ_model.results.frame import Frame
 from occ_model.scene.scene import Scene
 from occ_model.simulation.band_model import band_drift, enhanced_band_profile
 from occ_model.simulation.render import PlannedScene, render_with
-from occ_model.study.profile_reading import ProfileReading, read_profile
+from occ_model.study.observation import ProfileReading, read_profile
 
 SMALL = 1_000_000  # pixels of a picture up to which it is there at once, with whatever effects
 

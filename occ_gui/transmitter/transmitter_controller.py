@@ -41,8 +41,7 @@ class Saved:
 
 
 def draw_wiring(sent: Transmission) -> Drawn:
-    from occ_model.figures.transmitter_files import wiring_bytes
-    from occ_model.figures.wiring import notes
+    from occ_model.figures.transmitter_files import notes, wiring_bytes
 
     return Drawn(sent, wiring_bytes(sent, "png"), "\n".join(notes(sent)))
 

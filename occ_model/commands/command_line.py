@@ -16,7 +16,7 @@ _MODULES = {  # the module of each command
     "render": "render", "animate": "animate", "film": "film", "film-study": "film_study",
     "plan": "plan", "accuracy": "accuracy", "sweep": "sweep", "limits": "limits", "bench": "bench",
     "most-bits": "most_bits", "bands": "bands", "decode": "decode", "match": "match",
-    "figures": "figures", "room": "room", "transmit": "transmit", "codes": "codes",
+    "figures": "figures", "room": "room", "transmit": "transmit", "codes": "listing",
     "presets": "listing", "parameters": "listing",
 }  # fmt: skip
 

@@ -20,8 +20,14 @@ from occ_model.files.writing import make_folder
 from occ_model.receiver.decoders import PAPER_DECODER
 from occ_model.scene.parameters import quantity
 from occ_model.scene.units import HERTZ
-from occ_model.study.films.published_example import example_request, published_rule
-from occ_model.study.films.study import FilmPoint, FilmRequest, film_study, scene_of_films
+from occ_model.study.film_study import (
+    FilmPoint,
+    FilmRequest,
+    example_request,
+    film_study,
+    published_rule,
+    scene_of_films,
+)
 
 _FRAMES = 120
 

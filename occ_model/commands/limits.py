@@ -15,7 +15,7 @@ from occ_model.commands.options import (
 from occ_model.commands.progress_bar import progress_bar
 from occ_model.program import EXIT_FAILURE
 from occ_model.receiver.decoders import DECODERS
-from occ_model.results.advice_text import (
+from occ_model.results.advice import (
     end_text,
     gaps,
     how_tried,
@@ -32,8 +32,7 @@ from occ_model.scene.parameters import quantity
 from occ_model.scene.recording import FRAME_RATE
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import HERTZ, SECOND
-from occ_model.study.advice import advice_of
-from occ_model.study.limits import limits_of
+from occ_model.study.limits import advice_of, limits_of
 from occ_model.study.working_range import READ_RATE
 
 _BAR = "{desc}: {percentage:3.0f} %|{bar}| {elapsed}, about {remaining} left"

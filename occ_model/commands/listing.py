@@ -1,16 +1,28 @@
-"""The commands ``occ-model presets`` and ``occ-model parameters``: list what can be set."""
+"""The commands ``codes``, ``presets`` and ``parameters`` of ``occ-model``: list what can be set."""
 
 import argparse
+from collections.abc import Callable
 
 from occ_model.commands.options import Commands
-from occ_model.errors import one_line
+from occ_model.errors import OccError, one_line
+from occ_model.receiver.decoder import Decoder
+from occ_model.receiver.decoders import decoder_named, decoders
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.presets import all_presets, preset_named, unreadable_presets
+from occ_model.scene.units import HERTZ
+from occ_model.transmitter.framings.framing import Framing
+from occ_model.transmitter.framings.registry import FRAMINGS
+from occ_model.transmitter.line_codes.line_code import LineCode
+from occ_model.transmitter.line_codes.registry import LINE_CODES
+from occ_model.transmitter.scheme import Scheme
 
 _MAX_NOTE_CHARACTERS = 1000  # maximum printed length of a value's note
 
 
 def add_to(commands: Commands) -> None:
+    parser = commands.add_parser("codes", help="list line codes, framings and decoders")
+    parser.add_argument("--markdown", action="store_true", help="as tables")
+    parser.set_defaults(command=_codes)
     parser = commands.add_parser("presets", help="list the presets, or one with its sources")
     parser.add_argument("name", nargs="?", help="the preset to show whole")
     parser.set_defaults(command=_presets)
@@ -55,3 +67,81 @@ def parameter_table() -> str:
         cells = (f"`{name}`", declaration.symbol, declaration.meaning, default, declaration.allowed)
         lines.append(f"| {' | '.join(cells)} |")
     return "\n".join(lines)
+
+
+_EXAMPLE = ("manchester", 10)  # line code and bits by which the lengths of frames are compared
+
+
+def _codes(options: argparse.Namespace) -> int:
+    if options.markdown:
+        print(line_code_table())
+        print()
+        print(framing_table())
+        return 0
+    print("line codes")
+    for name in LINE_CODES.names():
+        print(f"  {name:26}{_title(LINE_CODES.named, name)}")
+    print("framings")
+    for name in FRAMINGS.names():
+        print(f"  {name:26}{_title(FRAMINGS.named, name)}")
+    print("decoders")
+    for name in decoders():
+        print(f"  {name:26}{_title(decoder_named, name)}")
+    return 0
+
+
+def _title(find: Callable[[str], LineCode | Framing | Decoder], name: str) -> str:
+    """Return the title of what has a name, or why it cannot be used."""
+    try:
+        return find(name).title
+    except OccError as error:
+        return str(error)
+
+
+def line_code_table() -> str:
+    """Write the properties that the built-in line codes declare as a Markdown table."""
+    lines = [
+        "| line code | chips a bit | without a bit | longest run, chips | ones and zeros "
+        "| slowest wave | its runs unseen from | one wrong chip |",
+        "|---|---|---|---|---|---|---|---|",
+    ]
+    lines += [f"| {' | '.join(_properties(code))} |" for code in LINE_CODES.built_in().values()]
+    return "\n".join(lines)
+
+
+def _properties(code: LineCode) -> tuple[str, ...]:
+    least = code.least_switching_frequency
+    return (
+        f"`{code.name}`",
+        f"{float(code.chips_a_bit):g}",
+        f"{100 * float(code.overhead):.0f} %",
+        "no limit" if code.longest_run is None else str(code.longest_run),
+        _balance(code),
+        "no limit" if code.longest_run is None else f"f / {2 * code.longest_run}",
+        "no frequency" if least is None else HERTZ.format(least),
+        "found or harmless" if code.finds_wrong_chip else "may pass",
+    )
+
+
+def _balance(code: LineCode) -> str:
+    if code.disparity is None:
+        return "any"
+    return f"differ by up to {code.disparity}" if code.disparity else "as many"
+
+
+def framing_table() -> str:
+    """Write the properties of the built-in framings as a Markdown table."""
+    name, bits = _EXAMPLE
+    lines = [
+        f"| framing | a frame | chips for {bits} bits, `{name}` | checks the payload |",
+        "|---|---|---|---|",
+    ]
+    lines += [f"| {' | '.join(_frame(framing))} |" for framing in FRAMINGS.built_in().values()]
+    return "\n".join(lines)
+
+
+def _frame(framing: Framing) -> tuple[str, ...]:
+    name, bits = _EXAMPLE
+    scheme = Scheme(LINE_CODES.named(name), framing, "", "none", bits)
+    checks = "yes" if framing.checks else "no"
+    return f"`{framing.name}`", framing.title, str(scheme.length), checks

@@ -1,24 +1,27 @@
 """The command ``occ-model match``: find the settings that explain a photo."""
 
 import argparse
+import re
 from dataclasses import replace
 from pathlib import Path
 
-from occ_model.commands.lamp_report import chip_lines, lamp_lines, region_from
 from occ_model.commands.match_many import add_many_options, run_many, written_by
 from occ_model.commands.options import Commands, add_scene_options, assumption_of, scene_of
 from occ_model.commands.progress_bar import progress_bar
-from occ_model.errors import MatchError, ParameterError, one_line
+from occ_model.errors import MatchError, ParameterError, one_line, shown
 from occ_model.photo.chips.read import read_chips
 from occ_model.photo.lamps.match import match_lamps
 from occ_model.photo.match import ESTIMATES, PATTERN_SOURCES, match_photo
 from occ_model.photo.match_facts import in_columns, known_of, match_facts
 from occ_model.photo.reading.choices import CHANNELS, SCAN_AXES
 from occ_model.photo.reading.load import Photo, load_photo
-from occ_model.results.match import Match
+from occ_model.results.decoding import Region
+from occ_model.results.lamp import Lamp
+from occ_model.results.match import ChipReading, Match
 from occ_model.scene.from_text import write_scene_file
 from occ_model.scene.scene import Scene
 from occ_model.scene.square_wave import SQUARE_FREQUENCY, blinking
+from occ_model.scene.units import Unit
 
 
 def add_to(commands: Commands) -> None:
@@ -154,3 +157,46 @@ def _report(match: Match, assumption: str, noted: float | None) -> list[str]:
     """Write a match in lines, with the exposure time in seconds that the camera noted."""
     verdict = [f"{'verdict':22}{match.verdict}", *(f"{'':22}{why}" for why in match.all_reasons)]
     return [*verdict, *in_columns(match_facts(match, assumption, noted))]
+
+
+_REGION = re.compile(r"(\d{1,9}):(\d{1,9}),(\d{1,9}):(\d{1,9})")
+
+
+def region_from(text: str) -> Region:
+    """Read the rectangle ``R0:R1,C0:C1``: rows R0 to before R1, columns C0 to before C1."""
+    found = _REGION.fullmatch(text.strip())
+    if found is None:
+        raise ParameterError.of(
+            "--region",
+            shown(text),
+            "R0:R1,C0:C1, such as 100:800,0:1920: the first row, the row after the last, and the "
+            "same of the columns",
+        )
+    return Region(*(int(number) for number in found.groups()))
+
+
+def lamp_lines(number: int, lamp: Lamp) -> list[str]:
+    lines = [f"lamp {number}: {lamp.region}, grey level {lamp.level:.0f}"]
+    product, deviation = lamp.switching_frequency_times_readout, lamp.product_uncertainty
+    if product is None or deviation is None:
+        return [*lines, "no stripes: its light does not change while the picture is read out"]
+    estimate = Unit("chips a column").format_estimate(product, deviation)
+    lines.append(f"frequency times readout time {estimate}")
+    if lamp.periods is not None:
+        lines.append(f"{lamp.periods:.1f} periods in view")
+    lines += [f"doubtful: {doubt}" for doubt in lamp.doubts]
+    if lamp.reflections:
+        lines.append(f"reflected at {', '.join(map(str, lamp.reflections))}")
+    return lines
+
+
+def chip_lines(reading: ChipReading) -> list[str]:
+    """Describe the chips read from a photo in lines."""
+    return [
+        f"{'chips':22}{reading.text}",
+        f"{'chips in view':22}{len(reading.chips)}, between the first edge and the last one",
+        f"{'chip length':22}{reading.columns_per_chip:.3f} columns",
+        f"{'first chip from':22}column {reading.start:.1f}",
+        f"{'all right with':22}a probability of {100.0 * reading.confidence:.0f} %",
+        f"{'region':22}{reading.region}",
+    ]

@@ -12,8 +12,7 @@ from occ_model.commands.options import (
 )
 from occ_model.commands.progress_bar import progress_bar
 from occ_model.program import EXIT_FAILURE
-from occ_model.results.bit_errors import FRAMES_A_SECOND
-from occ_model.results.most_bits import MostBits
+from occ_model.results.bit_errors import FRAMES_A_SECOND, MostBits
 from occ_model.scene.parameters import quantity
 from occ_model.scene.units import HERTZ, SECOND
 from occ_model.study import theory

@@ -8,7 +8,7 @@ from typing import IO, TYPE_CHECKING, NoReturn, TypeAlias
 from occ_model.effects.registry import NAMES
 from occ_model.errors import ParameterError, one_line, shown
 from occ_model.receiver.decoders import DECODERS, decoders
-from occ_model.results.assumption import assumption
+from occ_model.results.photo_table import assumption
 from occ_model.scene.argument_checks import check_choice, check_seed
 from occ_model.scene.from_text import DEFAULT_PRESET, read_scene_file, with_settings
 from occ_model.scene.presets import load_preset

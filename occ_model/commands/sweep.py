@@ -1,6 +1,8 @@
 """The command ``occ-model sweep``: measure the success rate over any parameters."""
 
 import argparse
+import asyncio
+import logging
 import sys
 import warnings
 from collections.abc import Callable, Iterator, Sequence
@@ -9,7 +11,6 @@ from contextlib import ExitStack, contextmanager, nullcontext
 from pathlib import Path
 from typing import Any, TypeVar
 
-from occ_model.commands.cluster import cluster_executor
 from occ_model.commands.files import TABLE
 from occ_model.commands.options import (
     Commands,
@@ -22,7 +23,7 @@ from occ_model.commands.options import (
 from occ_model.commands.progress_bar import print_above_bar, progress_bar
 from occ_model.commands.vary import SYNTAX, axes_of
 from occ_model.effects.registry import NAMES
-from occ_model.errors import OutputError, ParameterError, one_line, shown
+from occ_model.errors import OccError, OutputError, ParameterError, one_line, shown
 from occ_model.program import EXIT_INTERRUPTED
 from occ_model.receiver.decoders import DECODERS, PAPER_DECODER, QUICK_DECODERS
 from occ_model.results.bit_errors import FRAMES_A_SECOND
@@ -225,3 +226,55 @@ def _warnings_as_sentences() -> Iterator[None]:
         warnings.simplefilter("always", RuntimeWarning)
         warnings.showwarning = show
         yield
+
+
+_SECONDS = 5  # timeout of a scheduler's answer
+
+
+class ClusterError(OccError):
+    """A cluster cannot be reached, or has no workers."""
+
+
+@contextmanager
+def cluster_executor(address: str) -> Iterator[Executor]:
+    """Return an executor on the dask cluster of a scheduler such as ``tcp://10.0.0.5:8786``."""
+    try:
+        from distributed import Client
+    except ImportError:
+        raise ClusterError(
+            "A cluster needs the package distributed: pip install 'occ-explorer[cluster]'."
+        ) from None
+    # A connection that fails is reported below in one sentence, instead of dask's log.
+    logging.getLogger("distributed").setLevel(logging.CRITICAL)
+    if not asyncio.run(_workers(address)):
+        raise ClusterError(
+            f"The cluster at {shown(address)} has no workers; start one with "
+            f"'dask worker {one_line(address)}'."
+        )
+    client: Any = Client(address, timeout=_SECONDS, set_as_default=False)
+    try:
+        yield client.get_executor()
+    finally:
+        client.close(timeout=_SECONDS)
+
+
+async def _workers(address: str) -> int:
+    """Ask a scheduler for its number of workers: a client without a scheduler is slow to close."""
+    from distributed.core import rpc
+    from distributed.security import Security
+
+    try:
+        # As the client does: certificates for tls:// come from dask's configuration.
+        keys: Any = Security().get_connection_args("client")
+        async with asyncio.timeout(_SECONDS):
+            async with rpc(address, connection_args=keys) as scheduler:
+                known = await scheduler.identity()
+            return len(known["workers"])
+    except TimeoutError:
+        reason = f"no answer within {_SECONDS} s"
+    except Exception as error:  # noqa: BLE001 - whatever may listen there can answer anything
+        reason = " ".join(str(error).split()).rstrip(".") or type(error).__name__
+    raise ClusterError(
+        f"No dask scheduler answers at {shown(address)}: {one_line(reason)}. Allowed: the address "
+        "of one, such as tcp://127.0.0.1:8786."
+    )

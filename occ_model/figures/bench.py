@@ -13,8 +13,7 @@ from matplotlib.lines import Line2D
 from occ_model.figures.drawing import Drawing
 from occ_model.results.bench import HEADER, BenchBounds, BenchPoint, BenchRequest, written
 from occ_model.scene.provenance import Provenance
-from occ_model.study.bench.bench import bench_scene
-from occ_model.study.bench.bounds import bench_bounds
+from occ_model.study.bench.bench import bench_bounds, bench_scene
 from occ_model.study.bit_error_rate import check_frame_rate
 
 _TITLE = "Bit error rates and bits a second over exposure and noise"

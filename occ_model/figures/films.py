@@ -11,7 +11,7 @@ from occ_model import colours
 from occ_model.figures.drawing import Drawing, write_all
 from occ_model.scene.provenance import Provenance
 from occ_model.scene.units import HERTZ
-from occ_model.study.films.study import FilmPoint, FilmRequest, grid_of
+from occ_model.study.film_study import FilmPoint, FilmRequest, grid_of
 
 _HEADER = (
     "switching frequency (Hz)", "gap (share of a frame)", "payload (bits)", "packet (chips)",

@@ -1,26 +1,27 @@
 """Report of a lesson: a student's answers and what they saw, as pages for print or as Markdown."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from io import BytesIO
 from pathlib import Path
 from urllib.parse import quote
 
+from matplotlib.axes import Axes
 from matplotlib.backends.backend_pdf import PdfPages
 from matplotlib.figure import Figure
+from matplotlib.font_manager import FontProperties
 
+from occ_model.camera.photometry import column_profile
 from occ_model.errors import OutputError, one_line, printable
-from occ_model.figures.drawing import figure_bytes, house_style, write_figure
-from occ_model.figures.lesson_steps import (
-    draw_match,
-    draw_page,
-    draw_profile,
-    match_lines,
-    steps_of_pages,
-)
+from occ_model.figures.drawing import PHOTO, SIMULATION, figure_bytes, house_style, write_figure
+from occ_model.figures.page import lines_within, with_letters
+from occ_model.figures.window_panes import caption
 from occ_model.files.writing import make_folder, write_whole
-from occ_model.results.lessons import AnsweredStep, Lesson
+from occ_model.results.match import Match
+from occ_model.results.teaching import AnsweredStep, Lesson
+from occ_model.scene.parameters import quantity
 from occ_model.scene.provenance import Provenance
-from occ_model.teaching.explanations import explanation
+from occ_model.scene.scene import Scene
+from occ_model.teaching.answers import explanation
 from occ_model.version import __version__
 
 _FIGURE = (7.0, 2.6)  # inches of a figure in Markdown
@@ -116,3 +117,137 @@ def _plain(text: str) -> str:
     for sign in "\\`*_[]<>#|&":
         text = text.replace(sign, f"\\{sign}")
     return text
+
+
+_PAGE = (8.27, 11.69)  # inches of a page of A4
+_LEFT, _RIGHT = 0.08, 0.92  # where lines begin and end, as fractions of the page's width
+_MAX_STEPS_A_PAGE = 5  # steps of a page that can still be read
+_STEPS_OF_A_MATCH = 2  # steps whose room one with a match takes
+
+_SHOWN_COLUMNS = 700
+_NO_ANSWER = "." * 60
+_TOP, _BOTTOM = 0.915, 0.025
+
+
+def steps_of_pages(
+    steps: Sequence[AnsweredStep],
+) -> Iterator[tuple[int, tuple[AnsweredStep, ...]]]:
+    """Yield the number of the first step of each page, from 1, and the page's steps."""
+    page: list[AnsweredStep] = []
+    for place, each in enumerate(steps):
+        if page and sum(map(_room, page)) + _room(each) > _MAX_STEPS_A_PAGE:
+            yield place - len(page) + 1, tuple(page)
+            page = []
+        page.append(each)
+    yield len(steps) - len(page) + 1, tuple(page)
+
+
+def _room(each: AnsweredStep) -> int:
+    return 1 if each.match is None else _STEPS_OF_A_MATCH
+
+
+def draw_page(
+    title: str, about: str, foot: str, steps: Sequence[AnsweredStep], first: int
+) -> Figure:
+    """Draw a page of A4; ``first``: the number of its first step."""
+    figure = Figure(figsize=_PAGE)
+    figure.set_layout_engine("none")
+    _write(figure, 0.97, title, FontProperties(size=16, weight="bold"), "0.0", most=1)
+    _write(figure, 0.945, about, FontProperties(size=9), "0.3", most=1)
+    figure.text(_RIGHT, 0.015, foot, fontsize=7, color="0.3", horizontalalignment="right")
+    unit = (_TOP - _BOTTOM) / sum(map(_room, steps))
+    top = _TOP
+    for place, each in enumerate(steps, first):
+        height = unit * _room(each)
+        _draw_step(figure, place, each, top, top - height)
+        top -= height
+    return figure
+
+
+def _draw_step(figure: Figure, number: int, each: AnsweredStep, top: float, bottom: float) -> None:
+    answer = each.answer
+    given = _NO_ANSWER if answer is None else each.step.with_unit(answer.text)
+    outcome = "" if answer is None else answer.sentence
+    matched = "" if each.match is None else "; ".join(match_lines(each.match, each.photo))
+    texts = (
+        (f"{number}. {each.step.question}", 10, "bold", "0.0"),
+        (f"Answer: {given}", 10, "normal", "0.0"),
+        (outcome, 9, "normal", "0.3"),
+        (matched, 9, "normal", "0.0"),
+        (explanation(each.step, each.scene), 8.5, "normal", "0.3"),
+    )
+    line = 0.0145
+    for text, size, weight, colour in texts:
+        lines = _write(figure, top, text, FontProperties(size=size, weight=weight), colour)
+        top -= line * lines + 0.004 * (lines > 0)
+    _draw_seen(figure, each, top - line * 0.5, bottom + 0.045)
+
+
+def _write(
+    figure: Figure, top: float, text: str, font: FontProperties, colour: str, most: int = 5
+) -> int:
+    """Write a text below a height of the page, in at most so many lines; give their number."""
+    text, font = with_letters(printable(text), font)
+    lines = lines_within(text, (_RIGHT - _LEFT) * _PAGE[0], font, most) if text else []
+    figure.text(
+        _LEFT, top, "\n".join(lines), fontproperties=font, color=colour,
+        verticalalignment="top", linespacing=1.25, parse_math=False,
+    )  # fmt: skip
+    return len(lines)
+
+
+def _draw_seen(figure: Figure, each: AnsweredStep, top: float, bottom: float) -> None:
+    room = min(top - bottom, 0.2 * _room(each))
+    if room <= 0.03:
+        return
+    if each.match is None:
+        draw_profile(figure.add_axes((0.12, bottom, 0.8, room)), each.scene)
+        return
+    below = figure.add_axes((0.12, bottom, 0.8, room * 0.3))
+    above = figure.add_axes((0.12, bottom + room * 0.36, 0.8, room * 0.64), sharex=below)
+    draw_match((above, below), each.match)
+
+
+def match_lines(match: Match, photo: str) -> list[str]:
+    """Say what a match found: values with standard deviations, the verdict, its reasons."""
+    lines = [f"photo {one_line(photo)}: {match.verdict}" if photo else match.verdict]
+    for name in ("readout_time", "exposure_time"):
+        declared = quantity(name)
+        deviation = match.uncertainties.get(name)
+        value = declared.unit.format_estimate(getattr(match, name), deviation)
+        doubt = " (doubtful)" if name in match.doubtful_alone else ""
+        lines.append(f"{declared.label.lower()} {value}{doubt}")
+    lines.append(
+        f"{match.exposure_in_chips:.3g} chips an exposure, residual {match.rmse:.2g} levels"
+    )
+    return [*lines, *match.all_reasons]
+
+
+def draw_profile(ax: Axes, scene: Scene) -> None:
+    shown = min(_SHOWN_COLUMNS, scene.camera.columns)
+    ax.plot(column_profile(scene)[:shown], linewidth=0.9, **SIMULATION)  # type: ignore[arg-type]
+    ax.set_xlim(0, shown)
+    ax.set_xlabel(f"column   ({caption(scene)})", fontsize=7, parse_math=False)
+    ax.set_ylabel("grey level", fontsize=7)
+    ax.tick_params(labelsize=7)
+
+
+def draw_match(axes: Sequence[Axes], match: Match) -> None:
+    """Draw a photo's profile with the one fitted to it, and below it what is left over."""
+    above, below = axes
+    shown = min(_SHOWN_COLUMNS, len(match.profile))
+    above.plot(match.stripes.profile[:shown], linewidth=0.9, label="photo", **PHOTO)  # type: ignore[arg-type]
+    above.plot(match.profile[:shown], linewidth=0.9, label="fit", **SIMULATION)  # type: ignore[arg-type]
+    # Above the axes, where it covers no curve.
+    above.legend(
+        loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, frameon=False, fontsize=7,
+        borderaxespad=0.0,
+    )  # fmt: skip
+    above.set_ylabel("grey level", fontsize=7)
+    above.tick_params(labelsize=7, labelbottom=False)
+    below.plot(match.residual[:shown], linewidth=0.8, color="0.3")
+    below.axhline(0.0, linewidth=0.5, color="0.0")
+    below.set_xlim(0, shown)
+    below.set_ylabel("photo − fit\n(grey levels)", fontsize=7)  # noqa: RUF001
+    below.set_xlabel("column of the lamp", fontsize=7)
+    below.tick_params(labelsize=7)

@@ -17,8 +17,7 @@ from occ_model import colours
 from occ_model.arrays import FloatArray
 from occ_model.errors import ParameterError
 from occ_model.figures.drawing import Drawing, figure_format, house_style, write_figure
-from occ_model.results.sweep import SweepTable
-from occ_model.results.sweep_csv import column_title, written
+from occ_model.results.sweep import SweepTable, column_title, written
 from occ_model.results.sweep_request import Shown, SweepPoint
 from occ_model.scene.parameter_kinds import Choice, ParameterValue, Quantity
 from occ_model.scene.parameters import PARAMETERS

@@ -1,15 +1,32 @@
-"""Write all that is needed to blink a scene: sketch, waveform, wiring and scene."""
+"""Write all that is needed to blink a scene: sketch, waveform, scene, a drawing of the wiring."""
 
+import textwrap
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
+from matplotlib import rcParams
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from schemdraw import Drawing, elements
+
+from occ_model.boards.board import Board
+from occ_model.boards.caution import EYES, flicker_sentence
 from occ_model.boards.sketch import file_names, source_text
 from occ_model.boards.transmission import Transmission
 from occ_model.boards.waveform_files import HEADER, edge_rows, vcd_text, wav_bytes
+from occ_model.boards.wiring import (
+    GATE_CAPACITANCE,
+    LED_CURRENT,
+    LED_VOLTS,
+    Wiring,
+    wiring,
+)
 from occ_model.errors import OutputError
 from occ_model.figures.drawing import figure_bytes, house_style, table_text
-from occ_model.figures.wiring import wiring_figure
 from occ_model.files.writing import make_folder, write_whole
 from occ_model.scene.provenance import Provenance
+from occ_model.scene.units import SECOND
 
 
 def write_transmitter_files(folder: Path, sent: Transmission) -> tuple[list[Path], str]:
@@ -51,3 +68,97 @@ def wiring_bytes(sent: Transmission, format_name: str) -> bytes:
 def provenance(sent: Transmission) -> Provenance:
     """State which scene, with which frequency, is sent."""
     return Provenance(f"Transmitter: {sent.board.title}", {"sent": sent.sent_scene})
+
+
+_SIZE = (7.6, 6.0)  # in inches
+_TEXT = 8  # size of the circuits' texts, in points
+_LINE_LENGTH = 116  # characters of a line of text below the drawing
+
+
+def wiring_figure(sent: Transmission) -> Figure:
+    """Draw the circuit; call it within :func:`occ_model.figures.drawing.house_style`."""
+    values = wiring(sent.board)
+    figure = Figure(figsize=_SIZE)
+    figure.suptitle(f"{sent.board.title}: wiring", fontweight="bold")
+    places = figure.subplot_mosaic("AAB;TTT", height_ratios=(3.4, 2.6))
+    written = places["T"]
+    for axes in places.values():
+        axes.set_axis_off()
+    places["A"].set_title("A: panel, switched as in the paper")
+    _draw_panel(places["A"], sent.board, values)
+    places["B"].set_title("B: a single LED")
+    _draw_led(places["B"], sent.board, values)
+    written.set_xlim(0, 1)
+    written.set_ylim(0, 1)
+    text = "\n".join(textwrap.fill(line, _LINE_LENGTH) for line in notes(sent))
+    written.text(0, 1, text, va="top", ha="left", linespacing=1.35)
+    return figure
+
+
+def notes(sent: Transmission) -> list[str]:
+    """Write what the circuit's values rest on, and what to beware of."""
+    board, values = sent.board, wiring(sent.board)
+    edge = SECOND.format(values.rise_time, 2)
+    fraction = 100 * values.rise_time / float(sent.timing.period)
+    return [
+        f"A: {values.gate_resistor} Ω limit the current of the pin ({board.volts:g} V) into the "
+        f"gate to {1e3 * board.volts / values.gate_resistor:.2g} mA; it may give "
+        f"{1e3 * board.pin_current:g} mA. With the {1e9 * GATE_CAPACITANCE:g} nF that are assumed "
+        f"of the gate its voltage rises within {edge}, {fraction:.2g} % of a chip. "
+        f"{values.pull_down // 1000} kΩ keep the panel dark while the board starts.",
+        f"MOSFET: n-channel, fully on at {board.volts:g} V. Panel: LEDs with resistors for a "
+        "constant voltage. One with a driver or a capacitor inside does not follow the chips.",
+        f"B, without a panel: {values.led_resistor} Ω give {1e3 * values.led_current:.2g} mA in an "
+        f"LED of {LED_VOLTS:g} V (red, assumed; {1e3 * LED_CURRENT:g} mA aimed at).",
+        "",
+        f"Caution. {flicker_sentence(sent)} {EYES}",
+    ]
+
+
+def _draw_panel(axes: Axes, board: Board, values: Wiring) -> None:
+    """Draw the paper's circuit: a MOSFET switches the panel."""
+    with _circuit(axes) as drawing:
+        pins = [
+            elements.IcPin(board.ground, side="right", anchorname="ground", lblsize=_TEXT),
+            elements.IcPin(board.pin, side="right", anchorname="out", lblsize=_TEXT),
+        ]
+        name = board.title.replace(" ", "\n", 1)
+        chip = drawing.add(elements.Ic(pins=pins, size=(3.4, 3.6), label=name))
+        drawing.add(elements.RBox().at(chip.out).right(3.4).label(f"{values.gate_resistor} Ω"))
+        gate = drawing.add(elements.Dot())
+        pull_down = drawing.add(
+            elements.RBox().down(2.6).label(f"{values.pull_down // 1000} kΩ", loc="bottom")
+        )
+        drawing.add(elements.Dot())
+        drawing.add(elements.Ground())
+        mosfet = elements.NMos().right().anchor("gate").label(board.transistor, "right")
+        drawing.add(mosfet.at((gate.center.x + 1.0, gate.center.y)))
+        drawing.add(elements.Line().at(gate.center).to(mosfet.gate))
+        ends = [elements.IcPin(side=side, anchorname=side) for side in ("top", "bottom")]
+        panel = elements.Ic(pins=ends, size=(2.0, 1.4), label="LED\npanel").anchor("bottom")
+        drawing.add(panel.at(mosfet.drain))
+        drawing.add(elements.Line().at(panel.top).right(3.4))
+        drawing.add(elements.Battery().toy(pull_down.end).reverse().label("12 V", "bottom"))
+        # The board's ground, the MOSFET's source and the supply's minus are one wire.
+        drawing.add(elements.Line().tox(mosfet.source))
+        drawing.add(elements.Dot())
+        drawing.add(elements.Line().tox(pull_down.end))
+        drawing.add(elements.Line().at(mosfet.source).toy(pull_down.end))
+        drawing.add(elements.Wire("|-").at(chip.ground).to(pull_down.end))
+
+
+def _draw_led(axes: Axes, board: Board, values: Wiring) -> None:
+    with _circuit(axes) as drawing:
+        drawing.add(elements.Dot(open=True).label(board.pin, "right"))
+        drawing.add(elements.RBox().down(2.6).label(f"{values.led_resistor} Ω", loc="bottom"))
+        drawing.add(elements.LED().down(2.0).label("LED", loc="bottom"))
+        drawing.add(elements.Ground().label(board.ground, "right"))
+
+
+@contextmanager
+def _circuit(axes: Axes) -> Iterator[Drawing]:
+    drawing = Drawing(canvas=axes)
+    drawing.config(fontsize=_TEXT, lw=1.2, font=rcParams["font.family"][0])
+    yield drawing
+    drawing.draw(show=False)
+    axes.set_aspect("equal", adjustable="datalim")

@@ -1,6 +1,7 @@
-"""Find the files that come with the package, wherever it is imported from."""
+"""Find the files that come with the package, wherever it is imported from, and the user's own."""
 
 import atexit
+import os
 from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -62,3 +63,22 @@ def _copy(resource: "Path | Traversable", target: Path) -> None:
     elif resource.is_file():  # a missing file has no copy
         target.parent.mkdir(parents=True, exist_ok=True)
         target.write_bytes(resource.read_bytes())
+
+
+def user_folder(variable: str, name: str) -> Path:
+    """Return a folder of the user's own files, which need not exist yet."""
+    folder = os.environ.get(variable)
+    if folder:
+        return Path(folder)
+    # Not needed where the folder is named.
+    from platformdirs import user_config_path
+
+    return user_config_path("occ-explorer", appauthor=False) / name
+
+
+def files_in(folder: Path, ending: str) -> list[Path]:
+    """List the files in a folder that have an ending, readable or not, but no hidden ones."""
+    try:
+        return sorted(p for p in folder.glob(f"*{ending}") if not p.name.startswith("."))
+    except (OSError, ValueError):  # it is missing, unreadable, or cannot exist
+        return []

@@ -14,7 +14,6 @@ from occ_model.parallel.job import (
     WorkersLostError,
     reason_of,
 )
-from occ_model.parallel.reports import Reports
 from occ_model.parallel.request import Run, StageProgress
 
 _JOBS_PER_WORKER = 2  # jobs in flight for each worker: one at work, and the next
@@ -265,3 +264,29 @@ class Scheduler:
 def _has_result(future: "Future[JobResult]") -> bool:
     """Say whether a job came back before its worker ended."""
     return future.done() and not future.cancelled() and future.exception() is None
+
+
+class Reports:
+    """Reports the results of each channel, at most once in an ``interval`` of seconds."""
+
+    def __init__(
+        self,
+        listener: Listener,
+        interval: float,
+        stage_interval: float,
+        clock: Callable[[], float],
+    ) -> None:
+        self._listener = listener
+        self._interval, self._stage_interval = interval, stage_interval
+        self._clock = clock
+        self._last: dict[int, float] = {}
+
+    def report(self, run: Run, stage: StageProgress) -> None:
+        """Report the run's new results if it is time, or the stage is done."""
+        now = self._clock()
+        interval = self._stage_interval if stage.stage.uninterruptible else self._interval
+        is_due = now - self._last.get(run.channel, -interval) >= interval
+        if run.unreported and (stage.is_done or is_due):
+            self._last[run.channel] = now
+            results, run.unreported = run.unreported, []
+            self._listener.results_ready(run.channel, run.number, results)

@@ -1,8 +1,9 @@
-"""Bit errors of a decoder, and the net bits a second that result."""
+"""Bit errors of a decoder, the net bits a second that result, and the scheme with most of them."""
 
 from dataclasses import dataclass
 
 from occ_model.scene.recording import FRAME_RATE
+from occ_model.scene.scene import Scene
 
 FRAMES_A_SECOND = FRAME_RATE.default  # default frame rate of a camera, in frames a second
 
@@ -95,3 +96,30 @@ def bits_a_second(
     The readout time in seconds limits the frame rate: pictures do not overlap.
     """
     return right_fraction * bits * min(frames_a_second, 1.0 / readout_time)
+
+
+@dataclass(frozen=True, slots=True)
+class MostBits:
+    """The scheme, frequency and number of bits with a decoder's highest net bit rate.
+
+    Parameters
+    ----------
+    scene
+        The best scene, None where every trial failed.
+    pictures
+        Number of pictures tried, with a payload and a start each; all bits were right.
+    bits_a_second
+        Net bits a second of a video with one payload a picture.
+    tried
+        Number of faster combinations that were tried and not read.
+    failure
+        None, or a sentence on why there is no scene.
+    """
+
+    decoder: str
+    scene: Scene | None
+    pictures: int
+    bits_a_second: float
+    frames_a_second: float
+    tried: int
+    failure: str | None = None

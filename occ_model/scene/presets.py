@@ -18,9 +18,8 @@ from occ_model.errors import (
     one_line,
     shown,
 )
-from occ_model.files import user_folder as user_files
+from occ_model.files import resources
 from occ_model.files.reading import read_text
-from occ_model.files.resources import resource_names
 from occ_model.files.writing import make_folder, write_whole
 from occ_model.scene import toml_format
 from occ_model.scene.preset_file import (
@@ -155,17 +154,17 @@ def delete_preset(name: str) -> None:
 
 def user_folder() -> Path:
     """Return the folder of the user's own presets, which need not exist yet."""
-    return user_files.user_folder(USER_FOLDER, FOLDER)
+    return resources.user_folder(USER_FOLDER, FOLDER)
 
 
 def _built_in() -> tuple[str, ...]:
-    return resource_names(FOLDER, ENDING)
+    return resources.resource_names(FOLDER, ENDING)
 
 
 def _own_names() -> tuple[str, ...]:
     """List the names of the user's own preset files, readable or not."""
     return tuple(
-        p.stem for p in user_files.files_in(user_folder(), ENDING) if _name_problem(p.stem) is None
+        p.stem for p in resources.files_in(user_folder(), ENDING) if _name_problem(p.stem) is None
     )
 
 
@@ -173,7 +172,7 @@ def _read_own() -> tuple[dict[str, Preset], dict[str, str]]:
     """Load the user's own presets by name, and give the reasons for files that are none."""
     loaded: dict[str, Preset] = {}
     failures: dict[str, str] = {}
-    for path in user_files.files_in(user_folder(), ENDING):
+    for path in resources.files_in(user_folder(), ENDING):
         name = path.stem
         try:
             problem = _name_problem(name)

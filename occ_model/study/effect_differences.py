@@ -1,20 +1,23 @@
-"""Measure what leaving an effect out of the complete simulation changes, and what it looks like."""
+"""What leaving an effect out of the complete simulation changes, looks like, and costs."""
 
 from collections.abc import Iterable, Mapping
+from functools import lru_cache
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from occ_model.arrays import FloatArray, Pixels
+from occ_model.arrays import ByteArray, FloatArray, Pixels
+from occ_model.camera.photometry import WHITE
 from occ_model.effects.paper_view import paper_view_of
-from occ_model.effects.plan import plan
-from occ_model.results.effect_costs import EffectDifference
-from occ_model.results.plan import Plan
+from occ_model.effects.plan import plan, plan_with, ways_of
+from occ_model.effects.registry import EFFECTS
+from occ_model.results.accuracy import EffectCrop, EffectDifference, Forecast, MeasuredCosts
+from occ_model.results.plan import Plan, Way
 from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import Observable
+from occ_model.scene.simulation_settings import NoiseSource, Observable, SimulationSettings
 from occ_model.simulation.render import observe, render_plan
 from occ_model.simulation.stage_timer import StageTimer
-from occ_model.study.telling_crop import ICON, telling_crop
 
 _SAMPLES = 2**16  # maximum number of samples kept of a change
 _VISIBLE_CHANGE = 0.05  # RMS in grey levels below which a change of the panel's pixels is not seen
@@ -111,3 +114,115 @@ def rms(values: Pixels | FloatArray) -> float:
 
 def _some(size: int) -> NDArray[np.int64]:
     return np.random.default_rng(0).integers(0, size, _SAMPLES)
+
+
+CROP = (64, 112)  # rows and columns of a crop that is looked at closely
+ICON = (16, 40)  # rows and columns of a crop in a line of a table
+_MIN_KEPT_FRACTION = 0.7
+"""Fraction of a difference that averaging must keep for the averaged panel to show it."""
+
+_CLIPPED_PERCENT = 1.0  # of the pixels at either end that the stretching to the full range may clip
+_MAX_AMPLIFIED = 256
+_MIDDLE_GREY = 128.0
+
+
+def telling_crop(with_effect: Pixels, without: Pixels, most: tuple[int, int] = CROP) -> EffectCrop:
+    """Choose the crop of the panel's bounding rectangle that shows a difference best.
+
+    One that varies slowly is shown on the whole panel, reduced by averaging areas. A fine one would
+    be averaged away: it is shown in real pixels, where it is largest.
+    """
+    difference = with_effect - without
+    size = (min(most[0], len(difference)), min(most[1], difference.shape[1]))
+    small = _averaged(difference, size)
+    is_averaged = rms(small) >= _MIN_KEPT_FRACTION * rms(difference)
+    if is_averaged:
+        shown = [_averaged(with_effect, size), _averaged(without, size), small]
+    else:
+        place = _largest(difference, size)
+        shown = [values[place] for values in (with_effect, without, difference)]
+    one, other = _stretched(shown[0], shown[1])
+    factor = _amplification(shown[2])
+    amplified = np.clip(_MIDDLE_GREY + factor * shown[2], 0.0, WHITE)
+    return EffectCrop(one, other, amplified.astype(np.uint8), factor, is_averaged)
+
+
+def _averaged(values: Pixels, size: tuple[int, int]) -> Pixels:
+    return np.asarray(cv2.resize(values, size[::-1], interpolation=cv2.INTER_AREA), np.float32)
+
+
+def _largest(difference: Pixels, size: tuple[int, int]) -> tuple[slice, slice]:
+    """Return the window in which the difference's mean square is largest."""
+    sums = cv2.integral(np.square(difference), sdepth=cv2.CV_64F)
+    rows, columns = size
+    windows = (sums[rows:, columns:] - sums[:-rows, columns:] - sums[rows:, :-columns]) + sums[
+        :-rows, :-columns
+    ]
+    row, column = np.unravel_index(int(np.argmax(windows)), windows.shape)
+    return slice(int(row), int(row) + rows), slice(int(column), int(column) + columns)
+
+
+def _stretched(one: Pixels, other: Pixels) -> tuple[ByteArray, ByteArray]:
+    """Stretch both pictures in the same way."""
+    both: FloatArray = np.stack((one, other)).astype(np.float64)
+    low, high = np.percentile(both, (_CLIPPED_PERCENT, 100.0 - _CLIPPED_PERCENT))
+    grey = np.clip((both - low) * (WHITE / max(high - low, 1.0)), 0.0, WHITE).astype(np.uint8)
+    return grey[0], grey[1]
+
+
+def _amplification(difference: Pixels) -> int:
+    """Return the largest power of two that leaves the difference within the range of grey."""
+    largest = float(np.percentile(np.abs(difference), 100.0 - _CLIPPED_PERCENT))
+    factor = 1
+    while factor < _MAX_AMPLIFIED and 2 * factor * largest < _MIDDLE_GREY:
+        factor *= 2
+    return factor
+
+
+def forecast(scene: Scene, settings: SimulationSettings, costs: MeasuredCosts) -> Forecast:
+    """Predict a simulation."""
+    chosen = plan_with(scene, settings)
+    seconds = _seconds(chosen.included, costs)
+    force = tuple(sorted(settings.force.items()))
+    ways = _known_ways(scene, settings.observable, force, settings.noise)
+    forced = frozenset(name for name, on in force if on)
+    times = tuple(_seconds(tuple(way.effects | forced), costs) for way in ways)
+    present = frozenset(d.effect for d in chosen.decisions if d.estimate)
+    included = present & frozenset(chosen.included)
+    if included == present or included in costs.errors:
+        error = costs.errors.get(included, 0.0)
+        return Forecast(chosen, seconds, error, True, ways, times)
+    left_out = sorted(present - included)
+    expected = None
+    if all(name in costs.differences for name in left_out):
+        expected = rms(np.sum([costs.differences[name].change for name in left_out], axis=0))
+    return Forecast(chosen, seconds, expected, False, ways, times)
+
+
+@lru_cache(maxsize=4)
+def _known_ways(
+    scene: Scene, observable: Observable, force: tuple[tuple[str, bool], ...], noise: NoiseSource
+) -> tuple[Way, ...]:
+    """Return what a plan chooses among, which does not depend on the tolerance."""
+    return ways_of(scene, SimulationSettings(observable=observable, force=dict(force), noise=noise))
+
+
+def _seconds(included: tuple[str, ...], costs: MeasuredCosts) -> float | None:
+    """Add up the times of effects and of everything else, as each was last measured."""
+    rows_differ = any(effect.name in included and effect.kind != "column" for effect in EFFECTS)
+    measured = (costs.picture, *costs.others)
+    rest = [shares for shares in measured if shares.rows_differ == rows_differ]
+    if not rest:
+        return None
+    total = rest[0].everything_else
+    counted: set[str] = set()
+    for name in included:
+        seconds = costs.seconds_of(name)
+        if seconds is None:
+            return None
+        together = (shares.together.get(name) for shares in measured)
+        group = next((own for own in together if own is not None), name)
+        if group not in counted:
+            counted.add(group)
+            total += seconds
+    return total

@@ -15,12 +15,15 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from occ_model.errors import ParameterError, shown
 from occ_model.parallel.job import NO_PROCESSES, Heartbeat, Job, JobResult
 from occ_model.receiver.decoders import DECODERS, PAPER_DECODER
+from occ_model.results.advice import Advice, TheoryLimits
 from occ_model.results.limits import Limits, WorkingRange
 from occ_model.results.sweep_request import MOST_JOBS, RateSettings, SignalPath
 from occ_model.scene.argument_checks import check_count, is_number
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.scene.simulation_settings import TOLERANCE
+from occ_model.study import theory
+from occ_model.study.cause import TWO_HEADERS
 from occ_model.study.success_rate import check_rate
 from occ_model.study.sure_ends import images_about_an_end, pairs_of, sure_end, with_ends
 from occ_model.study.working_range import READ_RATE, expected_images, working_range
@@ -227,3 +230,18 @@ def _checked(rate: object) -> float:
     if not is_number(rate) or not 0.0 < rate <= 100.0:
         raise ParameterError.of("rate", f"{shown(rate)} %", "above 0 % to 100 %")
     return float(rate)
+
+
+def advice_of(limits: Limits) -> Advice:
+    """Return the limits found by trial together with those of theory."""
+    scene, period = limits.scene, limits.scene.transmitter.switching_period
+    reads_two = limits.decoder in TWO_HEADERS
+    frequencies = TheoryLimits(
+        band_model=theory.band_model_frequency(scene),
+        null=theory.null_frequency(scene),
+        two_packets=theory.two_packets_frequency(scene) if reads_two else None,
+    )
+    exposures = TheoryLimits(
+        band_model=period, null=2.0 * period, saturation=theory.saturation_exposure(scene)
+    )
+    return Advice(limits, frequencies, exposures)

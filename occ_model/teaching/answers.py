@@ -1,14 +1,13 @@
-"""Check a student's answer to a step of a lesson against the model."""
+"""Check a student's answer to a step of a lesson against the model, and explain the right one."""
 
 import math
 
 from occ_model.errors import OccError, one_line
-from occ_model.results.lessons import Check, CheckedAnswer, Step
 from occ_model.results.match import Match
+from occ_model.results.teaching import Check, CheckedAnswer, Step
 from occ_model.scene.parameters import PARAMETERS
-from occ_model.scene.scene import Scene
-from occ_model.teaching.quantities import QUANTITIES
-from occ_model.teaching.result_text import result_text
+from occ_model.scene.scene import GROUPS, Scene
+from occ_model.teaching.quantities import QUANTITIES, result_text
 
 _NEAR_TOLERANCES = 3.0  # an answer within this many tolerances is near
 _MIN_NEAR_DIFFERENCE = 0.02  # relative difference that is near however small the tolerance is
@@ -77,3 +76,20 @@ def _to_set_first(check: Check, scene: Scene) -> str:
     if not differing:
         return ""
     return f"First set {' and '.join(differing)}: the question is about that."
+
+
+_MAX_NAMED = 2
+
+
+def explanation(step: Step, scene: Scene) -> str:
+    """Return a step's explanation, which begins with the scene of its numbers if not this one."""
+    if step.own_photo or scene == step.asked:
+        return step.answer
+    names = (name for names in GROUPS.values() for name in names)
+    differing = [name for name in names if scene.value(name) != step.asked.value(name)]
+    own = ", ".join(
+        f"{PARAMETERS[name].label}: {PARAMETERS[name].format(step.asked.value(name)) or 'empty'}"  # type: ignore[arg-type]
+        for name in differing[:_MAX_NAMED]
+    )
+    more = ", …" if len(differing) > _MAX_NAMED else ""
+    return f"For the lesson's own scene ({own}{more}): {step.answer}"

@@ -9,8 +9,7 @@ from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import HERTZ, NIT, SECOND
 from occ_model.simulation.band_model import band_lengths
-from occ_model.teaching.quantities import COLUMN
-from occ_model.teaching.result_text import result_text
+from occ_model.teaching.quantities import COLUMN, result_text
 
 _LIGHT = ("luminance", "illuminance", "reflectance")
 

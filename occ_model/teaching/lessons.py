@@ -8,10 +8,9 @@ from typing import Any
 
 from occ_model.errors import OccError, SceneFileError, one_line, printable, shown
 from occ_model.files.reading import read_text
-from occ_model.files.resources import resource_names, resource_text
-from occ_model.files.user_folder import files_in, user_folder
+from occ_model.files.resources import files_in, resource_names, resource_text, user_folder
 from occ_model.files.writing import make_folder, write_whole
-from occ_model.results.lessons import Check, Lesson, LessonList, Step
+from occ_model.results.teaching import Check, Lesson, LessonList, Step
 from occ_model.scene.from_text import with_settings
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.presets import load_preset

@@ -10,9 +10,8 @@ from documents import FOLDER, PAGES, README, ROOT, blocks, links, text_of, witho
 
 from occ_gui.app.command_line import read_command_line as read_gui_line
 from occ_gui.help.pages import CONTENTS, heading_id, pages
-from occ_model.commands.codes import framing_table, line_code_table
 from occ_model.commands.command_line import read_command_line
-from occ_model.commands.listing import parameter_table
+from occ_model.commands.listing import framing_table, line_code_table, parameter_table
 from occ_model.effects.registry import EFFECTS
 from occ_model.scene.preset_file import preset_from
 

@@ -28,7 +28,7 @@ from occ_gui.values.photo_choice import MODES
 from occ_gui.video.wiring import VideoWiring
 from occ_gui.window.theme import THEMES
 from occ_model.effects.registry import NAMES
-from occ_model.results.lessons import LessonList
+from occ_model.results.teaching import LessonList
 from occ_model.results.video import VideoFrame
 from occ_model.scene.parameter_kinds import Choice, Quantity
 from occ_model.scene.parameters import PARAMETERS

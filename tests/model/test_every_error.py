@@ -23,7 +23,7 @@ import occ_model as occ
 from occ_model import plugins
 from occ_model.cli import main
 from occ_model.commands import command_line
-from occ_model.commands.cluster import ClusterError
+from occ_model.commands.sweep import ClusterError
 from occ_model.errors import PluginError
 from occ_model.program import EXIT_MISUSE
 from occ_model.scene.parameter_kinds import Quantity

@@ -26,10 +26,9 @@ from occ_model.study.accuracy import accuracy
 from occ_model.study.bench.bench import bench
 from occ_model.study.bit_error_rate import check_frame_rate
 from occ_model.study.confidence import wilson_interval
-from occ_model.study.films.study import FilmRequest
+from occ_model.study.film_study import FilmRequest
 from occ_model.study.spectrum import profile_spectrum
-from occ_model.teaching.exposure_window import exposure_window
-from occ_model.teaching.light_over_columns import light_over_columns
+from occ_model.teaching.light_over_columns import exposure_window, light_over_columns
 
 Row = tuple[Callable[[], object], str, str, str]
 

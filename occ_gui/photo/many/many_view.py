@@ -21,9 +21,9 @@ from occ_model.results.photo_table import (
     CombinedEstimate,
     PhotoRow,
     PhotoTable,
+    csv_text,
     known_beside,
 )
-from occ_model.results.photo_table_csv import csv_text
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 

@@ -1,17 +1,17 @@
-"""Exposures, frequencies and shutter speeds without bars."""
+"""Exposures, frequencies and shutter speeds without bars, and the picture as bright at one."""
 
 from collections.abc import Callable
+from fractions import Fraction
 
 import numpy as np
 
 from occ_model.arrays import FloatArray
 from occ_model.errors import ParameterError
-from occ_model.results.bands import NO_BARS_DEPTH, BandAdvice, SpeedDepth
+from occ_model.results.bands import NO_BARS_DEPTH, BandAdvice, Cure, ShutterSpeed, SpeedDepth
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
-from occ_model.study.bands.depth import light_depth
+from occ_model.study.bands.depth import duty, light_depth
 from occ_model.study.bands.least_depth import DepthOver
-from occ_model.study.bands.shutter_speeds import shutter_speeds
 
 _MAX_CHIPS = 10_000  # exposure in chips from which the code's bars are bounded, not computed
 _MIN_LIMIT = 1e-4
@@ -159,3 +159,81 @@ def _crossings(depths: Depths, low: FloatArray, high: FloatArray, limit: float) 
         is_below = depths(middle) < limit
         inner, outer = np.where(is_below, middle, inner), np.where(is_below, outer, middle)
     return np.where(is_free, high, inner)
+
+
+_THIRDS = (
+    "1", "0.8", "0.6", "0.5", "0.4", "0.3", "1/4", "1/5", "1/6", "1/8", "1/10", "1/13", "1/15",
+    "1/20", "1/25", "1/30", "1/40", "1/50", "1/60", "1/80", "1/100", "1/125", "1/160", "1/200",
+    "1/250", "1/320", "1/400", "1/500", "1/640", "1/800", "1/1000", "1/1250", "1/1600", "1/2000",
+    "1/2500", "1/3200", "1/4000", "1/5000", "1/6400", "1/8000",
+)  # fmt: skip
+"""Marked times in seconds, in thirds of a stop. The k-th is really 2^(-k/3) s, so that 1/60 s is
+1/64 s and 1/125 s is 1/128 s."""
+
+_OTHERS = ("1/48", "1/96", "1/120", "1/240")  # of film cameras and phones, kept as marked
+
+
+def shutter_speeds() -> tuple[ShutterSpeed, ...]:
+    """Return the usual shutter speeds from 1 s to 1/8000 s, the longest first."""
+    thirds = [
+        ShutterSpeed(f"{name} s", float(Fraction(name)), 2.0 ** (-step / 3.0))
+        for step, name in enumerate(_THIRDS)
+    ]
+    others = [ShutterSpeed(f"{name} s", *[float(Fraction(name))] * 2) for name in _OTHERS]
+    return tuple(sorted(thirds + others, key=lambda speed: -speed.nominal))
+
+
+_MAX_SPEEDS = 2
+
+_SAMPLES = 65  # exposures within the error at which the depth is sampled
+
+
+def cure_of(scene: Scene, exposure_error: float = 0.0) -> Cure:
+    """Return the shutter speeds without bars, and the scene at the shortest of them.
+
+    ``exposure_error``: standard deviation of the scene's exposure time in s.
+    """
+    over, frequency = DepthOver.of(scene), scene.transmitter.switching_frequency
+    repeats = frequency / over.period
+
+    def depth(exposure: float) -> float:
+        exposures = np.array([exposure])
+        return float((over.of_code(frequency * exposures) + over.flicker(exposures))[0])
+
+    as_written = [
+        each for each in reversed(shutter_speeds()) if depth(each.nominal) < NO_BARS_DEPTH
+    ]
+    kept = [each for each in as_written if depth(each.real) < NO_BARS_DEPTH]
+    exposure = as_written[0].nominal if as_written else 1.0 / repeats
+    cured = as_bright(scene, exposure)
+    return Cure(
+        repeats, duty(scene), _present_depth(scene, over, exposure_error),
+        tuple(as_written[:_MAX_SPEEDS]), tuple(kept[:_MAX_SPEEDS]), cured,
+    )  # fmt: skip
+
+
+def _present_depth(scene: Scene, over: DepthOver, error: float) -> tuple[float, float]:
+    """Return the range of the present depth of the bars in the lamp's own light."""
+    exposure, frequency = scene.camera.exposure_time, scene.transmitter.switching_frequency
+    ends = frequency * np.clip(exposure + np.array([-2.0, 2.0]) * error, 0.01 * exposure, None)
+    # The swing is linear in the exposure between whole chips.
+    nodes = np.arange(np.ceil(ends[0]), min(ends[1], ends[0] + over.period) + 0.5)
+    chips = np.concatenate(
+        [np.linspace(float(ends[0]), float(ends[1]), _SAMPLES), nodes[nodes < ends[1]]]
+    )
+    depths = over.swing_in(chips) / chips / duty(scene)
+    return float(depths.min()), float(depths.max())
+
+
+def as_bright(scene: Scene, exposure: float) -> Scene:
+    """Return a scene at another exposure, as bright as ISO speed and then aperture allow."""
+    camera = scene.camera
+    low, high = quantity("iso").slider
+    wanted = camera.iso * camera.exposure_time / exposure
+    iso = float(np.clip(wanted, min(low, camera.iso), max(high, camera.iso)))
+    f_number = quantity("f_number")
+    stopped = camera.f_number * float(np.sqrt(iso / wanted))
+    return scene.replace(
+        exposure_time=exposure, iso=iso,
+        f_number=float(np.clip(stopped, f_number.low, f_number.high)),
+    )  # fmt: skip

@@ -18,12 +18,13 @@ from occ_model.errors import ParameterError, shown
 from occ_model.parallel.job import Heartbeat
 from occ_model.receiver.decode import decode
 from occ_model.receiver.decoders import decoder_named, decoders
-from occ_model.results.bench import BenchPlace, BenchPoint, BenchRequest
+from occ_model.results.bench import BenchBounds, BenchPlace, BenchPoint, BenchRequest
 from occ_model.results.bit_errors import BitErrors
 from occ_model.scene.argument_checks import check_count, check_seed
 from occ_model.scene.payload import MAX_PAYLOAD_BITS
 from occ_model.scene.scene import Scene
 from occ_model.study.bit_error_rate import MOST_BITS, bit_errors_of, with_payload
+from occ_model.study.theory import gaussian_rate_bound
 from occ_model.transmitter.scheme import scheme_of
 
 _DARK, _SWING = 40.0, 160.0  # grey levels, lamp off and by how much on: 10 dB of noise fits
@@ -132,3 +133,39 @@ def _period(scene: Scene) -> float:
 def _check(what: str, value: float, low: float, high: float) -> None:
     if not low <= value <= high:
         raise ParameterError.of(what, shown(value), f"{low:g} to {high:g}")
+
+
+_CURVE_POINTS = 31
+
+_NULL_EXPOSURE = 2.0  # first null of alternating chips, in symbols; the others are its multiples
+
+
+def bench_bounds(request: BenchRequest, heartbeat: Heartbeat = lambda: None) -> BenchBounds:
+    """Compute the theoretical bounds along both axes of a request.
+
+    The nulls are those of alternating chips, the fastest wave of each line code: its frequency is
+    f/2, and |sinc(t f / 2)| vanishes where the exposure lasts an even number of symbols. The most
+    bits are :func:`occ_model.study.theory.gaussian_rate_bound`, which no scheme changes.
+    """
+
+    def bound(exposure: float, decibels: float) -> float:
+        heartbeat()
+        scene = bench_scene(request, request.schemes[0], exposure)
+        return gaussian_rate_bound(scene, 10.0 ** (decibels / 10.0), frames_a_second=1.0)
+
+    exposures, ratios = _between(request.exposures), _between(request.decibels)
+    longest = max(request.exposures, default=0.0)
+    return BenchBounds(
+        tuple(_NULL_EXPOSURE * number for number in range(1, int(longest / _NULL_EXPOSURE) + 1)),
+        {
+            "exposure": (exposures, tuple(bound(at, request.at_decibels) for at in exposures)),
+            "noise": (ratios, tuple(bound(request.at_exposure, at) for at in ratios)),
+        },
+    )
+
+
+def _between(values: tuple[float, ...]) -> tuple[float, ...]:
+    """Return places from the least to the largest of some values."""
+    if not values:
+        return ()
+    return tuple(np.linspace(min(values), max(values), _CURVE_POINTS).tolist())

@@ -10,8 +10,7 @@ from typing import TypeAlias
 
 from occ_model.receiver.decoders import PAPER_DECODER
 from occ_model.results.bit_errors import FRAMES_A_SECOND
-from occ_model.results.sweep import SweepTable
-from occ_model.results.sweep_csv import TITLE, PointReader, header_text, point_text
+from occ_model.results.sweep import TITLE, PointReader, SweepTable, header_text, point_text
 from occ_model.results.sweep_request import (
     MOST_JOBS,
     RateSettings,
@@ -23,8 +22,7 @@ from occ_model.scene.argument_checks import check_count
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import TOLERANCE
-from occ_model.study.sweep.counts import Counts, rate_intervals
-from occ_model.study.sweep.points import SweepWork
+from occ_model.study.sweep.points import Counts, SweepWork, rate_intervals
 from occ_model.study.sweep.request_check import checked_request, decoders_of, processes_for
 from occ_model.study.sweep.results_file import Point, ResultsFile, TableText
 from occ_model.study.sweep.workers import Work, measure_anywhere

@@ -19,7 +19,7 @@ from occ_gui.accuracy.feature import accuracy
 from occ_gui.accuracy.pane import AccuracyPane
 from occ_gui.accuracy.plan_changes import PlanNews
 from occ_model.effects.plan import plan_with
-from occ_model.results.effect_costs import Forecast
+from occ_model.results.accuracy import Forecast
 from occ_model.scene.scene import Scene
 
 

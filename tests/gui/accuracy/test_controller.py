@@ -21,8 +21,13 @@ from occ_gui.background.task import Superseded
 from occ_gui.core.workspace import FIRST_SETTINGS
 from occ_gui.simulation.controller import SimulationController
 from occ_gui.values.simulated import SimulationRequest
-from occ_model.results.accuracy import ACCURACY_PARTS, AccuracyPoint
-from occ_model.results.effect_costs import Forecast, MeasuredCosts, TimeShares
+from occ_model.results.accuracy import (
+    ACCURACY_PARTS,
+    AccuracyPoint,
+    Forecast,
+    MeasuredCosts,
+    TimeShares,
+)
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.study import effect_differences

@@ -6,7 +6,7 @@ import pytest
 
 import occ_model as occ
 from occ_gui.accuracy.cost_sentences import ends_sentence, forecast_sentence, picture_sentence
-from occ_model.results.effect_costs import Forecast, MeasuredCosts, TimeShares
+from occ_model.results.accuracy import Forecast, MeasuredCosts, TimeShares
 from occ_model.results.frame import Frame
 
 

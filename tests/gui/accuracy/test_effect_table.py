@@ -24,7 +24,7 @@ from occ_gui.accuracy.effect_rows import (
     slowest_of,
 )
 from occ_gui.accuracy.effect_table import HIGHEST_ROW, LOWEST_ROW, EffectTable
-from occ_model.results.effect_costs import (
+from occ_model.results.accuracy import (
     EffectCrop,
     EffectDifference,
     Forecast,

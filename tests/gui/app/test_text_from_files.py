@@ -22,7 +22,7 @@ from occ_gui.lessons.lesson_controller import LessonController
 from occ_gui.lessons.lesson_view import LessonView
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.plain_text import in_tool_tip, plain
-from occ_model.results.lessons import LessonList
+from occ_model.results.teaching import LessonList
 from occ_model.scene.presets import USER_FOLDER, save_preset
 from occ_model.scene.scene import Scene
 from occ_model.teaching.lessons import lessons

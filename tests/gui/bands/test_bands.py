@@ -15,7 +15,7 @@ from occ_gui.bands.feature import bands
 from occ_gui.bands.jobs import shown_bands
 from occ_gui.widgets.outdated_mark import DELAY
 from occ_model.scene.scene import Scene
-from occ_model.study.bands.cure import as_bright, cure_of
+from occ_model.study.bands.advice import as_bright, cure_of
 
 _LAMP = occ.load_preset("phone-136us").replace(
     pattern="10", switching_frequency=3840.0, exposure_time=1 / 500

@@ -24,7 +24,7 @@ from occ_model.results.advice import Advice, TheoryLimits
 from occ_model.results.limits import Limits, RangeEnd, ReadInterval, Trial, WorkingRange
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
-from occ_model.study.advice import advice_of
+from occ_model.study.limits import advice_of
 
 GOOD = Trial(14.7e3, 200, 200, 83.9, 100.0, 20, 20)
 INSIDE = Trial(14.55e3, 3810, 3810, 99.0, 100.0, 381, 381)

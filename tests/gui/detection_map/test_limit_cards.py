@@ -13,11 +13,10 @@ from occ_gui.detection_map.limit_cards import LimitCards
 from occ_gui.detection_map.map_view import MapView
 from occ_gui.widgets.text_scale import TextSize
 from occ_model.receiver.decoders import DECODERS
-from occ_model.results.advice import Advice
-from occ_model.results.advice_text import written
+from occ_model.results.advice import Advice, written
 from occ_model.results.limits import RangeEnd
 from occ_model.scene.scene import Scene
-from occ_model.study.advice import advice_of
+from occ_model.study.limits import advice_of
 
 
 @pytest.fixture

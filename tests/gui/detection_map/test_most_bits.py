@@ -13,7 +13,7 @@ from occ_gui.background.signals import WorkQueue
 from occ_gui.detection_map import advice_worker
 from occ_gui.detection_map.most_bits_card import MostBitsCard
 from occ_gui.detection_map.search_controller import MostBitsController
-from occ_model.results.most_bits import MostBits
+from occ_model.results.bit_errors import MostBits
 from occ_model.scene.scene import Scene
 from occ_model.study.most_bits import DECODERS, VARIED, unvaried
 

@@ -15,7 +15,7 @@ from occ_gui.explanation.pane import ExplanationPane
 from occ_gui.profile.feature import profile
 from occ_gui.widgets.plot import Plot
 from occ_model.scene.scene import Scene
-from occ_model.teaching.exposure_window import exposure_window
+from occ_model.teaching.light_over_columns import exposure_window
 
 
 @pytest.fixture

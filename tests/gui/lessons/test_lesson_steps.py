@@ -18,7 +18,7 @@ from occ_gui.lessons import answers
 from occ_gui.lessons.lesson_controller import changed_sentence
 from occ_gui.lessons.lesson_view import LessonList, LessonView
 from occ_gui.lessons.step_page import StepPage
-from occ_model.results.lessons import CheckedAnswer
+from occ_model.results.teaching import CheckedAnswer
 from occ_model.teaching.answers import check_answer
 from occ_model.teaching.lessons import lessons
 

@@ -11,7 +11,7 @@ from pytestqt.qtbot import QtBot
 import occ_model as occ
 from occ_gui.lessons.shutter_animation import _Drawing, _grey
 from occ_model.results.teaching import RollingShutter
-from occ_model.teaching.exposure_window import rolling_shutter
+from occ_model.teaching.light_over_columns import rolling_shutter
 
 
 @pytest.fixture

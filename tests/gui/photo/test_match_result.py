@@ -19,7 +19,7 @@ from occ_model.results.photo_table import DOUBTFUL, SURE, VERDICTS
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.units import SECOND
-from occ_model.study.bands.cure import cure_of
+from occ_model.study.bands.advice import cure_of
 
 READOUT = PARAMETERS["readout_time"]
 

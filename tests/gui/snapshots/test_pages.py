@@ -16,7 +16,7 @@ from occ_gui.welcome.welcome import WelcomeDialog
 from occ_model.photo.reading.load import Photo
 from occ_model.scene.scene import Scene
 from occ_model.teaching.equations import equations
-from occ_model.teaching.exposure_window import exposure_window
+from occ_model.teaching.light_over_columns import exposure_window
 
 Matches = Callable[[QWidget, str], None]
 

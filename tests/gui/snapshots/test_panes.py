@@ -29,9 +29,9 @@ from occ_gui.detection_map.rate_map import LINES, RateMap, TheoryFields, lattice
 from occ_gui.photo.match_result import MatchResult
 from occ_gui.picture.image_view import ImageView
 from occ_gui.profile.profile_view import ProfileView
+from occ_model.results.accuracy import Forecast
 from occ_model.results.bench import BenchPoint
 from occ_model.results.bit_errors import BitErrors
-from occ_model.results.effect_costs import Forecast
 from occ_model.results.match import Alternative
 from occ_model.results.sweep_request import SweepPoint
 from occ_model.scene.scene import Scene

@@ -12,8 +12,7 @@ from occ_model.boards.pico import PICO
 from occ_model.boards.sketch import BOARDS, board_named
 from occ_model.boards.transmission import transmission
 from occ_model.boards.wiring import GATE_CAPACITANCE, LED_CURRENT, LED_VOLTS, next_resistor, wiring
-from occ_model.figures.transmitter_files import wiring_bytes
-from occ_model.figures.wiring import notes
+from occ_model.figures.transmitter_files import notes, wiring_bytes
 
 PAPER = occ.load_preset("phone-68us")
 
@@ -74,7 +73,7 @@ def test_the_figure_says_pin_resistors_and_caution(board: Board) -> None:
 
 def test_the_text_below_the_figure_stays_within_it() -> None:
     from occ_model.figures.drawing import house_style
-    from occ_model.figures.wiring import wiring_figure
+    from occ_model.figures.transmitter_files import wiring_figure
 
     longest = PAPER.replace(payload="text:" + "Photograph me. " * 30, switching_frequency=1.5e3)
     with house_style():

@@ -14,7 +14,7 @@ from PIL import Image
 
 import occ_model as occ
 from occ_model.cli import main
-from occ_model.commands import cluster
+from occ_model.commands import sweep as cluster
 from occ_model.commands.sweep import _decoders, run_with_bar
 from occ_model.commands.vary import axes_of
 from occ_model.errors import OutputError, ParameterError

@@ -27,18 +27,18 @@ from occ_model.figures.bench import bench_drawing
 from occ_model.figures.decoding import decode_drawing
 from occ_model.figures.drawing import Drawing, house_style
 from occ_model.figures.films import films_drawing
-from occ_model.figures.lesson_steps import draw_page
+from occ_model.figures.lesson_report import draw_page
 from occ_model.figures.sweep import sweep_drawing
+from occ_model.figures.transmitter_files import wiring_figure
 from occ_model.figures.window_panes import picture_drawing, profile_drawing
-from occ_model.figures.wiring import wiring_figure
 from occ_model.results.bench import BenchPoint, BenchRequest
 from occ_model.results.bit_errors import BitErrors
 from occ_model.results.frame import Frame
-from occ_model.results.lessons import AnsweredStep, CheckedAnswer
 from occ_model.results.sweep import SweepTable
 from occ_model.results.sweep_request import RateSettings, Shown, SweepRequest
+from occ_model.results.teaching import AnsweredStep, CheckedAnswer
 from occ_model.study.confidence import wilson_interval
-from occ_model.study.films.study import FilmPoint
+from occ_model.study.film_study import FilmPoint
 from occ_model.study.paper_grid import DISTANCES as PAPERS_DISTANCES
 from occ_model.study.paper_grid import FREQUENCIES as PAPERS_FREQUENCIES
 from occ_model.teaching.lessons import lessons

@@ -12,7 +12,7 @@ from model.figures.test_text_from_files import lesson_saying
 import occ_model as occ
 from occ_model.figures.decoding import decode_drawing
 from occ_model.figures.drawing import figure_bytes, house_style
-from occ_model.figures.lesson_steps import draw_page
+from occ_model.figures.lesson_report import draw_page
 from occ_model.figures.overlay import Difference, PhotoLayer
 from occ_model.figures.window_panes import picture_drawing, profile_drawing
 from occ_model.results.frame import Frame

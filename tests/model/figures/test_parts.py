@@ -6,7 +6,7 @@ from unittest.mock import Mock
 import numpy as np
 import pytest
 
-from occ_model.figures import lesson_steps
+from occ_model.figures import lesson_report
 from occ_model.figures.accuracy import _draw_part
 from occ_model.figures.bench import _draw_bits
 from occ_model.figures.decoding import _draw_signal
@@ -91,7 +91,7 @@ def test_the_label_of_an_axis_begins_small_but_for_abbreviations(
 
 
 def test_a_report_says_what_became_of_an_answer(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(lesson_steps, "_draw_seen", Mock())
+    monkeypatch.setattr(lesson_report, "_draw_seen", Mock())
     figure = Mock()
     answer = SimpleNamespace(text="12", sentence="That is what the picture shows.")
     step = SimpleNamespace(
@@ -99,7 +99,7 @@ def test_a_report_says_what_became_of_an_answer(monkeypatch: pytest.MonkeyPatch)
     )
     for given in (answer, None):
         each = SimpleNamespace(step=step, answer=given, match=None, photo=None, scene=Scene())
-        lesson_steps._draw_step(figure, 1, each, 0.9, 0.5)  # type: ignore[arg-type]
+        lesson_report._draw_step(figure, 1, each, 0.9, 0.5)  # type: ignore[arg-type]
         texts = [str(call.args[2]).replace("\n", " ") for call in figure.text.call_args_list]
         assert (answer.sentence in texts) == (given is not None)
         figure.text.reset_mock()
@@ -110,10 +110,10 @@ def test_a_report_shows_what_was_seen_where_it_has_room(
     monkeypatch: pytest.MonkeyPatch, top: float, is_drawn: bool
 ) -> None:
     draw = Mock()
-    monkeypatch.setattr(lesson_steps, "draw_profile", draw)
-    monkeypatch.setattr(lesson_steps, "_room", lambda _: 1.0)
+    monkeypatch.setattr(lesson_report, "draw_profile", draw)
+    monkeypatch.setattr(lesson_report, "_room", lambda _: 1.0)
     step = SimpleNamespace(match=None, scene="the scene")
-    lesson_steps._draw_seen(Mock(), step, top, 0.1)  # type: ignore[arg-type]
+    lesson_report._draw_seen(Mock(), step, top, 0.1)  # type: ignore[arg-type]
     assert draw.called is is_drawn
 
 

@@ -16,9 +16,8 @@ from occ_model.figures.lesson_report import write_lesson_report
 from occ_model.photo.many.row import MatchSettings
 from occ_model.photo.many.table import table_of
 from occ_model.results.decoding import DecodeResult
-from occ_model.results.lessons import AnsweredStep, CheckedAnswer, Lesson, Step
-from occ_model.results.photo_table import PhotoRow
-from occ_model.results.photo_table_csv import csv_text
+from occ_model.results.photo_table import PhotoRow, csv_text
+from occ_model.results.teaching import AnsweredStep, CheckedAnswer, Lesson, Step
 from occ_model.scene.provenance import Provenance, first_scene_in, scene_inside
 from occ_model.scene.scene import Scene
 from occ_model.teaching.lessons import read_lesson

@@ -17,7 +17,7 @@ from occ_model.boards.transmission import transmission
 from occ_model.figures.lesson_report import write_lesson_report
 from occ_model.figures.transmitter_files import write_transmitter_files
 from occ_model.files.writing import write_whole
-from occ_model.results.lessons import AnsweredStep, Lesson, Step
+from occ_model.results.teaching import AnsweredStep, Lesson, Step
 
 SCENE = occ.load_preset("phone-68us").replace(rows=40, columns=400)
 

@@ -64,7 +64,7 @@ if __name__ == "__main__":
 CLUSTER = """
 import sys
 from distributed import LocalCluster
-from occ_model.commands.cluster import cluster_executor
+from occ_model.commands.sweep import cluster_executor
 
 def main():
     if sys.argv[1] != "serve":

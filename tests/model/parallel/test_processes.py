@@ -8,8 +8,7 @@ import pytest
 from worker_calls import echo
 
 from occ_model.parallel.job import Job
-from occ_model.parallel.process_pool import ProcessPool
-from occ_model.parallel.processes import interrupts_held
+from occ_model.parallel.process_pool import ProcessPool, interrupts_held
 
 
 def test_ctrl_c_is_answered_at_the_end() -> None:

@@ -16,8 +16,7 @@ from occ_model.photo.many import match_photos as module
 from occ_model.photo.many.other_programs import frame_readout_time, lines_to_paste
 from occ_model.photo.many.row import MatchSettings
 from occ_model.photo.many.table import table_of
-from occ_model.results.photo_table import PhotoRow, PhotoTable
-from occ_model.results.photo_table_csv import csv_text
+from occ_model.results.photo_table import PhotoRow, PhotoTable, csv_text
 from occ_model.scene.scene import Scene
 
 SCENE = occ.load_preset("phone-68us").replace(

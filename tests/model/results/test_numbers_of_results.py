@@ -10,9 +10,9 @@ import pytest
 from matches import match_with
 
 import occ_model as occ
+from occ_model.results.accuracy import TimeShares
 from occ_model.results.bench import DECIBELS, EXPOSURES
 from occ_model.results.bit_errors import BitErrors
-from occ_model.results.effect_costs import TimeShares
 from occ_model.results.match import Match
 from occ_model.results.photo_table import DOUBTFUL, SURE, PhotoRow
 from occ_model.scene.scene import Scene

@@ -6,12 +6,17 @@ import numpy as np
 import pytest
 
 import occ_model as occ
-from occ_model.results.effect_costs import EffectDifference, MeasuredCosts, TimeShares
+from occ_model.results.accuracy import EffectDifference, MeasuredCosts, TimeShares
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import OBSERVABLES, Observable, SimulationSettings
-from occ_model.study.effect_differences import CompleteSimulation, plan_of_effects, rms
-from occ_model.study.forecast import forecast
-from occ_model.study.telling_crop import CROP, telling_crop
+from occ_model.study.effect_differences import (
+    CROP,
+    CompleteSimulation,
+    forecast,
+    plan_of_effects,
+    rms,
+    telling_crop,
+)
 
 
 @pytest.fixture(scope="module")

@@ -17,14 +17,14 @@ from hypothesis import strategies as st
 import occ_model as occ
 from occ_model.camera.photometry import level_values
 from occ_model.cli import main
-from occ_model.results.advice_text import end_text
+from occ_model.results.advice import end_text
 from occ_model.results.limits import RangeEnd, WorkingRange
 from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.scene import Scene
 from occ_model.study import theory
 from occ_model.study import working_range as module
-from occ_model.study.advice import advice_of
 from occ_model.study.confidence import interval_of_pictures
+from occ_model.study.limits import advice_of
 from occ_model.study.observation import panel_span
 from occ_model.study.sure_ends import (
     OUTSIDE,

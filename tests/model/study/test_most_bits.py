@@ -8,8 +8,8 @@ import pytest
 import occ_model as occ
 from occ_model.cli import main
 from occ_model.commands.most_bits import _sentence
+from occ_model.results.bit_errors import MostBits
 from occ_model.results.decoding import DecodeResult
-from occ_model.results.most_bits import MostBits
 from occ_model.scene.scene import Scene
 from occ_model.study import success_rate
 from occ_model.study.most_bits import VARIED, _candidates, example_of, unvaried

@@ -9,7 +9,7 @@ import occ_model as occ
 from occ_model.receiver.decoders import QUICK_DECODERS
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
-from occ_model.study.profile_reading import read_profile
+from occ_model.study.observation import read_profile
 
 SETTINGS = SimulationSettings(observable="signal")
 BARE = SimulationSettings(tolerance=math.inf)

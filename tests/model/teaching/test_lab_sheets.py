@@ -9,10 +9,14 @@ from matches import match_of_sample
 from PIL import Image
 
 from occ_model.errors import OutputError
-from occ_model.figures.lesson_report import write_lesson_report
-from occ_model.figures.lesson_steps import draw_page, match_lines, steps_of_pages
-from occ_model.results.lessons import AnsweredStep, CheckedAnswer, Lesson
+from occ_model.figures.lesson_report import (
+    draw_page,
+    match_lines,
+    steps_of_pages,
+    write_lesson_report,
+)
 from occ_model.results.match import Match
+from occ_model.results.teaching import AnsweredStep, CheckedAnswer, Lesson
 from occ_model.scene.scene import Scene
 from occ_model.teaching.answers import check_answer
 from occ_model.teaching.lessons import ACTIONS, lessons

@@ -9,16 +9,14 @@ import pytest
 from matches import match_of_sample
 
 import occ_model as occ
-from occ_model.results.lessons import Step
+from occ_model.results.teaching import Step
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
 from occ_model.teaching import answers
-from occ_model.teaching.answers import check_answer
+from occ_model.teaching.answers import check_answer, explanation
 from occ_model.teaching.equations import equations
-from occ_model.teaching.explanations import explanation
 from occ_model.teaching.lessons import lessons
-from occ_model.teaching.quantities import QUANTITIES
-from occ_model.teaching.result_text import result_text
+from occ_model.teaching.quantities import QUANTITIES, result_text
 
 
 def step(lesson: int, number: int) -> Step:

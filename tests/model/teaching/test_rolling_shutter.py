@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 import occ_model as occ
 from occ_model.scene.scene import Scene
-from occ_model.teaching.exposure_window import rolling_shutter
+from occ_model.teaching.light_over_columns import rolling_shutter
 
 
 @settings(max_examples=60, deadline=None)

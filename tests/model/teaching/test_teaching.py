@@ -15,8 +15,8 @@ from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import SECOND
 from occ_model.teaching.equations import equations
-from occ_model.teaching.exposure_window import exposure_window
 from occ_model.teaching.lessons import EQUATIONS
+from occ_model.teaching.light_over_columns import exposure_window
 
 scenes = st.builds(
     lambda exposure, frequency, readout, iso, start, pattern: Scene().replace(

@@ -26,8 +26,7 @@ from occ_model.photo.many.other_programs import stated_lines
 from occ_model.photo.many.row import MatchSettings
 from occ_model.photo.many.table import table_of
 from occ_model.results.match import Match
-from occ_model.results.photo_table import PhotoRow, PhotoTable
-from occ_model.results.photo_table_csv import csv_text
+from occ_model.results.photo_table import PhotoRow, PhotoTable, csv_text
 from occ_model.scene.parameters import quantity
 
 PATHS = tuple(Path(f"photo-{number}.jpg") for number in range(6))

@@ -15,7 +15,7 @@ from hard_cases.attack import chance as made
 from hard_cases.attack.promise import Door
 from occ_model.errors import one_line
 from occ_model.photo.many.other_programs import lines_to_paste
-from occ_model.results.photo_table_csv import csv_text
+from occ_model.results.photo_table import csv_text
 from occ_model.results.sweep_request import RateSettings, SweepRequest
 from occ_model.study.bench.data_set import COLUMNS, load_samples, read_samples
 from occ_model.study.sweep.request_check import checked_request

@@ -10,8 +10,8 @@ import occ_model as occ
 from hard_cases.attack import chance as made
 from hard_cases.attack.promise import Door
 from occ_model.commands.vary import axes_of
-from occ_model.results.lessons import Step
 from occ_model.results.sweep_request import MOST_POINTS
+from occ_model.results.teaching import Step
 from occ_model.scene import units
 from occ_model.scene.from_text import with_settings
 from occ_model.scene.parameter_kinds import Choice, Quantity

@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 import occ_model as occ
 from occ_model.results.bands import NO_BARS_DEPTH
 from occ_model.scene.scene import Scene
+from occ_model.study.bands.advice import shutter_speeds
 from occ_model.study.bands.depth import light_depth
 from occ_model.study.bands.least_depth import DepthOver
-from occ_model.study.bands.shutter_speeds import shutter_speeds
 
 _PHONE = occ.load_preset("phone-136us")
 _CODES = st.text("01", min_size=2, max_size=24).filter(lambda chips: len(set(chips)) == 2)

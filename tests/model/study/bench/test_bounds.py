@@ -6,8 +6,7 @@ import pytest
 from occ_model.errors import ParameterError
 from occ_model.figures.bench import bench_drawing
 from occ_model.results.bench import BenchRequest
-from occ_model.study.bench.bench import bench, bench_scene, bench_signal
-from occ_model.study.bench.bounds import bench_bounds
+from occ_model.study.bench.bench import bench, bench_bounds, bench_scene, bench_signal
 
 
 def test_at_the_nulls_alternating_chips_leave_no_stripes() -> None:

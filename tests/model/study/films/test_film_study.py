@@ -7,13 +7,15 @@ import pytest
 
 import occ_model as occ
 from occ_model.cli import main
-from occ_model.study.films.published_example import (
+from occ_model.study.film_study import (
     FRAME_PERIOD,
     PACKET_CHIPS,
+    FilmRequest,
     example_request,
+    film_study,
     published_rule,
+    scene_of_films,
 )
-from occ_model.study.films.study import FilmRequest, film_study, scene_of_films
 from occ_model.video.counting import (
     ShutterTiming,
     chips_seen,

@@ -1,1 +1,0 @@
-"""Studies of films: bits a second and lost packets, beside exact counting."""

@@ -8,10 +8,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
-from PIL import Image
+from PIL import ExifTags, Image
 
 import occ_model as occ
 from occ_model.cli import main
+from occ_model.results.frame import PICTURES
 from occ_model.scene.parameters import PARAMETERS
 
 SMALL = ("--set", "rows=300")
@@ -176,3 +177,50 @@ def test_the_module_is_the_command() -> None:
         [sys.executable, "-m", "occ_model", "--version"], capture_output=True, text=True, check=True
     )
     assert done.stdout == f"occ-model {occ.__version__}\n"
+
+
+SCENE = ("--set", "rows=300")
+
+
+@pytest.mark.parametrize("whose", PICTURES)
+def test_the_picture_asked_for_is_written_and_named(
+    tmp_path: Path, whose: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "picture.png"
+    assert main(["render", *SCENE, "--picture", whose, "-o", str(path)]) == 0
+    frame = occ.render(occ.load_preset("phone-68us").replace(rows=300))
+    assert f"{whose}'s picture" in capsys.readouterr().out
+    with Image.open(path) as picture:
+        assert np.array_equal(np.asarray(picture), frame.picture(whose))
+        assert picture.info["Description"] == frame.picture_title(whose)
+
+
+@pytest.mark.parametrize("ending", ["jpg", "tif", "webp", "bmp"])
+def test_other_formats_say_it_by_exif_where_they_can(tmp_path: Path, ending: str) -> None:
+    path = tmp_path / f"picture.{ending}"
+    assert main(["render", *SCENE, "--picture", "camera", "-o", str(path)]) == 0
+    with Image.open(path) as picture:
+        text = picture.getexif().get(ExifTags.Base.ImageDescription)
+    assert text == (None if ending == "bmp" else "Camera's picture")
+    assert occ.load_photo(path).image.shape == (300, 3456)
+
+
+_LAMP = (
+    "bands", "--set", "pattern=1110", "--set", "switching_frequency=1.92kHz",
+    "--set", "exposure_time=2ms", "--set", "illuminance=0lx",
+)  # fmt: skip
+
+
+def test_a_dimmed_lamp_gets_its_depth_and_its_shutter_speeds(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert main(_LAMP) == 0
+    lines = capsys.readouterr().out.splitlines()
+    # 0.96 of 480 Hz's periods: 0.04 of one is missing, of 0.72 that are lit.
+    assert lines[0].startswith("Bars at 2 ms: 5.56 % of the mean light peak to peak")
+    assert "The lamp's bars vanish at whole multiples of 2.083 ms." in lines
+    rows = {line.split(" s ")[0]: line for line in lines if line.startswith("1/")}
+    assert rows["1/120"].endswith("0 %       no bars")
+    assert rows["1/60"].endswith("no bars if the camera keeps the former")
+    assert rows["1/100"].endswith("%")
+    assert any("percent flicker 100 %" in line for line in lines)

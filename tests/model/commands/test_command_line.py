@@ -1,10 +1,17 @@
-"""A command line imports the module of its command."""
+"""The parsers of all commands: which module declares each, its defaults, and numbers in options."""
 
 import argparse
+import inspect
+import math
+from collections.abc import Callable
 
 import pytest
 
-from occ_model.commands.command_line import _MODULES, make_parser
+import occ_model as occ
+from occ_model.cli import main
+from occ_model.commands import limits, most_bits, sweep
+from occ_model.commands.command_line import _MODULES, make_parser, read_command_line
+from occ_model.commands.options import number, simulation_settings_of, whole_number
 
 
 def _commands(parser: argparse.ArgumentParser) -> list[str]:
@@ -23,3 +30,66 @@ def test_a_command_is_declared_by_its_own_module(name: str) -> None:
     assert set(_commands(make_parser(name))) == {
         other for other, module in _MODULES.items() if module == _MODULES[name]
     }
+
+
+NAMES = {"pictures": "pictures", "images": "images", "seed": "seed", "rate": "rate",
+         "fps": "frames_a_second"}  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("module", "function"), [(sweep, occ.sweep), (limits, occ.limits), (most_bits, occ.most_bits)]
+)
+def test_defaults_of_a_command_are_those_of_its_function(
+    module: object, function: Callable[..., object]
+) -> None:
+    commands = argparse.ArgumentParser().add_subparsers()
+    module.add_to(commands)  # type: ignore[attr-defined]
+    (parser,) = commands.choices.values()
+    declared = inspect.signature(function).parameters
+    given = {name: parser.get_default(option) for option, name in NAMES.items()}
+    compared = {
+        name: (value, declared[name].default)
+        for name, value in given.items()
+        if value is not None and name in declared
+    }
+    assert len(compared) >= 2
+    assert all(value == own for value, own in compared.values()), compared
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [("0.5", 0.5), ("0,5", 0.5), (",5", 0.5), ("12,5", 12.5), ("1e-3", 1e-3), ("inf", math.inf)],
+)
+def test_a_decimal_comma_is_read_like_a_point(text: str, value: float) -> None:
+    assert number(text) == value
+    options = read_command_line(["plan", "--tolerance", text])
+    assert simulation_settings_of(options).tolerance == value
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [("1,000", "means 1 with a decimal comma and 1000 with"), ("half", "is not a number")],
+)
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["plan", "--tolerance"],
+        ["limits", "--rate"],
+        ["sweep", "--vary", "distance=1", "--tolerance"],
+    ],
+)
+def test_what_is_no_number_or_two_is_refused_with_a_sentence(
+    words: list[str], text: str, reason: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit) as ended:
+        main([*words, text])
+    assert ended.value.code == 2
+    *_, last = capsys.readouterr().err.splitlines()
+    assert f"error: argument {words[-1]}: '{text}' {reason}" in last
+
+
+@pytest.mark.parametrize("text", ["1,5", "1,000", "1.5", "many", ""])
+def test_a_count_is_a_whole_number_without_a_comma(text: str) -> None:
+    with pytest.raises(argparse.ArgumentTypeError, match="is not a whole number"):
+        whole_number(text)
+    assert whole_number("20") == 20

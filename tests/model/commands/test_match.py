@@ -1,12 +1,138 @@
-"""What the command ``occ-model match`` prints of one photo."""
+"""The command ``match`` with one photo and with several."""
 
+import csv
+from pathlib import Path
+
+import numpy as np
 import pytest
+from interruption import interrupted
+from PIL import Image
 
 import occ_model as occ
 from occ_model.cli import main
 from occ_model.files.resources import resource_path
 from occ_model.scene.from_text import read_scene_file
 from occ_model.transmitter.packet import sent_chips
+
+SCENE = occ.load_preset("phone-68us").replace(
+    rows=40, columns=600, pattern="10", switching_frequency=5e3, readout_time=9e-6,
+    exposure_time=80e-6, panel_width=3.0, enhancement="none", averaging="light",
+)  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("photos")
+    for seed in range(2):
+        image = occ.render(SCENE.replace(start_time=seed * 3e-5), tolerance=0.0, seed=seed).image
+        Image.fromarray(np.rot90(image)).save(folder / f"{seed}.png")
+    (folder / "damaged.png").write_bytes(b"\x89PNG nothing")
+    return folder
+
+
+def words(folder: Path, *more: str) -> list[str]:
+    photos = sorted(map(str, folder.glob("*.png")))
+    return ["match", *photos, "--led-frequency", "2.5kHz", "--jobs", "1", *more]
+
+
+def test_table_mean_and_lines_to_paste_are_printed(
+    folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "readout.csv"
+    assert main(words(folder, "--out", str(out))) == 0
+    said = capsys.readouterr().out.splitlines()
+    assert [line.split()[:2] for line in said[:3]] == [
+        ["0.png", "sure"],
+        ["1.png", "sure"],
+        ["damaged.png", "unreadable"],
+    ]
+    assert "photos                3: 2 sure, 1 unreadable" in said
+    (mean,) = (line for line in said if line.startswith("readout_time"))
+    assert float(mean.split()[1]) == pytest.approx(9.0, rel=1e-3)
+    (frame,) = (line for line in said if line.startswith("readout of the frame"))
+    assert float(frame.split()[4]) == pytest.approx(600 * 9e-3, rel=1e-3)
+    drone, video, note = said[-4:-1]
+    assert "direction in Gyroflow's line is assumed" in note
+    assert drone.startswith("OpenDroneMap: --rolling-shutter --rolling-shutter-readout 5.")
+    assert float(drone.split()[-1]) == pytest.approx(5.4, rel=1e-3)
+    assert video.startswith(f'Gyroflow: "frame_readout_time": {drone.split()[-1]}, ')
+    assert video.endswith('"frame_readout_direction": "TopToBottom"')
+    assert f"# {note}" in out.read_text().splitlines()
+    rows = csv.DictReader(line for line in out.read_text().splitlines() if line[0] != "#")
+    assert [row["verdict"] for row in rows] == ["sure", "sure", "unreadable"]
+
+
+@pytest.mark.whole
+def test_an_assumed_frequency_stands_before_every_time(
+    folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    known = tmp_path / "known.toml"
+    known.write_text(SCENE.to_toml(), encoding="utf-8")
+    photos = [str(folder / "0.png"), str(folder / "1.png")]
+    assert main(["match", *photos, "--scene", str(known), "--jobs", "1"]) == 0
+    said = capsys.readouterr().out.splitlines()
+    condition = "if it is a lamp of 2.5 kHz (5 kHz chips): "
+    assert sum(condition in line for line in said) == 4  # the exposures are doubtful
+
+
+def test_no_sure_photo_is_a_failure(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    damaged = str(folder / "damaged.png")
+    assert main(["match", damaged, damaged, "--jobs", "1"]) == 1
+    assert "No photo is sure" in capsys.readouterr().out
+
+
+def test_a_full_disk_leaves_the_old_table(
+    folder: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    out = tmp_path / "readout.csv"
+    out.write_text("old")
+
+    def full(self: Path, data: bytes) -> int:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(Path, "write_bytes", full)
+    damaged = str(folder / "damaged.png")  # a table is written of it, too
+    assert main(["match", damaged, damaged, "--jobs", "1", "--out", str(out)]) == 2
+    assert "readout.csv cannot be written: No space left on device." in capsys.readouterr().err
+    assert (out.read_text(), [path.name for path in tmp_path.iterdir()]) == ("old", [out.name])
+
+
+@pytest.mark.parametrize(
+    "delay", [0.0, *(pytest.param(late, marks=pytest.mark.whole) for late in (0.8, 1.6)), 3.0]
+)
+def test_interrupts_end_all_processes_with_one_line(
+    folder: Path, tmp_path: Path, delay: float
+) -> None:
+    out = tmp_path / "readout.csv"
+    many = words(folder, "--jobs", "2", "--out", str(out))
+    many[1:1] = [str(folder / "0.png")] * 60
+    code, error = interrupted("occ_model.cli", many, delay)
+    assert code == 130
+    assert error.startswith("occ-model: ")
+    assert error.count("\n") == 1
+    assert not out.exists()
+
+
+def test_a_photo_of_another_lamp_is_corrected_by_its_own_frequency(
+    folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    other = SCENE.replace(switching_frequency=8e3)
+    image = np.rot90(occ.render(other, tolerance=0.0, seed=3).image)
+    Image.fromarray(image).save(tmp_path / "a=b.png")
+    photos = [str(folder / "0.png"), str(tmp_path / "a=b.png")]
+    out = tmp_path / "x.csv"
+    one = ["match", *photos, "--led-frequency", "2.5kHz", "--jobs", "1", "--out", str(out)]
+    assert main([*one, "--known", "a=b.png=4kHz"]) == 0
+    said = capsys.readouterr().out.splitlines()
+    assert ["given: 8 kHz" in line for line in said[:2]] == [False, True]
+    (mean,) = (line for line in said if line.startswith("readout_time"))
+    assert "mean of 2" in mean
+    assert float(mean.split()[1]) == pytest.approx(9.0, rel=2e-3)
+    assert "f = 8 kHz, given" in out.read_text()
+
 
 SAMPLE = resource_path("photos") / "packets-6khz.jpg"
 PART = "146:1053,344:1100"

@@ -13,7 +13,7 @@ import pytest
 from model.parallel.bench import Bench
 from worker_calls import count_for_ever, count_to, echo, fail, process_id
 
-from occ_model.parallel.job import CHANNELS, Job, JobResult, Stage
+from occ_model.parallel.job import CHANNELS, Job, JobResult, Stage, Workers
 from occ_model.parallel.process_pool import ProcessPool
 from occ_model.parallel.worker_thread import WorkerThread
 
@@ -68,24 +68,47 @@ def test_an_error_keeps_the_traceback_of_its_process(pool: ProcessPool) -> None:
     assert "in fail" in "".join(error.__notes__)
 
 
-def test_an_abandoned_job_ends_at_its_next_heartbeat(pool: ProcessPool) -> None:
-    endless = pool.submit(Job(count_for_ever, (), 3), 1, 1)
-    wait_until(lambda: pool.counted(3) > 0)
-    assert pool.counted(2) == 0
-    pool.abandon(0, 2)
+@pytest.fixture(
+    params=[lambda: ProcessPool(2, "worker_calls"), WorkerThread], ids=["pool", "thread"]
+)
+def workers(request: pytest.FixtureRequest) -> Iterator[Workers]:
+    """Processes, or the thread that does their work where the system cannot start any."""
+    workers = request.param()
+    yield workers
+    workers.close()
+
+
+def test_an_abandoned_job_ends_at_its_next_heartbeat(workers: Workers) -> None:
+    endless = workers.submit(Job(count_for_ever, (), 3), 1, 1)
+    wait_until(lambda: workers.counted(3) > 0)
+    assert workers.counted(2) == 0
+    workers.abandon(0, 2)
     assert not endless.done()
-    pool.abandon(1, 2)
+    workers.abandon(1, 2)
     assert result(endless).is_abandoned
-    assert result(pool.submit(Job(echo, ("new",)), 1, 2)).value == "new"
+    assert result(workers.submit(Job(echo, ("late",)), 1, 1)).is_abandoned
+    assert result(workers.submit(Job(echo, ("new",)), 1, 2)).value == "new"
+    assert result(workers.submit(Job(echo, ("other",)), 2, 1)).value == "other"
 
 
-def test_each_counter_holds_the_heartbeats_of_its_jobs_and_no_others(pool: ProcessPool) -> None:
+def test_each_counter_holds_the_heartbeats_of_its_jobs_and_no_others(workers: Workers) -> None:
     """A job's heart beats once as it begins, so that one that takes no time is seen too."""
     for counter, numbers in ((5, (3, 4)), (0, (7,)), (CHANNELS - 1, (0,))):
         for number in numbers:
-            assert result(pool.submit(Job(count_to, (number,), counter), 0, 1)).value == number
-    counted = {counter: pool.counted(counter) for counter in range(CHANNELS)}
+            assert result(workers.submit(Job(count_to, (number,), counter), 0, 1)).value == number
+    counted = {counter: workers.counted(counter) for counter in range(CHANNELS)}
     assert counted == {**dict.fromkeys(range(CHANNELS), 0), 5: 9, 0: 8, CHANNELS - 1: 1}
+
+
+def test_closing_a_thread_abandons_its_job_and_those_that_wait() -> None:
+    thread = WorkerThread()
+    endless, waiting = (
+        thread.submit(Job(*each), 0, 1) for each in ((count_for_ever, (), 3), (echo, ("late",)))
+    )
+    wait_until(lambda: thread.counted(3) > 0)
+    thread.close()
+    assert result(endless).is_abandoned
+    assert waiting.cancelled()
 
 
 def test_closing_ends_the_processes_in_the_middle_of_a_job(pool: ProcessPool) -> None:

@@ -7,13 +7,15 @@ import sys
 from pathlib import Path
 
 import pytest
+from matches import match_with
 
 import occ_model as occ
 from occ_gui.app.command_line import read_command_line as read_window_command_line
 from occ_model.cli import main
-from occ_model.commands import files
+from occ_model.commands import files, match
 from occ_model.commands.command_line import read_command_line
 from occ_model.commands.files import INPUTS, OUTPUTS, is_same_file
+from occ_model.figures import paper
 from occ_model.files.writing import write_image
 
 SCENE = occ.load_preset("phone-68us").replace(rows=60)
@@ -83,8 +85,9 @@ def test_a_file_system_is_asked_whether_it_tells_case_apart(tmp_path: Path, fill
 
 
 def test_names_that_are_no_text_are_read_written_and_shown(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    monkeypatch.setattr(match, "match_photo", lambda *_, **__: match_with())
     name = os.fsdecode(b"caf\xe9 \xff\xfe \x1b[31m")
     picture, scene, table = (tmp_path / (name + ending) for ending in (".png", ".toml", ".csv"))
 
@@ -92,24 +95,24 @@ def test_names_that_are_no_text_are_read_written_and_shown(
         assert main(list(map(str, words))) == 0
         assert all(line.isprintable() for line in capsys.readouterr().out.splitlines())
 
-    blinking = ("--set", "rows=300", "--set", "pattern=10", "--set", "switching_frequency=4kHz")
-    command = [sys.executable, "-m", "occ_model", "render", *blinking, "-o"]
+    command = [sys.executable, "-m", "occ_model", "render", "--set", "rows=60", "-o"]
     done = subprocess.run([*command, str(picture)], capture_output=True, check=False)
     assert (done.returncode, done.stderr) == (0, b"")
     shown = done.stdout.decode("utf-8")
     assert ".png: " in shown
     assert all(line.isprintable() for line in shown.splitlines())
-    run("match", picture, *blinking, "--out", scene)
+    run("match", picture, "--out", scene)
     run("plan", "--scene", scene)
     run("sweep", "--vary", "iso=100", "--images", "1", "--out", table)
     run("plan", "--scene", table)
     assert sorted(tmp_path.iterdir()) == sorted((picture, scene, table))
 
 
-def test_a_photo_whose_name_is_no_text_stands_in_a_figure(tmp_path: Path) -> None:
-    from occ_model.figures.paper import write_profile_figure
-
+def test_a_photo_whose_name_is_no_text_stands_in_a_figure(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(paper, "save_figure", lambda *_: None)  # the table has the same notes
     photo = tmp_path / os.fsdecode(b"caf\xe9.png")
     write_image(photo, occ.render(SCENE).image)
-    write_profile_figure(tmp_path, 3, "phone-68us", occ.load_photo(photo))
+    paper.write_profile_figure(tmp_path, 3, "phone-68us", occ.load_photo(photo))
     assert r"photo caf\udce9.png" in (tmp_path / "figure-3.csv").read_text("utf-8")

@@ -24,24 +24,20 @@ def film(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
-def test_a_film_is_read_and_reported(film: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["decode", str(film), *SCENE, "--set", "payload=text:????"]) == 0
+def test_a_film_is_read_and_reported_after_a_line_a_frame(
+    film: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["decode", str(film), *SCENE, "--set", "payload=text:????", "--follow"]) == 0
     printed = capsys.readouterr().out.splitlines()
-    lines = {line[:18].strip(): line[18:] for line in printed}
+    assert [line.split()[:2] for line in printed[:24]] == [["frame", f"{n}"] for n in range(24)]
+    assert "four" in printed[23]
+    lines = {line[:18].strip(): line[18:] for line in printed[24:]}
     assert lines["payload"] == "four"
     assert lines["payload complete"].startswith("after ")
     assert lines["bits"] == "".join(f"{ord(letter):08b}" for letter in "four")
     assert lines["frequency"].startswith(("2.9", "3.0"))
     assert lines["frequency"].endswith("Hz")
     assert "±" in lines["gap"]
-
-
-def test_following_prints_a_line_a_frame(film: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["decode", str(film), *SCENE, "--set", "payload=text:????", "--follow"]) == 0
-    lines = capsys.readouterr().out.splitlines()
-    followed = [line for line in lines if line.startswith("frame ")][:24]
-    assert len(followed) == 24
-    assert "four" in followed[-1]
 
 
 def test_a_film_of_another_scheme_fails_with_a_sentence(

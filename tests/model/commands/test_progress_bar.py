@@ -7,34 +7,29 @@ from pathlib import Path
 
 import pytest
 
-SWEEP = ["sweep", "--vary", "distance=1m", "--images", "1", "--set", "rows=60"]
+from occ_model.commands.progress_bar import print_above_bar, progress_bar
 
 
-def run(error: int, **settings: str) -> subprocess.CompletedProcess[bytes]:
-    return subprocess.run(
-        [sys.executable, "-m", "occ_model", *SWEEP],
-        stdout=subprocess.PIPE,
-        stderr=error,
-        env={**os.environ, **settings},
-        check=False,
+def test_the_users_settings_of_tqdm_reach_no_bar() -> None:
+    program = (
+        "from occ_model.commands.progress_bar import progress_bar\n"
+        "with progress_bar(total=1, disable=False) as bar: bar.update()\n"
     )
+    settings = {"TQDM_MININTERVAL": "abc", "TQDM_NCOLS": "abc", "TQDM_ASCII": "x"}
+    done = subprocess.run(
+        [sys.executable, "-c", program],
+        stderr=subprocess.PIPE,
+        env={**os.environ, **settings},
+        text=True,
+        check=True,
+    )
+    assert "1/1" in done.stderr
 
 
-@pytest.mark.parametrize(
-    "setting",
-    [
-        "MININTERVAL=abc",
-        pytest.param("NCOLS=abc", marks=pytest.mark.whole),
-        pytest.param("ASCII=x", marks=pytest.mark.whole),
-    ],
-)
-def test_the_users_settings_of_tqdm_stop_no_sweep(setting: str) -> None:
-    name, _, value = setting.partition("=")
-    done = run(subprocess.DEVNULL, **{f"TQDM_{name}": value})
-    assert (done.returncode, done.stdout.splitlines()[-1][:4]) == (0, b"1.0,")
-
-
-def test_a_bar_that_cannot_be_written_loses_no_result() -> None:
-    with Path("/dev/full").open("wb", buffering=0) as full:
-        done = run(full.fileno())
-    assert (done.returncode, done.stdout.splitlines()[-1][:4]) == (0, b"1.0,")
+def test_a_bar_that_cannot_be_written_stops_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    with Path("/dev/full").open("w") as full:
+        monkeypatch.setattr(sys, "stderr", full)
+        with progress_bar(total=2, disable=False, mininterval=0.0) as bar:
+            for _ in range(2):
+                bar.update()
+        print_above_bar("A sentence.")

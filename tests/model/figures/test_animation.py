@@ -5,15 +5,17 @@ from pathlib import Path
 import cv2
 import numpy as np
 import pytest
+from amount import amount
 from PIL import Image
 
 import occ_model as occ
 from occ_model.cli import main
+from occ_model.figures import animation
 from occ_model.figures.animation import ENDINGS, write_animation
 from occ_model.scene.provenance import scene_inside
 from occ_model.scene.scene import Scene
 
-VALUES = [4e3, 8e3, 12e3]
+VALUES = [4e3, 8e3]
 
 
 @pytest.fixture(scope="module")
@@ -25,23 +27,19 @@ def scene() -> Scene:
 def test_there_is_a_frame_for_each_value(tmp_path: Path, scene: Scene, ending: str) -> None:
     path, done = tmp_path / f"a{ending}", list[int]()
     write_animation(path, scene, "switching_frequency", VALUES, progress=done.append)
-    assert done == [1, 2, 3]
+    assert done == [1, 2]
     if ending == ".mp4":
         film = cv2.VideoCapture(str(path))
-        frames = [film.read() for _ in range(4)]
+        frames = [film.read() for _ in range(3)]
         film.release()
-        assert [read for read, _ in frames] == [True, True, True, False]
+        assert [read for read, _ in frames] == [True, True, False]
         assert np.ptp(frames[0][1]) > 200
     else:
         with Image.open(path) as pictures:
-            assert getattr(pictures, "n_frames", 1) == 3
+            assert getattr(pictures, "n_frames", 1) == 2
+    if ending == ".png":
+        assert scene_inside(path) == scene
     assert list(tmp_path.iterdir()) == [path]
-
-
-def test_the_scene_is_kept_inside_an_animated_png(tmp_path: Path, scene: Scene) -> None:
-    path = tmp_path / "a.png"
-    write_animation(path, scene, "switching_frequency", VALUES[:2])
-    assert scene_inside(path) == scene
 
 
 @pytest.mark.parametrize(
@@ -73,17 +71,17 @@ def test_an_animation_that_is_ended_leaves_no_file(tmp_path: Path, scene: Scene)
     def end(_done: int) -> None:
         raise KeyboardInterrupt
 
-    for ending in ENDINGS:
+    for ending in ENDINGS[-amount(1, 3) :]:
         with pytest.raises(KeyboardInterrupt):
             write_animation(tmp_path / f"a{ending}", scene, "iso", [100.0, 200.0], progress=end)
     assert list(tmp_path.iterdir()) == []
 
 
-def test_the_command_runs_there_and_back(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    path = tmp_path / "a.gif"
-    small = ["--set", "rows=100", "--set", "columns=600"]
-    axis = ["--vary", "switching_frequency=4kHz:8kHz:x3", "--back"]
-    assert main(["animate", *small, *axis, "-o", str(path)]) == 0
-    assert "4 frames" in capsys.readouterr().out
+def test_the_command_runs_there_and_back(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[object] = []
+    monkeypatch.setattr(
+        animation, "write_animation", lambda _path, _scene, *axis, **_: asked.extend(axis)
+    )
+    axis = ["--vary", "switching_frequency=4kHz:16kHz:x3", "--back"]
+    assert main(["animate", *axis, "-o", "a.gif"]) == 0
+    assert asked == ["switching_frequency", [4e3, 8e3, 16e3, 8e3]]

@@ -63,6 +63,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
         patch.setattr(
             points, "right_and_whole", lambda scene, settings, _: counted_once(scene, settings)
         )
+        patch.setitem(drawing._STYLE, "savefig.dpi", amount(30, 200))
         assert main(["figures", "--out", str(out), "--images", "1", "--seed", "3"]) == 0
     return out
 

@@ -6,9 +6,8 @@ from unittest.mock import Mock
 import numpy as np
 import pytest
 from matplotlib.axis import Axis
-from matplotlib.figure import Figure
+from model.figures.test_as_stored import table_of
 
-import occ_model as occ
 from occ_model.figures import lesson_report
 from occ_model.figures.accuracy import _draw_part
 from occ_model.figures.bench import _draw_bits
@@ -18,7 +17,6 @@ from occ_model.figures.sweep import _axis_label, sweep_drawing
 from occ_model.figures.window_panes import _show
 from occ_model.results.accuracy import ACCURACY_PARTS, CHAINED_PARTS
 from occ_model.results.decoding import DecodeResult
-from occ_model.results.sweep import SweepTable
 from occ_model.scene.scene import Scene
 
 
@@ -133,14 +131,6 @@ FREQUENCIES = np.geomspace(0.97e3, 31e3, 13).tolist()
 EXPOSURES = np.linspace(33e-6, 97e-6, 11).tolist()
 
 
-@pytest.fixture(scope="module")
-def table() -> SweepTable:
-    """Sweep over axes that do not fall on round values, the rates being of no interest."""
-    scene = occ.load_preset("phone-68us")
-    axes = {"switching_frequency": FREQUENCIES, "exposure_time": EXPOSURES}
-    return occ.sweep(scene, axes, images=1)
-
-
 def values_at(axis: Axis, cells: list[float]) -> dict[float, float]:
     """Give for every label the value that its place among the cells stands for."""
     numbers = np.arange(len(cells), dtype=np.float64)
@@ -150,12 +140,9 @@ def values_at(axis: Axis, cells: list[float]) -> dict[float, float]:
     }
 
 
-def drawn(table: SweepTable) -> Figure:
-    return sweep_drawing(table).draw()
-
-
-def test_numbers_are_round_and_stand_where_their_values_are(table: SweepTable) -> None:
-    ax = drawn(table).axes[0]
+def test_numbers_are_round_and_stand_where_their_values_are() -> None:
+    axes = {"switching_frequency": tuple(FREQUENCIES), "exposure_time": tuple(EXPOSURES)}
+    ax = sweep_drawing(table_of(axes)).draw().axes[0]
     kilohertz = values_at(ax.xaxis, np.log(np.array(FREQUENCIES) / 1e3).tolist())
     assert list(kilohertz) == [1.0, 2.0, 5.0, 10.0, 20.0]
     assert np.exp(list(kilohertz.values())) == pytest.approx(list(kilohertz), rel=1e-9)

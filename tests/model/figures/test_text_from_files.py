@@ -47,7 +47,9 @@ def check_drawing(path: Path) -> None:
     assert scene_inside(path) == SCENE
 
 
-@pytest.mark.parametrize("ending", ["svg", "pdf", "png"])
+@pytest.mark.parametrize(
+    "ending", ["svg", *(pytest.param(one, marks=pytest.mark.whole) for one in ("pdf", "png"))]
+)
 @pytest.mark.parametrize(
     "text", [pytest.param(EVIL, marks=pytest.mark.whole), EVIL + FORGED], ids=["marks", "forged"]
 )

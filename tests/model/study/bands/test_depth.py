@@ -6,6 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from amount import amount
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -230,7 +231,7 @@ def _scene(random: np.random.Generator) -> Scene:
 def test_the_depth_with_slow_edges_is_exact_to_1e_13_of_the_mean(seed: int) -> None:
     random = np.random.default_rng([24, seed])
     worst = 0.0
-    for _ in range(20):
+    for _ in range(amount(6, 20)):
         scene = _scene(random)
         sent = scene.transmitter
         frequency = Fraction(sent.switching_frequency)

@@ -5,9 +5,9 @@ from pathlib import Path
 
 from occ_model.commands.options import (
     Commands,
+    add_option,
     add_scene_options,
     add_simulation_options,
-    number,
     scene_of,
     simulation_settings_of,
 )
@@ -27,9 +27,7 @@ def add_to(commands: Commands) -> None:
     add_simulation_options(parser)
     parser.add_argument("--vary", required=True, metavar="AXIS", help=SYNTAX)
     parser.add_argument("--decoder", choices=DECODERS, default=PAPER_DECODER)
-    parser.add_argument(
-        "--rate", type=number, default=15.0, metavar="N", help="frames a second; default: 15"
-    )
+    add_option(parser, "--rate", 15.0, "frames a second", metavar="N")
     parser.add_argument("--back", action="store_true", help="run back to the first value as well")
     parser.add_argument(
         "-o", "--out", type=Path, required=True, help="file to write: .gif, .mp4 or .png"

@@ -2,7 +2,7 @@
 
 import argparse
 
-from occ_model.commands.options import Commands, add_scene_options, number, scene_of
+from occ_model.commands.options import Commands, add_option, add_scene_options, scene_of
 from occ_model.results.bands import NO_BARS_DEPTH, BandAdvice, BandDepth, percent
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import HERTZ, SECOND, Unit
@@ -20,9 +20,9 @@ def add_to(commands: Commands) -> None:
         "bands", help="report the depth of a picture's bars, and settings without bars"
     )
     add_scene_options(parser)
-    parser.add_argument(
-        "--limit", type=number, default=100.0 * NO_BARS_DEPTH, metavar="PERCENT",
-        help="depth below which there are no bars; default: %(default)g",
+    add_option(
+        parser, "--limit", 100.0 * NO_BARS_DEPTH, "depth below which there are no bars",
+        metavar="PERCENT",
     )  # fmt: skip
     parser.set_defaults(command=_run)
 

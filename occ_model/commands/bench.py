@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 
 from occ_model.commands.files import folder_of_figures
-from occ_model.commands.options import Commands, decoder_name, number, whole_number
+from occ_model.commands.options import Commands, add_option, decoder_name, number
 from occ_model.commands.progress_bar import progress_bar
 from occ_model.files.writing import make_folder
 from occ_model.receiver.decoders import decoders
@@ -15,55 +15,35 @@ from occ_model.study.bench.data_set import SampleReading, load_samples, read_sam
 from occ_model.study.bit_error_rate import check_frame_rate
 
 _DEFAULT_REQUEST = BenchRequest()
+_NUMBERS = {  # the option of each number of a request, with its metavar and its meaning
+    "at_exposure": ("--at-exposure", "SYMBOLS", "of the curve over noise"),
+    "at_decibels": ("--at-snr", "DB", "of the curve over exposure"),
+    "rows_a_symbol": ("--rows", "ROWS", "read out while a symbol lasts"),
+    "payload_bits": ("--payload-bits", "BITS", "of a payload, one a picture"),
+    "bits": ("--bits", "BITS", "at each point at the least"),
+}
 
 
 def add_to(commands: Commands) -> None:
     parser = commands.add_parser(
         "bench", help="compare bit error rates over exposure and noise, or read a data set"
     )
-    parser.add_argument(
-        "--scheme", action="append", metavar="LINE_CODE[/FRAMING]",
-        help=f"may be repeated; default: {_DEFAULT_REQUEST.schemes[0]}",
-    )  # fmt: skip
-    parser.add_argument(
-        "--decoder", action="append", type=decoder_name, help="may be repeated; default: all"
-    )
-    parser.add_argument(
-        "--exposure", action="append", type=number, metavar="SYMBOLS",
-        help=f"may be repeated; default: {_list(_DEFAULT_REQUEST.exposures)}",
-    )  # fmt: skip
-    parser.add_argument(
-        "--snr", action="append", type=number, metavar="DB",
-        help="the chips' variance over that of a row's noise; may be repeated; default: "
-        f"{_list(_DEFAULT_REQUEST.decibels)}",
-    )  # fmt: skip
-    parser.add_argument(
-        "--at-exposure", type=number, default=_DEFAULT_REQUEST.at_exposure, metavar="SYMBOLS",
-        help="of the curve over noise; default: %(default)g",
-    )  # fmt: skip
-    parser.add_argument(
-        "--at-snr", type=number, default=_DEFAULT_REQUEST.at_decibels, metavar="DB",
-        help="of the curve over exposure; default: %(default)g",
-    )  # fmt: skip
-    parser.add_argument(
-        "--rows", type=number, default=_DEFAULT_REQUEST.rows_a_symbol,
-        help="read out while a symbol lasts; default: %(default)g",
-    )  # fmt: skip
-    parser.add_argument(
-        "--payload-bits", type=whole_number, default=_DEFAULT_REQUEST.payload_bits, metavar="BITS",
-        help="of a payload, one a picture; default: %(default)s",
-    )  # fmt: skip
-    parser.add_argument(
-        "--bits", type=whole_number, default=_DEFAULT_REQUEST.bits,
-        help="at each point at the least; default: %(default)s",
-    )  # fmt: skip
-    parser.add_argument(
-        "--fps", type=number, default=FRAMES_A_SECOND,
-        help="pictures a second, one payload each; default: %(default)g",
-    )  # fmt: skip
-    parser.add_argument(
-        "--seed", type=whole_number, default=_DEFAULT_REQUEST.seed, help="default: %(default)s"
-    )
+    own = _DEFAULT_REQUEST
+    for flag, field, kind, metavar, what, usual in (
+        ("--scheme", "schemes", str, "LINE_CODE[/FRAMING]", "", own.schemes[0]),
+        ("--decoder", "decoders", decoder_name, "DECODER", "", "all"),
+        ("--exposure", "exposures", number, "SYMBOLS", "", _list(own.exposures)),
+        ("--snr", "decibels", number, "DB", "the chips' variance over that of a row's noise; ",
+         _list(own.decibels)),
+    ):  # fmt: skip
+        parser.add_argument(
+            flag, dest=field, action="append", type=kind, metavar=metavar,
+            help=f"{what}may be repeated; default: {usual}",
+        )  # fmt: skip
+    for field, (flag, metavar, what) in _NUMBERS.items():
+        add_option(parser, flag, getattr(own, field), what, dest=field, metavar=metavar)
+    add_option(parser, "--fps", FRAMES_A_SECOND, "pictures a second, one payload each")
+    add_option(parser, "--seed", own.seed)
     parser.add_argument(
         "--data", type=Path, metavar="CSV",
         help="read the pictures of a data set instead, whose table this is",
@@ -75,20 +55,17 @@ def add_to(commands: Commands) -> None:
 
 
 def _run(options: argparse.Namespace) -> int:
-    names = tuple(dict.fromkeys(options.decoder or decoders()))
+    names = tuple(dict.fromkeys(options.decoders or decoders()))
+    schemes = tuple(dict.fromkeys(options.schemes or _DEFAULT_REQUEST.schemes))
     if options.data is not None:
-        return _read_data_set(options, names)
+        return _read_data_set(options.data, names, schemes[0])
     request = BenchRequest(
-        schemes=tuple(dict.fromkeys(options.scheme or _DEFAULT_REQUEST.schemes)),
-        decoders=names,
-        exposures=tuple(options.exposure or _DEFAULT_REQUEST.exposures),
-        decibels=tuple(options.snr or _DEFAULT_REQUEST.decibels),
-        at_exposure=options.at_exposure,
-        at_decibels=options.at_snr,
-        rows_a_symbol=options.rows,
-        payload_bits=options.payload_bits,
-        bits=options.bits,
+        schemes,
+        names,
+        tuple(options.exposures or _DEFAULT_REQUEST.exposures),
+        tuple(options.decibels or _DEFAULT_REQUEST.decibels),
         seed=options.seed,
+        **{field: getattr(options, field) for field in _NUMBERS},
     )
     check_bench(request)
     check_frame_rate(bench_scene(request, request.schemes[0]), options.fps)
@@ -122,9 +99,9 @@ def _table(points: tuple[BenchPoint, ...], frames_a_second: float) -> list[str]:
     return lines
 
 
-def _read_data_set(options: argparse.Namespace, names: tuple[str, ...]) -> int:
-    samples = load_samples(options.data)
-    line_code = (options.scheme or _DEFAULT_REQUEST.schemes)[0].partition("/")[0]
+def _read_data_set(table: Path, names: tuple[str, ...], scheme: str) -> int:
+    samples = load_samples(table)
+    line_code = scheme.partition("/")[0]
     with progress_bar(total=len(samples), unit=" pictures", leave=False, delay=0.5) as bar:
         readings = tuple(
             read_samples(samples, names, line_code, lambda done, _all: bar.update(done - bar.n))

@@ -7,9 +7,9 @@ from pathlib import Path
 
 from occ_model.commands.options import (
     Commands,
+    add_option,
     add_scene_options,
     decoder_name,
-    number,
     scene_of,
 )
 from occ_model.commands.progress_bar import progress_bar
@@ -58,13 +58,10 @@ def add_to(commands: Commands) -> None:
     parser.add_argument(
         "--follow", action="store_true", help="of a film: print what is known after each frame"
     )
-    parser.add_argument(
-        "--readout-tolerance",
-        type=number,
-        default=100.0 * READOUT_TOLERANCE,
-        metavar="PERCENT",
-        help="of a film: by how much the readout time may be another one; default: %(default)g",
-    )
+    add_option(
+        parser, "--readout-tolerance", 100.0 * READOUT_TOLERANCE,
+        "of a film: by how much the readout time may be another one", metavar="PERCENT",
+    )  # fmt: skip
     parser.set_defaults(command=_run)
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from occ_model.commands.files import folder_of_figures
-from occ_model.commands.options import Commands, whole_number
+from occ_model.commands.options import Commands, add_option
 from occ_model.commands.progress_bar import progress_bar
 from occ_model.errors import one_line
 from occ_model.files.writing import make_folder
@@ -28,13 +28,9 @@ def add_to(commands: Commands) -> None:
         "folder of --out until their figure is written; the same command goes on from there.",
     )
     parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder to fill")
-    parser.add_argument(
-        "--images", type=whole_number, default=IMAGES, help="a point; default: %(default)s"
-    )
-    parser.add_argument("--seed", type=whole_number, default=1, help="default: %(default)s")
-    parser.add_argument(
-        "--jobs", type=whole_number, default=1, metavar="N", help="processes; default: %(default)s"
-    )
+    add_option(parser, "--images", IMAGES, "a point")
+    add_option(parser, "--seed", 1)
+    add_option(parser, "--jobs", 1, "processes", metavar="N")
     for exposure in ("68us", "136us"):
         parser.add_argument(
             f"--photo-{exposure}", type=Path, metavar="FILE", help="its profile is drawn too"

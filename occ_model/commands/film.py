@@ -7,11 +7,11 @@ import numpy as np
 
 from occ_model.commands.options import (
     Commands,
+    add_option,
     add_scene_options,
     add_simulation_options,
     scene_of,
     simulation_settings_of,
-    whole_number,
 )
 from occ_model.commands.progress_bar import progress_bar
 from occ_model.errors import ParameterError, one_line, shown
@@ -30,9 +30,7 @@ def add_to(commands: Commands) -> None:
     parser = commands.add_parser("film", help="simulate a film and write it")
     add_scene_options(parser)
     add_simulation_options(parser)
-    parser.add_argument(
-        "--frames", type=whole_number, default=_FRAMES, metavar="N", help="default: %(default)s"
-    )
+    add_option(parser, "--frames", _FRAMES, metavar="N")
     for declared in DECLARED:
         usual = declared.format(declared.default)
         parser.add_argument(

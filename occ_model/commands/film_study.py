@@ -4,13 +4,14 @@ import argparse
 import sys
 from dataclasses import replace
 from pathlib import Path
+from typing import TypeVar
 
 from occ_model.commands.files import folder_of_figures
 from occ_model.commands.options import (
     Commands,
+    add_option,
     add_scene_options,
     decoder_name,
-    number,
     scene_of,
     whole_number,
 )
@@ -31,25 +32,27 @@ from occ_model.study.film_study import (
 
 _FRAMES = 120
 
+Number = TypeVar("Number", int, float)
+
 
 def add_to(commands: Commands) -> None:
     parser = commands.add_parser(
         "film-study", help="measure what films carry, over frequency, gap and packet length"
     )
     add_scene_options(parser)
-    parser.add_argument("--frequencies", default="4kHz,8kHz", metavar="LIST",
-                        help="switching frequencies; default: %(default)s")  # fmt: skip
-    parser.add_argument("--gaps", default="5,10,20,30,40", metavar="LIST",
-                        help="gaps in percent of a frame period; default: %(default)s")  # fmt: skip
-    parser.add_argument("--bits", default="16,64", metavar="LIST",
-                        help="bits of a payload; default: %(default)s")  # fmt: skip
-    parser.add_argument("--frame-rate", type=number, default=30.0, metavar="HZ",
-                        help="default: %(default)g")  # fmt: skip
-    parser.add_argument("--frames", type=whole_number, default=None, metavar="N",
-                        help=f"frames of each film; default: {_FRAMES}")  # fmt: skip
-    parser.add_argument("--decoder", type=decoder_name, default=PAPER_DECODER,
-                        help="default: %(default)s")  # fmt: skip
-    parser.add_argument("--seed", type=whole_number, default=1, help="default: %(default)s")
+    add_option(parser, "--frequencies", "4kHz,8kHz", "switching frequencies", metavar="LIST")
+    add_option(
+        parser, "--gaps", "5,10,20,30,40", "gaps in percent of a frame period", metavar="LIST"
+    )
+    add_option(parser, "--bits", "16,64", "bits of a payload", metavar="LIST")
+    add_option(parser, "--frame-rate", 30.0, metavar="HZ")
+    parser.add_argument(
+        "--frames", type=whole_number, metavar="N", help=f"frames of each film; default: {_FRAMES}"
+    )
+    parser.add_argument(
+        "--decoder", type=decoder_name, default=PAPER_DECODER, help="default: %(default)s"
+    )
+    add_option(parser, "--seed", 1)
     parser.add_argument(
         "--example", action="store_true",
         help="the published example of CamComSim instead, beside counting and its own rule",
@@ -95,8 +98,8 @@ def _request(options: argparse.Namespace) -> FilmRequest:
     return FilmRequest(
         scene_of_films(scene_of(options)),
         frequencies=tuple(frequency.parse(text) for text in _listed(options.frequencies)),
-        gaps=tuple(_number("gaps", text) / 100.0 for text in _listed(options.gaps)),
-        bits=tuple(_whole("bits", text) for text in _listed(options.bits)),
+        gaps=tuple(gap / 100.0 for gap in _numbers("gaps", options.gaps, float, "numbers")),
+        bits=_numbers("bits", options.bits, int, "whole numbers"),
         frame_rate=options.frame_rate,
         frames=_FRAMES if options.frames is None else options.frames,
         decoder=options.decoder,
@@ -108,18 +111,14 @@ def _listed(text: str) -> list[str]:
     return [part.strip() for part in text.split(",") if part.strip()]
 
 
-def _number(name: str, text: str) -> float:
-    try:
-        return float(text)
-    except ValueError:
-        raise ParameterError(f"{name} holds {shown(text)}; allowed: numbers.") from None
-
-
-def _whole(name: str, text: str) -> int:
-    try:
-        return int(text)
-    except ValueError:
-        raise ParameterError(f"{name} holds {shown(text)}; allowed: whole numbers.") from None
+def _numbers(name: str, text: str, kind: type[Number], what: str) -> tuple[Number, ...]:
+    numbers = []
+    for part in _listed(text):
+        try:
+            numbers.append(kind(part))
+        except ValueError:
+            raise ParameterError(f"{name} holds {shown(part)}; allowed: {what}.") from None
+    return tuple(numbers)
 
 
 def _line(point: FilmPoint) -> str:

@@ -6,11 +6,11 @@ from collections.abc import Sequence
 
 from occ_model.commands.options import (
     Commands,
+    add_option,
     add_scene_options,
     decoder_name,
     number,
     scene_of,
-    whole_number,
 )
 from occ_model.commands.progress_bar import progress_bar
 from occ_model.program import EXIT_FAILURE
@@ -53,20 +53,15 @@ def add_to(commands: Commands) -> None:
         "--rate", type=number, default=READ_RATE, metavar="PERCENT",
         help="of the bits from which a scene counts as read; default: %(default)s",
     )  # fmt: skip
-    parser.add_argument(
-        "--images", type=whole_number, default=20,
-        help="at each value tried; more of them make the answer surer; default: %(default)s",
+    add_option(parser, "--images", 20, "at each value tried; more of them make the answer surer")
+    add_option(
+        parser, "--fps", FRAMES_A_SECOND,
+        "pictures a second, or as many as can be read out, one payload each",
     )  # fmt: skip
-    parser.add_argument(
-        "--fps", type=number, default=FRAMES_A_SECOND,
-        help="pictures a second, or as many as can be read out, one payload each; default: "
-        "%(default)g",
-    )  # fmt: skip
-    parser.add_argument("--seed", type=whole_number, default=1, help="default: %(default)s")
-    parser.add_argument(
-        "--jobs", type=whole_number, default=2, metavar="N",
-        help="processes, two at most; the answer is the same with one; default: %(default)s",
-    )  # fmt: skip
+    add_option(parser, "--seed", 1)
+    add_option(
+        parser, "--jobs", 2, "processes, two at most; the answer is the same with one", metavar="N"
+    )
     parser.set_defaults(command=_run)
 
 

@@ -6,7 +6,13 @@ from dataclasses import replace
 from pathlib import Path
 
 from occ_model.commands.match_many import add_many_options, run_many, written_by
-from occ_model.commands.options import Commands, add_scene_options, assumption_of, scene_of
+from occ_model.commands.options import (
+    Commands,
+    add_option,
+    add_scene_options,
+    assumption_of,
+    scene_of,
+)
 from occ_model.commands.progress_bar import progress_bar
 from occ_model.errors import MatchError, ParameterError, one_line, shown
 from occ_model.photo.chips.read import read_chips
@@ -41,19 +47,10 @@ def add_to(commands: Commands) -> None:
         help="scene: what the scene sends; read: read it from the stripes; auto: what fits "
         "(default)",
     )
-    parser.add_argument(
-        "--estimate",
-        choices=ESTIMATES,
-        default=ESTIMATES[0],
-        help="the one that is not known; default: %(default)s",
-    )
+    add_option(parser, "--estimate", ESTIMATES[0], "the one that is not known", choices=ESTIMATES)
     parser.add_argument("--fit-gamma", action="store_true", help="estimate gamma too")
-    parser.add_argument(
-        "--scan-axis", choices=SCAN_AXES, default=SCAN_AXES[0], help="default: %(default)s"
-    )
-    parser.add_argument(
-        "--channel", choices=CHANNELS, default=CHANNELS[0], help="default: %(default)s"
-    )
+    add_option(parser, "--scan-axis", SCAN_AXES[0], choices=SCAN_AXES)
+    add_option(parser, "--channel", CHANNELS[0], choices=CHANNELS)
     where = parser.add_mutually_exclusive_group()
     where.add_argument(
         "--region",

@@ -4,11 +4,10 @@ import argparse
 
 from occ_model.commands.options import (
     Commands,
+    add_option,
     add_scene_options,
     decoder_name,
-    number,
     scene_of,
-    whole_number,
 )
 from occ_model.commands.progress_bar import progress_bar
 from occ_model.program import EXIT_FAILURE
@@ -30,15 +29,9 @@ def add_to(commands: Commands) -> None:
         "--decoder", action="append", type=decoder_name,
         help=f"may be repeated; default: {', '.join(DECODERS)}",
     )  # fmt: skip
-    parser.add_argument(
-        "--fps", type=number, default=FRAMES_A_SECOND,
-        help="pictures a second, one payload each; default: %(default)g",
-    )  # fmt: skip
-    parser.add_argument(
-        "--pictures", type=whole_number, default=10,
-        help="of which every bit must be read; default: %(default)s",
-    )  # fmt: skip
-    parser.add_argument("--seed", type=whole_number, default=1, help="default: %(default)s")
+    add_option(parser, "--fps", FRAMES_A_SECOND, "pictures a second, one payload each")
+    add_option(parser, "--pictures", 10, "of which every bit must be read")
+    add_option(parser, "--seed", 1)
     parser.set_defaults(command=_run)
 
 

@@ -3,7 +3,7 @@
 import argparse
 import sys
 from pathlib import Path
-from typing import IO, TYPE_CHECKING, NoReturn, TypeAlias
+from typing import IO, TYPE_CHECKING, Any, NoReturn, TypeAlias
 
 from occ_model.effects.registry import NAMES
 from occ_model.errors import ParameterError, one_line, shown
@@ -73,10 +73,24 @@ def decoder_name(text: str) -> str:
     return text
 
 
+def add_option(
+    parser: argparse._ActionsContainer,
+    flag: str,
+    default: float | str,
+    what: str = "",
+    **more: Any,
+) -> None:
+    """Add an option with a default, which its help ends with, and whose type is the option's."""
+    kind = {int: whole_number, float: number}.get(type(default), str)
+    shown = "%(default)g" if isinstance(default, float) else "%(default)s"
+    help_text = f"{what}; default: {shown}" if what else f"default: {shown}"
+    parser.add_argument(flag, type=kind, default=default, help=help_text, **more)
+
+
 def add_scene_options(parser: argparse.ArgumentParser) -> None:
     """Add the options that choose a scene; :func:`scene_of` reads them."""
     start = parser.add_mutually_exclusive_group()
-    start.add_argument("--preset", default=DEFAULT_PRESET, help="default: %(default)s")
+    add_option(start, "--preset", DEFAULT_PRESET)
     start.add_argument("--scene", type=Path, metavar="FILE", help="a scene file instead")
     parser.add_argument(
         "--set",
@@ -97,19 +111,12 @@ def scene_of(options: argparse.Namespace) -> Scene:
 def add_plan_options(parser: argparse.ArgumentParser) -> None:
     """Add the options that choose the simulated effects."""
     own = SimulationSettings()
-    parser.add_argument(
-        "--tolerance",
-        type=number,
-        default=own.tolerance,
-        metavar="LEVELS",
-        help="what effects left out may change, in levels of the stretched profile; "
-        "0: simulate all, inf: none; default: %(default)s",
-    )
-    parser.add_argument(
-        "--observable",
-        choices=OBSERVABLES,
-        default=own.observable,
-        help="what the tolerance is of; default: %(default)s",
+    add_option(
+        parser, "--tolerance", own.tolerance, "what effects left out may change, in levels of the "
+        "stretched profile; 0: simulate all, inf: none", metavar="LEVELS",
+    )  # fmt: skip
+    add_option(
+        parser, "--observable", own.observable, "what the tolerance is of", choices=OBSERVABLES
     )
     for switch, meaning in (("on", "simulate an effect"), ("off", "leave an effect out")):
         parser.add_argument(
@@ -123,13 +130,9 @@ def add_plan_options(parser: argparse.ArgumentParser) -> None:
 
 def add_noise_options(parser: argparse.ArgumentParser) -> None:
     own = SimulationSettings()
-    parser.add_argument(
-        "--noise",
-        choices=NOISE_SOURCES,
-        default=own.noise,
-        help="exact: drawn for each pixel; reused: many times faster; default: %(default)s",
-    )
-    parser.add_argument("--seed", type=whole_number, default=own.seed, help="default: %(default)s")
+    meaning = "exact: drawn for each pixel; reused: many times faster"
+    add_option(parser, "--noise", own.noise, meaning, choices=NOISE_SOURCES)
+    add_option(parser, "--seed", own.seed)
 
 
 def add_simulation_options(parser: argparse.ArgumentParser) -> None:
@@ -143,17 +146,18 @@ def simulation_settings_of(options: argparse.Namespace) -> SimulationSettings:
     check_seed(options.seed)
     for name in (*options.on, *options.off):
         check_choice("effect", name, NAMES)
+    return SimulationSettings(
+        options.tolerance, options.observable, forced(options), options.noise, options.seed
+    )
+
+
+def forced(options: argparse.Namespace) -> dict[str, bool]:
+    """Return the effects that a command line switches on or off."""
     for name in set(options.on) & set(options.off):
         raise ParameterError(
             f"effect {shown(name)} is switched both on and off; allowed: one of them."
         )
-    return SimulationSettings(
-        tolerance=options.tolerance,
-        observable=options.observable,
-        force={**dict.fromkeys(options.on, True), **dict.fromkeys(options.off, False)},
-        noise=options.noise,
-        seed=options.seed,
-    )
+    return {**dict.fromkeys(options.on, True), **dict.fromkeys(options.off, False)}
 
 
 def assumption_of(name: str, value: float, chips: int, options: argparse.Namespace) -> str:

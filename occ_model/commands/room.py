@@ -12,6 +12,7 @@ import numpy as np
 from occ_model.commands.files import TABLE
 from occ_model.commands.options import (
     Commands,
+    add_option,
     add_simulation_options,
     number,
     simulation_settings_of,
@@ -84,10 +85,7 @@ def _add_codes(kinds: Commands) -> None:
         help="compare lengths of codes for many lamps: how alike they are, and what is read",
     )
     _add_room(parser, _AXES[2:])
-    parser.add_argument(
-        "--lamps", type=whole_number, default=1024,
-        help="lamps that have a code each, of which the room holds some; default: %(default)s",
-    )  # fmt: skip
+    add_option(parser, "--lamps", 1024, "lamps that have a code each, of which the room holds some")
     parser.add_argument(
         "--bits", type=whole_number, action="append", default=[],
         help="a length of code, may be repeated; default: the shortest, and 2 and 4 bits more",
@@ -98,14 +96,11 @@ def _add_codes(kinds: Commands) -> None:
 
 
 def _add_floor(parser: argparse.ArgumentParser, side: int) -> None:
-    parser.add_argument(
-        "--side", type=whole_number, default=side, metavar="N",
-        help="places on each side of the floor below the lamps; default: %(default)s",
-    )  # fmt: skip
-    parser.add_argument(
-        "--images", type=whole_number, default=1, help="a place; default: %(default)s"
+    add_option(
+        parser, "--side", side, "places on each side of the floor below the lamps", metavar="N"
     )
-    parser.add_argument("--seed", type=whole_number, default=1, help="default: %(default)s")
+    add_option(parser, "--images", 1, "a place")
+    add_option(parser, "--seed", 1)
     parser.add_argument("--tolerance", type=number, default=TOLERANCE.default, metavar="LEVELS")
 
 

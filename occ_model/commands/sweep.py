@@ -14,11 +14,11 @@ from typing import Any, TypeVar
 from occ_model.commands.files import TABLE
 from occ_model.commands.options import (
     Commands,
+    add_option,
     add_scene_options,
     decoder_name,
-    number,
+    forced,
     scene_of,
-    whole_number,
 )
 from occ_model.commands.progress_bar import print_above_bar, progress_bar
 from occ_model.commands.vary import SYNTAX, axes_of
@@ -58,54 +58,46 @@ def add_to(commands: Commands) -> None:
         "--vary", action="append", required=True, metavar="NAME=VALUES",
         help=f"{SYNTAX}; may be repeated, all combinations are measured",
     )  # fmt: skip
-    parser.add_argument(
-        "--images", type=whole_number, default=5, help="a point; default: %(default)s"
-    )
+    add_option(parser, "--images", 5, "a point")
     parser.add_argument(
         "--decoder", action="append", type=_decoder_or_all,
         help=f"one of {', '.join(DECODERS)} or a plug-in's; may be repeated; "
         f"{BOTH}: {' and '.join(QUICK_DECODERS)}; {ALL}: all but plug-ins; default: "
         f"{PAPER_DECODER}",
     )  # fmt: skip
-    parser.add_argument(
-        "--fps", type=number, default=FRAMES_A_SECOND,
-        help="images a second, or as many as can be read out, by which bits a second are counted; "
-        "default: %(default)g",
+    add_option(
+        parser, "--fps", FRAMES_A_SECOND, "images a second, or as many as can be read out, by "
+        "which bits a second are counted",
     )  # fmt: skip
-    parser.add_argument("--seed", type=whole_number, default=1, help="default: %(default)s")
-    parser.add_argument(
-        "--tolerance", type=number, default=TOLERANCE.default, metavar="LEVELS",
-        help="what effects left out may change in the signal that is decoded, in levels of the "
-        "stretched profile; default: %(default)s",
+    add_option(parser, "--seed", 1)
+    add_option(
+        parser, "--tolerance", TOLERANCE.default, "what effects left out may change in the signal "
+        "that is decoded, in levels of the stretched profile", metavar="LEVELS",
     )  # fmt: skip
     for switch, meaning in (("on", "simulate an effect"), ("off", "leave an effect out")):
         parser.add_argument(
             f"--{switch}", action="append", default=[], choices=NAMES, metavar="EFFECT",
             help=f"{meaning} whatever its estimate; may be repeated",
         )  # fmt: skip
-    parser.add_argument(
-        "--path", choices=SIGNAL_PATHS, default="auto",
-        help="by whole images, a sample of their rows, the column means alone, or as the plan "
-        "allows; default: %(default)s",
+    add_option(
+        parser, "--path", "auto", "by whole images, a sample of their rows, the column means "
+        "alone, or as the plan allows", choices=SIGNAL_PATHS,
     )  # fmt: skip
     add_work_options(parser)
     parser.add_argument(
         "--plot", type=Path, metavar="FILE",
         help="draw one axis as curves, two as maps; PNG, PDF or SVG by its ending",
     )  # fmt: skip
-    parser.add_argument(
-        "--show", choices=SHOWN, default="rate",
-        help="success rates in the plot, or bits a second; default: %(default)s",
-    )  # fmt: skip
+    add_option(
+        parser, "--show", "rate", "success rates in the plot, or bits a second", choices=SHOWN
+    )
     parser.set_defaults(command=_run, writes={"out": TABLE})
 
 
 def add_worker_options(parser: argparse.ArgumentParser) -> None:
     """Add the options that say where a study's work is done."""
     work = parser.add_mutually_exclusive_group()
-    work.add_argument(
-        "--jobs", type=whole_number, default=1, metavar="N", help="processes; default: %(default)s"
-    )
+    add_option(work, "--jobs", 1, "processes", metavar="N")
     work.add_argument("--cluster", metavar="ADDRESS", help="workers of a dask scheduler instead")
 
 
@@ -120,16 +112,12 @@ def add_work_options(parser: argparse.ArgumentParser) -> None:
 
 def _run(options: argparse.Namespace) -> int:
     scene, axes = scene_of(options), axes_of(options.vary)
-    for name in set(options.on) & set(options.off):
-        raise ParameterError(
-            f"effect {shown(name)} is switched both on and off; allowed: one of them."
-        )
     settings = RateSettings(
         options.images,
         _decoders(options.decoder or [PAPER_DECODER]),
         options.seed,
         options.tolerance,
-        {**dict.fromkeys(options.on, True), **dict.fromkeys(options.off, False)},
+        forced(options),
         options.path,
         options.fps,
     )

@@ -9,7 +9,7 @@ from occ_model.boards.sketch import BOARDS, DEFAULT_BOARD, SCENE, board_named, f
 from occ_model.boards.transmission import Transmission, transmission
 from occ_model.boards.waveform_files import wav_timing
 from occ_model.commands.files import Written
-from occ_model.commands.options import Commands, add_scene_options, scene_of
+from occ_model.commands.options import Commands, add_option, add_scene_options, scene_of
 from occ_model.errors import one_line
 from occ_model.scene.units import HERTZ
 
@@ -22,12 +22,7 @@ def add_to(commands: Commands) -> None:
         "and WAV, the wiring as PDF, SVG and PNG, and the scene with the frequency that is sent.",
     )
     add_scene_options(parser)
-    parser.add_argument(
-        "--board",
-        choices=tuple(BOARDS),
-        default=DEFAULT_BOARD,
-        help="the board that blinks; default: %(default)s",
-    )
+    add_option(parser, "--board", DEFAULT_BOARD, "the board that blinks", choices=tuple(BOARDS))
     parser.add_argument(
         "-o", "--out", type=Path, required=True, metavar="DIR", help="folder to fill"
     )

@@ -2,7 +2,7 @@
 
 import csv
 import math
-from collections.abc import Generator, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,7 +11,7 @@ from time import perf_counter
 import numpy as np
 
 from occ_model.errors import OccError
-from occ_model.parallel.job import Heartbeat, Job
+from occ_model.parallel.job import Heartbeat
 from occ_model.results.decoding import Region
 from occ_model.results.sweep import csv_row, one_line
 from occ_model.room.locate import RoomReading, read_room
@@ -21,6 +21,7 @@ from occ_model.room.room import Room, check_room
 from occ_model.scene.argument_checks import check_count, check_seed
 from occ_model.scene.simulation_settings import TOLERANCE
 from occ_model.study.sweep.sweep import Progress, measure_study
+from occ_model.study.sweep.workers import Work
 from occ_model.version import __version__
 
 MOST_PLACES = 10_000
@@ -157,25 +158,6 @@ def measure_places(
     return _MeasuredPlaces(points, perf_counter() - start)
 
 
-class _Work:
-    """The places of a map as jobs of workers."""
-
-    what, module = "map", __name__
-
-    def __init__(self, request: RoomMapRequest) -> None:
-        self._request = request
-
-    def job(self, indices: Sequence[int]) -> Job:
-        return Job(measure_places, (self._request, tuple(indices)))
-
-    def here(
-        self, indices: Iterable[int], heartbeat: Heartbeat
-    ) -> Generator[RoomPoint, None, None]:
-        """Measure places in this process."""
-        for index in indices:
-            yield measure_place(self._request, index, heartbeat)
-
-
 class RoomMapText:
     """How the places of a map are written: one row each."""
 
@@ -243,7 +225,8 @@ def room_map(
         return sorted(found, key=lambda point: point.index)
 
     measure_study(
-        _Work(request), text, range(request.points), found.append,
+        Work("map", measure_places, lambda indices: (request, tuple(indices))), text,
+        range(request.points), found.append,
         lambda: [text.header, *map(text.text, in_order())],
         executor=executor, jobs=jobs, progress=progress, results=results,
     )  # fmt: skip

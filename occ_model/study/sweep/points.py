@@ -1,6 +1,6 @@
 """Points of a sweep: measured in this process or as a worker's job, and counted for the table."""
 
-from collections.abc import Generator, Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 from time import perf_counter
 from typing import TypeAlias
@@ -8,7 +8,7 @@ from typing import TypeAlias
 import numpy as np
 
 from occ_model.errors import OccError
-from occ_model.parallel.job import Heartbeat, Job
+from occ_model.parallel.job import Heartbeat
 from occ_model.results.sweep import SweepTable, one_line
 from occ_model.results.sweep_request import RateSettings, SweepPoint, SweepRequest
 from occ_model.scene.parameter_kinds import ParameterValue
@@ -54,28 +54,6 @@ def measure_points(
         measure_point(scene, settings, index, values, heartbeat) for index, values in points
     )
     return MeasuredPoints(found, settings.images, perf_counter() - start)
-
-
-class SweepWork:
-    """The points of a sweep as jobs of workers."""
-
-    what, module = "sweep", __name__
-
-    def __init__(self, request: SweepRequest) -> None:
-        self._request = request
-
-    def job(self, indices: Sequence[int]) -> Job:
-        points = tuple((index, self._request.values(index)) for index in indices)
-        return Job(measure_points, (self._request.scene, self._request.settings, points))
-
-    def here(
-        self, indices: Iterable[int], heartbeat: Heartbeat
-    ) -> Generator[SweepPoint, None, None]:
-        """Measure points in this process."""
-        request = self._request
-        for index in indices:
-            values = request.values(index)
-            yield measure_point(request.scene, request.settings, index, values, heartbeat)
 
 
 def rate_intervals(point: SweepPoint, images: int) -> list[tuple[float, float]]:

@@ -22,7 +22,7 @@ from occ_model.scene.argument_checks import check_count
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import TOLERANCE
-from occ_model.study.sweep.points import Counts, SweepWork, rate_intervals
+from occ_model.study.sweep.points import Counts, PointValues, measure_points, rate_intervals
 from occ_model.study.sweep.request_check import checked_request, decoders_of, processes_for
 from occ_model.study.sweep.results_file import Point, ResultsFile, TableText
 from occ_model.study.sweep.workers import Work, measure_anywhere
@@ -109,11 +109,19 @@ def run_sweep(
     """
     counts = Counts(request)
     measure_study(
-        SweepWork(request), _SweepText(request), request.in_order_of_work(), counts.enter,
+        work_of(request), _SweepText(request), request.in_order_of_work(), counts.enter,
         lambda: counts.table().csv(),
         executor=executor, jobs=jobs, progress=progress, results=results,
     )  # fmt: skip
     return counts.table()
+
+
+def work_of(request: SweepRequest) -> Work[SweepPoint]:
+    def arguments(indices: Iterable[int]) -> tuple[Scene, RateSettings, tuple[PointValues, ...]]:
+        values = tuple((index, request.values(index)) for index in indices)
+        return request.scene, request.settings, values
+
+    return Work("sweep", measure_points, arguments)
 
 
 def measure_study(  # noqa: PLR0913 - what a study is, and how it is measured

@@ -1,10 +1,11 @@
 """Workers of a study: they measure its points, and this process completes it where they die."""
 
 import warnings
-from collections.abc import Generator, Iterable, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterable, Iterator
 from concurrent.futures import Executor, Future, wait
+from dataclasses import dataclass
 from itertools import chain, islice
-from typing import Any, Generic, Protocol, TypeVar
+from typing import Any, Generic
 
 from occ_model.errors import one_line
 from occ_model.parallel.job import (
@@ -19,30 +20,30 @@ from occ_model.parallel.job import (
 )
 from occ_model.parallel.request import Run
 from occ_model.parallel.scheduler import Scheduler
-from occ_model.study.sweep.results_file import Indexed, Point
+from occ_model.study.sweep.results_file import Point
 
 _JOB_SECONDS = 0.1  # seconds of a job: long against sending it, short against anybody's patience
 _BEAT = 0.2  # seconds between two heartbeats while this process waits for workers
 _UNKNOWN_WORKERS = 32  # assumed of an executor that does not say how many it has
 
 
-Measured = TypeVar("Measured", bound=Indexed, covariant=True)
+@dataclass(frozen=True, slots=True)
+class Work(Generic[Point]):
+    """The points of a study as jobs."""
 
+    what: str  # What the study is called: a sweep
+    # The function of a job, which takes its arguments and a heartbeat and returns an object with
+    # the ``points`` and the ``seconds`` that they took; its module is what a worker process needs
+    function: Callable[..., Any]
+    arguments: Callable[[Iterable[int]], tuple[Any, ...]]  # Of a job of some points
 
-class Work(Protocol[Measured]):
-    """The points of a study as jobs, whose results have ``points`` and ``seconds``."""
+    def job(self, indices: Iterable[int]) -> Job:
+        return Job(self.function, self.arguments(indices))
 
-    what: str
-    """What the study is called: a sweep."""
-
-    module: str
-    """What a worker process needs."""
-
-    def job(self, indices: Sequence[int]) -> Job:
-        """Make a job of some points."""
-
-    def here(self, indices: Iterable[int], heartbeat: Heartbeat) -> Generator[Measured, None, None]:
+    def here(self, indices: Iterable[int], heartbeat: Heartbeat) -> Generator[Point, None, None]:
         """Measure points in this process."""
+        for index in indices:
+            yield from self.function(*self.arguments((index,)), heartbeat).points
 
 
 class GivenExecutor:
@@ -97,7 +98,7 @@ def measure_anywhere(
         from occ_model.parallel.process_pool import ProcessPool
 
         try:
-            return measure_by(ProcessPool(jobs, work.module), work, todo, heartbeat)
+            return measure_by(ProcessPool(jobs, work.function.__module__), work, todo, heartbeat)
         except NO_PROCESSES as error:
             warnings.warn(
                 f"No processes can be started ({one_line(str(error))}); this one does the "

@@ -23,8 +23,9 @@ from occ_model.results.sweep import SweepTable
 from occ_model.results.sweep_request import RateSettings, SweepPoint
 from occ_model.scene.scene import Scene
 from occ_model.study.sweep import points
-from occ_model.study.sweep.points import MeasuredPoints, SweepWork
+from occ_model.study.sweep.points import MeasuredPoints
 from occ_model.study.sweep.request_check import checked_request
+from occ_model.study.sweep.sweep import work_of
 from occ_model.study.sweep.workers import measure_anywhere
 
 BOTH = ("threshold", "matched")
@@ -234,7 +235,7 @@ def test_a_sweep_of_200000_points_takes_the_memory_of_a_few(
     tracemalloc.start()
     try:
         order = request.in_order_of_work()
-        points = measure_anywhere(SweepWork(request), order, Immediate(), 1, lambda: None)
+        points = measure_anywhere(work_of(request), order, Immediate(), 1, lambda: None)
         for _ in islice(points, 40_000):
             waiting.clear()
         points.close()

@@ -196,7 +196,7 @@ class LessonController(QObject):
         # With the first settings: not with the tolerance of the step before.
         workspace = replace(user, scene=step.scene, settings=FIRST_SETTINGS, photo=photo, preset="")
         self._store.put(workspace, title, new_gesture())
-        packet = QUANTITIES["packet-columns"].compute(step.scene, "")
+        packet = QUANTITIES["packet-columns"].compute(step.scene)
         self.columns_held.emit(PACKETS_IN_VIEW * packet)
         if step.photo and photo.path is None:
             self.status_message.emit(f"The photo {step.photo} is missing.")

@@ -32,11 +32,8 @@ LONGEST_SIDE = {"JPEG": 65_500, "WEBP": 16_383}
 
 def write_whole(path: Path, content: bytes) -> None:
     """Write a file, complete or not at all; a link is followed, and permissions are kept."""
-    permissions = check_replaceable(path)
-    try:
-        _replace(path.resolve(), content, permissions)
-    except OSError as error:
-        raise _unwritable(path, error) from None
+    with written_whole(path) as temporary:
+        temporary.write_bytes(content)
 
 
 def write_image(path: Path, image: ByteArray, description: str = "") -> None:
@@ -82,11 +79,6 @@ _ANY_WRITE = stat.S_IWUSR | stat.S_IWGRP | stat.S_IWOTH
 
 def _unwritable(path: Path, error: OSError | ValueError) -> OutputError:
     return OutputError(f"{one_line(str(path))} cannot be written: {reason_of(error)}.")
-
-
-def _replace(path: Path, content: bytes, permissions: int | None) -> None:
-    with _replacement(path, permissions) as temporary:
-        temporary.write_bytes(content)
 
 
 @contextmanager

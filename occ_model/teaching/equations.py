@@ -19,8 +19,10 @@ _ON_TIME_PARAMETERS = (  # they determine how long the LED is on while a column 
 )  # fmt: skip
 
 _MINUS = Term("−")  # noqa: RUF001 - a minus sign
-
 _TIMES = Term("×")  # noqa: RUF001 - a multiplication sign
+_EXPOSURE = Term("t", ("exposure_time",))
+_PERIOD = Term("t<sub>LED</sub>", ("switching_frequency",))
+_READOUT = Term("t<sub>r</sub>", ("readout_time",))
 
 
 def equations(scene: Scene) -> tuple[Equation, ...]:
@@ -39,6 +41,20 @@ def equations(scene: Scene) -> tuple[Equation, ...]:
     )
 
 
+def _terms(*parts: Term | str | tuple[str, str]) -> tuple[Term, ...]:
+    """Make terms of signs, and of texts with the parameter that each depends on."""
+    return tuple(
+        part if isinstance(part, Term)
+        else Term(part) if isinstance(part, str)
+        else Term(part[0], (part[1],))
+        for part in parts
+    )  # fmt: skip
+
+
+def _period(scene: Scene) -> Term:
+    return Term(SECOND.format(scene.transmitter.switching_period), ("switching_frequency",))
+
+
 def _shown(scene: Scene, name: str) -> Term:
     return Term(PARAMETERS[name].format(scene.value(name)), (name,))  # type: ignore[arg-type]
 
@@ -53,31 +69,17 @@ def _pixel_values(scene: Scene) -> tuple[Equation, Equation]:
         ("dark-panel", "(2)", "Pixel value of the dark panel, PV<sub>min</sub>",
          "E<sub>v</sub>R/π", dark, _LIGHT[1:], low),
     ):  # fmt: skip
-        symbols = (
-            Term("118 ("),
-            Term("S", ("iso",)),
-            Term("t", ("exposure_time",)),
-            Term(f"({symbol})", depends),
-            Term("/ ("),
-            Term("K", ("meter_constant",)),
-            Term("N<sup>2</sup>", ("f_number",)),
-            Term(")"),
-            Term(")<sup>1/γ</sup>", ("gamma",)),  # noqa: RUF001 - the equation's own letter
-        )
-        numbers = (
-            Term("118 ("),
-            _shown(scene, "iso"),
-            Term("×"),  # noqa: RUF001 - a multiplication sign
-            _shown(scene, "exposure_time"),
-            Term("×"),  # noqa: RUF001 - a multiplication sign
-            Term(NIT.format(light, 4), depends),
-            Term("/ ("),
-            _shown(scene, "meter_constant"),
-            Term("×"),  # noqa: RUF001 - a multiplication sign
-            Term(f"{scene.camera.f_number:g}<sup>2</sup>", ("f_number",)),
-            Term(")"),
-            Term(f")<sup>1/{scene.camera.gamma:g}</sup>", ("gamma",)),
-        )
+        symbols = _terms(
+            "118 (", ("S", "iso"), _EXPOSURE, Term(f"({symbol})", depends), "/ (",
+            ("K", "meter_constant"), ("N<sup>2</sup>", "f_number"), ")",
+            (")<sup>1/γ</sup>", "gamma"),  # noqa: RUF001 - the equation's own letter
+        )  # fmt: skip
+        numbers = _terms(
+            "118 (", _shown(scene, "iso"), _TIMES, _shown(scene, "exposure_time"), _TIMES,
+            Term(NIT.format(light, 4), depends), "/ (", _shown(scene, "meter_constant"), _TIMES,
+            (f"{scene.camera.f_number:g}<sup>2</sup>", "f_number"), ")",
+            (f")<sup>1/{scene.camera.gamma:g}</sup>", "gamma"),
+        )  # fmt: skip
         message = f"{value:.1f} grey levels"
         if value > WHITE:
             message += ": more than white"
@@ -88,26 +90,13 @@ def _pixel_values(scene: Scene) -> tuple[Equation, Equation]:
 def _column_value(scene: Scene) -> Equation:
     low, high = level_values(scene).tolist()
     light = (*_LIGHT, "iso", "f_number", "gamma", "meter_constant", "exposure_time")
-    exposure = ("exposure_time",)
-    symbols = (
-        Term("("),
-        Term("PV<sub>max</sub>", light),
-        Term("t<sub>on</sub>", _ON_TIME_PARAMETERS),
-        Term("+"),
-        Term("PV<sub>min</sub>", light),
-        Term("t<sub>off</sub>", _ON_TIME_PARAMETERS),
-        Term(") /"),
-        Term("t", exposure),
-    )
-    numbers = (
-        Term("("),
-        Term(f"{high:.1f}", light),
-        Term("t<sub>on</sub>", _ON_TIME_PARAMETERS),
-        Term("+"),
-        Term(f"{low:.1f}", light),
-        Term("t<sub>off</sub>", _ON_TIME_PARAMETERS),
-        Term(") /"),
-        _shown(scene, "exposure_time"),
+    on, off = (Term(f"t<sub>{state}</sub>", _ON_TIME_PARAMETERS) for state in ("on", "off"))
+    symbols, numbers = (
+        _terms("(", Term(lit, light), on, "+", Term(dark, light), off, ") /", exposure)
+        for lit, dark, exposure in (
+            ("PV<sub>max</sub>", "PV<sub>min</sub>", _EXPOSURE),
+            (f"{high:.1f}", f"{low:.1f}", _shown(scene, "exposure_time")),
+        )
     )
     message = f"{min(low, WHITE):.1f} to {min(high, WHITE):.1f} grey levels, column by column"
     if scene.model.averaging == "light":
@@ -117,7 +106,7 @@ def _column_value(scene: Scene) -> Equation:
 
 
 def _band_lengths(scene: Scene) -> tuple[Equation, Equation]:
-    period = Term(SECOND.format(scene.transmitter.switching_period), ("switching_frequency",))
+    period = _period(scene)
     exposure, readout = _shown(scene, "exposure_time"), _shown(scene, "readout_time")
     # Of the two only the length of one state becomes undefined: an exposure always has a length.
     transition = result_text(COLUMN, scene.camera.exposure_time / scene.camera.readout_time)
@@ -127,52 +116,35 @@ def _band_lengths(scene: Scene) -> tuple[Equation, Equation]:
         complete = (
             "undefined: the exposure is longer than the switching period; the simulation goes on"
         )
-    led, own = Term("t<sub>LED</sub>", ("switching_frequency",)), Term("t", ("exposure_time",))
-    column = Term("t<sub>r</sub>", ("readout_time",))
     return (
         Equation(
             "one-state", "band model", "Columns of one state, h<sub>c</sub>",
-            (Term("("), led, _MINUS, own, Term(") /"), column),
-            (Term("("), period, _MINUS, exposure, Term(") /"), readout), complete,
+            _terms("(", _PERIOD, _MINUS, _EXPOSURE, ") /", _READOUT),
+            _terms("(", period, _MINUS, exposure, ") /", readout), complete,
         ),
         Equation(
             "transition", "band model", "Columns of a transition, h<sub>t</sub>",
-            (own, Term("/"), column), (exposure, Term("/"), readout), transition,
+            _terms(_EXPOSURE, "/", _READOUT), _terms(exposure, "/", readout), transition,
         ),
     )  # fmt: skip
 
 
 def _chip_columns(scene: Scene) -> Equation:
-    period, readout = scene.transmitter.switching_period, scene.camera.readout_time
     return Equation(
-        "chip-columns",
-        "readout",
-        "Columns of a chip",
-        (
-            Term("t<sub>LED</sub>", ("switching_frequency",)),
-            Term("/"),
-            Term("t<sub>r</sub>", ("readout_time",)),
-        ),
-        (
-            Term(SECOND.format(period), ("switching_frequency",)),
-            Term("/"),
-            _shown(scene, "readout_time"),
-        ),
-        result_text(COLUMN, period / readout),
-    )
+        "chip-columns", "readout", "Columns of a chip", _terms(_PERIOD, "/", _READOUT),
+        _terms(_period(scene), "/", _shown(scene, "readout_time")),
+        result_text(COLUMN, scene.transmitter.switching_period / scene.camera.readout_time),
+    )  # fmt: skip
 
 
 def _frame_time(scene: Scene) -> Equation:
     camera = scene.camera
-    columns = Term(f"{camera.columns} columns", ("columns",))
     return Equation(
-        "frame-time",
-        "readout",
-        "Time to read out a whole picture",
-        (Term("columns", ("columns",)), _TIMES, Term("t<sub>r</sub>", ("readout_time",))),
-        (columns, _TIMES, _shown(scene, "readout_time")),
+        "frame-time", "readout", "Time to read out a whole picture",
+        _terms(("columns", "columns"), _TIMES, _READOUT),
+        _terms((f"{camera.columns} columns", "columns"), _TIMES, _shown(scene, "readout_time")),
         result_text(SECOND, camera.columns * camera.readout_time),
-    )
+    )  # fmt: skip
 
 
 def _null(scene: Scene) -> Equation:
@@ -183,8 +155,8 @@ def _null(scene: Scene) -> Equation:
         "null",
         "exposure",
         "Frequency at which an alternating pattern has no stripes",
-        (Term("2 /"), Term("t", ("exposure_time",))),
-        (Term("2 /"), _shown(scene, "exposure_time")),
+        _terms("2 /", _EXPOSURE),
+        _terms("2 /", _shown(scene, "exposure_time")),
         f"{result_text(HERTZ, 2.0 / exposure)}; here, at {in_chips:.3g} chips an exposure, "
         f"{100.0 * contrast:.0f} % of its contrast is left",
     )

@@ -33,29 +33,29 @@ class LessonQuantity:
     meaning: str
     unit: Unit
     asked_in: str  # The unit of an answer that is a number alone
-    # Function of the scene, and of the name of the step's photo or a match of another one, that
-    # gives its value in SI units
-    compute: Callable[[Scene, str | Match], float]
+    of_scene: Callable[[Scene], float]  # Function of a scene that gives the value in SI units
+    of_photo: bool = False  # Whether the scene is the one that is matched to a photo
     # What a number is called that is a name, as a code is: no other one is near it. Empty for a
     # quantity.
     called: str = ""
 
+    def compute(self, scene: Scene, photo: str | Match = "") -> float:
+        """Return the value; ``photo``: the name of the step's photo, or a match of another one."""
+        return self.of_scene(_matched(scene, photo) if self.of_photo else scene)
 
-def _limit(decoder: str) -> Callable[[Scene, str | Match], float]:
-    def compute(scene: Scene, _photo: str | Match) -> float:
-        # Some tenths of a second to import, and needed by few steps.
-        from occ_model.study.success_rate import check_rate
-        from occ_model.study.working_range import READ_RATE, working_range
 
-        # Not `limits`: exposure times and the confidence of each end take ten times as long.
-        settings = RateSettings(5, (decoder,))
-        check_rate(scene, settings)
-        highest = working_range(scene, "switching_frequency", READ_RATE, settings).highest
-        if highest is None:
-            raise OccError(f"The {decoder} decoder reads this scene at no frequency.")
-        return highest.value
+def _threshold_limit(scene: Scene) -> float:
+    # Some tenths of a second to import, and needed by few steps.
+    from occ_model.study.success_rate import check_rate
+    from occ_model.study.working_range import READ_RATE, working_range
 
-    return compute
+    # Not `limits`: exposure times and the confidence of each end take ten times as long.
+    settings = RateSettings(5, ("threshold",))
+    check_rate(scene, settings)
+    highest = working_range(scene, "switching_frequency", READ_RATE, settings).highest
+    if highest is None:
+        raise OccError("The threshold decoder reads this scene at no frequency.")
+    return highest.value
 
 
 def _matched(scene: Scene, photo: str | Match) -> Scene:
@@ -93,135 +93,90 @@ def _share_seen(scene: Scene) -> float:
     return min(1.0, FRAME_RATE * panel_readout_time(scene))
 
 
-QUANTITIES: dict[str, LessonQuantity] = {  # by the name that a lesson's file uses
+QUANTITIES = {  # by the name that a lesson's file uses
     "chip-columns": LessonQuantity(
-        "columns that are read out while a chip lasts, t_LED / t_r",
-        COLUMN,
-        "columns",
-        lambda scene, _: _chip_columns(scene),
+        "columns that are read out while a chip lasts, t_LED / t_r", COLUMN, "columns",
+        _chip_columns,
     ),
     "slope-columns": LessonQuantity(
-        "columns of a slope between two states, t / t_r",
-        COLUMN,
-        "columns",
-        lambda scene, _: scene.camera.exposure_time / scene.camera.readout_time,
+        "columns of a slope between two states, t / t_r", COLUMN, "columns",
+        lambda scene: scene.camera.exposure_time / scene.camera.readout_time,
     ),
     "exposure-chips": LessonQuantity(
-        "chips that an exposure covers, t / t_LED",
-        _CHIP,
-        "chips",
-        lambda scene, _: _exposure_chips(scene),
+        "chips that an exposure covers, t / t_LED", _CHIP, "chips", _exposure_chips
     ),
     "packet-columns": LessonQuantity(
-        "columns of a packet",
-        COLUMN,
-        "columns",
-        lambda scene, _: len(sent_chips(scene.transmitter)) * _chip_columns(scene),
+        "columns of a packet", COLUMN, "columns",
+        lambda scene: len(sent_chips(scene.transmitter)) * _chip_columns(scene),
     ),
     "frame-time": LessonQuantity(
-        "time to read out a picture, columns times t_r",
-        SECOND,
-        "ms",
-        lambda scene, _: scene.camera.columns * scene.camera.readout_time,
+        "time to read out a picture, columns times t_r", SECOND, "ms",
+        lambda scene: scene.camera.columns * scene.camera.readout_time,
     ),
     "band-model-end": LessonQuantity(
-        "switching frequency from which the band model is undefined, 1 / t",
-        HERTZ,
-        "kHz",
-        lambda scene, _: band_model_frequency(scene),
+        "switching frequency from which the band model is undefined, 1 / t", HERTZ, "kHz",
+        band_model_frequency,
     ),
     "null-frequency": LessonQuantity(
-        "switching frequency at which an alternating pattern has no stripes, 2 / t",
-        HERTZ,
-        "kHz",
-        lambda scene, _: null_frequency(scene),
+        "switching frequency at which an alternating pattern has no stripes, 2 / t", HERTZ, "kHz",
+        null_frequency,
     ),
     "second-null": LessonQuantity(
-        "switching frequency at which they vanish for the second time, 4 / t",
-        HERTZ,
-        "kHz",
-        lambda scene, _: 2.0 * null_frequency(scene),
+        "switching frequency at which they vanish for the second time, 4 / t", HERTZ, "kHz",
+        lambda scene: 2.0 * null_frequency(scene),
     ),
     "band-depth": LessonQuantity(
-        "depth of the bars, largest less smallest light of a column over the mean",
-        _PERCENT,
-        "%",
-        lambda scene, _: band_depth(scene).peak_to_peak,
+        "depth of the bars, largest less smallest light of a column over the mean", _PERCENT, "%",
+        lambda scene: band_depth(scene).peak_to_peak,
     ),
     "barless-exposure": LessonQuantity(
-        "shortest exposure time at which the bars of the code vanish",
-        SECOND,
-        "ms",
-        lambda scene, _: band_advice(scene).valley,
+        "shortest exposure time at which the bars of the code vanish", SECOND, "ms",
+        lambda scene: band_advice(scene).valley,
     ),
     "lamps-named": LessonQuantity(
-        "lamps that can have a code of their own, 2 to the power of the bits",
-        _LAMP,
-        "lamps",
-        lambda scene, _: 2.0**scene.transmitter.bits,
+        "lamps that can have a code of their own, 2 to the power of the bits", _LAMP, "lamps",
+        lambda scene: 2.0**scene.transmitter.bits,
     ),
     "panel-columns": LessonQuantity(
-        "columns that the panel spans in the picture",
-        COLUMN,
-        "columns",
-        lambda scene, _: float(np.ptp(panel_corners(scene)[:, 0])),
+        "columns that the panel spans in the picture", COLUMN, "columns",
+        lambda scene: float(np.ptp(panel_corners(scene)[:, 0])),
     ),
     "place-a-pixel": LessonQuantity(
-        "distance that a camera moves to the side while the panel moves by a pixel",
-        METRE,
-        "mm",
-        lambda scene, _: scene.pose.distance / scene.camera.focal_length_pixels,
+        "distance that a camera moves to the side while the panel moves by a pixel", METRE, "mm",
+        lambda scene: scene.pose.distance / scene.camera.focal_length_pixels,
     ),
     "threshold-limit": LessonQuantity(
-        "highest switching frequency that the threshold decoder reads",
-        HERTZ,
-        "kHz",
-        _limit("threshold"),
+        "highest switching frequency that the threshold decoder reads", HERTZ, "kHz",
+        _threshold_limit,
     ),
     "bit-rate": LessonQuantity(
-        "bits sent a second, f times the bits over the chips of a packet",
-        _BITS_A_SECOND,
-        "bit/s",
-        lambda scene, _: _bit_rate(scene),
+        "bits sent a second, f times the bits over the chips of a packet", _BITS_A_SECOND, "bit/s",
+        _bit_rate,
     ),
     "share-seen": LessonQuantity(
         f"fraction of the time in which a film of {FRAME_RATE:g} frames a second sees the panel",
-        _PERCENT,
-        "%",
-        lambda scene, _: _share_seen(scene),
+        _PERCENT, "%", _share_seen,
     ),
     "bit-rate-seen": LessonQuantity(
-        f"bits a second that a film of {FRAME_RATE:g} frames a second sees",
-        _BITS_A_SECOND,
-        "bit/s",
-        lambda scene, _: _bit_rate(scene) * _share_seen(scene),
+        f"bits a second that a film of {FRAME_RATE:g} frames a second sees", _BITS_A_SECOND,
+        "bit/s", lambda scene: _bit_rate(scene) * _share_seen(scene),
     ),
     "photo-readout-time": LessonQuantity(
-        "readout time of the photo's camera",
-        SECOND,
-        "µs",
-        lambda scene, photo: _matched(scene, photo).camera.readout_time,
+        "readout time of the photo's camera", SECOND, "µs",
+        lambda scene: scene.camera.readout_time, of_photo=True,
     ),
     "photo-exposure-time": LessonQuantity(
-        "exposure time of the photo",
-        SECOND,
-        "µs",
-        lambda scene, photo: _matched(scene, photo).camera.exposure_time,
+        "exposure time of the photo", SECOND, "µs",
+        lambda scene: scene.camera.exposure_time, of_photo=True,
     ),
     "photo-exposure-chips": LessonQuantity(
-        "chips that the photo's exposure covers, t / t_LED",
-        _CHIP,
-        "chips",
-        lambda scene, photo: _exposure_chips(_matched(scene, photo)),
+        "chips that the photo's exposure covers, t / t_LED", _CHIP, "chips", _exposure_chips,
+        of_photo=True,
     ),
     "photo-code": LessonQuantity(
-        "code that the photo shows",
-        NONE,
-        "",
-        lambda scene, photo: _code(_matched(scene, photo)),
-        called="code",
+        "code that the photo shows", NONE, "", _code, of_photo=True, called="code"
     ),
-}
+}  # fmt: skip
 
 
 _DIGITS = 3  # significant digits that a student can read off; integer parts are written in full

@@ -251,7 +251,7 @@ def test_a_prediction_is_judged_before_anything_is_set() -> None:
 
 
 def test_a_wrong_code_is_neither_near_nor_too_high(monkeypatch: pytest.MonkeyPatch) -> None:
-    code = replace(QUANTITIES["photo-code"], compute=lambda _scene, _photo: 345.0)
+    code = replace(QUANTITIES["photo-code"], of_scene=lambda _: 345.0, of_photo=False)
     monkeypatch.setitem(QUANTITIES, "photo-code", code)
     asked = step(6, 2)
     for wrong in ("718", "346", "0"):
@@ -290,7 +290,7 @@ def test_a_result_has_three_digits_and_all_before_the_point(value: float, text: 
 def test_the_check_and_the_formula_give_the_same_digits(asked: Step, name: str) -> None:
     (formula,) = (each.result for each in equations(asked.scene) if each.name == name)
     assert asked.check is not None
-    value = QUANTITIES[name].compute(asked.scene, "")
+    value = QUANTITIES[name].compute(asked.scene)
     assert check_answer(asked, str(value * 1e3 if name == "frame-time" else value)).sentence == (
         f"Right. The model gives {formula}."
     )
@@ -322,7 +322,7 @@ def test_an_answer_to_a_negative_number_is_as_near_as_to_a_positive_one(
 ) -> None:
     asked = step(3, 1)
     name = asked.check.quantity
-    negative = replace(QUANTITIES[name], compute=lambda *_: -14.7e3)
+    negative = replace(QUANTITIES[name], of_scene=lambda _: -14.7e3)
     monkeypatch.setattr(answers, "QUANTITIES", {name: negative})
     assert check_answer(asked, text).outcome == outcome
 
@@ -342,8 +342,8 @@ def test_each_quantity_is_asked_in_one_of_its_own_units(name: str) -> None:
 
 def test_the_columns_of_chips_and_packets_are_those_of_the_picture() -> None:
     scene = occ.load_preset("phone-68us").replace(switching_frequency=2e3)
-    repeat = QUANTITIES["packet-columns"].compute(scene, "")
-    chip = QUANTITIES["chip-columns"].compute(scene, "")
+    repeat = QUANTITIES["packet-columns"].compute(scene)
+    chip = QUANTITIES["chip-columns"].compute(scene)
     assert repeat == pytest.approx(1500, rel=1e-12)
     assert len(occ.packet(scene)) * chip == pytest.approx(1500, rel=1e-12)
     profile = occ.column_profile(scene)
@@ -358,7 +358,7 @@ def test_bits_a_second_are_those_of_the_chips_sent(sent: dict[str, str]) -> None
     scene = occ.Scene().replace(**sent)
     seconds = len(occ.packet(scene)) / scene.transmitter.switching_frequency
     bits = scene.transmitter.payload_length / seconds
-    assert QUANTITIES["bit-rate"].compute(scene, "") == pytest.approx(bits, rel=1e-12)
+    assert QUANTITIES["bit-rate"].compute(scene) == pytest.approx(bits, rel=1e-12)
 
 
 def test_the_bars_of_a_dimmed_lamp_are_as_deep_as_said() -> None:
@@ -382,13 +382,13 @@ def test_the_bars_vanish_at_a_whole_period_and_at_the_speeds_named() -> None:
 
 def test_codes_name_as_many_lamps_as_said_and_a_lamp_is_as_wide() -> None:
     assert "1024" in step(9, 1).answer
-    assert QUANTITIES["lamps-named"].compute(step(9, 1).scene, "") == 1024.0
+    assert QUANTITIES["lamps-named"].compute(step(9, 1).scene) == 1024.0
     asked = step(9, 2)
     assert "1038 columns" in asked.answer
     corners = occ.panel_corners(asked.scene)
     assert np.ptp(corners[:, 0]) == pytest.approx(1038, abs=0.5)
     at_8_khz = asked.scene.replace(switching_frequency=8e3)
-    assert 2.0 * QUANTITIES["packet-columns"].compute(at_8_khz, "") < 1038
+    assert 2.0 * QUANTITIES["packet-columns"].compute(at_8_khz) < 1038
 
 
 def test_a_camera_moves_as_far_for_a_pixel_as_said() -> None:

@@ -76,10 +76,6 @@ class LiveVideo(Video):
             self._newest = None
             self._changed.notify_all()
 
-    def stop(self) -> None:
-        self.end()
-        self.join()
-
     def join(self) -> None:
         """Wait until the device is released; not for ever, as a driver may hang."""
         if self._thread.ident is not None:

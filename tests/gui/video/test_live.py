@@ -1,5 +1,6 @@
 """Live camera: those there are, the newest picture wins, and the device is always released."""
 
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from threading import Event
 
@@ -146,77 +147,86 @@ class StepwiseSource(ListedSource):
         self.may.clear()
         return super().read()
 
+    def give_one(self) -> None:
+        """Give a picture, and wait until it has been taken in."""
+        assert self.waits.wait(60)
+        self.waits.clear()
+        self.may.set()
+        assert self.waits.wait(60)
 
-def give_one(source: StepwiseSource) -> None:
-    """Let a source give a picture, and wait until it has been taken in."""
-    assert source.waits.wait(60)
-    source.waits.clear()
-    source.may.set()
-    assert source.waits.wait(60)
+
+Start = Callable[..., LiveVideo]
 
 
-def test_the_newest_picture_wins_and_none_comes_twice() -> None:
+@pytest.fixture
+def start() -> Iterator[Start]:
+    """Start films of sources, and end them after the test."""
+    started: list[LiveVideo] = []
+
+    def begin(source: ListedSource, axis: str = "columns", **how: LiveVideo) -> LiveVideo:
+        started.append(LiveVideo(source, axis, **how))
+        started[-1].start()
+        return started[-1]
+
+    yield begin
+    for video in started:
+        video.end()
+        if isinstance(video.source, StepwiseSource):
+            video.source.may.set()
+        video.join()
+
+
+def test_the_newest_picture_wins_and_none_comes_twice(start: Start) -> None:
     source = StepwiseSource(numbered(4))
-    video = LiveVideo(source, "columns")
-    video.start()
+    video = start(source)
     frames = iter(video)
     for _ in range(3):
-        give_one(source)
+        source.give_one()
     assert next(frames).image[0, 0] == 2
-    give_one(source)
+    source.give_one()
     frame = next(frames)
     assert frame.image[0, 0] == 3
     assert frame.index == 3
     source.may.set()
     assert next(frames, None) is None
     assert video.arrived == 4
-    video.stop()
 
 
-def test_lines_become_columns_and_colours_their_luma() -> None:
+def test_lines_become_columns_and_colours_their_luma(start: Start) -> None:
     pixels = np.arange(6, dtype=np.uint8).reshape(2, 3)
     for axis, expected in (("columns", pixels), ("lines", pixels.T)):
-        video = LiveVideo(ListedSource([pixels]), axis)
-        video.start()
-        assert next(iter(video)).image.tolist() == expected.tolist()
-        video.stop()
-    pixels = np.zeros((2, 3, 3), dtype=np.uint8)
-    pixels[..., 1] = 200  # green
-    video = LiveVideo(ListedSource([pixels]), "columns")
-    video.start()
-    assert next(iter(video)).image.tolist() == np.full((2, 3), round(0.587 * 200)).tolist()
-    video.stop()
+        assert next(iter(start(ListedSource([pixels]), axis))).image.tolist() == expected.tolist()
+    green = np.zeros((2, 3, 3), dtype=np.uint8)
+    green[..., 1] = 200
+    frame = next(iter(start(ListedSource([green]))))
+    assert frame.image.tolist() == np.full((2, 3), round(0.587 * 200)).tolist()
 
 
-def test_what_ends_without_being_asked_to_says_so_and_what_is_stopped_has_no_problem() -> None:
-    source = ListedSource(numbered(1))
-    video = LiveVideo(source, "columns")
-    video.start()
+def test_what_ends_without_being_asked_to_says_so_and_what_is_stopped_has_no_problem(
+    start: Start,
+) -> None:
+    unplugged = ListedSource(numbered(1))
+    video = start(unplugged)
     list(video)
-    video._thread.join(60)
+    video.join()
     assert video.problem == "Listed gives no more pictures: it has ended or is unplugged."
-    assert not source.is_open
+    assert not unplugged.is_open
     source = StepwiseSource(numbered(2))
-    video = LiveVideo(source, "columns")
-    video.start()
-    give_one(source)
+    video = start(source)
+    source.give_one()
+    video.end()
     source.may.set()
-    video.stop()
-    assert video.has_ended
-    assert video.problem is None
-    assert not source.is_open
+    video.join()
+    assert (video.has_ended, video.problem, source.is_open) == (True, None, False)
 
 
-def test_the_device_of_the_film_before_is_released_first() -> None:
+def test_the_device_of_the_film_before_is_released_first(start: Start) -> None:
     before, source = StepwiseSource(numbered(2)), ListedSource(numbered(1))
-    first = LiveVideo(before, "columns")
-    first.start()
-    give_one(before)
+    first = start(before)
+    before.give_one()
     first.end()
-    second = LiveVideo(source, "columns", after=first)
-    second.start()
-    assert not source.is_open
-    assert before.is_open
+    second = start(source, after=first)
+    assert (before.is_open, source.is_open) == (True, False)
     before.may.set()
     assert len(list(second)) == 1
     assert not before.is_open
@@ -224,32 +234,26 @@ def test_the_device_of_the_film_before_is_released_first() -> None:
 
 @pytest.mark.parametrize("error", [VideoError("It is away."), RuntimeError("driver")])
 def test_a_device_that_cannot_be_opened_is_a_sentence(
-    error: Exception, monkeypatch: pytest.MonkeyPatch
+    error: Exception, monkeypatch: pytest.MonkeyPatch, start: Start
 ) -> None:
     def fail() -> None:
         raise error
 
     source = ListedSource([])
     monkeypatch.setattr(source, "open", fail)
-    video = LiveVideo(source)
-    video.start()
+    video = start(source)
     assert list(video) == []
-    video._thread.join(60)
-    assert video.problem is not None
-    assert str(error) in video.problem
+    video.join()
+    assert str(error) in not_none(video.problem)
 
 
-def test_the_exposure_is_held_between_two_pictures() -> None:
+def test_the_exposure_is_held_between_two_pictures(start: Start) -> None:
     source = StepwiseSource(numbered(3))
     answers: list[bool] = []
-    video = LiveVideo(source, "columns")
-    video.start()
-    video.lock_exposure(True, answers.append)
-    give_one(source)
-    give_one(source)
+    start(source).lock_exposure(True, answers.append)
+    source.give_one()
+    source.give_one()
     assert (source.locked, answers) == ([True], [True])
-    source.may.set()
-    video.stop()
 
 
 def test_what_has_passed_is_not_kept() -> None:

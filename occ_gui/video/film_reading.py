@@ -33,6 +33,11 @@ class Marks:
     def __len__(self) -> int:
         return len(self.starts)
 
+    @property
+    def extent(self) -> tuple[float, float]:
+        """When the first of them begins and the last one ends, in seconds."""
+        return (float(self.starts.min()), float(self.ends.max())) if len(self) else (0.0, 0.0)
+
     def counted(self, edges: FloatArray) -> IndexArray:
         """Count the marks of each state that begin between rising edges, shape (bins, states)."""
         counts = [

@@ -1,7 +1,6 @@
 """Timeline of a film: its frames and packets, read or lost, and the frame that is shown."""
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 from PySide6.QtCore import QEvent, QPoint, QPointF, QRectF, QSize, Qt, Signal
@@ -37,29 +36,6 @@ _STEPS = {
 }  # fmt: skip
 
 
-@dataclass(frozen=True, slots=True)
-class TimelineScale:
-    first: float = 0.0
-    last: float = 0.0
-
-    @classmethod
-    def of(cls, frames: Marks) -> "TimelineScale":
-        if not len(frames):
-            return cls()
-        return cls(float(frames.starts.min()), float(frames.ends.max()))
-
-    @property
-    def span(self) -> float:
-        return self.last - self.first
-
-    def share(self, time: float) -> float:
-        """Return where a time lies, from 0 to 1 between the ends."""
-        return (time - self.first) / self.span if self.span > 0.0 else 0.0
-
-    def time(self, share: float) -> float:
-        return self.first + share * self.span
-
-
 class Timeline(QWidget):
     """Frames and packets over time; a click, a drag or a key shows another frame."""
 
@@ -70,7 +46,7 @@ class Timeline(QWidget):
         super().__init__()
         self.frames, self.packets = Marks(), Marks()
         self.index = 0
-        self._scale = TimelineScale()
+        self._first = self._last = 0.0  # the ends of the film, in seconds
         self._drawn: QPixmap | None = None
         self.setAccessibleName("Timeline")
         self.setToolTip(
@@ -89,7 +65,7 @@ class Timeline(QWidget):
 
     def show_frames(self, frames: Marks) -> None:
         self.frames = frames
-        self._scale = TimelineScale.of(frames)
+        self._first, self._last = frames.extent
         self.index = min(self.index, max(len(frames) - 1, 0))
         self._redraw()
 
@@ -140,13 +116,13 @@ class Timeline(QWidget):
 
     def x_of(self, time: float) -> float:
         """Return where a time lies, in pixels from the left."""
-        area = self._area()
-        return area.left() + self._scale.share(time) * area.width()
+        area, span = self._area(), self._last - self._first
+        return area.left() + ((time - self._first) / span * area.width() if span > 0.0 else 0.0)
 
     def frame_at(self, x: float) -> int:
         """Return the frame at a pixel, the first or last one beside the film."""
         area = self._area()
-        time = self._scale.time((x - area.left()) / area.width())
+        time = self._first + (x - area.left()) / area.width() * (self._last - self._first)
         order = np.argsort(self.frames.starts, kind="stable")  # some films state another one
         place = int(np.searchsorted(self.frames.starts, time, side="right", sorter=order)) - 1
         return int(order[max(place, 0)]) if len(order) else 0
@@ -192,7 +168,7 @@ class Timeline(QWidget):
     def _draw_marks(self, painter: QPainter, place: QRectF, marks: Marks) -> None:
         if not len(marks):
             return
-        shown = (marks.ends > self._scale.first) & (marks.starts < self._scale.last)
+        shown = (marks.ends > self._first) & (marks.starts < self._last)
         if place.width() / max(int(shown.sum()), 1) < _LEAST_MARK:
             self._draw_bins(painter, place, marks)
             return
@@ -211,7 +187,7 @@ class Timeline(QWidget):
     def _draw_bins(self, painter: QPainter, place: QRectF, marks: Marks) -> None:
         """Draw how many of the marks that share a few pixels are in each state, one on another."""
         bins = max(1, int(place.width() / _LEAST_MARK))
-        counts = marks.counted(np.linspace(self._scale.first, self._scale.last, bins + 1))
+        counts = marks.counted(np.linspace(self._first, self._last, bins + 1))
         painter.setPen(Qt.PenStyle.NoPen)
         states = (MarkState.READ, MarkState.UNCHECKED, MarkState.LOST)
         brushes = {state: brush_of(state, self.palette()) for state in states}
@@ -228,11 +204,11 @@ class Timeline(QWidget):
 
     def _draw_ticks(self, painter: QPainter, area: QRectF) -> None:
         painter.setPen(self.palette().color(QPalette.ColorRole.WindowText))
-        if self._scale.span <= 0.0:
+        if self._last <= self._first:
             return
-        step, digits = tick_step(self._scale.span, area.width())
-        first = int(np.ceil(self._scale.first / step - 1e-9))
-        last = int(np.floor(self._scale.last / step + 1e-9))
+        step, digits = tick_step(self._last - self._first, area.width())
+        first = int(np.ceil(self._first / step - 1e-9))
+        last = int(np.floor(self._last / step + 1e-9))
         for number in range(first, last + 1):
             x = self.x_of(number * step)
             painter.drawLine(QPointF(x, area.bottom() + 1), QPointF(x, area.bottom() + 4))

@@ -12,7 +12,7 @@ from pytestqt.qtbot import QtBot
 from occ_gui.video.film_controller import FilmPlayer
 from occ_gui.video.film_reading import Marks, MarkState, frame_marks
 from occ_gui.video.mark_look import draw_mark
-from occ_gui.video.timeline import Timeline, TimelineScale, tick_step
+from occ_gui.video.timeline import Timeline, tick_step
 from occ_gui.window.theme import palette_of
 
 LEFT = Qt.MouseButton.LeftButton
@@ -119,8 +119,7 @@ def test_the_names_of_the_rows_fit_beside_them_in_any_font(timeline: Timeline, p
 def test_bins_hold_each_mark_once(states: list[MarkState], bins: int) -> None:
     times = np.arange(len(states)) / 30.0
     marks = frame_marks(times, np.array(states, dtype=np.uint8), 1.0 / 30.0)
-    scale = TimelineScale.of(marks)
-    counts = marks.counted(np.linspace(scale.first, scale.last, bins + 1))
+    counts = marks.counted(np.linspace(*marks.extent, bins + 1))
     assert counts.shape == (bins, len(MarkState))
     assert counts.sum(axis=0).tolist() == [states.count(state) for state in MarkState]
 
@@ -130,9 +129,8 @@ def test_each_frame_lasts_until_the_next_one() -> None:
     assert marks.ends.tolist() == pytest.approx([0.03, 0.07, 0.11])
     assert not len(frame_marks([], np.zeros(0, dtype=np.uint8), 0.04))
     assert not len(Marks())
-    scale = TimelineScale(1.0, 3.0)
-    assert scale.share(2.0) == 0.5
-    assert scale.time(scale.share(2.7)) == pytest.approx(2.7)
+    assert marks.extent == pytest.approx((0.0, 0.11))
+    assert Marks().extent == (0.0, 0.0)
 
 
 @given(st.floats(1e-4, 1e5), st.integers(100, 4000))

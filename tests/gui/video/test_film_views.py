@@ -9,10 +9,9 @@ from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
-from occ_gui.video.data_view import DataView
 from occ_gui.video.film_reading import FilmReading
 from occ_gui.video.recording_form import RecordingForm
-from occ_gui.video.video_view import VideoView
+from occ_gui.video.video_view import DataView, VideoView
 from occ_model.results.fact import Fact
 from occ_model.scene.recording import DECLARED
 from occ_model.scene.scene import Scene

@@ -79,17 +79,17 @@ def chips_are_read_once(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @cache
 def film_of_scene() -> list[VideoFrame]:
-    """Forty frames and one of the scene, for all who only look at them.
+    """Thirty-three frames of the scene, for all who only look at them.
 
     A reader is not told the scene and the start that simulated frames have.
     """
-    return [replace(frame, scene=None, start=None) for frame in recorded(SCENE, 41)]
+    return [replace(frame, scene=None, start=None) for frame in recorded(SCENE, 33)]
 
 
 @cache
 def whole_reading() -> occ.VideoReading:
-    """What the first forty of them give."""
-    return reading_of(film_of_scene()[:40], SCENE)
+    """What the first thirty-two of them give."""
+    return reading_of(film_of_scene()[:32], SCENE)
 
 
 def reading_of(frames: list[VideoFrame], scene: occ.Scene) -> occ.VideoReading:
@@ -142,7 +142,7 @@ def test_packets_longer_than_a_frame_are_joined_chip_by_chip() -> None:
 
 def test_a_reading_needs_no_exact_readout_time_or_frequency() -> None:
     rough = SCENE.replace(readout_time=36.2e-6, switching_frequency=3.09e3)
-    reading = reading_of(film_of_scene()[:30], rough)
+    reading = reading_of(film_of_scene()[:28], rough)
     assert reading.payload == "HELLO"
     assert reading.clock is not None
     clock = reading.clock
@@ -152,10 +152,10 @@ def test_a_reading_needs_no_exact_readout_time_or_frequency() -> None:
 
 
 def test_what_is_known_grows_frame_by_frame_and_ends_as_the_reading() -> None:
-    steps = list(occ.decode_frames(film_of_scene()[:40], SCENE))
+    steps = list(occ.decode_frames(film_of_scene()[:32], SCENE))
     known = [step.known for step in steps]
     assert known == sorted(known)
-    assert [step.frames for step in steps] == list(range(1, 41))
+    assert [step.frames for step in steps] == list(range(1, 33))
     assert not steps[0].complete
     assert "·" in steps[0].payload
     assert steps[-1].payload == whole_reading().payload == "HELLO"
@@ -163,7 +163,7 @@ def test_what_is_known_grows_frame_by_frame_and_ends_as_the_reading() -> None:
 
 def test_sub_packets_are_joined_by_their_numbers() -> None:
     scene = SCENE.replace(framing="c-ook", payload="text:sub-packets join")
-    reading = reading_of(recorded(scene, 36), scene)
+    reading = reading_of(recorded(scene, 32), scene)
     assert reading.payload == "sub-packets join"
     assert {packet.part for packet in reading.packets if packet.is_read} <= set(range(8))
     assert reading.doubled == reading.read - len(

@@ -5,6 +5,7 @@ import os
 import shutil
 import sys
 from collections.abc import Generator
+from importlib.util import find_spec
 from pathlib import Path
 from tempfile import mkdtemp
 from typing import Protocol
@@ -30,13 +31,44 @@ os.environ["OCC_LESSONS"] = str(Path(__file__).with_name("no-lessons"))
 # Nor the session that they have left; what a window stores ends with the tests.
 os.environ["OCC_STATE"] = mkdtemp(prefix="occ-tests-")
 
-import fonts
 import pytest
 from amount import VARIABLE, amount
 from hard_cases import laws
 from hypothesis import settings
 
-fonts.use_only_these(Path(os.environ["OCC_STATE"]))
+_FONTS = """\
+<?xml version="1.0"?>
+<!DOCTYPE fontconfig SYSTEM "urn:fontconfig:fonts.dtd">
+<fontconfig>
+  <dir>{fonts}</dir>
+  <cachedir>{cache}</cachedir>
+  <selectfont>
+    <rejectfont><glob>*</glob></rejectfont>
+    <acceptfont><glob>*/DejaVuSans*</glob></acceptfont>
+  </selectfont>
+  <alias><family>monospace</family><prefer><family>DejaVu Sans Mono</family></prefer></alias>
+  <alias><family>sans-serif</family><prefer><family>DejaVu Sans</family></prefer></alias>
+</fontconfig>
+"""
+"""Those that matplotlib brings along, as each system has others."""
+
+
+def use_only_these_fonts(folder: Path) -> None:
+    """Let Qt find no other fonts, in this process and those that it starts.
+
+    ``folder`` keeps the configuration, and what fontconfig makes of it.
+    """
+    matplotlib = find_spec("matplotlib")
+    assert matplotlib is not None
+    assert matplotlib.origin is not None
+    fonts = Path(matplotlib.origin).parent / "mpl-data" / "fonts" / "ttf"
+    configuration = folder / "fonts.conf"
+    text = _FONTS.format(fonts=fonts, cache=folder / "fonts")
+    configuration.write_text(text, encoding="utf-8")
+    os.environ["FONTCONFIG_FILE"] = str(configuration)
+
+
+use_only_these_fonts(Path(os.environ["OCC_STATE"]))
 
 NEW_EXAMPLES = "OCC_NEW_EXAMPLES" in os.environ
 """Whether other examples are looked for, as many as Hypothesis does; else each run has the same."""

@@ -30,14 +30,21 @@ from tqdm import tqdm
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
+from photo_trials import (
+    Found,
+    Said,
+    round_trips,
+    said_of,
+    said_of_negative,
+    said_of_other_code,
+    said_of_unknown_chips,
+)
 from photo_world.bounds import bound_of_picture, bound_of_profile
 from photo_world.hot_lamps import hot_lamp_scene
 from photo_world.lamp_scenes import LampScene, lamp_scene
 from photo_world.lamp_scores import score_of
 from photo_world.photograph import random_world
 from photo_world.trials import SATURATION_THIRDS, WORLDS, Trial
-from round_trips import Found, round_trips
-from verdicts import Said, said_of, said_of_negative, said_of_other_code, said_of_unknown_chips
 
 HEAD = (
     "| saturated | photos | sure | what | within 1 | within 2 | largest | median error | stated "

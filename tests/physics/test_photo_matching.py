@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from round_trips import Found, round_trip
+from photo_trials import Found, round_trip
 
 pytestmark = pytest.mark.first
 

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from photo_trials import said_of_negative, said_of_other_code, said_of_unknown_chips
 from photo_world.trials import hot_trial_of
 from simulated_photos import photo_of, random_scene, take
-from verdicts import said_of_negative, said_of_other_code, said_of_unknown_chips
 
 import occ_model as occ
 from occ_model.photo.evidence.doubts import _doubts_by_reading

@@ -47,7 +47,7 @@ if TYPE_CHECKING:  # for type checkers and editors: the names that _MODULES hold
     from occ_model.receiver.decode import decode as decode
     from occ_model.receiver.decoder import Decoder as Decoder
     from occ_model.receiver.decoders import decoders as decoders
-    from occ_model.receiver.read_payload import read_payload as read_payload
+    from occ_model.receiver.decoder import read_payload as read_payload
     from occ_model.results.bands import (
         BandAdvice as BandAdvice,
         BandDepth as BandDepth,
@@ -253,7 +253,7 @@ _MODULES = {
     "presets": "scene.presets",
     "pulse_depth": "study.bands.depth",
     "read_chips": "photo.chips.read",
-    "read_payload": "receiver.read_payload",
+    "read_payload": "receiver.decoder",
     "read_room": "room.locate",
     "render": "simulation.render",
     "render_room": "room.render",

@@ -1,18 +1,92 @@
-"""What a board sends of a scene: chips, timing, and how much of it the eye may see."""
+"""What a board sends of a scene: chips, how long each lasts, and how much of it the eye may see.
 
+A period that is not a whole number of the clock's cycles is rounded, and the error is stated, in
+exact arithmetic. Spreading the fraction over the chips would keep the mean frequency, but move
+single edges by up to half a cycle, which no photo can be corrected for; a frequency that is known
+exactly is taken into the scene.
+"""
+
+from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from math import floor
 
 import numpy as np
 
 from occ_model.arrays import ByteArray
 from occ_model.boards.board import Board
-from occ_model.boards.timing import ChipTiming, best_timing
 from occ_model.errors import ParameterError
+from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
+from occ_model.scene.units import HERTZ, SECOND
 from occ_model.transmitter.line_codes.line_code import VISIBLE_LIMIT
 from occ_model.transmitter.packet import packet, shortest_period
+
+
+@dataclass(frozen=True, slots=True)
+class ChipTiming:
+    clock: int  # Frequency of the board's clock in Hz
+    prescaler: int
+    count: int  # How many divided cycles a chip lasts
+    asked: Fraction  # The switching frequency asked for, in Hz
+
+    @property
+    def cycles(self) -> int:
+        return self.prescaler * self.count
+
+    @property
+    def frequency(self) -> Fraction:
+        """The switching frequency that is sent, in Hz."""
+        return Fraction(self.clock, self.cycles)
+
+    @property
+    def period(self) -> Fraction:
+        return Fraction(self.cycles, self.clock)
+
+    @property
+    def error_ppm(self) -> Fraction:
+        """By how much more than asked is sent, in parts per million of the frequency."""
+        return (self.frequency / self.asked - 1) * 10**6
+
+    @property
+    def is_as_asked(self) -> bool:
+        """Whether the frequency is the one asked for, as exactly as a scene can hold it."""
+        return float(self.frequency) == float(self.asked)
+
+
+def best_timing(board: Board, frequency: float) -> ChipTiming:
+    """Choose the setting whose frequency is nearest; of several the one with the finest timer."""
+    asked = Fraction(frequency)
+    if not board.lowest_frequency <= asked <= board.highest_frequency:
+        raise _refusal(board, frequency)
+    settings = (
+        ChipTiming(board.clock, prescaler, count, asked)
+        for prescaler in board.prescalers
+        for count in _counts(board, prescaler, asked)
+    )
+    return min(settings, key=lambda timing: (abs(timing.error_ppm), timing.prescaler))
+
+
+def _counts(board: Board, prescaler: int, asked: Fraction) -> Iterator[int]:
+    """Return the whole numbers around the exact count that the board allows."""
+    below = floor(board.clock / (prescaler * asked))
+    for count in (below, below + 1):
+        if 1 <= count <= board.largest_count and prescaler * count >= board.least_cycles:
+            yield count
+
+
+def _refusal(board: Board, frequency: float) -> ParameterError:
+    declared = quantity("switching_frequency")
+    low, high = float(board.lowest_frequency), float(board.highest_frequency)
+    why = board.limit_reason if frequency > high else "the timer counts no longer"
+    return ParameterError.of(
+        declared.name,
+        declared.format(frequency),
+        f"{declared.format(low)} to {declared.format(high)}, since {why}",
+        condition=f"on {board.title}",
+        parameters=(declared.name,),
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,3 +158,32 @@ def table_size(board: Board, chips: int) -> int:
 def repeats_to_words(chips: int) -> int:
     """Count the periods that fill whole words of 32 chips."""
     return next(times for times in (1, 2, 4, 8, 16, 32) if chips * times % 32 == 0)
+
+
+EYES = (
+    "Do not look into a bright LED or panel from near, nor let others do so; turn it off when "
+    "nobody photographs it."
+)
+
+SEIZURES = (
+    "Flicker of 3 to 70 Hz can cause seizures in people with photosensitive epilepsy "
+    "(IEEE 1789-2015)."
+)
+
+
+def flicker_sentence(sent: Transmission) -> str:
+    """State the lowest frequency in the light, of the repeated packet, and if it is visible."""
+    lowest, run = sent.lowest_frequency, sent.longest_run
+    if lowest is None or run is None:
+        return "The light does not change: all chips are equal."
+    limit = HERTZ.format(VISIBLE_LIMIT)
+    said = (
+        f"The lowest frequency in the light is {HERTZ.format(float(lowest), 4)}, with which the "
+        f"packet repeats; its longest time without an edge is {SECOND.format(float(run), 4)}."
+    )
+    if sent.is_visible:
+        return (
+            f"{said} Below {limit} (IEEE 802.15.7) it may be seen as flicker: raise the switching "
+            f"frequency, or send fewer bits. {SEIZURES}"
+        )
+    return f"{said} It is above {limit}, below which flicker may be seen (IEEE 802.15.7)."

@@ -3,10 +3,9 @@
 import argparse
 from pathlib import Path
 
-from occ_model.boards.caution import EYES, flicker_sentence
 from occ_model.boards.chip_table import frequency_lines
 from occ_model.boards.sketch import BOARDS, DEFAULT_BOARD, SCENE, board_named, file_names
-from occ_model.boards.transmission import Transmission, transmission
+from occ_model.boards.transmission import EYES, Transmission, flicker_sentence, transmission
 from occ_model.boards.waveform_files import wav_timing
 from occ_model.commands.files import Written
 from occ_model.commands.options import Commands, add_option, add_scene_options, scene_of

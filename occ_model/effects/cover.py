@@ -7,7 +7,7 @@ import numpy as np
 
 from occ_model.arrays import BoolArray, FloatArray
 from occ_model.camera.optics import Optics
-from occ_model.effects.normal import normal_share
+from occ_model.effects.normal_noise import normal_share
 
 UNSEEN = 0.1
 """Blur in pixels below which a pixel receives nothing of its neighbours."""

@@ -14,9 +14,8 @@ from occ_model.arrays import FloatArray, IndexArray
 from occ_model.camera.optics import Optics
 from occ_model.camera.projection import geometry_of, image_points, image_rays
 from occ_model.camera.row_memory import MEMORY
-from occ_model.effects.defocus import blur_of
 from occ_model.effects.effect import Cost, OpticsEffect
-from occ_model.effects.polygon import clipped, subdivided
+from occ_model.effects.optics_effects import blur_of
 from occ_model.errors import ProjectionError
 from occ_model.scene.scene import Lens, Scene
 
@@ -167,3 +166,42 @@ def _area_scale(rays: FloatArray, lens: Lens) -> FloatArray:
     along_y = radial + slope * y * y + 2.0 * p2 * x + 6.0 * p1 * y
     across = slope * x * y + 2.0 * p1 * x + 2.0 * p2 * y
     return np.asarray(along_x * along_y - across * across)
+
+
+def clipped(polygon: FloatArray, window: FloatArray) -> FloatArray:
+    """Clip a polygon by a convex one whose corners, (corners, 2), are in counter-clockwise order.
+
+    Edge by edge of the window, the part outside is removed (I. E. Sutherland and
+    G. W. Hodgman, "Reentrant polygon clipping", Comm. ACM 17, 1974).
+    """
+    for start, end in zip(window, np.roll(window, -1, axis=0), strict=True):
+        if len(polygon) == 0:
+            break
+        edge = end - start
+        # Above 0 inside.
+        side = edge[0] * (polygon[:, 1] - start[1]) - edge[1] * (polygon[:, 0] - start[0])
+        if (side >= 0.0).all():
+            continue
+        polygon = _inside(polygon, side)
+    return polygon
+
+
+def _inside(polygon: FloatArray, side: FloatArray) -> FloatArray:
+    kept = []
+    for here in range(len(polygon)):
+        there = (here + 1) % len(polygon)
+        if side[here] >= 0.0:
+            kept.append(polygon[here])
+        if (side[here] >= 0.0) != (side[there] >= 0.0):
+            share = side[here] / (side[here] - side[there])
+            kept.append(polygon[here] * (1.0 - share) + polygon[there] * share)
+    return np.array(kept, dtype=np.float64).reshape(-1, 2)
+
+
+def subdivided(polygon: FloatArray, parts: IndexArray) -> FloatArray:
+    """Divide the edge of a polygon from each corner to the next into so many equal parts."""
+    edge = np.repeat(np.arange(len(polygon)), parts)
+    before = np.cumsum(parts) - parts
+    share = ((np.arange(len(edge)) - before[edge]) / parts[edge])[:, None]
+    following = np.roll(polygon, -1, axis=0)
+    return np.asarray(polygon[edge] * (1.0 - share) + following[edge] * share)

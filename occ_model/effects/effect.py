@@ -49,7 +49,7 @@ class Effect(ABC):
     """The parameters of a scene that it depends on, by name."""
 
     cost: ClassVar[Cost] = Cost()
-    """What it takes by itself, as measured: see :mod:`occ_model.effects.cost`."""
+    """What it takes by itself, as measured: see :mod:`occ_model.effects.effect_sets`."""
 
     @abstractmethod
     def is_present(self, scene: Scene) -> bool:

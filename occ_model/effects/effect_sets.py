@@ -1,4 +1,10 @@
-"""The sets of effects that a scene can be simulated with, what they take and how far they are."""
+"""The sets of effects that a scene can be simulated with, what they take and how far they are.
+
+What effects take is as measured: the shortest of some pictures of the presets on one computer. A
+plan compares times, and must be the same on every computer. Where pixels are simulated at all, for
+whatever effect, exposing and keeping them takes what it takes; noise from a stored plane is scaled
+once for all noise.
+"""
 
 import math
 from collections.abc import Sequence
@@ -9,8 +15,7 @@ from typing import Self
 import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray
-from occ_model.effects.cost import seconds_of
-from occ_model.effects.effect import Effect
+from occ_model.effects.effect import Effect, FileEffect, NoiseEffect
 from occ_model.effects.estimates import Estimates
 from occ_model.effects.paper_view import PaperView
 from occ_model.effects.registry import EFFECTS
@@ -116,3 +121,30 @@ def _errors_of(estimates: Estimates, free: tuple[Effect, ...], left_out: FloatAr
     errors = np.sqrt(squares) * estimates.stretch * factor
     errors[0] = 0.0
     return np.asarray(errors)
+
+
+_PIXELS = 1.1e-3
+"""Seconds for a million pixels whose rows differ."""
+
+_NOISE: dict[NoiseSource, float] = {"exact": 10e-3, "reused": 0.9e-3}
+"""Seconds to draw a million numbers, or to fetch them."""
+
+_NOISY_FILE = 6e-3
+"""Seconds by which a million noisy pixels take longer in a file."""
+
+
+def seconds_of(
+    effects: Sequence[Effect], sets: FloatArray, pixels: int, noise: NoiseSource
+) -> FloatArray:
+    """Return what sets of effects take, (sets, effects), 1 where a set simulates an effect."""
+    millions = pixels * 1e-6
+    each = np.array([effect.cost.picture + effect.cost.pixels * millions for effect in effects])
+    by_pixel = np.array([effect.kind != "column" for effect in effects], dtype=bool)
+    noises = np.array([isinstance(effect, NoiseEffect) for effect in effects], dtype=bool)
+    files = np.array([isinstance(effect, FileEffect) for effect in effects], dtype=bool)
+    drawn = sets[:, noises].sum(axis=1)
+    if noise == "reused":
+        drawn = np.minimum(drawn, 1.0)
+    shared = _PIXELS * (sets[:, by_pixel] > 0.0).any(axis=1) + _NOISE[noise] * drawn
+    shared = shared + _NOISY_FILE * ((drawn > 0.0) & (sets[:, files] > 0.0).any(axis=1))
+    return np.asarray(sets @ each + shared * millions)

@@ -7,7 +7,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.effects.rounding import (
+from occ_model.effects.normal_noise import (
     DAMPING,
     SHARP,
     moved_steps,

@@ -7,11 +7,11 @@ import numpy as np
 
 from occ_model.arrays import FloatArray
 from occ_model.camera.photometry import WHITE
-from occ_model.effects.normal import clipped_mean, normal_share, share_unclipped
+from occ_model.effects.normal_noise import clipped_mean, normal_share, share_unclipped
 from occ_model.effects.observed import Observed
 from occ_model.effects.sampled_pixels import SampledPixels
 from occ_model.effects.simulated_columns import Names
-from occ_model.effects.unsampled_columns import add_unsampled
+from occ_model.effects.smoothed_curves import add_unsampled
 
 _SHARP_NOISE = 1e-9
 """Deviation in grey levels that none is taken for."""

@@ -8,13 +8,12 @@ import numpy as np
 from occ_model.arrays import FloatArray
 from occ_model.camera.enhancement import Enhancement, PassedSteps
 from occ_model.camera.photometry import FLAT, WHITE, saturate
-from occ_model.effects.normal import clipped_mean, share_unclipped
+from occ_model.effects.normal_noise import clipped_mean, share_unclipped
 from occ_model.effects.observed import Observed
 from occ_model.effects.sampled_pixels import SampledPixels
 from occ_model.effects.signal_sampling import SURE_DEVIATIONS, SignalSampling
 from occ_model.effects.simulated_columns import Names
-from occ_model.effects.smoothed_curves import LEAST_SMOOTHING_NOISE, SmoothedCurves
-from occ_model.effects.unsampled_columns import add_unsampled
+from occ_model.effects.smoothed_curves import LEAST_SMOOTHING_NOISE, SmoothedCurves, add_unsampled
 
 _DOUBTED_RIM, _DOUBTED_RIM_OF_FEW = 0.5, 1.0
 """Part of the pixels of a rim that moves of which no sample shows whether they are enhanced: in

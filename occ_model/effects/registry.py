@@ -4,15 +4,12 @@ from collections.abc import Collection
 from functools import lru_cache
 from typing import TypeVar
 
-from occ_model.effects.defocus import Defocus
 from occ_model.effects.distortion import Distortion
 from occ_model.effects.effect import Effect
-from occ_model.effects.emission import Emission
-from occ_model.effects.flicker import Flicker
 from occ_model.effects.jpeg import Jpeg
-from occ_model.effects.led_edges import LedEdges
+from occ_model.effects.light_effects import Flicker, LedEdges
+from occ_model.effects.optics_effects import Defocus, Emission, Vignetting
 from occ_model.effects.sensor_effects import FixedPattern, FullWell, SensorNoise
-from occ_model.effects.vignetting import Vignetting
 from occ_model.results.plan import Plan
 
 EFFECTS: tuple[Effect, ...] = (

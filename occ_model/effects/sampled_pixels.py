@@ -29,10 +29,10 @@ from occ_model.effects.effect import (
 )
 from occ_model.effects.file_change import FileChange, RimBlocks
 from occ_model.effects.level_table import LevelTable, Places
+from occ_model.effects.normal_noise import rounding_mean
 from occ_model.effects.paper_view import PaperView
 from occ_model.effects.registry import named
 from occ_model.effects.rims import Rims
-from occ_model.effects.rounding import rounding_mean
 from occ_model.effects.sample import Sample, sample_of
 from occ_model.effects.simulated_columns import Names, SimulatedColumns
 

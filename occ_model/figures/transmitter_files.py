@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from schemdraw import Drawing, elements
 
 from occ_model.boards.board import Board
-from occ_model.boards.caution import EYES, flicker_sentence
+from occ_model.boards.transmission import EYES, flicker_sentence
 from occ_model.boards.sketch import file_names, source_text
 from occ_model.boards.transmission import Transmission
 from occ_model.boards.waveform_files import HEADER, edge_rows, vcd_text, wav_bytes

@@ -1,12 +1,17 @@
-"""The interface of a decoder."""
+"""The interface of a decoder, and what decoders share: the last step, and a refusal."""
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from occ_model.arrays import FloatArray
 from occ_model.results.decoding import DecodeResult
+from occ_model.scene.payload import form_of, payload_of_bits
 from occ_model.scene.scene import Scene
+from occ_model.scene.units import SECOND
+from occ_model.transmitter.framings.framing import Framed
+from occ_model.transmitter.packet import code_of
+from occ_model.transmitter.scheme import scheme_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,3 +38,57 @@ class Decoder:
     read: Callable[[FloatArray, Scene], DecodeResult]
     is_quick: bool = True
     searched_chips: float = math.inf
+
+
+def read_payload(result: DecodeResult, scene: Scene) -> DecodeResult:
+    """Find frames among the chips of a result, and read the payload by the scene's scheme.
+
+    Returns the result with headers, bits, code and payload, or with the failure that says why not.
+    """
+    return with_bits(result, scheme_of(scene.transmitter).decode(result.chips), scene)
+
+
+def with_bits(result: DecodeResult, framed: Framed, scene: Scene) -> DecodeResult:
+    payload = scene.transmitter.payload
+    bits = framed.bits.tolist()
+    return replace(
+        result,
+        headers=framed.headers,
+        bits=framed.bits,
+        code=code_of(bits) if framed.failure is None else None,
+        payload=payload_of_bits(bits, form_of(payload)) if payload else "",
+        failure=framed.failure,
+    )
+
+
+_MIN_CHIP_COLUMNS = 1.0  # columns of a chip below which not every chip has a column of its own
+_DIGITS = 3  # significant digits of a time in a sentence
+
+
+def columns_of_chip(scene: Scene) -> float:
+    """Return the columns that are read out while one chip lasts."""
+    return scene.transmitter.switching_period / scene.camera.readout_time
+
+
+def has_short_chips(scene: Scene) -> bool:
+    """Return whether a chip ends before the next column begins."""
+    return columns_of_chip(scene) < _MIN_CHIP_COLUMNS
+
+
+def with_short_chips(failure: str, scene: Scene) -> str:
+    """Say before a failure that chips are too short, where they are: it follows from that."""
+    return f"{_sentence(scene)} {failure}" if has_short_chips(scene) else failure
+
+
+def then_short_chips(failure: str, scene: Scene) -> str:
+    """Say after a failure that chips are too short, where they are: it may have another cause."""
+    return f"{failure} {_sentence(scene)}" if has_short_chips(scene) else failure
+
+
+def _sentence(scene: Scene) -> str:
+    chip, column = scene.transmitter.switching_period, scene.camera.readout_time
+    return (
+        f"A chip of {SECOND.format(chip, _DIGITS)} is shorter than the "
+        f"{SECOND.format(column, _DIGITS)} from one column to the next: not every chip has a "
+        "column of its own."
+    )

@@ -107,13 +107,6 @@ class EdgeFinder:
         alike = _alike(lines)
         return [line.edge(alike) for line in lines]
 
-    def _across(
-        self, axis: int, start: FloatArray, end: FloatArray, corners: FloatArray, own: _OwnLight
-    ) -> _Points:
-        if axis == 0:
-            return self._across_rows(start, end, corners)
-        return self._across_columns(start, end, corners, own)
-
     def _own_light(self, corners: FloatArray, lamp: RoomLamp) -> _OwnLight:
         """Return the lamp's light in every column of the picture, repeated with its packet."""
         sent = lamp.transmitter
@@ -155,51 +148,36 @@ class EdgeFinder:
         fall /= max(float(np.square(apart).sum(axis=0) @ np.square(mean)), 1e-12)
         return shown, mean / (1.0 + fall * (middle - corners[:, 1].mean())), fall
 
-    def _across_rows(self, start: FloatArray, end: FloatArray, corners: FloatArray) -> _Points:
-        """Find the row of a nearly level edge in each column, shape (points, 2)."""
-        rows, columns = self._image.shape
-        places = _places(start[0], end[0], columns)
-        line = start[1] + (places - start[0]) * (end[1] - start[1]) / (end[0] - start[0])
-        inwards = 1 if corners[:, 1].mean() > (start[1] + end[1]) / 2.0 else -1
-        middle = np.rint(line).astype(np.int64)
-        kept = (middle > _EDGE_REACH + _LEVEL_PIXELS) & (
-            middle < rows - _EDGE_REACH - _LEVEL_PIXELS - 1
-        )
-        places, middle = places[kept], middle[kept]
-        if len(places) < _MIN_POINTS:
-            return _NONE
-        near = np.arange(-_EDGE_REACH - _LEVEL_PIXELS, _EDGE_REACH + _LEVEL_PIXELS + 1) * inwards
-        light = self._light[self._image[middle[:, None] + near, places[:, None]]]
-        inside = light[:, -_LEVEL_PIXELS:].mean(axis=1) - float(light[:, :_LEVEL_PIXELS].mean())
-        lit = inside > _MIN_RELATIVE_LIGHT * np.percentile(inside, 95)
-        if lit.sum() < _MIN_POINTS:
-            return _NONE
-        count, shared, _ = _counts(light[lit], inside[lit, None], 0.0)
-        found = middle[lit] + inwards * (_EDGE_REACH + 0.5 - count)
-        return _Points(np.stack([places[lit].astype(np.float64), found], axis=1), shared)
-
-    def _across_columns(
-        self, start: FloatArray, end: FloatArray, corners: FloatArray, own: _OwnLight
+    def _across(
+        self, axis: int, start: FloatArray, end: FloatArray, corners: FloatArray, own: _OwnLight
     ) -> _Points:
-        """Find the column of a nearly upright edge in each row, shape (points, 2)."""
-        rows, columns = self._image.shape
-        places = _places(start[1], end[1], rows)
-        line = start[0] + (places - start[1]) * (end[0] - start[0]) / (end[1] - start[1])
-        inwards = 1 if corners[:, 0].mean() > (start[0] + end[0]) / 2.0 else -1
+        """Find points of an edge along an axis: 0, nearly level, one a column; 1, one a row."""
+        image = self._image if axis == 0 else self._image.T
+        begin, base = start[axis], start[1 - axis]
+        places = _places(begin, end[axis], image.shape[1])
+        line = base + (places - begin) * (end[1 - axis] - base) / (end[axis] - begin)
+        inwards = 1 if corners[:, 1 - axis].mean() > (base + end[1 - axis]) / 2.0 else -1
         middle = np.rint(line).astype(np.int64)
-        kept = (middle > _EDGE_REACH + _LEVEL_PIXELS) & (
-            middle < columns - _EDGE_REACH - _LEVEL_PIXELS - 1
-        )
+        reach = _EDGE_REACH + _LEVEL_PIXELS
+        kept = (middle > reach) & (middle < len(image) - reach - 1)
         places, middle = places[kept], middle[kept]
         if len(places) < _MIN_POINTS:
             return _NONE
-        near = np.arange(-_EDGE_REACH - _LEVEL_PIXELS, _EDGE_REACH + _LEVEL_PIXELS + 1) * inwards
-        across = middle[:, None] + near
-        light = self._light[self._image[places[:, None], across]]
-        bright = _MIN_RELATIVE_LIGHT * np.percentile(own.light, 99)
-        count, shared, is_lit = _counts(light, own.at(places, across), bright)
-        found = middle[is_lit] + inwards * (_EDGE_REACH + 0.5 - count[is_lit])
-        return _Points(np.stack([found, places[is_lit].astype(np.float64)], axis=1), shared)
+        across = middle[:, None] + np.arange(-reach, reach + 1) * inwards
+        light = self._light[image[across, places[:, None]]]
+        if axis == 0:  # a column has one light, which its innermost pixels show
+            inside = light[:, -_LEVEL_PIXELS:].mean(axis=1) - float(light[:, :_LEVEL_PIXELS].mean())
+            lit = inside > _MIN_RELATIVE_LIGHT * np.percentile(inside, 95)
+            if lit.sum() < _MIN_POINTS:
+                return _NONE
+            count, shared, _ = _counts(light[lit], inside[lit, None], 0.0)
+        else:
+            bright = _MIN_RELATIVE_LIGHT * np.percentile(own.light, 99)
+            count, shared, lit = _counts(light, own.at(places, across), bright)
+            count = count[lit]
+        found = middle[lit] + inwards * (_EDGE_REACH + 0.5 - count)
+        points = np.stack([places[lit].astype(np.float64), found], axis=1)
+        return _Points(points if axis == 0 else points[:, ::-1], shared)
 
 
 def _counts(

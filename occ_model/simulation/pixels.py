@@ -14,16 +14,14 @@ from occ_model.camera.optics import Optics
 from occ_model.camera.photometry import WHITE
 from occ_model.camera.picture_rows import LitPanel, PictureRows, Rows, in_blocks, split_at
 from occ_model.effects.effect import FileEffect, NoiseEffect, OpticsEffect, PixelEffect
-from occ_model.effects.noise_spread import NoiseSpread
 from occ_model.effects.paper_view import PaperView
 from occ_model.effects.registry import planned
 from occ_model.parallel.job import Heartbeat
 from occ_model.results.plan import Plan
 from occ_model.scene.simulation_settings import NoiseSource, Observable
-from occ_model.simulation.column_means import ColumnMeans
-from occ_model.simulation.columns import Columns
+from occ_model.simulation.columns import ColumnMeans, Columns
 from occ_model.simulation.draft_error import DraftedPanel
-from occ_model.simulation.noise_source import NOISE_MAKERS, Drawn, NoiseMaker
+from occ_model.simulation.noise import NOISE_MAKERS, Drawn, NoiseMaker, NoiseSpread
 from occ_model.simulation.stage_timer import StageTimer
 from occ_model.simulation.threads import each_in_threads
 

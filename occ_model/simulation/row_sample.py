@@ -19,7 +19,7 @@ from occ_model.effects.paper_view import PaperView
 from occ_model.results.plan import Plan
 from occ_model.scene.scene import Scene
 from occ_model.simulation.columns import expose_columns
-from occ_model.simulation.noise_source import Drawn
+from occ_model.simulation.noise import Drawn
 from occ_model.simulation.pixels import PixelExposure
 from occ_model.simulation.stage_timer import StageTimer
 

@@ -20,7 +20,6 @@ from occ_model.camera.exposure import forget_exposures, lit_fraction
 from occ_model.camera.photometry import ColumnLight, panel_values, saturate
 from occ_model.camera.projection import check_size
 from occ_model.effects.effect import NoiseEffect
-from occ_model.effects.noise_spread import NoiseSpread
 from occ_model.effects.paper_view import paper_view_of
 from occ_model.effects.plan import plan
 from occ_model.effects.registry import planned
@@ -30,6 +29,7 @@ from occ_model.scene.argument_checks import check_seed
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import NOISE_SOURCES, SimulationSettings
 from occ_model.simulation.columns import expose_columns
+from occ_model.simulation.noise import NoiseSpread
 from occ_model.simulation.render import observe, render
 from occ_model.study.effect_differences import CompleteSimulation, plan_of_effects, rms
 from occ_model.study.observation import panel_span

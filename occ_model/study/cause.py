@@ -9,8 +9,8 @@ from occ_model.camera.projection import panel_corners
 from occ_model.camera.sensor import deviation
 from occ_model.effects.paper_view import region_of
 from occ_model.errors import OccError
-from occ_model.receiver.matched.payload_templates import MOST_BITS
-from occ_model.receiver.short_chips import columns_of_chip
+from occ_model.receiver.decoder import columns_of_chip
+from occ_model.receiver.matched.templates import MOST_BITS
 from occ_model.results.decoding import Region
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.parameters import quantity

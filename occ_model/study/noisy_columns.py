@@ -13,13 +13,13 @@ from occ_model.arrays import FloatArray
 from occ_model.camera.enhancement import Enhancement, byte_shares, share_above
 from occ_model.camera.photometry import WHITE, saturate
 from occ_model.effects.effect import NoiseEffect, PixelEffect
-from occ_model.effects.noise_spread import NoiseSpread
 from occ_model.effects.registry import planned
 from occ_model.receiver.locate import bright_level
 from occ_model.results.decoding import Region
 from occ_model.results.plan import Plan
 from occ_model.scene.scene import Camera, Scene, Sensor
 from occ_model.simulation.columns import Columns
+from occ_model.simulation.noise import NoiseSpread
 from occ_model.study.drawn_region import BrightShares
 
 _LEVELS = 512  # column values at which means are computed where there are more; linear between

@@ -17,11 +17,11 @@ import occ_model as occ
 from occ_model.camera.photometry import level_values
 from occ_model.commands.limits import range_cells
 from occ_model.effects.effect import NoiseEffect
-from occ_model.effects.noise_spread import NoiseSpread
 from occ_model.effects.registry import NAMES, named
 from occ_model.results.limits import Limits
 from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.scene import Scene
+from occ_model.simulation.noise import NoiseSpread
 from occ_model.study import theory
 from occ_model.study.limits import SEARCHED
 from occ_model.study.working_range import working_range

@@ -30,7 +30,7 @@ import occ_model as occ
 from occ_model.arrays import FloatArray
 from occ_model.camera.enhancement import enhance
 from occ_model.camera.exposure import forget_exposures
-from occ_model.receiver.matched.code_templates import code_templates
+from occ_model.receiver.matched.templates import code_templates
 from occ_model.results.frame import Frame
 from occ_model.scene.scene import Scene
 

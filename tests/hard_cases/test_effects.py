@@ -14,10 +14,9 @@ from occ_model.camera.optics import Gain, Optics
 from occ_model.camera.projection import rotation_of
 from occ_model.camera.sensor import saturation_value
 from occ_model.effects.effect import NoiseEffect, OpticsEffect
-from occ_model.effects.emission import Emission
-from occ_model.effects.flicker import Flicker, ambient_shares, response
+from occ_model.effects.light_effects import Flicker, ambient_shares, response
+from occ_model.effects.optics_effects import Emission, Vignetting
 from occ_model.effects.sensor_effects import FixedPattern, SensorNoise
-from occ_model.effects.vignetting import Vignetting
 from occ_model.scene.scene import Scene
 
 mpmath.mp.dps = 50

@@ -8,7 +8,7 @@ import pytest
 import occ_model as occ
 from hard_cases.poses_and_lenses import GEOMETRY
 from occ_model.camera.projection import MAX_PIXELS
-from occ_model.effects.defocus import blur_of
+from occ_model.effects.optics_effects import blur_of
 from occ_model.scene.scene import Scene
 
 HUGE: dict[str, dict[str, int]] = {

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from hard_cases.laws import cases, record
 from hard_cases.references import PATTERNS, STARTS, ExactTimes, decades, some_columns, within
 from occ_model.camera.exposure import lit_fraction
-from occ_model.effects.led_edges import edged_lit_fraction
+from occ_model.effects.light_effects import edged_lit_fraction
 from occ_model.scene.scene import Scene
 
 LONG = ["1" * 2048 + "0" * 2048, "10" * 2048, "1" + "0" * 4095, ("1" * 63 + "0") * 64]

@@ -19,9 +19,8 @@ from occ_model.receiver.locate import locate
 from occ_model.receiver.signal import column_means
 from occ_model.results.decoding import Region
 from occ_model.scene.scene import Scene
-from occ_model.simulation.column_means import ColumnMeans
-from occ_model.simulation.columns import expose_columns
-from occ_model.simulation.noise_source import ReusedNoise
+from occ_model.simulation.columns import ColumnMeans, expose_columns
+from occ_model.simulation.noise import ReusedNoise
 from occ_model.simulation.pixels import ExposedRows, PixelExposure
 from occ_model.simulation.stage_timer import StageTimer
 from occ_model.study.confidence import wilson_interval

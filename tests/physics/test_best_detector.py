@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from physics.exposed_chips import manchester, noise_of, seen_by_rows
 
 from occ_model.receiver.sequence.exposures import Timing, gather
-from occ_model.receiver.sequence.max_log import best_chips
+from occ_model.receiver.sequence.search import best_chips
 from occ_model.receiver.sequence.trellis import Word, trellis_of
 
 EXPOSURE, STEP, PHASE, DECIBELS = 4, 0.2, 0.13, 15.0

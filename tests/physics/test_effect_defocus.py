@@ -8,7 +8,7 @@ from physics.pictured_luminance import pictured_luminance
 
 import occ_model as occ
 from occ_model.camera.photometry import luminance_levels
-from occ_model.effects.defocus import Defocus, blur_of
+from occ_model.effects.optics_effects import Defocus, blur_of
 from occ_model.scene.scene import Scene
 
 ROWS, COLUMNS = 201, 401

@@ -10,7 +10,7 @@ import occ_model as occ
 from occ_model.camera.optics import Optics
 from occ_model.camera.photometry import luminance_levels
 from occ_model.camera.projection import image_points
-from occ_model.effects.emission import Emission
+from occ_model.effects.optics_effects import Emission
 from occ_model.scene.scene import Scene
 
 ROWS, COLUMNS = 101, 301

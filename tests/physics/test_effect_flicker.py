@@ -6,7 +6,7 @@ import pytest
 import occ_model as occ
 from occ_model.camera.photometry import luminance_levels, pixel_value
 from occ_model.camera.projection import row_spans
-from occ_model.effects.flicker import Flicker, ambient_shares
+from occ_model.effects.light_effects import Flicker, ambient_shares
 from occ_model.scene.scene import Scene
 
 ONLY_FLICKER = {"sensor-noise": False, "fixed-pattern": False, "flicker": True}

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from occ_model.camera.exposure import lit_fraction
 from occ_model.camera.photometry import ColumnLight
-from occ_model.effects.led_edges import LedEdges, edged_lit_fraction
+from occ_model.effects.light_effects import LedEdges, edged_lit_fraction
 from occ_model.scene.scene import Scene
 
 FREQUENCY = 8192.0

@@ -9,8 +9,7 @@ import occ_model as occ
 from occ_model.camera.enhancement import enhance
 from occ_model.camera.photometry import ColumnLight, panel_values
 from occ_model.camera.projection import row_spans
-from occ_model.effects.flicker import Flicker
-from occ_model.effects.led_edges import LedEdges
+from occ_model.effects.light_effects import Flicker, LedEdges
 from occ_model.effects.registry import EFFECTS, NAMES
 from occ_model.effects.sensor_effects import FullWell
 from occ_model.scene.scene import Scene

@@ -7,7 +7,7 @@ import pytest
 
 import occ_model as occ
 from occ_model.camera.photometry import level_values
-from occ_model.effects.vignetting import Vignetting
+from occ_model.effects.optics_effects import Vignetting
 from occ_model.scene.scene import Scene
 from occ_model.simulation.render import observe
 

@@ -7,7 +7,7 @@ import pytest
 
 import occ_model as occ
 from occ_model.arrays import FloatArray
-from occ_model.receiver.equalizer.undo_exposure import box, response, undo_exposure
+from occ_model.receiver.equalizer import box, response, undo_exposure
 from occ_model.scene.scene import Scene
 
 BEYOND = (14e3, 16e3, 20e3, 26e3)

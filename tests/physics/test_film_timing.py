@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import occ_model as occ
-from occ_model.effects.flicker import ambient_shares
+from occ_model.effects.light_effects import ambient_shares
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.packet import sent_chips
 

@@ -10,14 +10,14 @@ from amount import amount
 import occ_model as occ
 from occ_model.arrays import FloatArray, IndexArray
 from occ_model.camera.exposure import lit_fraction
-from occ_model.receiver.matched.code_templates import (
+from occ_model.receiver.matched.decoder import most_likely
+from occ_model.receiver.matched.templates import (
     BINS_PER_CHIP,
     CodeTemplates,
     code_templates,
     codes_by_levels,
     sums_of_halves,
 )
-from occ_model.receiver.matched.decoder import most_likely
 from occ_model.scene.scene import Scene
 from occ_model.study.success_rate import success_rate
 from occ_model.transmitter.packet import packet_length, packets

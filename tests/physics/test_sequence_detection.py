@@ -8,10 +8,9 @@ from amount import amount
 from physics.exposed_chips import manchester, noise_of, seen_by_rows
 
 import occ_model as occ
-from occ_model.receiver.sequence.beam import beam_chips
 from occ_model.receiver.sequence.exposures import Timing, gather, taps
 from occ_model.receiver.sequence.fit import lit_shares
-from occ_model.receiver.sequence.max_log import Chips, best_chips, least_distances
+from occ_model.receiver.sequence.search import Chips, beam_chips, best_chips, least_distances
 from occ_model.receiver.sequence.trellis import FREE_CHIPS, Word, trellis_of
 from occ_model.scene.scene import Scene
 

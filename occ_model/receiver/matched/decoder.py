@@ -13,22 +13,18 @@ import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray
 from occ_model.camera.exposure import column_phases
-from occ_model.receiver.decoder import Decoder
-from occ_model.receiver.matched.code_templates import (
+from occ_model.receiver.decoder import Decoder, then_short_chips, with_bits, with_short_chips
+from occ_model.receiver.matched.templates import (
     BINS_PER_CHIP,
+    MOST_BITS,
     CodeTemplates,
+    PayloadTemplates,
     code_templates,
     codes_by_levels,
-    sums_of_halves,
-)
-from occ_model.receiver.matched.payload_templates import (
-    MOST_BITS,
-    PayloadTemplates,
     payload_templates,
     same_chips,
+    sums_of_halves,
 )
-from occ_model.receiver.read_payload import with_bits
-from occ_model.receiver.short_chips import then_short_chips, with_short_chips
 from occ_model.receiver.signal import why_flat
 from occ_model.results.decoding import DecodeResult
 from occ_model.scene.parameters.light import MAX_BITS

@@ -11,8 +11,8 @@ from dataclasses import replace
 import numpy as np
 
 from occ_model.arrays import FloatArray
+from occ_model.receiver.decoder import has_short_chips, with_bits, with_short_chips
 from occ_model.receiver.light import PER_CHIP, Light, by_rank, expected_light, in_light
-from occ_model.receiver.read_payload import with_bits
 from occ_model.receiver.sequence.code_words import code_words
 from occ_model.receiver.sequence.exposures import Timing
 from occ_model.receiver.sequence.fit import (
@@ -21,12 +21,11 @@ from occ_model.receiver.sequence.fit import (
     detect,
     find_phase,
     first_guess,
+    follow_timing,
     improve,
 )
-from occ_model.receiver.sequence.follow_timing import follow_timing
 from occ_model.receiver.sequence.soft_frame import probability, read_frame
 from occ_model.receiver.sequence.trellis import Word
-from occ_model.receiver.short_chips import has_short_chips, with_short_chips
 from occ_model.receiver.signal import MAX_UNEXPLAINED, why_flat
 from occ_model.results.decoding import DecodeResult
 from occ_model.scene.scene import Scene

@@ -12,8 +12,7 @@ from itertools import pairwise
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
-from occ_model.transmitter.edges import EdgedWaveform
-from occ_model.transmitter.waveform import Phases
+from occ_model.transmitter.waveform import EdgedWaveform, Phases
 
 _VARIANCE_NODES = 3  # Gauss-Legendre nodes that integrate the square of a quadratic exactly
 

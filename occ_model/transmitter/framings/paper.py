@@ -4,8 +4,7 @@ import numpy as np
 
 from occ_model.arrays import ByteArray
 from occ_model.transmitter.framings.framing import Framed, FrameFormat, Framing
-from occ_model.transmitter.framings.preamble import read_after
-from occ_model.transmitter.framings.repeated_frame import read_repeated
+from occ_model.transmitter.framings.preamble import read_after, read_repeated
 
 HEADER = (1, 1, 1, 0)
 """The header: three ones, which no data of a code with runs of two contain, and a zero.

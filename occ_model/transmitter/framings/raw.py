@@ -16,7 +16,7 @@ from occ_model.transmitter.framings.framing import (
     Framing,
     preamble_of,
 )
-from occ_model.transmitter.framings.repeated_frame import read_repeated
+from occ_model.transmitter.framings.preamble import read_repeated
 
 _CRC_BITS = 16
 _SHORT_LENGTH_BITS = 8

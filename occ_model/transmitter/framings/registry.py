@@ -8,14 +8,14 @@ from occ_model import plugins
 from occ_model.arrays import ByteArray
 from occ_model.errors import ParameterError, PluginError, one_line
 from occ_model.transmitter.framings.framing import Framed, FrameFormat, Framing
-from occ_model.transmitter.plugin_values import (
+from occ_model.transmitter.registry import (
     MOST_CHIPS,
+    Registry,
     check_kinds,
     check_places,
     checked_bits,
     plain_reason,
 )
-from occ_model.transmitter.registry import Registry
 
 
 def _guarded(offered: Framing) -> Framing:

@@ -8,13 +8,13 @@ from occ_model import plugins
 from occ_model.arrays import ByteArray
 from occ_model.errors import ParameterError, PluginError, one_line, shown
 from occ_model.transmitter.line_codes.line_code import Decoded, LineCode
-from occ_model.transmitter.plugin_values import (
+from occ_model.transmitter.registry import (
+    Registry,
     check_kinds,
     check_places,
     checked_bits,
     plain_reason,
 )
-from occ_model.transmitter.registry import Registry
 
 
 def _guarded(offered: LineCode) -> LineCode:

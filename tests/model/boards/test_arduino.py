@@ -8,8 +8,7 @@ from model.boards.simulated_uno import SimulatedUno, missing_tools, worst_error
 import occ_model as occ
 from occ_model.boards.arduino import UNO
 from occ_model.boards.sketch import source_text
-from occ_model.boards.timing import ChipTiming
-from occ_model.boards.transmission import Transmission, table_size, transmission
+from occ_model.boards.transmission import ChipTiming, Transmission, table_size, transmission
 from occ_model.scene.payload import MAX_PAYLOAD_BITS
 
 pytestmark = pytest.mark.compilers

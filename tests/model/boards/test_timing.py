@@ -11,8 +11,7 @@ import occ_model as occ
 from occ_model.boards.arduino import UNO
 from occ_model.boards.board import Board
 from occ_model.boards.sketch import BOARDS, board_named
-from occ_model.boards.timing import best_timing
-from occ_model.boards.transmission import transmission
+from occ_model.boards.transmission import best_timing, transmission
 
 PAPER = occ.load_preset("phone-68us")
 

@@ -7,10 +7,9 @@ import pytest
 import occ_model as occ
 from occ_model.boards.arduino import UNO
 from occ_model.boards.board import Board
-from occ_model.boards.caution import SEIZURES, flicker_sentence
 from occ_model.boards.pico import PICO
 from occ_model.boards.sketch import BOARDS, board_named
-from occ_model.boards.transmission import transmission
+from occ_model.boards.transmission import SEIZURES, flicker_sentence, transmission
 from occ_model.boards.wiring import GATE_CAPACITANCE, LED_CURRENT, LED_VOLTS, next_resistor, wiring
 from occ_model.figures.transmitter_files import notes, wiring_bytes
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import occ_model as occ
-from occ_model.receiver.plugin_result import checked_result
+from occ_model.receiver.decoders import checked_result
 
 READ = occ.DecodeResult("own", code=1, bits=np.array([1]), chips=np.array([1, 0]))
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import occ_model as occ
-from occ_model.receiver.short_chips import has_short_chips
-from occ_model.receiver.threshold import decoder as threshold
+from occ_model.receiver import threshold
+from occ_model.receiver.decoder import has_short_chips
 
 REASON = "A chip of 2 µs is shorter than the 8 µs from one column to the next: "
 

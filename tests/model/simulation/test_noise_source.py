@@ -8,10 +8,9 @@ import pytest
 
 import occ_model as occ
 from occ_model.effects.effect import NoiseEffect
-from occ_model.effects.noise_spread import NoiseSpread
 from occ_model.effects.sensor_effects import FixedPattern, SensorNoise
 from occ_model.scene.scene import Scene
-from occ_model.simulation.noise_source import ExactNoise, Noise, ReusedNoise, stream
+from occ_model.simulation.noise import ExactNoise, Noise, NoiseSpread, ReusedNoise, stream
 from occ_model.simulation.render import observe
 
 ROWS, COLUMNS = 200, 300

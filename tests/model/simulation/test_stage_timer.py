@@ -12,7 +12,7 @@ from occ_model.effects.registry import planned
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.simulation import stage_timer
 from occ_model.simulation.columns import expose_columns
-from occ_model.simulation.noise_source import Drawn, ExactNoise
+from occ_model.simulation.noise import Drawn, ExactNoise
 from occ_model.simulation.pixels import PixelExposure
 from occ_model.simulation.stage_timer import StageTimer
 

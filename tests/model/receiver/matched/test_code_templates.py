@@ -5,7 +5,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from occ_model.receiver.matched.code_templates import code_templates
+from occ_model.receiver.matched.templates import code_templates
 
 
 @pytest.mark.parametrize("bits", [2, 5])

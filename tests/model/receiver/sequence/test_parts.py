@@ -9,10 +9,9 @@ from physics.exposed_chips import noise_of, seen_by_rows
 
 import occ_model as occ
 from occ_model.receiver.sequence import decoder
-from occ_model.receiver.sequence.beam import beam_chips
 from occ_model.receiver.sequence.exposures import Timing, gather
 from occ_model.receiver.sequence.fit import Brightness, Fit
-from occ_model.receiver.sequence.max_log import Chips, best_chips
+from occ_model.receiver.sequence.search import Chips, beam_chips, best_chips
 from occ_model.receiver.sequence.trellis import FREE_CHIPS, trellis_of
 from occ_model.scene.scene import Scene
 

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 import occ_model as occ
 from occ_model.camera.photometry import luminance_of
-from occ_model.effects.led_edges import edged_lit_fraction
+from occ_model.effects.light_effects import edged_lit_fraction
 from occ_model.results.bands import Depth
 from occ_model.scene.scene import Scene
 from occ_model.study.bands.depth import light_depth

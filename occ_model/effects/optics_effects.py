@@ -1,0 +1,132 @@
+"""Effects of angle and focus: bundled emission, vignetting, defocus."""
+
+import math
+from dataclasses import replace
+
+import cv2
+import numpy as np
+
+from occ_model.arrays import FloatArray, Pixels
+from occ_model.camera.optics import Gain, Optics
+from occ_model.camera.projection import geometry_of, pixel_rays, rotation_of
+from occ_model.effects.effect import Cost, OpticsEffect
+from occ_model.scene.scene import Scene
+
+
+class Emission(OpticsEffect):
+    """The panel's intensity falls as cos^m of the angle to its normal.
+
+    Its luminance, the intensity over the area that is seen, falls as cos^(m - 1): a Lambertian
+    panel, m = 1, is equally bright from all sides (J. M. Kahn and J. R. Barry, "Wireless infrared
+    communications", Proc. IEEE 85, 1997, for the generalized Lambertian source). External
+    light that the panel reflects is not changed.
+    """
+
+    name = "emission"
+    label = "Bundled emission"
+    parameters = ("lambertian_order",)
+    cost = Cost(pixels=0.8e-3)
+
+    def is_present(self, scene: Scene) -> bool:
+        """Return whether the panel is other than Lambertian."""
+        return scene.transmitter.lambertian_order != 1.0
+
+    def apply(self, scene: Scene, optics: Optics) -> Optics:
+        """Darken the panel by the angle at which each pixel sees it."""
+        power = scene.transmitter.lambertian_order - 1.0
+
+        normal = _normal(scene)
+        across, _ = pixel_rays(scene.camera, np.zeros(1))
+
+        def gain(rows: FloatArray, columns: slice) -> Pixels:
+            _, y = pixel_rays(scene.camera, rows)
+            cosines = np.abs(_cosine(normal, across[:, columns], y)).astype(np.float32)
+            return np.asarray(cv2.pow(np.minimum(cosines, np.float32(1.0)), power))
+
+        own = Gain.remembered(
+            self.name, (power, *normal.tolist(), *geometry_of(scene.camera)), gain
+        )
+        return replace(optics, emission=(*optics.emission, own))
+
+
+def _normal(scene: Scene) -> FloatArray:
+    """Return the panel's normal, of length 1."""
+    return rotation_of(scene.pose)[:, 2]
+
+
+def _cosine(normal: FloatArray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Return the cosine of the angle between a normal and rays (x, y, 1), either sign."""
+    along = normal[0] * x + normal[1] * y + normal[2]
+    return np.asarray(along / np.sqrt(1.0 + x * x + y * y))
+
+
+class Vignetting(OpticsEffect):
+    """The light at a pixel falls as cos^n of its angle off the optical axis.
+
+    n = 4 is the natural fall-off of a thin lens that keeps straight lines straight (W. J. Smith,
+    *Modern Optical Engineering*); lenses corrected for it have less. On the axis nothing
+    is lost. The angle is that of a lens without distortion.
+    """
+
+    name = "vignetting"
+    label = "Vignetting"
+    parameters = ("vignetting_exponent",)
+    cost = Cost(pixels=1.2e-3)
+
+    def is_present(self, scene: Scene) -> bool:
+        """Return whether the light falls off at all."""
+        return scene.lens.vignetting_exponent != 0.0
+
+    def apply(self, scene: Scene, optics: Optics) -> Optics:
+        """Darken every pixel by its angle."""
+        power = -scene.lens.vignetting_exponent / 2.0
+
+        across, _ = pixel_rays(scene.camera, np.zeros(1))
+        across = 1.0 + across * across
+
+        def gain(rows: FloatArray, columns: slice) -> Pixels:
+            _, y = pixel_rays(scene.camera, rows)
+            return np.asarray(cv2.pow(across[:, columns] + y * y, power), dtype=np.float32)
+
+        own = Gain.remembered(self.name, (power, *geometry_of(scene.camera)), gain)
+        return replace(optics, transmission=(*optics.transmission, own))
+
+
+_WIDEST = 1e12
+"""Largest point spread in pixels: any larger one leaves nothing of any panel either."""
+
+
+class Defocus(OpticsEffect):
+    """A Gaussian point spread: the lens's own spot, and the circle of confusion out of focus.
+
+    A point at the distance d makes a disc of diameter c = f^2 / N |1/d_f - 1/d| on the sensor of a
+    lens of focal length f that is focused on d_f, for d and d_f far beyond f (S. F. Ray, *Applied
+    Photographic Optics*). A disc of diameter c has the standard deviation c / 4 along each axis;
+    both spots' variances add. Inside an evenly bright panel a pixel receives as much light from its
+    neighbours as it loses to them: the lens softens the panel's rim. The stripes are made by the
+    shutter, behind the lens, and stay sharp.
+    """
+
+    name = "defocus"
+    label = "Defocus and point spread"
+    parameters = ("point_spread", "focus_distance", "pixel_pitch")
+    cost = Cost(picture=1e-3)
+
+    def is_present(self, scene: Scene) -> bool:
+        """Return whether the image of a point is wider than a point."""
+        return blur_of(scene) != 0.0
+
+    def apply(self, scene: Scene, optics: Optics) -> Optics:
+        """Blur the panel's rim."""
+        return replace(optics, blur=blur_of(scene), cover_stage=self.name)
+
+
+def blur_of(scene: Scene) -> float:
+    """Return the standard deviation of the point spread in pixels."""
+    camera, lens, distance = scene.camera, scene.lens, scene.pose.distance
+    spot = 0.0
+    if lens.focus_distance:
+        focal = camera.focal_length_pixels
+        vergence = abs(1.0 / lens.focus_distance - 1.0 / distance)
+        spot = focal * focal * scene.sensor.pixel_pitch / camera.f_number * vergence / 4.0
+    return min(math.hypot(lens.point_spread, spot), _WIDEST)

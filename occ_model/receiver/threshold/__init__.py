@@ -1,1 +1,0 @@
-"""The paper's decoder: Otsu's threshold and the lengths of runs."""

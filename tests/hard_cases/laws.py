@@ -48,7 +48,7 @@ Test = Callable[..., None]
 
 def _cases_of_a_law() -> int:
     """Return a law's part of all cases; how much is tried is known once pytest is configured."""
-    return max(int(os.environ.get("OCC_HARD_CASES", amount(1_600, 3_000))) // LAWS, 20)
+    return max(int(os.environ.get("OCC_HARD_CASES", amount(800, 3_000))) // LAWS, 20)
 
 
 def cases(**strategies: SearchStrategy[Any]) -> Callable[[Test], Test]:

@@ -7,7 +7,7 @@ from typing import TypeVar
 import numpy as np
 import pytest
 from hypothesis import strategies as st
-from payloads import PAYLOADS
+from scene_values import PAYLOADS
 
 import occ_model as occ
 from hard_cases.laws import cases, record

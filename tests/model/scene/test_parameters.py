@@ -4,8 +4,7 @@ import re
 from typing import Any
 
 import pytest
-from amount import amount
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from occ_model.errors import OccError, ParameterError
@@ -14,20 +13,14 @@ from occ_model.scene.parameters import PARAMETERS, open_choice, parameter_named
 from occ_model.scene.parameters.light import MAX_BITS
 
 every_parameter = pytest.mark.parametrize("parameter", PARAMETERS.values(), ids=lambda p: p.name)
-every_quantity = pytest.mark.parametrize(
-    "quantity", [p for p in PARAMETERS.values() if isinstance(p, Quantity)], ids=lambda p: p.name
-)
-few = settings(max_examples=amount(10, 30))  # of each parameter, and there are many
+QUANTITIES = [p for p in PARAMETERS.values() if isinstance(p, Quantity)]
+every_quantity = pytest.mark.parametrize("quantity", QUANTITIES, ids=lambda p: p.name)
 positions = st.floats(0.0, 1.0)
 
 
 @every_parameter
-def test_a_default_is_a_value_that_the_parameter_accepts(parameter: Parameter) -> None:
+def test_a_default_is_accepted_and_survives_being_written_and_read(parameter: Any) -> None:
     assert parameter.check(parameter.default) == parameter.default
-
-
-@every_parameter
-def test_a_default_survives_being_written_and_read(parameter: Any) -> None:
     text = parameter.format(parameter.default)
     assert parameter.parse(text) == parameter.default
 
@@ -54,9 +47,7 @@ def test_the_ends_of_the_slider_are_the_ends_of_its_range(quantity: Quantity) ->
     assert (quantity.fraction(quantity.slider[0]), quantity.fraction(quantity.slider[1])) == (0, 1)
 
 
-@every_quantity
-@few
-@given(lower=positions, upper=positions)
+@given(quantity=st.sampled_from(QUANTITIES), lower=positions, upper=positions)
 def test_a_slider_further_up_never_gives_a_smaller_value(
     quantity: Quantity, lower: float, upper: float
 ) -> None:
@@ -66,9 +57,7 @@ def test_a_slider_further_up_never_gives_a_smaller_value(
         assert quantity.at(lower) < quantity.at(upper)
 
 
-@every_quantity
-@few
-@given(position=positions)
+@given(quantity=st.sampled_from(QUANTITIES), position=positions)
 def test_slider_position_and_value_are_inverse_to_four_digits(
     quantity: Quantity, position: float
 ) -> None:
@@ -76,9 +65,7 @@ def test_slider_position_and_value_are_inverse_to_four_digits(
     assert quantity.at(quantity.fraction(value)) == pytest.approx(value, rel=6e-4, abs=1e-12)
 
 
-@every_quantity
-@few
-@given(position=positions)
+@given(quantity=st.sampled_from(QUANTITIES), position=positions)
 def test_a_slider_s_value_is_the_one_that_its_text_says(
     quantity: Quantity, position: float
 ) -> None:
@@ -86,9 +73,7 @@ def test_a_slider_s_value_is_the_one_that_its_text_says(
     assert quantity.parse(quantity.format(value)) == value
 
 
-@every_quantity
-@few
-@given(beyond=st.floats(0.0, 1e20))
+@given(quantity=st.sampled_from(QUANTITIES), beyond=st.floats(0.0, 1e20))
 def test_a_value_outside_the_slider_s_range_stands_at_its_end(
     quantity: Quantity, beyond: float
 ) -> None:
@@ -128,12 +113,11 @@ def test_a_meaning_is_one_sentence_on_one_line(parameter: Parameter) -> None:
     assert parameter.label.strip() == parameter.label != ""
 
 
-@pytest.mark.parametrize("name", PARAMETERS)
-def test_a_misspelt_name_is_answered_with_the_nearest(name: str) -> None:
-    misspelt = f"{name}s"
-    with pytest.raises(ParameterError) as refused:
-        parameter_named(misspelt)
-    assert str(refused.value) == f"There is no parameter {misspelt!r}; did you mean {name}?"
+def test_a_misspelt_name_is_answered_with_the_nearest() -> None:
+    for name in PARAMETERS:
+        with pytest.raises(ParameterError) as refused:
+            parameter_named(f"{name}s")
+        assert str(refused.value) == f"There is no parameter '{name}s'; did you mean {name}?"
 
 
 @pytest.mark.parametrize("name", ["", "zzzz", "0", "?"])

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from payloads import PAYLOADS
+from scene_values import PAYLOADS
 
 import occ_model as occ
 from occ_model.scene.from_text import with_settings

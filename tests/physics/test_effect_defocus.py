@@ -123,14 +123,6 @@ def test_stripes_keep_their_full_contrast(blur: float, averaging: str) -> None:
     np.testing.assert_allclose(row, profile[middle], rtol=0, atol=0.51)
 
 
-@pytest.mark.parametrize("enhancement", ["none", "stretch", "equalization"])
-def test_a_sharp_lens_is_nothing(enhancement: str) -> None:
-    scene = unsharp(0.0, pattern="", enhancement=enhancement, roll=0.2, start_time=1.2345e-4)
-    bare = occ.render(scene, tolerance=math.inf)
-    forced = occ.render(scene, tolerance=math.inf, force={"defocus": True})
-    np.testing.assert_array_equal(forced.image, bare.image)
-
-
 def test_a_blur_far_wider_than_the_picture_is_pictured_at_once() -> None:
     scene = unsharp(1000.0, focus_distance=0.001, distance=1e4)
     assert blur_of(scene) > ROWS + COLUMNS

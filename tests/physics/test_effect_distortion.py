@@ -9,7 +9,6 @@ import pytest
 
 import occ_model as occ
 from occ_model.camera.projection import image_rays
-from occ_model.effects.distortion import Distortion
 from occ_model.scene.scene import Lens, Scene
 
 ROWS, COLUMNS = 100, 200
@@ -99,17 +98,6 @@ def test_stripes_stay_columns(lens: dict[str, float]) -> None:
     np.testing.assert_array_equal(frame.image[shown], columns[shown])
     outside = frame.image[~inside & ~at_rim]
     assert outside.min() == outside.max()
-
-
-@pytest.mark.parametrize("enhancement", ["none", "stretch", "equalization"])
-@pytest.mark.parametrize("pose", POSES)
-def test_a_lens_without_coefficients_is_nothing(pose: dict[str, float], enhancement: str) -> None:
-    # A start at which no column lies halfway between two grey levels.
-    scene = bent(enhancement=enhancement, start_time=1.2345e-4, **pose)
-    bare = occ.render(scene, tolerance=float("inf"))
-    forced = occ.render(scene, tolerance=float("inf"), force={"distortion": True})
-    assert not Distortion().is_present(scene)
-    np.testing.assert_array_equal(forced.image, bare.image)
 
 
 def test_next_to_no_distortion_pictures_the_straight_panel() -> None:

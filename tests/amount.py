@@ -1,11 +1,14 @@
 """How much is tried: a sample every day, all of it with ``--whole``."""
 
 import os
+from typing import TypeVar
 
 VARIABLE = "OCC_WHOLE"
 """Is set while all is tried."""
 
+_Amount = TypeVar("_Amount")
 
-def amount(everyday: int, whole: int) -> int:
-    """Return how many cases are tried, or how far they are apart."""
+
+def amount(everyday: _Amount, whole: _Amount) -> _Amount:
+    """Return how many cases are tried, how far they are apart, or which."""
     return whole if VARIABLE in os.environ else everyday

@@ -7,6 +7,7 @@ from itertools import accumulate
 
 import numpy as np
 import pytest
+from amount import amount
 from hypothesis import strategies as st
 
 from hard_cases.laws import cases, record
@@ -93,7 +94,7 @@ def test_otsus_split_of_a_hard_histogram(name: str) -> None:
 def test_otsus_split_of_100000_run_lengths_loses_nothing() -> None:
     # The longest run is as long as the signal, the others are a few columns: 1e5 bins, ten filled.
     random = np.random.default_rng(3)
-    for _ in range(20):
+    for _ in range(amount(5, 20)):
         counts = np.zeros(100_000, dtype=np.int64)
         counts[random.integers(1, 40, 8)] = random.integers(1, 3000, 8)
         counts[random.integers(40, 100_000, 2)] = 1

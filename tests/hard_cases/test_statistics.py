@@ -54,9 +54,7 @@ def test_column_means_are_integer_sums_over_integers(image: tuple[np.ndarray, Re
 
 
 SIXTEEN_MILLION: dict[str, tuple[tuple[int, int], int]] = {
-    # The shape of a camera's picture.
-    "a picture": ((4608, 3472), 0),
-    # All white: each column's sum is the largest for its rows.
+    # A camera's, all white: each column's sum is the largest for its rows.
     "a white picture": ((4608, 3472), 255),
     # One column: its sum, 4e9, is beyond what an integer of 32 bits holds.
     "a single column": ((16_000_000, 1), 255),

@@ -177,7 +177,7 @@ def test_confidence_is_near_1_when_clear_and_near_0_for_noise() -> None:
     clear = occ.decode(occ.render(scene).image, scene, "matched")
     assert clear.confidence > 0.9
     rng = np.random.default_rng(5)
-    for _ in range(amount(60, 200)):
+    for _ in range(amount(30, 200)):
         noise = occ.decode(rng.normal(100.0, 5.0, 1730), scene, "matched")
         assert noise.code is None
         assert noise.failure is not None
@@ -203,3 +203,14 @@ def test_a_wrong_code_never_comes_with_high_confidence() -> None:
             wrong_and_sure += result.confidence >= HIGH_CONFIDENCE
     assert wrong_and_sure == 0
     assert wrong > 0  # else the trials were too easy to prove anything
+
+
+@pytest.mark.parametrize("bits", [2, 5])
+@pytest.mark.parametrize("exposure", [Fraction(1, 2), Fraction(7, 3)])
+def test_levels_are_quantiles_of_all_codes_profiles(bits: int, exposure: Fraction) -> None:
+    """As many evenly spaced ones as there are bins."""
+    templates = code_templates(bits, exposure)
+    profiles = templates.profiles(np.arange(2**bits))
+    bins = profiles.shape[1]
+    expected = np.quantile(profiles, (np.arange(bins) + 0.5) / bins)
+    assert templates.levels == pytest.approx(expected, abs=1e-9)

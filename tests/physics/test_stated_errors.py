@@ -150,6 +150,7 @@ def test_an_exposure_is_not_another_one_of_its_own() -> None:
     assert not any("Other exposure times" in why for why in match.exposure_reasons)
 
 
+@pytest.mark.whole
 def test_edges_hidden_by_white_are_doubted() -> None:
     """A short exposure of a lamp far brighter than white: its ramps end within a column or two."""
     world = small_world(3, exposure_time=40e-6, saturated=0.58, ambient=0.0005)

@@ -38,7 +38,7 @@ def sample_of(count: int, everyday: int) -> list[Any]:
     ]
 
 
-@pytest.mark.parametrize("index", sample_of(24, 10))
+@pytest.mark.parametrize("index", sample_of(24, 4))
 def test_an_exact_profile_gives_its_timing_back(index: int) -> None:
     step, exposure = spread(index, 0.03, 0.4), spread(7 * index, 0.2, 4.0)
     middle = spread(31 * index, 0.0, 24.0)
@@ -120,7 +120,7 @@ def test_an_exposure_that_would_need_darker_than_black_is_none() -> None:
     assert match.other_exposures == pytest.approx((200e-6,))  # that of a pulse of 60 us
 
 
-@pytest.mark.parametrize("seed", sample_of(6, 1))
+@pytest.mark.parametrize("seed", sample_of(6, 0))
 def test_a_blinking_leds_exposure_comes_back_under_uneven_light(seed: int) -> None:
     scene = random_scene(seed).replace(pattern="10", vignetting_exponent=4.0)
     frequency = 1.0 / (spread(seed + 1, 8.0, 30.0) * scene.camera.readout_time)

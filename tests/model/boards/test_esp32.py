@@ -44,7 +44,11 @@ def test_the_table_is_the_packet(name: str) -> None:
 
 
 @pytest.mark.compilers
-@every_scene
+@pytest.mark.parametrize(
+    "name",
+    ["odd number of chips"]
+    + [pytest.param(one, marks=pytest.mark.whole) for one in SCENES if "odd" not in one],
+)
 def test_the_driver_is_given_the_packet_over_and_over(name: str, tmp_path: Path) -> None:
     if shutil.which("g++") is None:
         pytest.skip("the sketch of the ESP32 cannot be compiled here; missing: g++")

@@ -20,9 +20,7 @@ every_board = pytest.mark.parametrize("board", BOARDS.values(), ids=lambda board
 frequencies = st.floats(60.0, 125e3)
 
 
-@every_board
-@settings(max_examples=25)
-@given(frequency=frequencies)
+@given(board=st.sampled_from([*BOARDS.values()]), frequency=frequencies)
 def test_no_setting_of_the_timer_comes_nearer(board: Board, frequency: float) -> None:
     found = best_timing(board, frequency)
     prescalers = np.array(board.prescalers, dtype=np.int64)
@@ -37,9 +35,7 @@ def test_no_setting_of_the_timer_comes_nearer(board: Board, frequency: float) ->
     assert abs(found.error_ppm) == min(errors) * 10**6
 
 
-@every_board
-@settings(max_examples=25)
-@given(frequency=frequencies)
+@given(board=st.sampled_from([*BOARDS.values()]), frequency=frequencies)
 def test_frequency_period_and_error_are_one_statement(board: Board, frequency: float) -> None:
     timing = best_timing(board, frequency)
     assert timing.frequency * timing.period == 1
@@ -48,9 +44,7 @@ def test_frequency_period_and_error_are_one_statement(board: Board, frequency: f
     assert 1 <= timing.count <= board.largest_count
 
 
-@every_board
-@settings(max_examples=25)
-@given(frequency=frequencies)
+@given(board=st.sampled_from([*BOARDS.values()]), frequency=frequencies)
 def test_the_frequency_that_is_sent_is_sent_again_as_it_is(board: Board, frequency: float) -> None:
     first = transmission(PAPER.replace(switching_frequency=frequency), board)
     again = transmission(first.sent_scene, board)

@@ -106,7 +106,7 @@ def test_a_wav_file_is_refused_where_it_would_be_too_large() -> None:
         wav_bytes(transmission(scene, board_named("arduino-uno")))
 
 
-@settings(max_examples=50)
+@settings(max_examples=15)
 @given(value=st.fractions(0, 100, max_denominator=10**6))
 def test_a_decimal_is_the_number_to_eighteen_places(value: Fraction) -> None:
     assert abs(Fraction(decimal(value)) - value) <= Fraction(1, 2 * 10**18)

@@ -3,6 +3,7 @@
 import cv2
 import numpy as np
 import pytest
+from amount import amount
 
 from occ_model.camera.coverage import Coverage
 
@@ -48,7 +49,7 @@ def test_an_outline_outside_covers_nothing_and_one_round_all_all(blur: float) ->
 
 
 @pytest.mark.parametrize("blur", [0.4, 1.0, 3.0, 7.9, 8.0, 12.5, 30.0, 60.0])
-@pytest.mark.parametrize("scale", [0.5, 1.0, 3.0])
+@pytest.mark.parametrize("scale", amount([3.0], [0.5, 1.0, 3.0]))
 def test_blurred_coverage_is_a_blur_at_full_resolution(scale: float, blur: float) -> None:
     outline = (STAR - [60, 45]) * scale + [70, 40]
     expected = blurred(outline, blur, (ROWS, COLUMNS))

@@ -4,7 +4,8 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import given
+from amount import amount
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 from numpy.typing import NDArray
@@ -50,6 +51,7 @@ def test_a_bright_rectangle_is_found_exactly_wherever_it_is(region: Region) -> N
 
 
 @pytest.mark.parametrize("shape", [(700, 1500), (1501, 1103), (3, 3000), (2000, 5)])
+@settings(max_examples=amount(12, 100))
 @given(data=st.data())
 def test_a_bright_rectangle_is_found_exactly_in_a_large_image(
     shape: tuple[int, int], data: st.DataObject

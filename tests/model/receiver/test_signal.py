@@ -1,4 +1,6 @@
-"""Otsu's threshold against its definition."""
+"""Otsu's threshold against its definition; what is said of chips shorter than a column."""
+
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -7,6 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import occ_model as occ
+from occ_model.receiver import threshold
+from occ_model.receiver.decoder import has_short_chips
 from occ_model.receiver.signal import otsu_split
 
 
@@ -36,3 +40,73 @@ def test_a_single_value_that_is_no_grey_level_is_refused_with_it(far: float) -> 
     image[2, 7] = far
     with pytest.raises(occ.DecodeInputError, match=r"holds the value 1e\+09"):
         occ.decode(image, occ.Scene())
+
+
+REASON = "A chip of 2 µs is shorter than the 8 µs from one column to the next: "
+
+
+@pytest.mark.parametrize("decoder", ["threshold", "matched", "equalizer", "sequence"])
+def test_a_failure_names_chips_that_are_shorter_than_a_column(decoder: str) -> None:
+    scene = occ.load_preset("phone-136us").replace(switching_frequency=500e3)
+    result = occ.decode(occ.column_profile(scene), scene, decoder)
+    assert result.failure.startswith(REASON)
+    assert len(result.failure.split(". ")) > 1  # the decoder's own reason follows
+
+
+def test_a_failure_for_another_reason_does_not_name_them() -> None:
+    scene = occ.load_preset("phone-136us").replace(switching_frequency=60e3)
+    result = occ.decode(occ.column_profile(scene), scene)
+    assert "shorter" not in result.failure
+
+
+def test_a_chip_as_long_as_a_column_is_not_too_short() -> None:
+    scene = occ.load_preset("phone-136us").replace(readout_time=2.0**-17)
+    assert not has_short_chips(scene.replace(switching_frequency=2.0**17))
+    assert has_short_chips(scene.replace(switching_frequency=1.01 * 2.0**17))
+
+
+def test_where_the_length_is_known_it_is_named_once() -> None:
+    scene = occ.load_preset("phone-136us").replace(switching_frequency=500e3, pattern="1110010")
+    result = occ.decode(occ.column_profile(scene), scene)
+    assert "A chip lasts 0.25 columns" in result.failure
+    assert "shorter" not in result.failure
+
+
+@pytest.mark.parametrize("kilohertz", [130, 300, 375, 400, 500, 610, 750, 1000])
+def test_the_matched_decoder_reads_no_wrong_code_from_columns_that_skip_chips(
+    kilohertz: int,
+) -> None:
+    # At round ratios the columns of all packets see the same few places of a packet.
+    scene = occ.load_preset("phone-136us").replace(switching_frequency=1e3 * kilohertz)
+    random = np.random.default_rng(kilohertz)
+    for code in random.integers(0, 1024, 6).tolist():
+        sent = scene.replace(code=code)
+        signal = occ.column_profile(sent) + random.normal(0.0, 0.5, scene.camera.columns)
+        result = occ.decode(signal, sent, "matched")
+        assert result.code in {code, None}
+        if kilohertz == 130:  # chips are short, but all packets together show each of them
+            assert result.code == code
+
+
+def test_what_was_read_of_short_chips_is_not_called_a_failure(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Where the threshold decoder does not know a chip's length, it may read short ones."""
+    scene = occ.Scene().replace(switching_frequency=150e3, readout_time=10e-6)
+    read = occ.DecodeResult("threshold", code=1, bits=np.array([1], dtype=np.uint8))
+    monkeypatch.setattr(threshold, "_read", lambda *_: read)
+    assert threshold.read_stripes(np.zeros(10), scene) is read
+    missed = replace(read, code=None, failure="No header was found.")
+    monkeypatch.setattr(threshold, "_read", lambda *_: missed)
+    failure = threshold.read_stripes(np.zeros(10), scene).failure
+    assert "shorter than" in failure
+    assert failure.endswith("No header was found.")
+
+
+def test_where_two_codes_look_alike_that_is_said_before_the_short_chips() -> None:
+    """At 130 kHz a chip is short too, but its code is read: it need not be the cause."""
+    scene = occ.load_preset("phone-68us").replace(switching_frequency=150e3)
+    noise = np.random.default_rng(2).normal(0.0, 30.0, scene.camera.columns)
+    result = occ.decode(occ.column_profile(scene) + noise, scene, "matched")
+    assert not result.failure.startswith("A chip of")
+    assert result.failure.endswith("not every chip has a column of its own.")

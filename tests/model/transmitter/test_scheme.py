@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from amount import amount
 
 import occ_model as occ
 from occ_model.arrays import ByteArray, IndexArray
@@ -61,7 +62,7 @@ def has_another_reading(one: Scheme, payload: IndexArray) -> bool:
 def test_two_periods_from_any_start_give_the_payload(
     code: str, framing: str, correction: str
 ) -> None:
-    for bits in (1, 2, 7, 10, 16, 17, 40, 300):
+    for bits in amount((1, 7, 17, 300), (1, 2, 7, 10, 16, 17, 40, 300)):
         one = scheme(code, framing, bits, correction)
         random = np.random.default_rng(bits)
         for _ in range(4):
@@ -121,7 +122,7 @@ def test_a_wrong_chip_is_found_or_harmless_if_it_is_promised(code: str, framing:
     if not one.finds_wrong_chip:
         return
     random = np.random.default_rng(8)
-    for _ in range(3):
+    for _ in range(amount(1, 3)):
         payload = random.integers(0, 2, 10)
         chips = seen(one.encode(payload), int(random.integers(one.length)), 2 * one.length + 8)
         for place in range(len(chips)):

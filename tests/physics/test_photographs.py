@@ -1,9 +1,12 @@
-"""The sample photos are the model's own, say so, and give their scenes back."""
+"""What is sure of photographs that are not the model's own holds: samples, cameras, lamps."""
 
 from io import BytesIO
 
 import numpy as np
 import pytest
+from photo_world.foreign import foreign
+from photo_world.hot_lamps import hot_lamps
+from photo_world.trials import foreign_trial_of, hot_trial_of
 from PIL import Image
 from sample_photos import FOLDER, KNOWN, QUALITY, SCENES, as_jpeg, taken
 
@@ -65,3 +68,58 @@ def test_the_code_of_a_sample_is_read_without_being_given() -> None:
         occ.load_preset("phone-136us").replace(switching_frequency=6e3),
     )
     assert match.scene.transmitter.code == SCENES["packets-6khz"].transmitter.code
+
+
+@pytest.mark.parametrize("seed", [91000, 91001, 91007])
+def test_a_photographs_stripes_repeat_after_the_chips_that_are_told(seed: int) -> None:
+    """Where the truth is told wrongly, a period off by half a column no longer fits."""
+    drawn = foreign(seed)
+    profile = drawn.image.mean(axis=0)
+    columns = np.arange(len(profile))
+    period = len(drawn.chips) * drawn.chip
+    several = int(0.6 * len(profile) / period)
+
+    def repeats(by: float) -> float:
+        later = np.interp(columns + several * by, columns, profile)
+        inner = columns + several * by < len(profile) - 1
+        return float(np.corrcoef(profile[inner], later[inner])[0, 1])
+
+    tried = period * (1.0 + np.linspace(-0.02, 0.02, 41))
+    best = tried[np.argmax([repeats(one) for one in tried])]
+    assert several * abs(best - period) < 1.0
+
+
+@pytest.mark.parametrize("seed", [91003, pytest.param(91005, marks=pytest.mark.whole)])
+def test_a_sure_readout_time_is_within_four_stated_deviations(seed: int) -> None:
+    found = foreign_trial_of(seed)
+    assert found.is_sure
+    assert abs(found.readout) < 4.0 * found.readout_deviation
+    assert found.readout_deviation < 1e-3
+
+
+def test_a_picture_shows_what_its_truth_says() -> None:
+    """In the lamp's rows a square wave's strongest frequency is one cycle each two chips."""
+    for seed in range(100, 110):
+        drawn = hot_lamps(seed)
+        (sent,), (thing,) = drawn.sent, drawn.lamps
+        if sent.chips != "10" or sent.pauses or drawn.exposure > sent.chip:
+            continue
+        rows = slice(round(thing.row) - 8, round(thing.row) + 8)
+        columns = slice(max(0, round(thing.box[2]) + 5), round(thing.box[3]) - 5)
+        line = drawn.image[rows, columns].mean(axis=0)
+        tone = np.hanning(len(line)) * (line - line.mean())
+        cycles = np.fft.rfftfreq(16 * len(line))
+        power = np.abs(np.fft.rfft(tone, 16 * len(line)))
+        fast = cycles > 3.0 / len(line)
+        found = cycles[fast][power[fast].argmax()]
+        assert found == pytest.approx(0.5 / sent.chip, abs=1.0 / len(line))
+
+
+@pytest.mark.parametrize(
+    "seeds", [(101,), pytest.param((100, *range(102, 110)), marks=pytest.mark.whole)]
+)
+def test_no_lamp_is_surely_wrong(seeds: tuple[int, ...]) -> None:
+    sure = [one for one in map(hot_trial_of, seeds) if one.is_sure]
+    assert sure
+    assert [one.seed for one in sure if abs(one.readout) > 0.01] == []
+    assert [one.seed for one in sure if one.readout_deviation > 0.03] == []

@@ -1,5 +1,6 @@
-"""Parts of the sequence detector: the best ways, the steps of a result, and when it is settled."""
+"""Parts of the sequence detector, and the words of a scheme with the limits of their runs."""
 
+from itertools import groupby, product
 from types import SimpleNamespace
 from typing import Any
 
@@ -9,10 +10,11 @@ from physics.exposed_chips import noise_of, seen_by_rows
 
 import occ_model as occ
 from occ_model.receiver.sequence import decoder
+from occ_model.receiver.sequence.code_words import _of_runs, code_words
 from occ_model.receiver.sequence.exposures import Timing, gather
 from occ_model.receiver.sequence.fit import Brightness, Fit
 from occ_model.receiver.sequence.search import Chips, beam_chips, best_chips
-from occ_model.receiver.sequence.trellis import FREE_CHIPS, trellis_of
+from occ_model.receiver.sequence.trellis import FREE_CHIPS, places_of, trellis_of
 from occ_model.scene.scene import Scene
 
 RANDOM = np.random.default_rng(12)
@@ -146,3 +148,32 @@ def test_less_than_a_packet_is_refused_where_a_packet_has_one_length(
     if said is not None:
         assert said.startswith(f"Less than one packet: {rows // 5} of 24 chips")
     assert decoder._why_not(timing, rows, Scene().replace(pattern="0110")) is None
+
+
+@pytest.mark.parametrize("line_code", ["nrz", "differential-manchester", "8b10b"])
+def test_headers_lead_between_the_states_of_the_encoder_only(line_code: str) -> None:
+    found = code_words(
+        Scene().replace(line_code=line_code, framing="preamble").transmitter, memory=6
+    )
+    headers = [word for word in found.words if word.chips == found.header]
+    blocks = [word for word in found.words if word.chips != found.header]
+    states = {word.before for word in blocks}
+    assert found.header
+    assert {word.after for word in blocks} <= states
+    # After a header the encoder may be in any state, as its frame may go on from any.
+    assert {(word.before, word.after) for word in headers} == set(product(states, states))
+
+
+@pytest.mark.parametrize("longest", [1, 2, 3])
+def test_chips_with_limited_runs_are_all_those_without_a_longer_run(longest: int) -> None:
+    steps = places_of(_of_runs(longest))
+
+    def can_be_sent(chips: tuple[int, ...]) -> bool:
+        places = set(range(len(steps)))
+        for chip in chips:
+            places = {to for place in places for sent, to in steps[place] if sent == chip}
+        return bool(places)
+
+    for chips in product((0, 1), repeat=6):
+        runs = [len(list(run)) for _, run in groupby(chips)]
+        assert can_be_sent(chips) == (max(runs) <= longest), chips

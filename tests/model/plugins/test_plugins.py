@@ -1,17 +1,25 @@
-"""The package of the manual, installed and used in an environment of its own."""
+"""The manual's plug-in works, names are words, and whatever a result holds is checked."""
 
 import os
 import subprocess
 import sys
 import tomllib
 import venv
+from collections.abc import Iterator
+from dataclasses import fields, replace
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 import pytest
 from documents import FOLDER, blocks, text_of
 from model.plugins.installed_package import install
 
+import occ_model as occ
+from occ_model import plugins
 from occ_model.cli import main
+from occ_model.errors import ParameterError
+from occ_model.receiver.decoders import checked_result
 
 PAGE = text_of(FOLDER / "extending.md")
 
@@ -77,3 +85,59 @@ def test_the_command_line_takes_its_name(python: Path, tmp_path: Path) -> None:
 def test_it_is_not_imported_before_it_is_named(python: Path) -> None:
     program = "import sys, occ_model as occ; occ.decoders(); print('occ_sampler' in sys.modules)"
     assert run(python, "-c", program) == "False\n"
+
+
+OTHERWISE = [
+    "../x", "..", "/etc/x", "a/b", "a\\b", ".hidden", "a.b", "a b", "a,b", "<b>", "C:x", "x" * 61,
+    "\u202egnp", "-x", "a\x1b[31m",
+]  # fmt: skip
+GROUPS = (plugins.DECODERS, plugins.LINE_CODES, plugins.FRAMINGS)
+
+
+@pytest.fixture(autouse=True)
+def _installed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    names = dict.fromkeys((*OTHERWISE, "good-1_a"), "named:it")
+    install(tmp_path, "named", dict.fromkeys(GROUPS, names), "it = 1")
+    monkeypatch.syspath_prepend(tmp_path)
+    plugins._found.cache_clear()
+    yield
+    plugins._found.cache_clear()
+
+
+@pytest.mark.parametrize("group", GROUPS)
+def test_only_a_word_is_the_name_of_a_plug_in(group: str) -> None:
+    assert plugins.plugin_names(group) == ("good-1_a",)
+
+
+@pytest.mark.parametrize("name", OTHERWISE)
+def test_a_plug_in_of_another_name_is_none(name: str) -> None:
+    scene = occ.Scene()
+    with pytest.raises(ParameterError, match=r"^decoder is "):
+        occ.decode(occ.column_profile(scene), scene, decoder=name)
+
+
+READ = occ.DecodeResult("own", code=1, bits=np.array([1]), chips=np.array([1, 0]))
+
+RUBBISH: tuple[Any, ...] = (
+    None, True, -1, 2**70, 1.5, float("nan"), "", "a\x1b[31m", b"\0", object(), [], [1], {}, (),
+    (1, "2"), np.array(1), np.array([]), np.array([0.5, 1.0]), np.array([1, 0, 1]),
+    np.zeros((2, 2)), np.array(["1", "0"]), np.array([1, None]), np.array([1j, 0]),
+    np.array([np.nan, 1.0]), np.zeros(2, dtype=[("a", "u1")]), np.broadcast_to(np.uint8(0), 10**12),
+    occ.Scene(), len,
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("name", [field.name for field in fields(occ.DecodeResult)])
+def test_a_part_of_a_result_is_of_its_kind_or_refused(name: str) -> None:
+    reasons = []
+    for value in RUBBISH:
+        try:
+            found = checked_result("Own", replace(READ, **{name: value}), 20)
+        except occ.PluginError as error:
+            reasons.append(str(error))
+            continue
+        assert found.failure or (isinstance(found.code, int) and found.code >= 0)
+        assert set(np.unique(found.bits)) <= {0, 1}
+        assert set(np.unique(found.chips)) <= {0, 1}
+    assert all(reason.startswith("Own gives ") for reason in reasons)
+    assert len(reasons) > len(RUBBISH) / 2 or name in ("decoder", "location")

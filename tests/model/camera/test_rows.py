@@ -1,0 +1,156 @@
+"""Rows of a picture: interpolated within a band, divided into bands, and remembered."""
+
+import math
+
+import numpy as np
+import pytest
+from amount import amount
+
+import occ_model as occ
+from occ_model.camera.picture_rows import BLOCK_ROWS, Rim, Rows, split_at
+from occ_model.camera.row_interpolation import (
+    NODES,
+    TOLERANCE,
+    node_rows,
+    row_weights,
+    smooth_columns,
+)
+from occ_model.camera.row_memory import LIMIT, MEMORY, RowMemory
+from occ_model.simulation.render import observe
+
+STILL = {"sensor-noise": False, "fixed-pattern": False, "jpeg": False}
+
+
+@pytest.mark.parametrize("rows", [range(64), range(128, 192), range(5, 581, 9), range(100, 110)])
+@pytest.mark.parametrize("degree", range(NODES))
+def test_a_polynomial_of_few_terms_is_exact(rows: range, degree: int) -> None:
+    def curve(row: np.ndarray) -> np.ndarray:
+        return 100.0 * ((row - rows[0]) / (rows[-1] - rows[0])) ** degree
+
+    nodes = curve(node_rows(rows)).astype(np.float32)[:, None]
+    found = row_weights(len(rows)) @ nodes
+    np.testing.assert_allclose(found[:, 0], curve(np.array(rows)), rtol=0, atol=1e-4)
+
+
+def test_a_curve_with_a_bend_is_not_taken_for_smooth() -> None:
+    rows = range(BLOCK_ROWS)
+    place = node_rows(rows)
+    bends = np.linspace(2.0, 61.0, 200)
+    bent = np.maximum(place[:, None] - bends, 0.0).astype(np.float32)
+    assert not smooth_columns(bent).any()
+
+
+@pytest.mark.parametrize("length", [40.0, 120.0, 400.0, 3000.0])
+def test_what_counts_as_smooth_is_exact_to_the_tolerance(length: float) -> None:
+    rows = range(BLOCK_ROWS)
+    phase = np.linspace(0.0, 2.0 * math.pi, 97)
+
+    def curve(row: np.ndarray) -> np.ndarray:
+        return 100.0 * np.sin(row[:, None] / length + phase)
+
+    nodes = curve(node_rows(rows)).astype(np.float32)
+    smooth = smooth_columns(nodes)
+    off = np.abs(row_weights(BLOCK_ROWS) @ nodes - curve(np.arange(float(BLOCK_ROWS))))
+    assert (off.max(axis=0)[smooth] <= TOLERANCE).all()
+    assert smooth.all() == (length > 200.0)
+
+
+@pytest.mark.parametrize(
+    "changes", [{}, {"vignetting_exponent": 20.0, "roll": 0.4}, {"lambertian_order": 30.0}]
+)
+def test_a_picture_is_the_same_by_single_rows(
+    changes: dict[str, float], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    scene = occ.load_preset("phone-136us-real").replace(columns=400, rows=1200, **changes)
+    plan = occ.plan(scene, 0.0, force=STILL)
+    interpolated = observe(scene, plan)
+    monkeypatch.setattr(
+        "occ_model.camera.picture_rows.smooth_columns", lambda values: np.zeros(1, dtype=bool)
+    )
+    np.testing.assert_allclose(interpolated, observe(scene, plan), rtol=0, atol=2.0 * TOLERANCE)
+
+
+def kilobyte() -> tuple[np.ndarray, ...]:
+    return (np.zeros(256, dtype=np.float32),)
+
+
+def test_what_was_made_for_a_key_is_made_once() -> None:
+    memory, made = RowMemory(10_000), []
+
+    def make() -> tuple[np.ndarray, ...]:
+        made.append(1)
+        return kilobyte()
+
+    first = memory.recall("a", make, tuple)
+    assert memory.recall("a", make, tuple) is first
+    assert len(made) == 1
+    assert not first[0].flags.writeable
+
+
+def test_what_was_used_longest_ago_is_forgotten_first() -> None:
+    memory = RowMemory(3 * 1024)
+    kept = memory.recall("kept", kilobyte, tuple)
+    for key in range(10):
+        memory.recall(key, kilobyte, tuple)
+        assert memory.recall("kept", kilobyte, tuple) is kept
+        assert memory.size <= 3 * 1024
+    assert memory.recall(0, kilobyte, tuple) is not memory.recall("other", kilobyte, tuple)
+
+
+def test_of_small_things_no_more_are_remembered_than_entries() -> None:
+    memory = RowMemory(10**6, entries=5)
+    for key in range(100):
+        memory.recall(key, kilobyte, tuple)
+    assert memory.size == 5 * 1024
+    kept = memory.recall(99, kilobyte, tuple)
+    assert memory.recall(99, kilobyte, tuple) is kept
+
+
+def test_what_is_larger_than_the_memory_is_not_remembered() -> None:
+    memory = RowMemory(1000)
+    assert memory.recall("a", kilobyte, tuple) is not memory.recall("a", kilobyte, tuple)
+    assert memory.size == 0
+
+
+def test_no_number_of_moves_fills_more_than_the_limit() -> None:
+    scene = occ.load_preset("phone-136us-real").replace(rows=1152, jpeg_quality=0)
+    for move in range(amount(8, 60)):
+        moved = scene.replace(distance=1.0 + 0.01 * move)
+        occ.render(moved, tolerance=0.0, noise="reused", rows_step=1 + 8 * (move % 5 > 0))
+        assert MEMORY.size <= LIMIT
+    held = sum(size for _, size in MEMORY._known.values())
+    assert held == MEMORY.size > LIMIT / 2
+
+
+def test_a_remembered_picture_is_the_one_made_anew() -> None:
+    scene = occ.load_preset("phone-136us-real").replace(rows=400, columns=500, roll=0.1)
+    first = occ.render(scene, tolerance=0.0).image
+    for changes in ({"roll": 0.0}, {"vignetting_exponent": 1.0}, {"lambertian_order": 3.0}):
+        other = occ.render(scene.replace(**changes), tolerance=0.0).image
+        assert (other != first).any()
+    np.testing.assert_array_equal(occ.render(scene, tolerance=0.0).image, first)
+
+
+@pytest.mark.parametrize("step", [1, 3])
+@pytest.mark.parametrize("places", [(), (20,), (25, 31), (0, 20, 64, 99), (70, 40)])
+def test_a_band_is_divided_before_the_rows_named_and_nowhere_else(
+    places: tuple[int, ...], step: int
+) -> None:
+    band = range(20, 64, step)
+    parts = [part for part in split_at(band, places) if part]
+    assert [row for part in parts for row in part] == list(band)
+    after = {next((row for row in band if row >= place), None) for place in places}
+    assert {part[0] for part in parts} == {20} | (after - {None})
+
+
+def test_rows_without_weights_are_the_same_rows() -> None:
+    random = np.random.default_rng(3)
+    nodes = random.random((2, 6), dtype=np.float32)
+    weights = np.array([[1.0, 0.0], [0.5, 0.5], [0.0, 1.0]], dtype=np.float32)
+    rim = Rim(slice(1, 3), np.full((3, 2), 7.0, dtype=np.float32), np.ones((3, 2), dtype=bool))
+    rows = Rows(range(3), nodes, weights, (rim,), (slice(3, 5),))
+    each = rows.each_row()
+    np.testing.assert_allclose(each.values, rows.values, rtol=1e-6)
+    # What is not smooth may be done to them now.
+    squared = each.changed(np.square)
+    np.testing.assert_allclose(squared.values, rows.values**2, rtol=1e-6)

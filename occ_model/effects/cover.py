@@ -9,14 +9,9 @@ from occ_model.arrays import BoolArray, FloatArray
 from occ_model.camera.optics import Optics
 from occ_model.effects.normal_noise import normal_share
 
-UNSEEN = 0.1
-"""Blur in pixels below which a pixel receives nothing of its neighbours."""
-
-STEEP = 1.5
-"""Slope from which a rim is steep."""
-
-_FAR_RIM = 1e6
-"""Pixels from a rim, where it does not matter."""
+UNSEEN = 0.1  # blur in pixels below which a pixel receives nothing of its neighbours
+STEEP = 1.5  # slope from which a rim is steep
+_FAR_RIM = 1e6  # pixels from a rim, where it does not matter
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -19,17 +19,10 @@ from occ_model.effects.optics_effects import blur_of
 from occ_model.errors import ProjectionError
 from occ_model.scene.scene import Lens, Scene
 
-_PARTS = 64
-"""Fewest parts that each edge of the panel is divided into."""
-
-_MOST_PARTS = 1024
-"""Most parts of an edge."""
-
-_CURVE_TOLERANCE = 0.01
-"""Largest distance of the straight parts from the curve, in pixels."""
-
-_DIRECTIONS = 64
-"""Directions in which a fold of the lens's image is searched for."""
+_PARTS = 64  # fewest parts that each edge of the panel is divided into
+_MOST_PARTS = 1024  # most parts of an edge
+_CURVE_TOLERANCE = 0.01  # largest distance of the straight parts from the curve, in pixels
+_DIRECTIONS = 64  # directions in which a fold of the lens's image is searched for
 
 _RADII = np.linspace(0.0, 4.0, 129)[1:]
 """Radii of that search, in multiples of the picture's corner and of the radius needed."""

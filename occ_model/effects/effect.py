@@ -18,8 +18,7 @@ from occ_model.scene.scene import Scene
 Kind: TypeAlias = Literal["column", "noise", "image"]
 """Whether an effect leaves all rows alike, alike but for independent noise, or not alike."""
 
-Values = TypeVar("Values", FloatArray, Pixels)
-"""Pixel values of either precision."""
+Values = TypeVar("Values", FloatArray, Pixels)  # pixel values of either precision
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,20 +32,11 @@ class Cost:
 class Effect(ABC):
     """An effect, of whatever stage."""
 
-    name: ClassVar[str]
-    """The identifier, as in a plan."""
-
-    label: ClassVar[str]
-    """The field's term for it, as on screen."""
-
-    kind: ClassVar[Kind]
-    """How it leaves the rows of a picture."""
-
-    stage: ClassVar[Stage]
-    """Where on the light's way it happens."""
-
-    parameters: ClassVar[tuple[str, ...]]
-    """The parameters of a scene that it depends on, by name."""
+    name: ClassVar[str]  # The identifier, as in a plan
+    label: ClassVar[str]  # The field's term for it, as on screen
+    kind: ClassVar[Kind]  # How it leaves the rows of a picture
+    stage: ClassVar[Stage]  # Where on the light's way it happens
+    parameters: ClassVar[tuple[str, ...]]  # The parameters of a scene that it depends on, by name
 
     cost: ClassVar[Cost] = Cost()
     """What it takes by itself, as measured: see :mod:`occ_model.effects.effect_sets`."""

@@ -31,14 +31,9 @@ class EffectSets:
     """The sets of effects that no other is both faster and closer than, the fastest first."""
 
     estimates: Estimates
-    names: frozenset[str]
-    """The effects that may be left out."""
-
-    everything: float
-    """Seconds with all of them."""
-
-    ways: tuple[Way, ...]
-    """The sets, with their errors as if changes added."""
+    names: frozenset[str]  # The effects that may be left out
+    everything: float  # Seconds with all of them
+    ways: tuple[Way, ...]  # The sets, with their errors as if changes added
 
     @classmethod
     def of(cls, estimates: Estimates, view: PaperView, settings: SimulationSettings) -> Self:
@@ -85,12 +80,10 @@ class _Subsets:
     """All subsets of some effects, the first of which has all."""
 
     effects: tuple[frozenset[str], ...]
-    left_out: FloatArray
-    """1 where a subset does not have an effect: (subsets, effects)."""
+    left_out: FloatArray  # 1 where a subset does not have an effect: (subsets, effects)
 
     seconds: FloatArray
-    order: IndexArray
-    """The fastest first."""
+    order: IndexArray  # The fastest first
 
 
 @lru_cache(maxsize=8)
@@ -123,14 +116,12 @@ def _errors_of(estimates: Estimates, free: tuple[Effect, ...], left_out: FloatAr
     return np.asarray(errors)
 
 
-_PIXELS = 1.1e-3
-"""Seconds for a million pixels whose rows differ."""
+_PIXELS = 1.1e-3  # seconds for a million pixels whose rows differ
 
 _NOISE: dict[NoiseSource, float] = {"exact": 10e-3, "reused": 0.9e-3}
 """Seconds to draw a million numbers, or to fetch them."""
 
-_NOISY_FILE = 6e-3
-"""Seconds by which a million noisy pixels take longer in a file."""
+_NOISY_FILE = 6e-3  # seconds by which a million noisy pixels take longer in a file
 
 
 def seconds_of(

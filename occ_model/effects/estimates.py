@@ -30,8 +30,7 @@ _LEAST_ESTIMATE = 1e-9
 _UNDITHERED_FRACTION = 0.25
 """Fraction of a mean square by which a file without noise may change it further."""
 
-_READ_FRACTION = 0.15
-"""Fraction of a chip from its middle at which it is read."""
+_READ_FRACTION = 0.15  # fraction of a chip from its middle at which it is read
 
 
 def observed(pixels: SampledPixels, observable: Observable) -> Observed:
@@ -77,23 +76,15 @@ def margins(pixels: SampledPixels, signal: Observed) -> tuple[float, float]:
 class Estimates:
     """What leaving out each effect of a scene changes, in levels of the stretched profile."""
 
-    sizes: Mapping[str, float]
-    """As the sample shows it."""
-
-    limits: Mapping[str, float]
-    """With what it may not show."""
+    sizes: Mapping[str, float]  # As the sample shows it
+    limits: Mapping[str, float]  # With what it may not show
 
     seen: Observed | None
     """What is observed, None where no set of effects is known to be small enough."""
 
-    stretch: float
-    """Levels of the stretched profile per grey level."""
-
-    factors: Mapping[str, float]
-    """By what an effect's change counts more than by its size."""
-
-    unknown: str = ""
-    """Why no change is known; every limit is then infinite."""
+    stretch: float  # Levels of the stretched profile per grey level
+    factors: Mapping[str, float]  # By what an effect's change counts more than by its size
+    unknown: str = ""  # Why no change is known; every limit is then infinite
 
     def errors_of(self, sets: Sequence[frozenset[str]]) -> list[float]:
         """Return what leaving out sets of effects together changes at most, in levels."""

@@ -44,8 +44,7 @@ _LEAST_SPREAD = 1e-3
 _DITHERED = 0.25
 """Noise in steps from which it spreads a coefficient evenly over the steps (dithering)."""
 
-_ROUNDING = 1.0 / 12.0
-"""Mean square error of rounding to whole grey levels."""
+_ROUNDING = 1.0 / 12.0  # mean square error of rounding to whole grey levels
 
 
 @lru_cache(maxsize=4)
@@ -63,17 +62,13 @@ class RimBlocks:
     """A panel's rims in the blocks of a file."""
 
     rows: int
-    blocks: int
-    """That the panel spans."""
-
-    share: float
-    """Of the pixels that lie in blocks with a rim."""
+    blocks: int  # That the panel spans
+    share: float  # Of the pixels that lie in blocks with a rim
 
     cut: float
     """Variance of a column's sum over the rows of cut blocks, whose mean is 0, by a pixel's."""
 
-    is_level: bool
-    """Whether rims lie along the rows."""
+    is_level: bool  # Whether rims lie along the rows
 
 
 class FileChange:

@@ -23,8 +23,7 @@ _LUMINANCE_STEPS = (
 )
 """Steps of the 8 x 8 cosine coefficients at quality 50 (ITU-T T.81, table K.1)."""
 
-_ROUNDING = 0.5
-"""Largest change in grey levels by rounding the pixels once."""
+_ROUNDING = 0.5  # largest change in grey levels by rounding the pixels once
 
 
 class Jpeg(FileEffect):

@@ -13,8 +13,7 @@ import numpy as np
 
 from occ_model.arrays import FloatArray, Pixels
 
-FAR = 9.0
-"""Standard deviations beyond which nothing of a normal distribution is left."""
+FAR = 9.0  # standard deviations beyond which nothing of a normal distribution is left
 
 _PER_DEVIATION = 256
 
@@ -64,20 +63,11 @@ _HARMONICS = 6
 DAMPING = 2.0 * math.pi**2
 """Exponent of the first harmonic, for a noise of one step; it grows as the square of the number."""
 
-_NEGLIGIBLE = 9.0
-"""Exponent from which a harmonic is damped to nothing."""
-
-SHARP = 0.08
-"""Noise in steps below which nearly all values are rounded as without it."""
-
-_FINEST = 2.0
-"""Noise in steps from which it is rounded like a value that lies anywhere."""
-
-_TINY = 1e-9
-"""Noise in steps that none is taken for."""
-
-_WIDE = 0.8
-"""Noise in steps from which its rounded values vary as much wherever they lie."""
+_NEGLIGIBLE = 9.0  # exponent from which a harmonic is damped to nothing
+SHARP = 0.08  # noise in steps below which nearly all values are rounded as without it
+_FINEST = 2.0  # noise in steps from which it is rounded like a value that lies anywhere
+_TINY = 1e-9  # noise in steps that none is taken for
+_WIDE = 0.8  # noise in steps from which its rounded values vary as much wherever they lie
 
 
 def rounding_square(x: FloatArray, s: FloatArray) -> FloatArray:

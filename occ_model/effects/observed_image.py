@@ -13,8 +13,7 @@ from occ_model.effects.sampled_pixels import SampledPixels
 from occ_model.effects.simulated_columns import Names
 from occ_model.effects.smoothed_curves import add_unsampled
 
-_SHARP_NOISE = 1e-9
-"""Deviation in grey levels that none is taken for."""
+_SHARP_NOISE = 1e-9  # deviation in grey levels that none is taken for
 
 
 def observed_image(pixels: SampledPixels) -> Observed:

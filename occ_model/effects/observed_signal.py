@@ -25,13 +25,11 @@ _ROUNDING_MARGIN = 0.02
 _LARGE_STEP = 32.0
 """Levels by which an enhancement can part neighbouring levels, so that one column matters."""
 
-_MOST_GAIN = 8.0
-"""Times by which an enhancement raises contrasts at most, where noise smooths it."""
+_MOST_GAIN = 8.0  # times by which an enhancement raises contrasts at most, where noise smooths it
 
 _LEVELS = np.arange(256.0)
 
-_CLIPPED_NOISE = 8.0
-"""Noise in grey levels that black and white cut off noticeably."""
+_CLIPPED_NOISE = 8.0  # noise in grey levels that black and white cut off noticeably
 
 
 def signal_swing(pixels: SampledPixels) -> float:

@@ -92,8 +92,7 @@ class Vignetting(OpticsEffect):
         return replace(optics, transmission=(*optics.transmission, own))
 
 
-_WIDEST = 1e12
-"""Largest point spread in pixels: any larger one leaves nothing of any panel either."""
+_WIDEST = 1e12  # largest point spread in pixels: any larger one leaves nothing of any panel either
 
 
 class Defocus(OpticsEffect):

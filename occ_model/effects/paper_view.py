@@ -27,11 +27,8 @@ class PaperView:
     """The picture of a scene by the paper's model; all follows from the scene and the corners."""
 
     scene: Scene
-    corner_bytes: bytes
-    """The corners' numbers, by which views are compared."""
-
-    corners: FloatArray = field(compare=False)
-    """(column, row) of each of the panel's four."""
+    corner_bytes: bytes  # The corners' numbers, by which views are compared
+    corners: FloatArray = field(compare=False)  # (column, row) of each of the panel's four
 
     light: ColumnLight = field(compare=False)
     values: FloatArray = field(compare=False)
@@ -40,8 +37,7 @@ class PaperView:
     sides: tuple[float, float, float, float] | None = field(compare=False)
     """Left, top, right and bottom of a panel that is pictured level, None of any other."""
 
-    is_seen: bool = field(compare=False)
-    """Whether any of the panel is in the image."""
+    is_seen: bool = field(compare=False)  # Whether any of the panel is in the image
 
     region: Region = field(compare=False)
     """The panel's bounding rectangle in the image; the whole image where no panel is seen."""

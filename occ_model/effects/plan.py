@@ -23,8 +23,7 @@ from occ_model.scene.simulation_settings import (
 _ROUNDING = 1.0 + 1e-9
 """Factor on an error that is compared with one whose sums were rounded otherwise."""
 
-_CLEARLY = 1.3
-"""Ratio of limit to estimate from which both are stated."""
+_CLEARLY = 1.3  # ratio of limit to estimate from which both are stated
 
 
 def plan(

@@ -9,11 +9,8 @@ from occ_model.effects.file_change import FileChange
 from occ_model.effects.paper_view import PaperView
 from occ_model.effects.sample import Sample
 
-_UNSAMPLED_PIXELS = 1.0
-"""Pixels of a rim that may change and that no sample shows."""
-
-_SEEN_SHARE = 0.003
-"""Change of a pixel's light from beyond a rim that can round it otherwise."""
+_UNSAMPLED_PIXELS = 1.0  # pixels of a rim that may change and that no sample shows
+_SEEN_SHARE = 0.003  # change of a pixel's light from beyond a rim that can round it otherwise
 
 
 class Rims:

@@ -17,14 +17,9 @@ from occ_model.camera.optics import Gain, Optics
 from occ_model.effects.cover import STEEP, UNSEEN, Spans, between, covers_of, sets_of, spans_of
 from occ_model.results.decoding import Region
 
-COLUMNS = 192
-"""Most columns of a sample of a large picture."""
-
-_ALL_COLUMNS = 288
-"""Most columns that are sampled one and all: of so few, each can matter."""
-
-_REACH = 3.5
-"""Standard deviations from a blurred rim that its nodes cover."""
+COLUMNS = 192  # most columns of a sample of a large picture
+_ALL_COLUMNS = 288  # most columns that are sampled one and all: of so few, each can matter
+_REACH = 3.5  # standard deviations from a blurred rim that its nodes cover
 
 _GAUSS, _GAUSS_WEIGHTS = (
     (np.polynomial.legendre.leggauss(4)[0] + 1.0) / 2.0,
@@ -34,17 +29,10 @@ _GAUSS, _GAUSS_WEIGHTS = (
 _MOVED_NODES, _BLURRED_NODES = 2, 3
 """Nodes where an outline moves, and on each side of it where it is blurred."""
 
-_BESIDE_NODES = 3
-"""Nodes above and below the panel."""
-
-_SIDE_NODES = 32
-"""Columns across an upright rim."""
-
-_RIM_COLUMNS = 33
-"""Columns in which a panel is to reach beyond the picture for no rim to be seen."""
-
-_GAIN_ROWS = 9
-"""Rows in which a gain is computed; between them it is interpolated."""
+_BESIDE_NODES = 3  # nodes above and below the panel
+_SIDE_NODES = 32  # columns across an upright rim
+_RIM_COLUMNS = 33  # columns in which a panel is to reach beyond the picture for no rim to be seen
+_GAIN_ROWS = 9  # rows in which a gain is computed; between them it is interpolated
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,11 +40,8 @@ class Sample:
     """The pixels of a sample: rows in each of some columns."""
 
     columns: IndexArray
-    weights: FloatArray
-    """Fraction of the region's columns that each stands for; their sum is 1."""
-
-    rows: FloatArray
-    """Those that are sampled in each column, (columns, nodes), as all that follows."""
+    weights: FloatArray  # Fraction of the region's columns that each stands for; their sum is 1
+    rows: FloatArray  # Those that are sampled in each column, (columns, nodes), as all that follows
 
     row_weights: FloatArray
     """Fraction of the region's rows that each stands for; their sum is 1 in each column."""
@@ -66,14 +51,9 @@ class Sample:
 
     None where it is 1 everywhere."""
 
-    emission: Mapping[str, FloatArray]
-    """Factors of the panel's light, by the effect."""
-
-    transmission: Mapping[str, FloatArray]
-    """Factors of all light."""
-
-    inner: slice
-    """The nodes between the panel's rims."""
+    emission: Mapping[str, FloatArray]  # Factors of the panel's light, by the effect
+    transmission: Mapping[str, FloatArray]  # Factors of all light
+    inner: slice  # The nodes between the panel's rims
 
     is_covered: bool
     """Whether the panel covers all that is observed, with any of the effects: no rim is seen."""

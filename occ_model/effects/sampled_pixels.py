@@ -36,8 +36,7 @@ from occ_model.effects.rims import Rims
 from occ_model.effects.sample import Sample, sample_of
 from occ_model.effects.simulated_columns import Names, SimulatedColumns
 
-_SHARPEST = 0.5
-"""Noise in grey levels from which a pixel's rounding is nothing in the mean."""
+_SHARPEST = 0.5  # noise in grey levels from which a pixel's rounding is nothing in the mean
 
 
 class SampledPixels:

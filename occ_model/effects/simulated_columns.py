@@ -10,8 +10,7 @@ from occ_model.camera.photometry import ColumnLight, fast_power, panel_values, s
 from occ_model.effects.effect import LightEffect, PixelEffect
 from occ_model.effects.paper_view import PaperView
 
-Names = frozenset[str]
-"""Effects by name."""
+Names = frozenset[str]  # effects by name
 
 
 class SimulatedColumns:

@@ -80,8 +80,7 @@ class SmoothedCurves:
         return found
 
 
-_MISSED_FRACTION = 0.1
-"""Part of a change that a sample must miss for its columns to be too few."""
+_MISSED_FRACTION = 0.1  # part of a change that a sample must miss for its columns to be too few
 
 
 def add_unsampled(

@@ -90,13 +90,11 @@ class NoiseMaker(Protocol):
 NOISE_MAKERS: dict[NoiseSource, NoiseMaker] = {"exact": ExactNoise, "reused": ReusedNoise}
 
 
-_PER_LEVEL = 4
-"""Entries of the table to a grey level."""
+_PER_LEVEL = 4  # entries of the table to a grey level
 
 _TABULATED: FloatArray = np.arange(256 * _PER_LEVEL + 1) / _PER_LEVEL
 
-_TOLERANCE = 0.01
-"""Largest error of an interpolated deviation, in grey levels."""
+_TOLERANCE = 0.01  # largest error of an interpolated deviation, in grey levels
 
 
 class NoiseSpread:

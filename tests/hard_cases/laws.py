@@ -9,8 +9,7 @@ from amount import amount
 from hypothesis import HealthCheck, given, settings
 from hypothesis.strategies import SearchStrategy
 
-LAWS = 40
-"""Laws that share all cases: at least so many are tried."""
+LAWS = 40  # laws that share all cases: at least so many are tried
 
 
 @dataclass
@@ -22,8 +21,7 @@ class Found:
     worst: float = 0.0
 
 
-FOUND: dict[str, Found] = {}
-"""By the law."""
+FOUND: dict[str, Found] = {}  # by the law
 
 
 def record(law: str, ranges: str, error: float) -> None:
@@ -67,8 +65,7 @@ def cases(**strategies: SearchStrategy[Any]) -> Callable[[Test], Test]:
     return decorate
 
 
-Row = tuple[str, str, int, float]
-"""A law, its ranges, the cases tried and the worst error."""
+Row = tuple[str, str, int, float]  # A law, its ranges, the cases tried and the worst error
 
 
 def rows() -> list[Row]:

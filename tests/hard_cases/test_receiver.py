@@ -149,8 +149,7 @@ def profile_of(columns: int, **changes: float | int | str) -> np.ndarray:
     return occ.column_profile(Scene().replace(columns=columns, **changes))
 
 
-MANY = amount(5_000, 100_000)
-"""Columns of the longest of these signals."""
+MANY = amount(5_000, 100_000)  # columns of the longest of these signals
 
 SIGNALS: dict[str, np.ndarray] = {
     # No swing to divide by.

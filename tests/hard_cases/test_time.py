@@ -21,8 +21,7 @@ from hard_cases.references import (
 from occ_model.camera.exposure import column_phases, lit_fraction
 from occ_model.scene.scene import Scene
 
-CHIPS = decades(1e-3, 1e6)
-"""Exposures in chips."""
+CHIPS = decades(1e-3, 1e6)  # exposures in chips
 
 FREQUENCIES = st.one_of(decades(1.0, 1e9), st.integers(0, 29).map(lambda power: 2.0**power))
 READOUTS = decades(1e-9, 10.0)

@@ -16,8 +16,7 @@ from occ_model.study.success_rate import right_bits_of_images
 PRESETS = ("phone-68us", "phone-136us", "tablet-61us", "tablet-122us", "phone-136us-real")
 
 DECODERS = ("threshold", "matched", "equalizer", "sequence")
-IN_DOUBT = (0.05, 0.95)
-"""Between which rates a scene's rate is in doubt."""
+IN_DOUBT = (0.05, 0.95)  # between which rates a scene's rate is in doubt
 
 
 @dataclass(frozen=True)

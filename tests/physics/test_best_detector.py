@@ -19,11 +19,8 @@ from occ_model.receiver.sequence.search import best_chips
 from occ_model.receiver.sequence.trellis import Word, trellis_of
 
 EXPOSURE, STEP, PHASE, DECIBELS = 4, 0.2, 0.13, 15.0
-ROWS = 10
-"""Rows that begin while a bit, of two chips, lasts."""
-
-BITS_BACK = EXPOSURE // 2
-"""Bits after its own that the exposure of a row reaches."""
+ROWS = 10  # rows that begin while a bit, of two chips, lasts
+BITS_BACK = EXPOSURE // 2  # bits after its own that the exposure of a row reaches
 
 Floats = NDArray[np.float64]
 

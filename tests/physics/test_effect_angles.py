@@ -15,8 +15,7 @@ from occ_model.scene.scene import Scene
 from occ_model.simulation.render import observe
 
 ROWS, COLUMNS = 101, 301
-AXIS = (50, 150)
-"""The pixel that the optical axis meets."""
+AXIS = (50, 150)  # the pixel that the optical axis meets
 
 NO_NOISE = {"sensor-noise": False, "fixed-pattern": False}
 

@@ -8,11 +8,8 @@ import occ_model as occ
 from occ_model.results.sweep_request import RateSettings
 from occ_model.study.success_rate import right_bits
 
-IN_DOUBT = (50, 105, 150, 160, 182)
-"""Scenes where a rate of one of the decoders is in doubt."""
-
-SETTLED = (1, 2, 3)
-"""Others."""
+IN_DOUBT = (50, 105, 150, 160, 182)  # scenes where a rate of one of the decoders is in doubt
+SETTLED = (1, 2, 3)  # others
 
 
 @pytest.mark.whole

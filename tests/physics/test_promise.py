@@ -17,8 +17,7 @@ TOLERANCES = (0.5, 2.0, 8.0)
 OBSERVABLES: tuple[Observable, ...] = ("image", "profile", "signal")
 
 
-SMALL = 0.1
-"""Levels below which neither an estimate nor a change matters to any plan."""
+SMALL = 0.1  # levels below which neither an estimate nor a change matters to any plan
 
 KNOWN = 2.0
 """Times its estimate that the limit of an effect is at most where a plan knows what it changes."""

@@ -8,8 +8,7 @@ import occ_model as occ
 
 pytestmark = pytest.mark.photos
 
-NOTED = 79e-6
-"""The exposure time that the iPhone noted, in seconds."""
+NOTED = 79e-6  # the exposure time that the iPhone noted, in seconds
 
 STRIPES = "01010" + "0010110001001000"
 """The pattern that VLCDetector's transmitter sends over and over."""

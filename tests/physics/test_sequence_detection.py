@@ -15,8 +15,7 @@ from occ_model.receiver.sequence.trellis import FREE_CHIPS, Word, trellis_of
 from occ_model.scene.scene import Scene
 
 MANCHESTER = (Word(0, (0, 1), 0), Word(0, (1, 0), 0))
-STEP, PHASE = 0.2, 0.13
-"""Five rows a chip, none at a chip's edge."""
+STEP, PHASE = 0.2, 0.13  # five rows a chip, none at a chip's edge
 
 POINTS = [(7, 15, 3e-2), (7, 20, 8e-4), (7, 30, 1e-4), (4, 10, 6e-2), (4, 20, 1e-4)]
 """Exposure in chips, signal-to-noise ratio in decibels, and the bit error rate asked for."""

@@ -86,8 +86,7 @@ def square_wave_photo(illuminance: float) -> tuple[occ.Photo, occ.Scene]:
     return photo_of(occ.render(scene, tolerance=math.inf).image), scene
 
 
-IN_DAYLIGHT = 12_300.0
-"""Lux at which the dark panel is at four fifths of the lit one's pixel value."""
+IN_DAYLIGHT = 12_300.0  # lux at which the dark panel is at four fifths of the lit one's pixel value
 
 
 @pytest.mark.whole

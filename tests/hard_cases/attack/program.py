@@ -22,8 +22,7 @@ if __name__ == "__main__":
 
 from hard_cases.attack.promise import Door, sentences_of
 
-_MOST_FALLEN = 20
-"""Cases that fall at a door, from which on no more are tried."""
+_MOST_FALLEN = 20  # cases that fall at a door, from which on no more are tried
 
 
 class OutOfTime(BaseException):

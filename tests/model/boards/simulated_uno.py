@@ -13,8 +13,7 @@ from occ_model.arrays import IndexArray
 from occ_model.boards.sketch import source_text
 from occ_model.boards.transmission import Transmission
 
-PIN_IN_PORT_B = 1
-"""OC1A, which the boards call 9."""
+PIN_IN_PORT_B = 1  # OC1A, which the boards call 9
 
 _TRACE = Path(__file__).with_name("pin_trace.c")
 _HEADER = Path("/usr/include/simavr/sim_avr.h")

@@ -13,8 +13,7 @@ from occ_model.scene.payload import MAX_PAYLOAD_BITS
 
 pytestmark = pytest.mark.compilers
 
-FREQUENCIES = (1e3, 2e3, 5e3, 10e3, 14.7e3, 20e3, 40e3)
-"""In Hz."""
+FREQUENCIES = (1e3, 2e3, 5e3, 10e3, 14.7e3, 20e3, 40e3)  # in Hz
 
 PAPER = occ.load_preset("phone-68us")
 

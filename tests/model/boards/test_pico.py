@@ -29,8 +29,7 @@ SCENES = {
     "long": PAPER.replace(payload="text:" + "Photograph me. " * 30, line_code="4b6b"),
 }
 
-_TURNS = 3
-"""How often the endless loop of the program may fill the queue."""
+_TURNS = 3  # how often the endless loop of the program may fill the queue
 
 _DIVIDER = 0x502000C8
 

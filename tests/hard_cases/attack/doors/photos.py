@@ -16,8 +16,7 @@ from occ_model.photo.reading.choices import CHANNELS, SCAN_AXES
 from occ_model.photo.reading.load import Photo, load_photo
 from occ_model.scene.scene import Scene
 
-_FEW_PIXELS = 100_000
-"""Pixels of a photo up to which it is decoded too."""
+_FEW_PIXELS = 100_000  # pixels of a photo up to which it is decoded too
 
 
 def check_photo(photo: Photo) -> None:

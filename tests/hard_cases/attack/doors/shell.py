@@ -28,11 +28,8 @@ _INTERRUPT_S = 0.4
 
 _AGAIN_S = 0.01
 
-_IMPORTING = "<frozen importlib."
-"""How the file of the functions begins that import a module."""
-
-_LONGEST_LINE = 4200
-"""Characters of a line on standard error: a sentence, after the program's name."""
+_IMPORTING = "<frozen importlib."  # how the file of the functions begins that import a module
+_LONGEST_LINE = 4200  # characters of a line on standard error: a sentence, after the program's name
 
 COMMANDS: dict[str, tuple[str, ...]] = {
     "render": ("-o", "{out}.png"),

@@ -23,8 +23,7 @@ from occ_model.teaching.lessons import lessons
 
 _NAMES = tuple(PARAMETERS)
 _UNITS = tuple(unit for unit in vars(units).values() if isinstance(unit, units.Unit))
-_SLOW = ("threshold-limit", "photo-")
-"""Beginnings of the quantities of lessons that take a search."""
+_SLOW = ("threshold-limit", "photo-")  # beginnings of the quantities of lessons that take a search
 
 
 def _text(chance: Random) -> str:

@@ -24,8 +24,7 @@ if TYPE_CHECKING:  # Qt is slow to import, and other doors do not need it
 
     from occ_gui.app.application import Application
 
-_PATIENCE_MS = 3_000
-"""Milliseconds that a window is given to come to rest."""
+_PATIENCE_MS = 3_000  # milliseconds that a window is given to come to rest
 
 
 @dataclass

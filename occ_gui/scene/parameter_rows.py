@@ -17,11 +17,11 @@ from occ_gui.scene.refusal_notice import RefusalNotice
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling, leave_undo_to_window
 from occ_gui.widgets.layouts import filled
 from occ_model.errors import ParameterError
-from occ_model.scene.declaration import Declaration
 from occ_model.scene.parameter_kinds import (
     ChipPattern,
     Choice,
     Count,
+    Declaration,
     OpenChoice,
     Parameter,
     ParameterValue,

@@ -42,7 +42,6 @@ class Distortion(OpticsEffect):
     cost = Cost(picture=1.2e-3)
 
     def is_present(self, scene: Scene) -> bool:
-        """Return whether any coefficient of the lens is not 0."""
         return scene.lens.distorts
 
     def apply(self, scene: Scene, optics: Optics) -> Optics:

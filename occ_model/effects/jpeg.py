@@ -40,11 +40,9 @@ class Jpeg(FileEffect):
     cost = Cost(pixels=1.5e-3)
 
     def is_present(self, scene: Scene) -> bool:
-        """Return whether the camera writes a JPEG file."""
         return scene.camera.jpeg_quality != 0
 
     def steps(self, scene: Scene) -> FloatArray:
-        """Return those of the luminance."""
         return quantization_steps(scene.camera.jpeg_quality)
 
     def rounding_of_means(self, scene: Scene) -> tuple[float, float]:
@@ -72,7 +70,6 @@ class Jpeg(FileEffect):
             )
 
     def apply(self, scene: Scene, image: ByteArray) -> ByteArray:
-        """Write and read the file."""
         if not self.is_present(scene):
             return image
         quality = [cv2.IMWRITE_JPEG_QUALITY, scene.camera.jpeg_quality]

@@ -31,11 +31,9 @@ class LedEdges(LightEffect):
     cost = Cost(picture=0.3e-3)
 
     def is_present(self, scene: Scene) -> bool:
-        """Return whether the LED takes any time to switch."""
         return scene.transmitter.edge_time != 0.0
 
     def apply(self, scene: Scene, light: ColumnLight) -> ColumnLight:
-        """Replace the light of every column by that of the ramps."""
         if not self.is_present(scene):
             return light
         return replace(light, lit=edged_lit_fraction(scene))
@@ -73,11 +71,9 @@ class Flicker(LightEffect):
     cost = Cost(picture=0.12e-3)
 
     def is_present(self, scene: Scene) -> bool:
-        """Return whether an exposure leaves anything of the flicker."""
         return seen_depth(scene) != 0.0
 
     def apply(self, scene: Scene, light: ColumnLight) -> ColumnLight:
-        """Vary the external light from column to column."""
         return replace(light, ambient=light.ambient * ambient_shares(scene))
 
 

@@ -28,11 +28,9 @@ class Emission(OpticsEffect):
     cost = Cost(pixels=0.8e-3)
 
     def is_present(self, scene: Scene) -> bool:
-        """Return whether the panel is other than Lambertian."""
         return scene.transmitter.lambertian_order != 1.0
 
     def apply(self, scene: Scene, optics: Optics) -> Optics:
-        """Darken the panel by the angle at which each pixel sees it."""
         power = scene.transmitter.lambertian_order - 1.0
 
         normal = _normal(scene)
@@ -74,11 +72,9 @@ class Vignetting(OpticsEffect):
     cost = Cost(pixels=1.2e-3)
 
     def is_present(self, scene: Scene) -> bool:
-        """Return whether the light falls off at all."""
         return scene.lens.vignetting_exponent != 0.0
 
     def apply(self, scene: Scene, optics: Optics) -> Optics:
-        """Darken every pixel by its angle."""
         power = -scene.lens.vignetting_exponent / 2.0
 
         across, _ = pixel_rays(scene.camera, np.zeros(1))
@@ -112,11 +108,9 @@ class Defocus(OpticsEffect):
     cost = Cost(picture=1e-3)
 
     def is_present(self, scene: Scene) -> bool:
-        """Return whether the image of a point is wider than a point."""
         return blur_of(scene) != 0.0
 
     def apply(self, scene: Scene, optics: Optics) -> Optics:
-        """Blur the panel's rim."""
         return replace(optics, blur=blur_of(scene), cover_stage=self.name)
 
 

@@ -27,7 +27,6 @@ class FullWell(PixelEffect):
         return min(float(pixel_value(most, scene.camera)), WHITE) > saturation_value(scene)
 
     def apply(self, scene: Scene, values: Values) -> Values:
-        """Limit the values to that of a full well."""
         full = np.asarray(saturation_value(scene), dtype=values.dtype)
         return np.minimum(values, full)
 
@@ -46,11 +45,9 @@ class FixedPattern(NoiseEffect):
     of_the_camera = True
 
     def is_present(self, scene: Scene) -> bool:
-        """Return whether the gains differ."""
         return scene.sensor.gain_variation != 0.0
 
     def spread(self, scene: Scene, values: FloatArray) -> FloatArray:
-        """Return the standard deviation of pixels with these mean values."""
         share = scene.sensor.gain_variation
         return deviation(values, scene, lambda electrons: np.asarray((share * electrons) ** 2))
 
@@ -73,6 +70,5 @@ class SensorNoise(NoiseEffect):
         return True
 
     def spread(self, scene: Scene, values: FloatArray) -> FloatArray:
-        """Return the standard deviation of pixels with these mean values."""
         constant = scene.sensor.read_noise**2 + converter_step(scene) ** 2 / 12.0
         return deviation(values, scene, lambda electrons: np.asarray(electrons + constant))

@@ -10,18 +10,17 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from schemdraw import Drawing, elements
 
-from occ_model.boards.board import Board
-from occ_model.boards.transmission import EYES, flicker_sentence
-from occ_model.boards.sketch import file_names, source_text
-from occ_model.boards.transmission import Transmission
-from occ_model.boards.waveform_files import HEADER, edge_rows, vcd_text, wav_bytes
-from occ_model.boards.wiring import (
+from occ_model.boards.board import (
     GATE_CAPACITANCE,
     LED_CURRENT,
     LED_VOLTS,
+    Board,
     Wiring,
     wiring,
 )
+from occ_model.boards.sketch import file_names, source_text
+from occ_model.boards.transmission import EYES, Transmission, flicker_sentence
+from occ_model.boards.waveform_files import HEADER, edge_rows, vcd_text, wav_bytes
 from occ_model.errors import OutputError
 from occ_model.figures.drawing import figure_bytes, house_style, table_text
 from occ_model.files.writing import make_folder, write_whole

@@ -5,11 +5,17 @@ import math
 import pytest
 
 import occ_model as occ
-from occ_model.boards.board import Board
+from occ_model.boards.board import (
+    GATE_CAPACITANCE,
+    LED_CURRENT,
+    LED_VOLTS,
+    Board,
+    next_resistor,
+    wiring,
+)
 from occ_model.boards.pico import PICO
 from occ_model.boards.sketch import BOARDS, board_named
 from occ_model.boards.transmission import SEIZURES, flicker_sentence, transmission
-from occ_model.boards.wiring import GATE_CAPACITANCE, LED_CURRENT, LED_VOLTS, next_resistor, wiring
 from occ_model.figures.transmitter_files import notes, wiring_bytes
 
 PAPER = occ.load_preset("phone-68us")

@@ -174,11 +174,12 @@ def clipped(polygon: FloatArray, window: FloatArray) -> FloatArray:
         side = edge[0] * (polygon[:, 1] - start[1]) - edge[1] * (polygon[:, 0] - start[0])
         if (side >= 0.0).all():
             continue
-        polygon = _inside(polygon, side)
+        polygon = part_inside(polygon, side)
     return polygon
 
 
-def _inside(polygon: FloatArray, side: FloatArray) -> FloatArray:
+def part_inside(polygon: FloatArray, side: FloatArray) -> FloatArray:
+    """Return the part of a polygon where a number, linear between its corners, is not negative."""
     kept = []
     for here in range(len(polygon)):
         there = (here + 1) % len(polygon)
@@ -187,7 +188,7 @@ def _inside(polygon: FloatArray, side: FloatArray) -> FloatArray:
         if (side[here] >= 0.0) != (side[there] >= 0.0):
             share = side[here] / (side[here] - side[there])
             kept.append(polygon[here] * (1.0 - share) + polygon[there] * share)
-    return np.array(kept, dtype=np.float64).reshape(-1, 2)
+    return np.array(kept, dtype=np.float64).reshape(-1, polygon.shape[1])
 
 
 def subdivided(polygon: FloatArray, parts: IndexArray) -> FloatArray:

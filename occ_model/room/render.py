@@ -14,7 +14,7 @@ from occ_model.camera.optics import Optics
 from occ_model.camera.picture_rows import LitPanel, PictureRows, in_blocks, split_at
 from occ_model.camera.projection import check_size
 from occ_model.effects.effect import OpticsEffect
-from occ_model.effects.paper_view import PaperView, paper_view_of
+from occ_model.effects.paper_view import PaperView, paper_view_of, region_of
 from occ_model.effects.plan import plan_of_any
 from occ_model.effects.registry import NAMES, planned
 from occ_model.results.decoding import Region
@@ -192,21 +192,14 @@ def _composed(
 
 
 def _shown(seen: LampView, chosen: Plan, profile: FloatArray) -> ShownLamp | None:
-    camera = seen.scene.camera
-    optics = _optics_of(seen.view, chosen)
+    camera, optics = seen.view.scene.camera, _optics_of(seen.view, chosen)
     outline = optics.outline
-    column, row = outline.T
-    left, right = (
-        max(0, int(np.ceil(column.min()))),
-        min(camera.columns, int(np.ceil(column.max()))),
-    )
-    top, bottom = max(0, int(np.ceil(row.min()))), min(camera.rows, int(np.ceil(row.max())))
-    if left >= right or top >= bottom:
+    region = region_of(outline, camera.rows, camera.columns)
+    if region is None:
         return None
+    column, row = outline.T
     cut = bool(
         column.min() < 0 or row.min() < 0
         or column.max() > camera.columns - 1 or row.max() > camera.rows - 1
     )  # fmt: skip
-    return ShownLamp(
-        seen.lamp, outline, Region(top, bottom, left, right), cut, profile, optics.blur
-    )
+    return ShownLamp(seen.lamp, outline, region, cut, profile, optics.blur)

@@ -9,6 +9,7 @@ import numpy as np
 
 from occ_model.arrays import FloatArray
 from occ_model.camera.projection import image_points, image_rays, rotation_of
+from occ_model.effects.distortion import part_inside
 from occ_model.effects.optics_effects import blur_of
 from occ_model.effects.paper_view import PaperView, paper_view_of, region_of
 from occ_model.errors import ParameterError, ProjectionError, one_line
@@ -23,8 +24,8 @@ _MAX_LENS_SHIFT = 0.15  # fraction of the picture's size by which a lens may mov
 @dataclass(frozen=True, eq=False, slots=True)
 class LampView:
     lamp: RoomLamp
-    scene: Scene  # The scene whose panel is the lamp
-    view: PaperView  # The paper's view of that scene, with the lamp's outline as its corners
+    # The paper's view of the scene whose panel is the lamp, with its outline as the corners
+    view: PaperView
 
 
 def rotation(place: Place | RoomLamp) -> FloatArray:
@@ -97,7 +98,7 @@ def _seen(room: Room, lamp: RoomLamp) -> LampView | None:
     own = [room.camera.x, room.camera.y, room.camera.z]
     placed = (room_outline(lamp) - own) @ turned
     facing = rotation(lamp)[:, 2] @ (np.array([lamp.x, lamp.y, lamp.z]) - own)
-    before = _clipped(placed)
+    before = part_inside(placed, placed[:, 2] - _MIN_DEPTH)  # before the camera
     if facing <= 0.0 or len(before) == 0:
         return None
     camera = room.scene.camera
@@ -124,19 +125,7 @@ def _seen(room: Room, lamp: RoomLamp) -> LampView | None:
             view, corners=corners, sides=None, is_seen=region is not None,
             region=region or view.region,
         )  # fmt: skip
-    return LampView(lamp, scene, view)
-
-
-def _clipped(points: FloatArray) -> FloatArray:
-    """Return the part of a polygon in space that is before the camera."""
-    kept: list[FloatArray] = []
-    for start, end in zip(points, np.roll(points, -1, axis=0), strict=True):
-        if start[2] >= _MIN_DEPTH:
-            kept.append(start)
-        if (start[2] >= _MIN_DEPTH) != (end[2] >= _MIN_DEPTH):
-            along = (_MIN_DEPTH - start[2]) / (end[2] - start[2])
-            kept.append(start + along * (end - start))
-    return np.array(kept).reshape(-1, 3)
+    return LampView(lamp, view)
 
 
 def seen_outline(room: Room, height: float) -> FloatArray:

@@ -9,7 +9,7 @@ import pytest
 
 import occ_model as occ
 from hard_cases.laws import cases, record
-from hard_cases.poses_and_lenses import POSES, SMALL, STEEP, poses
+from hard_cases.references import POSES, SMALL, STEEP, poses
 from occ_model.camera.projection import image_rays
 from occ_model.scene.scene import Scene
 

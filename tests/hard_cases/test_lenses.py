@@ -11,8 +11,7 @@ from hypothesis import strategies as st
 
 import occ_model as occ
 from hard_cases.laws import cases, record
-from hard_cases.poses_and_lenses import GEOMETRY, POSES, lenses, poses
-from hard_cases.references import decades, signed_decades
+from hard_cases.references import GEOMETRY, POSES, decades, lenses, poses, signed_decades
 from occ_model.camera.optics import Optics
 from occ_model.camera.projection import MAX_PIXELS, image_points, image_rays
 from occ_model.effects.distortion import Distortion, distorted

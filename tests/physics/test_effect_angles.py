@@ -49,19 +49,6 @@ def test_a_turned_panel_is_darker_by_the_cosine_of_its_turn(
     assert own == pytest.approx((bright - dark) * math.cos(angle) ** (order - 1), rel=1e-5)
 
 
-@pytest.mark.parametrize("degrees", [15.0, -30.0])
-def test_angles_of_yaw_and_ray_add_up(degrees: float) -> None:
-    yaw = math.radians(degrees)
-    scene = steady(yaw=yaw, distance=5.0, panel_width=10.0, panel_height=10.0)
-    dark, bright = luminance_levels(scene)
-    own = pictured_luminance(scene, Emission()) - dark
-    for column in (60, 150, 240):
-        ray = math.atan((column - 150) / scene.camera.focal_length_pixels)
-        # The side that comes nearer, the right one for a positive yaw, faces the camera.
-        expected = (bright - dark) * math.cos(yaw - ray) ** 2
-        assert own[50, column] == pytest.approx(expected, rel=1e-5)
-
-
 def test_each_corners_angle_is_between_its_normal_and_its_ray() -> None:
     scene = steady(yaw=0.4, pitch=-0.3, roll=0.5, distance=3.0, offset_x=0.2, panel_width=1.0)
     pose = scene.pose

@@ -2,22 +2,10 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 import occ_model as occ
-from occ_model.camera.exposure import column_phases, forget_exposures, lit_fraction
+from occ_model.camera.exposure import forget_exposures, lit_fraction
 from occ_model.scene.scene import Scene
-
-
-@given(columns=st.integers(0, 500), code=st.integers(0, 1023))
-def test_a_start_some_columns_later_shifts_the_columns(columns: int, code: int) -> None:
-    # 2^-17 s: any number of columns lasts an exact number of seconds.
-    scene = Scene().replace(code=code, readout_time=2.0**-17, start_time=0.0, columns=600)
-    later = scene.replace(start_time=columns * 2.0**-17)
-    np.testing.assert_allclose(
-        occ.on_time(later)[: 600 - columns], occ.on_time(scene)[columns:], rtol=0, atol=1e-19
-    )
 
 
 @pytest.mark.parametrize(
@@ -71,26 +59,6 @@ def test_exposure_damps_a_frequency_by_its_sinc(
     # A square wave's fundamental has the amplitude 2/pi; the exposure leaves |sinc(F t)| of it.
     fundamental = abs(np.fft.rfft(lit_fraction(scene))[1]) / (samples / 2)
     assert fundamental / (2 / np.pi) == pytest.approx(response, abs=6e-5)
-
-
-@pytest.mark.parametrize("denominator", [25, 30, 50, 60, 100])
-def test_whole_periods_of_a_square_wave_leave_no_bands(denominator: int) -> None:
-    scene = Scene().replace(
-        pattern="01", switching_frequency=600.0, exposure_time=1 / denominator, columns=3000
-    )
-    assert np.ptp(lit_fraction(scene)) < 1e-12
-
-
-@given(start=st.floats(-1e3, 1e3), readout=st.floats(1e-9, 1.0), frequency=st.floats(1.0, 1e6))
-def test_phases_lie_within_the_period(start: float, readout: float, frequency: float) -> None:
-    scene = Scene().replace(
-        start_time=start, readout_time=readout, switching_frequency=frequency, columns=64
-    )
-    phases = column_phases(scene, 24)
-    assert phases.chip.min() >= 0
-    assert phases.chip.max() < 24
-    assert phases.fraction.min() >= 0.0
-    assert phases.fraction.max() < 1.0
 
 
 def test_every_run_shows_beyond_the_period_at_10_khz() -> None:

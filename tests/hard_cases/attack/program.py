@@ -44,8 +44,7 @@ class Outcomes:
 
 def doors() -> dict[str, Door]:
     """All doors by name."""
-    from hard_cases.attack.doors.films import FILMS
-    from hard_cases.attack.doors.photos import PHOTOS, RAW
+    from hard_cases.attack.doors.photos import FILMS, PHOTOS, RAW
     from hard_cases.attack.doors.scenes import CARRIERS, LESSONS_FILES, SCENES
     from hard_cases.attack.doors.shell import SHELL, WINDOW_SHELL
     from hard_cases.attack.doors.state import STATE

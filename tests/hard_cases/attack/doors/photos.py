@@ -1,4 +1,4 @@
-"""Photos and RAW files: damaged in every way, or whole and odd."""
+"""Photos and RAW files: damaged in every way, or whole and odd; and films, damaged."""
 
 from functools import cache
 from pathlib import Path
@@ -9,6 +9,7 @@ import damage
 import damaged_photos
 import numpy as np
 import raw_files
+from films import what_damaged_films_say
 
 import occ_model as occ
 from hard_cases.attack.promise import Door, check_sentence
@@ -82,3 +83,13 @@ PHOTOS = Door(
 )  # fmt: skip
 
 RAW = Door("RAW files", "damaged DNG files", _raw, (occ.PhotoError,), share=60, memory=400)
+
+
+def _film(chance: Random, folder: Path) -> list[str]:
+    seed = chance.getrandbits(32)
+    return what_damaged_films_say(range(seed, seed + 1), folder)
+
+
+FILMS = Door(
+    "films", "damaged films of 13 kinds", _film, (occ.VideoError,), share=30, patience=10.0
+)

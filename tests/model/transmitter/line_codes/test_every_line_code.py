@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from amount import amount
 
-import occ_model as occ
 from occ_model.arrays import ByteArray
 from occ_model.scene.payload import MAX_PAYLOAD_BITS
 from occ_model.transmitter.line_codes.line_code import VISIBLE_LIMIT, LineCode
@@ -148,9 +147,3 @@ def test_from_the_least_frequency_no_run_lasts_long_enough_to_be_seen(code: Line
     else:
         assert code.lowest_frequency(least) == pytest.approx(VISIBLE_LIMIT)
         assert code.longest_run / least == pytest.approx(0.5 / VISIBLE_LIMIT)
-
-
-def test_the_names_are_those_of_the_scene() -> None:
-    assert occ.line_codes()[0] == "differential-manchester"
-    assert set(LINE_CODES) == set(occ.line_codes()[: len(LINE_CODES)])
-    assert [REGISTRY.named(name).name for name in LINE_CODES] == list(LINE_CODES)

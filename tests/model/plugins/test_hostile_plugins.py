@@ -51,12 +51,6 @@ leaves = decoder("leaves", leave)
 nothing = decoder("nothing", lambda *_: None)
 empty = decoder("empty", lambda *_: occ.DecodeResult("empty"))
 floats = spoiled("floats", bits=np.array([0.5]))
-lists = spoiled("lists", bits=[1])
-worded = spoiled("worded", threshold="high")
-wordless = spoiled("wordless", failure=3)
-headed = spoiled("headed", headers=(2,))
-ragged = spoiled("ragged", light=[1.0])
-paired = spoiled("paired", chip_starts=np.array([1.0]))
 huge = spoiled("huge", chips=endless)
 overwrites = decoder("overwrites", overwrite)
 misnamed = decoder("another", fail)
@@ -83,8 +77,8 @@ frame_says_nothing = replace(
 """
 
 DECODERS = [
-    "raises", "leaves", "nothing", "empty", "floats", "lists", "overwrites", "misnamed",
-    "threshold", "gone", "paired", "huge", "worded", "wordless", "headed", "ragged",
+    "raises", "leaves", "nothing", "empty", "floats", "overwrites", "misnamed", "threshold", "gone",
+    "huge",
 ]  # fmt: skip
 CODES = [
     "code_raises", "code_short", "code_grey", "code_mute", "code_scalar", "code_wordless",
@@ -126,12 +120,6 @@ def decode(decoder: str) -> occ.DecodeResult:
         ("nothing", "gives a NoneType, not a DecodeResult."),
         ("empty", "gives neither a code with its bits nor a failure."),
         ("floats", "gives bits that are not zeros and ones."),
-        ("lists", "gives bits that are not an array of one dimension."),
-        ("worded", "gives threshold = 'high' of the type str."),
-        ("wordless", "gives failure = 3 of the type int."),
-        ("headed", "gives headers that are not places among 2."),
-        ("ragged", "gives light = [1.0] of the type list."),
-        ("paired", "gives chip_starts of the shape (1,) in place of (2,)."),
         ("huge", "gives 1,000,000,000,000 chips; allowed: up to 65,536."),
     ],
 )

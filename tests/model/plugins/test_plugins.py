@@ -94,7 +94,7 @@ OTHERWISE = [
 GROUPS = (plugins.DECODERS, plugins.LINE_CODES, plugins.FRAMINGS)
 
 
-@pytest.fixture(autouse=True)
+@pytest.fixture
 def _installed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     names = dict.fromkeys((*OTHERWISE, "good-1_a"), "named:it")
     install(tmp_path, "named", dict.fromkeys(GROUPS, names), "it = 1")
@@ -104,11 +104,13 @@ def _installed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None
     plugins._found.cache_clear()
 
 
+@pytest.mark.usefixtures("_installed")
 @pytest.mark.parametrize("group", GROUPS)
 def test_only_a_word_is_the_name_of_a_plug_in(group: str) -> None:
     assert plugins.plugin_names(group) == ("good-1_a",)
 
 
+@pytest.mark.usefixtures("_installed")
 @pytest.mark.parametrize("name", OTHERWISE)
 def test_a_plug_in_of_another_name_is_none(name: str) -> None:
     scene = occ.Scene()

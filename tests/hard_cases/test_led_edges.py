@@ -24,14 +24,11 @@ WIDE = "edges 1e-12 to 1e6 chips, t 1e-3 to 1e6, packets to 4096 chips"
 
 def edged(edge: float, exposure: float, **changes: float | str) -> Scene:
     """A scene with times in chips."""
-    basic: dict[str, float | str] = {
-        "edge_time": within("edge_time", edge / FREQUENCY),
-        "exposure_time": within("exposure_time", exposure / FREQUENCY),
-        "switching_frequency": FREQUENCY,
-        "readout_time": 0.737e-6,
-        "columns": 300,
-    }
-    return Scene().replace(**(basic | changes))
+    return Scene().replace(
+        edge_time=within("edge_time", edge / FREQUENCY),
+        exposure_time=within("exposure_time", exposure / FREQUENCY), switching_frequency=FREQUENCY,
+        readout_time=0.737e-6, columns=300,
+    ).replace(**changes)  # fmt: skip
 
 
 def edge_error(scene: Scene) -> float:

@@ -33,12 +33,9 @@ WIDE = "t 1e-3 to 1e6 chips, f 1 Hz to 1 GHz, t_0 to 1e9 s"
 def timed(chips: float, frequency: float, **changes: float | str) -> Scene:
     """A scene whose exposure lasts about so many chips, as far as one may."""
     exposure = within("exposure_time", chips / frequency)
-    basic: dict[str, float | str] = {
-        "switching_frequency": frequency,
-        "exposure_time": exposure,
-        "columns": 300,
-    }
-    return Scene().replace(**(basic | changes))
+    return Scene().replace(
+        switching_frequency=frequency, exposure_time=exposure, columns=300,
+    ).replace(**changes)  # fmt: skip
 
 
 def error_of(scene: Scene) -> float:

@@ -22,18 +22,10 @@ NO_NOISE = {"sensor-noise": False, "fixed-pattern": False}
 
 def steady(**changes: float | str) -> Scene:
     """A panel always lit, larger than the picture, and dim enough not to saturate."""
-    chosen: dict[str, float | str] = {
-        "rows": ROWS,
-        "columns": COLUMNS,
-        "pattern": "1",
-        "distance": 0.5,
-        "panel_width": 3.0,
-        "panel_height": 3.0,
-        "lambertian_order": 3.0,
-        "luminance": 1000.0,
-        "enhancement": "none",
-    }
-    return Scene().replace(**(chosen | changes))
+    return Scene().replace(
+        rows=ROWS, columns=COLUMNS, pattern="1", distance=0.5, panel_width=3.0, panel_height=3.0,
+        lambertian_order=3.0, luminance=1000.0, enhancement="none",
+    ).replace(**changes)  # fmt: skip
 
 
 @pytest.mark.parametrize("order", [1.5, 2.0, 3.0, 10.0])
@@ -94,16 +86,10 @@ ONLY = {"sensor-noise": False, "fixed-pattern": False, "vignetting": True}
 
 def vignetted(**changes: float | str) -> Scene:
     """A steady panel that fills a picture whose middle pixel lies on the optical axis."""
-    chosen: dict[str, float | str] = {
-        "rows": 101,
-        "columns": 301,
-        "pattern": "1",
-        "distance": 0.1,
-        "vignetting_exponent": 4.0,
-        "luminance": 2000.0,
-        "enhancement": "none",
-    }
-    return Scene().replace(**(chosen | changes))
+    return Scene().replace(
+        rows=101, columns=301, pattern="1", distance=0.1, vignetting_exponent=4.0,
+        luminance=2000.0, enhancement="none",
+    ).replace(**changes)  # fmt: skip
 
 
 def shown(scene: Scene, force: dict[str, bool] = ONLY) -> np.ndarray:

@@ -20,17 +20,10 @@ ONLY = {"sensor-noise": False, "fixed-pattern": False, "full-well": False, "defo
 
 def unsharp(blur: float, **changes: float | str) -> Scene:
     focal = Scene().replace(rows=ROWS, columns=COLUMNS).camera.focal_length_pixels
-    chosen: dict[str, float | str] = {
-        "rows": ROWS,
-        "columns": COLUMNS,
-        "point_spread": blur,
-        "distance": 1.0,
-        "panel_width": WIDTH / focal,
-        "panel_height": HEIGHT / focal,
-        "pattern": "1",
-        "enhancement": "none",
-    }
-    return Scene().replace(**(chosen | changes))
+    return Scene().replace(
+        rows=ROWS, columns=COLUMNS, point_spread=blur, distance=1.0, panel_width=WIDTH / focal,
+        panel_height=HEIGHT / focal, pattern="1", enhancement="none",
+    ).replace(**changes)  # fmt: skip
 
 
 def panel_share(scene: Scene) -> np.ndarray:

@@ -17,15 +17,11 @@ FREQUENCY = 8192.0
 
 def edged_scene(edge: float, exposure: float, **changes: float | str) -> Scene:
     """A scene with times in chips, small enough to be checked column by column."""
-    chips: dict[str, float | str] = {
-        "edge_time": edge / FREQUENCY,
-        "exposure_time": exposure / FREQUENCY,
-        "switching_frequency": FREQUENCY,
-        "readout_time": 0.0813 / FREQUENCY,
-        "start_time": 0.4567,
-        "columns": 500,
-    }
-    return Scene().replace(**(chips | changes))
+    return Scene().replace(
+        edge_time=edge / FREQUENCY, exposure_time=exposure / FREQUENCY,
+        switching_frequency=FREQUENCY, readout_time=0.0813 / FREQUENCY, start_time=0.4567,
+        columns=500,
+    ).replace(**changes)  # fmt: skip
 
 
 @given(edge=st.floats(0.0, 50.0), exposure=st.floats(0.01, 50.0), start=st.floats(0.0, 1.0))
@@ -50,17 +46,10 @@ ONLY_FLICKER = {"sensor-noise": False, "fixed-pattern": False, "flicker": True}
 
 def flickering(**changes: float | str) -> Scene:
     """Deep flicker at 100 Hz, in a small picture whose panel has surroundings at all sides."""
-    chosen: dict[str, float | str] = {
-        "flicker_depth": 0.8,
-        "flicker_frequency": 100.0,
-        "illuminance": 3000.0,
-        "rows": 90,
-        "columns": 400,
-        "readout_time": 50e-6,
-        "distance": 2.0,
-        "enhancement": "none",
-    }
-    return Scene().replace(**(chosen | changes))
+    return Scene().replace(
+        flicker_depth=0.8, flicker_frequency=100.0, illuminance=3000.0, rows=90, columns=400,
+        readout_time=50e-6, distance=2.0, enhancement="none",
+    ).replace(**changes)  # fmt: skip
 
 
 def test_the_crest_is_at_phase_0_and_the_trough_half_a_cycle_on() -> None:

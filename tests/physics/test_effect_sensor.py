@@ -14,15 +14,9 @@ ONLY = {"sensor-noise": False, "fixed-pattern": False}
 
 def overexposed(**changes: float | str) -> Scene:
     """A panel that fills the picture and overfills the pixels at a low ISO speed."""
-    chosen: dict[str, float | str] = {
-        "rows": 40,
-        "columns": 300,
-        "distance": 0.05,
-        "iso": 20.0,
-        "luminance": 100_000.0,
-        "enhancement": "none",
-    }
-    return Scene().replace(**(chosen | changes))
+    return Scene().replace(
+        rows=40, columns=300, distance=0.05, iso=20.0, luminance=100_000.0, enhancement="none",
+    ).replace(**changes)  # fmt: skip
 
 
 def value_of_full(scene: Scene) -> float:

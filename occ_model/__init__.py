@@ -138,13 +138,15 @@ if TYPE_CHECKING:  # for type checkers and editors: the names that _MODULES hold
         FrameFormat as FrameFormat,
         Framing as Framing,
     )
-    from occ_model.transmitter.framings.registry import framings as framings
     from occ_model.transmitter.line_codes.line_code import (
         Decoded as Decoded,
         LineCode as LineCode,
     )
-    from occ_model.transmitter.line_codes.registry import line_codes as line_codes
     from occ_model.transmitter.packet import packet as packet
+    from occ_model.transmitter.registry import (
+        framings as framings,
+        line_codes as line_codes,
+    )
     from occ_model.transmitter.scheme import (
         Scheme as Scheme,
         scheme_of as scheme_of,
@@ -217,10 +219,9 @@ _NAMES = {
     "study.success_rate": "success_rate",
     "study.sweep.sweep": "sweep",
     "transmitter.framings.framing": "FrameFormat Framed Framing",
-    "transmitter.framings.registry": "framings",
     "transmitter.line_codes.line_code": "Decoded LineCode",
-    "transmitter.line_codes.registry": "line_codes",
     "transmitter.packet": "packet",
+    "transmitter.registry": "framings line_codes",
     "transmitter.scheme": "Scheme scheme_of",
     "video.file.write": "write_video",
     "video.load": "load_video",

@@ -11,9 +11,8 @@ from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.presets import all_presets, preset_named, unreadable_presets
 from occ_model.scene.units import HERTZ
 from occ_model.transmitter.framings.framing import Framing
-from occ_model.transmitter.framings.registry import FRAMINGS
 from occ_model.transmitter.line_codes.line_code import LineCode
-from occ_model.transmitter.line_codes.registry import LINE_CODES
+from occ_model.transmitter.registry import FRAMINGS, LINE_CODES
 from occ_model.transmitter.scheme import Scheme
 
 _MAX_NOTE_CHARACTERS = 1000  # maximum printed length of a value's note

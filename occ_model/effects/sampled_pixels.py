@@ -14,11 +14,11 @@ from occ_model.camera.photometry import (
     luminance_of,
     panel_values,
     pixel_value,
+    saturation_value,
     surroundings_values,
 )
 from occ_model.camera.projection import geometry_of
 from occ_model.camera.row_memory import MEMORY
-from occ_model.camera.sensor import saturation_value
 from occ_model.effects.effect import (
     Effect,
     FileEffect,

@@ -3,8 +3,14 @@
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.camera.photometry import WHITE, luminance_levels, pixel_value
-from occ_model.camera.sensor import converter_step, deviation, saturation_value
+from occ_model.camera.photometry import (
+    WHITE,
+    converter_step,
+    deviation,
+    luminance_levels,
+    pixel_value,
+    saturation_value,
+)
 from occ_model.effects.effect import Cost, NoiseEffect, PixelEffect, Values
 from occ_model.scene.scene import Scene
 

@@ -12,8 +12,7 @@ from occ_model.camera.photometry import WHITE
 from occ_model.camera.projection import MAX_PIXELS
 from occ_model.errors import DecodeInputError
 from occ_model.receiver.decoders import PAPER_DECODER, decoder_named
-from occ_model.receiver.locate import locate
-from occ_model.receiver.signal import column_means
+from occ_model.receiver.signal import column_means, locate
 from occ_model.results.decoding import DecodeResult, Region
 from occ_model.scene.scene import Scene
 

@@ -8,9 +8,9 @@ from zlib import crc32
 import numpy as np
 
 from occ_model.arrays import FloatArray, Pixels
+from occ_model.camera.photometry import saturation_value
 from occ_model.camera.picture_rows import Rows
 from occ_model.camera.row_interpolation import smooth_columns
-from occ_model.camera.sensor import saturation_value
 from occ_model.effects.effect import NoiseEffect
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import NoiseSource

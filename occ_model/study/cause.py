@@ -4,9 +4,8 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from occ_model.camera.photometry import FLAT, WHITE, level_values
+from occ_model.camera.photometry import FLAT, WHITE, deviation, level_values
 from occ_model.camera.projection import panel_corners
-from occ_model.camera.sensor import deviation
 from occ_model.effects.paper_view import region_of
 from occ_model.errors import OccError
 from occ_model.receiver.decoder import columns_of_chip

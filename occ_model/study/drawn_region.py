@@ -1,6 +1,6 @@
 """The rectangle that a receiver finds round a level panel, drawn without the picture's pixels.
 
-:func:`occ_model.receiver.locate.locate` takes the cells of a grid with enough bright pixels, and
+:func:`occ_model.receiver.signal.locate` takes the cells of a grid with enough bright pixels, and
 then the bright pixels in and beside them. Pixels err independently, so that both can be drawn from
 each column's probability of a bright pixel, on the panel and beside it: noise of a dark picture may
 be bright anywhere.
@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from occ_model.arrays import BoolArray, FloatArray
-from occ_model.receiver.locate import grid_of, least_bright_share
+from occ_model.receiver.signal import grid_of, least_bright_share
 from occ_model.results.decoding import Region
 
 _MAX_PROBABILITY = 1.0 - 1e-12  # largest probability of a bright pixel, for its logarithm

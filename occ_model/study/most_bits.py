@@ -22,7 +22,7 @@ from occ_model.scene.scene import Scene, check_scene
 from occ_model.study.bit_error_rate import check_frame_rate, with_payload
 from occ_model.study.success_rate import right_bits_of_images
 from occ_model.study.theory import panel_readout_time
-from occ_model.transmitter.line_codes.registry import LINE_CODES
+from occ_model.transmitter.registry import LINE_CODES
 from occ_model.transmitter.scheme import scheme_of
 
 _TRIED_LINE_CODES = ("manchester", "4b6b", "8b10b")  # of codes as short, only the better known

@@ -14,7 +14,7 @@ from occ_model.camera.enhancement import Enhancement, byte_shares, share_above
 from occ_model.camera.photometry import WHITE, saturate
 from occ_model.effects.effect import NoiseEffect, PixelEffect
 from occ_model.effects.registry import planned
-from occ_model.receiver.locate import bright_level
+from occ_model.receiver.signal import bright_level
 from occ_model.results.decoding import Region
 from occ_model.results.plan import Plan
 from occ_model.scene.scene import Camera, Scene, Sensor

@@ -14,8 +14,7 @@ from occ_model.effects.registry import NAMES
 from occ_model.errors import ParameterError
 from occ_model.parallel.job import Heartbeat
 from occ_model.receiver.decoders import PAPER_DECODER, decoder_named
-from occ_model.receiver.locate import locate
-from occ_model.receiver.signal import column_means
+from occ_model.receiver.signal import column_means, locate
 from occ_model.results.decoding import DecodeResult, Region
 from occ_model.results.plan import Plan
 from occ_model.results.sweep_request import MOST_IMAGES, SIGNAL_PATHS, RateSettings, SignalPath

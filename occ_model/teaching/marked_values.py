@@ -4,9 +4,8 @@ from occ_model.errors import OccError
 from occ_model.results.teaching import MarkedValue
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.study.theory import band_model_frequency, null_frequency
-from occ_model.transmitter.framings.registry import FRAMINGS
-from occ_model.transmitter.line_codes.registry import LINE_CODES
 from occ_model.transmitter.packet import sent_chips
+from occ_model.transmitter.registry import FRAMINGS, LINE_CODES
 
 
 def marked_values(scene: Scene, parameter: str) -> tuple[MarkedValue, ...]:

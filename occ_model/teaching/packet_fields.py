@@ -8,8 +8,8 @@ from occ_model.arrays import FloatArray
 from occ_model.results.decoding import DecodeResult
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.transmitter.framings.paper import FRAMING, HEADER_ONES
-from occ_model.transmitter.line_codes.registry import LINE_CODES
 from occ_model.transmitter.packet import sent_chips
+from occ_model.transmitter.registry import LINE_CODES
 from occ_model.transmitter.scheme import scheme_of
 
 _MAX_EXCEPTIONS = 0.05  # fraction of columns that a level may put on the other side

@@ -1,7 +1,7 @@
-"""What a parameter's names stand for: the program's own objects, and those of plug-ins, checked."""
+"""Line codes and framings by name: the built-in ones, and those of plug-ins, which are checked."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from importlib import import_module
 from numbers import Integral
@@ -11,8 +11,10 @@ import numpy as np
 
 from occ_model import plugins
 from occ_model.arrays import ByteArray
-from occ_model.errors import PluginError, one_line, shown
+from occ_model.errors import ParameterError, PluginError, one_line, shown
 from occ_model.scene.parameters import open_choice
+from occ_model.transmitter.framings.framing import Framed, FrameFormat, Framing
+from occ_model.transmitter.line_codes.line_code import Decoded, LineCode
 
 _Kind = TypeVar("_Kind")
 
@@ -82,3 +84,94 @@ def checked_bits(who: str, what: str, values: object, most: int) -> ByteArray:
 
 def plain_reason(failure: str | None) -> str | None:
     return one_line(failure) if failure else None
+
+
+def _guarded_code(offered: LineCode) -> LineCode:
+    """Return a plug-in's line code whose faults become sentences."""
+    who = plugins.described(plugins.LINE_CODES, offered.name)
+    run = 1 if offered.longest_run is None else offered.longest_run
+    for name, count in (
+        ("block_bits", offered.block_bits),
+        ("block_chips", offered.block_chips),
+        ("longest_run", run),
+    ):
+        if not isinstance(count, int) or count < 1:
+            raise PluginError(f"{who} declares {name} = {shown(count)}; allowed: from 1.")
+    preamble: object = offered.preamble
+    if not isinstance(preamble, str) or set(preamble) - {"0", "1"}:
+        raise PluginError(f"{who} declares preamble = {shown(preamble)}; allowed: zeros and ones.")
+
+    def encode(bits: ByteArray, level: int) -> ByteArray:
+        chips = plugins.called(who, "encode", np.ndarray, offered.encode, bits, level)
+        count = offered.chips_for(len(bits))
+        if chips.size != count:
+            raise PluginError(f"{who} gives {chips.size} chips in place of {count}.")
+        return checked_bits(who, "chips", chips, count)
+
+    def decode(chips: ByteArray, level: int) -> Decoded:
+        most = (len(chips) // offered.block_chips + 1) * offered.block_bits
+        try:
+            read = plugins.called(who, "decode", Decoded, offered.decode, chips, level)
+            check_kinds(who, read, failure=str | None)
+            bits = checked_bits(who, "bits", read.bits, most)
+            check_places(who, "violations", read.violations, len(bits))
+        except (ParameterError, PluginError) as error:
+            return Decoded(failure=str(error))
+        return Decoded(bits, read.violations, plain_reason(read.failure))
+
+    return replace(offered, title=one_line(str(offered.title)), encode=encode, decode=decode)
+
+
+LINE_CODES = Registry(  # the line codes that a scene chooses among
+    parameter="line_code",
+    kind=LineCode,
+    constant="LINE_CODE",
+    package="occ_model.transmitter.line_codes",
+    group=plugins.LINE_CODES,
+    guarded=_guarded_code,
+)
+
+
+def line_codes() -> tuple[str, ...]:
+    """Return the names of all line codes, those of plug-ins last."""
+    return LINE_CODES.names()
+
+
+def _guarded_framing(offered: Framing) -> Framing:
+    """Return a plug-in's framing whose faults become sentences."""
+    who = plugins.described(plugins.FRAMINGS, offered.name)
+
+    def encode(bits: ByteArray, form: FrameFormat) -> ByteArray:
+        chips = plugins.called(who, "encode", np.ndarray, offered.encode, bits, form)
+        if not chips.size:
+            raise PluginError(f"{who} gives no chips.")
+        return checked_bits(who, "chips", chips, MOST_CHIPS)
+
+    def decode(chips: ByteArray, form: FrameFormat) -> Framed:
+        try:
+            read = plugins.called(who, "decode", Framed, offered.decode, chips, form)
+            check_kinds(who, read, failure=str | None)
+            bits = checked_bits(who, "bits", read.bits, form.bits)
+            check_places(who, "headers", read.headers, len(chips))
+            if not read.failure and not bits.size:
+                raise PluginError(f"{who} gives neither bits nor a failure.")
+        except (ParameterError, PluginError) as error:
+            return Framed.nothing(str(error))
+        return Framed(read.headers, bits, plain_reason(read.failure))
+
+    return replace(offered, title=one_line(str(offered.title)), encode=encode, decode=decode)
+
+
+FRAMINGS = Registry(  # the framings that a scene chooses among
+    parameter="framing",
+    kind=Framing,
+    constant="FRAMING",
+    package="occ_model.transmitter.framings",
+    group=plugins.FRAMINGS,
+    guarded=_guarded_framing,
+)
+
+
+def framings() -> tuple[str, ...]:
+    """Return the names of all framings, those of plug-ins last."""
+    return FRAMINGS.names()

@@ -10,9 +10,8 @@ from occ_model.arrays import ByteArray
 from occ_model.scene.scene import Transmitter
 from occ_model.transmitter import error_correction
 from occ_model.transmitter.framings.framing import Framed, FrameFormat, Framing
-from occ_model.transmitter.framings.registry import FRAMINGS
 from occ_model.transmitter.line_codes.line_code import LineCode
-from occ_model.transmitter.line_codes.registry import LINE_CODES
+from occ_model.transmitter.registry import FRAMINGS, LINE_CODES
 
 _PAPER_SCHEME = ("differential-manchester", "paper", "none")
 

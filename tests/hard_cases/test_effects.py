@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from hard_cases.laws import cases, record
 from hard_cases.references import STARTS, decades, signed_decades, some_columns, within
 from occ_model.camera.optics import Gain, Optics
+from occ_model.camera.photometry import saturation_value
 from occ_model.camera.projection import rotation_of
-from occ_model.camera.sensor import saturation_value
 from occ_model.effects.effect import NoiseEffect, OpticsEffect
 from occ_model.effects.light_effects import Flicker, ambient_shares, response
 from occ_model.effects.optics_effects import Emission, Vignetting

@@ -15,8 +15,7 @@ from occ_model.camera.enhancement import Enhancement
 from occ_model.camera.picture_rows import Rim, Rows
 from occ_model.effects.paper_view import paper_view_of
 from occ_model.effects.sensor_effects import SensorNoise
-from occ_model.receiver.locate import locate
-from occ_model.receiver.signal import column_means
+from occ_model.receiver.signal import column_means, locate
 from occ_model.results.decoding import Region
 from occ_model.scene.scene import Scene
 from occ_model.simulation.columns import ColumnMeans, expose_columns

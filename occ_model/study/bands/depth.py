@@ -6,8 +6,13 @@ from fractions import Fraction
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.camera.photometry import ColumnLight, luminance_levels, panel_values, saturate
-from occ_model.camera.sensor import saturation_value
+from occ_model.camera.photometry import (
+    ColumnLight,
+    luminance_levels,
+    panel_values,
+    saturate,
+    saturation_value,
+)
 from occ_model.effects.light_effects import seen_depth
 from occ_model.errors import ParameterError, shown
 from occ_model.results.bands import BandDepth, Depth

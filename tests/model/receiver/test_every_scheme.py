@@ -8,11 +8,10 @@ from amount import amount
 
 import occ_model as occ
 from occ_model.receiver.decoders import DECODERS
-from occ_model.transmitter.framings import registry as framings
-from occ_model.transmitter.line_codes import registry as line_codes
+from occ_model.transmitter import registry
 
-LINE_CODES = line_codes.LINE_CODES.built_in()
-FRAMINGS = framings.FRAMINGS.built_in()
+LINE_CODES = registry.LINE_CODES.built_in()
+FRAMINGS = registry.FRAMINGS.built_in()
 
 SCENE = occ.load_preset("phone-68us").replace(
     switching_frequency=4e3, distance=0.6, rows=100, bits=8, code=0b10110010

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 from numpy.typing import NDArray
 
-from occ_model.receiver.locate import bright_level, locate
+from occ_model.receiver.signal import bright_level, locate
 from occ_model.results.decoding import Region
 
 FRACTION = 0.05

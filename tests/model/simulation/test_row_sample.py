@@ -8,8 +8,7 @@ import pytest
 import occ_model as occ
 from occ_model.effects.paper_view import paper_view_of
 from occ_model.effects.sensor_effects import SensorNoise
-from occ_model.receiver.locate import locate
-from occ_model.receiver.signal import column_means
+from occ_model.receiver.signal import column_means, locate
 from occ_model.results.decoding import Region
 from occ_model.scene.scene import Scene
 from occ_model.simulation.render import render_plan

@@ -5,7 +5,7 @@ import pytest
 from numpy.typing import NDArray
 
 import occ_model as occ
-from occ_model.receiver.locate import locate
+from occ_model.receiver.signal import locate
 from occ_model.results.decoding import Region
 from occ_model.study.drawn_region import BrightShares
 

@@ -8,7 +8,7 @@ import pytest
 
 import occ_model as occ
 from occ_model.effects.paper_view import paper_view_of
-from occ_model.receiver.locate import locate
+from occ_model.receiver.signal import locate
 from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.scene import Scene
 from occ_model.study.observation import observe_profile, panel_span

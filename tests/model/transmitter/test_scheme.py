@@ -10,17 +10,16 @@ from amount import amount
 import occ_model as occ
 from occ_model.arrays import ByteArray, IndexArray
 from occ_model.scene.parameters import open_choice
+from occ_model.transmitter import registry
 from occ_model.transmitter.error_correction import PARITY_BYTES, protected_bits
-from occ_model.transmitter.framings import registry as framings
 from occ_model.transmitter.framings.c_ook import FRAMING as C_OOK
 from occ_model.transmitter.framings.paper import HEADER
-from occ_model.transmitter.line_codes import registry as line_codes
 from occ_model.transmitter.packet import sends_paper_code
 from occ_model.transmitter.registry import Registry
 from occ_model.transmitter.scheme import Scheme, scheme_named
 
-LINE_CODES = line_codes.LINE_CODES.built_in()
-FRAMINGS = framings.FRAMINGS.built_in()
+LINE_CODES = registry.LINE_CODES.built_in()
+FRAMINGS = registry.FRAMINGS.built_in()
 
 CORRECTIONS = ("none", "reed-solomon")
 
@@ -176,7 +175,7 @@ def test_c_ook_refuses_a_line_code_without_a_longest_run() -> None:
     assert caught.value.parameters == ("line_code", "framing")
 
 
-@pytest.mark.parametrize("registry", [line_codes.LINE_CODES, framings.FRAMINGS])
+@pytest.mark.parametrize("registry", [registry.LINE_CODES, registry.FRAMINGS])
 def test_a_scheme_s_names_are_those_that_the_scene_declares(registry: Registry[Any]) -> None:
     choices = open_choice(registry.parameter).choices
     assert tuple(each.name for each in registry.built_in().values()) == choices

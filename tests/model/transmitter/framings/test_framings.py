@@ -7,12 +7,12 @@ import pytest
 
 import occ_model as occ
 from occ_model.arrays import ByteArray, IndexArray
+from occ_model.transmitter import registry
 from occ_model.transmitter.framings.c_ook import read_sub_packet
 from occ_model.transmitter.framings.framing import BARKER, own_preamble
-from occ_model.transmitter.line_codes import registry as line_codes
 from occ_model.transmitter.scheme import scheme_named
 
-LINE_CODES = line_codes.LINE_CODES.built_in()
+LINE_CODES = registry.LINE_CODES.built_in()
 
 
 def chips_of(text: str) -> ByteArray:

@@ -9,8 +9,8 @@ from amount import amount
 from occ_model.arrays import ByteArray
 from occ_model.scene.payload import MAX_PAYLOAD_BITS
 from occ_model.transmitter.line_codes.line_code import VISIBLE_LIMIT, LineCode
-from occ_model.transmitter.line_codes.registry import LINE_CODES as REGISTRY
 from occ_model.transmitter.packet import bits_of
+from occ_model.transmitter.registry import LINE_CODES as REGISTRY
 
 LINE_CODES = REGISTRY.built_in()
 

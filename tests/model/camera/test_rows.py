@@ -112,14 +112,16 @@ def test_what_is_larger_than_the_memory_is_not_remembered() -> None:
     assert memory.size == 0
 
 
-def test_no_number_of_moves_fills_more_than_the_limit() -> None:
+def test_no_number_of_moves_fills_more_than_the_limit(monkeypatch: pytest.MonkeyPatch) -> None:
+    limit = LIMIT // amount(4, 1)  # less of it is full sooner
+    monkeypatch.setattr(MEMORY, "_limit", limit)
     scene = occ.load_preset("phone-136us-real").replace(rows=1152, jpeg_quality=0)
     for move in range(amount(8, 60)):
         moved = scene.replace(distance=1.0 + 0.01 * move)
         occ.render(moved, tolerance=0.0, noise="reused", rows_step=1 + 8 * (move % 5 > 0))
-        assert MEMORY.size <= LIMIT
+        assert MEMORY.size <= limit
     held = sum(size for _, size in MEMORY._known.values())
-    assert held == MEMORY.size > LIMIT / 2
+    assert held == MEMORY.size > limit / 2
 
 
 def test_a_remembered_picture_is_the_one_made_anew() -> None:

@@ -1,5 +1,6 @@
 """The pane of the bars shows what the model counts, and sets speeds without bars."""
 
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +13,7 @@ from pytestqt.qtbot import QtBot
 import occ_model as occ
 from occ_gui.bands.bands_view import BandsView
 from occ_gui.bands.feature import bands
-from occ_gui.bands.jobs import shown_bands
+from occ_gui.bands.jobs import ShownBands, shown_bands
 from occ_gui.widgets.outdated_mark import DELAY
 from occ_model.scene.scene import Scene
 from occ_model.study.bands.advice import as_bright, cure_of
@@ -20,6 +21,11 @@ from occ_model.study.bands.advice import as_bright, cure_of
 _LAMP = occ.load_preset("phone-136us").replace(
     pattern="10", switching_frequency=3840.0, exposure_time=1 / 500
 )
+
+
+@cache
+def _shown(scene: Scene) -> ShownBands:
+    return shown_bands(scene)
 
 
 @pytest.fixture
@@ -38,7 +44,7 @@ def _rows(view: BandsView) -> dict[str, list[str]]:
 
 
 def test_the_pane_shows_the_depth_and_the_speeds_of_the_model(view: BandsView) -> None:
-    view.show_bands(shown_bands(_LAMP))
+    view.show_bands(_shown(_LAMP))
     depth = occ.band_depth(_LAMP)
     assert f"{100 * depth.peak_to_peak:.3g} %" in view.headline.text()
     assert "whole multiples of 520.8 µs" in view.sentences.text()
@@ -50,7 +56,7 @@ def test_the_pane_shows_the_depth_and_the_speeds_of_the_model(view: BandsView) -
 
 
 def test_the_map_is_dark_along_the_valleys() -> None:
-    found = shown_bands(_LAMP)
+    found = _shown(_LAMP)
     depths = found.map
     for order in (1, 2, 3):
         middles = np.sqrt(depths.frequencies[:-1] * depths.frequencies[1:])
@@ -90,7 +96,7 @@ def test_a_speed_that_is_taken_becomes_the_exposure_at_the_same_brightness(
 
 def test_the_table_shows_all_of_its_columns_in_a_narrow_pane(view: BandsView) -> None:
     view.resize(760, 620)
-    view.show_bands(shown_bands(_LAMP))
+    view.show_bands(_shown(_LAMP))
     QApplication.processEvents()
     table = view.table
     needed = table.sizeHintForColumn(3), table.horizontalHeader().sectionSizeHint(3)

@@ -1,23 +1,25 @@
 """What of a photo is matched: a lamp chosen by a click or a row, or a rectangle drawn by hand."""
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import asdict, replace
 from pathlib import Path
 
 import numpy as np
 import pyqtgraph as pg
 import pytest
-from gui.kinds import not_none
+from gui.kinds import not_none, show_widget
 from gui.photo.photo_bench import PhotoBench
 from PySide6.QtCore import QEvent, QPointF, Qt
 from PySide6.QtGui import QMouseEvent
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
+import occ_model as occ
 from occ_gui.files.session_record import Kept, kept_in, record_of
-from occ_gui.photo.lamp_views import LampForm, LampOutlines
-from occ_gui.photo.part_edits import PartEdits
+from occ_gui.photo.pane import PhotoPane
+from occ_gui.photo.photo_controller import PhotoController
+from occ_gui.picture.image_view import ImageView
 from occ_gui.values.photo_choice import PhotoChoice, PhotoFrame
 from occ_model.photo.reading.load import Photo
 from occ_model.results.decoding import Region
@@ -39,78 +41,73 @@ LAMPS = (
 
 
 class Bench(PhotoBench):
-    """The edits with the form and the outlines."""
+    """The pane of a photo, and the picture that its lamps are drawn on."""
 
     def __init__(self, qtbot: QtBot, photo: Photo) -> None:
         super().__init__()
-        self.form = LampForm()
-        qtbot.addWidget(self.form)
-        self.view = pg.GraphicsView()
-        qtbot.addWidget(self.view)
-        self.box = pg.ViewBox()
-        self.view.setCentralItem(self.box)
-        self.outlines = LampOutlines(self.box)
-        self.parts = PartEdits(self.store, self.board)
-        self.store.select(lambda workspace: workspace.photo).changed.connect(self._show)
-        self.form.chosen.connect(self.parts.choose)
-        self.outlines.clicked.connect(self.parts.choose)
-        self.outlines.drawn.connect(self.parts.draw)
+        self.picture = show_widget(qtbot, ImageView(), 1200, 400)
+        self.box = self.picture.photo.box
+        photos = PhotoController(self.store, self.board)
+        photos.work.task.ask = lambda _source: None  # type: ignore[method-assign]  # they are read
+        self.pane = PhotoPane(self.scenes, photos, self.picture, self.board)
+        qtbot.addWidget(self.pane.widget)
+        self.form, self.outlines = self.pane.view.lamps, self.pane.outlines
+        self.parts = self.pane.parts
+        self.store.select(lambda workspace: workspace).changed.connect(self._show)
+        self.board.changed.connect(self._show)
         self.show_photo(photo)
 
     def _show(self) -> None:
-        lamps, part = self.board.results.lamps, self.parts.part
-        chosen = next((place for place, lamp in enumerate(lamps) if lamp is part), None)
-        for drawn in (self.form, self.outlines):
-            drawn.show_lamps(lamps, chosen)
+        self.pane.show_part(self.part)
 
     def find(self) -> None:
         self.board.put(replace(self.board.results, lamps=LAMPS))
-        self._show()
 
 
 @pytest.fixture
-def bench(qtbot: QtBot, photo: Photo) -> Bench:
-    return Bench(qtbot, photo)
+def bench(qtbot: QtBot, photo: Photo) -> Iterator[Bench]:
+    bench = Bench(qtbot, photo)
+    yield bench
+    bench.pane.stop()
 
 
-def test_every_lamp_has_an_outline_and_a_row(bench: Bench) -> None:
+def test_every_lamp_has_an_outline_with_its_number_above_it_and_a_row(bench: Bench) -> None:
     bench.find()
-    assert len(bench.outlines.items) == bench.form.table.rowCount() == len(LAMPS)
-    texts = [
-        [
-            (item.text() if (item := bench.form.table.item(row, column)) else "")
-            for column in range(4)
-        ]
-        for row in range(3)
-    ]
+    table = bench.form.table
+    assert len(bench.outlines.items) == table.rowCount() == len(LAMPS)
+    texts = [[not_none(table.item(row, column)).text() for column in range(4)] for row in range(3)]
     assert texts[0] == ["1", "10\u201339", "10.000 ± 0.010", "6.0"]
     assert texts[1][2] == "no stripes"
     assert texts[2][3] == "2.1, doubtful"
-    doubtful = not_none(bench.form.table.item(2, 3))
-    assert (
-        doubtful.toolTip() == "Doubtful: only 2.1 periods are in view, which can be a coincidence."
-    )
+    tip = not_none(table.item(2, 3)).toolTip()
+    assert tip == "Doubtful: only 2.1 periods are in view, which can be a coincidence."
+    for (_, number), lamp in zip(bench.outlines.items, LAMPS, strict=True):
+        place = (number.pos().x(), number.pos().y())
+        assert place == (lamp.region.first_column, lamp.region.first_row)
+        assert (number.anchor.x(), number.anchor.y()) == (
+            0.0,
+            1.0,
+        )  # its lower left corner is there
 
 
-def test_a_click_within_a_lamp_chooses_it(bench: Bench) -> None:
+def test_a_click_within_a_lamp_chooses_it_and_its_outline_alone_is_thick(bench: Bench) -> None:
+    def thick() -> list[int]:
+        widths = [curve.opts["pen"].widthF() for curve, _ in bench.outlines.items]
+        return [index for index, width in enumerate(widths) if width > min(widths)]
+
     bench.find()
+    assert thick() == []
     bench.outlines.click(QPointF(70.0, 40.0))
     assert bench.parts.part is LAMPS[1]
     assert next(item.row() for item in bench.form.table.selectedItems()) == 1
     bench.outlines.click(QPointF(95.0, 5.0))
     assert bench.parts.part is LAMPS[1]
+    assert thick() == [1]
     bench.form.table.selectRow(2)
     assert bench.parts.part is LAMPS[2]
-    bench.parts.match_whole()
+    assert thick() == [2]
+    bench.form.whole.click()
     assert bench.parts.part is None
-
-
-@pytest.mark.parametrize("chosen", [None, 0, 2])
-def test_the_chosen_lamp_alone_has_a_thick_outline(bench: Bench, chosen: int | None) -> None:
-    bench.outlines.show_lamps(LAMPS, chosen)
-    widths = [curve.opts["pen"].widthF() for curve, _ in bench.outlines.items]
-    thick = [index for index, width in enumerate(widths) if width > min(widths)]
-    assert thick == ([] if chosen is None else [chosen])
 
 
 def test_the_table_of_many_lamps_is_no_higher_than_of_some(bench: Bench) -> None:
@@ -125,9 +122,10 @@ def test_the_table_of_many_lamps_is_no_higher_than_of_some(bench: Bench) -> None
 
 def test_a_rectangle_is_clipped_to_the_photo(bench: Bench, photo: Photo) -> None:
     _rows, columns = photo.image.shape
-    bench.parts.draw(Region(-20, 30, 40, columns + 500))
+    bench.outlines.drawn.emit(Region(-20, 30, 40, columns + 500))
     assert bench.parts.part == Region(0, 30, 40, columns)
-    bench.parts.set_by_hand(False)
+    assert bench.form.by_hand.isChecked()
+    bench.form.by_hand.click()
     assert bench.parts.part is None
 
 
@@ -144,11 +142,16 @@ def test_a_chosen_lamp_is_kept_as_its_rectangle(bench: Bench, photo: Photo) -> N
 
 
 def test_the_rectangle_dragged_is_the_one_matched(bench: Bench) -> None:
-    bench.parts.set_by_hand(True)
-    bench.outlines.show_rectangle(bench.choice.rectangle)
-    bench.outlines.rectangle.setPos((9.5, 4.5), finish=False)
-    bench.outlines.rectangle.setSize((30, 20))
+    bench.form.by_hand.click()
+    rectangle = bench.outlines.rectangle
+    assert rectangle.isVisible()
+    rectangle.setPos((9.5, 4.5), finish=False)
+    rectangle.setSize((30, 20))
     assert bench.parts.part == Region(5, 25, 10, 40)
+    bench.form.whole.click()
+    assert bench.parts.part is None
+    assert not bench.form.by_hand.isChecked()
+    assert not rectangle.isVisible()
 
 
 def test_a_drag_with_the_tool_on_draws_the_rectangle(
@@ -158,7 +161,7 @@ def test_a_drag_with_the_tool_on_draws_the_rectangle(
     kinds, left, none = QEvent.Type, Qt.MouseButton.LeftButton, Qt.MouseButton.NoButton
 
     def drag(first: QPointF, last: QPointF) -> None:
-        port = bench.view.viewport()
+        port = bench.picture.photo.graphics.viewport()
         steps = [(kinds.MouseMove, 0.0, none, none), (kinds.MouseButtonPress, 0.0, left, left)]
         steps += [(kinds.MouseMove, share / 5, none, left) for share in range(1, 6)]
         steps += [(kinds.MouseButtonRelease, 1.0, left, none)]
@@ -168,15 +171,11 @@ def test_a_drag_with_the_tool_on_draws_the_rectangle(
             no_key = Qt.KeyboardModifier.NoModifier
             QApplication.sendEvent(port, QMouseEvent(kind, place, globally, button, held, no_key))
 
-    bench.view.resize(600, 400)
-    with qtbot.waitExposed(bench.view):
-        bench.view.show()
     bench.box.setRange(xRange=(0, 100), yRange=(0, 60), padding=0.0)
     drag(QPointF(10, 5), QPointF(40, 25))
     assert bench.parts.part is None  # the tool is off: the picture moves
     bench.box.setRange(xRange=(0, 100), yRange=(0, 60), padding=0.0)
     bench.parts.draw(Region(30, 50, 60, 90))
-    bench.outlines.show_rectangle(bench.choice.rectangle)
     drag(QPointF(10, 5), QPointF(40, 25))
     found = not_none(bench.choice.rectangle)
     corners = (found.first_row, found.last_row, found.first_column, found.last_column)
@@ -259,26 +258,22 @@ def test_a_rectangle_by_hand_begins_with_the_chosen_lamp_or_in_the_middle(
 
 
 def test_a_rectangle_lies_around_its_pixels_and_each_corner_moves_by_itself(bench: Bench) -> None:
-    region, drawn = Region(5, 25, 10, 40), list[Region]()
-    bench.outlines.drawn.connect(drawn.append)
-    bench.outlines.show_rectangle(region)
-    assert bench.outlines.rectangle.isVisible()
-    corner, size = bench.outlines.rectangle.pos(), bench.outlines.rectangle.size()
+    bench.parts.draw(Region(5, 25, 10, 40))
+    rectangle = bench.outlines.rectangle
+    corner, size = rectangle.pos(), rectangle.size()
     # A pixel's centre has a whole number.
-    assert (corner.x(), corner.y()) == (9.5, 4.5)
-    assert (corner.x() + size.x(), corner.y() + size.y()) == (39.5, 24.5)
-    for handle in bench.outlines.rectangle.handles:
+    assert (corner.x(), corner.y(), size.x(), size.y()) == (9.5, 4.5, 30.0, 20.0)
+    for handle in rectangle.handles:
         assert handle["pos"] + handle["center"] == pg.Point(1.0, 1.0)
-    bench.outlines.show_rectangle(None)
-    assert not bench.outlines.rectangle.isVisible()
-    assert drawn == []
+    assert bench.parts.part == Region(5, 25, 10, 40)
 
 
-def test_a_lamps_number_stands_above_it_and_hides_nothing_of_it(bench: Bench) -> None:
-    bench.find()
-    for (_, number), lamp in zip(bench.outlines.items, LAMPS, strict=True):
-        assert (number.pos().x(), number.pos().y()) == (
-            lamp.region.first_column, lamp.region.first_row,
-        )  # fmt: skip
-        # Its lower left corner is there.
-        assert (number.anchor.x(), number.anchor.y()) == (0.0, 1.0)
+def test_lamps_are_searched_when_the_button_is_pressed(
+    bench: Bench, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(occ, "find_lamps", lambda _photo, _report: LAMPS)
+    bench.form.search.click()
+    assert not bench.form.search.isEnabled()
+    assert not bench.pane.is_idle
+    qtbot.waitUntil(bench.form.search.isEnabled)
+    assert bench.form.table.rowCount() == len(LAMPS)

@@ -79,11 +79,19 @@ def other_file(tmp_path: Path) -> Path:
     return path
 
 
-def test_a_photo_is_read_shown_and_announced(bench: Bench, photo_file: Path, stripes: Grey) -> None:
+def test_a_photo_is_read_shown_and_announced_with_progress_from_start_to_end(
+    bench: Bench, photo_file: Path, stripes: Grey
+) -> None:
+    received: list[object] = []
+    work = bench.controller.work
+    work.begun.connect(lambda: received.append("begun"))
+    work.task.reported.connect(received.append)
+    work.ended.connect(lambda: received.append("ended"))
     bench.open(photo_file)
     assert np.array_equal(bench.image, stripes)
     assert len(bench.shown) == 1
     assert bench.failures == []
+    assert (received[0], received[1], received[-2], received[-1]) == ("begun", 0.0, 1.0, "ended")
 
 
 def test_an_unreadable_photo_says_why_and_the_last_stays(
@@ -100,22 +108,18 @@ def test_an_unreadable_photo_says_why_and_the_last_stays(
     assert len(bench.shown) == 1
 
 
-def test_closing_while_a_photo_is_read_is_not_overtaken_by_it(
-    bench: Bench, photo_file: Path
+@pytest.mark.parametrize("is_closed", [True, False])
+def test_closing_or_opening_another_while_a_photo_is_read_is_not_overtaken_by_it(
+    bench: Bench, photo_file: Path, other_file: Path, is_closed: bool
 ) -> None:
     bench.open_and_hold(photo_file)
-    bench.controller.close()
+    if is_closed:
+        bench.controller.close()
+    else:
+        bench.controller.open(other_file)
     bench.wait_until_idle()
-    assert bench.shown == []
-
-
-def test_progress_is_shown_from_start_to_end(bench: Bench, photo_file: Path) -> None:
-    received: list[object] = []
-    bench.controller.work.begun.connect(lambda: received.append("begun"))
-    bench.controller.work.task.reported.connect(received.append)
-    bench.controller.work.ended.connect(lambda: received.append("ended"))
-    bench.open(photo_file)
-    assert (received[0], received[1], received[-2], received[-1]) == ("begun", 0.0, 1.0, "ended")
+    shown = [photo.path for photo in bench.shown if photo]
+    assert shown == ([] if is_closed else [other_file])
 
 
 def test_a_cancelled_reading_ends_and_the_last_photo_stays(
@@ -136,36 +140,26 @@ def test_a_cancelled_reading_ends_and_the_last_photo_stays(
     assert bench.failures == []
 
 
-def test_opening_another_photo_while_one_is_read_shows_the_other(
-    bench: Bench, photo_file: Path, other_file: Path
+def test_the_scan_axis_holds_for_the_open_photo_and_the_next_and_opens_none(
+    bench: Bench, photo_file: Path, tmp_path: Path, stripes: Grey
 ) -> None:
-    bench.open_and_hold(photo_file)
-    bench.controller.open(other_file)
-    bench.wait_until_idle()
-    assert [photo.path for photo in bench.shown if photo] == [other_file]
-
-
-def test_another_scan_axis_turns_the_open_photo(
-    bench: Bench, photo_file: Path, stripes: Grey
-) -> None:
-    bench.open(photo_file)
-    for axis, expected in (("lines", stripes.T), ("columns", stripes), ("auto", stripes)):
+    def scan_along(axis: str) -> None:
         bench.controller.scan_along(axis)
         bench.wait_until_idle()
-        assert np.array_equal(bench.image, expected)
 
-
-def test_the_scan_axis_holds_for_the_next_photo_and_opens_none(
-    bench: Bench, photo_file: Path, stripes: Grey
-) -> None:
-    bench.controller.scan_along("lines")
-    bench.wait_until_idle()
+    scan_along("lines")
     assert bench.shown == []
     bench.open(photo_file)
     assert np.array_equal(bench.image, stripes.T)
+    for axis, expected in (("columns", stripes), ("auto", stripes), ("lines", stripes.T)):
+        scan_along(axis)
+        assert np.array_equal(bench.image, expected)
+    bench.open(tmp_path / "missing.png")  # after a failure the photo that is kept is turned
+    scan_along("columns")
+    assert np.array_equal(bench.image, stripes)
+    assert len(bench.failures) == 1
     bench.controller.close()
-    bench.controller.scan_along("columns")
-    bench.wait_until_idle()
+    scan_along("lines")
     assert bench.shown[-1] is None
 
 
@@ -178,29 +172,11 @@ def test_the_scan_axis_chosen_while_a_photo_is_read_holds_for_it(
     assert np.array_equal(bench.image, stripes.T)
 
 
-def test_after_a_failure_another_scan_axis_turns_the_kept_photo(
-    bench: Bench, photo_file: Path, tmp_path: Path, stripes: Grey
-) -> None:
-    bench.open(photo_file)
-    bench.open(tmp_path / "missing.png")
-    bench.controller.scan_along("lines")
-    bench.wait_until_idle()
-    assert np.array_equal(bench.image, stripes.T)
-    assert len(bench.failures) == 1
-
-
-@pytest.fixture
-def coloured_file(tmp_path: Path) -> Path:
-    path = tmp_path / "coloured.png"
-    pixels = np.zeros((8, 9, 3), dtype=np.uint8)
-    pixels[:] = (10, 20, 30)
-    Image.fromarray(pixels).save(path)
-    return path
-
-
 def test_another_channel_applies_to_this_photo_and_the_next(
-    bench: Bench, coloured_file: Path, photo_file: Path
+    bench: Bench, tmp_path: Path, photo_file: Path
 ) -> None:
+    coloured_file = tmp_path / "coloured.png"
+    Image.fromarray(np.full((8, 9, 3), (10, 20, 30), dtype=np.uint8)).save(coloured_file)
     bench.open(coloured_file)
     assert bench.image.max() == 30
     bench.controller.take_channel("green")
@@ -211,21 +187,15 @@ def test_another_channel_applies_to_this_photo_and_the_next(
     assert bench.image.max() == 20
 
 
-def test_a_file_that_is_opened_again_is_read_again(
-    bench: Bench, photo_file: Path, stripes: Grey
-) -> None:
-    bench.open(photo_file)
-    Image.fromarray(np.full((8, 9), 5, dtype=np.uint8)).save(photo_file)
-    bench.open(photo_file)
-    assert bench.image.shape == (8, 9)
-
-
-def test_a_choice_that_comes_back_shows_its_photo_without_reading_it(
+def test_a_file_that_is_opened_again_is_read_again_but_not_where_its_choice_comes_back(
     bench: Bench, photo_file: Path, other_file: Path
 ) -> None:
     """As at the end of a lesson."""
     bench.open(photo_file)
     first, choice = bench.shown[-1], bench.controller.choice
+    Image.fromarray(np.full((8, 9), 5, dtype=np.uint8)).save(photo_file)
+    bench.open(photo_file)
+    assert bench.image.shape == (8, 9)
     bench.open(other_file)
     bench.begun.clear()
     bench.controller.edit(lambda _present: choice)

@@ -1,108 +1,318 @@
-"""Chips and lamps of a photo: worked out in the background, of the photo that is open."""
+"""What is worked out of the open photo: lamps, chips, stripes, and how it compares and lies."""
 
+import threading
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
+from gui.kinds import SnapshotOf, not_none
 from gui.photo.photo_bench import PhotoBench
+from matches import match_with
+from PIL import Image
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
+from occ_gui.photo import photo_work
 from occ_gui.photo.part_edits import PartEdits
-from occ_gui.photo.photo_work import chip_reading, lamp_search
-from occ_gui.shell.work import Work
+from occ_gui.photo.photo_work import photo_profile
+from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.values.photo_choice import Placed, Placement
+from occ_gui.values.photo_results import FoundMatch, PhotoProfile
+from occ_model.camera.enhancement import enhance
 from occ_model.errors import MatchError
+from occ_model.photo.comparison import compare
 from occ_model.photo.reading.load import Photo
 from occ_model.results.decoding import Region
 from occ_model.results.lamp import Lamp
-from occ_model.results.match import ChipReading
+from occ_model.results.match import ChipReading, Comparison, Stripes
+
+PATIENCE_S = 10.0
+
+SENTENCE = "No stripes at all."
 
 READING = ChipReading(np.array([1, 0], np.uint8), 9.0, 1.0, 0.0, Region(0, 9, 0, 60))
 
 
+def stripes_of(photo: Photo) -> Stripes:
+    """Take all columns of a photo from the tenth on for stripes."""
+    rows, columns = photo.image.shape
+    profile = photo.profile[10:]
+    low, high = np.full(len(profile), 40.0), np.full(len(profile), 200.0)
+    return Stripes(Region(0, rows, 10, columns), profile, low, high, 20.0, 0.1, 0.0)
+
+
 class Bench(PhotoBench):
-    def __init__(self, qtbot: QtBot) -> None:
+    """A photo, its comparison, and a hand on the search for stripes."""
+
+    def __init__(self, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) -> None:
         super().__init__()
-        self.work: Work[object, object] = chip_reading(self.store, self.board)  # type: ignore[assignment]
-        self.shown: list[ChipReading | None] = []
-        self.chips = self.board.select(lambda results: results.chips)
-        self.chips.changed.connect(self.shown.append)
+        self.searched: list[Photo] = []
+        self.go_on = threading.Event()
+        self.go_on.set()
+        self.stripes: Callable[[Photo], Stripes] = stripes_of
+        monkeypatch.setattr(photo_work, "find_stripes", self._find)
+        self.work: Any = photo_work.stripe_search(self.store, self.board)
         self._qtbot = qtbot
 
+    def do(self, work: object) -> None:
+        """Do other work of the photo than to search for stripes."""
+        self.work.task.stop()
+        self.work = work
+
+    def _find(self, photo: Photo, region: object = None) -> Stripes:
+        assert self.go_on.wait(PATIENCE_S)
+        self.searched.append(photo)
+        return self.stripes(photo)
+
+    def compare(self, reading: Snapshot, photo: Photo) -> None:
+        self.show_reading(reading)
+        self.show_photo(photo)
+        self.wait()
+
     def wait(self) -> None:
+        self.go_on.set()
         self._qtbot.waitUntil(lambda: self.work.task.is_idle)
+
+    def move(self, placement: Placement | None) -> None:
+        opened = not_none(self.board.results.opened)
+        self.choose(placed=None if placement is None else Placed(opened.source, placement))
+
+    def show_match(self, photo: Photo, stripes: Stripes, scene: occ.Scene | None = None) -> None:
+        match = match_with(scene=scene or occ.Scene(), stripes=stripes, profile=stripes.profile)
+        found = FoundMatch(photo, None, match, 1e4)
+        self.board.put(replace(self.board.results, match=found))
+
+    def set_enhanced(self, enhanced: bool) -> None:
+        self.store.put(replace(self.store.workspace, is_enhanced=enhanced))
+
+    @property
+    def shown(self) -> PhotoProfile | None:
+        return photo_profile(self.part)
+
+    @property
+    def last(self) -> PhotoProfile:
+        return not_none(self.shown)
+
+    @property
+    def comparison(self) -> Comparison:
+        return not_none(self.last.comparison)
 
 
 @pytest.fixture
-def bench(qtbot: QtBot) -> Iterator[Bench]:
-    bench = Bench(qtbot)
+def bench(qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) -> Iterator[Bench]:
+    bench = Bench(qtbot, monkeypatch)
     yield bench
+    bench.go_on.set()
     bench.work.task.stop()
 
 
-@pytest.fixture
-def read(monkeypatch: pytest.MonkeyPatch) -> Callable[[ChipReading], None]:
-    def give(reading: ChipReading) -> None:
-        monkeypatch.setattr(occ, "read_chips", lambda _photo, _region: reading)
-
-    return give
+def refuse(_photo: Photo) -> Stripes:
+    raise MatchError(SENTENCE)
 
 
-def test_chips_of_each_photo_are_shown(
-    photo: Photo, read: Callable[[ChipReading], None], bench: Bench
+def test_the_photo_is_drawn_as_it_is_until_its_stripes_are_found(
+    bench: Bench, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
-    read(READING)
+    bench.show_reading(snapshot_of())
+    bench.go_on.clear()
     bench.show_photo(photo)
-    assert bench.shown == []
+    assert bench.last.comparison is None
+    assert bench.last.sentence == ""
+    assert bench.last.raw is photo.profile
     bench.wait()
-    assert bench.shown == [READING]
+    assert bench.comparison.correlation != 0.0
+
+
+def test_the_photo_is_compared_flattened_and_from_its_region_on(
+    bench: Bench, snapshot_of: SnapshotOf, photo: Photo
+) -> None:
+    snapshot = snapshot_of()
+    bench.compare(snapshot, photo)
+    flattened = stripes_of(photo).flattened
+    for placement in (Placement(300.0, 5.0), Placement(200.25, 0.0, 2.5)):
+        bench.move(placement)
+        first = placement.column + 10 * placement.scale
+        expected = compare(flattened, snapshot.frame.profile, first, placement.scale)
+        assert bench.comparison.first_column == expected.first_column
+        assert bench.comparison.photo.tolist() == expected.photo.tolist()
+        assert bench.comparison.rmse == expected.rmse
+        assert (bench.last.first_column, bench.last.scale) == (placement.column, placement.scale)
+
+
+def test_stripes_are_searched_once_for_all_comparisons(
+    bench: Bench, snapshot_of: SnapshotOf, photo: Photo
+) -> None:
+    bench.show_photo(photo)
+    for changes in ({}, {"exposure_time": 30e-6}, {"iso": 50.0}):
+        snapshot = snapshot_of(**changes)
+        bench.show_reading(snapshot)
+        bench.wait()
+        first = bench.comparison.first_column
+        length = len(bench.comparison.simulated)
+        levels = snapshot.frame.profile[first : first + length]
+        assert bench.comparison.simulated.tolist() == levels.tolist()
+    assert bench.searched == [photo]
+
+
+def test_where_enhanced_columns_are_looked_at_they_are_compared_each_by_its_own_histogram(
+    bench: Bench, snapshot_of: SnapshotOf, photo: Photo
+) -> None:
+    snapshot = snapshot_of()
+    bench.compare(snapshot, photo)
+    plain, raw = bench.comparison.photo, photo.profile
+    for enhanced in (True, False):
+        bench.set_enhanced(enhanced)
+        shown, profile = bench.comparison, snapshot.levels(enhanced=enhanced)
+        first, length = shown.first_column, len(shown.simulated)
+        assert shown.simulated.tolist() == profile[first : first + length].tolist()
+        photos = [enhance(one, "equalization") if enhanced else one for one in (plain, raw)]
+        assert [shown.photo.tolist(), bench.last.raw.tolist()] == [one.tolist() for one in photos]
+        if enhanced:
+            correlation = np.corrcoef(shown.photo, shown.simulated)[0, 1]
+            assert shown.correlation == pytest.approx(correlation)
+
+
+def test_without_stripes_or_beside_the_picture_the_photo_is_drawn_with_a_sentence(
+    bench: Bench, snapshot_of: SnapshotOf, photo: Photo
+) -> None:
+    bench.compare(snapshot_of(), photo)
+    bench.move(Placement(1e5))
+    assert bench.last.comparison is None
+    assert bench.last.sentence.endswith(".")
+    bench.move(None)
+    assert bench.comparison.first_column > 0
+    bench.stripes = refuse
     bench.show_photo(replace(photo))
-    assert bench.shown[-1] is None
     bench.wait()
-    assert bench.shown[-1] is READING
+    assert bench.last.comparison is None
+    assert bench.last.sentence == SENTENCE
+    assert bench.last.raw is photo.profile
     bench.show_photo(None)
-    assert bench.shown[-1] is None
+    assert bench.shown is None
 
 
-def test_a_photo_without_chips_shows_none(
-    photo: Photo, monkeypatch: pytest.MonkeyPatch, bench: Bench
+def test_a_match_leaves_the_residual_of_a_scene_as_it_was(
+    bench: Bench, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
-    def refuse(_photo: Photo, _region: Region | None) -> ChipReading:
-        raise MatchError("No chips can be read.")
+    snapshot = snapshot_of()
+    bench.compare(snapshot, photo)
+    before = bench.comparison.residual.tolist()
+    found = stripes_of(photo)
+    fitted = replace(found, low=found.low + np.linspace(0.0, 90.0, len(found.low)))
+    for scene in (None, snapshot.scene):  # not applied, and applied
+        bench.show_match(photo, fitted, scene)
+        assert bench.comparison.residual.tolist() == before
 
-    monkeypatch.setattr(occ, "read_chips", refuse)
+
+def test_a_match_is_not_overtaken_by_the_search_for_stripes(
+    bench: Bench, snapshot_of: SnapshotOf, photo: Photo
+) -> None:
+    bench.stripes = refuse
+    bench.show_reading(snapshot_of())
+    bench.go_on.clear()
+    bench.show_photo(photo)
+    bench.show_match(photo, stripes_of(photo))
+    bench.wait()
+    assert bench.last.sentence == ""
+    assert bench.comparison is not None
+
+
+def test_a_simulation_without_stripes_is_not_compared(
+    bench: Bench, snapshot_of: SnapshotOf, photo: Photo
+) -> None:
     bench.show_photo(photo)
     bench.wait()
-    assert bench.shown == []
+    bench.show_reading(snapshot_of(exposure_time=5.0))  # white from rim to rim
+    assert bench.last.comparison is None
+    assert bench.last.sentence == "The simulation has no stripes there to compare."
+    bench.show_reading(snapshot_of())
+    assert bench.comparison is not None
+    assert bench.last.sentence == ""
 
 
-def test_chips_of_a_photo_that_was_closed_are_not_shown(
-    photo: Photo, read: Callable[[ChipReading], None], bench: Bench, qtbot: QtBot
+def test_a_photo_lies_at_the_panels_corner_or_where_it_was_put_but_not_where_the_last_one_was(
+    bench: Bench, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
-    read(READING)
+    bench.show_photo(photo)
+    bench.move(Placement(1.0, 2.0, 3.0))
+    assert bench.part.placement == Placement(1.0, 2.0, 3.0)
+    bench.show_photo(photo)
+    for distance in (1.2, 2.0):
+        snapshot = snapshot_of(distance=distance)
+        bench.show_reading(snapshot)
+        column, row = snapshot.panel_origin
+        assert bench.part.placement == Placement(column, row)
+    bench.wait()
+    # Once its lamp is found, which begins in its tenth column, that lies on the panel.
+    assert bench.part.placement == Placement(column - 10.0, row)
+
+
+def test_a_photo_of_the_pictures_very_size_lies_pixel_on_pixel(
+    bench: Bench, snapshot_of: SnapshotOf, tmp_path: Path
+) -> None:
+    snapshot = snapshot_of(columns=300)
+    Image.fromarray(snapshot.frame.image).save(tmp_path / "a.png")
+    bench.show_reading(snapshot)
+    bench.show_photo(occ.load_photo(tmp_path / "a.png", "columns"))
+    assert bench.part.placement == Placement()
+    bench.wait()
+
+
+def chips_shown(bench: Bench) -> list[ChipReading | None]:
+    bench.do(photo_work.chip_reading(bench.store, bench.board))
+    chips, shown = bench.board.select(lambda results: results.chips), list[ChipReading | None]()
+    chips.changed.connect(shown.append)
+    return shown
+
+
+def test_chips_of_each_photo_are_shown_and_none_of_one_that_was_closed(
+    photo: Photo, monkeypatch: pytest.MonkeyPatch, bench: Bench, qtbot: QtBot
+) -> None:
+    monkeypatch.setattr(occ, "read_chips", lambda _photo, _region: READING)
+    shown = chips_shown(bench)
+    bench.show_photo(photo)
+    assert shown == []
+    bench.wait()
+    assert shown == [READING]
+    bench.show_photo(replace(photo))
+    assert shown[-1] is None
+    bench.wait()
+    assert shown[-1] is READING
+    bench.show_photo(None)
+    assert shown[-1] is None
+    count = len(shown)
     bench.show_photo(photo)
     bench.show_photo(None)
     bench.wait()
     qtbot.wait(20)
-    assert bench.shown == []
+    assert len(shown) == count
 
 
-def test_chips_of_another_part_replace_those_of_the_whole_photo(
+def test_chips_are_those_of_the_part_that_is_matched_and_there_may_be_none(
     photo: Photo, monkeypatch: pytest.MonkeyPatch, bench: Bench
 ) -> None:
     of_part = replace(READING, start=10.0)
-    monkeypatch.setattr(
-        occ, "read_chips", lambda _photo, region: READING if region is None else of_part
-    )
+
+    def read(_photo: Photo, region: Region | None) -> ChipReading:
+        if region is None:
+            raise MatchError("No chips can be read.")
+        return of_part
+
+    monkeypatch.setattr(occ, "read_chips", read)
+    shown = chips_shown(bench)
     bench.show_photo(photo)
+    bench.wait()
+    assert shown == []
     PartEdits(bench.store, bench.board).draw(Region(0, 9, 10, 60))
     bench.wait()
-    assert bench.shown == [of_part]
+    assert shown == [of_part]
 
 
 def test_lamps_are_found_when_asked_for_and_come_back_with_what_was_set(
-    photo: Photo, monkeypatch: pytest.MonkeyPatch, bench: Bench, qtbot: QtBot
+    photo: Photo, monkeypatch: pytest.MonkeyPatch, bench: Bench
 ) -> None:
     """As at the end of a lesson; asked for again, they are searched again."""
     searched: list[Photo] = []
@@ -112,8 +322,7 @@ def test_lamps_are_found_when_asked_for_and_come_back_with_what_was_set(
         return (Lamp(Region(0, 9, 0, 20), np.array([[0, 9, 0, 20]]), 200.0, modulated=False),)
 
     monkeypatch.setattr(occ, "find_lamps", find)
-    bench.work.task.stop()
-    bench.work = lamp_search(bench.store, bench.board)  # type: ignore[assignment]
+    bench.do(photo_work.lamp_search(bench.store, bench.board))
     parts = PartEdits(bench.store, bench.board)
     bench.show_photo(photo)
     assert searched == []

@@ -3,12 +3,13 @@
 import math
 from collections.abc import Callable
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from gui.kinds import not_none
+from gui.kinds import Grey, not_none
 from gui.pane_bench import PaneBench
 from PIL import Image
 from pyqtgraph import PlotWidget, TargetItem
@@ -52,7 +53,7 @@ def each_room_is_seen_and_read_once(
 
         return remembered
 
-    for name in ("render_room", "read_room"):
+    for name in ("render_room", "read_room", "room_map"):
         monkeypatch.setattr(jobs, name, once(getattr(jobs, name)))
 
 
@@ -215,14 +216,16 @@ def test_a_camera_is_aimed_at_a_point_by_turning_it(seed: int) -> None:
     assert math.isclose(turned.roll, place.roll)
 
 
-def test_a_file_is_named_in_place_of_the_room_and_one_that_is_no_room_is_told(
-    pane: RoomPane, tmp_path: Path
+def test_a_file_is_named_in_place_of_the_room_and_what_is_no_room_or_no_photo_is_told(
+    pane: RoomPane, tmp_path: Path, qtbot: QtBot
 ) -> None:
     rooms = pane.view.rooms
     rooms.textActivated.emit("corridor")
     assert (rooms.currentText(), pane.room) == ("corridor", load_room("corridor"))
     pane.open(tmp_path / "none.toml")
     assert "none.toml" in pane.view.headline.text()
+    pane.open_photo(tmp_path / "none.jpg")
+    qtbot.waitUntil(lambda: "none.jpg" in pane.view.headline.text())
     assert (rooms.currentText(), pane.room) == ("corridor", load_room("corridor"))
     path = tmp_path / "mine.toml"
     path.write_text(ROOM.to_toml(), encoding="utf-8")
@@ -239,18 +242,6 @@ def test_the_first_room_is_one_of_the_program(bench: PaneBench) -> None:
     assert pane.room == load_room(FIRST_ROOM)
 
 
-def test_the_map_is_that_of_the_study(
-    pane: RoomPane, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(jobs, "SIDE", 2)
-    pane.view.measure.click()
-    qtbot.waitUntil(lambda: pane.is_idle and "Map of the floor" in pane.view.floor.text())
-    found = map_room(pane.room, lambda _: None)
-    sure = sum(bool(point.sure) for point in found.points)
-    assert f"{sure} of 4 places determined" in pane.view.floor.text()
-    assert len(pane.view.plan.floor.points()) == 4
-
-
 def test_the_figure_has_the_true_place_and_the_one_found(pane: RoomPane, qtbot: QtBot) -> None:
     shown = looked(qtbot, pane)
     assert shown.reading is not None
@@ -263,18 +254,24 @@ def test_the_figure_has_the_true_place_and_the_one_found(pane: RoomPane, qtbot: 
         assert len(drawing.draw().axes) == 2
 
 
-def test_a_map_goes_with_the_turn_that_it_is_of(
+def test_the_map_is_that_of_the_study_and_goes_with_the_turn_that_it_is_of(
     pane: RoomPane, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(jobs, "SIDE", 2)
+    monkeypatch.setattr(jobs, "SIDE", 1)
     view, aim = pane.view, pane.view.plan.aim
+    said: list[str] = []
+    pane._map.reported.connect(lambda _: said.append(view.floor.text()))
     for is_measured in (False, True):
         view.measure.click()
-        qtbot.waitUntil(lambda: "Measuring" in view.floor.text())
         if is_measured:
             qtbot.waitUntil(lambda: "Map of the floor" in view.floor.text())
+            found = map_room(pane.room, lambda _: None)
+            assert found.points
+            sure = sum(bool(point.sure) for point in found.points)
+            assert f"{sure} of {len(found.points)} places determined" in view.floor.text()
+            assert said[-1] == "Measuring the floor: 100 %"
             view.plan.camera.setPos(0.5, 0.5)
-            assert len(view.plan.floor.points()) == 4
+            assert len(view.plan.floor.points()) == len(found.points)
         aim.setPos(aim.pos().x() + 0.1, aim.pos().y())
         assert view.floor.text() == ""
         assert len(view.plan.floor.points()) == 0
@@ -282,12 +279,16 @@ def test_a_map_goes_with_the_turn_that_it_is_of(
         assert view.floor.text() == ""
 
 
+@cache
+def _image() -> Grey:
+    return occ.render_room(ROOM.replace(x=0.4, y=0.8)).camera_image
+
+
 def _photo(path: Path, **tags: float) -> Path:
     notes = Image.Exif()
     known = {"focal_length": EQUIVALENT_FOCAL_LENGTH}
     notes.get_ifd(0x8769).update({known[name]: value for name, value in tags.items()})
-    image = occ.render_room(ROOM.replace(x=0.4, y=0.8)).camera_image
-    Image.fromarray(image).save(path, quality=92, exif=notes.tobytes())
+    Image.fromarray(_image()).save(path, quality=92, exif=notes.tobytes())
     return path
 
 
@@ -330,8 +331,3 @@ def test_another_room_is_looked_for_in_the_photo_and_dragging_leaves_it(
     pane.view.plan.camera.setPos(0.3, 0.5)
     assert pane.look is not None
     assert pane.look.photo is None
-
-
-def test_what_is_no_photo_is_said(pane: RoomPane, qtbot: QtBot, tmp_path: Path) -> None:
-    pane.open_photo(tmp_path / "none.jpg")
-    qtbot.waitUntil(lambda: "none.jpg" in pane.view.headline.text())

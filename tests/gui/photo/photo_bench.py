@@ -4,9 +4,11 @@ from dataclasses import replace
 from pathlib import Path
 
 from gui.stores import store_of
+from PySide6.QtGui import QAccessible
 
 from occ_gui.photo.match_controller import cure_of_match
 from occ_gui.photo.photo_part import PhotoPart
+from occ_gui.photo.photo_verdict import PhotoSteps
 from occ_gui.photo.photo_view import PhotoView
 from occ_gui.shell.results import Board
 from occ_gui.simulation.snapshot import Reading
@@ -50,6 +52,12 @@ class PhotoBench:
 
     def show_reading(self, reading: Reading) -> None:
         self.board.show_reading(reading)
+
+
+def spoken(steps: PhotoSteps) -> list[str]:
+    """Return what a screen reader says of the steps."""
+    faces = [QAccessible.queryAccessibleInterface(button) for button in steps.buttons.values()]
+    return [face.text(QAccessible.Text.Name) for face in faces]
 
 
 class LiveView(PhotoView):

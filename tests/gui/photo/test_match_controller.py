@@ -7,10 +7,10 @@ from datetime import date
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
 from gui.kinds import collect
 from gui.photo.photo_bench import PhotoBench
+from matches import match_with
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
@@ -20,27 +20,13 @@ from occ_gui.values.photo_choice import MatchChoice
 from occ_model.errors import MatchError
 from occ_model.photo.reading.load import Photo
 from occ_model.results.decoding import Region
-from occ_model.results.match import Match, Stripes
+from occ_model.results.match import Match
 from occ_model.scene.presets import USER_FOLDER, preset_named, user_presets
 from occ_model.scene.scene import Scene
 from occ_model.scene.square_wave import SQUARE_WAVE
 
 PATIENCE_S = 10.0
 DAY = date(2026, 1, 31)
-
-
-def match_of(scene: Scene, **changes: Any) -> Match:
-    """Make up a match that found a scene."""
-    profile = np.array([1.0, 2.0])
-    stripes = Stripes(Region(0, 5, 0, 2), profile, profile, profile + 1, 2.0, 0.1, 0.25)
-    return Match(
-        scene=scene, stripes=stripes, readout_time=scene.camera.readout_time,
-        switching_frequency=scene.transmitter.switching_frequency,
-        exposure_time=scene.camera.exposure_time, start_time=0.0, gamma=2.22,
-        uncertainties={"readout_time": 2e-9, "exposure_time": 3e-7}, pattern="10",
-        pattern_was_read=changes.pop("pattern_was_read", False), profile=profile,
-        correlation=0.99, **changes,
-    )  # fmt: skip
 
 
 class Bench(PhotoBench):
@@ -71,7 +57,12 @@ class Bench(PhotoBench):
         progress(0.5)
         if self.refusal:
             raise MatchError(*self.refusal)
-        return match_of(scene.replace(readout_time=9e-6))
+        found = scene.replace(readout_time=9e-6)
+        return match_with(
+            scene=found, readout_time=9e-6, pattern_was_read=False,
+            switching_frequency=found.transmitter.switching_frequency,
+            uncertainties={"readout_time": 2e-9, "exposure_time": 3e-7},
+        )  # fmt: skip
 
     def start(self, **choice: Any) -> None:
         self.controller.start(MatchChoice(**choice))

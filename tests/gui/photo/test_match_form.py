@@ -15,7 +15,6 @@ from occ_gui.values.photo_choice import MatchChoice
 from occ_model.photo.match import ESTIMATES, PATTERN_SOURCES
 from occ_model.photo.reading.load import Photo
 from occ_model.results.match import Match
-from occ_model.scene.square_wave import SQUARE_FREQUENCY
 
 
 def test_every_option_of_the_models_match_can_be_chosen(view: LiveView) -> None:
@@ -37,24 +36,19 @@ def test_the_button_asks_for_a_match_as_it_is_chosen(view: LiveView, qtbot: QtBo
     assert asked == [MatchChoice(), MatchChoice("square", 1500.0, "switching_frequency", True)]
 
 
-def test_a_frequency_is_asked_for_only_with_a_square_wave(view: LiveView, qtbot: QtBot) -> None:
-    for key in ("scene", "square", "read", "auto"):
-        choose(qtbot, view.form.sent, key)
-        assert view.form.square.isVisible() == (key == "square")
-
-
 def test_what_is_known_beside_the_estimate_is_shown(view: LiveView, qtbot: QtBot) -> None:
     view.show_scene(occ.Scene().replace(switching_frequency=7e3, readout_time=9e-6))
     frequency, readout = (view.form.known[n] for n in ("switching_frequency", "readout_time"))
     assert (frequency.text(), readout.isVisible()) == ("7 kHz", False)
     assert view.form.hint.text() == "of chips; an LED that only blinks does so at 3.5 kHz"
-    choose(qtbot, view.form.sent, "square")
+    for key in ("scene", "read", "auto", "square"):
+        choose(qtbot, view.form.sent, key)
+        assert view.form.square.isVisible() == (key == "square")
     assert (frequency.text(), frequency.isEnabled()) == ("2 kHz", False)
     assert view.form.hint.text() == "two chips a cycle of 1 kHz"
     choose(qtbot, view.form.estimate, "switching_frequency")
-    assert (readout.text(), frequency.isVisible(), view.form.hint.isVisible()) == (
-        "9 µs", False, False,
-    )  # fmt: skip
+    assert (readout.text(), frequency.isVisible()) == ("9 µs", False)
+    assert not view.form.hint.isVisible()
 
 
 def test_who_chooses_a_square_wave_tells_its_frequency_until_another_choice(
@@ -62,11 +56,16 @@ def test_who_chooses_a_square_wave_tells_its_frequency_until_another_choice(
 ) -> None:
     assert not view.form.certain.isChecked()
     choose(qtbot, view.form.sent, "square")
-    assert view.form.certain.isChecked()
     assert view.choice.certain == {"switching_frequency": 2e3}
+    view.form.certain.click()
+    assert not view.form.certain.isChecked()
+    view.form.square.selectAll()
+    qtbot.keyClicks(view.form.square, "1.5 kHz\r")
+    assert view.form.certain.isChecked()
+    assert view.choice.certain == {"switching_frequency": 3e3}
     view.form.sent.show_key("auto")
     view.form._take_sent("auto")
-    assert view.form._certain == {}
+    assert view.choice.certain == {}
     assert not view.form.certain.isChecked()
 
 
@@ -113,17 +112,6 @@ def test_the_keyboard_stays_at_the_match_while_it_runs_and_after(
     assert view.form.start.hasFocus()
 
 
-def test_an_impossible_frequency_is_refused_and_the_last_stays(
-    view: LiveView, qtbot: QtBot
-) -> None:
-    choose(qtbot, view.form.sent, "square")
-    view.form.square.selectAll()
-    qtbot.keyClicks(view.form.square, "fast")
-    with qtbot.waitSignal(view.form.refused):
-        qtbot.keyClick(view.form.square, Qt.Key.Key_Return)
-    assert view.form.choice().square_frequency == SQUARE_FREQUENCY.default
-
-
 def test_a_running_match_shows_progress_and_a_cancel_button(view: LiveView, qtbot: QtBot) -> None:
     form = view.form
     assert (form.start.isVisible(), form.progress.isVisible()) == (True, False)
@@ -157,18 +145,6 @@ def test_a_known_value_is_certain_once_it_is_entered_or_ticked(
     choose(qtbot, view.form.estimate, "readout_time")
     qtbot.mouseClick(view.form.certain, Qt.MouseButton.LeftButton)
     assert view.choice.certain == {}
-
-
-def test_the_frequency_of_a_square_wave_is_certain_once_entered(
-    view: LiveView, qtbot: QtBot
-) -> None:
-    choose(qtbot, view.form.sent, "square")
-    view.form.certain.click()
-    assert not view.form.certain.isChecked()
-    view.form.square.selectAll()
-    qtbot.keyClicks(view.form.square, "1.5 kHz\r")
-    assert view.form.certain.isChecked()
-    assert view.form._certain == {"switching_frequency": 3e3}
 
 
 def test_a_refused_known_value_says_why_at_its_field_until_mended(
@@ -239,3 +215,5 @@ def test_what_was_certain_of_one_photo_is_said_to_be_assumed_of_the_next(
     view.form.certain.click()
     view.form.certain.click()
     assert "assumed" not in view.form.hint.text()
+    view.open(replace(photo, path=others[1]))  # of one table the same is certain
+    assert view.form.certain.isChecked() == (how == "several photos")

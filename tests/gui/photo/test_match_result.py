@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 from gui.kinds import add_widget
-from gui.photo.photo_bench import LiveView
+from gui.photo.photo_bench import LiveView, spoken
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QPalette
 from PySide6.QtWidgets import QLabel
@@ -12,6 +12,7 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.photo.match_result import SIGNS, VerdictView
 from occ_gui.widgets.contrast import contrast
+from occ_gui.widgets.state_look import State
 from occ_model.photo.match_facts import estimate_text
 from occ_model.photo.reading.load import Photo
 from occ_model.results.match import Alternative, Match
@@ -24,19 +25,30 @@ from occ_model.study.bands.advice import cure_of
 READOUT = PARAMETERS["readout_time"]
 
 
-def test_results_stand_with_uncertainty_in_the_screens_units(view: LiveView, match: Match) -> None:
+def test_results_stand_with_uncertainty_in_the_screens_units(
+    view: LiveView, photo: Photo, match: Match
+) -> None:
+    view.open(replace(photo, exposure_time=1 / 16000))
     view.result.show_certain({"switching_frequency": 2e3})
     view.show_matched(match)
     texts = {name: label.text() for name, label in view.result.values.items()}
     assert texts["readout_time"] == "14.57770 ± 0.00027 µs"
     assert texts["exposure_time"] == "62.50 ± 0.21 µs"
+    assert texts["noted"] == "62.5 µs"
     assert texts["switching_frequency"] == "2 kHz (given)"
     assert texts["chip"] == f"{1 / (2e3 * 14.5777e-6):.3f} columns, 4 chips a period"
     assert texts["correlation"] == "0.9912 (rims included)"
     assert texts["residual"] == "2.00 grey levels (rims included)"
     assert texts["region"].startswith("columns 0 to 2, rows ")
     assert texts["saturated"].startswith("12.5 %")
+    assert texts["periods"] == f"{3 * 2e3 * 14.5777e-6 / 4:.3g}"
+    assert texts["exposed"] == "0.125"
+    assert texts["duty"] == "lit for 50 % of a period (given)"
     assert view.result.values["pattern"].toolTip() == "1001 (read from the photo)"
+    assert "one standard deviation" in view.result.values["exposure_time"].toolTip()
+    spreads = {**match.uncertainties, "exposure_time": 15e-6}
+    view.show_matched(replace(match, exposure_time=6e-6, uncertainties=spreads))
+    assert view.result.values["exposure_time"].text() == "below 36 µs (6 ± 15 µs)"
 
 
 def test_one_photo_gives_the_frames_readout_and_lines_for_other_programs(
@@ -58,14 +70,6 @@ def test_one_photo_gives_the_frames_readout_and_lines_for_other_programs(
     view.show_matched(replace(match, reasons=("Few periods.",)))
     assert paste.lines == {}
     assert not paste.note.isVisible()
-
-
-def test_an_exposure_that_is_hardly_known_has_an_upper_limit(view: LiveView, match: Match) -> None:
-    view.result.show_certain({"switching_frequency": 2e3})
-    spreads = {**match.uncertainties, "exposure_time": 15e-6}
-    view.show_matched(replace(match, exposure_time=6e-6, uncertainties=spreads))
-    assert view.result.values["exposure_time"].text() == "below 36 µs (6 ± 15 µs)"
-    assert "one standard deviation" in view.result.values["exposure_time"].toolTip()
 
 
 def test_a_match_says_which_shutter_speeds_show_no_bars(view: LiveView, match: Match) -> None:
@@ -90,12 +94,6 @@ def test_a_match_says_which_shutter_speeds_show_no_bars(view: LiveView, match: M
     view.result.show_certain({})
     assert view.result.cure.text() == lamp + rest
     assert view.result.condition.text() == "What follows holds if f = 2 kHz."
-
-
-def test_a_blinking_led_is_described_by_its_cycles_too(view: LiveView, match: Match) -> None:
-    view.show_matched(replace(match, pattern="10"))
-    text = view.result.values["switching_frequency"].text()
-    assert text == "2 kHz: blinks at 1 kHz (assumed)"
 
 
 def test_what_was_not_estimated_is_not_shown(view: LiveView, match: Match) -> None:
@@ -163,9 +161,8 @@ def test_what_rests_on_an_assumed_value_says_so_until_it_is_confirmed(
     assert estimates(view)[1] == "2 kHz (given)"
     view.open(replace(photo, path=photo.path.with_name("another.png")))
     assert estimates(view) == assumed
-
-
-def test_a_frequency_that_rests_on_a_readout_time_says_so(view: LiveView, match: Match) -> None:
+    view.show_matched(replace(match, pattern="10"))
+    assert estimates(view)[1] == "2 kHz: blinks at 1 kHz (assumed)"
     spreads = {"switching_frequency": 1.0, "exposure_time": 2e-7, "gamma": 0.05}
     view.show_matched(replace(match, uncertainties=spreads))
     readout, frequency, exposure = estimates(view)
@@ -202,25 +199,6 @@ def test_a_verdict_is_a_word_with_a_sign_on_a_readable_plate(
     assert contrast(plate, ink) > READABLE
 
 
-def test_an_outdated_verdict_is_not_shown_as_the_present_one(verdict: VerdictView) -> None:
-    verdict.show_verdict(SURE, ())
-    verdict.show_outdated(True)
-    assert verdict.word.text() == "Before: sure"
-    assert not verdict.word.autoFillBackground()
-    verdict.show_verdict(DOUBTFUL, REASONS)
-    assert verdict.word.text() == "◐ doubtful"
-
-
-def test_the_verdict_stands_above_the_figures(view: LiveView, match: Match) -> None:
-    view.show_matched(replace(match, reasons=REASONS))
-    result = view.result
-    assert result.verdict.word.text() == "◐ doubtful"
-    assert result.verdict.geometry().bottom() < result.figures.geometry().top()
-    view.show_matched(match)
-    assert result.verdict.word.text() == "● sure"
-    assert result.verdict.reasons.isHidden()
-
-
 def test_a_doubtful_exposure_is_said_beside_what_is_sure(view: LiveView, match: Match) -> None:
     view.result.show_certain({"switching_frequency": 2e3})
     view.show_matched(replace(match, exposure_reasons=REASONS))
@@ -237,19 +215,6 @@ def test_a_doubtful_exposure_is_said_beside_what_is_sure(view: LiveView, match: 
     assert result.verdict.reasons.text() == "\n".join(f"• {reason}" for reason in REASONS)
 
 
-def test_the_figures_that_a_verdict_rests_on_are_shown(
-    view: LiveView, photo: Photo, match: Match
-) -> None:
-    view.open(replace(photo, exposure_time=1 / 16000))
-    view.show_matched(match)
-    texts = {name: label.text() for name, label in view.result.values.items()}
-    assert texts["periods"] == f"{3 * 2e3 * 14.5777e-6 / 4:.3g}"
-    assert texts["exposed"] == "0.125"
-    assert texts["duty"] == "lit for 50 % of a period (given)"
-    assert texts["exposure_time"] == "62.50 ± 0.21 µs"
-    assert texts["noted"] == "62.5 µs"
-
-
 def test_other_explanations_are_told_with_what_they_rest_on(view: LiveView, match: Match) -> None:
     view.show_matched(match)
     assert not view.result.values["alternative"].isVisible()
@@ -261,16 +226,23 @@ def test_other_explanations_are_told_with_what_they_rest_on(view: LiveView, matc
     ]
 
 
-def test_an_outdated_match_is_covered_at_once_and_not_used(view: LiveView, match: Match) -> None:
+def test_an_outdated_match_is_covered_at_once_not_used_and_no_step_on_the_way(
+    view: LiveView, match: Match
+) -> None:
     view.show_matched(match)
-    view.show_match_outdated("of another part of the photo", usable=False)
-    result = view.result
-    assert result.mark.isVisible()
-    assert result.mark.text == "of another part of the photo"
-    assert result.verdict.word.text().startswith("Before")
-    assert not result.apply.isEnabled()
-    assert not result.save.isEnabled()
-    view.show_match_outdated("", usable=True)
-    assert not result.mark.isVisible()
-    assert result.verdict.word.text() == "● sure"
-    assert result.apply.isEnabled()
+    result, steps, bar = view.result, view.steps, view.verdict
+    assert result.verdict.geometry().bottom() < result.figures.geometry().top()
+    for why in ("of another part of the photo", ""):
+        is_present = not why
+        view.show_match_outdated(why, usable=is_present)
+        assert result.mark.isVisible() != is_present
+        assert result.verdict.word.text() == ("● sure" if is_present else "Before: sure")
+        assert result.verdict.word.autoFillBackground() == is_present
+        for button in (result.apply, result.save, result.without_bars, steps.buttons["apply"]):
+            assert button.isEnabled() == is_present
+        assert spoken(steps)[2:] == (
+            ["Match: done", "Apply: done"] if is_present else ["Match: next step", "Apply"]
+        )
+        assert bar.state is (State.GOOD if is_present else State.WAITING)
+        assert (why or "readout time") in bar.accessibleDescription()
+        assert result.mark.text == why or is_present

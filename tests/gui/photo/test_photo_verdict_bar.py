@@ -58,9 +58,6 @@ def test_a_sure_match_says_what_was_found_and_on_what_it_rests(
     view.show_matched(replace(match, reasons=REASONS))
     assert (bar.state, bar.heading) == (State.DOUBTFUL, "Photo: doubtful match")
     assert f"{REASONS[0]} And 1 more." in bar.accessibleDescription()
-    view.show_match_outdated("of another part of the photo: match again", usable=False)
-    assert bar.state is State.WAITING
-    assert "another part" in bar.accessibleDescription()
 
 
 def test_a_match_whose_exposure_is_doubtful_is_not_called_sure_without_saying_so(
@@ -108,17 +105,6 @@ def test_an_open_photo_has_the_verdict_of_its_row_until_it_is_matched_by_itself(
     view.open(photo)
     view.many.show_begun("readout_time", occ.Scene())
     assert bar.heading == "Photo: no match yet"
-
-
-def test_another_photo_of_the_table_keeps_what_is_certain(view: LiveView, photo: Photo) -> None:
-    other = replace(photo, path=photo.path.with_name("other.png"))
-    view.many.show_files((photo.path, other.path))
-    view.open(photo)
-    view.form.certain.click()
-    view.open(other)
-    assert view.form.certain.isChecked()
-    view.open(replace(photo, path=photo.path.with_name("alone.png")))
-    assert not view.form.certain.isChecked()
 
 
 def test_a_refusal_is_read_to_its_end_where_the_window_is_narrow(

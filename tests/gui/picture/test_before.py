@@ -27,29 +27,20 @@ from occ_model.scene.scene import Scene
 Begun = tuple[Snapshot, Snapshot]
 
 
-class Pane:
-    """Notes what it is shown as before."""
-
-    def __init__(self) -> None:
-        self.shown: list[Snapshot] = []
-
-    def show_before(self, snapshot: Snapshot) -> None:
-        self.shown.append(snapshot)
-
-
-@pytest.fixture
-def pane() -> Pane:
-    return Pane()
-
-
 @pytest.fixture
 def store(small_scene: Scene) -> SceneStore:
     return store_of(small_scene)
 
 
 @pytest.fixture
-def before(store: SceneStore, pane: Pane) -> BeforeController:
-    return BeforeController(store.store, pane.show_before)
+def shown() -> list[Snapshot]:
+    """What has been shown as before."""
+    return []
+
+
+@pytest.fixture
+def before(store: SceneStore, shown: list[Snapshot]) -> BeforeController:
+    return BeforeController(store.store, shown.append)
 
 
 @pytest.fixture
@@ -62,40 +53,33 @@ def begun(store: SceneStore, before: BeforeController, snapshot_of: SnapshotOf) 
     return first, second
 
 
-def test_a_gesture_keeps_what_was_shown_when_it_began(
-    store: SceneStore, before: BeforeController, pane: Pane, begun: Begun
+def test_a_gesture_keeps_what_was_shown_when_it_began_whatever_leaves_the_picture_as_it_is(
+    store: SceneStore, before: BeforeController, shown: list[Snapshot], begun: Begun
 ) -> None:
     first, second = begun
     store.change(1, iso=400.0)
     store.change(1, iso=500.0)
-    assert pane.shown == [first]
-    store.change(2, iso=600.0)
-    assert pane.shown == [first, second]
-
-
-def test_a_step_that_leaves_the_picture_as_it_is_leaves_what_was_before(
-    store: SceneStore, before: BeforeController, pane: Pane, begun: Begun
-) -> None:
-    first, _ = begun
     workspace = store.store.workspace
     store.store.put(replace(workspace, room=RoomChoice("another")), "room")
     store.undo_stack.undo()
-    assert pane.shown == [first]
+    assert shown == [first]
+    store.change(2, iso=600.0)
+    assert shown == [first, second]
 
 
 def test_undoing_keeps_what_is_undone(
-    store: SceneStore, before: BeforeController, pane: Pane, begun: Begun
+    store: SceneStore, before: BeforeController, shown: list[Snapshot], begun: Begun
 ) -> None:
     first, second = begun
     store.undo_stack.undo()
-    assert pane.shown == [first, second]
+    assert shown == [first, second]
     before.show_snapshot(first)
     store.undo_stack.redo()
-    assert pane.shown == [first, second, first]
+    assert shown == [first, second, first]
 
 
 def test_a_gesture_that_comes_back_to_where_it_began_goes_on(
-    store: SceneStore, before: BeforeController, pane: Pane, snapshot_of: SnapshotOf
+    store: SceneStore, before: BeforeController, shown: list[Snapshot], snapshot_of: SnapshotOf
 ) -> None:
     first = snapshot_of()
     before.show_snapshot(first)
@@ -104,27 +88,27 @@ def test_a_gesture_that_comes_back_to_where_it_began_goes_on(
     before.show_snapshot(snapshot_of(iso=300.0))
     store.change(1, iso=iso)
     assert store.undo_stack.count() == 0
-    assert pane.shown == [first]
+    assert shown == [first]
 
 
 def test_a_late_picture_of_the_gestures_start_is_the_one_before(
-    store: SceneStore, before: BeforeController, pane: Pane, snapshot_of: SnapshotOf
+    store: SceneStore, before: BeforeController, shown: list[Snapshot], snapshot_of: SnapshotOf
 ) -> None:
     first, late, now = snapshot_of(), snapshot_of(iso=300.0), snapshot_of(iso=500.0)
     before.show_snapshot(first)
     store.change(1, iso=300.0)
     store.change(2, iso=500.0)
-    assert pane.shown == [first, first]
+    assert shown == [first, first]
     before.show_snapshot(late)
     before.show_snapshot(now)
-    assert pane.shown == [first, first, late]
+    assert shown == [first, first, late]
 
 
 def test_before_the_first_picture_there_is_nothing_before(
-    store: SceneStore, before: BeforeController, pane: Pane
+    store: SceneStore, before: BeforeController, shown: list[Snapshot]
 ) -> None:
     store.change(1, iso=300.0)
-    assert pane.shown == []
+    assert shown == []
     assert before.before is None
 
 
@@ -196,24 +180,19 @@ def test_the_old_picture_is_left_of_the_line_in_the_picture_the_new_one_right(
         assert wipe.line.value() == shown
 
 
-def test_a_wipe_before_any_change_shows_nothing(
+def test_a_wipe_before_any_change_or_that_is_off_draws_nothing(
     pane_with_wipe: tuple[PicturePane, BeforeWipe], snapshot_of: SnapshotOf
 ) -> None:
     _, wipe = pane_with_wipe
     wipe.chosen.setChecked(True)
     wipe.slider.setValue(10)
     assert not wipe.picture.isVisible()
-    wipe.show_before(snapshot_of())
-    assert wipe.picture.isVisible()
-
-
-def test_a_wipe_that_is_off_draws_and_takes_nothing(
-    pane_with_wipe: tuple[PicturePane, BeforeWipe], snapshot_of: SnapshotOf
-) -> None:
-    _, wipe = pane_with_wipe
+    wipe.chosen.setChecked(False)
     wipe.show_before(snapshot_of())
     assert not wipe.picture.isVisible()
     assert wipe.picture.boundingRect().isEmpty()
+    wipe.chosen.setChecked(True)
+    assert wipe.picture.isVisible()
 
 
 def test_a_drag_leaves_its_start_as_a_line_and_as_a_picture(

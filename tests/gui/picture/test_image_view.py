@@ -103,37 +103,25 @@ def test_the_rows_in_a_pixel_of_the_screen_are_those_in_view(
     assert view.rows_per_pixel() < before
 
 
-def test_without_a_photo_the_simulation_stands_alone(
-    view: ImageView, snapshot_of: SnapshotOf
-) -> None:
-    view.show_snapshot(snapshot_of())
-    view.set_mode("blend")
-    assert not view.photo.isVisible()
-    assert not view.mode.isVisible()
-    assert len(pictures(view.simulation)) == 1
-
-
 def test_an_open_photo_stands_beside_the_simulation_and_says_when_lines_are_columns(
     view: ImageView, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
     view.show_snapshot(snapshot_of())
-    view.show_photo(photo)
-    assert view.photo.isVisible()
-    assert "stripes.png" in view.photo.caption.toolTip()
-    assert not view.opacity.isVisible()
+    view.set_mode("blend")
+    assert (view.photo.isVisible(), view.mode.isVisible()) == (False, False)
     assert len(pictures(view.simulation)) == 1
-    view.show_photo(None)
-    assert not view.photo.isVisible()
-    view.show_photo(photo)
-    assert "lines" not in view.photo.caption.toolTip()
-    view.show_photo(replace(photo, turned=True))
-    assert "its lines shown as columns" in view.photo.caption.toolTip()
-    view.show_photo(None)
-    assert view.simulation.caption.toolTip() == "Camera's picture"
-    view.show_photo(photo)
-    assert view.simulation.caption.toolTip() == "Simulated"
-    view.show_photo(None)
-    assert view.simulation.caption.toolTip() == "Camera's picture"
+    view.set_mode("beside")
+    for shown in (photo, replace(photo, turned=True)):
+        view.show_photo(shown)
+        assert view.photo.isVisible()
+        caption = view.photo.caption.toolTip()
+        assert "stripes.png" in caption
+        assert ("its lines shown as columns" in caption) == shown.turned
+        assert view.simulation.caption.toolTip() == "Simulated"
+        assert len(pictures(view.simulation)) == 1
+        view.show_photo(None)
+        assert not view.photo.isVisible()
+        assert view.simulation.caption.toolTip() == "Camera's picture"
 
 
 def test_a_photo_over_the_simulation_lies_where_it_is_placed(
@@ -186,9 +174,13 @@ def test_a_result_of_the_same_size_keeps_the_users_view(
     assert view.simulation.box.viewRect().contains(QRectF(0, 0, 999, 199))
 
 
-def test_fit_shows_both_pictures_whole(
+def test_fit_shows_both_pictures_whole_and_nothing_before_there_are_any(
     view: ImageView, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
+    view.fit()
+    assert pictures(view.simulation) == []
+    names = {child.accessibleName() for child in view.findChildren(QWidget)}
+    assert {"Simulated picture", "Photo"} <= names
     snapshot = snapshot_of()
     view.show_snapshot(snapshot)
     view.show_photo(photo)
@@ -200,18 +192,15 @@ def test_fit_shows_both_pictures_whole(
         assert pane.box.viewRect().contains(QRectF(-0.5, -0.5, columns, rows))
 
 
-def test_without_any_picture_both_are_named_and_fit_does_not_raise(view: ImageView) -> None:
-    view.fit()
-    assert pictures(view.simulation) == []
-    names = [child.accessibleName() for child in view.findChildren(QWidget)]
-    assert {"Simulated picture", "Photo"} <= set(names)
-
-
-def test_what_a_mode_does_not_need_is_not_there(
-    view: ImageView, snapshot_of: SnapshotOf, photo: Photo
+def test_what_a_mode_does_not_need_is_not_there_and_its_choice_is_told(
+    view: ImageView, snapshot_of: SnapshotOf, photo: Photo, qtbot: QtBot
 ) -> None:
     view.show_snapshot(snapshot_of())
     view.show_photo(photo)
+    chosen = collect(view.mode_chosen)
+    qtbot.keyClick(view.mode, Qt.Key.Key_Down)
+    assert chosen == ["blend"]
+    assert view.photo.isVisible(), "nothing is shown by itself"
     controls = {"blend": view.opacity, "difference": view.gain}
     for mode in MODES:
         view.set_mode(mode)
@@ -223,17 +212,6 @@ def test_what_a_mode_does_not_need_is_not_there(
         ]
         assert view.overlay.line.isVisible() == (mode == "split")
         assert view.overlay.difference.isVisible() == (mode == "difference")
-
-
-def test_choosing_a_mode_tells_it_and_shows_nothing_by_itself(
-    view: ImageView, photo: Photo, qtbot: QtBot
-) -> None:
-    received = collect(view.mode_chosen)
-    view.show_photo(photo)
-    view.mode.setFocus()
-    qtbot.keyClick(view.mode, Qt.Key.Key_Down)
-    assert received == ["blend"]
-    assert view.photo.isVisible()
 
 
 def test_the_factor_of_the_difference_is_whole_in_its_box_and_in_the_caption(

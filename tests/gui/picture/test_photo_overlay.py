@@ -54,39 +54,35 @@ def even(level: int, rows: int = SIDE, columns: int = SIDE) -> Grey:
     return np.full((rows, columns), level, dtype=np.uint8)
 
 
-def test_beside_nothing_lies_on_the_picture(screen: Screen) -> None:
+def test_a_blended_photo_hides_as_much_as_it_is_opaque_and_one_beside_nothing(
+    screen: Screen,
+) -> None:
     screen.overlay.set_photo(even(200))
     assert (screen.shown()[5:-5, 5:-5] == 60).all()
-
-
-@pytest.mark.parametrize("opacity", [0.0, 0.25, 1.0])
-def test_a_blended_photo_hides_as_much_as_it_is_opaque(screen: Screen, opacity: float) -> None:
-    screen.overlay.set_photo(even(200))
     screen.overlay.set_mode("blend")
-    screen.overlay.set_opacity(opacity)
-    assert np.abs(screen.shown()[5:-5, 5:-5] - (60 + 140 * opacity)).max() <= 2
+    for opacity in (0.0, 0.25, 1.0):
+        screen.overlay.set_opacity(opacity)
+        assert np.abs(screen.shown()[5:-5, 5:-5] - (60 + 140 * opacity)).max() <= 2
 
 
-def test_split_shows_the_simulation_above_and_the_photo_below(screen: Screen) -> None:
+def test_split_shows_the_photo_below_a_line_that_stays_until_another_photo_comes(
+    screen: Screen,
+) -> None:
+    line = screen.overlay.line
     screen.overlay.set_photo(even(200))
     screen.overlay.set_mode("split")
-    assert screen.overlay.line.value() == pytest.approx(SIDE / 2, abs=1)
+    assert line.value() == pytest.approx(SIDE / 2, abs=1)
     for place in (100, 40, 150):
-        screen.overlay.line.setValue(place)
+        line.setValue(place)
         shown = screen.shown()
         assert (shown[5 : place - 5, 5:-5] == 60).all()
         assert (shown[place + 5 : -5, 5:-5] == 200).all()
-
-
-def test_the_dragged_line_stays_until_another_photo_comes(screen: Screen) -> None:
-    screen.overlay.set_photo(even(200))
-    screen.overlay.set_mode("split")
-    screen.overlay.line.setValue(30)
-    screen.overlay.line.sigDragged.emit(screen.overlay.line)
+    line.setValue(30)
+    line.sigDragged.emit(line)
     screen.overlay.set_placement(Placement(4.0, 0.0))
-    assert screen.overlay.line.value() == 30
+    assert line.value() == 30
     screen.overlay.set_photo(even(100))
-    assert screen.overlay.line.value() == pytest.approx(SIDE / 2, abs=1)
+    assert line.value() == pytest.approx(SIDE / 2, abs=1)
 
 
 def test_the_difference_is_drawn_as_grey_levels_where_both_lie(screen: Screen) -> None:
@@ -97,6 +93,9 @@ def test_the_difference_is_drawn_as_grey_levels_where_both_lie(screen: Screen) -
         screen.overlay.difference.set_gain(gain)
         assert (screen.shown()[55:145, 55:145] == 15 * gain).all()
     assert screen.overlay.difference.boundingRect() == QRectF(49.5, 49.5, 100, 100)
+    screen.overlay.set_placement(Placement(5000.0, 5000.0))
+    assert screen.overlay.difference.boundingRect().isEmpty()
+    assert (screen.shown()[5:-5, 5:-5] == 60).all()
 
 
 def test_the_difference_follows_the_simulation_and_ends_at_white(screen: Screen) -> None:
@@ -134,14 +133,6 @@ def test_a_difference_is_drawn_after_every_zoom(screen: Screen) -> None:
     for side in (SIDE, 20, 3, 5 * SIDE):
         screen.box.setRange(QRectF(50, 50, side, side), padding=0)
         assert screen.shown()[20, 20] == 20
-
-
-def test_pictures_that_do_not_meet_have_no_difference(screen: Screen) -> None:
-    screen.overlay.set_photo(even(200))
-    screen.overlay.set_placement(Placement(5000.0, 5000.0))
-    screen.overlay.set_mode("difference")
-    assert screen.overlay.difference.boundingRect().isEmpty()
-    assert (screen.shown()[5:-5, 5:-5] == 60).all()
 
 
 def test_the_frame_lies_round_the_photo_while_it_can_be_moved(screen: Screen) -> None:

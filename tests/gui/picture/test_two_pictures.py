@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from gui.kinds import SnapshotOf, collect, not_none, show_widget
+from gui.kinds import SnapshotOf, collect, show_widget
 from gui.pane_bench import PaneBench
 from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
 from PySide6.QtGui import QMouseEvent
@@ -13,9 +13,6 @@ from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 from shiboken6 import delete
 
-import occ_model as occ
-from occ_gui.decoding.decode_view import DecodeView
-from occ_gui.decoding.feature import decoding
 from occ_gui.picture.averaged_image import AveragedImage
 from occ_gui.picture.feature import picture
 from occ_gui.picture.image_view import ImageView
@@ -105,7 +102,6 @@ class Bench(PaneBench):
         super().__init__(qtbot, scene)
         self.picture: ImageView = self.add(picture(self.store, str)).view
         self.profile: ProfileView = self.add(profile(self.store, self.board, str)).view
-        self.decoding: DecodeView = self.add(decoding(self.store)).view
         self.frame = self.simulate().frame
 
 
@@ -181,12 +177,3 @@ def test_an_exported_profile_is_the_one_that_is_shown(bench: Bench, tmp_path: Pa
         )
         for column, curve in ((1, bench.profile.simulation), (2, bench.profile.band)):
             np.testing.assert_allclose(table[:, column], curve.getOriginalDataset()[1], atol=0.01)
-
-
-def test_the_decoders_read_the_receiver_s_picture_whichever_is_shown(bench: Bench) -> None:
-    for whose in PICTURES:
-        bench.picture.picture_chosen.emit(whose)
-        frame = bench.simulate(iso=200.0 if whose == "camera" else 300.0).frame
-        signal = bench.decoding.signal.signal.getOriginalDataset()[1]
-        read = not_none(occ.decode(frame.image, frame.scene).signal)
-        assert np.array_equal(signal, read)

@@ -27,7 +27,6 @@ from occ_model.photo.many.row import MatchSettings
 from occ_model.photo.many.table import table_of
 from occ_model.results.match import Match
 from occ_model.results.photo_table import PhotoRow, PhotoTable, csv_text
-from occ_model.scene.parameters import quantity
 
 PATHS = tuple(Path(f"photo-{number}.jpg") for number in range(6))
 
@@ -119,43 +118,39 @@ def test_each_photo_has_its_verdict_and_times_and_a_doubtful_exposure_says_so(
     assert column(view, EXPOSURE)[:2] == ["80.00 ± 0.40 µs (doubtful)", "80.00 ± 0.40 µs"]
 
 
-def test_the_mean_is_that_of_the_model(view: ManyPhotosView) -> None:
-    view.show_certain({"switching_frequency": occ.Scene().transmitter.switching_frequency})
+def test_the_mean_is_that_of_the_model_and_named_by_the_frequency_that_it_rests_on(
+    view: ManyPhotosView,
+) -> None:
+    labels = (view.mean, view.exposure, view.frame)
     view.show_table(table())
-    found = not_none(table().estimated)
+    assert all(": if f = 10 kHz: " in label.text() for label in labels)
+    view.show_certain(CERTAIN)
+    assert not_none(table().estimated).value == pytest.approx(7e-6)
     assert view.mean.text() == (
         "Readout time a line: 7.0000 ± 0.0018 µs, mean of 3 sure photos; χ² 0.5 of 2: they agree; "
         "1 left out"
     )
-    assert found.value == pytest.approx(7e-6)
     assert view.exposure.text().startswith("Exposure time: 80.00 ± 0.40 µs, mean of 3 sure photos")
     assert view.frame.text() == "Readout of the whole frame, sure photos: 7.0000 ± 0.0018 ms"
     assert view.title.text() == "6 photos: 4 sure, 1 doubtful, 1 unreadable"
 
 
-def test_times_name_the_frequency_that_they_rest_on_and_another_one_asks_to_match_again(
+def test_another_frequency_asks_to_match_again_unless_that_of_the_photos_is_certain(
     view: ManyPhotosView,
 ) -> None:
-    frequency = occ.Scene().transmitter.switching_frequency
-    condition = f": if f = {quantity('switching_frequency').format(frequency)}: "
     view.show_table(table())
-    for label in (view.mean, view.exposure, view.frame):
-        assert condition in label.text()
-    view.show_certain({"switching_frequency": frequency})
-    for label in (view.mean, view.exposure, view.frame):
-        assert condition not in label.text()
-    view.show_certain({})
-    view.show_scene(occ.Scene())
-    assert view.stale.isHidden()
-    view.show_scene(occ.Scene().replace(switching_frequency=4321.0))
-    assert not view.stale.isHidden()
-    assert "the scene has 4.321 kHz now: match all again." in view.stale.text()
-    view.show_certain({"switching_frequency": occ.Scene().transmitter.switching_frequency})
-    assert view.stale.isHidden()
-    view.show_certain({})
-    assert not view.stale.isHidden()
-    view.show_scene(occ.Scene().replace(exposure_time=1e-4))
-    assert view.stale.isHidden()
+    other = occ.Scene().replace(switching_frequency=4321.0)
+    for scene, certain, is_stale in (
+        (occ.Scene(), {}, False),
+        (other, {}, True),
+        (other, CERTAIN, False),
+        (occ.Scene().replace(exposure_time=1e-4), {}, False),
+    ):
+        view.show_scene(scene)
+        view.show_certain(certain)
+        assert view.stale.isHidden() != is_stale
+        if is_stale:
+            assert "the scene has 4.321 kHz now: match all again." in view.stale.text()
 
 
 def test_lines_for_other_programs_are_copied(view: ManyPhotosView, qtbot: QtBot) -> None:
@@ -211,7 +206,9 @@ def test_a_line_is_pasted_nowhere_while_its_frequency_is_only_assumed(view: Many
     assert view.work.progress.text() == "1 of 6"
 
 
-def test_a_long_reason_leaves_the_times_in_view(view: ManyPhotosView) -> None:
+def test_the_table_has_room_for_some_rows_and_a_long_reason_leaves_the_times_in_view(
+    view: ManyPhotosView,
+) -> None:
     view.show()
     reason = "The stripes are smooth: a curve without any code explains them as well. " * 9
     rows = (*ROWS[:3], replace(ROWS[3], note=reason), *ROWS[4:])
@@ -221,6 +218,8 @@ def test_a_long_reason_leaves_the_times_in_view(view: ManyPhotosView) -> None:
     bar.setValue(bar.maximum())
     view.show_begun("readout_time", occ.Scene())
     assert bar.value() == 0
+    room = view.table.minimumHeight() - view.table.horizontalHeader().sizeHint().height()
+    assert room >= 5 * view.table.verticalHeader().defaultSectionSize()
 
 
 def test_a_line_to_paste_is_seen_to_its_end(view: ManyPhotosView, qtbot: QtBot) -> None:
@@ -407,10 +406,3 @@ def test_real_photos_are_matched_from_the_window(
     assert [one.verdict for one in made.rows] == ["unreadable", "unreadable"]
     assert replace(made.rows[0], note="") == PhotoRow(missing, "unreadable")
     controller.runner.stop()
-
-
-def test_the_table_has_room_for_some_rows_in_any_window(view: ManyPhotosView) -> None:
-    table = view.table
-    row = table.verticalHeader().defaultSectionSize()
-    room = table.minimumHeight() - table.horizontalHeader().sizeHint().height()
-    assert room >= 5 * row

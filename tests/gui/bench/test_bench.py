@@ -1,7 +1,7 @@
 """The bench in the window: what is chosen is measured, drawn, marked where it is old, exported."""
 
 import csv
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from concurrent.futures import Future
 from dataclasses import replace
 from pathlib import Path
@@ -243,25 +243,17 @@ def test_before_the_first_measurement_the_pane_says_what_it_is_for_and_then_what
 
 
 def test_each_number_of_bits_is_one_of_whole_payloads_and_is_measured_before_the_map(
-    measuring: Measuring,
+    measuring: Measuring, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     effort, whole = measuring.pane.effort, BenchRequest().payload_bits
     offered = [int(effort.itemData(place)) for place in range(effort.count())]
     assert len(offered) > 1
     assert all(bits % whole == 0 for bits in offered)
     assert offered == sorted(set(offered))
-    assert all(stage.rank < min(0, *RANKS) for stage in stages_of(measuring))
-
-
-def stages_of(measuring: Measuring) -> list[Stage]:
     put: list[Stage] = []
     channel = measuring.controller.channel
-
-    def note(_request: object, stages: Callable[[], Iterable[Stage]]) -> None:
-        put.extend(stages())
-
-    channel.put = note  # type: ignore[method-assign,assignment]
+    monkeypatch.setattr(channel, "put", lambda _request, stages: put.extend(stages()))
     measuring.controller.choose(BenchChoice(PUBLISHED, ("threshold",), 64))
     measuring.pane.measure.click()
     assert put
-    return put
+    assert all(stage.rank < min(0, *RANKS) for stage in put)

@@ -125,21 +125,18 @@ def test_an_image_of_one_pixel_is_shown_and_by_default_its_centre_is_the_origin(
     assert set(np.unique(inner(picture)).tolist()) == {255}
 
 
-@pytest.mark.parametrize("shape", [(0, 0), (0, 5), (5, 0)])
-def test_an_empty_image_shows_nothing_and_does_not_raise(
-    screen: Screen, shape: tuple[int, int]
+def test_an_empty_image_shows_nothing_and_a_new_one_takes_the_place_of_the_last(
+    screen: Screen, fine_stripes: Grey
 ) -> None:
-    background = screen.shown(50, 30, QRectF(0, 0, 5, 5))
-    screen.item.set_image(np.zeros(shape, dtype=np.uint8))
-    assert np.array_equal(screen.shown(50, 30, QRectF(0, 0, 5, 5)), background)
-
-
-def test_a_new_image_takes_the_place_of_the_last(screen: Screen, fine_stripes: Grey) -> None:
-    whole = QRectF(-0.5, -0.5, COLUMNS, HEIGHT)
-    screen.item.set_image(fine_stripes)
-    screen.shown(200, HEIGHT, whole)
-    screen.item.set_image(np.full((HEIGHT, COLUMNS), 9, dtype=np.uint8))
-    assert set(np.unique(inner(screen.shown(200, HEIGHT, whole))).tolist()) == {9}
+    place = QRectF(0, 0, 5, 5)
+    background = screen.shown(50, 30, place)
+    for shape in ((0, 0), (0, 5), (5, 0)):
+        screen.item.set_image(np.zeros(shape, dtype=np.uint8))
+        assert np.array_equal(screen.shown(50, 30, place), background)
+    for image in (fine_stripes, np.full_like(fine_stripes, 9)):
+        screen.item.set_image(image)
+        shown = screen.shown(200, HEIGHT, QRectF(-0.5, -0.5, COLUMNS, HEIGHT))
+    assert set(np.unique(inner(shown)).tolist()) == {9}
 
 
 def test_only_the_visible_part_is_averaged_when_the_view_changes(

@@ -38,23 +38,19 @@ def edges(view: ProfileView) -> list[float]:
     return [(end - left - box.left()) / box.width() * (high - low) + low for end in ends]
 
 
-def test_no_strip_is_seen_without_chips(view: ProfileView) -> None:
-    assert view.chips.isVisible()
-    view.chips.show_chips(None)
-    assert not view.chips.isVisible()
-
-
-def test_each_chip_lies_under_its_columns_also_where_the_photo_is_moved(view: ProfileView) -> None:
-    assert [chip for chip, _ in view.chips.cells.rectangles()] == CHIPS.tolist()
+def test_each_chip_in_view_lies_under_its_columns_also_where_the_photo_is_moved(
+    view: ProfileView,
+) -> None:
+    cells = view.chips.cells
+    assert [chip for chip, _ in cells.rectangles()] == CHIPS.tolist()
     assert edges(view) == pytest.approx([5, 15, 25, 35, 45, 55], abs=0.5)
+    view.plot.setXRange(26.0, 44.0, padding=0.0)
+    assert [chip for chip, _ in cells.rectangles()] == [1, 1]
     view.show_photo_profile(PhotoProfile(None, np.full(60, 50.0), 20.0, 0.5))
     view.plot.setXRange(0.0, 100.0, padding=0.0)
     assert edges(view) == pytest.approx([22.5, 27.5, 32.5, 37.5, 42.5, 47.5], abs=0.5)
-
-
-def test_only_chips_in_view_are_drawn(view: ProfileView) -> None:
-    view.plot.setXRange(26.0, 44.0, padding=0.0)
-    assert [chip for chip, _ in view.chips.cells.rectangles()] == [1, 1]
+    axis = view.plot.getAxis("left").width()
+    assert view.chips.copy.width() == pytest.approx(axis, abs=1) == cells.x()
 
 
 def test_chips_are_copied_as_text_and_told_in_words(view: ProfileView, qtbot: QtBot) -> None:
@@ -68,6 +64,9 @@ def test_chips_are_copied_as_text_and_told_in_words(view: ProfileView, qtbot: Qt
         "probability of 99 %"
     )
     assert cells.accessibleDescription().endswith(": 10110")
+    assert view.chips.isVisible()
+    view.chips.show_chips(None)
+    assert not view.chips.isVisible()
 
 
 def test_uncertain_chips_are_drawn_faintly(view: ProfileView) -> None:
@@ -77,9 +76,3 @@ def test_uncertain_chips_are_drawn_faintly(view: ProfileView) -> None:
     place = view.chips.cells.rectangles()[0][1].center().toPoint()
     place.setY(3)
     assert certain.pixelColor(place).lightness() < uncertain.pixelColor(place).lightness()
-
-
-def test_the_button_takes_the_place_under_the_plots_axis(view: ProfileView) -> None:
-    axis = view.plot.getAxis("left").width()
-    assert view.chips.copy.width() == pytest.approx(axis, abs=1)
-    assert view.chips.cells.x() == view.chips.copy.width()

@@ -59,14 +59,6 @@ def columns_in_view(view: ProfileView) -> tuple[float, float]:
     return first, last
 
 
-def test_the_simulated_profile_is_drawn_column_by_column(
-    view: ProfileView, snapshot: Snapshot
-) -> None:
-    x, y = drawn(view.simulation)
-    assert x == list(range(len(snapshot.frame.profile)))
-    assert y == snapshot.frame.profile.tolist()
-
-
 @pytest.mark.parametrize("source", ["profile", "draft"])
 def test_an_early_reading_is_drawn_when_the_pane_is_seen(
     view: ProfileView, snapshot_of: SnapshotOf, source: Source
@@ -82,17 +74,22 @@ def test_an_early_reading_is_drawn_when_the_pane_is_seen(
     assert drawn(view.simulation)[1] == first.profile.tolist()
 
 
-def test_the_band_model_is_drawn_where_it_is_defined(
+def test_the_band_model_is_drawn_where_it_is_defined_and_else_a_sentence_says_why_not(
     view: ProfileView, snapshot_of: SnapshotOf
 ) -> None:
     snapshot = snapshot_of(exposure_time=68e-6, switching_frequency=10e3, band_reading="literal")
     view.show_reading(snapshot)
-    assert snapshot.band is not None
-    assert drawn(view.band)[1] == snapshot.band.tolist()
+    assert drawn(view.band)[1] == not_none(snapshot.band).tolist()
     assert "band model" in legend_texts(view)
     assert view.reason.text().startswith("The band model drifts 76 columns a packet: it rounds")
     view.show_reading(snapshot_of(exposure_time=68e-6))
     assert not view.reason.isVisible()
+    view.show_reading(snapshot_of(exposure_time=136e-6, switching_frequency=10e3))
+    assert drawn(view.band) == ([], [])
+    assert view.reason.isVisible()
+    assert "136 µs" in view.reason.text()
+    assert "100 µs" in view.reason.text()
+    assert "band model" not in legend_texts(view)
 
 
 def test_the_enhanced_band_model_is_so_by_its_own_histogram(
@@ -107,17 +104,6 @@ def test_the_enhanced_band_model_is_so_by_its_own_histogram(
         assert view.plot.viewRange()[1][1] >= max(drawn(view.band)[1])
         view.enhanced.setChecked(False)
         assert drawn(view.band)[1] == snapshot.band.tolist()
-
-
-def test_where_the_band_model_is_undefined_a_sentence_says_so(
-    view: ProfileView, snapshot_of: SnapshotOf
-) -> None:
-    view.show_reading(snapshot_of(exposure_time=136e-6, switching_frequency=10e3))
-    assert drawn(view.band) == ([], [])
-    assert view.reason.isVisible()
-    assert "136 µs" in view.reason.text()
-    assert "100 µs" in view.reason.text()
-    assert "band model" not in legend_texts(view)
 
 
 def test_an_incomparable_photo_is_drawn_as_it_is_with_the_reason(
@@ -197,20 +183,18 @@ def test_the_residual_follows_the_profiles_columns_when_moved(
 
 
 def test_after_enhancement_shows_picture_levels_and_threshold(
-    view: ProfileView, qtbot: QtBot, snapshot: Snapshot, snapshot_of: SnapshotOf
+    view: ProfileView, qtbot: QtBot, snapshot: Snapshot
 ) -> None:
-    assert not view.threshold.isVisible()
-    assert "threshold" not in legend_texts(view)
-    qtbot.keyClick(view.enhanced, Qt.Key.Key_Space)
-    assert drawn(view.simulation)[1] == snapshot.frame.signal.tolist()
-    assert view.threshold.isVisible()
-    assert view.threshold.value() == snapshot.decoded.threshold
-    assert "threshold" in legend_texts(view)
-    qtbot.keyClick(view.enhanced, Qt.Key.Key_Space)
-    assert drawn(view.simulation)[1] == snapshot.frame.profile.tolist()
-    assert not view.threshold.isVisible()
+    columns = list(range(len(snapshot.frame.profile)))
+    for enhanced, levels in ((False, snapshot.frame.profile), (True, snapshot.frame.signal)) * 2:
+        assert drawn(view.simulation) == (columns, levels.tolist())
+        assert view.threshold.isVisible() == enhanced
+        assert ("threshold" in legend_texts(view)) == enhanced
+        if enhanced:
+            assert view.threshold.value() == snapshot.decoded.threshold
+        qtbot.keyClick(view.enhanced, Qt.Key.Key_Space)
     view.enhanced.setChecked(True)
-    view.show_reading(replace(snapshot_of(), decoded=DecodeResult("threshold", failure="None.")))
+    view.show_reading(replace(snapshot, decoded=DecodeResult("threshold", failure="None.")))
     assert not view.threshold.isVisible()
     assert "threshold" not in legend_texts(view)
 
@@ -234,17 +218,19 @@ def test_what_is_drawn_enhanced_is_what_the_decoder_reads(
     assert np.abs(shown - read)[1:-1].max() <= 1.0
 
 
-def test_whatever_is_drawn_lies_within_the_levels_in_view(
+def test_whatever_is_drawn_lies_within_the_levels_in_view_up_to_the_next_step_above(
     view: ProfileView, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
     view.show_photo_profile(PhotoProfile(None, photo.profile))
     for changes in ({}, {"iso": 6400.0}, {"luminance": 0.0}):
         view.show_reading(snapshot_of(**changes))
         low, high = view.plot.getViewBox().viewRange()[1]
-        for curve in (view.simulation, view.band, view.photo):
-            _, values = drawn(curve)
-            assert low <= min(values)
-            assert max(values) <= high
+        values = [
+            value for curve in (view.simulation, view.band, view.photo) for value in drawn(curve)[1]
+        ]
+        assert low <= min(values)
+        step = 20.0 * math.ceil(max(values) / 20.0)
+        assert max(values) <= step <= high <= 1.1 * step
 
 
 def test_the_packets_that_the_button_names_are_those_in_view(
@@ -259,39 +245,36 @@ def test_the_packets_that_the_button_names_are_those_in_view(
     assert last - first == pytest.approx(snapshot.packet_columns, rel=0.05)
 
 
-def test_two_packets_are_in_view_until_the_panel_is_chosen(
-    view: ProfileView, qtbot: QtBot, snapshot: Snapshot
+def test_two_packets_are_in_view_until_the_panel_is_chosen_or_the_plot_is_moved(
+    view: ProfileView, qtbot: QtBot, snapshot: Snapshot, snapshot_of: SnapshotOf
 ) -> None:
-    panel = snapshot.frame.corners[:, 0]
-    first, last = columns_in_view(view)
-    assert last - first == pytest.approx(2 * snapshot.packet_columns, rel=0.05)
-    assert first == pytest.approx(panel.min(), abs=20)
-    qtbot.mouseClick(button(view, "Panel"), Qt.MouseButton.LeftButton)
+    panel, followed = snapshot.frame.corners[:, 0], columns_in_view(view)
+    packets, whole = button(view, "2 packets"), button(view, "Panel")
+    assert followed[1] - followed[0] == pytest.approx(2 * snapshot.packet_columns, rel=0.05)
+    assert followed[0] == pytest.approx(panel.min(), abs=20)
+    qtbot.mouseClick(whole, Qt.MouseButton.LeftButton)
     assert columns_in_view(view) == pytest.approx((panel.min(), panel.max()), abs=30)
-    assert not button(view, "2 packets").isChecked()
-
-
-def test_moving_the_plot_ends_following_and_a_click_resumes_it(
-    view: ProfileView, snapshot_of: SnapshotOf, qtbot: QtBot
-) -> None:
-    followed = columns_in_view(view)
+    assert not packets.isChecked()
     box = view.plot.getViewBox()
     box.setXRange(10, 20, padding=0)
     box.sigRangeChangedManually.emit([True, True])
     view.show_reading(snapshot_of(distance=1.3))
     assert columns_in_view(view) == pytest.approx((10, 20))
-    assert not button(view, "2 packets").isChecked()
-    assert not button(view, "Panel").isChecked()
-    view.show_reading(snapshot_of())
-    qtbot.mouseClick(button(view, "2 packets"), Qt.MouseButton.LeftButton)
+    assert (packets.isChecked(), whole.isChecked()) == (False, False)
+    view.show_reading(snapshot)
+    qtbot.mouseClick(packets, Qt.MouseButton.LeftButton)
     assert columns_in_view(view) == pytest.approx(followed)
 
 
-def test_with_no_panel_in_the_picture_all_columns_are_in_view(
+def test_with_no_panel_in_the_picture_or_at_its_rim_there_is_a_range_to_look_at(
     view: ProfileView, snapshot_of: SnapshotOf
 ) -> None:
-    snapshot = snapshot_of(offset_x=50.0)
-    view.show_reading(snapshot)
+    for changes in ({"columns": 1}, {"distance": 900.0}, {"offset_x": 50.0}):
+        snapshot = snapshot_of(**changes)
+        view.show_reading(snapshot)
+        first, last = columns_in_view(view)
+        assert last - first >= 1.0
+        assert drawn(view.simulation)[0]
     last_column = len(snapshot.frame.profile) - 1
     button(view, "Panel").click()
     assert columns_in_view(view) == pytest.approx((0, last_column), abs=0.02 * last_column)
@@ -300,66 +283,29 @@ def test_with_no_panel_in_the_picture_all_columns_are_in_view(
         assert view._packets.text() == text
 
 
-@pytest.mark.parametrize("changes", [{"offset_x": 50.0}, {"columns": 1}, {"distance": 900.0}])
-def test_a_panel_at_the_pictures_rim_leaves_a_range_to_look_at(
-    view: ProfileView, snapshot_of: SnapshotOf, changes: dict[str, float]
-) -> None:
-    view.show_reading(snapshot_of(**changes))
-    first, last = columns_in_view(view)
-    assert last - first >= 1.0
-    assert drawn(view.simulation)[0]
-
-
-@pytest.mark.parametrize("seen", [(-40.0, 12.4), (20.5, 31.7), (590.0, 2000.0), (5000.0, 5100.0)])
-def test_the_columns_in_view_are_some_of_the_picture(
-    view: ProfileView, seen: tuple[float, float], snapshot: Snapshot
-) -> None:
-    view.plot.getViewBox().setLimits(xMin=None, xMax=None)
-    view.plot.setXRange(*seen, padding=0.0)
+def test_the_columns_in_view_are_some_of_the_picture(view: ProfileView, snapshot: Snapshot) -> None:
     columns = len(snapshot.frame.profile)
-    first, end = view.columns_in_view()
-    assert 0 <= first < end <= columns
-    low, high = columns_in_view(view)
-    whole = [column for column in range(columns) if low <= column <= high]
-    assert not whole or (whole[0], whole[-1] + 1) == (first, end)
+    view.plot.getViewBox().setLimits(xMin=None, xMax=None)
+    for seen in ((-40.0, 12.4), (20.5, 31.7), (590.0, 2000.0), (5000.0, 5100.0)):
+        view.plot.setXRange(*seen, padding=0.0)
+        first, end = view.columns_in_view()
+        assert 0 <= first < end <= columns
+        low, high = columns_in_view(view)
+        whole = [column for column in range(columns) if low <= column <= high]
+        assert not whole or (whole[0], whole[-1] + 1) == (first, end)
 
 
 def test_the_columns_that_are_not_read_are_shaded_where_there_is_a_region(
-    view: ProfileView, snapshot_of: SnapshotOf
+    view: ProfileView, snapshot: Snapshot
 ) -> None:
-    snapshot = snapshot_of()
     before, after = view._outside
-    view.show_reading(snapshot)
     read = not_none(snapshot.decoded.region)
-    assert before.isVisible()
-    assert after.isVisible()
+    assert (before.isVisible(), after.isVisible()) == (True, True)
     assert before.getRegion()[0] <= 0 < before.getRegion()[1] == read.first_column
     assert after.getRegion()[0] == read.last_column
     assert after.getRegion()[1] >= len(snapshot.frame.profile)
     view.show_reading(replace(snapshot, decoded=DecodeResult("threshold", failure="None.")))
-    assert not before.isVisible()
-    assert not after.isVisible()
-
-
-def test_before_any_result_the_legend_is_empty_but_for_its_lines(qtbot: QtBot) -> None:
-    assert set(legend_texts(show_widget(qtbot, ProfileView()))) <= {"simulation"}
-
-
-def test_levels_are_in_view_up_to_the_next_step_above_all_that_is_drawn(view: ProfileView) -> None:
-    largest = max(max(drawn(curve)[1]) for curve in (view.simulation, view.band))
-    _, high = view.plot.getViewBox().viewRange()[1]
-    step = 20.0 * math.ceil(largest / 20.0)
-    assert step <= high <= 1.1 * step
-
-
-@pytest.mark.parametrize("largest", [-60.0, 3.0, 45.0])
-def test_the_whole_residual_is_in_view(view: ProfileView, photo: Photo, largest: float) -> None:
-    seen = np.array([100.0, 100.0 + largest, 101.0])
-    comparison = Comparison(900, seen, np.full(3, 100.0), 0.9)
-    view.show_photo_profile(PhotoProfile(comparison, photo.profile))
-    low, high = view.residual.plot.getViewBox().viewRange()[1]
-    assert low < min(0.0, largest)
-    assert high > max(0.0, largest)
+    assert (before.isVisible(), after.isVisible()) == (False, False)
 
 
 @pytest.mark.parametrize("points", [9.0, 12.0, 16.0])

@@ -48,7 +48,7 @@ class Bench(PhotoBench):
         self.picture = show_widget(qtbot, ImageView(), 1200, 400)
         self.box = self.picture.photo.box
         photos = PhotoController(self.store, self.board)
-        photos.work.task.ask = lambda _source: None  # type: ignore[method-assign]  # they are read
+        photos.work.task.ask = lambda request: None  # type: ignore[method-assign]  # they are read
         self.pane = PhotoPane(self.scenes, photos, self.picture, self.board)
         qtbot.addWidget(self.pane.widget)
         self.form, self.outlines = self.pane.view.lamps, self.pane.outlines

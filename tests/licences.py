@@ -7,6 +7,7 @@ import re
 import sys
 import tomllib
 from collections.abc import Iterable, Iterator, Mapping
+from functools import cache
 from importlib.metadata import Distribution, PackageNotFoundError, distribution
 from pathlib import Path
 from typing import Any
@@ -71,6 +72,7 @@ def _expanded(requirements: Iterable[str], extras: Mapping[str, list[str]]) -> I
             yield each
 
 
+@cache
 def groups() -> dict[str, set[str]]:
     """Give the groups that name a package, by the package."""
     found: dict[str, set[str]] = {}
@@ -80,6 +82,7 @@ def groups() -> dict[str, set[str]]:
     return found
 
 
+@cache
 def indirect() -> dict[str, set[str]]:
     """Give the packages that those need in turn, on this system, and who needs each."""
     needed: dict[str, set[str]] = {}

@@ -206,6 +206,7 @@ def assert_adds_up(reading: occ.VideoReading) -> None:
     assert sum(window.packets for window in windows) == len(reading.packets)
     assert sum(window.packets_lost for window in windows) == reading.lost
     assert sum(packet.is_right for packet in reading.packets.in_view) == reading.read
+    assert {packet.number for packet in reading.packets.in_view} <= {*range(len(reading.packets))}
     assert [packet.number for packet in reading.packets[:99]] == list(
         range(min(99, len(reading.packets)))
     )

@@ -1,6 +1,5 @@
 """Films made for tests: moving stripes in many containers and codecs, whole and damaged."""
 
-import random
 import struct
 from collections.abc import Iterable, Sequence
 from functools import lru_cache
@@ -9,6 +8,8 @@ from tempfile import TemporaryDirectory
 
 import cv2
 import numpy as np
+from damage import WAYS
+from numpy.random import Generator
 
 import occ_model as occ
 from occ_model.arrays import ByteArray
@@ -68,13 +69,12 @@ def film_bytes(ending: str, codec: str, frames: int = 20) -> bytes:
 
 
 def damaged_film(seed: int) -> tuple[str, bytes]:
-    """A film's ending and bytes, damaged at random: cut, changed, blanked, of a huge size."""
-    chance = random.Random(seed)
-    ending, codec = chance.choice((*KINDS, *PICTURES))
-    content = bytearray(film_bytes(ending, codec, chance.choice((0, 1, 20, 20, 20))))
-    damage = chance.choice((_cut, _changed, _changed_head, _enlarged, _blanked, _other_codec))
-    damage(content, chance)
-    return ending, bytes(content)
+    """A film's ending and bytes, damaged at random: also one of a huge size, or another codec."""
+    rng = np.random.default_rng(seed)
+    ending, codec = (*KINDS, *PICTURES)[rng.integers(len(KINDS) + len(PICTURES))]
+    content = bytearray(film_bytes(ending, codec, int(rng.choice([0, 1, 20, 20, 20]))))
+    ways = (*WAYS, _enlarged, _other_codec)
+    return ending, bytes(ways[rng.integers(len(ways))](rng, content))
 
 
 def what_damaged_films_say(seeds: range, folder: Path) -> list[str]:
@@ -99,41 +99,22 @@ def what_damaged_films_say(seeds: range, folder: Path) -> list[str]:
     return sentences
 
 
-def _cut(content: bytearray, chance: random.Random) -> None:
-    del content[chance.randrange(len(content)) :]
-
-
-def _changed(content: bytearray, chance: random.Random) -> None:
-    for _ in range(chance.choice((1, 5, 50, 500))):
-        content[chance.randrange(len(content))] = chance.randrange(256)
-
-
-def _changed_head(content: bytearray, chance: random.Random) -> None:
-    for _ in range(chance.choice((1, 3, 10))):
-        content[chance.randrange(min(400, len(content)))] = chance.randrange(256)
-
-
-def _blanked(content: bytearray, chance: random.Random) -> None:
-    first = chance.randrange(len(content))
-    last = min(len(content), first + chance.randrange(1, 2000))
-    content[first:last] = bytes(last - first)
-
-
-def _other_codec(content: bytearray, chance: random.Random) -> None:
+def _other_codec(rng: Generator, content: bytearray) -> bytearray:
     codecs = (b"mp4v", b"MJPG", b"jpeg", b"XVID", b"FMP4", b"HFYU", b"FFV1", b"V_VP8", b"V_VP9")
+    others = (b"avc1\x00", b"hvc1\x00", b"png \x00", b"abcd\x00", b"apcn\x00")
     for codec in codecs:
-        other = chance.choice((b"avc1\x00", b"hvc1\x00", b"png \x00", b"abcd\x00", b"apcn\x00"))
-        content[:] = content.replace(codec, other[: len(codec)])
+        content = content.replace(codec, others[rng.integers(len(others))][: len(codec)])
+    return content
 
 
-def _enlarged(content: bytearray, chance: random.Random) -> None:
+def _enlarged(rng: Generator, content: bytearray) -> bytearray:
     """Declare a huge size wherever the film declares its own."""
-    width, height = (chance.choice((0, 16_383, 30_000, 65_535)) for _ in range(2))
+    width, height = rng.choice([0, 16_383, 30_000, 65_535], 2).tolist()
     for form, scale in ((">HH", 1), ("<HH", 1), ("<II", 1), (">II", 65_536)):
         own = struct.pack(form, COLUMNS * scale, LINES * scale)
-        content[:] = content.replace(own, struct.pack(form, width * scale, height * scale))
+        content = content.replace(own, struct.pack(form, width * scale, height * scale))
     # The sizes in Matroska files, as numbers of one byte.
-    content[:] = content.replace(bytes((0xB0, 0x81, COLUMNS)), bytes((0xB0, 0x81, 255)))
+    return content.replace(bytes((0xB0, 0x81, COLUMNS)), bytes((0xB0, 0x81, 255)))
 
 
 def with_steps(film: bytes, steps: Sequence[int]) -> bytes:

@@ -19,21 +19,11 @@ from queue import Queue
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
+from mutation import trial
 from mutation.copy_of_project import ROOT, Copy, copy_of_project
 from mutation.ledger import Equivalent, Ledger, equivalents
 from mutation.mutants import Mutant, draw, is_program, mutants
 from mutation.reach import Reach, files_of, measured
-from mutation.trial import (
-    KILLED,
-    SURVIVED,
-    UNCLEAR,
-    UNREACHED,
-    Outcome,
-    choose,
-    folder_of_tests,
-    passes_unchanged,
-    tried,
-)
 
 _ALSO = {"occ_model": ("tests/physics", "tests/hard_cases"), "occ_gui": ("tests/gui/snapshots",)}
 
@@ -59,7 +49,7 @@ class Run:
             self._sources[file] = (root / file).read_text(encoding="utf-8")
         return self._sources[file]
 
-    def tried(self, mutant: Mutant) -> Outcome:
+    def tried(self, mutant: Mutant) -> trial.Outcome:
         """Try one mutant in a copy that is free."""
         copy = self._copies.get()
         try:
@@ -67,17 +57,17 @@ class Run:
         finally:
             self._copies.put(copy)
 
-    def _tried_in(self, copy: Copy, mutant: Mutant) -> Outcome:
+    def _tried_in(self, copy: Copy, mutant: Mutant) -> trial.Outcome:
         """Try a mutant again without each test that would fail without it too."""
         source = self._sources[mutant.file]
         while True:
             sources = self._sources
-            choice = choose(mutant, self._reach.tests, sources, self._options.seconds)
-            outcome = tried(mutant, source, choice, copy)
+            choice = trial.choose(mutant, self._reach.tests, sources, self._options.seconds)
+            outcome = trial.tried(mutant, source, choice, copy)
             known = {test.name for test in self._reach.tests}
-            if outcome.result != KILLED or outcome.by not in known - self._sound:
+            if outcome.result != trial.KILLED or outcome.by not in known - self._sound:
                 return outcome
-            if passes_unchanged(outcome.by, copy):
+            if trial.passes_unchanged(outcome.by, copy):
                 self._sound.add(outcome.by)
                 return outcome
             print(f"left out from now on, as it fails without a mutant: {outcome.by}")
@@ -89,7 +79,7 @@ class Run:
         with ThreadPoolExecutor(len(copies)) as pool:
             try:
                 for mutant, outcome in zip(drawn, pool.map(self.tried, drawn), strict=True):
-                    if outcome.result != UNCLEAR:
+                    if outcome.result != trial.UNCLEAR:
                         self.ledger.note(mutant, outcome, seed)
                     print(described(mutant, outcome), flush=True)
             except BaseException:
@@ -99,9 +89,9 @@ class Run:
                 raise
 
 
-def described(mutant: Mutant, outcome: Outcome) -> str:
+def described(mutant: Mutant, outcome: trial.Outcome) -> str:
     head = f"{outcome.result:9} {mutant.kind:10} {mutant.file}:{mutant.line} {mutant.where}"
-    if outcome.result == KILLED:
+    if outcome.result == trial.KILLED:
         return f"{head}  by {outcome.by}"
     more = f", {outcome.left_out} more reach it" if outcome.left_out else ""
     return "\n".join([
@@ -132,7 +122,9 @@ def folders_of(sources: Sequence[str]) -> list[Path]:
     folders: dict[Path, None] = {}
     for source in sources:
         package, *rest = Path(source).parts
-        own = ROOT / folder_of_tests("/".join([package, *rest[:1], "x"] if rest[1:] else [source]))
+        own = ROOT / trial.folder_of_tests(
+            "/".join([package, *rest[:1], "x"] if rest[1:] else [source])
+        )
         folders[own if own.is_dir() else own.parent] = None
         folders |= dict.fromkeys(ROOT / name for name in _ALSO[package])
     return list(folders)
@@ -145,14 +137,14 @@ def drawn_mutants(
     every = [mutant for file in sources for mutant in mutants(file, run.text_of(file))]
     if options.again:
         results = run.ledger.results()
-        drawn = [one for one in every if results.get(one.key) in (SURVIVED, UNREACHED)]
+        drawn = [one for one in every if results.get(one.key) in (trial.SURVIVED, trial.UNREACHED)]
     else:
         drawn = draw(every, 2 * options.number, options.seed)
     programs = (one for one in drawn if is_program(one.apply(run.text_of(one.file))))
     drawn = list(programs if options.again else islice(programs, options.number))
     equal = [one for one in drawn if any(entry.is_of(one) for entry in known)]
     for mutant in equal:
-        run.ledger.note(mutant, Outcome("equivalent", "", 0, 0), options.seed)
+        run.ledger.note(mutant, trial.Outcome("equivalent", "", 0, 0), options.seed)
     return [one for one in drawn if one not in equal]
 
 

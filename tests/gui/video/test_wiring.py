@@ -9,7 +9,6 @@ from gui.kinds import collect
 from gui.stores import store_of
 from gui.video.conftest import ListedSource
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QAbstractButton, QAbstractSpinBox, QComboBox, QWidget
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
@@ -174,15 +173,3 @@ def test_the_simulated_film_is_saved_and_given_up(
     assert said[-1] == "The film was given up."
     pane.saving.runner.stop()
     assert not (tmp_path / "other.gif").exists()
-
-
-def test_every_control_has_a_name(pane: VideoWiring) -> None:
-    controls: list[QWidget] = []
-    for kind in (QAbstractButton, QAbstractSpinBox, QComboBox):
-        controls += pane.view.findChildren(kind)
-    nameless = [
-        control
-        for control in controls
-        if not control.accessibleName() and not getattr(control, "text", lambda: "")()
-    ]
-    assert nameless == []

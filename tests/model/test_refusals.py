@@ -135,12 +135,15 @@ ROWS: list[Row] = [
             ({"region": region}, "region", repr(region), "first row")
             for region in ((0, 2, 5, 5), (-1, 2, 0, 50), (0, 10_000, 0, 50), (0, 2, 0), "0:1")
         ),
+        ({"region": occ.Region(5, 1, 0, 10)}, "region", "(5, 1, 0, 10)", "first row"),
     ),
     *calls(
         lambda **wrong: occ.match_photos([Path("nowhere.png")], SCENE, **wrong),
         ({"jobs": 0}, "jobs", "0", "a whole number from 1"),
         ({"channel": "ultraviolet"}, "channel", "'ultraviolet'", CHANNELS),
         ({"known": {0: -1.0}}, "switching_frequency", "-1 Hz", "1 Hz to"),
+        ({"known": {1: 5e3}}, "place of a known value", "1", "a whole number from 0"),
+        ({"known": {0.5: 1.0}}, "place of a known value", "0.5", "a whole number from 0"),
     ),
     *calls(
         lambda decoder: occ.decode(PHOTO.image, SCENE, decoder),

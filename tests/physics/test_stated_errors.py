@@ -8,13 +8,12 @@ import numpy as np
 import pytest
 from photo_world.bounds import bound_of_light, bound_of_picture, bound_of_profile
 from photo_world.photograph import World, photograph, random_world
-from photo_world.tone_curves import power, srgb
+from photo_world.tone_curves import power
 from photo_world.trials import Trial, told, trial
 from simulated_photos import photo_of
 
 import occ_model as occ
 from occ_model.photo.evidence.doubts import exposure_doubts
-from occ_model.photo.fit.tone_curve import ToneCurve
 from occ_model.photo.fitted_scene import _doubts_by_note
 from occ_model.photo.stripes.evenly_lit import Cells
 
@@ -184,15 +183,6 @@ def test_columns_kept_for_the_fit_hold_no_clipped_pixel() -> None:
     assert profiles
     assert all(profile.values[profile.kept].max() < 250.0 for profile in profiles)
     assert any(profile.clipped.any() for profile in profiles)
-
-
-def test_the_tone_curve_holds_the_standard_one_and_its_inverse() -> None:
-    table = ToneCurve(2.4, offset=0.055).table()
-    light = np.linspace(0.01, 0.99, 50)
-    values = 255.0 * srgb().apply(light)
-    np.testing.assert_allclose(table.light_of(values), light, atol=1e-3)
-    bent = ToneCurve(2.2, 0.03, 0.3, -0.3).table()
-    np.testing.assert_allclose(bent.value_of(bent.light_of(values)), values, atol=1e-6)
 
 
 def test_less_of_a_photograph_tells_less() -> None:

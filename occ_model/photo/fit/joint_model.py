@@ -141,15 +141,11 @@ class JointModel:
     def fit(
         self,
         first: FloatArray,
-        fixed: Sequence[int] = (),
         rounds: int = 12,
         shape: BlurShape | None = None,
     ) -> JointFit:
-        """Fit from a first guess.
-
-        ``fixed``: indices of parameters. ``shape``: the blur's; None: normal, of unknown tails.
-        """
-        index, blur = self._index(fixed), shape or "normal"
+        """Fit from a first guess; the blur's shape None: normal, of unknown tails."""
+        index, blur = np.flatnonzero(self._free), shape or "normal"
         scaled, found, residual, slopes = self._minimized(first, index, rounds, blur)
         values = scaled.values(found)
         rates = scaled.rates(values)
@@ -165,7 +161,7 @@ class JointModel:
         prior = residual[-len(USUAL) :]
         shift = np.zeros(9)
         # Where pixel values are blurred, the model itself blurs the product.
-        if 2 in index and not self._values_blurred:
+        if not self._values_blurred:
             by_middle = slopes[:, np.searchsorted(index, 2)] / self._scale[2]
             shift[index] = rates * _explained(slopes, by_middle * self._displacement(values, blur))
         return JointFit(values, covariance, float(residual @ residual), float(prior @ prior), shift)
@@ -173,14 +169,12 @@ class JointModel:
     def rough(
         self, first: FloatArray, fixed: Sequence[int], rounds: int
     ) -> tuple[float, FloatArray]:
-        """Return the misfit of a fit of few rounds, and its parameters."""
-        scaled, found, residual, _ = self._minimized(first, self._index(fixed), rounds, "normal")
-        return float(residual @ residual), scaled.values(found)
-
-    def _index(self, fixed: Sequence[int]) -> IndexArray:
+        """Return the misfit of a fit of few rounds, and its parameters; some indices are fixed."""
         free = self._free.copy()
         free[list(fixed)] = False
-        return np.flatnonzero(free)
+        index = np.flatnonzero(free)
+        scaled, found, residual, _ = self._minimized(first, index, rounds, "normal")
+        return float(residual @ residual), scaled.values(found)
 
     def _minimized(
         self, first: FloatArray, index: IndexArray, rounds: int, blur: BlurShape
@@ -234,11 +228,8 @@ class JointModel:
 
         In grey levels, shape (columns,); NaN for a column that none shows unclipped.
         """
-        seen, squares, count = (
-            self._seen.by(values),
-            np.zeros(self._columns),
-            np.zeros(self._columns),
-        )
+        seen = self._seen.by(values)
+        squares, count = np.zeros(self._columns), np.zeros(self._columns)
         for part in self._parts:
             squares[part.kept] += part.residual(seen)[: part.data.size] ** 2
             count[part.kept] += 1.0

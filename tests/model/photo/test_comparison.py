@@ -66,13 +66,16 @@ def test_what_is_flat_correlates_with_nothing() -> None:
     assert occ.compare(SIMULATED, np.full(300, 7.0)).correlation == 0.0
 
 
-@pytest.mark.parametrize("first", [-400.0, 299.5, 1e6])
-def test_a_photo_beside_the_picture_is_refused(first: float) -> None:
-    with pytest.raises(occ.MatchError, match="beside the simulated picture"):
-        occ.compare(np.ones(300), SIMULATED, first)
-
-
-@pytest.mark.parametrize(("first", "scale"), [(np.nan, 1.0), (np.inf, 1.0), (0.0, 0.0), (0.0, -1)])
-def test_a_place_that_is_none_is_refused(first: float, scale: float) -> None:
-    with pytest.raises(occ.MatchError, match="allowed: "):
+@pytest.mark.parametrize(
+    ("first", "scale", "why"),
+    [
+        *((first, 1.0, "beside the simulated picture") for first in (-400.0, 299.5, 1e6)),
+        *((first, scale, "allowed: ") for first, scale in ((np.nan, 1.0), (np.inf, 1.0))),
+        *((0.0, scale, "allowed: ") for scale in (0.0, -1.0)),
+    ],
+)
+def test_a_place_beside_the_picture_or_none_is_refused(
+    first: float, scale: float, why: str
+) -> None:
+    with pytest.raises(occ.MatchError, match=why):
         occ.compare(np.ones(300), SIMULATED, first, scale)

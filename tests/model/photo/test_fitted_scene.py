@@ -71,13 +71,6 @@ def test_uncertainties_follow_from_the_fits_covariance(estimate: str) -> None:
         assert deviation == pytest.approx(math.sqrt(slope @ COVARIANCE @ slope), rel=1e-4), name
 
 
-def test_a_gamma_that_was_given_has_no_uncertainty() -> None:
-    covariance = COVARIANCE.copy()
-    covariance[3, :] = covariance[:, 3] = 0.0
-    stated = _uncertainties(fit_of(covariance=covariance), "readout_time", occ.Scene(), 0)
-    assert "gamma" not in stated
-
-
 def test_a_readout_time_that_is_hardly_known_is_doubtful_or_refused() -> None:
     assert _doubts_by_error("readout_time", 1.0, 0.03) == []
     (why,) = _doubts_by_error("readout_time", 1.0, 0.0301)
@@ -102,18 +95,6 @@ def test_no_value_is_rounded_to_a_wild_error() -> None:
     scene = occ.Scene().replace(exposure_time=15.04e-6)
     assert _rounded(scene, {"exposure_time": 1340e-6}).camera.exposure_time == 15e-6
     assert _rounded(scene, {"exposure_time": 2e-6}).camera.exposure_time == 15e-6
-
-
-def test_one_of_readout_time_and_frequency_is_the_scenes() -> None:
-    scene = occ.Scene().replace(switching_frequency=2e3, readout_time=9e-6)
-    readout, frequency = readout_and_frequency(fit_of(), scene, "readout_time")
-    assert (readout, frequency) == (pytest.approx(0.0123 / 2e3), 2e3)
-    readout, frequency = readout_and_frequency(fit_of(), scene, "switching_frequency")
-    assert (readout, frequency) == (9e-6, pytest.approx(0.0123 / 9e-6))
-    for estimate in ESTIMATES:
-        readout, frequency = readout_and_frequency(fit_of(), scene, estimate)
-        assert readout * frequency == pytest.approx(0.0123)
-        assert exposure_time(fit_of(), scene, estimate) == pytest.approx(0.77 / frequency)
 
 
 @pytest.mark.parametrize("turn", [0, 5])

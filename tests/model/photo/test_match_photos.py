@@ -3,7 +3,6 @@
 import csv
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -173,7 +172,6 @@ def test_exposures_that_were_set_differently_have_no_mean() -> None:
 def test_photos_in_portrait_and_landscape_are_of_one_size() -> None:
     table = made(row(1e-5), row(1e-5, size=(1000, 600), scanned_along="columns"))
     assert table.notes == ()
-    assert list(lines_to_paste(table)) == ["OpenDroneMap"]  # of no one direction
 
 
 def test_photos_of_different_sizes_are_named() -> None:
@@ -194,24 +192,31 @@ def test_readout_of_the_frame_is_that_of_all_lines() -> None:
     }
 
 
-def test_photos_that_contradict_each_other_give_no_line_to_paste() -> None:
-    table = made(row(7e-6), row(9e-6))
-    assert not table.estimated.agrees
-    assert lines_to_paste(table) == {}
-    assert "differ by more than their errors" in table.notes[0]
+MEASURED = match_with(switching_frequency=5e3, uncertainties={"switching_frequency": 1.0})
 
 
-def test_photos_that_differ_by_less_than_matters_give_lines_to_paste() -> None:
-    table = made(row(7e-6, 1e-12), row(7.0001e-6, 1e-12))
-    assert not table.estimated.agrees
-    assert sorted(lines_to_paste(table)) == ["Gyroflow", "OpenDroneMap"]
-
-
-def test_a_measured_frequency_gives_no_line_to_paste() -> None:
-    measured = match_with(switching_frequency=5e3, uncertainties={"switching_frequency": 1.0})
-    table = made(row(1e-5, match=measured), estimate="switching_frequency")
-    assert table.estimated.value == 5e3
-    assert lines_to_paste(table) == {}
+@pytest.mark.parametrize(
+    ("rows", "estimate", "programs"),
+    [
+        ([row(7e-6), row(9e-6)], "readout_time", []),
+        # They differ by less than matters.
+        ([row(7e-6, 1e-12), row(7.0001e-6, 1e-12)], "readout_time", ["Gyroflow", "OpenDroneMap"]),
+        # In portrait and landscape: of no one direction.
+        (
+            [row(1e-5), row(1e-5, size=(1000, 600), scanned_along="columns")],
+            "readout_time",
+            ["OpenDroneMap"],
+        ),
+        ([row(1e-5, match=MEASURED)], "switching_frequency", []),
+    ],
+)
+def test_only_one_readout_time_gives_lines_to_paste(
+    rows: list[PhotoRow], estimate: str, programs: list[str]
+) -> None:
+    table = made(*rows, estimate=estimate)
+    assert sorted(lines_to_paste(table)) == programs
+    differ = any("differ by more than their errors" in note for note in table.notes)
+    assert differ == (not table.estimated.agrees)
 
 
 def test_the_file_holds_every_row_and_the_scene(table: PhotoTable) -> None:
@@ -258,21 +263,6 @@ def test_a_photo_of_another_lamp_is_matched_with_its_own_frequency() -> None:
     rests_on = [line["rests on"] for line in csv.DictReader(csv_text(both).splitlines()[-3:])]
     assert rests_on == ["f = 5 kHz, given", "f = 7 kHz, given"]
     assert both.rests_on_the_scene
-
-
-@pytest.mark.parametrize(
-    ("setting", "said"),
-    [
-        ({"known": {1: 5e3}}, "place"),
-        ({"known": {0.5: 1.0}}, "place"),
-        ({"sent": "guessed"}, "sent"),
-        ({"averaging": "median"}, "averaging"),
-        ({"channel": "infrared"}, "channel"),
-    ],
-)
-def test_what_cannot_be_is_refused_before_any_work(setting: dict[str, Any], said: str) -> None:
-    with pytest.raises(occ.ParameterError, match=said):
-        occ.match_photos([Path("nowhere.png")], SCENE, **setting)
 
 
 @pytest.mark.parametrize("photos", [[], ()])

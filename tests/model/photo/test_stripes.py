@@ -224,8 +224,3 @@ def test_the_start_time_is_that_of_the_photo_not_of_the_region() -> None:
     late = occ.match_photo(photo, KNOWN, region=part).start_time - whole.start_time
     period = 24.0 / SCENE.transmitter.switching_frequency
     assert abs((late + period / 2) % period - period / 2) < 0.01 * period
-
-
-def test_a_region_that_is_none_is_quoted_by_its_four_numbers() -> None:
-    with pytest.raises(occ.ParameterError, match=r"^region is \(5, 1, 0, 10\); allowed: first row"):
-        occ.find_stripes(take(SCENE), Region(5, 1, 0, 10))

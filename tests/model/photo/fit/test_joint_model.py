@@ -114,15 +114,6 @@ def test_its_misfit_is_that_of_its_noise() -> None:
     assert (fit.misfit - fit.prior) / (COLUMNS / 4.0) == pytest.approx(1.0, abs=0.25)
 
 
-def test_what_is_held_fixed_stays_and_has_no_variance() -> None:
-    model = model_of(values_of() + NOISE)
-    start = model.start(Timing(0.09, 0.7, 2.7, 2.2))
-    fit = model.fit(start, fixed=(1, 7))
-    assert fit.values[[1, 7]].tolist() == [0.7, 0.5]
-    assert not fit.covariance[[1, 7]].any()
-    assert fit.values[2] != 2.7
-
-
 def test_an_unknown_tail_of_the_blur_makes_a_fit_less_sure() -> None:
     model = model_of(values_of() + NOISE)
     unknown, normal = (model.fit(TRUE, rounds=0, shape=shape) for shape in (None, "normal"))
@@ -207,7 +198,6 @@ class Starts:
     def fit(
         self,
         values: np.ndarray,
-        fixed: tuple[int, ...] = (),
         rounds: int = 1,
         shape: BlurShape | None = None,
     ) -> JointFit:

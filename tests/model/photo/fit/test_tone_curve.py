@@ -46,23 +46,22 @@ def test_beyond_its_ends_it_goes_on_straight() -> None:
     assert np.diff(under)[0] == pytest.approx(-255.0 * table.slope[0] * 0.001)
 
 
-def test_a_mere_gamma_is_a_power() -> None:
-    light = ToneCurve(2.2).table().light_of(LEVELS)
-    assert light[20:] == pytest.approx((LEVELS[20:] / 255.0) ** 2.2, rel=1e-3)
+SHARE = LEVELS / 255.0
+BENT = SHARE + 0.2 * SHARE * (1 - SHARE) - 0.3 * SHARE * (1 - SHARE) * (1 - 2 * SHARE)
 
 
-def test_with_its_offset_it_is_the_standard_curve_of_screens() -> None:
-    """IEC 61966-2-1: ((u + 0.055) / 1.055) ** 2.4 above 0.04045."""
-    light = ToneCurve(2.4, 0.055).table().light_of(LEVELS)
-    share = LEVELS / 255.0
-    assert light[12:] == pytest.approx(((share[12:] + 0.055) / 1.055) ** 2.4, rel=1e-3)
-
-
-def test_shoulder_and_contrast_bend_as_stated() -> None:
-    share = LEVELS[20:] / 255.0
-    bent = share + 0.2 * share * (1 - share) - 0.3 * share * (1 - share) * (1 - 2 * share)
-    table = ToneCurve(2.0, 0.03, 0.2, -0.3).table()
-    assert table.light_of(LEVELS[20:]) == pytest.approx(((bent + 0.03) / 1.03) ** 2.0, rel=1e-3)
+@pytest.mark.parametrize(
+    ("curve", "light"),
+    [
+        (ToneCurve(2.2), SHARE**2.2),
+        # IEC 61966-2-1, the standard curve of screens: above 0.04045.
+        (ToneCurve(2.4, 0.055), ((SHARE + 0.055) / 1.055) ** 2.4),
+        (ToneCurve(2.0, 0.03, 0.2, -0.3), ((BENT + 0.03) / 1.03) ** 2.0),
+    ],
+    ids=["power", "screens", "bent"],
+)
+def test_a_curve_above_its_toe_has_its_closed_form(curve: ToneCurve, light: np.ndarray) -> None:
+    assert curve.table().light_of(LEVELS)[20:] == pytest.approx(light[20:], rel=1e-3)
 
 
 def test_its_toe_is_straight_and_has_the_curves_height_and_slope_where_it_begins() -> None:

@@ -1,10 +1,15 @@
 """Write pictures to files of every format that photos come in."""
 
+import struct
+import zlib
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from PIL import Image
+
+STRIPES = np.tile(np.repeat([30, 220, 90, 160], 12).astype(np.uint8), (32, 1))
+PICTURE = Image.fromarray(STRIPES)
 
 
 def saved(folder: Path, picture: Image.Image | np.ndarray, name: str = "x.png", **how: Any) -> Path:
@@ -20,3 +25,23 @@ def saved(folder: Path, picture: Image.Image | np.ndarray, name: str = "x.png", 
     else:
         picture.save(folder / name, **how)
     return folder / name
+
+
+def png(
+    width: int,
+    height: int,
+    *,
+    bits: int = 8,
+    colours: int = 0,
+    more: bytes = b"",
+    data: bytes = zlib.compress(bytes(1000)),
+) -> bytes:
+    """Return a PNG of this size by its header, with more chunks before its compressed data."""
+    header = struct.pack(">IIBBBBB", width, height, bits, colours, 0, 0, 0)
+    head, tail = png_chunk(b"IHDR", header) + more, png_chunk(b"IEND", b"")
+    return b"\x89PNG\r\n\x1a\n" + head + png_chunk(b"IDAT", data) + tail
+
+
+def png_chunk(name: bytes, content: bytes) -> bytes:
+    check = zlib.crc32(name + content)
+    return struct.pack(">I", len(content)) + name + content + struct.pack(">I", check)

@@ -14,6 +14,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from photo_world.photograph import compressed
+
 Floats: TypeAlias = NDArray[np.float64]
 Shape = Literal["round", "rectangular"]
 
@@ -301,5 +303,4 @@ def _photographed(random: np.random.Generator, light: Floats) -> NDArray[np.uint
     toned = (1.0 - bend) * toned + bend * (3.0 - 2.0 * toned) * toned**2
     grey = np.rint(255.0 * toned).astype(np.uint8)
     quality = int(random.integers(60, 96))
-    stored = cv2.imencode(".jpg", grey, [cv2.IMWRITE_JPEG_QUALITY, quality])[1]
-    return np.asarray(cv2.imdecode(stored, cv2.IMREAD_GRAYSCALE), dtype=np.uint8)
+    return compressed(grey, quality)

@@ -15,6 +15,7 @@ from simulated_photos import photo_of
 import occ_model as occ
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.photo.reading.load import stripes_are_lines
+from photo_world.photograph import compressed
 
 Random = np.random.Generator
 
@@ -260,7 +261,4 @@ def _photographed(light: FloatArray, random: Random) -> ByteArray:
     values += random.uniform(0.0, 6.0) * random.standard_normal(values.shape)
     image = np.clip(np.rint(values), 0, 255).astype(np.uint8)
     quality = int(random.integers(50, 96))
-    packed = cv2.imencode(".jpg", image, [cv2.IMWRITE_JPEG_QUALITY, quality])[1]
-    decoded = cv2.imdecode(packed, cv2.IMREAD_GRAYSCALE)
-    assert decoded is not None
-    return np.asarray(decoded, dtype=np.uint8)
+    return compressed(image, quality)

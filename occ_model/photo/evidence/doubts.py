@@ -239,16 +239,11 @@ def _harmonics(power: FloatArray, first: float, own: int) -> list[tuple[int, flo
     strongest = [
         float(power[max(0, place - _LINE_BINS) : place + _LINE_BINS + 1].max()) for place in places
     ]
+    beside = [
+        max((strongest[at + step] for step in _NEIGHBOURS if at + step < len(places)), default=0.0)
+        for at in range(len(places))
+    ]
     return [
-        (
-            place,
-            np.inf
-            if index < own
-            else _MOST_POWER_RATIO
-            * max(
-                (strongest[index + step] for step in _NEIGHBOURS if index + step < len(places)),
-                default=0.0,
-            ),
-        )
-        for index, place in enumerate(places)
+        (place, np.inf if at < own else _MOST_POWER_RATIO * beside[at])
+        for at, place in enumerate(places)
     ]

@@ -152,11 +152,7 @@ def _without_strangers(edges: Edges, first: int, last: int, chip: float) -> tupl
     turns = np.exp(2j * np.pi * edges.place[first:last] / chip)
     off = np.zeros(last - first)
     for which in (edges.rises[first:last], ~edges.rises[first:last]):
-        off[which] = np.abs(
-            np.angle(
-                turns[which] / max(abs(turns[which].sum()), 1e-9) * np.conj(turns[which].sum())
-            )
-        )
+        off[which] = np.abs(np.angle(turns[which] * np.conj(turns[which].sum())))
     gaps = np.diff(edges.place[first:last])
     wrong = off > 2.0 * np.pi * _MOST_OFF
     begin, end = 0, last - first

@@ -151,10 +151,11 @@ def _fitted(edges: Edges, weights: FloatArray, spacing: float) -> _Lattices | No
         steps[same] = np.concatenate([[0.0], np.cumsum(apart)])
     shapes = np.column_stack([steps, edges.rises, ~edges.rises]).astype(np.float64)
     root = np.sqrt(weights)
-    fitted, *_ = np.linalg.lstsq(shapes * root[:, None], edges.place * root, rcond=None)
+    weighted = shapes * root[:, None]
+    fitted, *_ = np.linalg.lstsq(weighted, edges.place * root, rcond=None)
     residual = edges.place - shapes @ fitted
     freedom = max(len(edges) - 3, 1)
-    inverse = np.linalg.pinv((shapes * root[:, None]).T @ (shapes * root[:, None]))
+    inverse = np.linalg.pinv(weighted.T @ weighted)
     # Edges are found to a tenth of a column at best, whatever few of them happen to agree.
     variance = max(
         float(weights @ residual**2) / freedom, float(weights.mean()) * _LEAST_DEVIATION**2

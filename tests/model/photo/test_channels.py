@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import tifffile
 from numpy.typing import NDArray
-from photo_files import saved
+from photo_files import PICTURE, STRIPES, saved
 from PIL import Image
 
 import occ_model as occ
@@ -17,9 +17,6 @@ from occ_model.errors import ParameterError, PhotoError
 from occ_model.photo.reading.choices import CHANNELS
 from occ_model.photo.reading.image_decoding import _deep_colours
 from occ_model.photo.reading.load import column_means, load_photo
-
-STRIPES = np.tile(np.repeat([30, 220, 90, 160], 12).astype(np.uint8), (32, 1))
-PICTURE = Image.fromarray(STRIPES)
 
 
 def deep_stripes() -> NDArray[np.uint16]:

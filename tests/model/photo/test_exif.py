@@ -7,14 +7,13 @@ from typing import Any
 
 import numpy as np
 import pytest
-from photo_files import saved
+from photo_files import PICTURE, saved
 from PIL import Image
 from PIL.TiffImagePlugin import IFDRational
 
 from occ_model.photo.reading.exif import camera_notes
 from occ_model.photo.reading.load import Photo, load_photo
 
-PICTURE = Image.fromarray(np.tile(np.repeat([30, 220, 90, 160], 12).astype(np.uint8), (32, 1)))
 EXPOSURE_TIME, F_NUMBER, ISO = 0x829A, 0x829D, 0x8827
 SHUTTER_SPEED, APERTURE, ISO_SPEED, ISO_RECOMMENDED = 0x9201, 0x9202, 0x8833, 0x8832
 MAKE, MODEL = 0x010F, 0x0110

@@ -6,13 +6,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from photo_files import saved
+from photo_files import PICTURE, STRIPES, saved
 from PIL import Image
 
 from occ_model.photo.reading.load import load_photo
-
-STRIPES = np.tile(np.repeat([30, 220, 90, 160], 12).astype(np.uint8), (32, 1))
-PICTURE = Image.fromarray(STRIPES)
 
 
 @pytest.fixture(autouse=True)

@@ -13,7 +13,7 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 import pytest
-from photo_files import saved
+from photo_files import png, saved
 from PIL import Image
 
 from occ_model.errors import PhotoError
@@ -59,18 +59,11 @@ def repeated(line: bytes, times: int) -> bytes:
     return b"\x78\x01" + part * times + shrink.flush() + struct.pack(">I", check)
 
 
-def png(side: int, bits: int, colours: int, interlaced: int = 0) -> bytes:
+def png_of(side: int, bits: int, colours: int) -> bytes:
     """Return a PNG of one colour: a few hundred kilobytes for as many pixels as are allowed."""
     bands = {0: 1, 2: 3, 4: 2, 6: 4}[colours]
     line = b"\0" + b"\x50" * ((side * bands * bits + 7) // 8)
-    data = repeated(line, side)
-    header = struct.pack(">IIBBBBB", side, side, bits, colours, 0, 0, interlaced)
-    chunks = [(b"IHDR", header), (b"IDAT", data), (b"IEND", b"")]
-    return b"\x89PNG\r\n\x1a\n" + b"".join(
-        struct.pack(">I", len(content)) + name + content
-        + struct.pack(">I", zlib.crc32(name + content))
-        for name, content in chunks
-    )  # fmt: skip
+    return png(side, side, bits=bits, colours=colours, data=repeated(line, side))
 
 
 def small(file_format: str, mode: str = "RGB", **how: object) -> bytearray:
@@ -122,9 +115,9 @@ def gif(side: int) -> bytes:
 
 
 FILES: dict[str, Callable[[], bytes]] = {
-    "png-16-rgba": lambda: png(SIDE, 16, 6),
-    "png-16-rgb-accepted": lambda: png(9_700, 16, 2),
-    "png-8-rgba": lambda: png(SIDE, 8, 6),
+    "png-16-rgba": lambda: png_of(SIDE, 16, 6),
+    "png-16-rgb-accepted": lambda: png_of(9_700, 16, 2),
+    "png-8-rgba": lambda: png_of(SIDE, 8, 6),
     "jpeg-promises": lambda: jpeg_that_promises(SIDE),
     "jpeg-2000-promises": lambda: jpeg_2000_that_promises(SIDE),
     "avif-promises": lambda: avif_that_promises(9_000),
@@ -265,7 +258,7 @@ def test_what_progress_raises_ends_the_reading_unchanged(
 
 @pytest.mark.parametrize("name", ["a\nb.png", "a\x1b[31mb.png", "a\u202eb.png", "a\udcffb.png"])
 def test_a_files_name_is_shown_in_one_line(tmp_path: Path, name: str) -> None:
-    for content in (None, b"", b"no photo", png(20_000, 1, 0)[:90]):
+    for content in (None, b"", b"no photo", png(20_000, 20_000, bits=1)[:90]):
         if content is not None:
             (tmp_path / name).write_bytes(content)
         with pytest.raises(PhotoError) as refused:

@@ -6,7 +6,6 @@ import socket
 import struct
 import sys
 import warnings
-import zlib
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from types import SimpleNamespace
@@ -15,7 +14,7 @@ from typing import Any
 import numpy as np
 import pytest
 from films import film_bytes
-from photo_files import saved
+from photo_files import PICTURE, png, png_chunk, saved
 from PIL import Image, PngImagePlugin
 
 import occ_model as occ
@@ -29,8 +28,6 @@ from occ_model.photo.reading.limits import (
 )
 from occ_model.photo.reading.load import load_photo
 
-PICTURE = Image.fromarray(np.tile(np.repeat([30, 220, 90, 160], 12).astype(np.uint8), (32, 1)))
-
 
 def refusal(path: object, **how: int) -> str:
     with pytest.raises(PhotoError) as refused:
@@ -39,18 +36,6 @@ def refusal(path: object, **how: int) -> str:
     assert sentence.endswith(".")
     assert "\n" not in sentence
     return sentence
-
-
-def png(width: int, height: int, *, bits: int = 8, colours: int = 0, chunks: bytes = b"") -> bytes:
-    """Return a PNG of this size by its header, and little in it."""
-
-    def chunk(name: bytes, content: bytes) -> bytes:
-        check = zlib.crc32(name + content)
-        return struct.pack(">I", len(content)) + name + content + struct.pack(">I", check)
-
-    header = chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, bits, colours, 0, 0, 0))
-    data = chunk(b"IDAT", zlib.compress(bytes(1000)))
-    return b"\x89PNG\r\n\x1a\n" + header + chunks + data + chunk(b"IEND", b"")
 
 
 def test_what_is_no_photo_is_refused_in_a_sentence(tmp_path: Path) -> None:
@@ -145,12 +130,11 @@ def test_deep_colours_with_transparency_are_limited_to_fifty_million_pixels(
     tmp_path: Path, colours: int, key: bool
 ) -> None:
     path = tmp_path / "x.png"
-    content = b"tRNS" + bytes(6)
-    chunks = struct.pack(">I", 6) + content + struct.pack(">I", zlib.crc32(content)) if key else b""
+    more = png_chunk(b"tRNS", bytes(6)) if key else b""
     refused = []
     for rows in (6_250, 6_251):
         # More bytes, so that so many pixels could be in the file.
-        path.write_bytes(png(8_000, rows, bits=16, colours=colours, chunks=chunks) + bytes(9_000))
+        path.write_bytes(png(8_000, rows, bits=16, colours=colours, more=more) + bytes(9_000))
         refused.append("transparency; allowed: at most 50 million, which" in refusal(path))
     assert refused == [False, colours == 6 or key]
 

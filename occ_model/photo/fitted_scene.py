@@ -39,6 +39,17 @@ from it to nothing."""
 _MOST_EDGE_ERROR = 0.25  # maximum error of the outermost edges in shortest pulses
 
 
+def at_rate(scene: Scene, rate: float) -> Scene:
+    """Return a scene that sends so many chips in the time of one of its own."""
+    if rate == 1.0:
+        return scene
+    frequency = scene.transmitter.switching_frequency * rate
+    try:
+        return scene.replace(switching_frequency=frequency)
+    except ParameterError as error:
+        raise MatchError(f"A setting that explains the stripes is not allowed: {error}") from None
+
+
 def exposure_time(fit: StripeFit, scene: Scene, estimate: str) -> float:
     """Return the exposure time of a fit in seconds."""
     if estimate == "readout_time":

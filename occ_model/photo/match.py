@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from occ_model.errors import MatchError, ParameterError
+from occ_model.errors import MatchError
 from occ_model.photo.evidence.candidates import Candidates
 from occ_model.photo.evidence.hypothesis import Hypothesis, is_turned
 from occ_model.photo.evidence.verdict import Judge, rows_alike
@@ -19,6 +19,7 @@ from occ_model.photo.fit.camera_response import AVERAGINGS, CameraTone, camera_t
 from occ_model.photo.fit.chip_runs import is_single_pulse
 from occ_model.photo.fitted_scene import (
     ESTIMATES,
+    at_rate,
     described,
     exposure_time,
     readout_and_frequency,
@@ -103,7 +104,7 @@ def match_photo(  # noqa: PLR0913 - all but the first two are words with default
         scene,
         _cameras(stripes, scene, averaging, fit_gamma, report.again),
         fit_gamma,
-        lambda fit, rate: exposure_time(fit, _at_rate(scene, rate), estimate),
+        estimate,
         photo.exposure_time,
         report.again,
     )
@@ -112,7 +113,7 @@ def match_photo(  # noqa: PLR0913 - all but the first two are words with default
     judge = Judge(stripes, rows_alike(photo, stripes.region), blinks=blinks)
     hypotheses = _hypotheses(candidates, sent, report)
     chosen = _chosen(judge, hypotheses, stripes, sent)
-    case = _Case(photo, scene, estimate, candidates, judge, hypotheses, sent, report)
+    case = _Case(photo, candidates, judge, hypotheses, sent, report)
     as_sent = next((one for one in hypotheses if not one.was_read), None)
     noted = candidates.as_noted(chosen) if chosen is as_sent and sent == "auto" else None
     match = case.concluded(noted or chosen)
@@ -127,8 +128,6 @@ class _Case:
     """The hypotheses about a photo, and what it takes to conclude from one of them."""
 
     photo: Photo
-    scene: Scene
-    estimate: str
     candidates: Candidates
     judge: Judge
     hypotheses: Sequence[Hypothesis]
@@ -137,7 +136,7 @@ class _Case:
 
     def concluded(self, chosen: Hypothesis) -> Match:
         """Express a hypothesis as a match, with the verdict on it beside the others."""
-        photo, scene, stripes = self.photo, self.scene, self.candidates.stripes
+        photo, scene, estimate = self.photo, self.candidates.scene, self.candidates.estimate
         found, beside = self.candidates.corrected(chosen)
         others = [*(one for one in self.hypotheses if one is not chosen), *beside]
         apart = [one for one in others if not is_turned(one, found)]
@@ -145,9 +144,9 @@ class _Case:
         self.report(0.9)
         match = described(
             photo,
-            _at_rate(scene, found.rate),
-            self.estimate,
-            stripes,
+            at_rate(scene, found.rate),
+            estimate,
+            self.candidates.stripes,
             found.explanation,
             self.report.again,
             was_read=found.was_read,
@@ -160,14 +159,13 @@ class _Case:
             exposure_reasons=(*verdict.exposure_reasons, *exchanged, *match.exposure_reasons),
             other_exposures=tuple(sorted({*match.other_exposures, *([other] if other else [])})),
             alternatives=tuple(
-                _alternative(one, evidence, scene, self.estimate)
-                for one, evidence in verdict.others
+                _alternative(one, evidence, scene, estimate) for one, evidence in verdict.others
             ),
         )
 
     def _doubts_by_kind(self, found: Hypothesis) -> list[str]:
         """Doubt chips that were read where the frequency of a pulse was given."""
-        given = sent_chips(self.scene.transmitter)
+        given = sent_chips(self.candidates.scene.transmitter)
         blinks = is_single_pulse(given) and given.min() < given.max()
         if self.sent == "read" or is_single_pulse(found.chips) or not blinks:
             return []
@@ -179,7 +177,7 @@ class _Case:
     def may_be_as_sent(self, match: Match) -> bool:
         """Whether a duty that was searched is that of the scene, within its error."""
         error = match.uncertainties.get("duty")  # a pulse's alone has one
-        given = float(sent_chips(self.scene.transmitter).mean())
+        given = float(sent_chips(self.candidates.scene.transmitter).mean())
         return error is not None and abs(match.duty - given) <= _SAME_DUTY * error
 
 
@@ -268,16 +266,6 @@ def _chosen(
         raise MatchError(*_why_unexplained(stripes, "read"), *error.reasons) from None
 
 
-def _at_rate(scene: Scene, rate: float) -> Scene:
-    if rate == 1.0:
-        return scene
-    frequency = scene.transmitter.switching_frequency * rate
-    try:
-        return scene.replace(switching_frequency=frequency)
-    except ParameterError as error:
-        raise MatchError(f"A setting that explains the stripes is not allowed: {error}") from None
-
-
 def _exchanged_exposure(photo: Photo, match: Match, sent: str) -> float | None:
     """Return the other exposure time that explains a pulse as well: that of its light.
 
@@ -306,7 +294,7 @@ def _doubt_of_exchange(match: Match, other: float) -> str:
 
 
 def _alternative(other: Hypothesis, evidence: float, scene: Scene, estimate: str) -> Alternative:
-    scene = _at_rate(scene, other.rate)
+    scene = at_rate(scene, other.rate)
     readout, frequency = readout_and_frequency(other.fit, scene, estimate)
     return Alternative(
         sent=other.sent,

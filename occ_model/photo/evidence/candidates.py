@@ -15,6 +15,7 @@ from occ_model.photo.fit.chip_runs import canonical, is_single_pulse, pulse
 from occ_model.photo.fit.chips_of_harmonics import ReadPattern
 from occ_model.photo.fit.least_squares import StripeFit
 from occ_model.photo.fit.read_pattern import MOST_CHIPS, read_otherwise, read_patterns
+from occ_model.photo.fitted_scene import at_rate, exposure_time
 from occ_model.photo.photo_scene import with_chips
 from occ_model.results.match import Stripes
 from occ_model.scene.scene import Scene
@@ -40,14 +41,16 @@ class Candidates:
     scene: Scene
     cameras: list[CameraTone]
     fit_gamma: bool
-    # Function that gives the exposure time of a fit, in seconds, by its chips in the time of one of
-    # the scene's.
-    exposed: Callable[[StripeFit, float], float]
+    estimate: str  # the unknown one of readout time and switching frequency
     # The exposure time that the camera noted, in seconds, None if it did not: of fits that are as
     # good the one that is nearest to it is reported.
     noted: float | None
     # Called every few hundredths of a second; what it raises ends the fitting.
     check: Callable[[], object]
+
+    def exposed(self, fit: StripeFit, rate: float) -> float:
+        """Return a fit's exposure time in seconds; ``rate``: its chips in the time of a scene's."""
+        return exposure_time(fit, at_rate(self.scene, rate), self.estimate)
 
     def as_sent(self) -> Hypothesis | None:
         """Suppose what the scene sends; None where that never changes."""

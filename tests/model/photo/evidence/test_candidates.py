@@ -50,7 +50,7 @@ class Reading:
         stripes: Any = SimpleNamespace(
             period=period, profile=line, flattened=line, saturated=saturated
         )
-        made = Candidates(stripes, occ.Scene(), [], False, lambda *_: 0.0, None, lambda: None)
+        made = Candidates(stripes, occ.Scene(), [], False, "readout_time", None, lambda: None)
         return len(made.read(as_sent))
 
 
@@ -119,7 +119,7 @@ def test_other_chips_are_as_many_a_second_as_those_they_replace(
     explained = Explanation(OTHER, (fit,), CameraTone("light", "none", lambda lit, _: lit))
     monkeypatch.setattr(candidates, "explain_from", lambda *_: explained)
     stripes: Any = SimpleNamespace(profile=np.zeros(10))
-    made = Candidates(stripes, occ.Scene(), [], False, lambda *_: 0.0, None, lambda: None)
+    made = Candidates(stripes, occ.Scene(), [], False, "readout_time", None, lambda: None)
     found: Any = SimpleNamespace(bits=1.0, rate=12.5, fit=SimpleNamespace(timing=None))
     other = made.nearest_other(found)
     assert other.rate == 12.5
@@ -180,7 +180,7 @@ def test_neither_the_same_chips_turned_nor_chips_without_a_change_are_others() -
 
 def test_chips_are_named_by_their_code_or_by_their_number() -> None:
     stripes: Any = SimpleNamespace()
-    made = Candidates(stripes, occ.Scene(), [], False, lambda *_: 0.0, None, lambda: None)
+    made = Candidates(stripes, occ.Scene(), [], False, "readout_time", None, lambda: None)
     packet = sent_chips(occ.Scene().replace(code=345).transmitter)
     assert made._named(packet) == "the code 0101011001"
     assert made._named(packet[1:]) == f"{len(packet) - 1} chips"

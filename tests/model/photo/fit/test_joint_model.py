@@ -114,6 +114,14 @@ def test_its_misfit_is_that_of_its_noise() -> None:
     assert (fit.misfit - fit.prior) / (COLUMNS / 4.0) == pytest.approx(1.0, abs=0.25)
 
 
+def test_what_is_held_fixed_stays() -> None:
+    model = model_of(values_of() + NOISE)
+    start = model.start(Timing(0.09, 0.7, 2.7, 2.2))
+    _, values = model.rough(start, (1, 7), 3)
+    assert values[[1, 7]].tolist() == [0.7, 0.5]
+    assert values[2] != 2.7
+
+
 def test_an_unknown_tail_of_the_blur_makes_a_fit_less_sure() -> None:
     model = model_of(values_of() + NOISE)
     unknown, normal = (model.fit(TRUE, rounds=0, shape=shape) for shape in (None, "normal"))

@@ -1,6 +1,7 @@
 """A draft's column means lie as near to those of the whole picture as it says."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -11,6 +12,14 @@ from occ_model.effects.paper_view import paper_view_of
 from occ_model.scene.parameter_kinds import ParameterValue, Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
+from occ_model.simulation.draft_error import (
+    DraftedMeans,
+    DraftedPanel,
+    _of_few_rows,
+    _of_parts,
+    draft_errors,
+)
+from occ_model.simulation.render import _drafted
 
 OBSERVED = ("profile", "signal")
 
@@ -104,3 +113,128 @@ def test_fewer_rows_have_a_larger_error() -> None:
     for observed in OBSERVED:
         found = [errors[observed] for errors in stated]
         assert found == sorted(found)
+
+
+ROWS, STEP = 64, 4
+
+
+@pytest.mark.parametrize("columns", [32, 128, 2048])
+def test_of_independent_noise_it_is_that_of_the_means_with_a_margin_of_five_deviations(
+    columns: int,
+) -> None:
+    random = np.random.default_rng(columns)
+    stated = []
+    for _ in range(40):
+        image = np.rint(random.normal(120.0, 12.0, (ROWS, columns))).astype(np.uint8)
+        high = ROWS * STEP
+        outline = np.array([[0.0, 0.0], [columns, 0.0], [columns, high], [0.0, high]]) - 0.5
+        panel = DraftedPanel(
+            range(0, high, STEP), slice(0, columns), outline, (high, columns), 0.0, 0.0, 0.0
+        )
+        means = DraftedMeans(image, image.mean(axis=0), np.array([120.0]), 1.0)
+        stated.append(draft_errors(panel, {"profile": means})["profile"])
+    # The whole picture's mean has noise of its own, of as many more rows.
+    deviation = 12.0 / math.sqrt(ROWS) * math.sqrt(1.0 + 1.0 / STEP)
+    # Eight neighbouring columns count as one independent estimate of a variance.
+    margin = 1.0 + 5.0 / math.sqrt(2.0 * columns / 8)
+    assert np.mean(stated) == pytest.approx(deviation * margin, rel=0.06)
+
+
+@pytest.mark.parametrize("rounding", [0.02, 0.1, 0.5])
+def test_the_rounding_of_a_file_counts_by_its_deviation_a_block(rounding: float) -> None:
+    columns, high = 80, ROWS * STEP
+    image = np.full((ROWS, columns), 120, dtype=np.uint8)
+    outline = np.array([[0.0, 0.0], [columns, 0.0], [columns, high], [0.0, high]]) - 0.5
+    means = DraftedMeans(image, image.mean(axis=0), np.array([120.0]), 1.0)
+
+    def stated(of_a_block: float) -> float:
+        panel = DraftedPanel(
+            range(0, high, STEP), slice(0, columns), outline, (high, columns), 0.0, of_a_block, 0.0
+        )
+        return draft_errors(panel, {"profile": means})["profile"]
+
+    assert stated(0.0) == 0.0
+    # Of as many blocks as the draft has, twice the deviation is twice the error.
+    assert stated(2.0 * rounding) == pytest.approx(2.0 * stated(rounding))
+    assert stated(rounding) >= rounding / math.sqrt(ROWS / 8)
+
+
+def blocks(*levels: float, columns: int = 3) -> np.ndarray:
+    """Give rows in blocks of eight, each of one level."""
+    return np.tile(np.repeat(levels, 8).astype(np.uint8)[:, None], (1, columns))
+
+
+def test_rows_of_the_blurred_rim_are_not_taken_for_noise() -> None:
+    """Blur darkens the rows at both ends of the panel, the same in every draft."""
+    image = blocks(40, 100, 104, 100, 40)
+    first, last = np.zeros(3, dtype=int), np.full(3, 40)
+    means = np.full(3, 90.0)
+    for guard, inner in ((1, [100, 104, 100]), (8, [100, 104, 100]), (9, [104])):
+        variance, rim = _of_parts(image, means, first, last, guard)
+        if len(inner) == 1:
+            assert np.isnan(variance).all()
+            assert not rim.any()
+            continue
+        steps = np.diff(inner)
+        expected = (steps @ steps) / 2.0 / (len(inner) - 1) / len(inner)
+        assert variance == pytest.approx(expected)
+        assert rim == pytest.approx(abs(90.0 - np.mean(inner)))
+    whole, _ = _of_parts(image, means, first, last, 0)
+    assert (whole > 100.0).all()
+
+
+def test_only_whole_parts_within_the_panel_count() -> None:
+    image = blocks(0, 100, 100, 0)
+    first, last = np.array([8, 7, 9]), np.array([24, 25, 23])
+    variance, _ = _of_parts(image, np.full(3, 100.0), first, last, 0)
+    assert variance[:2].tolist() == [0.0, 0.0]
+    assert np.isnan(variance[2])
+
+
+def test_few_rows_bound_a_mean_by_their_own_scatter_and_one_row_by_all_that_can_be() -> None:
+    random = np.random.default_rng(2)
+    image = np.rint(random.normal(100.0, 9.0, (6, 400))).astype(np.uint8)
+    first, last = np.zeros(400, dtype=int), np.full(400, 6)
+    last[-1] = 1
+    short = np.ones(400, dtype=bool)
+    bound = _of_few_rows(image, first, last, short, 50.0)
+    # Of up to eight rows as much as of one: they may be alike.
+    assert bound[:-1] == pytest.approx(81.0, rel=0.1)
+    assert bound[-1] == pytest.approx(bound[0] + 50.0**2)
+    # Of more rows as much as of as many parts.
+    last[:-1] = 6
+    alone = _of_few_rows(image[:1], first, np.ones(400, dtype=int), short, 50.0)
+    assert alone == pytest.approx(2.0 * 50.0**2)
+
+
+@pytest.mark.parametrize(("factor", "stretch"), [(0.3, 1.0), (1.0, 1.0), (2.5, 2.5)])
+def test_an_enhancement_makes_a_files_rounding_larger_and_never_smaller(
+    factor: float, stretch: float
+) -> None:
+    columns = SimpleNamespace(profile=np.array([20.0, 80.0]), around=np.array([10.0]))
+    made = SimpleNamespace(
+        profile=np.array([21.0, 79.0]), signal=np.zeros(2), camera_image=None, image=None
+    )
+    means = _drafted(made, columns, lambda levels: factor * levels)  # type: ignore[arg-type]
+    assert means["profile"].stretch == 1.0
+    assert means["signal"].stretch == pytest.approx(stretch)
+    assert np.ptp(means["profile"].levels) == 70.0
+    assert np.ptp(means["signal"].levels) == pytest.approx(70.0 * factor)
+
+
+def test_the_blurred_rim_that_is_left_out_is_whole() -> None:
+    """Its reach is rounded up to whole rows of the draft."""
+    columns, high = 32, 40 * 4
+    image = np.full((40, columns), 100, dtype=np.uint8)
+    image[:8] = image[-8:] = 60
+    outline = np.array([[0.0, 0.0], [columns, 0.0], [columns, high], [0.0, high]]) - 0.5
+    means = DraftedMeans(image, np.full(columns, 100.0), np.array([60.0, 100.0]), 1.0)
+
+    def stated(blur: float) -> float:
+        panel = DraftedPanel(
+            range(0, high, 4), slice(0, columns), outline, (high, columns), blur, 0.0, 0.0
+        )
+        return draft_errors(panel, {"profile": means})["profile"]
+
+    # Less than a row of blur leaves out the block at either rim, all of whose rows differ.
+    assert stated(0.05) < 0.2 * stated(0.0)

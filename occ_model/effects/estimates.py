@@ -128,9 +128,8 @@ def _estimates_of(
     if observable == "decision":
         margin, step = (max(found, 1e-6) for found in margins(pixels, seen))
         stretch = _PEAK / margin
-        for name in pixels.names:
-            if pixels.is_like_noise(name):
-                factors[name] = _NOISE_PEAK / _PEAK * max(margin / step, 1.0)
+        for effect in (*pixels.noises, *pixels.files):  # which differ from column to column
+            factors[effect.name] = _NOISE_PEAK / _PEAK * max(margin / step, 1.0)
     sizes, limits = {}, {}
     names = [effect.name for effect in pixels.effects]
     most = np.sqrt(seen.of_subsets(names, np.eye(len(names)))).tolist() if names else []

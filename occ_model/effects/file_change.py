@@ -1,7 +1,6 @@
 """What a file of rounded cosine coefficients makes of pixels, of noise and of changes."""
 
 import math
-from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
 import numpy as np
@@ -18,6 +17,7 @@ from occ_model.effects.normal_noise import (
     rounding_mean,
     rounding_square,
 )
+from occ_model.effects.rims import Rims
 from occ_model.effects.sample import Sample
 
 
@@ -57,20 +57,6 @@ def _read_back(steps: bytes) -> FloatArray:
     return np.asarray(np.sqrt((along.sum(axis=1) + rounded_noise(noise / q) @ q**2) / 64.0))
 
 
-@dataclass(frozen=True, slots=True)
-class RimBlocks:
-    """A panel's rims in the blocks of a file."""
-
-    rows: int
-    blocks: int  # That the panel spans
-    share: float  # Of the pixels that lie in blocks with a rim
-
-    cut: float
-    """Variance of a column's sum over the rows of cut blocks, whose mean is 0, by a pixel's."""
-
-    is_level: bool  # Whether rims lie along the rows
-
-
 class FileChange:
     """What a file with steps, (8, 8), makes of a sample's pixels with all effects and without some.
 
@@ -78,7 +64,7 @@ class FileChange:
     """
 
     def __init__(
-        self, steps: FloatArray, sample: Sample, stack: FloatArray, spread: float, rims: RimBlocks
+        self, steps: FloatArray, sample: Sample, stack: FloatArray, spread: float, rims: Rims
     ) -> None:
         self._blocks, self._inner = sample.blocks, sample.inner
         self._step = steps[0][:, None]

@@ -1,13 +1,16 @@
 """The panel's rims in a sample of the pixels: what effects move there, and what no sample shows."""
 
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.effects.file_change import FileChange
 from occ_model.effects.paper_view import PaperView
 from occ_model.effects.sample import Sample
+
+if TYPE_CHECKING:  # what a file makes of pixels depends on their rims in turn
+    from occ_model.effects.file_change import FileChange
 
 _UNSAMPLED_PIXELS = 1.0  # pixels of a rim that may change and that no sample shows
 _SEEN_SHARE = 0.003  # change of a pixel's light from beyond a rim that can round it otherwise
@@ -19,8 +22,20 @@ class Rims:
     def __init__(self, view: PaperView, sample: Sample) -> None:
         self._region, self._camera = view.region, view.scene.camera
         self._swing = view.swing
-        self._is_level = view.sides is not None
+        self.is_level = view.sides is not None
         self._sample = sample
+        self.rows = view.region.rows
+
+    @property
+    def blocks(self) -> int:
+        """The blocks of a file that the panel spans in a column."""
+        return -(-self._region.last_row // 8) - self._region.first_row // 8
+
+    @property
+    def cut(self) -> float:
+        """Variance of a column's sum over the rows of cut blocks, whose mean is 0, by a pixel's."""
+        ends = self._region.first_row % 8, self._region.last_row % 8
+        return sum(rows * (8 - rows) / 8.0 for rows in ends)
 
     @cached_property
     def shares(self) -> tuple[float, float]:
@@ -33,7 +48,7 @@ class Rims:
             return 0.0, 0.0
         ends = (region.first_row > 0) + (region.last_row < camera.rows)
         sides = (region.first_column > 0) + (region.last_column < camera.columns)
-        if not self._is_level:
+        if not self.is_level:
             ends = sides = 2
         return min(1.0, 4.0 * ends / region.rows), min(1.0, 4.0 * sides / region.columns)
 
@@ -72,7 +87,7 @@ class Rims:
         spans = np.ptp(moved[:, self._sample.inner], axis=1)
         return float(spans**2 @ self._sample.weights) / 9.0
 
-    def unsampled(self, square: float, file: FileChange | None) -> float:
+    def unsampled(self, square: float, file: "FileChange | None") -> float:
         """Return the mean square of a few pixels of a rim, of which a sample need not show any.
 
         A file spreads them over their block.
@@ -85,14 +100,14 @@ class Rims:
             found += file.added_at_a_rim(min(64.0 / pixels, self.share), found)
         return found
 
-    def cut_blocks(self, file: FileChange | None) -> float:
+    def cut_blocks(self, file: "FileChange | None") -> float:
         """Return the mean square of what a file changes beside a rim that moves outwards.
 
         Its blocks are observed in part.
         """
         return file.added_at_a_rim(self.share, self.share * self._swing**2 / 64.0) if file else 0.0
 
-    def cut_blocks_of_means(self, file: FileChange | None, contrast: float) -> float:
+    def cut_blocks_of_means(self, file: "FileChange | None", contrast: float) -> float:
         """Return the same in the means of columns, if a column of upright blocks becomes bright.
 
         Where noise spreads it over the file's steps, it differs from block to block.

@@ -27,7 +27,7 @@ from occ_model.effects.effect import (
     OpticsEffect,
     PixelEffect,
 )
-from occ_model.effects.file_change import FileChange, RimBlocks
+from occ_model.effects.file_change import FileChange
 from occ_model.effects.level_table import LevelTable, Places
 from occ_model.effects.normal_noise import rounding_mean
 from occ_model.effects.paper_view import PaperView
@@ -215,13 +215,7 @@ class SampledPixels:
             self.sample,
             self.stack,
             self.noise_with(self.names),
-            RimBlocks(
-                rows=self.view.region.rows,
-                blocks=-(-self.view.region.last_row // 8) - self.view.region.first_row // 8,
-                share=self.rims.share,
-                cut=_cut_rows(self.view.region.first_row) + _cut_rows(self.view.region.last_row),
-                is_level=self.view.sides is not None,
-            ),
+            self.rims,
         )
 
     def noise_with(self, included: Names) -> float:
@@ -299,10 +293,6 @@ class SampledPixels:
         """Return the mean over the columns."""
         return float(seen @ self.sample.weights)
 
-    def mean_of(self, pixels: FloatArray) -> FloatArray:
-        """Return the mean over all pixels, shape (...)."""
-        return np.asarray(np.tensordot(pixels, self.sample.pixel_weights, 2))
-
     def read_back(self, sets: Sequence[Names]) -> FloatArray:
         """Return the pixels' mean values, of a file as they are read back."""
         values = self.values(sets)
@@ -325,18 +315,8 @@ class SampledPixels:
         shape = self.sample.rows.shape
         return np.stack([np.ones(shape, bool) if c is None else c >= 0.5 for c in covers])
 
-    def is_like_noise(self, name: str) -> bool:
-        """Return whether what an effect changes differs from column to column."""
-        return any(effect.name == name for effect in (*self.noises, *self.files))
-
 
 @lru_cache(maxsize=2)  # a scene's picture and its signal
 def sampled_pixels(view: PaperView, effects: tuple[Effect, ...]) -> SampledPixels:
     """Return the sample of a view's pixels, of which only these effects are not switched off."""
     return SampledPixels(view, effects)
-
-
-def _cut_rows(end: int) -> float:
-    """Return the variance of the sum of the rows of a block that end at a row, by a pixel's."""
-    rows = end % 8
-    return rows * (8 - rows) / 8.0

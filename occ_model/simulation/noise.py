@@ -82,10 +82,7 @@ def _plane(columns: int) -> Pixels:
     return np.lib.stride_tricks.sliding_window_view(numbers, columns)
 
 
-class NoiseMaker(Protocol):
-    def __call__(self, effects: Sequence[NoiseEffect], scene: Scene, seed: int, /) -> Noise:
-        """Return a source of these effects' noise together."""
-
+NoiseMaker: TypeAlias = Callable[[Sequence[NoiseEffect], Scene, int], Noise]
 
 NOISE_MAKERS: dict[NoiseSource, NoiseMaker] = {"exact": ExactNoise, "reused": ReusedNoise}
 

@@ -1,9 +1,8 @@
 """The pixels of a picture whose rows differ: exposed, saturated and stored some rows at a time."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import Protocol
 
 import cv2
 import numpy as np
@@ -60,13 +59,6 @@ class _Band:
     timer: StageTimer
 
 
-class MeanRows(Protocol):
-    """Returns the mean pixel values of any rows of a picture."""
-
-    def of(self, place: range, stage_ended: Callable[[str], object], /) -> Rows:
-        """Compute some rows; each stage is reported as it ends."""
-
-
 class PixelExposure:
     """The pixels of a picture.
 
@@ -84,7 +76,7 @@ class PixelExposure:
         bands: Sequence[range] | None = None,
         *,
         panel_only: bool = False,
-        mean: MeanRows | None = None,
+        mean: PictureRows | None = None,
     ) -> None:
         self._panel_only = panel_only
         self._scene = scene = view.scene

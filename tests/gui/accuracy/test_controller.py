@@ -204,20 +204,25 @@ def measured_of(request: SimulationRequest, measurement: CostMeasurement) -> lis
     return [report for report in reports if report is not None]
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def tiny() -> SimulationRequest:
     scene = occ.load_preset("phone-68us").replace(rows=30, columns=60, edge_time=5e-6)
     return SimulationRequest(scene, FIRST_SETTINGS)
 
 
+@pytest.fixture(scope="module")
+def reports(tiny: SimulationRequest) -> list[object]:
+    """Measure a scene once, for the tests that look at what comes."""
+    return measured_of(tiny, CostMeasurement())
+
+
 def test_the_models_own_study_has_as_many_points_as_it_says_after_the_costs_of_effects(
-    tiny: SimulationRequest,
+    tiny: SimulationRequest, reports: list[object]
 ) -> None:
-    points = [m for m in measured_of(tiny, CostMeasurement()) if isinstance(m, Measured)]
+    points = [m for m in reports if isinstance(m, Measured)]
     assert {point.total for point in points} == {len(points)}
     parts = [point.point.part for point in points]
     assert sum(one != other for one, other in pairwise(parts)) == len(ACCURACY_PARTS) - 1
-    reports = measured_of(tiny, CostMeasurement())
     kinds = [type(report) for report in reports]
     assert kinds[0] is SceneCosts
     first = kinds.index(Measured)
@@ -253,8 +258,9 @@ def test_cancelled_work_ends_within_the_simulation_of_a_picture(tiny: Simulation
     assert reports == [None] * 3  # before anything was measured as a whole
 
 
-def test_costs_of_another_scene_or_observable_are_not_used(tiny: SimulationRequest) -> None:
-    reports = measured_of(tiny, CostMeasurement())
+def test_costs_of_another_scene_or_observable_are_not_used(
+    tiny: SimulationRequest, reports: list[object]
+) -> None:
     costs = [r for r in reports if isinstance(r, SceneCosts)][-1]
     times = TimeShares.of(occ.render(tiny.scene))
     assert costs.of(tiny, times).differences
@@ -277,9 +283,8 @@ def test_costs_of_another_scene_or_observable_are_not_used(tiny: SimulationReque
 
 
 def test_all_times_that_are_stated_of_a_scene_are_of_one_measurement(
-    tiny: SimulationRequest,
+    tiny: SimulationRequest, reports: list[object]
 ) -> None:
-    reports = measured_of(tiny, CostMeasurement())
     costs = [r for r in reports if isinstance(r, SceneCosts)][-1]
     frame = occ.render(tiny.scene, noise="reused")
     stated = costs.of(tiny, TimeShares.of(frame))

@@ -85,7 +85,8 @@ print([name for name in application.shell.help_pages if application.shell.made_p
 while not application.is_idle:
     qt.processEvents()
 slow = ("contourpy", "matplotlib", "scipy", "skimage", "occ_gui.video.wiring",
-        "occ_gui.bench.pane", "occ_gui.explanation.pane", "occ_gui.lessons.pane",
+        "occ_gui.bench.pane", "occ_gui.explanation.pane", "occ_gui.help.help_browser",
+        "occ_gui.help.help_window", "occ_gui.lessons.pane",
         "occ_gui.spectrum.pane", "occ_model.photo.chips", "occ_model.photo.evidence",
         "occ_model.photo.fit", "occ_model.photo.lamps")
 print([name for name in slow if name in sys.modules])

@@ -8,6 +8,7 @@ from gui.kinds import add_widget, not_none, show_widget
 from PySide6.QtCore import QSize
 from pytestqt.qtbot import QtBot
 
+from occ_gui.detection_map import limit_cards
 from occ_gui.detection_map.advice_view import AdviceView
 from occ_gui.detection_map.limit_cards import LimitCards
 from occ_gui.detection_map.map_view import MapView
@@ -20,7 +21,8 @@ from occ_model.study.limits import advice_of
 
 
 @pytest.fixture
-def cards(qtbot: QtBot) -> LimitCards:
+def cards(qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) -> LimitCards:
+    monkeypatch.setattr(limit_cards, "_REST_MS", 5)
     return add_widget(qtbot, LimitCards(["threshold", "matched"]))
 
 

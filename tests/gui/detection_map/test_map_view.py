@@ -1,6 +1,5 @@
 """The map's pane: what is drawn where, what a click means, and nothing left when it closes."""
 
-import os
 from collections.abc import Callable
 from typing import Any
 
@@ -25,8 +24,6 @@ from occ_gui.detection_map.rate_map import (
     TheoryFields,
     lattice,
 )
-from occ_gui.detection_map.worker import PRELOAD
-from occ_model.parallel.process_pool import ProcessPool
 from occ_model.results.sweep_request import SweepPoint
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
@@ -293,26 +290,11 @@ def test_a_pane_that_is_made_late_shows_the_rate_that_was_chosen_meanwhile(
     assert (map_bench.view.frame_rate.value(), map_bench.view.shown.key()) == (24.0, "bits")
 
 
-def is_there(process: int) -> bool:
-    try:
-        os.kill(process, 0)
-    except ProcessLookupError:
-        return False
-    return True
-
-
-def test_stopping_ends_the_processes(qtbot: QtBot, map_bench: MapBench) -> None:
-    map_bench.workers = ProcessPool(2, PRELOAD)
+def test_stopping_ends_the_workers(qtbot: QtBot, map_bench: MapBench) -> None:
     map_bench.see("map")
-    qtbot.waitUntil(lambda: bool(map_bench.pane.map.map), timeout=20_000)
-    processes = map_bench.workers.processes
-    assert processes
+    qtbot.waitUntil(lambda: map_bench.measuring.queue.workers is not None)
     map_bench.stop()
-    # One that has ended is there until the process that forked it has taken note.
-    qtbot.waitUntil(lambda: not any(map(is_there, processes)))
-    for number in processes:
-        with pytest.raises(ProcessLookupError):
-            os.kill(number, 0)
+    assert map_bench.workers.closed == 1
 
 
 def test_a_map_of_an_earlier_scene_says_so_at_once_and_is_dimmed_later(view: MapView) -> None:

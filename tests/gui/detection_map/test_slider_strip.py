@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from gui.detection_map.conftest import RememberingWorkers
 from gui.kinds import add_widget
 from gui.pane_bench import ControlsBench, handle_middle
 from gui.stores import store_of
@@ -70,11 +71,9 @@ class Bench:
 
 
 @pytest.fixture
-def bench(
-    qtbot: QtBot, small_scene: Scene, monkeypatch: pytest.MonkeyPatch, inline_workers: Any
-) -> Iterator[Bench]:
+def bench(qtbot: QtBot, small_scene: Scene, monkeypatch: pytest.MonkeyPatch) -> Iterator[Bench]:
     monkeypatch.setattr(module, "POSITIONS", POSITIONS)
-    bench = Bench(qtbot, small_scene, inline_workers)
+    bench = Bench(qtbot, small_scene, RememberingWorkers())
     yield bench
     bench.queue.stop()
 

@@ -88,7 +88,8 @@ class Bench(PaneBench):
 
 
 @pytest.fixture
-def bench(qtbot: QtBot, small_scene: Scene) -> Bench:
+def bench(qtbot: QtBot, small_scene: Scene, monkeypatch: pytest.MonkeyPatch) -> Bench:
+    monkeypatch.setitem(drawing._STYLE, "savefig.dpi", 60)  # a tenth of the pixels
     return Bench(qtbot, small_scene)
 
 
@@ -179,7 +180,7 @@ def test_the_figure_of_the_pane_in_front_is_copied_with_its_scene(
     bench: Bench, qtbot: QtBot
 ) -> None:
     image = bench.copy()
-    assert min(image.width(), image.height()) > 200
+    assert min(image.width(), image.height()) > 60
     assert "occ_model" in image.text("Description")
     assert bench.said[-1] == "Copied the figure."
     assert "picture" in image.text("Title")
@@ -323,7 +324,7 @@ def test_the_ending_comes_from_the_name_or_the_chosen_format(
     assert [path.name for path in tmp_path.iterdir()] == [written]
     if written.endswith(".png"):
         with Image.open(tmp_path / written) as image:
-            assert image.width > 500
+            assert image.width > 150
 
 
 def test_the_dialog_begins_with_the_format_of_the_last_export(

@@ -6,13 +6,14 @@ from collections.abc import Sequence
 import pyqtgraph as pg
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QPalette, QResizeEvent
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from occ_gui.accuracy.ways_shown import Way, ways_shown
 from occ_gui.widgets.axes import LogAxis
 from occ_gui.widgets.contrast import seen_on
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.layouts import filled
+from occ_gui.widgets.named import push_button
 from occ_gui.widgets.pens import BAND, NOISE, PHOTO, REGION, SIMULATION, thin
 from occ_gui.widgets.plot import new_plot
 from occ_model.results.accuracy import (
@@ -29,6 +30,7 @@ COLOURS: dict[str, QColor] = dict(
 )
 
 _GLYPHS = {"o": "●", "s": "■", "t1": "▲", "t": "▼", "d": "◆"}  # the symbols as characters
+_WORDS = ("exposure", "effects", "path", "draft", "noise")  # the parts in the legend
 _FLOOR = round(math.log10(LEAST_ERROR))  # power of ten at which all smaller errors are drawn
 _LEAST_HEIGHT = 56  # pixels: in a low window all panes share the height
 
@@ -61,14 +63,9 @@ class AccuracyPlot(QWidget):
         self.title = ElidedLabel("Error over time", how=Qt.TextElideMode.ElideMiddle)
         self.legend = QLabel(wordWrap=True)
         self.legend.setAccessibleName("Legend")
-        self.plot = new_plot(
-            "Error over time",
-            "time (ms)",
-            "error (levels)",
-            self.palette(),
-            left=LogAxis("left", _FLOOR),
-            bottom=LogAxis("bottom"),
-        )
+        axes = {"left": LogAxis("left", _FLOOR), "bottom": LogAxis("bottom")}
+        labels = ("Error over time", "time (ms)", "error (levels)")
+        self.plot = new_plot(*labels, self.palette(), **axes)
         for side in ("left", "bottom"):
             self.plot.limit(side, _FARTHEST_POWER, _LEAST_POWERS)
         box = self.plot.getViewBox()
@@ -101,13 +98,8 @@ class AccuracyPlot(QWidget):
         self.front_ring = pg.ScatterPlotItem(symbol="o", size=11, brush=None)
         self._floor = pg.InfiniteLine(_FLOOR, angle=0)
         of_front = (self.front, self.front_points, self.front_ring)
-        for item in (
-            self._floor,
-            *of_front,
-            *self.lines.values(),
-            *self.scatters.values(),
-            self.rings,
-        ):
+        points = (*self.lines.values(), *self.scatters.values(), self.rings)
+        for item in (self._floor, *of_front, *points):
             self.plot.addItem(item, ignoreBounds=True)
 
     def _dress(self, palette: QPalette) -> None:
@@ -126,16 +118,9 @@ class AccuracyPlot(QWidget):
         self._floor.setPen(thin(grey, Qt.PenStyle.DashLine))
 
     def _write_legend(self, palette: QPalette) -> None:
-        words = {
-            "integration": "exposure",
-            "effects": "effects",
-            "path": "path",
-            "draft": "draft",
-            "noise": "noise",
-        }
         entries = [
             (_GLYPHS[SYMBOLS[part]], seen_on(palette, COLOURS[part]), word)
-            for part, word in words.items()
+            for part, word in zip(ACCURACY_PARTS, _WORDS, strict=True)
         ]
         entries.append(("+", seen_on(palette, COLOURS["effects"]), "plans"))
         entries.append(("○", palette.color(QPalette.ColorRole.Text), "now"))
@@ -180,10 +165,7 @@ class AccuracyPlot(QWidget):
         self._fit()
 
     def _lay_out(self) -> None:
-        self._fit_button = QPushButton()
-        self._fit_button.setText("Fit")
-        self._fit_button.setToolTip("Show all points.")
-        self._fit_button.clicked.connect(self._fit_again)
+        self._fit_button = push_button("Fit", "Show all points.", self._fit_again)
         head = filled(QHBoxLayout(), (self.title, 1), self._fit_button)
         filled(QVBoxLayout(self), head, self.legend, (self.plot, 1), margins=0, spacing=2)
 

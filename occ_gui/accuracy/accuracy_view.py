@@ -65,12 +65,7 @@ class AccuracyView(QWidget):
             "What the tolerance limits: errors of the panel's pixels, of its column means, of "
             "the signal that a decoder reads, the column means after the enhancement, or of "
             "the decision, as a fraction of the chips' margin.",
-            {
-                "image": "picture",
-                "profile": "profile",
-                "signal": "signal",
-                "decision": "decision",
-            },
+            {"image": "picture", **{each: each for each in ("profile", "signal", "decision")}},
             is_fixed=True,
         )
         self.noise = KeyedComboBox(

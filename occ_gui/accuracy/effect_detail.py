@@ -4,11 +4,14 @@ import math
 
 from PySide6.QtCore import QRect, QSize, Qt
 from PySide6.QtGui import QImage, QPainter, QPaintEvent, QResizeEvent
-from PySide6.QtWidgets import QLabel, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QSizePolicy, QVBoxLayout, QWidget
 
 from occ_gui.accuracy.effect_cells import image_of
 from occ_gui.accuracy.effect_rows import ELSE, EffectRow
 from occ_gui.widgets.guarded_paint import guarded
+from occ_gui.widgets.layouts import filled
+from occ_gui.widgets.named import paragraph
+from occ_gui.widgets.text_scale import emboldened
 from occ_model.results.accuracy import EffectCrop
 
 _GAP = 8
@@ -32,11 +35,8 @@ class CropPictures(QWidget):
             self._images = tuple(
                 image_of(pixels) for pixels in (crop.with_effect, crop.without, crop.difference)
             )
-            self._captions = (
-                "with it",
-                "without it",
-                f"difference × {crop.amplification}",  # noqa: RUF001
-            )
+            difference = f"difference × {crop.amplification}"  # noqa: RUF001
+            self._captions = ("with it", "without it", difference)
         self.setAccessibleName(", ".join(self._captions) if self._images else "")
         self.update()
 
@@ -80,22 +80,13 @@ class EffectDetail(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self.title, self.place, self.error, self.reason = (QLabel() for _ in range(4))
-        for label in (self.title, self.place, self.error, self.reason):
-            label.setTextFormat(Qt.TextFormat.PlainText)
-            label.setWordWrap(True)
-        font = self.title.font()
-        font.setBold(True)
-        self.title.setFont(font)
+        self.title = emboldened(paragraph())
+        self.place, self.error, self.reason = (paragraph() for _ in range(3))
         self.pictures = CropPictures()
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(8, 0, 0, 0)
-        layout.setSpacing(4)
-        layout.addWidget(self.title)
-        layout.addWidget(self.pictures, 1)
-        for label in (self.place, self.error, self.reason):
-            layout.addWidget(label)
-        layout.addStretch()
+        filled(
+            QVBoxLayout(self), self.title, (self.pictures, 1), self.place, self.error, self.reason,
+            None, margins=(8, 0, 0, 0), spacing=4,
+        )  # fmt: skip
         self.show_row(None, None)
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name

@@ -65,17 +65,11 @@ def rows_of(
         rows.append(_row(decision, _STAGES[decision.stage], costs, error, is_new, pending))
     rest = costs.picture.everything_else
     stages = "\n".join(f"{name}: {milliseconds(s)} ms" for name, s in costs.picture.stages.items())
-    rows.append(
-        EffectRow(
-            ELSE,
-            "",
-            "Everything else",
-            seconds=rest,
-            time=milliseconds(rest),
-            reason=f"What belongs to no effect, in ms:\n{stages}",
-        )
+    reason = f"What belongs to no effect, in ms:\n{stages}"
+    last = EffectRow(
+        ELSE, "", "Everything else", seconds=rest, time=milliseconds(rest), reason=reason
     )
-    return tuple(rows)
+    return (*rows, last)
 
 
 def longest_of(rows: Sequence[EffectRow]) -> float:

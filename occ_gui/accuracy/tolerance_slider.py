@@ -4,12 +4,13 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
-from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtCore import QSignalBlocker, QSize, Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QSlider, QWidget
 
 from occ_gui.scene.parameter_rows import explain
 from occ_gui.scene.quantity_edit import QuantityEdit
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
+from occ_gui.widgets.layouts import filled
 from occ_model.results.plan import Way
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.simulation_settings import TOLERANCE, unit_of
@@ -71,13 +72,8 @@ class ToleranceSlider(QWidget):
         self.slider.valueChanged.connect(self._slide)
         self.field.edited.connect(self._take)
         self.field.refused.connect(self.refused)
-        layout = QHBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(8)
-        layout.addWidget(QLabel("fast"))
-        layout.addWidget(self.slider, 1)
-        layout.addWidget(QLabel("exact"))
-        layout.addWidget(self.field)
+        parts = (QLabel("fast"), (self.slider, 1), QLabel("exact"), self.field)
+        filled(QHBoxLayout(self), *parts, margins=0, spacing=8)
         self.show_value(TOLERANCE.default)
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
@@ -121,19 +117,17 @@ class ToleranceSlider(QWidget):
         if marks == self.marks:
             return
         self.marks = marks
-        self.slider.blockSignals(True)
-        self.slider.setRange(0, (len(marks) or STEPS) + 1)
-        self.slider.setPageStep(1 if marks else STEPS // 20)
-        ticks = QSlider.TickPosition.TicksBelow if marks else QSlider.TickPosition.NoTicks
-        self.slider.setTickPosition(ticks)
-        self.slider.setTickInterval(1)
-        self.slider.blockSignals(False)
+        with QSignalBlocker(self.slider):
+            self.slider.setRange(0, (len(marks) or STEPS) + 1)
+            self.slider.setPageStep(1 if marks else STEPS // 20)
+            ticks = QSlider.TickPosition.TicksBelow if marks else QSlider.TickPosition.NoTicks
+            self.slider.setTickPosition(ticks)
+            self.slider.setTickInterval(1)
         self._place(self.field.value())
 
     def _place(self, tolerance: float) -> None:
-        self.slider.blockSignals(True)
-        self.slider.setValue(position_of(tolerance, self.marks))
-        self.slider.blockSignals(False)
+        with QSignalBlocker(self.slider):
+            self.slider.setValue(position_of(tolerance, self.marks))
 
     def _slide(self, position: int) -> None:
         tolerance = tolerance_at(position, self.marks)

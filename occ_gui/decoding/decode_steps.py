@@ -43,13 +43,8 @@ class SignalPlot(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self.plot = new_plot(
-            "Signal and chips",
-            "column of the region",
-            "level",
-            self.palette(),
-            _LevelAxis("left"),
-        )
+        labels = ("Signal and chips", "column of the region", "level")
+        self.plot = new_plot(*labels, self.palette(), _LevelAxis("left"))
         self.legend = LineLegend()
         dash = Qt.PenStyle.DashLine
         self.legend.add_line("signal", thin(SIMULATION), "signal")
@@ -65,11 +60,8 @@ class SignalPlot(QWidget):
             self.plot.addItem(item, ignoreBounds=True)
         self.plot.setMinimumHeight(_LEAST_HEIGHT)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(0)
-        layout.addWidget(self.legend, 0, Qt.AlignmentFlag.AlignLeft)
-        layout.addWidget(self.plot, 1)
+        legend = (self.legend, 0, Qt.AlignmentFlag.AlignLeft)
+        filled(QVBoxLayout(self), legend, (self.plot, 1), margins=0, spacing=0)
 
     def show_result(self, result: DecodeResult, packet_columns: float) -> None:
         """Show the steps of this result, at first two packets of ``packet_columns`` each."""
@@ -142,13 +134,8 @@ class RunLengthPlot(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self.plot = new_plot(
-            "Run lengths",
-            "run length (columns)",
-            "runs",
-            self.palette(),
-            _CountAxis("left"),
-        )
+        labels = ("Run lengths", "run length (columns)", "runs")
+        self.plot = new_plot(*labels, self.palette(), _CountAxis("left"))
         title = QLabel("Run lengths: ones up, zeros down, splits dashed")
         self.bars, self.splits = [], []
         for colour in _COLOURS:

@@ -11,14 +11,24 @@ from occ_gui.decoding.bit_strip import BitStrip, PayloadText
 from occ_gui.decoding.decode_steps import RunLengthPlot, SignalPlot
 from occ_gui.simulation.snapshot import Reading
 from occ_gui.simulation.verdict import is_right, left_out_in_words, result_of, verdict_on
-from occ_gui.widgets.named import paragraph
+from occ_gui.widgets.layouts import filled
+from occ_gui.widgets.named import named, paragraph
 from occ_gui.widgets.state_look import State
 from occ_gui.widgets.text_scale import emboldened
 from occ_model.results.decoding import DecodeResult, Location
 
 _MARKS = {State.GOOD: "✓ ", State.NEUTRAL: "", State.WAITING: "… "}
 
-_STEPS = ("bright", "region", "threshold", "chip", "chips", "correlation", "confidence")
+_STEPS = {
+    "bright": "Bright from",
+    "region": "Region",
+    "threshold": "Threshold",
+    "chip": "Chip length",
+    "chips": "Chips read",
+    "correlation": "Correlation",
+    "confidence": "Confidence",
+}
+"""The quantities that are measured on the way, with their titles."""
 
 
 class DecodeView(QWidget):
@@ -34,9 +44,8 @@ class DecodeView(QWidget):
         self._drawn: DecodeResult | None = None
         self._is_outdated = False
         self._run = ""
-        self.decoders = QTabBar(drawBase=False)
-        self.decoders.setAccessibleName("Decoder")
-        self.decoders.setToolTip("Whose result and steps are shown.")
+        tip = "Whose result and steps are shown."
+        self.decoders = named(QTabBar(drawBase=False), "Decoder", tip)
         self.decoders.currentChanged.connect(self._choose)
         self.verdict = emboldened(paragraph())
         self.origin = paragraph(name="What the code was read from")
@@ -47,21 +56,14 @@ class DecodeView(QWidget):
         self.left_out = paragraph(name="What the picture leaves out")
         self._steps = {name: QLabel() for name in _STEPS}
         self.signal, self.run_lengths = SignalPlot(), RunLengthPlot()
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(6, 4, 6, 4)
-        layout.setSpacing(4)
-        for widget in (
-            self.decoders, self.verdict, self.origin, self.payload, self.strip, self.reason,
-            self.left_out,
-        ):  # fmt: skip
-            layout.addWidget(widget)
-        layout.addLayout(self._make_form())
-        layout.addWidget(self.signal, 1)
-        layout.addWidget(self.run_lengths, 1)
-        layout.addStretch()
+        texts = (self.origin, self.payload, self.strip, self.reason, self.left_out)
+        plots = (self.signal, self.run_lengths)
+        filled(
+            QVBoxLayout(self), self.decoders, self.verdict, *texts, self._make_form(),
+            *((plot, 1) for plot in plots), None, margins=(6, 4, 6, 4), spacing=4,
+        )  # fmt: skip
         # Before the first result these are empty.
-        empty = (self.origin, self.payload, self.strip, self.reason, self.left_out)
-        for part in (*empty, self.signal, self.run_lengths):
+        for part in (*texts, *plots):
             part.hide()
         for step in self._steps.values():
             self._form.setRowVisible(step, False)
@@ -69,16 +71,7 @@ class DecodeView(QWidget):
     def _make_form(self) -> QFormLayout:
         self._form = form = QFormLayout()
         form.setVerticalSpacing(2)
-        titles = {
-            "bright": "Bright from",
-            "region": "Region",
-            "threshold": "Threshold",
-            "chip": "Chip length",
-            "chips": "Chips read",
-            "correlation": "Correlation",
-            "confidence": "Confidence",
-        }
-        for name, title in titles.items():
+        for name, title in _STEPS.items():
             self._steps[name].setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
             form.addRow(title, self._steps[name])
         return form

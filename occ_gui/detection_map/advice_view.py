@@ -59,19 +59,16 @@ class AdviceView(QWidget):
         self._show_running(False)
 
     def _lay_out(self) -> None:
-        head = filled(
-            QHBoxLayout(), self.back, self.again, self.cancel, (self.progress, 1), (self.state, 1)
-        )
-        self._content = QWidget()
+        row = QHBoxLayout()
+        head = filled(row, self.back, self.again, self.cancel, (self.progress, 1), (self.state, 1))
         self.hint = paragraph(
             "Searching: the limits of each decoder appear here as soon as they are found."
         )
-        self._column = filled(
-            QVBoxLayout(self._content), self.hint, (None, 1), margins=(0, 0, 4, 0)
-        )
-        filled(
-            QVBoxLayout(self), head, (ScrollPane(self._content, _LEAST), 1), margins=(4, 2, 4, 2)
-        )
+        self._content = QWidget()
+        column = QVBoxLayout(self._content)
+        self._column = filled(column, self.hint, (None, 1), margins=(0, 0, 4, 0))
+        scrolled = ScrollPane(self._content, _LEAST)
+        filled(QVBoxLayout(self), head, (scrolled, 1), margins=(4, 2, 4, 2))
 
     def _show_running(self, running: bool) -> None:
         self.progress.setVisible(running)
@@ -145,30 +142,26 @@ class AdviceView(QWidget):
 
     def _insert(self, place: int, line: AdviceLine, decoder: str = "") -> None:
         row = QWidget()
-        layout = QHBoxLayout(row)
-        layout.setContentsMargins(0, 0, 0, 0)
         label = paragraph(line.text, is_selectable=True)
         # Not of a least height, which is that of a narrow label: the page would scroll too far.
         label.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
         font = label.font()
         font.setBold(line.is_title)
         label.setFont(font)
-        layout.addWidget(label, 1)
+        layout = filled(QHBoxLayout(row), (label, 1), margins=0)
         if line.destination is not None:
-            button = self._destination(line, decoder)
+            button = self._destination(*line.destination, decoder)
             self._beside[button] = label
             layout.addWidget(button, 0, Qt.AlignmentFlag.AlignTop)
         self._column.insertWidget(place, row)
         self._lines.append(row)
 
-    def _destination(self, line: AdviceLine, decoder: str) -> QPushButton:
-        assert line.destination is not None  # noqa: S101 - the caller has checked it
-        name, value, text = line.destination
+    def _destination(self, name: str, value: float, text: str, decoder: str) -> QPushButton:
         button = push_button(
             f"Take me to {text}",
             f"Change the scene to {text}, where it read every bit.",
+            lambda: self.destination_chosen.emit(name, value, decoder),
         )
-        button.clicked.connect(lambda: self.destination_chosen.emit(name, value, decoder))
         self.destinations.append(button)
         self._parameters.append(name)
         return button

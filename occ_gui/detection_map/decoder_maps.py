@@ -19,6 +19,7 @@ from occ_gui.detection_map.colour_map import (
 from occ_gui.detection_map.map_plot import STYLES, MapPlot, Point
 from occ_gui.detection_map.rate_map import LINES, RateMap, TheoryFields
 from occ_gui.widgets.layouts import filled
+from occ_gui.widgets.named import named
 from occ_model.arrays import FloatArray
 from occ_model.results.sweep_request import Shown
 from occ_model.scene.parameters import quantity
@@ -48,12 +49,10 @@ class MapPlots(QWidget):
         self._bar_drawn = ""
         self.plots = tuple(self._new_plot() for _ in decoders)
         self.bar = ColourBar()
-        layout = filled(QHBoxLayout(self), margins=0, spacing=4)
         self._grid = QGridLayout()
         self._grid.setSpacing(4)
         self._columns = 0
-        layout.addLayout(self._grid, 1)
-        layout.addWidget(self.bar)
+        filled(QHBoxLayout(self), (self._grid, 1), self.bar, margins=0, spacing=4)
         self._name_plots()
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
@@ -85,9 +84,7 @@ class MapPlots(QWidget):
         return plot
 
     def _names(self) -> tuple[str, ...]:
-        if self._what == "both":
-            return self._decoders
-        return (self._what,)
+        return self._decoders if self._what == "both" else (self._what,)
 
     def _name_plots(self) -> None:
         names = self._names()
@@ -207,6 +204,14 @@ class MapPlots(QWidget):
         return f"{value:+.0f} %" if signed and value else f"{value:.0f} %"
 
 
+_LIMITS = {
+    "band": ("t = 1 chip", "The exposure lasts as long as a chip: the band model ends."),
+    "null": ("null, f = 2/t", "The exposure lasts two chips: alternating chips leave no stripes."),
+    "packets": ("two packets", "Below this frequency no two packets fit the panel's image."),
+    "saturation": ("white", "The lit panel reaches the largest value."),
+}
+"""What each limit's line is called, and what it means."""
+
 _SAMPLE = QSize(28, 12)
 
 _REDRAWN_AT = (QEvent.Type.PaletteChange, QEvent.Type.DevicePixelRatioChange)
@@ -217,41 +222,18 @@ class MapLegend(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        words = {
-            "band": (
-                "t = 1 chip",
-                "The exposure lasts as long as a chip: the band model ends.",
-            ),
-            "null": (
-                "null, f = 2/t",
-                "The exposure lasts two chips: alternating chips leave no stripes.",
-            ),
-            "packets": (
-                "two packets",
-                "Below this frequency no two packets fit the panel's image.",
-            ),
-            "saturation": ("white", "The lit panel reaches the largest value."),
-        }
-        row = filled(QHBoxLayout(self), margins=0, spacing=2)
-        self.buttons: dict[str, QToolButton] = {}
-        for key, (text, meaning) in words.items():
-            button = self._button(key, text, meaning)
-            self.buttons[key] = button
-            row.addWidget(button)
-        row.addStretch(1)
+        self.buttons = {key: self._button(key, *words) for key, words in _LIMITS.items()}
+        filled(QHBoxLayout(self), *self.buttons.values(), (None, 1), margins=0, spacing=2)
         self._draw_samples()
 
     def _button(self, key: str, text: str, meaning: str) -> QToolButton:
-        button = QToolButton()
+        style = Qt.ToolButtonStyle.ToolButtonTextBesideIcon
+        button = QToolButton(toolButtonStyle=style, autoRaise=True)
         button.setText(text)
         button.setIconSize(_SAMPLE)
-        button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
-        button.setAutoRaise(True)
-        button.setCheckable(True)
+        named(button, text, meaning).setCheckable(True)
         button.setChecked(True)
         button.setEnabled(False)
-        button.setToolTip(meaning)
-        button.setAccessibleName(text)
         button.toggled.connect(lambda shown: self.toggled.emit(key, shown))
         return button
 

@@ -6,9 +6,7 @@ from PySide6.QtCore import QEvent, QTimer, Signal
 from PySide6.QtGui import QHideEvent, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QWidget
 
-from occ_gui.detection_map.advice_sentences import (
-    line_on_highest_frequency,
-)
+from occ_gui.detection_map.advice_sentences import line_on_highest_frequency
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.layouts import filled
 from occ_gui.widgets.named import paragraph, push_button
@@ -24,7 +22,7 @@ _REST_MS = 800  # milliseconds that a scene must be at rest before its limits ar
 
 
 def _written(frequency: float) -> str:
-    return written("switching_frequency", frequency)
+    return written(_PARAMETER, frequency)
 
 
 class LimitCards(QWidget):

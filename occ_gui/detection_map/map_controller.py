@@ -55,14 +55,14 @@ class DetectionMapController(QObject):
 
     @property
     def is_full(self) -> bool:
-        return self.is_current and self.map is not None and self.map.least_images > 0
+        return self.full is not None
 
     @property
     def full(self) -> "tuple[RateMap, MapRequest] | None":
         """The map and its request, None while a point of it is not known."""
-        if not self.is_full or self.map is None or self._shown is None:
+        if self.map is None or self._shown is None or not self.is_current:
             return None
-        return self.map, self._shown
+        return (self.map, self._shown) if self.map.least_images else None
 
     def _request(self) -> MapRequest:
         x, y = self._axes

@@ -4,14 +4,7 @@ from collections.abc import Sequence
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import (
-    QCheckBox,
-    QHBoxLayout,
-    QLabel,
-    QStackedWidget,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QStackedWidget, QVBoxLayout, QWidget
 
 from occ_gui.detection_map.advice_view import AdviceView
 from occ_gui.detection_map.decoder_maps import MapLegend, MapPlots
@@ -83,42 +76,30 @@ class MapView(QWidget):
 
         self.shown = KeyedComboBox(
             "What is shown",
-            (
-                "Success rates, the fractions of bits read; or the net bits a second of a "
-                "video, one payload a picture."
-            ),
+            "Success rates, the fractions of bits read; or the net bits a second of a "
+            "video, one payload a picture.",
             {"rate": "success rate", "bits": "bits a second"},
         )
-        self.frame_rate = named(QuantityEdit(FRAME_RATE), FRAME_RATE.label)
-        self.frame_rate.setToolTip(
+        tip = (
             "Pictures a second, or as many as can be read out, each of another payload, if others "
             "are read as well."
         )
+        self.frame_rate = named(QuantityEdit(FRAME_RATE), FRAME_RATE.label, tip)
         self.frame_rate.hide()
 
     def _lay_out(self) -> None:
-        head = QHBoxLayout()
-        head.addWidget(self.across, 3)
-        head.addWidget(QLabel("×"))  # noqa: RUF001 - the sign for it
-        head.addWidget(self.up, 3)
-        head.addWidget(self.what, 2)
-        head.addWidget(self.shown, 2)
-        head.addWidget(self.frame_rate)
+        head = filled(
+            QHBoxLayout(), (self.across, 3), QLabel("×"),  # noqa: RUF001 - the sign for it
+            (self.up, 3), (self.what, 2), (self.shown, 2), self.frame_rate,
+        )  # fmt: skip
         self._searches = filled(QHBoxLayout(), (self.most_bits, 1), self.advise)
         foot = filled(QHBoxLayout(), (self.legend, 1), self.image_effects)
+        self._state = filled(QHBoxLayout(), (self.status, 1))
         page = QWidget()
-        column = QVBoxLayout(page)
-        column.setContentsMargins(4, 2, 4, 2)
-        column.setSpacing(2)
-        column.addWidget(self.cards)
-        column.addLayout(self._searches)
-        column.addLayout(head)
-        column.addWidget(self.plots, 1)
-        column.addLayout(foot)
-        column.addWidget(self.left_out)
-        self._state = QHBoxLayout()
-        self._state.addWidget(self.status, 1)
-        column.addLayout(self._state)
+        filled(
+            QVBoxLayout(page), self.cards, self._searches, head, (self.plots, 1), foot,
+            self.left_out, self._state, margins=(4, 2, 4, 2), spacing=2,
+        )  # fmt: skip
         self._pages = QStackedWidget()
         self._pages.addWidget(page)
         self._pages.addWidget(self.advice)

@@ -4,6 +4,7 @@ from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QFrame, QHBoxLayout
 
 from occ_gui.widgets.elided_label import ElidedLabel
+from occ_gui.widgets.layouts import filled
 from occ_gui.widgets.named import named, push_button
 from occ_model.results.bit_errors import MostBits
 from occ_model.scene.units import HERTZ
@@ -35,15 +36,14 @@ class MostBitsCard(QFrame):
             self.asked,
         )
         self.cancel = push_button("Cancel", "Stop the search.", self.cancelled)
-        self.go = push_button("Go", "Send this code, frequency and number of bits, and read it.")
-        self.go.setAccessibleName("Go to what carries most")
-        self.go.clicked.connect(lambda: self.chosen.emit(self._best))
-        row = QHBoxLayout(self)
-        row.setContentsMargins(12, 4, 8, 4)
-        row.setSpacing(8)
-        row.addWidget(self.text, 1)
-        for button in (self.search, self.cancel, self.go):
-            row.addWidget(button)
+        self.go = push_button(
+            "Go",
+            "Send this code, frequency and number of bits, and read it.",
+            lambda: self.chosen.emit(self._best),
+            name="Go to what carries most",
+        )
+        parts = ((self.text, 1), self.search, self.cancel, self.go)
+        filled(QHBoxLayout(self), *parts, margins=(12, 4, 8, 4), spacing=8)
         self._show()
 
     def show_begun(self) -> None:

@@ -78,6 +78,7 @@ class SliderStrip(QWidget):
         self.setAccessibleDescription(read)
 
     def show_shares(self, shares: tuple[float | None, ...]) -> None:
+        """Show the fraction of bits read correctly at positions of the slider, None: not known."""
         self.shares = shares
         self._explain()
         self.update()
@@ -176,10 +177,8 @@ class StripLegend(QWidget):
             return
         painter = QPainter(self)
         painter.setPen(self.palette().color(QPalette.ColorRole.WindowText))
-        left = 0.0
-        middle = self.height() / 2
-        parts = ("misread", None, "read")
-        for text in parts:
+        left, middle = 0.0, self.height() / 2
+        for text in ("misread", None, "read"):
             if text is None:
                 shares = np.linspace(0.0, 1.0, _BAR.width())[:, None]
                 place = QRectF(QPointF(left, middle - _BAR.height() / 2), _BAR.toSizeF())
@@ -219,13 +218,6 @@ class SliderStrips(QObject):
         if self.legend.parentWidget() is not None:
             self.legend.setVisible(shown)
 
-    def show_shares(self, name: str, shares: tuple[float | None, ...]) -> None:
-        """Show the fraction of bits read correctly at positions of a slider, None if not known."""
-        self.strips[name].show_shares(shares)
-
     def show_present(self, rate: OwnRate | None) -> None:
         for strip in self.strips.values():
             strip.show_present(rate)
-
-    def show_outdated(self, name: str, outdated: bool) -> None:
-        self.strips[name].show_outdated(outdated)

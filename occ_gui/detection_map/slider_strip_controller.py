@@ -151,7 +151,7 @@ class SliderStripController(RestingController):
             wanted = request.along(name)
             known = self._known.get(name)
             is_present = known is not None and known[0] == wanted
-            self._pane.show_outdated(name, known is not None and not is_present)
+            self._pane.strips[name].show_outdated(known is not None and not is_present)
             there = set(known[1]) if known is not None and is_present else set()
             self._missing[name] = (wanted, set(range(POSITIONS)) - there)
         if is_first:
@@ -174,8 +174,9 @@ class SliderStripController(RestingController):
             known[1].update({point.index: _share(point) for point in result.points})
         for name in {result.name for result in results}:
             wanted, shares = self._known[name]
-            self._pane.show_outdated(name, wanted != self._present().along(name))
-            self._pane.show_shares(name, tuple(_nearest(shares, p) for p in range(POSITIONS)))
+            strip = self._pane.strips[name]
+            strip.show_outdated(wanted != self._present().along(name))
+            strip.show_shares(tuple(_nearest(shares, place) for place in range(POSITIONS)))
 
 
 def _share(point: SweepPoint) -> float | None:

@@ -84,9 +84,11 @@ class LessonController(QObject):
             except Exception as error:  # noqa: BLE001 - the window works whatever they contain
                 reason = one_line(f"{type(error).__name__}: {error}")
                 failure = f"The lessons cannot be read: {reason}."
-            self._pane.list_lessons(
-                self._all.lessons, self._places | self._done, failure, self._all.problems
-            )
+            self._list(failure)
+
+    def _list(self, failure: str = "") -> None:
+        reached = self._places | self._done
+        self._pane.list_lessons(self._all.lessons, reached, failure, self._all.problems)
 
     def begin_first(self) -> None:
         self.set_seen(True)
@@ -96,7 +98,9 @@ class LessonController(QObject):
     def choose(self, name: str) -> None:
         for lesson in self._all.lessons:
             if lesson.name == name:
-                self._begin()
+                if self._user is None:
+                    self._user = self._store.workspace
+                    self._first = self._user.photo.path
                 self._current, self._last = lesson, None
                 self._go(self._places.get(name, 0))
 
@@ -142,9 +146,7 @@ class LessonController(QObject):
         self._current = self._last = None
         self.control_wanted.emit("")
         self.restore_user()
-        self._pane.list_lessons(
-            self._all.lessons, self._places | self._done, "", self._all.problems
-        )
+        self._list()
 
     def users_own(self) -> Workspace | None:
         """Return what the end of the lesson restores; None where none is under way."""
@@ -155,11 +157,6 @@ class LessonController(QObject):
         photo = present.photo if is_own(present.photo) else user.photo
         own = replace(present, scene=user.scene, settings=user.settings, preset=user.preset)
         return replace(own, photo=photo)
-
-    def _begin(self) -> None:
-        if self._user is None:
-            self._user = self._store.workspace
-            self._first = self._user.photo.path
 
     def restore_user(self) -> None:
         """Restore what the user was working on; the scene in one step that can be undone."""

@@ -15,7 +15,7 @@ from PySide6.QtWidgets import (
 from occ_gui.lessons.step_page import LEAST, StepPage
 from occ_gui.lessons.texts import heading, paragraph
 from occ_gui.widgets.layouts import filled
-from occ_gui.widgets.named import push_button
+from occ_gui.widgets.named import named, push_button
 from occ_gui.widgets.plain_text import in_menu
 from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_model.results.teaching import CheckedAnswer, Lesson
@@ -38,11 +38,11 @@ class EndPage(QWidget):
             "Save one page with your answers and figures, as PDF.",
             self.report_asked,
         )
-        self.author = QLineEdit()
-        self.author.setPlaceholderText("Your name, for the report")
-        self.author.setAccessibleName("Your name, as it shall stand on the report")
-        self.author.setToolTip("The name that stands on the report; it is kept for the next one.")
-        self.author.setMaxLength(_LONGEST_NAME)
+        self.author = named(
+            QLineEdit(placeholderText="Your name, for the report", maxLength=_LONGEST_NAME),
+            "Your name, as it shall stand on the report",
+            "The name that stands on the report; it is kept for the next one.",
+        )
         self.all = push_button(
             "All lessons", "Go back to the list, and to your own scene.", self.list_asked
         )
@@ -51,13 +51,10 @@ class EndPage(QWidget):
         )
         content = QWidget()
         filled(QVBoxLayout(content), self.title, self.answers, None, margins=8, spacing=8)
-        row = filled(QHBoxLayout(), margins=(8, 0, 8, 4), spacing=8)
-        named = filled(QHBoxLayout(), self.author, margins=(8, 0, 8, 4))
         # Where the button was that ended the lesson stands one that a second click may press.
-        row.addWidget(self.report, 1)
-        row.addWidget(self.all, 1)
-        above = filled(QHBoxLayout(), self.next, margins=(8, 0, 8, 4))
-        filled(QVBoxLayout(self), (ScrollPane(content, LEAST), 1), above, named, row, margins=0)
+        rows = ((self.next,), (self.author,), ((self.report, 1), (self.all, 1)))
+        lines = [filled(QHBoxLayout(), *row, margins=(8, 0, 8, 4), spacing=8) for row in rows]
+        filled(QVBoxLayout(self), (ScrollPane(content, LEAST), 1), *lines, margins=0)
 
     def show_answers(
         self, lesson: Lesson, answers: Sequence[CheckedAnswer | None], following: str
@@ -97,15 +94,8 @@ class LessonList(QWidget):
             self.folder_asked,
         )
         foot = filled(QHBoxLayout(), None, self.folder)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(8, 8, 8, 8)
-        layout.setSpacing(8)
-        layout.addWidget(heading("Lessons"))
-        layout.addWidget(self.message)
-        layout.addLayout(self._rows)
-        layout.addWidget(self.problems)
-        layout.addStretch()
-        layout.addLayout(foot)
+        parts = (heading("Lessons"), self.message, self._rows, self.problems, None, foot)
+        filled(QVBoxLayout(self), *parts, margins=8, spacing=8)
 
     def show_lessons(
         self,
@@ -114,31 +104,27 @@ class LessonList(QWidget):
         failure: str,
         problems: Mapping[str, str],
     ) -> None:
-        self.message.setText(
-            failure
-            or (
-                "Each step sets a scene and asks for something that you find by trying. At the end "
-                "your own scene returns."
-            )
+        usual = (
+            "Each step sets a scene and asks for something that you find by trying. At the end "
+            "your own scene returns."
         )
+        self.message.setText(failure or usual)
         self.problems.setText("\n".join(problems.values()))
         self.problems.setVisible(bool(problems))
         for box in self._boxes:
             self._rows.removeWidget(box)
             box.deleteLater()
         self.choices, self._boxes = [], []
-        for lesson in (each for each in found if not each.is_sheet):
+        has_sheets = False
+        for lesson in sorted(found, key=lambda lesson: lesson.is_sheet):
+            if lesson.is_sheet and not has_sheets:
+                has_sheets = True
+                self._add_box(heading("Lab sheets"))
             self._add(lesson, reached.get(lesson.name))
-        sheets = [each for each in found if each.is_sheet]
-        if sheets:
-            self._add_heading("Lab sheets")
-        for sheet in sheets:
-            self._add(sheet, reached.get(sheet.name))
 
-    def _add_heading(self, text: str) -> None:
-        label = heading(text)
-        self._boxes.append(label)
-        self._rows.addWidget(label)
+    def _add_box(self, box: QWidget) -> None:
+        self._boxes.append(box)
+        self._rows.addWidget(box)
 
     def _add(self, lesson: Lesson, reached: int | None) -> None:
         count = len(lesson.steps)
@@ -152,13 +138,12 @@ class LessonList(QWidget):
         choice.clicked.connect(self._choose)
         self.choices.append(choice)
         box = QWidget()
-        self._boxes.append(box)
         column = filled(QVBoxLayout(box), choice, margins=0, spacing=2)
         if lesson.summary:
             summary = paragraph(lesson.summary)
             summary.setContentsMargins(8, 0, 8, 0)
             column.addWidget(summary)
-        self._rows.addWidget(box)
+        self._add_box(box)
 
     def _choose(self) -> None:
         self.chosen.emit(self.sender().property("lesson"))
@@ -192,10 +177,10 @@ class LessonView(QWidget):
         self,
         found: Sequence[Lesson],
         reached: Mapping[str, int],
-        failure: str = "",
-        problems: Mapping[str, str] | None = None,
+        failure: str,
+        problems: Mapping[str, str],
     ) -> None:
-        self.list.show_lessons(found, reached, failure, problems or {})
+        self.list.show_lessons(found, reached, failure, problems)
         self._pages.setCurrentIndex(0)
 
     def show_step(self, lesson: Lesson, place: int, before: CheckedAnswer | None) -> None:

@@ -146,7 +146,7 @@ class _Drawing:
             passed = min(max(self._now - start, 0.0), shutter.exposure_time)
             bar = QRectF(x, y, width, max(step - 1.0, 1.0))
             filled = QRectF(x, y, width * passed / shutter.exposure_time, bar.height())
-            self._painter.fillRect(filled, _light(share))
+            self._painter.fillRect(filled, mixed(_LIT, _DARK, share))
             self._painter.setPen(QPen(outline, 1))
             self._painter.drawRect(bar)
 
@@ -163,11 +163,6 @@ class _Drawing:
                 )
         self._painter.setPen(QPen(self._ink, 1))
         self._painter.drawRect(QRectF(0.5, top + 0.5, self._width - 1.0, _STRIPE_HEIGHT - 1.0))
-
-
-def _light(share: float) -> QColor:
-    """Return the colour between dark and lit that stands for a fraction of light."""
-    return mixed(_LIT, _DARK, share)
 
 
 def _grey(share: float) -> QColor:

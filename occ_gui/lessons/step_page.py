@@ -19,7 +19,7 @@ from occ_gui.lessons.shutter_animation import ShutterAnimation
 from occ_gui.lessons.texts import heading, paragraph, typeset, typeset_paragraph
 from occ_gui.widgets.event_filters import leave_undo_to_window
 from occ_gui.widgets.layouts import filled
-from occ_gui.widgets.named import push_button
+from occ_gui.widgets.named import named, push_button
 from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_gui.widgets.text_scale import emboldened
 from occ_model.results.teaching import CheckedAnswer, Equation, Lesson
@@ -38,22 +38,18 @@ class AnswerField(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self.field = QLineEdit(maxLength=_LONGEST)
-        self.field.setAccessibleName("Your answer")
-        self.field.setToolTip("Type your answer here before you look at the explanation.")
+        tip = "Type your answer here before you look at the explanation."
+        self.field = named(QLineEdit(maxLength=_LONGEST), "Your answer", tip)
         leave_undo_to_window(self.field)
         self.unit = QLabel()
         self.check = push_button("Check", "Compare it with the model (Enter).", self._ask)
         self.field.returnPressed.connect(self._ask)
         self.field.textEdited.connect(self._forget)
-        self.sentence = paragraph()
-        self.sentence.setAccessibleName("What the check says")
+        self.sentence = named(paragraph(), "What the check says")
         self._said, self._is_outdated = "", False
         row = filled(QHBoxLayout(), (self.field, 1), self.unit, self.check, spacing=8)
-        layout = filled(QVBoxLayout(self), margins=0, spacing=4)
         # Above the field, which stands at the lower end of the pane: it stays where it is.
-        layout.addWidget(self.sentence)
-        layout.addLayout(row)
+        filled(QVBoxLayout(self), self.sentence, row, margins=0, spacing=4)
 
     def begin(self, unit: str, is_number: bool, before: CheckedAnswer | None) -> None:
         self.unit.setText(unit)
@@ -130,9 +126,8 @@ class StepPage(QWidget):
         super().__init__()
         self.place, self.goal = paragraph(), heading()
         self.text, self.question = typeset_paragraph(), emboldened(typeset_paragraph())
-        self.progress = QProgressBar(textVisible=False)
+        self.progress = named(QProgressBar(textVisible=False), "Progress of the lesson")
         self.progress.setFixedHeight(6)
-        self.progress.setAccessibleName("Progress of the lesson")
         self.animation = ShutterAnimation()
         self.animation.setFixedHeight(_ANIMATION_HEIGHT)
         self.control = push_button(
@@ -141,8 +136,7 @@ class StepPage(QWidget):
             self.control_asked,
             name="Show the control of this step",
         )
-        self.changed = paragraph()
-        self.changed.setAccessibleName("Your changes of the scene")
+        self.changed = named(paragraph(), "Your changes of the scene")
         self.changed.hide()
         self.action = push_button(
             "", "Do what this step is about.", self.action_asked, name="Do what this step asks for"
@@ -187,28 +181,23 @@ class StepPage(QWidget):
 
     def _lay_out(self) -> None:
         content = QWidget()
-        column = QVBoxLayout(content)
-        column.setContentsMargins(8, 8, 8, 8)
-        column.setSpacing(8)
-        for widget in (
-            self.place, self.progress, self.goal, self.animation, self.text, self.control,
-            self.action, self.changed, self.reveal, self.answer, self.equation,
-        ):  # fmt: skip
-            column.addWidget(widget)
-        column.addStretch()
+        filled(
+            QVBoxLayout(content), self.place, self.progress, self.goal, self.animation, self.text,
+            self.control, self.action, self.changed, self.reveal, self.answer, self.equation,
+            None, margins=8, spacing=8,
+        )  # fmt: skip
         self._scroll = ScrollPane(content, LEAST)
         # The text is laid out in several passes: the end lies lower after each.
         self._scroll.verticalScrollBar().rangeChanged.connect(self._follow_end)
         # What is asked stays in view, however long the text above it is.
         self.asked = QWidget()
-        fixed = QVBoxLayout(self.asked)
-        fixed.setContentsMargins(8, 0, 8, 4)
-        fixed.setSpacing(4)
-        fixed.addWidget(self.question)
-        fixed.addWidget(self.answer_field)
-        layout = filled(QVBoxLayout(self), (self._scroll, 1), self.asked, margins=0, spacing=4)
-        for buttons in ((self.all, self.again), (self.back, self.next)):
-            layout.addLayout(_row(buttons))
+        below = (8, 0, 8, 4)
+        filled(QVBoxLayout(self.asked), self.question, self.answer_field, margins=below, spacing=4)
+        rows = [
+            filled(QHBoxLayout(), *((button, 1) for button in buttons), margins=below, spacing=8)
+            for buttons in ((self.all, self.again), (self.back, self.next))
+        ]
+        filled(QVBoxLayout(self), (self._scroll, 1), self.asked, *rows, margins=0, spacing=4)
 
     def show_step(self, lesson: Lesson, place: int, before: CheckedAnswer | None) -> None:
         step, count = lesson.steps[place], len(lesson.steps)
@@ -265,10 +254,3 @@ class StepPage(QWidget):
         last = self.equation if self._has_equation else self.answer
         # Of a widget with text, ensureWidgetVisible shows no more than its cursor.
         self._scroll.ensureVisible(0, last.geometry().bottom(), 0, 8)
-
-
-def _row(buttons: Sequence[QWidget]) -> QHBoxLayout:
-    row = filled(QHBoxLayout(), margins=(8, 0, 8, 4), spacing=8)
-    for each in buttons:
-        row.addWidget(each, 1)
-    return row

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import TypeAlias
 
-from PySide6.QtCore import QRectF, QSize, Qt
+from PySide6.QtCore import QRectF, QSize
 from PySide6.QtGui import QPainter, QPalette
 from PySide6.QtWidgets import QSizePolicy
 
@@ -17,7 +17,7 @@ from occ_gui.story.bit_cells import (
 )
 from occ_gui.story.column_axis import ColumnAxis, Crosshair, line_height
 from occ_gui.story.column_facts import PacketField, received_edges, received_fields
-from occ_gui.story.story_row import StoryRow
+from occ_gui.story.story_row import LEFT, RIGHT, StoryRow
 from occ_gui.widgets.chip_cell import draw_chips
 from occ_gui.widgets.pens import SIMULATION
 from occ_gui.widgets.state_look import State
@@ -54,13 +54,17 @@ class CodeRow(StoryRow):
 
     def show_reading(self, reading: ColumnView, decoded: DecodeResult) -> None:
         payload = reading.scene.transmitter.payload if reading.sent else ""
-        looks = (*_looks(decoded), reading.sent, received_fields(decoded, reading.scene), payload)
+        fields = received_fields(decoded, reading.scene)
+        looks = (
+            decoded.region, decoded.failure, decoded.code, decoded.chips, decoded.bits,
+            decoded.chip_starts, decoded.headers, reading.sent, fields, payload,
+        )  # fmt: skip
         if are_same(looks, self._drawn_from):
             return
         self._drawn_from = looks
         self._decoded, self._sent = decoded, reading.sent
         self.edges = received_edges(decoded)
-        self.fields = received_fields(decoded, reading.scene)
+        self.fields = fields
         self.letters = compared(payload, decoded.bits.tolist()) if decoded.bits.size else ()
         self._form = form_of(payload)
         self.updateGeometry()
@@ -174,8 +178,7 @@ class CodeRow(StoryRow):
 
     def _write(self, painter: QPainter, place: QRectF, text: str) -> None:
         painter.setPen(self.colour(QPalette.ColorRole.Text))
-        inner = place.adjusted(8, 0, 0, 0)
-        painter.drawText(inner, Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter, text)
+        painter.drawText(place.adjusted(8, 0, 0, 0), LEFT, text)
 
     def list_label(self) -> str:
         """Return what is said before bits that are not under the columns that carry them."""
@@ -202,19 +205,11 @@ class CodeRow(StoryRow):
 
     def draw_beside(self, painter: QPainter, area: QRectF) -> None:
         painter.setPen(self.colour(QPalette.ColorRole.WindowText))
-        flags = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
         is_text = bool(self.letters) and self._form == "text"
         letters = "text" if is_text else "bytes"
         names = ("chips", letters if self.letters else "", "bits")
         for text, (top, bottom) in zip(names, self._lines(), strict=True):
-            painter.drawText(QRectF(0, top, area.left() - 6, bottom - top), flags, text)
-
-
-def _looks(decoded: DecodeResult) -> tuple[object, ...]:
-    return (
-        decoded.region, decoded.failure, decoded.code, decoded.chips, decoded.bits,
-        decoded.chip_starts, decoded.headers,
-    )  # fmt: skip
+            painter.drawText(QRectF(0, top, area.left() - 6, bottom - top), RIGHT, text)
 
 
 def _have_room(painter: QPainter, widths: Sequence[float]) -> tuple[bool, bool]:

@@ -18,7 +18,7 @@ from occ_gui.story.bit_cells import HEADER, draw_field, have_room_for_bits
 from occ_gui.story.column_axis import ColumnAxis, Crosshair, line_height
 from occ_gui.story.column_facts import PacketField, light_over_columns, packet_fields
 from occ_gui.story.curve_lines import lines_of
-from occ_gui.story.story_row import StoryRow
+from occ_gui.story.story_row import LEFT, RIGHT, StoryRow
 from occ_gui.widgets.chip_cell import draw_digits, have_room_for_digits
 from occ_gui.widgets.state_look import is_dark
 from occ_model.errors import one_line
@@ -133,7 +133,7 @@ class LightRow(StoryRow):
             return
         xs = self.xs_of(curve.columns).tolist()
         ys = (light.bottom() - curve.light * light.height()).tolist()
-        below = [QPointF(x, y) for x, y in zip(xs, ys, strict=True)]
+        below = list(map(QPointF, xs, ys))
         below += [QPointF(xs[-1], light.bottom()), QPointF(xs[0], light.bottom())]
         painter.setPen(Qt.PenStyle.NoPen)
         painter.setBrush(glow)
@@ -205,8 +205,7 @@ class LightRow(StoryRow):
         strip = self._strip_height()
         place = QRectF(area.left() + 8, area.bottom() - strip, area.width() - 8, strip)
         painter.setPen(self.colour(QPalette.ColorRole.Text))
-        flags = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter
-        painter.drawText(place, flags, self.sent_in_words())
+        painter.drawText(place, LEFT, self.sent_in_words())
 
     def sent_in_words(self) -> str:
         if self._scene is None:
@@ -222,14 +221,12 @@ class LightRow(StoryRow):
     def draw_beside(self, painter: QPainter, area: QRectF) -> None:
         light = self._light_area(area)
         painter.setPen(self.colour(QPalette.ColorRole.WindowText))
-        flags = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
         for text, y in (("on", light.top()), ("off", light.bottom())):
-            painter.drawText(QRectF(0, y - 8, area.left() - 6, 16), flags, text)
+            painter.drawText(QRectF(0, y - 8, area.left() - 6, 16), RIGHT, text)
         strip = self._strip_height()
         if light.bottom() < area.bottom() - strip and self._scene is not None:
             place = QRectF(4, area.bottom() - strip, area.left() - 10, strip)
-            left = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter
-            painter.drawText(place, left, "sent")
+            painter.drawText(place, LEFT, "sent")
 
     def draw_markers(self, painter: QPainter, area: QRectF) -> None:
         """Draw the window: shaded, hatched where the LED is on, with its length above."""

@@ -10,7 +10,7 @@ from occ_gui.simulation.snapshot import ColumnView
 from occ_gui.story.column_axis import ColumnAxis, Crosshair
 from occ_gui.story.column_facts import threshold_levels
 from occ_gui.story.curve_lines import DASH, envelope, lines_of
-from occ_gui.story.story_row import StoryRow
+from occ_gui.story.story_row import RIGHT, StoryRow
 from occ_gui.values.photo_results import PhotoProfile
 from occ_gui.widgets.contrast import mixed, seen_on
 from occ_gui.widgets.pens import BAND, PHOTO, SIMULATION, THRESHOLD
@@ -193,13 +193,12 @@ class ProfileRow(StoryRow):
 
     def draw_beside(self, painter: QPainter, area: QRectF) -> None:
         painter.setPen(self.colour(QPalette.ColorRole.WindowText))
-        flags = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
         unit = QRectF(4, 3 + painter.fontMetrics().lineSpacing(), area.left(), self.height())
         left = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop
         painter.drawText(unit, left, "grey\nlevel")
         for level in self._ticks(area):
             place = QRectF(0, self.y_of(level, area) - 8, area.left() - 6, 16)
-            painter.drawText(place, flags, f"{level:g}")
+            painter.drawText(place, RIGHT, f"{level:g}")
 
     def draw_pointed(self, painter: QPainter, column: int, area: QRectF) -> None:
         levels = self.levels

@@ -19,7 +19,7 @@ from occ_gui.story.column_values import (
 from occ_gui.story.curve_legend import CurveLegend, LegendLine
 from occ_gui.story.light_row import LightRow
 from occ_gui.story.profile_row import ProfileRow
-from occ_gui.story.scales import ColumnScale, TimeScale
+from occ_gui.story.scales import Scale
 from occ_gui.story.stripes_row import StripesRow
 from occ_gui.values.photo_results import PhotoProfile
 from occ_gui.widgets.first_periods import PACKETS_IN_VIEW, first_periods
@@ -32,6 +32,7 @@ from occ_model.results.frame import PICTURES
 RANGES = ("packets", "panel")
 """What is in view until the user moves the columns: the first packets, or the whole panel."""
 
+_MICRO = 1e6
 _MARGIN_FRACTION = 0.01  # space beside the range, as a part of it
 
 
@@ -63,7 +64,8 @@ class StoryRows(QWidget):
             button.setCheckable(True)
         self._mark_range()
         self._name_first(has_packets=True)
-        self.time, self.columns = TimeScale(self.axis), ColumnScale(self.axis)
+        self.time = Scale("time (µs)", self.axis, is_above=True)
+        self.columns = Scale("column", self.axis, is_above=False, least_step=1.0)
         self.light = LightRow(self.axis, self.crosshair)
         self.stripes = StripesRow(self.axis, self.crosshair)
         self.profile = ProfileRow(self.axis, self.crosshair)
@@ -134,11 +136,12 @@ class StoryRows(QWidget):
     def show_reading(self, reading: ColumnView) -> None:
         was_seen = self._sees_chosen()
         self._reading = reading
-        self.time.show_scene(reading.scene)
+        scene = reading.scene
+        self.time.count_from(_MICRO * scene.model.start_time, _MICRO * scene.camera.readout_time)
         self.light.show_reading(reading)
         self._show_decoded()
         self._set_range()
-        self._name_first(has_packets=not reading.scene.transmitter.pattern)
+        self._name_first(has_packets=not scene.transmitter.pattern)
         first = int(reading.panel_origin[0] + reading.packet_columns / 2)
         self.crosshair.set_columns(len(reading.profile), first)
         if was_seen and not self._sees_chosen():

@@ -19,7 +19,10 @@ from occ_gui.story.verdict_bar import VerdictBar
 from occ_gui.values.photo_results import PhotoProfile
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
+from occ_gui.widgets.layouts import filled
 from occ_gui.widgets.named import named, push_button
+
+_WHOLE, _WHOLE_TIP = "Whole picture", "Show the whole picture in place of the four rows."
 
 
 class _Held(QWidget):
@@ -72,21 +75,16 @@ class StoryView(QWidget):
         for page in (self.rows, picture):
             self._pages.addWidget(page)
         self._size_by_page()
-        line = QHBoxLayout()
-        line.setContentsMargins(0, 0, 0, 0)
-        line.addSpacing(4)
-        line.addWidget(_Held(self.readout), 1)
-        line.addWidget(self.decoder)
-        line.addWidget(self.whole, 0, Qt.AlignmentFlag.AlignRight)
+        line = filled(
+            QHBoxLayout(), 4, (_Held(self.readout), 1), self.decoder,
+            (self.whole, 0, Qt.AlignmentFlag.AlignRight), margins=0,
+        )  # fmt: skip
         for control in (self.whose, *self.rows.ranges.values()):
             self.rows.controls.addWidget(control)
-        layout = self._layout = QVBoxLayout(self)
-        layout.setContentsMargins(4, 4, 4, 4)
-        layout.setSpacing(4)
-        layout.addWidget(self.verdict)
-        layout.addLayout(line)
-        layout.addWidget(self.measured)
-        layout.addWidget(self._pages, 1)
+        self._layout = filled(
+            QVBoxLayout(self), self.verdict, line, self.measured, (self._pages, 1),
+            margins=4, spacing=4,
+        )  # fmt: skip
 
     def offer(self, decoders: Sequence[str]) -> None:
         """Offer these decoders, beside those offered before."""
@@ -108,10 +106,9 @@ class StoryView(QWidget):
             is_fixed=True,
         )
         self.whose.chosen.connect(self.picture_chosen)
-        self.whole = push_button("Whole picture", do=self.show_whole_picture)
+        self.whole = push_button(_WHOLE, _WHOLE_TIP, self.show_whole_picture)
         self.whole.setCheckable(True)
         self.whole.setObjectName("way")  # its text says what it does: it need not look pressed
-        self.whole.setToolTip("Show the whole picture in place of the four rows.")
         self.whole.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
 
     def _size_by_page(self) -> None:
@@ -133,12 +130,8 @@ class StoryView(QWidget):
         self.whole.setChecked(shown)
         self._pages.setCurrentWidget(self._picture if shown else self.rows)
         self._size_by_page()
-        self.whole.setText("Back to the rows" if shown else "Whole picture")
-        self.whole.setToolTip(
-            "Show the four rows again."
-            if shown
-            else "Show the whole picture in place of the four rows."
-        )
+        self.whole.setText("Back to the rows" if shown else _WHOLE)
+        self.whole.setToolTip("Show the four rows again." if shown else _WHOLE_TIP)
         self.readout.setVisible(not shown)
         self._show_verdicts()
 

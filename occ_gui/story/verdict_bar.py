@@ -1,5 +1,7 @@
 """Verdict bar: whether the code was read, in words, colour and shape, and what holds beside."""
 
+from collections.abc import Iterator
+
 from PySide6.QtCore import Signal
 
 from occ_gui.detection_map.slider_strip import OwnRate
@@ -17,16 +19,23 @@ _READS = 0.99  # fraction of the bits from which a decoder counts as reading
 _MOST_FORCED = 2  # effects switched by hand that have a chip each; more share one
 
 
-def chips_of(reading: Reading, decoder: str) -> tuple[Chip, ...]:
-    """Return what holds for the results, beside the verdict on one decoder's."""
-    return (
-        *_followed(reading),
-        _ratio(reading),
-        *_band_model(reading),
-        *_other_decoders(reading, decoder),
-        *_by_hand(reading),
-        *_left_out(reading),
+def chips_of(reading: Reading, decoder: str) -> Iterator[Chip]:
+    """Give what holds for the results, beside the verdict on one decoder's."""
+    if not reading.has_picture:  # which has the last word
+        meaning = "Read from the column profile or a draft; the exact picture is computed."
+        yield Chip(_COMPUTING, "picture follows", meaning, State.WAITING)
+    scene = reading.scene
+    ratio = scene.camera.exposure_time / scene.transmitter.switching_period
+    meaning = (
+        "The exposure time over the time that a chip lasts. Above 1 no column sees one chip alone."
     )
+    yield Chip("ratio", f"t / t<sub>LED</sub> = {ratio:.3g}", meaning)
+    if reading.band_undefined:
+        yield Chip("band", "band model ends here", reading.band_undefined)
+    yield from _other_decoders(reading, decoder)
+    yield from _by_hand(reading)
+    if reading.called_for:
+        yield Chip("left out", "effects left out", left_out_in_words(reading), State.DOUBTFUL)
 
 
 def computing() -> Chip:
@@ -58,29 +67,6 @@ def behind_run(chips: tuple[Chip, ...], pictured: str) -> tuple[Chip, ...]:
     return (Chip(_COMPUTING, f"picture: {pictured}", meaning), *rest)
 
 
-def _followed(reading: Reading) -> list[Chip]:
-    """Say that what is shown was read before the picture, which has the last word."""
-    if reading.has_picture:
-        return []
-    meaning = "Read from the column profile or a draft; the exact picture is computed."
-    return [Chip(_COMPUTING, "picture follows", meaning, State.WAITING)]
-
-
-def _ratio(reading: Reading) -> Chip:
-    scene = reading.scene
-    ratio = scene.camera.exposure_time / scene.transmitter.switching_period
-    meaning = (
-        "The exposure time over the time that a chip lasts. Above 1 no column sees one chip alone."
-    )
-    return Chip("ratio", f"t / t<sub>LED</sub> = {ratio:.3g}", meaning)
-
-
-def _band_model(reading: Reading) -> list[Chip]:
-    if not reading.band_undefined:
-        return []
-    return [Chip("band", "band model ends here", reading.band_undefined)]
-
-
 def _other_decoders(reading: Reading, decoder: str) -> list[Chip]:
     # Others have read it only where they were chosen before.
     results = {result.decoder: result for result in reading.results}
@@ -108,12 +94,6 @@ def _by_hand(reading: Reading) -> list[Chip]:
         text = f"{len(texts)} effects by hand"
         return [Chip("forced", text, "\n".join([*texts, meaning]), State.DOUBTFUL)]
     return [Chip("forced", text, meaning, State.DOUBTFUL) for text in texts]
-
-
-def _left_out(reading: Reading) -> list[Chip]:
-    if not reading.called_for:
-        return []
-    return [Chip("left out", "effects left out", left_out_in_words(reading), State.DOUBTFUL)]
 
 
 AVERAGES_LESSON = "2-past-the-shutter"
@@ -193,7 +173,7 @@ class VerdictBar(StateBar):
             return
         result = result_of(reading, self._decoder or reading.decoded.decoder)
         verdict = verdict_on(result, reading.sent)
-        chips = chips_of(reading, result.decoder)
+        chips = tuple(chips_of(reading, result.decoder))
         if self._run:
             chips = behind_run(chips, self._pictured)
         state = verdict.state

@@ -8,13 +8,13 @@ from PySide6.QtWidgets import (
     QDialog,
     QDialogButtonBox,
     QFormLayout,
-    QLabel,
     QPushButton,
     QVBoxLayout,
     QWidget,
 )
 
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
+from occ_gui.widgets.layouts import filled
 from occ_gui.widgets.named import paragraph
 
 _FIGURE = QSize(700, 553)  # size of the wiring on the screen, in the proportions of its figure
@@ -35,20 +35,14 @@ class TransmitterDialog(QDialog):
         self.board.chosen.connect(self.board_chosen)
         self.facts = paragraph(name="What is sent", is_selectable=True)
         self.note = paragraph(name="Result of saving", is_selectable=True)
-        self.wiring = QLabel()
+        self.wiring = paragraph(name="Wiring")
         self.wiring.setFixedSize(_FIGURE)
         self.wiring.setAlignment(Qt.AlignmentFlag.AlignCenter)
-        self.wiring.setWordWrap(True)
-        self.wiring.setTextFormat(Qt.TextFormat.PlainText)
-        self.wiring.setAccessibleName("Wiring")
         form = QFormLayout()
         form.addRow("&Board", self.board)
         form.addRow("Sent", self.facts)
-        layout = QVBoxLayout(self)
-        layout.addLayout(form)
-        layout.addWidget(self.wiring, alignment=Qt.AlignmentFlag.AlignHCenter)
-        layout.addWidget(self.note)
-        layout.addWidget(self._make_buttons())
+        wiring = (self.wiring, 0, Qt.AlignmentFlag.AlignHCenter)
+        filled(QVBoxLayout(self), form, wiring, self.note, self._make_buttons())
 
     def _make_buttons(self) -> QDialogButtonBox:
         buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)

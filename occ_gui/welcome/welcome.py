@@ -29,15 +29,12 @@ class Door(QPushButton):
         self._title = emboldened(QLabel(title), _DOOR_TITLE)
         self.setAccessibleName(title)
         self.setAccessibleDescription(sentence)
-        layout = self._layout = QVBoxLayout(self)
-        layout.setContentsMargins(16, 16, 16, 16)
-        layout.setSpacing(8)
-        for label in (self._picture, self._title, self._sentence):
+        labels = (self._picture, self._title, self._sentence)
+        for label in labels:
             label.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
             label.setAlignment(Qt.AlignmentFlag.AlignHCenter)
             label.setWordWrap(label is not self._picture)
-            layout.addWidget(label)
-        layout.addStretch()
+        self._layout = filled(QVBoxLayout(self), *labels, None, margins=16, spacing=8)
         self._draw()
 
     def size_for(self, width: int = _LEAST_SIDE) -> QSize:
@@ -91,13 +88,11 @@ class WelcomeDialog(QDialog):
         }
         width = max(door.size_for().width() for door in self.doors.values())
         height = max(door.size_for(width).height() for door in self.doors.values())
-        row = QHBoxLayout()
-        row.setSpacing(16)
+        row = filled(QHBoxLayout(), *self.doors.values(), spacing=16)
         for name, door in self.doors.items():
             door.setFixedSize(width, height)
             door.setProperty("door", name)
             door.clicked.connect(self._choose)
-            row.addWidget(door)
         filled(QVBoxLayout(self), title, about, row, margins=24, spacing=16)
 
     def _choose(self) -> None:

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -32,20 +33,17 @@ NAMES = ("switching_frequency", "iso")
 Shares = tuple[float | None, ...]
 
 
-class RecordingStrips:
-    """Strips that keep what they show."""
+class RecordingStrip:
+    """A strip that keeps what it shows."""
 
-    strips = NAMES
+    shares: Shares = ()
+    outdated = False
 
-    def __init__(self) -> None:
-        self.shares: dict[str, Shares] = {}
-        self.outdated: dict[str, bool] = {}
+    def show_shares(self, shares: Shares) -> None:
+        self.shares = shares
 
-    def show_shares(self, name: str, shares: Shares) -> None:
-        self.shares[name] = shares
-
-    def show_outdated(self, name: str, outdated: bool) -> None:
-        self.outdated[name] = outdated
+    def show_outdated(self, outdated: bool) -> None:
+        self.outdated = outdated
 
 
 class Bench:
@@ -53,15 +51,18 @@ class Bench:
 
     def __init__(self, qtbot: QtBot, scene: Scene, workers: Any) -> None:
         self._qtbot = qtbot
-        self.workers, self.strips = workers, RecordingStrips()
-        strips: Any = self.strips
+        self.workers, self.strips = workers, {name: RecordingStrip() for name in NAMES}
+        strips: Any = SimpleNamespace(strips=self.strips)
         self.queue = WorkQueue(1, lambda: workers)
         self.scenes = store_of(scene)
         self.controller = SliderStripController(self.scenes, self.queue.channels[0], strips)
 
     def wait_until_idle(self) -> dict[str, Shares]:
         self._qtbot.waitUntil(lambda: self.controller.is_idle)
-        return dict(self.strips.shares)
+        return {name: strip.shares for name, strip in self.strips.items()}
+
+    def outdated(self) -> dict[str, bool]:
+        return {name: strip.outdated for name, strip in self.strips.items()}
 
     def measured(self) -> list[str]:
         """Name the sliders along which was measured, and forget it."""
@@ -124,16 +125,16 @@ def test_a_movement_is_measured_once_where_it_ends(bench: Bench) -> None:
     bench.controller.set_seen(True)
     bench.wait_until_idle()
     bench.measured()
-    assert bench.strips.outdated == dict.fromkeys(NAMES, False)
+    assert bench.outdated() == dict.fromkeys(NAMES, False)
     bench.scenes.change(switching_frequency=40e3)
-    assert bench.strips.outdated == {"switching_frequency": False, "iso": True}
+    assert bench.outdated() == {"switching_frequency": False, "iso": True}
     bench.wait_until_idle()
     of_one = bench.measured()
     for frequency in (20e3, 25e3, 30e3):
         bench.scenes.change(switching_frequency=frequency)
     bench.wait_until_idle()
     assert bench.measured() == of_one != []
-    assert bench.strips.outdated == dict.fromkeys(NAMES, False)
+    assert bench.outdated() == dict.fromkeys(NAMES, False)
 
 
 @pytest.fixture

@@ -36,11 +36,6 @@ class AccuracyView(QWidget):
     """
 
     tolerance_edited = Signal(float)
-    observable_chosen = Signal(str)
-    noise_chosen = Signal(str)
-    effect_switched = Signal(str, object)
-    """An effect's name, and the choice: True (on), False (off) or None (the plan decides)."""
-
     refused = Signal(str)  # why an entered value is refused
 
     mended = Signal()
@@ -74,13 +69,9 @@ class AccuracyView(QWidget):
             {"reused": "reused", "exact": "exact"},
             is_fixed=True,
         )
-        self.observable.chosen.connect(self.observable_chosen)
-        self.noise.chosen.connect(self.noise_chosen)
-        self.summary = ElidedLabel()
-        self.ends = ElidedLabel()
+        self.summary, self.ends = ElidedLabel(), ElidedLabel()
         self.ends.hide()
         self.table, self.detail, self.plot = EffectTable(), EffectDetail(), AccuracyPlot()
-        self.table.switched.connect(self.effect_switched)
         self.table.chosen.connect(self._select)
         self.table.tolerance_dragged.connect(self.tolerance.show_value)
         self.table.tolerance_dragged.connect(self.tolerance_edited)

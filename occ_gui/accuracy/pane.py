@@ -28,9 +28,9 @@ class AccuracyPane(Pane[AccuracyPart]):
         self.measures = (self.study,)
         self._snapshot: Snapshot | None = None
         view.tolerance_edited.connect(settings.set_tolerance)
-        view.observable_chosen.connect(settings.set_observable)
-        view.noise_chosen.connect(settings.set_noise)
-        view.effect_switched.connect(scenes.force)
+        view.observable.chosen.connect(settings.set_observable)
+        view.noise.chosen.connect(settings.set_noise)
+        view.table.switched.connect(scenes.force)
         settings.refused.connect(self._show_refused)
         self._settings = settings
 

@@ -96,11 +96,6 @@ class DecodeView(QWidget):
         self.left_out.setText(left_out_in_words(reading))
         self._show_chosen()
 
-    def offer(self, decoders: Sequence[str]) -> None:
-        self._names = tuple(decoders)
-        if self._reading is not None:
-            self.show_reading(self._reading)
-
     def show_outdated(self, outdated: bool) -> None:
         """Show whether the results are of an earlier scene; they are not the present verdict."""
         reading = self._reading

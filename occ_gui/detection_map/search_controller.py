@@ -11,7 +11,7 @@ from occ_gui.background.signals import JobChannel, WorkQueue
 from occ_gui.core.store import NO_GESTURE
 from occ_gui.detection_map.advice_view import AdviceView
 from occ_gui.detection_map.advice_worker import advise, carry_most
-from occ_gui.detection_map.most_bits_card import MostBitsCard
+from occ_gui.detection_map.limit_cards import MostBitsCard
 from occ_gui.detection_map.worker import left_out, rate_settings
 from occ_gui.scene.scene_store import SceneStore
 from occ_model.parallel.job import Job, Stage, Stages

@@ -64,7 +64,8 @@ class LessonController(QObject):
         answers.checked.connect(self._show_checked)
         store.select(lambda workspace: workspace.scene).changed.connect(self._follow_scene)
         pane.list.chosen.connect(self.choose)
-        pane.list_asked.connect(self.leave)
+        for page in (pane.step, pane.end):
+            page.list_asked.connect(self.leave)
         pane.step.moved.connect(self.go)
         pane.step.again_asked.connect(self.set_again)
         pane.step.control_asked.connect(self._want_control)

@@ -12,8 +12,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from occ_gui.lessons.step_page import LEAST, StepPage
-from occ_gui.lessons.texts import heading, paragraph
+from occ_gui.lessons.step_page import LEAST, StepPage, heading, paragraph
 from occ_gui.widgets.layouts import filled
 from occ_gui.widgets.named import named, push_button
 from occ_gui.widgets.plain_text import in_menu
@@ -161,16 +160,12 @@ _WANTED_HEIGHT = 320
 
 
 class LessonView(QWidget):
-    list_asked = Signal()  # the list is to be shown again
-
     def __init__(self) -> None:
         super().__init__()
         self.list, self.step, self.end = LessonList(), StepPage(), EndPage()
         self._pages = QStackedWidget()
         for page in (ScrollPane(self.list, LEAST), self.step, self.end):
             self._pages.addWidget(page)
-        self.step.list_asked.connect(self.list_asked)
-        self.end.list_asked.connect(self.list_asked)
         filled(QVBoxLayout(self), self._pages, margins=0)
 
     def list_lessons(

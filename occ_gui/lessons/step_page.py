@@ -1,8 +1,10 @@
 """Page of one step of a lesson: goal, text, question, answer, explanation, and where to go."""
 
+import html
+import re
 from collections.abc import Sequence
 
-from PySide6.QtCore import QSize, QTimer, Signal
+from PySide6.QtCore import QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QPalette
 from PySide6.QtWidgets import (
     QFrame,
@@ -16,14 +18,38 @@ from PySide6.QtWidgets import (
 
 from occ_gui.explanation.equation_text import EquationText
 from occ_gui.lessons.shutter_animation import ShutterAnimation
-from occ_gui.lessons.texts import heading, paragraph, typeset, typeset_paragraph
 from occ_gui.widgets.event_filters import leave_undo_to_window
 from occ_gui.widgets.layouts import filled
 from occ_gui.widgets.named import named, push_button
+from occ_gui.widgets.named import paragraph as plain_paragraph
 from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_gui.widgets.text_scale import emboldened
 from occ_model.results.teaching import CheckedAnswer, Equation, Lesson
 from occ_model.scene.parameters import PARAMETERS
+
+_INDEX = re.compile(r"\b([A-Za-z]+)_([A-Za-z]+)\b")
+_HEADING = 1.25
+
+
+def typeset(text: str) -> str:
+    """Typeset indices such as that of t_r, and escape all else."""
+    return _INDEX.sub(r"<i>\1</i><sub>\2</sub>", html.escape(text, quote=False))
+
+
+def paragraph(text: str = "") -> QLabel:
+    return plain_paragraph(text, is_selectable=True)
+
+
+def typeset_paragraph() -> QLabel:
+    """Make a label for text with indices, set by :func:`typeset`."""
+    label = paragraph()
+    label.setTextFormat(Qt.TextFormat.RichText)
+    return label
+
+
+def heading(text: str = "") -> QLabel:
+    return emboldened(paragraph(text), _HEADING)
+
 
 _LONGEST = 300  # characters of an answer
 

@@ -15,9 +15,9 @@ from occ_gui.story.bit_cells import (
     have_room_for_bits,
     have_room_for_marks,
 )
-from occ_gui.story.column_axis import ColumnAxis, Crosshair, line_height
+from occ_gui.story.column_axis import LEFT, RIGHT, ColumnAxis, Crosshair, line_height
 from occ_gui.story.column_facts import PacketField, received_edges, received_fields
-from occ_gui.story.story_row import LEFT, RIGHT, StoryRow
+from occ_gui.story.story_row import StoryRow
 from occ_gui.widgets.chip_cell import draw_chips
 from occ_gui.widgets.pens import SIMULATION
 from occ_gui.widgets.state_look import State

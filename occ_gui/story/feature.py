@@ -47,8 +47,8 @@ class StoryPane(Pane[StoryPart]):
         self._plugins.timeout.connect(self._offer)
         shown = scenes.store.workspace
         self._shown: StoryPart = (None, None, None, shown.decoder, shown.whose)
-        view.picture_chosen.connect(self._choose_picture)
-        view.decoder_chosen.connect(self.choose_decoder)
+        view.whose.chosen.connect(self._choose_picture)
+        view.decoder.chosen.connect(self.choose_decoder)
         view.verdict.step_chosen.connect(self._take)
         once = Qt.ConnectionType.SingleShotConnection
         simulation.snapshot_shown.connect(self._plugins.start, once)
@@ -67,7 +67,7 @@ class StoryPane(Pane[StoryPart]):
         if picture is not None and picture is not shown[1]:
             view.show_picture(picture)
         if photo is not shown[2]:
-            view.show_photo_profile(photo)
+            view.rows.show_photo_profile(photo)
 
     def stop(self) -> None:
         self._plugins.stop()

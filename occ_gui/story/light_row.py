@@ -15,10 +15,10 @@ from PySide6.QtGui import (
 
 from occ_gui.simulation.snapshot import ColumnView
 from occ_gui.story.bit_cells import HEADER, draw_field, have_room_for_bits
-from occ_gui.story.column_axis import ColumnAxis, Crosshair, line_height
+from occ_gui.story.column_axis import LEFT, RIGHT, ColumnAxis, Crosshair, line_height
 from occ_gui.story.column_facts import PacketField, light_over_columns, packet_fields
 from occ_gui.story.curve_lines import lines_of
-from occ_gui.story.story_row import LEFT, RIGHT, StoryRow
+from occ_gui.story.story_row import StoryRow
 from occ_gui.widgets.chip_cell import draw_digits, have_room_for_digits
 from occ_gui.widgets.state_look import is_dark
 from occ_model.errors import one_line

@@ -7,10 +7,10 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPalette, QPen
 
 from occ_gui.simulation.snapshot import ColumnView
-from occ_gui.story.column_axis import ColumnAxis, Crosshair
+from occ_gui.story.column_axis import RIGHT, ColumnAxis, Crosshair
 from occ_gui.story.column_facts import threshold_levels
 from occ_gui.story.curve_lines import DASH, envelope, lines_of
-from occ_gui.story.story_row import RIGHT, StoryRow
+from occ_gui.story.story_row import StoryRow
 from occ_gui.values.photo_results import PhotoProfile
 from occ_gui.widgets.contrast import mixed, seen_on
 from occ_gui.widgets.pens import BAND, PHOTO, SIMULATION, THRESHOLD

@@ -8,7 +8,7 @@ from occ_gui.simulation.preview import Picture, PictureView
 from occ_gui.simulation.snapshot import ColumnView
 from occ_gui.simulation.verdict import result_of
 from occ_gui.story.code_row import CodeRow
-from occ_gui.story.column_axis import MARGIN, ColumnAxis, Crosshair, gutter_of
+from occ_gui.story.column_axis import MARGIN, ColumnAxis, Crosshair, Scale, gutter_of
 from occ_gui.story.column_values import (
     ColumnValues,
     difference_in_words,
@@ -19,7 +19,6 @@ from occ_gui.story.column_values import (
 from occ_gui.story.curve_legend import CurveLegend, LegendLine
 from occ_gui.story.light_row import LightRow
 from occ_gui.story.profile_row import ProfileRow
-from occ_gui.story.scales import Scale
 from occ_gui.story.stripes_row import StripesRow
 from occ_gui.values.photo_results import PhotoProfile
 from occ_gui.widgets.first_periods import PACKETS_IN_VIEW, first_periods

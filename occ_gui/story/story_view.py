@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import (
     QHBoxLayout,
@@ -16,7 +16,6 @@ from occ_gui.simulation.preview import Picture
 from occ_gui.simulation.snapshot import Reading
 from occ_gui.story.story_rows import StoryRows
 from occ_gui.story.verdict_bar import VerdictBar
-from occ_gui.values.photo_results import PhotoProfile
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
 from occ_gui.widgets.layouts import filled
@@ -50,11 +49,6 @@ class _Held(QWidget):
 
 class StoryView(QWidget):
     """The verdict on the code, above the story in four rows, or the whole picture instead."""
-
-    picture_chosen = Signal(str)
-    """Whose picture and profile the user chose, the ``"camera"``'s or the ``"receiver"``'s."""
-
-    decoder_chosen = Signal(str)
 
     def __init__(self, picture: QWidget, decoders: Sequence[str] = ()) -> None:
         super().__init__()
@@ -97,7 +91,6 @@ class StoryView(QWidget):
             "Decoder", "Whose verdict, threshold, chips and bits are shown.", {}, is_fixed=True
         )
         self.offer(decoders)
-        self.decoder.chosen.connect(self.decoder_chosen)
         self.whose = KeyedComboBox(
             "Whose picture and profile are shown",
             "Camera: picture and profile as the camera gives them.\n"
@@ -105,7 +98,6 @@ class StoryView(QWidget):
             {"camera": "Camera", "receiver": "Receiver"},
             is_fixed=True,
         )
-        self.whose.chosen.connect(self.picture_chosen)
         self.whole = push_button(_WHOLE, _WHOLE_TIP, self.show_whole_picture)
         self.whole.setCheckable(True)
         self.whole.setObjectName("way")  # its text says what it does: it need not look pressed
@@ -156,9 +148,6 @@ class StoryView(QWidget):
     def show_reading(self, reading: Reading) -> None:
         self.verdict.show_reading(reading)
         self.rows.show_reading(reading)
-
-    def show_photo_profile(self, photo: PhotoProfile | None) -> None:
-        self.rows.show_photo_profile(photo)
 
     def choose_decoder(self, name: str) -> None:
         """Show what this decoder read, and the verdict on it, without a signal."""

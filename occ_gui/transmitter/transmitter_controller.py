@@ -128,7 +128,7 @@ class TransmitterController(Service):
     def _follow(self, scene: Scene) -> None:
         if self.dialog is None:
             return
-        self.dialog.show_note("")
+        self.dialog.note.setText("")
         try:
             self._sent = transmission(scene, board_named(self._board))
         except OccError as error:
@@ -146,7 +146,7 @@ class TransmitterController(Service):
 
     def _show_drawing_failure(self, sentence: str) -> None:
         if self.dialog is not None:
-            self.dialog.show_drawing_failure(sentence)
+            self.dialog.say_of_wiring(sentence)
 
     def _take_frequency(self) -> None:
         if self._sent is not None:
@@ -172,6 +172,6 @@ class TransmitterController(Service):
 
     def _say(self, text: str) -> None:
         if self.dialog is not None:
-            self.dialog.show_note(text)
+            self.dialog.note.setText(text)
         else:
             self.status_message.emit(text)

@@ -64,13 +64,13 @@ class TransmitterDialog(QDialog):
         self.facts.setText(facts)
         self.take.setEnabled(differs)
         self.save.setEnabled(True)
-        self._say_of_wiring("Drawing the wiring…")
+        self.say_of_wiring("Drawing the wiring…")
 
     def show_refusal(self, sentence: str) -> None:
         self.facts.setText(sentence)
         self.take.setEnabled(False)
         self.save.setEnabled(False)
-        self._say_of_wiring("")
+        self.say_of_wiring("")
 
     def show_wiring(self, png: bytes, text: str) -> None:
         image = QImage.fromData(png)
@@ -80,13 +80,7 @@ class TransmitterDialog(QDialog):
         self.wiring.setPixmap(QPixmap.fromImage(image))
         self.wiring.setAccessibleDescription(text)
 
-    def show_drawing_failure(self, sentence: str) -> None:
-        self._say_of_wiring(sentence)
-
-    def show_note(self, text: str) -> None:
-        self.note.setText(text)
-
-    def _say_of_wiring(self, text: str) -> None:
+    def say_of_wiring(self, text: str) -> None:
         self.wiring.clear()  # an empty text would leave the figure
         self.wiring.setText(text)
         self.wiring.setAccessibleDescription("")

@@ -77,17 +77,7 @@ def test_what_a_change_switches_is_marked_with_its_cost_for_a_while(
     assert "Switched" not in bench.told
 
 
-def test_a_higher_tolerance_leaves_effects_out(qtbot: QtBot, bench: Bench) -> None:
-    assert bench.row("sensor-noise").included
-    tolerance = bench.view.tolerance
-    qtbot.waitUntil(lambda: bool(tolerance.marks))
-    tolerance.slider.setValue(tolerance.slider.minimum() + 1)
-    bench.simulate()
-    assert 10.0 < bench.settings.settings.tolerance < math.inf
-    assert not bench.row("sensor-noise").included
-
-
-@pytest.mark.parametrize("observable", ["image", "profile", "signal"])
+@pytest.mark.parametrize("observable", ["image", "signal"])
 def test_each_mark_of_the_slider_has_a_plan_of_its_own(
     qtbot: QtBot, bench: Bench, observable: str
 ) -> None:

@@ -113,7 +113,7 @@ def test_the_receivers_picture_is_chosen_in_all_panes(application: Application) 
         application.view("picture"),
         application.view("profile"),
     )
-    story.picture_chosen.emit("receiver")
+    story.whose.chosen.emit("receiver")
     assert (story.whose.key(), image.whose) == ("receiver", "receiver")
     assert profile.enhanced.isChecked()
     reading = not_none(profile._reading)

@@ -314,12 +314,17 @@ def test_a_map_of_an_earlier_scene_says_so_at_once_and_is_dimmed_later(view: Map
     assert view.status.toolTip() == said
 
 
-def test_bits_a_second_are_shown_of_whole_payloads(qtbot: QtBot) -> None:
-    view = add_widget(qtbot, MapView(DECODERS))
+@pytest.fixture
+def rates(view: MapView) -> RateMap:
+    """Show the bits a second of one point, of which one decoder reads the whole payload."""
     rates = rates_of({0: (10, 9)})
     view.show_axes(FREQUENCY, DISTANCE)
     view.show_map(rates)
     view.show_bits("bits", 25.0)
+    return rates
+
+
+def test_bits_a_second_are_shown_of_whole_payloads(view: MapView, rates: RateMap) -> None:
     # Nine of ten bits are a success rate of 90 %, and no payload.
     assert rates.bits_a_second(DECODERS[0], 25.0)[0, 0] == pytest.approx(250.0)
     assert rates.bits_a_second(DECODERS[1], 25.0)[0, 0] == 0.0
@@ -339,12 +344,9 @@ def bar_numbers(view: MapView) -> list[str]:
     return [text for _, text in view.plots.bar._numbers]
 
 
-def test_the_bar_of_bits_goes_from_none_to_the_most_that_are_possible(qtbot: QtBot) -> None:
-    view = add_widget(qtbot, MapView(DECODERS))
-    rates = rates_of({0: (10, 9)})
-    view.show_axes(FREQUENCY, DISTANCE)
-    view.show_map(rates)
-    view.show_bits("bits", 25.0)
+def test_the_bar_of_bits_goes_from_none_to_the_most_that_are_possible(
+    view: MapView, rates: RateMap
+) -> None:
     most = float(rates.most_bits(25.0).max())
     assert most > float(rates.most_bits(25.0).min())
     assert bar_numbers(view)[0] == "0"

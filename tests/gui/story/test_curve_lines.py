@@ -1,14 +1,18 @@
-"""The lines of a curve pass through all of its points, however few lines they are."""
+"""Curves and pictures are reduced to a screen, and drawn, without losing light or extremes."""
 
 from itertools import pairwise
 
+import cv2
 import numpy as np
 import pytest
 from gui.kinds import add_widget
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from pytestqt.qtbot import QtBot
 
 from occ_gui.story.curve_legend import CurveLegend
-from occ_gui.story.curve_lines import DASH, lines_of
+from occ_gui.story.curve_lines import DASH, envelope, lines_of
+from occ_gui.story.stripes_row import resampled, shrunk
 from occ_gui.widgets.pens import BAND, SIMULATION, THRESHOLD, thin
 
 
@@ -81,3 +85,72 @@ def test_a_wide_legend_is_one_line_and_keeps_its_height_when_a_curve_goes(
     assert heights[0] > one
     legend.show_lines(KEYS[:1])
     assert [legend.heightForWidth(width) for width in (120, 250, 400)] == heights
+
+
+COLUMNS = 40
+
+
+def picture(rows: int = 6) -> np.ndarray[tuple[int, int], np.dtype[np.uint8]]:
+    levels = np.random.default_rng(5).integers(0, 256, COLUMNS, dtype=np.uint8)
+    return np.tile(levels, (rows, 1))
+
+
+@settings(max_examples=60, deadline=None)
+@given(first=st.floats(0.0, 20.0), span=st.floats(0.5, 19.9), cells=st.integers(1, 90))
+def test_a_cell_is_the_mean_of_what_lies_under_it(first: float, span: float, cells: int) -> None:
+    pixels = picture()
+    edges = np.linspace(first, first + span, cells + 1)
+    found = resampled(pixels, edges, 4)
+    assert found.shape == (4, cells)
+    fine = np.linspace(0.0, 1.0, 2001)[:-1] + 0.5 / 2000
+    for cell in range(cells):
+        under = edges[cell] + fine * (edges[cell + 1] - edges[cell])
+        mean = pixels[0, under.astype(int)].mean()
+        assert found[:, cell] == pytest.approx(mean, abs=0.8)
+
+
+def test_fine_stripes_become_grey_and_not_coarser_ones_along_rows_too() -> None:
+    stripes = np.tile(np.array([0, 200], dtype=np.uint8), (8, 500))
+    edges = np.linspace(0.0, 1000.0, 97)
+    assert np.ptp(resampled(stripes, edges, 8).astype(int)) < 25
+    assert np.ptp(stripes[:, edges[:-1].astype(int)].astype(int)) == 200
+    fine = np.tile(np.array([[0], [200]], dtype=np.uint8), (30, 10))
+    np.testing.assert_array_equal(resampled(fine, np.arange(11.0), 10), 100)
+
+
+def test_beyond_the_picture_its_last_column_goes_on() -> None:
+    pixels = picture()
+    found = resampled(pixels, np.array([-4.0, -2.0, 0.0, 40.0, 41.0, 43.0]), 3)
+    assert found[0, 0] == found[0, 1] == pixels[0, 0]
+    assert found[0, -1] == found[0, -2] == pixels[0, -1]
+
+
+@pytest.mark.parametrize("cells", [7, 100, 999, 5000])
+def test_a_reduced_curve_keeps_its_extremes_and_its_ends(cells: int) -> None:
+    positions = np.arange(3000.0)
+    values = np.random.default_rng(2).normal(size=3000)
+    values[1234], values[77] = 50.0, -40.0
+    x, y = envelope(positions, values, 0.0, 2999.0, cells)
+    assert (y.max(), y.min()) == (50.0, -40.0)
+    assert (x[0], x[-1]) == (0.0, 2999.0)
+    assert (np.diff(x) > 0).all()
+    np.testing.assert_array_equal(values[x.astype(int)], y)
+    assert len(x) <= max(3000 // max(1, 3000 // cells) * 2 + 2 * cells, 3000)
+
+
+def test_only_what_is_in_view_is_kept() -> None:
+    positions = np.arange(3000.0)
+    x, _ = envelope(positions, positions, 1000.5, 1010.5, 800)
+    np.testing.assert_array_equal(x, np.arange(1000.0, 1012.0))
+
+
+@pytest.mark.parametrize("size", [(419, 864), (1152, 864), (64, 80), (30, 1000)])
+def test_a_shrunk_picture_has_the_means_of_its_cells(size: tuple[int, int]) -> None:
+    rows, columns = 40, 50
+    y, x = np.meshgrid(*(np.linspace(0.0, np.pi, side) for side in size), indexing="ij")
+    picture = (120.0 + 100.0 * np.sin(x) * np.cos(y)).astype(np.uint8)
+    exact = cv2.resize(picture, (columns, rows), interpolation=cv2.INTER_AREA)
+    found = shrunk(picture, rows, columns)
+    assert found.shape == (rows, columns)
+    a_cell = 100.0 * np.pi / min(rows, columns)  # the most by which neighbours differ
+    assert np.abs(found.astype(int) - exact).max() <= a_cell / 2 + 1

@@ -1,15 +1,18 @@
-"""The pane of the story: its pages, its ranges, and the space that it needs."""
+"""The pane of the story: its pages, ranges, scales and cursors, and the space that it needs."""
 
 import pytest
-from gui.kinds import show_widget
+from gui.kinds import GreyPicture, SnapshotOf, not_none, show_widget
+from PySide6.QtCore import QPoint, Qt
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 from shiboken6 import delete, isValid
 
 from occ_gui.simulation.preview import Picture
 from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.story.column_values import measure
 from occ_gui.story.story_rows import StoryRows
 from occ_gui.story.story_view import StoryView
+from occ_gui.widgets.round_step import round_step
 
 
 @pytest.fixture
@@ -64,8 +67,77 @@ def test_a_range_is_marked_until_the_columns_are_moved(view: StoryView) -> None:
     assert view.verdict.title.text() == "Code 718 read, all bits right"
 
 
+def test_the_difference_is_that_of_the_model(view: StoryView, snapshot: Snapshot) -> None:
+    rows, scene = view.rows, snapshot.scene
+    view.switch_measuring(True)
+    cursors = rows.crosshair.cursors
+    cursors.move(0, 100.0, rows.crosshair.columns)
+    cursors.move(1, 225.0, rows.crosshair.columns)
+    found = not_none(measure(cursors, scene, rows.profile.levels))
+    assert found.columns == 125.0
+    assert found.time == pytest.approx(125 * scene.camera.readout_time)
+    assert found.chips == pytest.approx(found.time * scene.transmitter.switching_frequency)
+    assert rows.profile.levels is not None
+    assert found.levels == pytest.approx(rows.profile.levels[225] - rows.profile.levels[100])
+    assert view.measured.text().startswith("1 to 2: 125.0 columns  ·  1 ms")
+    assert "as a period 1 kHz" in view.measured.toolTip()
+
+
+def test_a_cursor_is_dragged_in_any_row_and_stays_in_the_picture(
+    view: StoryView, qtbot: QtBot
+) -> None:
+    rows = view.rows
+    view.switch_measuring(True)
+    row, cursors = rows.profile, rows.crosshair.cursors
+    first, chosen = cursors.columns[0], rows.crosshair.column
+    start = QPoint(round(row.x_of(first)), 20)
+    qtbot.mousePress(row, Qt.MouseButton.LeftButton, pos=start)
+    qtbot.mouseMove(row, start + QPoint(40, 0))
+    qtbot.mouseRelease(row, Qt.MouseButton.LeftButton, pos=start + QPoint(40, 0))
+    assert cursors.columns[0] == pytest.approx(row.column_at(start.x() + 40))
+    assert cursors.columns[0] > first
+    assert rows.crosshair.column == chosen
+    cursors.move(0, -50.0, rows.crosshair.columns)
+    assert cursors.columns[0] == 0.0
+    view.switch_measuring(False)
+    assert view.rows.crosshair.cursors.columns == []
+    assert not view.measured.isVisible()
+
+
 def test_the_buttons_of_the_ranges_end_with_the_rows(qapp: QApplication) -> None:
     rows = StoryRows()
     buttons = [*rows.ranges.values()]
     delete(rows)
     assert not any(map(isValid, buttons))
+
+
+def test_each_time_is_that_of_its_column(rows: StoryRows, bare_snapshot_of: SnapshotOf) -> None:
+    snapshot = bare_snapshot_of(start_time=2.5e-3, readout_time=11e-6)
+    rows.show_reading(snapshot)
+    ticks = rows.time.ticks()
+    assert len(ticks) > 3
+    for column, text in ticks:
+        assert float(text) == pytest.approx(2500.0 + 11.0 * column, abs=1e-6)
+        assert rows.axis.first <= column <= rows.axis.last
+    for column, text in rows.columns.ticks():
+        assert int(text) == column
+
+
+@pytest.mark.parametrize("zoom", [1.0, 0.1, 3.0])
+def test_a_tick_is_drawn_where_the_rows_have_its_column(
+    rows: StoryRows, grey_picture: GreyPicture, zoom: float
+) -> None:
+    rows.axis.zoom(zoom, 1500.0)
+    for scale, line in ((rows.columns, 2), (rows.time, -3)):
+        drawn = grey_picture(scale)[line].astype(int)
+        for column, _ in scale.ticks():
+            x = round(rows.profile.x_of(column))
+            around = drawn[[x - 2, x + 2]] if x + 2 < len(drawn) else drawn[[x - 2]]
+            assert abs(drawn[x] - int(around.max())) > 60
+
+
+@pytest.mark.parametrize(
+    ("least", "step"), [(0.011, 0.02), (1.0, 1.0), (1.2, 2.0), (3.0, 5.0), (51.0, 100.0)]
+)
+def test_a_step_is_round_and_no_smaller_than_asked(least: float, step: float) -> None:
+    assert round_step(least) == pytest.approx(step)

@@ -59,10 +59,6 @@ def test_each_door_says_what_is_behind_it_and_its_title_stands_out(doors: Welcom
         assert title.bold()
         assert not sentence.bold()
         assert title.pointSizeF() > sentence.pointSizeF()
-        for label in (door._title, door._sentence):
-            assert label.wordWrap()
-            assert door.rect().contains(label.geometry())
-            assert label.heightForWidth(label.width()) <= label.height()
 
 
 def test_the_picture_of_a_door_follows_the_theme(qtbot: QtBot) -> None:

@@ -31,8 +31,6 @@ _USUAL = 1 / 60  # shutter time in seconds that the table shows in its middle at
 
 
 class BandsView(QWidget):
-    """A headline, sentences, the map and the table of the shutter speeds."""
-
     exposure_chosen = Signal(float)  # the user takes an exposure time, in seconds
 
     def __init__(self) -> None:

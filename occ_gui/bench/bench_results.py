@@ -76,8 +76,6 @@ def _power(value: float, floor: int) -> float:
 
 
 class BenchPlots(QWidget):
-    """Two plots beside each other, with a curve for each decoder and the bounds of theory."""
-
     def __init__(self, what: str) -> None:
         super().__init__()
         self._what = what
@@ -120,7 +118,6 @@ class BenchPlots(QWidget):
                 curve.seen.setBrush(colour)
 
     def show_begun(self, decoders: Sequence[str]) -> None:
-        """Remove all curves, and prepare those of these decoders."""
         for axis, plot in self.plots.items():
             for curve in self._curves[axis]:
                 for item in curve.items:

@@ -87,7 +87,6 @@ class BenchView(QWidget):
         self._show_state()
 
     def _make_invitation(self) -> QLabel:
-        """Say what will stand here, in place of empty plots."""
         text = (
             "How often does each decoder misread a bit? Choose the code and the decoders above, "
             "and press Measure: the error rates appear here, over the exposure and over the noise."

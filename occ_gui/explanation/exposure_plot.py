@@ -110,8 +110,6 @@ class ColumnPicker(QObject):
 
 
 class ExposurePlot(QWidget):
-    """The chips as a step curve, the exposure shaded, its lit parts hatched, and a sentence."""
-
     column_chosen = Signal(int)
 
     hold_chosen = Signal(bool)  # whether the column stays chosen when the mouse moves
@@ -182,7 +180,6 @@ class ExposurePlot(QWidget):
         self.hold.setChecked(held)
 
     def show_window(self, window: ExposureWindow, level: float) -> None:
-        """Show a column's exposure, and the grey level that results from it."""
         edges = window.edges * _MICRO
         start, end = window.start * _MICRO, window.end * _MICRO
         last = edges[-1]

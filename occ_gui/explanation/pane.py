@@ -84,8 +84,6 @@ class ExposureController(QObject):
 
 
 class ExplanationView(QWidget):
-    """The equations with their current numbers, above the exposure of a column."""
-
     def __init__(self) -> None:
         super().__init__()
         self.equations, self.exposure = EquationText(), ExposurePlot()
@@ -99,8 +97,6 @@ class ExplanationView(QWidget):
 
 
 class ExplanationPane(Pane[Snapshot]):
-    """Connects the equations of the scene, and the exposure of the column under the mouse."""
-
     def __init__(self, scenes: SceneStore, plot: Plot) -> None:
         self.view = view = ExplanationView()
         super().__init__(view)

@@ -89,7 +89,6 @@ class LampForm(QWidget):
         self.table.itemSelectionChanged.connect(self._choose)
 
     def show_lamps(self, lamps: Sequence[Lamp], chosen: int | None) -> None:
-        """Show these lamps, one of them chosen, in place of the previous ones."""
         with QSignalBlocker(self.table):
             self.table.setRowCount(len(lamps))
             for row, lamp in enumerate(lamps):
@@ -118,7 +117,6 @@ class LampForm(QWidget):
         return str(row + 1), columns, chip, f"{periods}{doubt}"
 
     def show_sentence(self, sentence: str) -> None:
-        """Show what became of the search for lamps."""
         self.place.setText(sentence)
 
     def show_region(self, region: Region | None, lamp: int | None = None) -> None:
@@ -159,7 +157,6 @@ class _DrawingArea(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has no
     """The rectangle from where the button was pressed, and whether the drag has ended."""
 
     def boundingRect(self) -> QRectF:  # noqa: N802 - Qt's name
-        """Return an area larger than any photo."""
         return QRectF(-_HALF_SIDE, -_HALF_SIDE, 2.0 * _HALF_SIDE, 2.0 * _HALF_SIDE)
 
     @guarded
@@ -167,7 +164,6 @@ class _DrawingArea(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has no
         """Draw nothing."""
 
     def mouseDragEvent(self, event: MouseDragEvent) -> None:  # noqa: N802 - pyqtgraph's name
-        """Draw a rectangle; other buttons move the picture."""
         if event.button() != Qt.MouseButton.LeftButton:
             event.ignore()
             return
@@ -204,7 +200,6 @@ class LampOutlines(QObject):
             box.addItem(item, ignoreBounds=True)
 
     def show_lamps(self, lamps: Sequence[Lamp], chosen: int | None) -> None:
-        """Draw the outlines of these lamps, that of the chosen one thicker."""
         for item in (item for items in self.items for item in items):
             self._box.removeItem(item)
         self._lamps = lamps
@@ -227,7 +222,6 @@ class LampOutlines(QObject):
         return curve, number
 
     def click(self, position: QPointF) -> None:
-        """Choose the lamp at a place in the photo, if there is one."""
         row, column = round(position.y()), round(position.x())
         for index, lamp in enumerate(self._lamps):
             outline = QPolygonF([QPointF(x, y) for x, y in lamp.outline.tolist()])
@@ -236,7 +230,6 @@ class LampOutlines(QObject):
                 return
 
     def show_rectangle(self, region: Region | None) -> None:
-        """Draw this rectangle for the mouse, or none."""
         self.rectangle.setVisible(region is not None)
         self.area.setVisible(region is not None)
         if region is not None:

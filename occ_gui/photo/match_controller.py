@@ -47,13 +47,10 @@ def sources_of(
 
 
 def cure_of_match(found: Match) -> Cure:
-    """Return the shutter speeds without bars of the lamp that a match has found."""
     return cure_of(found.scene, found.uncertainties.get("exposure_time", 0.0))
 
 
 class MatchController(QObject):
-    """Runs matches, and puts their results into the scene or a preset."""
-
     failed = Signal(str)  # why a match failed, or a setting could not be taken over
     saved = Signal(str)  # the name of the preset that was saved
 
@@ -116,7 +113,6 @@ class MatchController(QObject):
             self.failed.emit(str(error))
 
     def apply(self) -> None:
-        """Replace the scene by the matched one, as one step."""
         match, photo = self._usable(), self.photo
         if match is not None and photo is not None:
             self._scenes.put(match.scene, f"match with {photo.path.name}")
@@ -128,7 +124,6 @@ class MatchController(QObject):
             self._scenes.put(cure_of(match.scene).scene, "shutter speed without bars")
 
     def save(self, name: str, title: str, day: date | None = None) -> None:
-        """Save the matched scene as one of the user's presets."""
         match, photo = self._usable(), self.photo
         if match is None or photo is None:
             return

@@ -145,7 +145,6 @@ class MatchForm(QWidget):
         self.certain_chosen.emit(_FREQUENCY, CHIPS_OF_A_CYCLE * cycles)
 
     def _known_name(self) -> str:
-        """Return which of frequency and readout time is known."""
         return next(name for name in KNOWN if name != self.estimate.key())
 
     def _click_certain(self, certain: bool) -> None:

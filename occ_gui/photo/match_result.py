@@ -77,8 +77,6 @@ class VerdictView(QWidget):
 
 
 class MatchResult(QWidget):
-    """How sure a match is, its figures, and buttons to use them."""
-
     apply_asked = Signal()
     save_asked = Signal()  # the user saves the matched scene as a preset
     cure_asked = Signal()  # the user wants to see the picture at a shutter speed without bars
@@ -130,7 +128,6 @@ class MatchResult(QWidget):
 
     @property
     def values(self) -> dict[str, QLabel]:
-        """The labels of the figures, by name."""
         return self.figures.labels
 
     def show_match(
@@ -149,7 +146,6 @@ class MatchResult(QWidget):
         self.show_outdated("", usable=True)
 
     def show_cure(self, cure: Cure) -> None:
-        """Show what takes the bars out of the match's picture."""
         self._cure = cure
         if self._match is not None:
             self._show_figures(self._match)
@@ -205,7 +201,6 @@ class MatchResult(QWidget):
             button.setEnabled(usable)
 
     def show_scene(self, scene: Scene) -> None:
-        """Show whether the match was made with the known value of this scene."""
         self._scene = scene
         self._show_stale()
 

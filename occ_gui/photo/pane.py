@@ -8,9 +8,8 @@ from PySide6.QtCore import Signal
 from occ_gui.photo.lamp_views import LampOutlines
 from occ_gui.photo.many.many_controller import ManyPhotosController
 from occ_gui.photo.match_controller import MatchController, cure_of_match
-from occ_gui.photo.part_edits import PartEdits
 from occ_gui.photo.photo_controller import PhotoController
-from occ_gui.photo.photo_part import PhotoPart
+from occ_gui.photo.photo_part import PartEdits, PhotoPart
 from occ_gui.photo.photo_view import PhotoView
 from occ_gui.photo.photo_work import (
     chip_reading,
@@ -29,8 +28,6 @@ from occ_model.results.decoding import Region
 
 
 class PhotoPane(Pane[PhotoPart]):
-    """The view of a photo with the work on it; the photo lies beside or on the picture."""
-
     match_shown = Signal(object)  # the match that is shown from now on, or None
 
     def __init__(

@@ -92,7 +92,6 @@ class PhotoController(QObject):
         self._settled = self.choice
 
     def _give_up(self) -> None:
-        """Choose the photo again that is shown."""
         shown = self._settled
         changes = {
             name: getattr(shown, name)

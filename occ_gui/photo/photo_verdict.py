@@ -140,7 +140,6 @@ class PhotoVerdictBar(StateBar):
             self._write()
 
     def show_simulation(self, state: State, verdict: str) -> None:
-        """Show the verdict on the simulated picture beside that on the photo."""
         meaning = "What is read from the simulated picture."
         chips = (Chip("simulation", verdict, meaning, state),)
         if chips != self._simulation:
@@ -225,6 +224,5 @@ class PhotoVerdictBar(StateBar):
 
 
 def _first_of(reasons: Sequence[str]) -> str:
-    """Return the first reason, and how many more there are."""
     more = len(reasons) - 1
     return reasons[0] + (f" And {more} more." if more else "")

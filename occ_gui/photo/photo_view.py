@@ -113,14 +113,12 @@ class PhotoView(QWidget):
             self.facts.show_photo(photo)
 
     def show_choice(self, choice: PhotoChoice) -> None:
-        """Show how photos are read, and what is known of this one."""
         self.facts.show_reading(choice.reading.channel, choice.reading.scan_axis)
         self.form.show_choice(choice.form, choice.certain, choice.forgotten)
         for part in (self.result, self.many, self.verdict):
             part.show_certain(choice.certain)
 
     def _show_row(self) -> None:
-        """Show in the verdict what the table has found in the open photo."""
         photo = self._photo
         self.verdict.show_row(None if photo is None else self.many.rows.row_of(photo.path))
 
@@ -148,7 +146,6 @@ class PhotoView(QWidget):
         self.steps.show_state(has_photo=self.has_photo, match=worth, is_applied=is_applied)
 
     def _go_to_step(self, step: str) -> None:
-        """Open a photo, match it, apply the match, or show where what was sent is chosen."""
         if step == "open":
             self.open_asked.emit()
         elif step == "sent":
@@ -168,7 +165,6 @@ class PhotoView(QWidget):
         self.verdict.show_begun()
 
     def show_match_ended(self) -> None:
-        """Show that no match is running; the previous one stays."""
         self.form.show_running(False)
         self.verdict.show_ended()
 

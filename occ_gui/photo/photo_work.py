@@ -39,7 +39,6 @@ _LEAST_SWING = 0.5
 
 
 def lamp_search(store: Store, board: Board) -> Work[AskedOfPhoto, tuple[Lamp, ...]]:
-    """Find the lamps of a photo, when that is asked for."""
 
     def of(workspace: Workspace, results: Results) -> AskedOfPhoto | None:
         asked, opened = workspace.photo.lamps_asked, results.opened
@@ -81,7 +80,6 @@ def stripe_search(store: Store, board: Board) -> Work[PartOfPhoto, StripeSearch]
 
 
 def chip_reading(store: Store, board: Board) -> Work[PartOfPhoto, ChipReading | None]:
-    """Read the chips of a photo, or of a part of it."""
 
     def read(asked: PartOfPhoto, _report: Report) -> ChipReading | None:
         try:
@@ -97,7 +95,6 @@ def chip_reading(store: Store, board: Board) -> Work[PartOfPhoto, ChipReading | 
 
 
 def match_work(store: Store, board: Board) -> Work[MatchRequest, FoundMatch]:
-    """Match a photo, when that is asked for."""
 
     def of(workspace: Workspace, results: Results) -> MatchRequest | None:
         asked, opened = workspace.photo.match_asked, results.opened

@@ -35,7 +35,7 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
         self._image: ByteArray = np.zeros((0, 0), dtype=np.uint8)
         self._halves: tuple[ByteArray, ...] = ()
         self._rect = QRectF()
-        self._first_row = -math.inf
+        self._first_row, self._last_column = -math.inf, math.inf
         self._drawn: tuple[QRect, tuple[int, int], QImage] | None = None
         self.values_drawn = 0  # the number of pixels whose grey levels are written into them
 
@@ -56,10 +56,10 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
         self._drawn = None
         self.update()
 
-    def show_from(self, row: float) -> None:
-        """Show only the part at or below this row of the view; the whole image for -inf."""
-        if row != self._first_row:
-            self._first_row = row
+    def show_within(self, first_row: float = -math.inf, last_column: float = math.inf) -> None:
+        """Show only the part at or below this row, and left of this column, of the view."""
+        if (first_row, last_column) != (self._first_row, self._last_column):
+            self._first_row, self._last_column = first_row, last_column
             self.update()
 
     def boundingRect(self) -> QRectF:  # noqa: N802 - Qt's name
@@ -72,8 +72,10 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
         _option: QStyleOptionGraphicsItem,
         _widget: QWidget | None = None,
     ) -> None:
-        part = self._visible_part()
-        if part.isEmpty():
+        part, shown = self._visible_part(), QRectF(self._rect)
+        shown.setTop(max(shown.top(), self._first_row))
+        shown.setRight(min(shown.right(), self._last_column))
+        if part.isEmpty() or shown.isEmpty():
             return
         target = self._target(part)
         on_screen = painter.deviceTransform().mapRect(target)
@@ -81,14 +83,13 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
         if self._drawn is None or self._drawn[:2] != (part, size):
             self._drawn = (part, size, self._averaged(part, size))
         painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform, False)
-        if self._first_row > self._rect.top():
-            painter.setClipRect(self._rect.adjusted(0, self._first_row - self._rect.top(), 0, 0))
+        if shown != self._rect:
+            painter.setClipRect(shown, Qt.ClipOperation.IntersectClip)
         painter.drawImage(target, self._drawn[2])
         if self._with_values:
             self.values_drawn = _draw_values(painter, self._image, part, target)
 
     def _visible_part(self) -> QRect:
-        """Return the pixels of the image that are in view."""
         rows, columns = self._image.shape
         view = self.viewRect()
         if view is None or not rows or not columns or self._rect.isEmpty():
@@ -105,7 +106,6 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
         return QRect(left, top, right - left, bottom - top).intersected(whole)
 
     def _target(self, part: QRect) -> QRectF:
-        """Return the rectangle of some of the image's pixels in the view."""
         rows, columns = self._image.shape
         x_scale, y_scale = self._rect.width() / columns, self._rect.height() / rows
         return QRectF(

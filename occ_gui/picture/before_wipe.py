@@ -1,15 +1,11 @@
 """Wipe between the pictures before and after the latest change, at a line that can be dragged."""
 
-import math
-
 import pyqtgraph as pg
-from PySide6.QtCore import QObject, QRectF, QSignalBlocker, Qt
-from PySide6.QtGui import QPainter
-from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QSlider, QStyleOptionGraphicsItem, QWidget
+from PySide6.QtCore import QObject, QSignalBlocker, Qt
+from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QSlider, QWidget
 
 from occ_gui.picture.averaged_image import AveragedImage
 from occ_gui.simulation.snapshot import Snapshot
-from occ_gui.widgets.guarded_paint import guarded
 from occ_gui.widgets.layouts import filled
 from occ_gui.widgets.pens import BEFORE
 from occ_model.arrays import ByteArray
@@ -23,36 +19,6 @@ _SLIDER_STEPS = 100
 _SLIDER_WIDTH = 90
 
 
-class WipedImage(AveragedImage):
-    """An image of which only the part left of a column is drawn."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self._last_column = math.inf
-
-    def show_until(self, column: float) -> None:
-        """Show only the part left of this column of the view; the whole image for inf."""
-        if column != self._last_column:
-            self._last_column = column
-            self.update()
-
-    @guarded
-    def paint(
-        self,
-        painter: QPainter,
-        option: QStyleOptionGraphicsItem,
-        widget: QWidget | None = None,
-    ) -> None:
-        rect = QRectF(self.boundingRect())
-        rect.setRight(min(rect.right(), self._last_column))
-        if rect.width() <= 0.0:
-            return
-        painter.save()
-        painter.setClipRect(rect, Qt.ClipOperation.IntersectClip)
-        super().paint(painter, option, widget)
-        painter.restore()
-
-
 class BeforeWipe(QObject):
     """Compares the picture with the one before the latest change; off at first."""
 
@@ -62,7 +28,7 @@ class BeforeWipe(QObject):
         self._whose = PICTURES[0]
         self._image: ByteArray | None = None
         self._share = 0.5
-        self.picture = WipedImage()
+        self.picture = AveragedImage()
         self.line = pg.InfiniteLine(angle=90, movable=True, pen=_LINE_PEN)
         self.line.sigPositionChanged.connect(self._follow_line)
         self._names = (
@@ -125,7 +91,7 @@ class BeforeWipe(QObject):
         with QSignalBlocker(self.line), QSignalBlocker(self.slider):
             self.line.setValue(column)
             self.slider.setValue(round(self._share * _SLIDER_STEPS))
-        self.picture.show_until(column)
+        self.picture.show_within(last_column=column)
         for name in self._names:
             name.setPos(column, -0.5)
 

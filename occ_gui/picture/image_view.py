@@ -161,7 +161,6 @@ class ImageView(QWidget):
         self._show_caption()
 
     def rows_per_pixel(self) -> float:
-        """Return how many rows of the picture share a pixel of the screen."""
         return self.simulation.rows_per_pixel()
 
     def choose_picture(self, whose: str) -> None:

@@ -85,7 +85,6 @@ class DifferenceImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has
         painter.drawImage(grid, image)
 
     def _averaged(self, layer: int, grid: QRectF, shape: tuple[int, int]) -> FloatArray:
-        """Return an image averaged over the screen's pixels, computed anew only if needed."""
         known = self._means.get(layer)
         if known is not None and known[:2] == (grid, shape):
             return known[2]
@@ -250,7 +249,7 @@ class PhotoOverlay(QObject):
         self.difference.set_image(0, self._simulated, rect_of(self._simulated, Placement()))
 
     def _split(self) -> None:
-        self._over.show_from(self.line.value() if self.mode == "split" else -math.inf)
+        self._over.show_within(self.line.value() if self.mode == "split" else -math.inf)
 
     def _keep_line(self) -> None:
         self._line_is_centred = False

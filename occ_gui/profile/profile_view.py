@@ -15,8 +15,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from occ_gui.profile.chip_strip import ChipStrip
-from occ_gui.profile.residual_plot import ResidualPlot
+from occ_gui.profile.below_profile import ChipStrip, ResidualPlot
 from occ_gui.simulation.band_drift import drift_sentence
 from occ_gui.simulation.snapshot import Reading, Snapshot
 from occ_gui.values.photo_results import PhotoProfile
@@ -160,7 +159,6 @@ class ProfileView(QWidget):
                 self.residual.plot.getAxis("left").setWidth(width)
 
     def _arrange_plots(self) -> None:
-        """Show the residual below the profile of a photo, and label the columns once."""
         if self._photo is None and "residual" not in vars(self):
             return  # no photo has been opened yet
         below = self._photo is not None and self._photo.comparison is not None
@@ -249,7 +247,6 @@ class ProfileView(QWidget):
         self._fit_columns(reading)
 
     def show_before(self, snapshot: Snapshot) -> None:
-        """Show the profile of these results in grey, as that before the latest change."""
         self._before = snapshot
         self._draw_before()
         self._offer_before()

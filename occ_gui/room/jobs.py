@@ -68,7 +68,6 @@ def plan_of(room: Room) -> RoomPlan:
 
 
 def show_room(look: Look, report: Reporter) -> ShownRoom:
-    """Take the picture, or open the photo, report it, and read it."""
     if look.photo is not None:
         return _photo(look, look.photo, report)
     room = look.room

@@ -95,7 +95,6 @@ class SpectrumView(QWidget):
         )
 
     def show_histogram(self, found: LevelHistogram) -> None:
-        """Show the grey levels of the panel's pixels, and whether light is lost."""
         self.bars.setOpts(height=100.0 * found.shares)
         self.histogram.setYRange(0.0, max(_HEADROOM * 100.0 * float(found.shares.max()), 1.0))
         if found.is_saturated:

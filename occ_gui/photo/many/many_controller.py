@@ -157,6 +157,5 @@ class ManyPhotosController(QObject):
         self._tell()
 
     def _tell(self) -> None:
-        """Put what was found so far among the results."""
         listed = replace(self._listed, rows=tuple(self._found.values()))
         self._board.put(replace(self._board.results, listed=listed))

@@ -35,8 +35,6 @@ _WIDEST = {PHOTO: 220, NOTE: 280}
 
 
 class ManyPhotosView(QWidget):
-    """The table of the photos that were dropped together, and what they measured."""
-
     match_asked = Signal()
     copied = Signal(str)  # a text was copied: a sentence that says so
     save_asked = Signal(str)  # the user saves the table: its text as CSV
@@ -158,7 +156,6 @@ class ManyPhotosView(QWidget):
         self.files_shown.emit()
 
     def show_begun(self, estimate: str, scene: Scene) -> None:
-        """Show that the photos are being matched with this scene, to find this parameter."""
         self.rows.show_begun(estimate, float(scene.value(known_beside(estimate))))
         self.show_busy(estimate, scene)
 
@@ -179,7 +176,6 @@ class ManyPhotosView(QWidget):
         self.work.show_progress(done / count)
 
     def _show_title(self) -> None:
-        """Show how many photos there are, their verdicts, and what their times rest on."""
         text = f"{len(self.rows.paths)} photos"
         if not self.rows.paths:
             text = "Open several photos together, or drop them, to match them all."
@@ -194,7 +190,6 @@ class ManyPhotosView(QWidget):
         self.title.setText(text)
 
     def show_row(self, place: int, row: PhotoRow, done: int) -> None:
-        """Show what was found in a photo, and how many are done."""
         self.rows.show_row(place, row)
         self._show_done(done)
 
@@ -205,7 +200,6 @@ class ManyPhotosView(QWidget):
         self._fit_columns()
 
     def show_failed(self, sentence: str) -> None:
-        """Show why the photos could not be matched."""
         self.show_ended()
         self._show_note(sentence)
 
@@ -228,7 +222,6 @@ class ManyPhotosView(QWidget):
         self._show_found(self._found)
 
     def show_scene(self, scene: Scene) -> None:
-        """Show whether the table was made with the known value of this scene."""
         self._scene = scene
         self._show_stale()
 
@@ -254,7 +247,6 @@ class ManyPhotosView(QWidget):
         return condition(known, float(scene.value(known)), self._certain, chips)
 
     def _show_found(self, table: PhotoTable | None) -> None:
-        """Show the mean, the notes and the lines to paste of a table, or none."""
         if table is not None and table is not self._found and self._scene is not None:
             # A square wave is known by its own frequency, not by the scene's.
             self._given = float(self._scene.value(table.known))

@@ -56,7 +56,6 @@ class PhotoRowsModel(QAbstractTableModel):
 
     @property
     def known(self) -> str:
-        """The parameter that is known, where the other of the two is measured."""
         return known_beside(self._estimate)
 
     def given(self, name: str) -> tuple[tuple[int, float], ...]:
@@ -73,7 +72,6 @@ class PhotoRowsModel(QAbstractTableModel):
             self.dataChanged.emit(self.index(0, PHOTO), self.index(len(self.paths) - 1, NOTE))
 
     def show_files(self, paths: Sequence[Path]) -> None:
-        """Show these files, none of which is matched yet."""
         self.beginResetModel()
         self.paths = tuple(paths)
         self._rows, self._table, self._earlier = {}, None, None
@@ -95,7 +93,6 @@ class PhotoRowsModel(QAbstractTableModel):
         self.dataChanged.emit(self.index(place, PHOTO), self.index(place, NOTE))
 
     def show_table(self, table: PhotoTable) -> None:
-        """Show the complete table, with its outliers."""
         self._rows, self._table = dict(enumerate(table.rows)), table
         self._usual = float(table.scene.value(table.known))
         self._redraw()
@@ -152,7 +149,6 @@ class PhotoRowsModel(QAbstractTableModel):
         return None
 
     def flags(self, index: _Index) -> Qt.ItemFlag:
-        """Let the known value of each photo be edited."""
         flags = super().flags(index)
         if index.column() == KNOWN and not self.is_busy:
             flags |= Qt.ItemFlag.ItemIsEditable

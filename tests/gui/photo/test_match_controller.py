@@ -15,7 +15,7 @@ from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.photo.match_controller import MatchController
-from occ_gui.photo.part_edits import PartEdits
+from occ_gui.photo.photo_part import PartEdits
 from occ_gui.values.photo_choice import MatchChoice
 from occ_model.errors import MatchError
 from occ_model.photo.reading.load import Photo

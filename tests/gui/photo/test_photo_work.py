@@ -16,7 +16,7 @@ from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.photo import photo_work
-from occ_gui.photo.part_edits import PartEdits
+from occ_gui.photo.photo_part import PartEdits
 from occ_gui.photo.photo_work import photo_profile
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.values.photo_choice import Placed, Placement

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from gui.kinds import collect
+from gui.kinds import collect, not_none
 from gui.photo.photo_bench import PhotoBench
 from matches import match_with
 from pytestqt.qtbot import QtBot
@@ -16,11 +16,13 @@ from pytestqt.qtbot import QtBot
 import occ_model as occ
 from occ_gui.photo.match_controller import MatchController
 from occ_gui.photo.photo_part import PartEdits
-from occ_gui.values.photo_choice import MatchChoice
+from occ_gui.values.photo_choice import MatchChoice, PhotoReading
+from occ_gui.values.photo_results import ListedRows
 from occ_model.errors import MatchError
 from occ_model.photo.reading.load import Photo
 from occ_model.results.decoding import Region
 from occ_model.results.match import Match
+from occ_model.results.photo_table import PhotoRow
 from occ_model.scene.presets import USER_FOLDER, preset_named, user_presets
 from occ_model.scene.scene import Scene
 from occ_model.scene.square_wave import SQUARE_WAVE
@@ -215,6 +217,32 @@ def test_a_match_comes_back_with_its_photo_and_stays_where_another_is_cancelled(
     bench.controller.cancel()
     bench.go_on.set()
     assert bench.part.found == found
+
+
+def test_a_photo_of_the_table_has_its_rows_match_until_it_is_matched_by_itself(
+    bench: Bench, photo: Photo
+) -> None:
+    row = PhotoRow(photo.path, "sure", "", match_with())
+
+    def show_listed(reading: PhotoReading) -> None:
+        listed = ListedRows((row,), reading, 1e4)
+        bench.board.put(replace(bench.board.results, listed=listed))
+
+    show_listed(PhotoReading("lines"))
+    assert bench.controller.match is None, "read in another way it is not what the table matched"
+    show_listed(PhotoReading())
+    assert bench.controller.match is row.match
+    assert not_none(bench.part.found).is_listed
+    bench.controller.apply()
+    assert bench.scenes.scene == not_none(row.match).scene
+    bench.refusal = ("No.",)
+    bench.start()
+    assert (bench.controller.match, bench.part.refusal) == (row.match, ("No.",))
+    bench.refusal = ()
+    bench.start()
+    assert bench.controller.match is not row.match
+    bench.show_photo(replace(photo, path=Path("other.png")))
+    assert bench.controller.match is None
 
 
 def test_applying_puts_what_was_found_into_the_scene_as_one_step(

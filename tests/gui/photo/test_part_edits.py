@@ -1,6 +1,5 @@
 """What of a photo is matched: a lamp chosen by a click or a row, or a rectangle drawn by hand."""
 
-import json
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, replace
 from pathlib import Path
@@ -16,11 +15,11 @@ from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
-from occ_gui.files.session_record import Kept, kept_in, record_of
+from occ_gui.files.session_record import kept_in
 from occ_gui.photo.pane import PhotoPane
 from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.picture.image_view import ImageView
-from occ_gui.values.photo_choice import PhotoChoice, PhotoFrame
+from occ_gui.values.photo_choice import PhotoChoice
 from occ_model.photo.reading.load import Photo
 from occ_model.results.decoding import Region
 from occ_model.results.lamp import Lamp
@@ -210,15 +209,6 @@ def test_a_region_comes_back_with_its_photo(bench: Bench, photo: Photo) -> None:
     bench.show_photo(None)
     bench.show_photo(other)
     assert bench.parts.part is None
-
-
-@pytest.mark.parametrize("region", [None, Region(5, 25, 10, 40)])
-def test_the_session_keeps_the_region(region: Region | None, bench: Bench, photo: Photo) -> None:
-    bench.choose(parts={} if region is None else {PhotoFrame(photo.path): region})
-    kept = photo_in(json.loads(json.dumps(record_of(Kept(bench.store.workspace)))))
-    assert kept.rectangle == region
-    bench.choose(parts=kept.parts)
-    assert bench.parts.part == region
 
 
 def photo_in(record: Mapping[str, object]) -> PhotoChoice:

@@ -6,9 +6,9 @@ from dataclasses import replace
 import numpy as np
 import pyqtgraph as pg
 import pytest
-from gui.kinds import SnapshotOf, add_widget, not_none, show_widget
+from gui.kinds import SnapshotOf, add_widget, collect, not_none, show_widget
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QFont, QFontMetrics
+from PySide6.QtGui import QFont, QFontMetrics, QGuiApplication
 from PySide6.QtWidgets import QApplication, QLabel, QPushButton
 from pytestqt.qtbot import QtBot
 
@@ -20,8 +20,8 @@ from occ_gui.values.photo_results import PhotoProfile
 from occ_gui.widgets import first_periods
 from occ_model.camera.enhancement import enhance
 from occ_model.photo.reading.load import Photo
-from occ_model.results.decoding import DecodeResult
-from occ_model.results.match import Comparison
+from occ_model.results.decoding import DecodeResult, Region
+from occ_model.results.match import ChipReading, Comparison
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 
@@ -319,3 +319,68 @@ def test_the_axes_hold_the_longest_level_in_any_font(qtbot: QtBot, points: float
     needed = metrics.height() + metrics.horizontalAdvance("-200")
     assert [axis.minimumWidth() > needed for axis in axes] == [True, True]
     assert view.chips.copy.minimumWidth() == axes[0].minimumWidth(), "its chips lie under the plot"
+
+
+CHIPS = np.array([1, 0, 1, 1, 0], np.uint8)
+
+
+def reading(confidence: float = 0.99) -> ChipReading:
+    return ChipReading(CHIPS, 10.0, confidence, 5.0, Region(0, 9, 0, 60))
+
+
+@pytest.fixture
+def shown(view: ProfileView) -> ProfileView:
+    view.chips.show_chips(reading())
+    view.plot.setXRange(0.0, 100.0, padding=0.0)
+    QApplication.processEvents()
+    return view
+
+
+def edges(view: ProfileView) -> list[float]:
+    """Columns of the plot at which the cells begin, and the end of the last one."""
+    (low, high), cells = view.plot.viewRange()[0], view.chips.cells
+    box = view.plot.getViewBox().sceneBoundingRect()
+    found = cells.rectangles()
+    ends = [one.left() for _, one in found] + [found[-1][1].right()]
+    left = cells.mapFrom(view, view.plot.mapTo(view, view.plot.rect().topLeft())).x()
+    return [(end - left - box.left()) / box.width() * (high - low) + low for end in ends]
+
+
+def test_each_chip_in_view_lies_under_its_columns_also_where_the_photo_is_moved(
+    shown: ProfileView,
+) -> None:
+    cells = shown.chips.cells
+    assert [chip for chip, _ in cells.rectangles()] == CHIPS.tolist()
+    assert edges(shown) == pytest.approx([5, 15, 25, 35, 45, 55], abs=0.5)
+    shown.plot.setXRange(26.0, 44.0, padding=0.0)
+    assert [chip for chip, _ in cells.rectangles()] == [1, 1]
+    shown.show_photo_profile(PhotoProfile(None, np.full(60, 50.0), 20.0, 0.5))
+    shown.plot.setXRange(0.0, 100.0, padding=0.0)
+    assert edges(shown) == pytest.approx([22.5, 27.5, 32.5, 37.5, 42.5, 47.5], abs=0.5)
+    axis = shown.plot.getAxis("left").width()
+    assert shown.chips.copy.width() == pytest.approx(axis, abs=1) == cells.x()
+
+
+def test_chips_are_copied_as_text_and_told_in_words(shown: ProfileView, qtbot: QtBot) -> None:
+    said = collect(shown.chips.copied)
+    qtbot.mouseClick(shown.chips.copy, Qt.MouseButton.LeftButton)
+    assert QGuiApplication.clipboard().text() == "10110"
+    assert said == ["Copied: 10110"]
+    cells = shown.chips.cells
+    assert cells.toolTip() == (
+        "5 chips read from the photo, 10.00 columns each; all of them are right with a "
+        "probability of 99 %"
+    )
+    assert cells.accessibleDescription().endswith(": 10110")
+    assert shown.chips.isVisible()
+    shown.chips.show_chips(None)
+    assert not shown.chips.isVisible()
+
+
+def test_uncertain_chips_are_drawn_faintly(shown: ProfileView) -> None:
+    certain = shown.chips.cells.grab().toImage()
+    shown.chips.show_chips(reading(0.6))
+    uncertain = shown.chips.cells.grab().toImage()
+    place = shown.chips.cells.rectangles()[0][1].center().toPoint()
+    place.setY(3)
+    assert certain.pixelColor(place).lightness() < uncertain.pixelColor(place).lightness()

@@ -4,7 +4,6 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
-from gui.kinds import not_none
 from gui.user import User
 from PySide6.QtCore import Qt
 
@@ -59,27 +58,6 @@ def listed(
     return paths
 
 
-@pytest.mark.whole
-@pytest.mark.own_window
-def test_a_row_opens_with_its_match_which_can_be_applied_at_once(
-    application: Application, user: User, listed: tuple[Path, ...]
-) -> None:
-    matching, started = application.shell.pane("photo").matching, list[object]()
-    matching.work.task.ask = started.append
-    row = not_none(application.view("photo").many.rows.row_of(listed[1]))
-    assert row.match is not None
-    application.open_photo(listed[1])
-    user.wait_until_idle()
-    assert matching.match is row.match
-    assert (
-        application.view("photo")._scroll.verticalScrollBar().value() == 0
-    )  # the table is at hand
-    assert application.view("photo").verdict.heading.startswith(f"Photo: {row.verdict}")
-    user.choose("&Apply to the scene")
-    assert application.store.scene == row.match.scene
-    assert not started
-
-
 def shown_of(application: Application) -> set[str]:
     """Return the names of the photos that row, title, image, facts and match are of."""
     rows, view = application.view("photo").many.rows, application.view("photo")
@@ -111,23 +89,6 @@ def test_row_title_image_and_numbers_are_of_one_photo(
     user.wait_until_idle()
     assert shown_of(application) == {"two.jpg"}
     assert application.photos.choice.path == listed[1]
-
-
-@pytest.mark.whole
-def test_a_photo_that_is_read_in_another_way_is_not_what_the_table_matched(
-    application: Application, user: User, listed: tuple[Path, ...]
-) -> None:
-    application.open_photo(listed[0])
-    user.wait_until_idle()
-    assert application.shell.pane("photo").matching.match is not None
-    rows = application.view("photo").many.rows
-    marks = [rows.data(rows.index(n, 0), Qt.ItemDataRole.BackgroundRole) for n in range(2)]
-    assert [mark is not None for mark in marks] == [True, False]
-    application.photos.scan_along("lines")
-    user.wait_until_idle()
-    assert application.shell.pane("photo").matching.match is None
-    application.photos.scan_along("auto")
-    user.wait_until_idle()
 
 
 @pytest.mark.whole

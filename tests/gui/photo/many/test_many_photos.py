@@ -116,6 +116,8 @@ def test_each_photo_has_its_verdict_and_times_and_a_doubtful_exposure_says_so(
     view.show_table(table_of(MatchSettings(occ.Scene()), rows))
     assert column(view, VERDICT)[0] == "● sure"
     assert column(view, EXPOSURE)[:2] == ["80.00 ± 0.40 µs (doubtful)", "80.00 ± 0.40 µs"]
+    view.rows.show_earlier(PATHS[0])
+    assert column(view, VERDICT)[:2] == ["● sure, earlier match", "● sure"]
 
 
 def test_the_mean_is_that_of_the_model_and_named_by_the_frequency_that_it_rests_on(

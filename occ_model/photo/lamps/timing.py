@@ -114,33 +114,18 @@ def _refined(segment: Segment, edges: Edges, weights: FloatArray) -> LampTiming 
     spacing = segment.chip if segment.period is None else segment.period
     inside = (edges.place >= segment.edges.place[0]) & (edges.place <= segment.edges.place[-1])
     first, last = int(np.argmax(inside)), len(edges) - int(np.argmax(inside[::-1]))
-    fit = _fitted(edges.part(first, last), weights[first:last], spacing)
+    fit = _fitted(edges.part(first, last), weights[first:last], spacing, is_code)
     # The rim of a lamp is an edge too, which lies anywhere.
     for left, right in ((1, 0), (0, 1), (1, 1)) if is_code else ():
         begin, end = first + left, last - right
-        inner = _fitted(edges.part(begin, end), weights[begin:end], spacing)
+        inner = _fitted(edges.part(begin, end), weights[begin:end], spacing, is_code)
         if fit is not None and inner is not None and inner.off < _MOST_RATIO * fit.off:
             fit = inner
-    if fit is None:
-        return None
-    chip = spacing if is_code else 0.5 * spacing
-    off = fit.off / chip
-    return LampTiming(fit.spacing, fit.uncertainty, fit.rise, fit.fall, is_code, off, fit.edges)
+    return fit
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class _Lattices:
-    """Lattices fitted to rising and falling edges, and how far these lie from them in columns."""
-
-    spacing: float
-    uncertainty: float
-    rise: float
-    fall: float
-    off: float
-    edges: Edges
-
-
-def _fitted(edges: Edges, weights: FloatArray, spacing: float) -> _Lattices | None:
+def _fitted(edges: Edges, weights: FloatArray, spacing: float, is_code: bool) -> LampTiming | None:
+    """Fit lattices to rising and falling edges; ``spacing``: roughly that of both."""
     steps = np.zeros(len(edges))
     for kind in (True, False):
         same = edges.rises == kind
@@ -161,6 +146,7 @@ def _fitted(edges: Edges, weights: FloatArray, spacing: float) -> _Lattices | No
         float(weights @ residual**2) / freedom, float(weights.mean()) * _LEAST_DEVIATION**2
     )
     deviation = float(np.sqrt(variance * inverse[0, 0]))
-    off = float(np.sqrt(np.average(residual**2, weights=weights)))
-    spacing, rise, fall = fitted.tolist()
-    return _Lattices(spacing, deviation, rise, fall, off, edges)
+    chip = spacing if is_code else 0.5 * spacing
+    off = float(np.sqrt(np.average(residual**2, weights=weights))) / chip
+    found, rise, fall = fitted.tolist()
+    return LampTiming(found, deviation, rise, fall, is_code, off, edges)

@@ -1,5 +1,6 @@
 """Stripes are found where the panel is, or within a rectangle; a photo without any is refused."""
 
+from dataclasses import replace
 from unittest.mock import Mock
 
 import numpy as np
@@ -99,15 +100,7 @@ def test_likeness_with_itself_is_at_most_one_and_one_at_no_lag(values: list[floa
 
 def test_deep_pictures_give_the_same_stripes_as_shallow_ones() -> None:
     shallow = take(random_scene(3), 3)
-    deep = occ.Photo(
-        path=shallow.path,
-        samples=shallow.samples.astype(np.uint16) * 257,
-        white=65535,
-        image=shallow.image,
-        profile=shallow.profile,
-        turned=False,
-        channel="grey",
-    )
+    deep = replace(shallow, samples=shallow.samples.astype(np.uint16) * 257, white=65535)
     one, other = occ.find_stripes(shallow), occ.find_stripes(deep)
     assert one.region == other.region
     assert np.allclose(one.profile, other.profile, atol=1e-6)

@@ -11,7 +11,7 @@ from photo_files import PICTURE, saved
 from PIL import Image
 from PIL.TiffImagePlugin import IFDRational
 
-from occ_model.photo.reading.exif import camera_notes
+from occ_model.photo.reading.exif import camera_notes, notes_of
 from occ_model.photo.reading.load import Photo, load_photo
 
 EXPOSURE_TIME, F_NUMBER, ISO = 0x829A, 0x829D, 0x8827
@@ -32,25 +32,6 @@ def photo_with(
     folder: Path, first: dict[int, Any], exif: dict[int, Any], name: str = "x.jpg"
 ) -> Photo:
     return load_photo(saved(folder, PICTURE, name, exif=noted(first, exif)))
-
-
-class Tagged:
-    """A picture with tags that no encoder would write."""
-
-    def __init__(self, tags: dict[int, Any], exif: dict[int, Any]) -> None:
-        self._tags, self._exif = tags, exif
-
-    def getexif(self) -> "Tagged":
-        return self
-
-    def keys(self) -> Any:
-        return self._tags.keys()
-
-    def __getitem__(self, tag: int) -> Any:
-        return self._tags[tag]
-
-    def get_ifd(self, tag: int) -> dict[int, Any]:
-        return self._exif
 
 
 @pytest.mark.parametrize("name", ["x.jpg", "x.png", "x.tif", "x.webp", "x.avif", "x.heic"])
@@ -89,7 +70,7 @@ def test_a_focal_length_and_the_sensor_s_size_give_the_equivalent_one(
     tags = SENSOR | {FOCAL: IFDRational(425, 100), 0xA20E: density, 0xA20F: density, 0xA210: unit}
     if unit is None:
         del tags[0xA210]
-    notes = camera_notes(Tagged({}, tags))  # type: ignore[arg-type]
+    notes = notes_of(tags)
     times = math.hypot(24.0, 36.0) / 6.25
     assert notes.equivalent_focal_length == pytest.approx(4.25e-3 * times, rel=1e-4)
     assert notes.focal_length_step == pytest.approx(0.01e-3 * times, rel=1e-4)
@@ -98,7 +79,7 @@ def test_a_focal_length_and_the_sensor_s_size_give_the_equivalent_one(
 @pytest.mark.parametrize("missing", [FOCAL, *SENSOR.keys() - {0xA210}])
 def test_without_the_sensor_s_size_no_equivalent_focal_length_is_known(missing: int) -> None:
     tags = {n: v for n, v in (SENSOR | {FOCAL: 4.25}).items() if n != missing}
-    assert camera_notes(Tagged({}, tags)).equivalent_focal_length is None  # type: ignore[arg-type]
+    assert notes_of(tags).equivalent_focal_length is None
 
 
 NONSENSE = [
@@ -127,7 +108,7 @@ def test_nonsense_is_none_and_the_rest_is_read(value: object) -> None:
     names = {EXPOSURE_TIME: "exposure_time", F_NUMBER: "f_number", ISO: "iso"}
     good = {EXPOSURE_TIME: IFDRational(1, 100), F_NUMBER: IFDRational(2), ISO: 100}
     for tag, name in names.items():
-        notes = camera_notes(Tagged({}, good | {tag: value}))  # type: ignore[arg-type]
+        notes = notes_of(good | {tag: value})
         read = {"exposure_time": 0.01, "f_number": 2.0, "iso": 100.0} | {name: None}
         assert {each: getattr(notes, each) for each in read} == read
 
@@ -136,25 +117,25 @@ def test_nonsense_is_none_and_the_rest_is_read(value: object) -> None:
 def test_a_nonsensical_focal_length_is_none(value: object) -> None:
     for tag in (EQUIVALENT, FOCAL, *SENSOR):
         tags = {} if tag == EQUIVALENT else SENSOR | {FOCAL: 4.25}
-        notes = camera_notes(Tagged({}, tags | {tag: value}))  # type: ignore[arg-type]
+        notes = notes_of(tags | {tag: value})
         assert notes.equivalent_focal_length is None
 
 
 def test_a_value_noted_as_several_is_the_first_of_them() -> None:
-    notes = camera_notes(Tagged({}, {ISO: (200, 0), F_NUMBER: (IFDRational(9, 5),)}))  # type: ignore[arg-type]
+    notes = notes_of({ISO: (200, 0), F_NUMBER: (IFDRational(9, 5),)})
     assert (notes.iso, notes.f_number) == (200.0, 1.8)
 
 
 @pytest.mark.parametrize("plain", [None, 0, "1/100", IFDRational(0, 0)])
 def test_apex_values_stand_in_for_what_is_missing(plain: object) -> None:
     tags = {EXPOSURE_TIME: plain, F_NUMBER: plain, SHUTTER_SPEED: IFDRational(13), APERTURE: 2}
-    notes = camera_notes(Tagged({}, tags))  # type: ignore[arg-type]
+    notes = notes_of(tags)
     assert (notes.exposure_time, notes.f_number) == (1 / 8192, 2.0)
 
 
 @pytest.mark.parametrize("apex", [1e9, -1e9, 10**400, math.nan, math.inf, -math.inf, "5", None])
 def test_apex_nonsense_is_none(apex: object) -> None:
-    notes = camera_notes(Tagged({}, {SHUTTER_SPEED: apex, APERTURE: apex}))  # type: ignore[arg-type]
+    notes = notes_of({SHUTTER_SPEED: apex, APERTURE: apex})
     assert (notes.exposure_time, notes.f_number) == (None, None)
 
 
@@ -165,7 +146,7 @@ def test_an_iso_beyond_sixteen_bits_is_read_from_its_other_tag() -> None:
         ({ISO_RECOMMENDED: 80}, 80),
         ({ISO: 400, ISO_RECOMMENDED: 80}, 400),
     ):
-        assert camera_notes(Tagged({}, tags)).iso == iso  # type: ignore[arg-type]
+        assert notes_of(tags).iso == iso
 
 
 @pytest.mark.parametrize(
@@ -187,11 +168,11 @@ def test_an_iso_beyond_sixteen_bits_is_read_from_its_other_tag() -> None:
 def test_the_cameras_name_is_one_clean_line(
     make: object, model: object, camera: str | None
 ) -> None:
-    assert camera_notes(Tagged({MAKE: make, MODEL: model}, {})).camera == camera  # type: ignore[arg-type]
+    assert notes_of({MAKE: make, MODEL: model}).camera == camera
 
 
 def test_a_cameras_name_has_a_bounded_length() -> None:
-    camera = camera_notes(Tagged({MAKE: "M" * 10**6, MODEL: "x" * 10**6}, {})).camera  # type: ignore[arg-type]
+    camera = notes_of({MAKE: "M" * 10**6, MODEL: "x" * 10**6}).camera
     assert len(camera) <= 60
 
 

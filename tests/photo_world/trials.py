@@ -65,14 +65,14 @@ class Trial:
 
 def told(world: World) -> occ.Scene:
     """Return the scene of what is known of a photograph: the chips and their frequency."""
+    return _told(world.chips, world.switching_frequency)
+
+
+def _told(chips: str, frequency: float) -> occ.Scene:
     return occ.load_preset("phone-68us").replace(
-        pattern=world.chips,
-        switching_frequency=world.switching_frequency,
-        gamma=KNOWN_GAMMA,
-        readout_time=1e-6,
-        exposure_time=1.0,
-        start_time=0.0,
-    )
+        pattern=chips, switching_frequency=frequency, gamma=KNOWN_GAMMA,
+        readout_time=1e-6, exposure_time=1.0, start_time=0.0,
+    )  # fmt: skip
 
 
 def trial(world: World) -> Trial:
@@ -80,19 +80,8 @@ def trial(world: World) -> Trial:
     image = photograph(world)
     covers = world.lamp.covers(world.rows, world.columns)
     saturated = float(np.mean(image[covers] >= 254))
-    try:
-        match = occ.match_photo(photo_of(image), told(world), sent="scene")
-    except occ.MatchError as why:
-        return Trial(world, saturated, failure=str(why))
-    return Trial(
-        world,
-        saturated,
-        match.readout_time / world.readout_time - 1.0,
-        match.exposure_time / world.exposure_time - 1.0,
-        match.uncertainties["readout_time"] / world.readout_time,
-        match.uncertainties["exposure_time"] / world.exposure_time,
-        doubts=match.reasons,
-        exposure_doubts=match.exposure_reasons,
+    return _matched(
+        world, saturated, image, told(world), "scene", world.readout_time, world.exposure_time
     )
 
 
@@ -136,22 +125,32 @@ def _trial_by_columns(
     duty: float = np.nan,
 ) -> Trial:
     """Match a photograph whose chip and exposure are counted in columns."""
-    scene = occ.load_preset("phone-68us").replace(
-        pattern=chips, switching_frequency=1.0 / (chip * READOUT), gamma=KNOWN_GAMMA,
-        readout_time=1e-6, exposure_time=1.0, start_time=0.0,
-    )  # fmt: skip
+    scene = _told(chips, 1.0 / (chip * READOUT))
+    return _matched(seed, saturated, image, scene, sent, READOUT, exposure * READOUT, duty)
+
+
+def _matched(
+    world: World | int,
+    saturated: float,
+    image: np.ndarray,
+    scene: occ.Scene,
+    sent: str,
+    readout: float,
+    exposure: float,
+    duty: float = np.nan,
+) -> Trial:
+    """Match a photograph, and compare what is found with its true readout, exposure and duty."""
     try:
         match = occ.match_photo(photo_of(image), scene, sent=sent)
     except occ.MatchError as why:
-        return Trial(seed, saturated, failure=str(why))
-    exposed = exposure * READOUT
+        return Trial(world, saturated, failure=str(why))
     return Trial(
-        seed,
+        world,
         saturated,
-        match.readout_time / READOUT - 1.0,
-        match.exposure_time / exposed - 1.0,
-        match.uncertainties["readout_time"] / READOUT,
-        match.uncertainties["exposure_time"] / exposed,
+        match.readout_time / readout - 1.0,
+        match.exposure_time / exposure - 1.0,
+        match.uncertainties["readout_time"] / readout,
+        match.uncertainties["exposure_time"] / exposure,
         doubts=match.reasons,
         exposure_doubts=match.exposure_reasons,
         duty=match.duty - duty,

@@ -239,11 +239,9 @@ def _harmonics(power: FloatArray, first: float, own: int) -> list[tuple[int, flo
     strongest = [
         float(power[max(0, place - _LINE_BINS) : place + _LINE_BINS + 1].max()) for place in places
     ]
-    beside = [
-        max((strongest[at + step] for step in _NEIGHBOURS if at + step < len(places)), default=0.0)
-        for at in range(len(places))
-    ]
-    return [
-        (place, np.inf if at < own else _MOST_POWER_RATIO * beside[at])
-        for at, place in enumerate(places)
-    ]
+
+    def beside(at: int) -> float:
+        near = (strongest[at + step] for step in _NEIGHBOURS if at + step < len(places))
+        return _MOST_POWER_RATIO * max(near, default=0.0)
+
+    return [(place, np.inf if at < own else beside(at)) for at, place in enumerate(places)]

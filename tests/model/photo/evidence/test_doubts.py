@@ -60,7 +60,8 @@ def test_noise_has_no_line_and_a_patterns_own_are_left_out() -> None:
     noise, swing = random.standard_normal(1500), np.full(1500, 100.0)
     only_noise = strongest_line(noise, swing, 97.0, 10)
     own = strongest_line(noise + 9.0 * np.sin(2.0 * np.pi * place / 9.7), swing, 97.0, 10)
-    for line in (only_noise, own):
+    of_three_harmonics = strongest_line(noise, swing, 6.0, 2)
+    for line in (only_noise, own, of_three_harmonics):
         assert line.above_noise < 50.0
 
 

@@ -1,5 +1,7 @@
 """Look of a mark: colour, pattern and height together say whether it was read."""
 
+from dataclasses import dataclass
+
 from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtGui import QBrush, QColor, QPainter, QPalette, QPen
 
@@ -7,42 +9,50 @@ from occ_gui.video.film_reading import MarkState
 from occ_gui.widgets.legend import Drawing, LineLegend
 from occ_gui.widgets.state_look import State, colours_of
 
-HEIGHTS = {
-    MarkState.PENDING: 1.0,
-    MarkState.READ: 1.0,
-    MarkState.UNCHECKED: 0.65,
-    MarkState.LOST: 0.35,
-}
-"""Height of a mark in parts of its row: it tells the states apart where patterns are too fine."""
 
-_STATES = {
-    MarkState.PENDING: State.NEUTRAL,
-    MarkState.READ: State.GOOD,
-    MarkState.UNCHECKED: State.DOUBTFUL,
-    MarkState.LOST: State.BAD,
-}
-_PATTERNS = {
-    MarkState.READ: Qt.BrushStyle.SolidPattern,
-    MarkState.UNCHECKED: Qt.BrushStyle.Dense5Pattern,
-    MarkState.LOST: Qt.BrushStyle.BDiagPattern,
-}
+@dataclass(frozen=True, slots=True)
+class MarkLook:
+    state: State
+    pattern: Qt.BrushStyle
+    height: float  # in parts of its row: it tells states apart where patterns are too fine
+    name: str
+    meaning: str
+    heard: str  # what a screen reader says of a frame
+
+
+_Pattern = Qt.BrushStyle
+LOOKS = {
+    MarkState.READ: MarkLook(
+        State.GOOD, _Pattern.SolidPattern, 1.0, "read",
+        "A frame whose place is known; a packet as all others have it.", "read",
+    ),
+    MarkState.UNCHECKED: MarkLook(
+        State.DOUBTFUL, _Pattern.Dense5Pattern, 0.65, "not checked",
+        "Read, but nothing says whether it is right, or where it belongs.", "read, not checked",
+    ),
+    MarkState.LOST: MarkLook(
+        State.BAD, _Pattern.BDiagPattern, 0.35, "lost", "Not read, or read wrong.", "lost"
+    ),
+    MarkState.PENDING: MarkLook(
+        State.NEUTRAL, _Pattern.NoBrush, 1.0, "to come", "Not looked at yet.", "not looked at yet"
+    ),
+}  # fmt: skip
+"""In the order of the legend."""
+
 _SAMPLE = QSize(16, 14)
 _LEAST_OUTLINE = 4.0  # least width in pixels of a mark that is drawn with an outline
 
 
-def ink_of(state: MarkState, palette: QPalette) -> QColor:
-    return colours_of(_STATES[state], palette).ink
-
-
 def brush_of(state: MarkState, palette: QPalette) -> QBrush:
     """Return the pattern of a state's marks in its colour; none where it is to come."""
-    return QBrush(ink_of(state, palette), _PATTERNS.get(state, Qt.BrushStyle.NoBrush))
+    return QBrush(colours_of(LOOKS[state].state, palette).ink, LOOKS[state].pattern)
 
 
 def draw_mark(painter: QPainter, place: QRectF, state: MarkState, palette: QPalette) -> None:
-    height = place.height() * HEIGHTS[state]
+    height = place.height() * LOOKS[state].height
     bar = QRectF(place.left(), place.bottom() - height, place.width(), height)
-    ink = ink_of(state, palette)
+    brush = brush_of(state, palette)
+    ink = brush.color()
     if state is MarkState.PENDING:
         line = QColor(ink)
         line.setAlpha(110)
@@ -51,7 +61,7 @@ def draw_mark(painter: QPainter, place: QRectF, state: MarkState, palette: QPale
     else:
         is_wide = bar.width() >= _LEAST_OUTLINE
         painter.setPen(QPen(ink, 1) if is_wide else Qt.PenStyle.NoPen)
-        painter.setBrush(brush_of(state, palette) if is_wide else QBrush(ink))
+        painter.setBrush(brush if is_wide else QBrush(ink))
     if bar.width() >= _LEAST_OUTLINE:
         bar.adjust(0.5, 0.5, -0.5, -0.5)
     painter.drawRect(bar)
@@ -61,20 +71,8 @@ class MarkLegend(LineLegend):
     def __init__(self) -> None:
         super().__init__()
         self.setAccessibleName("Legend of the timeline")
-        texts = {
-            MarkState.READ: (
-                "read",
-                "A frame whose place is known; a packet as all others have it.",
-            ),
-            MarkState.UNCHECKED: (
-                "not checked",
-                "Read, but nothing says whether it is right, or where it belongs.",
-            ),
-            MarkState.LOST: ("lost", "Not read, or read wrong."),
-            MarkState.PENDING: ("to come", "Not looked at yet."),
-        }  # fmt: skip
-        for state, (text, meaning) in texts.items():
-            self.add_sample(state.name, _sample_of(state), _SAMPLE, text, meaning)
+        for state, look in LOOKS.items():
+            self.add_sample(state.name, _sample_of(state), _SAMPLE, look.name, look.meaning)
 
 
 def _sample_of(state: MarkState) -> Drawing:

@@ -18,7 +18,7 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from occ_gui.video.film_reading import Marks, MarkState
-from occ_gui.video.mark_look import brush_of, draw_mark
+from occ_gui.video.mark_look import LOOKS, brush_of, draw_mark
 from occ_gui.widgets.guarded_paint import guarded
 from occ_gui.widgets.round_step import round_step
 
@@ -89,16 +89,10 @@ class Timeline(QWidget):
         if not 0 <= self.index < count:
             self.setAccessibleDescription("no film")
             return
-        words = {
-            MarkState.PENDING: "not looked at yet",
-            MarkState.READ: "read",
-            MarkState.UNCHECKED: "read, not checked",
-            MarkState.LOST: "lost",
-        }
         self.setAccessibleDescription(
             f"frame {self.index + 1} of {count}, "
             f"{float(self.frames.starts[self.index]):.3f} s, "
-            f"{words[MarkState(int(self.frames.states[self.index]))]}"
+            f"{LOOKS[MarkState(int(self.frames.states[self.index]))].heard}"
         )
 
     # Where things are.

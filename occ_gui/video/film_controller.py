@@ -14,10 +14,9 @@ from occ_gui.shell.work import Work
 from occ_gui.values.film_choice import FilmChoice, FilmSource
 from occ_gui.video.frame_jobs import FrameRequest, ShownFrame, shown_frame
 from occ_model.photo.reading.choices import SCAN_AXES
-from occ_model.results.video import Video, VideoFrame
+from occ_model.results.video import USUAL_RATE, Video, VideoFrame
 
 _TURN_MS = 33  # milliseconds between two frames on the screen, at least
-USUAL_RATE = 30.0  # frames a second of a film that does not say how many
 
 _DRAFT_STEP = 8  # a draft of the simulated frame shows one of so many rows, while a film plays
 

@@ -13,14 +13,14 @@ from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Pane
 from occ_gui.shell.results import Board
 from occ_gui.values.film_choice import FilmChoice
-from occ_gui.video.film_controller import USUAL_RATE, FilmController
+from occ_gui.video.film_controller import FilmController
 from occ_gui.video.film_reading import Marks, MarkState, frame_marks
 from occ_gui.video.frame_jobs import ShownFrame
 from occ_gui.video.live_controller import LiveController
 from occ_gui.video.reading_controller import ReadingController
 from occ_gui.video.video_view import VideoView
 from occ_model.errors import OccError, one_line
-from occ_model.results.video import Video
+from occ_model.results.video import USUAL_RATE, Video
 from occ_model.scene.scene import Scene
 
 

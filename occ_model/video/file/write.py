@@ -19,7 +19,7 @@ import cv2
 from occ_model.arrays import ByteArray
 from occ_model.errors import OutputError, ParameterError, one_line
 from occ_model.files.writing import written_whole
-from occ_model.results.video import Video
+from occ_model.results.video import USUAL_RATE, Video
 from occ_model.scene.provenance import Provenance
 from occ_model.video.file.animated_pictures import write_gif, write_png
 from occ_model.video.file.note import mkv_note, mp4_note
@@ -35,8 +35,6 @@ _RATES = {  # frames a second that a file can state; players of GIF files show n
     ".gif": (0.002, 50.0),
     ".png": (1e-4, 65_535.0),
 }
-
-_USUAL_RATE = 30.0  # frames a second of a film that does not say how many
 
 
 def write_frames(path: Path, pictures: Iterable[ByteArray], rate: float, note: str) -> int:
@@ -196,7 +194,7 @@ def write_video(
         cannot be written, as on a full disk; an older file is unchanged.
     """
     path = Path(path)
-    rate = video.frame_rate or _USUAL_RATE
+    rate = video.frame_rate or USUAL_RATE
     check_film_path(path, rate, video.shape)
     if video.simulated and video.frame_count is None:
         raise ParameterError.of(

@@ -1,7 +1,9 @@
-"""A film in place of a camera."""
+"""Films and pictures in place of a camera."""
 
 from collections.abc import Iterable, Iterator
 from time import monotonic, sleep
+
+import numpy as np
 
 from occ_gui.video.camera import LivePicture
 from occ_model.results.video import VideoFrame
@@ -21,7 +23,13 @@ class FilmSource:
         self._frames, self._in_real_time = frames, in_real_time
         self._left: Iterator[VideoFrame] | None = None
         self._began = 0.0
-        self.is_locked = False
+        self.knows_exposure = True
+        self.locked: list[bool] = []
+        """What was asked for of the exposure: to be held, or to be let go."""
+
+    @property
+    def is_open(self) -> bool:
+        return self._left is not None
 
     def open(self) -> None:
         self._left, self._began = iter(self._frames), monotonic()
@@ -35,8 +43,16 @@ class FilmSource:
         return LivePicture(frame.time, frame.image)
 
     def lock_exposure(self, on: bool) -> bool:
-        self.is_locked = on
-        return True
+        self.locked.append(on)
+        return self.knows_exposure
 
     def close(self) -> None:
         self._left = None
+
+
+class ListedSource(FilmSource):
+    """Gives listed pictures as fast as they are asked for."""
+
+    def __init__(self, pictures: list[np.ndarray]) -> None:
+        frames = [VideoFrame(index, 0.1 * index, image) for index, image in enumerate(pictures)]
+        super().__init__(frames, "Listed", in_real_time=False)

@@ -1,42 +1,13 @@
-"""Short films of a small scene, in memory and in files, and sources of live pictures."""
+"""Short films of a small scene, in memory and in files."""
 
 from pathlib import Path
 
-import numpy as np
 import pytest
 from films import write_film
 
 import occ_model as occ
-from occ_gui.video.camera import LivePicture
 from occ_model.results.video import Video
 from occ_model.scene.scene import Scene
-
-
-class ListedSource:
-    """Gives listed pictures as fast as they are asked for, and notes whether it is open."""
-
-    title, axis = "Listed", "columns"
-
-    def __init__(self, pictures: list[np.ndarray]) -> None:
-        self.left = list(pictures)
-        self.is_open = False
-        self.locked: list[bool] = []
-        self.knows_exposure = True
-
-    def open(self) -> None:
-        self.is_open = True
-
-    def read(self) -> LivePicture | None:
-        if not self.left:
-            return None
-        return LivePicture(0.1 * len(self.left), self.left.pop(0))
-
-    def lock_exposure(self, on: bool) -> bool:
-        self.locked.append(on)
-        return self.knows_exposure
-
-    def close(self) -> None:
-        self.is_open = False
 
 
 @pytest.fixture

@@ -7,8 +7,8 @@ from threading import Event
 import cv2
 import numpy as np
 import pytest
+from film_source import ListedSource
 from gui.kinds import not_none
-from gui.video.conftest import ListedSource
 
 from occ_gui.video import camera
 from occ_gui.video.camera import CameraDevice, CameraSource, LivePicture, find_cameras

@@ -5,9 +5,9 @@ from pathlib import Path
 from typing import TypeAlias
 
 import pytest
+from film_source import ListedSource
 from gui.kinds import collect
 from gui.stores import store_of
-from gui.video.conftest import ListedSource
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 

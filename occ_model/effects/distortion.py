@@ -8,6 +8,7 @@ import math
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
+import cv2
 import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray
@@ -64,6 +65,17 @@ def distorted(rays: FloatArray, lens: Lens) -> FloatArray:
         ],
         axis=-1,
     )
+
+
+def undistorted(points: FloatArray, scene: Scene) -> FloatArray:
+    """Return points of the picture, (column, row), where a lens without distortion shows them."""
+    lens, camera = scene.lens, scene.camera
+    if not lens.distorts:
+        return points
+    rays = image_rays(points, camera)
+    bent = np.array([lens.radial_k1, lens.radial_k2, lens.tangential_p1, lens.tangential_p2])
+    flat = cv2.undistortPoints(rays[:, None, :], np.eye(3), bent)
+    return image_points(np.asarray(flat, dtype=np.float64)[:, 0], camera)
 
 
 def _outlines(scene: Scene, corners: FloatArray) -> tuple[FloatArray, FloatArray]:

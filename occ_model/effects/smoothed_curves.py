@@ -1,4 +1,7 @@
-"""The receiver's enhancement as a noisy pixel passes it in the mean: a curve that noise smooths."""
+"""The receiver's enhancement as a noisy pixel passes it in the mean: a curve that noise smooths.
+
+Also what light changes in few columns, of which a sample may have none or too many.
+"""
 
 from collections.abc import Sequence
 from typing import NamedTuple

@@ -8,15 +8,14 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-import cv2
 import numpy as np
 
 from occ_model.arrays import BoolArray, ByteArray, FloatArray, IndexArray
 from occ_model.camera.coverage import column_spans
 from occ_model.camera.photometry import luminance_of
-from occ_model.camera.projection import image_points, image_rays
+from occ_model.effects.distortion import undistorted
 from occ_model.room.room import Room, RoomLamp
-from occ_model.scene.scene import Camera, Scene
+from occ_model.scene.scene import Scene
 from occ_model.transmitter.packet import sent_chips
 
 _EDGE_REACH = 7  # pixels on either side of an edge that is expected: its light is summed there
@@ -53,15 +52,6 @@ class _Points:
 
 
 _NONE = _Points(np.empty((0, 2)), 0.0)
-
-
-def quadrilateral(hull: FloatArray) -> FloatArray:
-    """Return the quadrilateral round a convex outline, corners in the sense of a lamp's own."""
-    found = cv2.approxPolyN(hull.astype(np.float32).reshape(-1, 1, 2), 4)
-    corners = np.asarray(found, dtype=np.float64).reshape(4, 2)
-    x, y = corners.T
-    area = float(x @ np.roll(y, -1) - y @ np.roll(x, -1))
-    return corners if area > 0.0 else corners[::-1].copy()
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -334,15 +324,3 @@ def _of_grid(grid: FloatArray, slope: float, blur: float) -> FloatArray:
     beyond = ends @ ends.T / _PHASES - 2.0 * scatter / len(grid) * np.eye(2)
     sizes, axes = np.linalg.eigh(beyond)
     return np.asarray((axes * np.maximum(sizes, 0.0)) @ axes.T)
-
-
-def undistorted(points: FloatArray, scene: Scene) -> FloatArray:
-    """Return points of the picture, (column, row), where a lens without distortion shows them."""
-    lens = scene.lens
-    if not lens.distorts:
-        return points
-    camera: Camera = scene.camera
-    rays = image_rays(points, camera)
-    bent = np.array([lens.radial_k1, lens.radial_k2, lens.tangential_p1, lens.tangential_p2])
-    flat = cv2.undistortPoints(rays[:, None, :], np.eye(3), bent)
-    return image_points(np.asarray(flat, dtype=np.float64)[:, 0], camera)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from occ_model.arrays import FloatArray
 from occ_model.camera.projection import image_rays
 from occ_model.errors import ParameterError
-from occ_model.room.edges import Edge, EdgeFinder, quadrilateral
+from occ_model.room.edges import Edge, EdgeFinder
 from occ_model.room.pose_fit import LampEdges, Located
 from occ_model.room.reading import ReadLamp, check_picture, find_and_name
 from occ_model.room.room import Room, RoomLamp, check_room
@@ -99,6 +99,15 @@ def read_room(image: NDArray[Any], room: Room, focal_share: float = 0.0) -> Room
     whole = [(by_name[one.name], one) for one in lamps if one.name and not one.is_cut]
     found, why = _located(measured, room, len(lamps), _start_of_centres(whole, room), focal_share)
     return RoomReading(lamps, found[0] if found else None, tuple(found[1:]), why)
+
+
+def quadrilateral(hull: FloatArray) -> FloatArray:
+    """Return the quadrilateral round a convex outline, corners in the sense of a lamp's own."""
+    found = cv2.approxPolyN(hull.astype(np.float32).reshape(-1, 1, 2), 4)
+    corners = np.asarray(found, dtype=np.float64).reshape(4, 2)
+    x, y = corners.T
+    area = float(x @ np.roll(y, -1) - y @ np.roll(x, -1))
+    return corners if area > 0.0 else corners[::-1].copy()
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -13,7 +13,8 @@ import numpy as np
 
 import occ_model as occ
 from occ_model.arrays import ByteArray, FloatArray
-from occ_model.room.edges import EdgeFinder, quadrilateral
+from occ_model.room.edges import EdgeFinder
+from occ_model.room.locate import quadrilateral
 from occ_model.room.reading import find_and_name
 from occ_model.room.room import Place, Room, RoomLamp
 

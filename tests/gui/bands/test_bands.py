@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
+from occ_gui.bands import pane
 from occ_gui.bands.bands_view import BandsView
 from occ_gui.bands.feature import bands
 from occ_gui.bands.jobs import ShownBands, shown_bands
@@ -69,7 +70,8 @@ def test_the_map_is_dark_along_the_valleys() -> None:
 
 
 @pytest.fixture
-def bench(qtbot: QtBot) -> PaneBench:
+def bench(qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) -> PaneBench:
+    monkeypatch.setattr(pane, "shown_bands", _shown)
     return PaneBench(qtbot, _LAMP.replace(exposure_time=136e-6))
 
 

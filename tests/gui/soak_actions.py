@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 from film_source import FilmSource
+from gui.mouse import turn_wheel, views_of
 from gui.soak_errands import Errands
-from gui.wheel import turn_wheel, views_of
 from PIL import Image
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QGuiApplication

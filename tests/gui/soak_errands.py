@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 from gui.kinds import not_none
-from gui.wheel import turn_wheel, views_of
+from gui.mouse import turn_wheel, views_of
 from model.plugins.installed_package import install
 from PIL import Image
 from pytestqt.qtbot import QtBot

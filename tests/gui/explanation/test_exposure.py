@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 from gui.kinds import not_none, show_widget
+from gui.mouse import move_mouse
 from gui.pane_bench import PaneBench
-from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
-from PySide6.QtGui import QMouseEvent
-from PySide6.QtWidgets import QApplication, QSplitter, QWidget
+from PySide6.QtCore import QPoint, QPointF, Qt
+from PySide6.QtWidgets import QSplitter, QWidget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.explanation.exposure_plot import ExposurePlot
@@ -111,15 +111,9 @@ def place_of(plot: Plot, column: float) -> QPoint:
     return plot.mapFromScene(scene)
 
 
-def move_mouse(plot: Plot, column: float) -> None:
-    """Move the mouse over a column of the profile, no button down."""
-    viewport, place = plot.viewport(), place_of(plot, column)
-    none, no_key = Qt.MouseButton.NoButton, Qt.KeyboardModifier.NoModifier
-    event = QMouseEvent(
-        QEvent.Type.MouseMove, QPointF(place), QPointF(viewport.mapToGlobal(place)), none, none,
-        no_key,
-    )  # fmt: skip
-    QApplication.sendEvent(viewport, event)
+def move_to(plot: Plot, column: float) -> None:
+    """Move the mouse over a column of the profile."""
+    move_mouse(plot.viewport(), place_of(plot, column))
 
 
 @pytest.fixture
@@ -132,7 +126,7 @@ def test_mouse_click_and_keys_over_the_profile_choose_a_column(seen: Bench, qtbo
     viewport = plot.viewport()
     first, last = plot.getViewBox().viewRange()[0]
     there, place = (round(first + share * (last - first)) for share in (0.3, 0.6))
-    move_mouse(plot, there)
+    move_to(plot, there)
     qtbot.waitUntil(lambda: abs(exposure.column.value() - there) <= 1)
     qtbot.mouseClick(viewport, Qt.MouseButton.LeftButton, pos=place_of(plot, place))
     qtbot.waitUntil(exposure.hold.isChecked)
@@ -168,7 +162,7 @@ def test_the_profiles_mark_stays_while_the_exposure_is_visible(seen: Bench, qtbo
     seen.see("equations", False)
     assert not marker.isVisible()
     said = sentence.text()
-    move_mouse(seen.plot, seen.plot.getViewBox().viewRange()[0][0] + 50.0)
+    move_to(seen.plot, seen.plot.getViewBox().viewRange()[0][0] + 50.0)
     qtbot.keyClick(seen.plot, Qt.Key.Key_Right)
     assert sentence.text() == said
 

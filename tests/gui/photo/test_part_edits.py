@@ -8,10 +8,9 @@ import numpy as np
 import pyqtgraph as pg
 import pytest
 from gui.kinds import not_none, show_widget
+from gui.mouse import drag_mouse
 from gui.photo.photo_bench import PhotoBench
-from PySide6.QtCore import QEvent, QPointF, Qt
-from PySide6.QtGui import QMouseEvent
-from PySide6.QtWidgets import QApplication
+from PySide6.QtCore import QPointF
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
@@ -157,18 +156,11 @@ def test_a_drag_with_the_tool_on_draws_the_rectangle(
     bench: Bench, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setitem(pg.CONFIG_OPTIONS, "mouseRateLimit", 0)
-    kinds, left, none = QEvent.Type, Qt.MouseButton.LeftButton, Qt.MouseButton.NoButton
+    view = bench.picture.photo.graphics
 
     def drag(first: QPointF, last: QPointF) -> None:
-        port = bench.picture.photo.graphics.viewport()
-        steps = [(kinds.MouseMove, 0.0, none, none), (kinds.MouseButtonPress, 0.0, left, left)]
-        steps += [(kinds.MouseMove, share / 5, none, left) for share in range(1, 6)]
-        steps += [(kinds.MouseButtonRelease, 1.0, left, none)]
-        for kind, share, button, held in steps:
-            place = bench.box.mapViewToScene(first + (last - first) * share)
-            globally = QPointF(port.mapToGlobal(place))
-            no_key = Qt.KeyboardModifier.NoModifier
-            QApplication.sendEvent(port, QMouseEvent(kind, place, globally, button, held, no_key))
+        places = (QPointF(bench.box.mapViewToScene(place)) for place in (first, last))
+        drag_mouse(view.viewport(), *places)
 
     bench.box.setRange(xRange=(0, 100), yRange=(0, 60), padding=0.0)
     drag(QPointF(10, 5), QPointF(40, 25))

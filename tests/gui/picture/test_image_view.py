@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 from gui.kinds import GreyPicture, SnapshotOf, collect, not_none, show_widget
+from gui.mouse import move_mouse
 from gui.pane_bench import PaneBench
 from PySide6.QtCore import QEvent, QPoint, QPointF, QRectF, Qt
-from PySide6.QtGui import QMouseEvent
 from PySide6.QtWidgets import QApplication, QGraphicsRectItem, QWidget
 from pytestqt.qtbot import QtBot
 from shiboken6 import delete
@@ -348,15 +348,6 @@ def test_the_mouse_leaves_a_view_whose_label_went_first(bench: Bench) -> None:
     assert label.toolTip().startswith("Simulation: column")
     delete(label)
     assert QApplication.sendEvent(view.viewport(), QEvent(QEvent.Type.Leave))
-
-
-def move_mouse(viewport: QWidget, point: QPoint) -> None:
-    """Move the mouse to a point, no button down."""
-    kind, none, no_key = QEvent.Type.MouseMove, Qt.MouseButton.NoButton, Qt.KeyboardModifier(0)
-    everywhere = QPointF(viewport.mapToGlobal(point))
-    QApplication.sendEvent(
-        viewport, QMouseEvent(kind, QPointF(point), everywhere, none, none, no_key)
-    )
 
 
 def test_an_export_draws_and_names_the_one_that_is_shown(bench: Bench, tmp_path: Path) -> None:

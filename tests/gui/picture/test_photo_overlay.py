@@ -7,12 +7,11 @@ import pyqtgraph as pg
 import pytest
 from amount import amount
 from gui.kinds import Grey, collect, not_none
+from gui.mouse import drag_mouse
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
-from PySide6.QtCore import QEvent, QPointF, QRectF, Qt
-from PySide6.QtGui import QMouseEvent
-from PySide6.QtWidgets import QApplication
+from PySide6.QtCore import QPointF, QRectF
 from pytestqt.qtbot import QtBot
 
 from occ_gui.picture.averaged_image import AveragedImage
@@ -167,22 +166,7 @@ def test_dragging_the_frame_reports_the_photos_new_place(screen: Screen) -> None
 
 def drag(screen: Screen, start: tuple[float, float], end: tuple[float, float]) -> None:
     """Drag with the left button from one pixel of the picture to another."""
-    viewport, kinds = screen.view.viewport(), QEvent.Type
-    left, none = Qt.MouseButton.LeftButton, Qt.MouseButton.NoButton
-
-    def send(kind: QEvent.Type, share: float, button: Qt.MouseButton, held: bool) -> None:
-        place = QPointF(*(a + (b - a) * share for a, b in zip(start, end, strict=True)))
-        everywhere = QPointF(viewport.mapToGlobal(place))
-        buttons = left if held else none
-        no_key = Qt.KeyboardModifier.NoModifier
-        event = QMouseEvent(kind, place, everywhere, button, buttons, no_key)
-        QApplication.sendEvent(viewport, event)
-
-    send(kinds.MouseMove, 0.0, none, held=False)
-    send(kinds.MouseButtonPress, 0.0, left, held=True)
-    for step in range(1, 6):
-        send(kinds.MouseMove, step / 5, none, held=True)
-    send(kinds.MouseButtonRelease, 1.0, left, held=False)
+    drag_mouse(screen.view.viewport(), QPointF(*start), QPointF(*end))
 
 
 @pytest.fixture

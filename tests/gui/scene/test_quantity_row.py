@@ -3,8 +3,8 @@
 import math
 
 import pytest
+from gui.mouse import turn_wheel_at
 from gui.scene.told import QUANTITIES, Told
-from gui.wheel import turn_wheel_at
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 

@@ -9,7 +9,7 @@ from unittest.mock import Mock
 import numpy as np
 import pytest
 from gui.kinds import Grey, GreyPicture, SnapshotOf, not_none
-from gui.wheel import turn_wheel_at
+from gui.mouse import turn_wheel_at
 from PySide6.QtCore import QPoint, QPointF, QRectF, Qt
 from PySide6.QtGui import QFont, QFontMetrics, QImage, QPainter, QPalette
 from PySide6.QtWidgets import QApplication

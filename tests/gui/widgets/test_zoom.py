@@ -5,7 +5,7 @@ import sys
 import pyqtgraph as pg
 import pytest
 from gui.kinds import add_widget
-from gui.wheel import turn_wheel, views_of
+from gui.mouse import turn_wheel, views_of
 from hypothesis import given
 from hypothesis import strategies as st
 from PySide6.QtGui import QPalette

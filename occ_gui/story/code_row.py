@@ -157,17 +157,30 @@ class CodeRow(StoryRow):
     ) -> list[Span]:
         """Draw header and bits under the columns that carry them; give where the bits are."""
         spans = [(field.bit, edges[field.first], edges[field.last]) for field in self.fields]
-        widths = [right - left for bit, left, right in spans if bit is not None]
-        is_marked, is_told = _have_room(painter, widths)
+        bits = [(bit, left, right) for bit, left, right in spans if bit is not None]
+        self._draw_bits(painter, place, decoded, bits)
         for bit, left, right in spans:
-            cell = QRectF(left, place.top(), right - left, place.height())
             if bit is None:
+                cell = QRectF(left, place.top(), right - left, place.height())
                 draw_field(painter, cell, HEADER, self.palette(), is_header=True, within=place)
-            else:
-                texts = (str(int(decoded.bits[bit])),)
-                draw_field(painter, cell, texts, self.palette(), state=self.state_of(bit),
-                           is_marked=is_marked, is_told=is_told)  # fmt: skip
-        return [(left, right) for bit, left, right in spans if bit is not None]
+        return [(left, right) for _, left, right in bits]
+
+    def _draw_bits(
+        self,
+        painter: QPainter,
+        place: QRectF,
+        decoded: DecodeResult,
+        bits: Sequence[tuple[int, float, float]],
+    ) -> None:
+        """Draw bits, each from one x to another: in one row all are marked and written or none."""
+        metrics, widths = painter.fontMetrics(), [right - left for _, left, right in bits]
+        is_marked = have_room_for_marks(metrics, widths)
+        is_told = have_room_for_bits(metrics, widths)
+        for bit, left, right in bits:
+            cell = QRectF(left, place.top(), right - left, place.height())
+            texts = (str(int(decoded.bits[bit])),)
+            draw_field(painter, cell, texts, self.palette(), state=self.state_of(bit),
+                       is_marked=is_marked, is_told=is_told)  # fmt: skip
 
     def _say_instead(self, painter: QPainter, place: QRectF, decoded: DecodeResult) -> None:
         """Say why there are no chips: none were read, or the decoder reads whole packets."""
@@ -196,12 +209,10 @@ class CodeRow(StoryRow):
         left = place.left() + 16 + painter.fontMetrics().horizontalAdvance(label)
         count = max(len(self._sent), decoded.bits.size)
         width = min(34.0, (place.right() - left) / count)
-        is_marked, is_told = _have_room(painter, [width])
-        for bit, value in enumerate(decoded.bits.tolist()):
-            cell = QRectF(left + bit * width, place.top(), width, place.height())
-            draw_field(painter, cell, (str(value),), self.palette(), state=self.state_of(bit),
-                       is_marked=is_marked, is_told=is_told)  # fmt: skip
-        return [(left + bit * width, left + (bit + 1) * width) for bit in range(count)]
+        spans = [(left + bit * width, left + (bit + 1) * width) for bit in range(count)]
+        bits = [(bit, *spans[bit]) for bit in range(decoded.bits.size)]
+        self._draw_bits(painter, place, decoded, bits)
+        return spans
 
     def draw_beside(self, painter: QPainter, area: QRectF) -> None:
         painter.setPen(self.colour(QPalette.ColorRole.WindowText))
@@ -210,8 +221,3 @@ class CodeRow(StoryRow):
         names = ("chips", letters if self.letters else "", "bits")
         for text, (top, bottom) in zip(names, self._lines(), strict=True):
             painter.drawText(QRectF(0, top, area.left() - 6, bottom - top), RIGHT, text)
-
-
-def _have_room(painter: QPainter, widths: Sequence[float]) -> tuple[bool, bool]:
-    metrics = painter.fontMetrics()
-    return have_room_for_marks(metrics, widths), have_room_for_bits(metrics, widths)

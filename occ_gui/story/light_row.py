@@ -111,25 +111,36 @@ class LightRow(StoryRow):
         if curve is None:
             self._say_too_fast(painter, light)
             return
-        self._draw_glow(painter, light, curve)
+        edges = self.xs_of(curve.edges).tolist()
+        cells = [
+            (chip, QRectF(left, light.top(), right - left, light.height()))
+            for chip, left, right in zip(curve.lit.tolist(), edges, edges[1:], strict=False)
+        ]
+        self._draw_glow(painter, light, curve, cells)
         xs = self.xs_of(curve.columns)
         ys = light.bottom() - curve.light * light.height()
         painter.setPen(QPen(self.colour(QPalette.ColorRole.Text), 1.5))
         # Upright and level lines are sharper on whole pixels.
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, self._edged)
         painter.drawLines(lines_of(xs, ys))
-        self._draw_digits(painter, light, curve)
+        if have_room_for_digits(cells):
+            draw_digits(painter, cells, light)
         if light.bottom() < area.bottom() - self._strip_height():
             self._draw_fields(painter, area, curve)
 
-    def _draw_glow(self, painter: QPainter, light: QRectF, curve: LightCurve) -> None:
+    def _draw_glow(
+        self,
+        painter: QPainter,
+        light: QRectF,
+        curve: LightCurve,
+        cells: Sequence[tuple[int, QRectF]],
+    ) -> None:
         """Fill what lies below the light: a rectangle for each chip, or what edges leave of it."""
         glow = _GLOW[is_dark(self.palette())]
         if not self._edged:
-            edges = self.xs_of(curve.edges).tolist()
-            for chip, left, right in zip(curve.lit.tolist(), edges, edges[1:], strict=False):
+            for chip, cell in cells:
                 if chip:
-                    painter.fillRect(QRectF(left, light.top(), right - left, light.height()), glow)
+                    painter.fillRect(cell, glow)
             return
         xs = self.xs_of(curve.columns).tolist()
         ys = (light.bottom() - curve.light * light.height()).tolist()
@@ -144,15 +155,6 @@ class LightRow(StoryRow):
         painter.setPen(self.colour(QPalette.ColorRole.Text))
         text = "The LED switches faster than this view can show: zoom in."
         painter.drawText(light, Qt.AlignmentFlag.AlignCenter, text)
-
-    def _draw_digits(self, painter: QPainter, light: QRectF, curve: LightCurve) -> None:
-        edges = self.xs_of(curve.edges).tolist()
-        cells = [
-            (chip, QRectF(left, light.top(), right - left, light.height()))
-            for chip, left, right in zip(curve.lit.tolist(), edges, edges[1:], strict=False)
-        ]
-        if have_room_for_digits(cells):
-            draw_digits(painter, cells, light)
 
     def _draw_fields(self, painter: QPainter, area: QRectF, curve: LightCurve) -> None:
         """Draw header and bits of each packet in view under the chips that carry them."""

@@ -143,16 +143,11 @@ def test_a_selected_effect_has_the_plans_reason_and_the_time_is_the_sum_of_the_r
     assert f"{time} ms" in bench.told
 
 
-def test_observable_and_noise_are_chosen_and_every_control_has_a_name_and_a_tooltip(
-    qtbot: QtBot, bench: Bench
-) -> None:
+def test_observable_and_noise_are_chosen(qtbot: QtBot, bench: Bench) -> None:
     for control in (bench.view.observable, bench.view.noise):
         qtbot.keyClick(control, Qt.Key.Key_Down)
     settings = bench.settings.settings
     assert (settings.observable, settings.noise) == ("profile", "exact")
-    pane = bench.view
-    controls = [pane.tolerance.slider, pane.tolerance.field, pane.observable, pane.noise]
-    assert all(control.accessibleName() and control.toolTip() for control in controls)
 
 
 @pytest.mark.parametrize("text", ["-1", "little"])

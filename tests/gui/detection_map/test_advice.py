@@ -262,7 +262,6 @@ def test_progress_is_shown_while_searching_only(view: AdviceView) -> None:
 
 def test_every_button_says_which_value_it_sets(view: AdviceView, small_scene: Scene) -> None:
     view.show_advice(advice_on(small_scene))
-    assert all(button.toolTip() for button in view.destinations)
     texts = [button.text() for button in view.destinations]
     assert texts == ["Take me to 14.55 kHz", "Take me to 10 µs", "Take me to 194 µs"]
 

@@ -23,6 +23,7 @@ from occ_gui.detection_map.rate_map import lattice
 from occ_gui.detection_map.slider_strip import IMAGES, SliderStrip, SliderStrips
 from occ_gui.detection_map.slider_strip_controller import SliderStripController
 from occ_gui.detection_map.wiring import Measuring
+from occ_gui.detection_map.worker import Along
 from occ_gui.scene.control_panel import MAIN
 from occ_gui.scene.parameter_rows import QuantityRow
 from occ_model.scene.parameters import quantity
@@ -126,8 +127,11 @@ def test_a_movement_is_measured_once_where_it_ends(bench: Bench) -> None:
     bench.wait_until_idle()
     bench.measured()
     assert bench.outdated() == dict.fromkeys(NAMES, False)
+    earlier = bench.controller._present()
     bench.scenes.change(switching_frequency=40e3)
     assert bench.outdated() == {"switching_frequency": False, "iso": True}
+    bench.controller._take(earlier, [Along("iso", ())])  # it was measured, but too late
+    assert bench.outdated()["iso"]
     bench.wait_until_idle()
     of_one = bench.measured()
     for frequency in (20e3, 25e3, 30e3):

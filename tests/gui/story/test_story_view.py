@@ -119,8 +119,11 @@ def test_each_time_is_that_of_its_column(rows: StoryRows, bare_snapshot_of: Snap
     for column, text in ticks:
         assert float(text) == pytest.approx(2500.0 + 11.0 * column, abs=1e-6)
         assert rows.axis.first <= column <= rows.axis.last
-    for column, text in rows.columns.ticks():
-        assert int(text) == column
+    for columns in (rows.axis.span, 4.0):  # no part of a column is numbered
+        rows.axis.zoom(columns / rows.axis.span, 1500.0)
+        assert [float(text) for _, text in rows.columns.ticks()] == [
+            int(column) for column, _ in rows.columns.ticks()
+        ]
 
 
 @pytest.mark.parametrize("zoom", [1.0, 0.1, 3.0])

@@ -25,9 +25,9 @@ would take many times the memory and time of its pixels.
 """
 
 _MARKER = re.compile(rb"\xff+([^\x00\x01\xd0-\xd7\xff])")
-"""A marker that begins a segment: not a byte 255 of the data, nor a restart inside a scan."""
+"""A JPEG's marker of a segment: not a byte 255 of the data, nor a restart inside a scan."""
 
-_END, _SCAN = b"\xd9", b"\xda"
+_END, _SCAN = b"\xd9", b"\xda"  # the markers of its end and of a scan
 
 _MOST_SCANS = 500  # scans of a JPEG; encoders write about 10
 

@@ -69,7 +69,7 @@ class SearchController(QObject):
         self._look.setInterval(_LOOK_MS)
         self._look.timeout.connect(self._look_at_it)
         channel.results_ready.connect(self._take)
-        channel.finished.connect(lambda _request: self._end(""))
+        channel.finished.connect(self._finish)
         channel.failed.connect(self._end)
         scenes.changed.connect(self._move_on)
 
@@ -92,6 +92,9 @@ class SearchController(QObject):
             self.channel.cancel()
             self._end(self._changed)
         self._show_outdated(outdated)
+
+    def _finish(self, _request: object) -> None:
+        self._end("")
 
     def _count(self) -> int:
         return sum(map(self._queue.counted, self._counters))

@@ -20,7 +20,7 @@ _MOST_FORCED = 2  # effects switched by hand that have a chip each; more share o
 
 
 def chips_of(reading: Reading, decoder: str) -> Iterator[Chip]:
-    """Give what holds for the results, beside the verdict on one decoder's."""
+    """Yield what holds for the results, beside the verdict on one decoder's."""
     if not reading.has_picture:  # which has the last word
         meaning = "Read from the column profile or a draft; the exact picture is computed."
         yield Chip(_COMPUTING, "picture follows", meaning, State.WAITING)

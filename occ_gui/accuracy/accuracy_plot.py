@@ -10,11 +10,9 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from occ_gui.accuracy.ways_shown import Way, ways_shown
 from occ_gui.widgets.axes import LogAxis
-from occ_gui.widgets.contrast import seen_on
+from occ_gui.widgets.building import filled, push_button
+from occ_gui.widgets.colours import BAND, NOISE, PHOTO, REGION, SIMULATION, seen_on, thin
 from occ_gui.widgets.elided_label import ElidedLabel
-from occ_gui.widgets.layouts import filled
-from occ_gui.widgets.named import push_button
-from occ_gui.widgets.pens import BAND, NOISE, PHOTO, REGION, SIMULATION, thin
 from occ_gui.widgets.plot import new_plot
 from occ_model.results.accuracy import (
     ACCURACY_PARTS,

@@ -18,9 +18,9 @@ from occ_gui.accuracy.plan_changes import switch_sentence
 from occ_gui.accuracy.tolerance_slider import ToleranceSlider, marks_of
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.values.simulated import SimulationRequest
+from occ_gui.widgets.building import filled
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
-from occ_gui.widgets.layouts import filled
 from occ_model.results.accuracy import Forecast, MeasuredCosts, TimeShares
 from occ_model.results.plan import Decision
 from occ_model.scene.simulation_settings import SimulationSettings, unit_of

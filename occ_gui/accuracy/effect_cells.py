@@ -17,9 +17,8 @@ from PySide6.QtGui import QImage, QPainter, QPalette, QPen
 from PySide6.QtWidgets import QStyle, QStyledItemDelegate, QStyleOptionViewItem
 
 from occ_gui.accuracy.effect_rows import ELSE, EffectRow, longest_of
-from occ_gui.widgets.contrast import seen_on
+from occ_gui.widgets.colours import BAND, SIMULATION, seen_on
 from occ_gui.widgets.guarded_paint import guarded
-from occ_gui.widgets.pens import BAND, SIMULATION
 from occ_model.arrays import ByteArray
 
 _Index = QModelIndex | QPersistentModelIndex

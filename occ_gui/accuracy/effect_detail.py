@@ -8,9 +8,8 @@ from PySide6.QtWidgets import QSizePolicy, QVBoxLayout, QWidget
 
 from occ_gui.accuracy.effect_cells import image_of
 from occ_gui.accuracy.effect_rows import ELSE, EffectRow
+from occ_gui.widgets.building import filled, paragraph
 from occ_gui.widgets.guarded_paint import guarded
-from occ_gui.widgets.layouts import filled
-from occ_gui.widgets.named import paragraph
 from occ_gui.widgets.text_scale import emboldened
 from occ_model.results.accuracy import EffectCrop
 

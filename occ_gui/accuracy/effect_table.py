@@ -31,8 +31,8 @@ from occ_gui.accuracy.effect_rows import (
     arranged,
     longest_of,
 )
+from occ_gui.widgets.colours import REGION
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
-from occ_gui.widgets.pens import REGION
 from occ_model.scene.simulation_settings import TOLERANCE
 
 _Index = QModelIndex | QPersistentModelIndex

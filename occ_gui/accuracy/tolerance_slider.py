@@ -7,10 +7,10 @@ from dataclasses import replace
 from PySide6.QtCore import QSignalBlocker, QSize, Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QSlider, QWidget
 
+from occ_gui.scene.number_edits import QuantityEdit
 from occ_gui.scene.parameter_rows import explain
-from occ_gui.scene.quantity_edit import QuantityEdit
+from occ_gui.widgets.building import filled
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
-from occ_gui.widgets.layouts import filled
 from occ_model.results.plan import Way
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.simulation_settings import TOLERANCE, unit_of

@@ -1,90 +1,28 @@
-"""Application: creates stores, features and window, and connects them."""
+"""Application: connects the parts of the window, and adds its panes."""
 
 from pathlib import Path
-from typing import Any
 
-from PySide6.QtCore import QObject, QSettings
+from PySide6.QtCore import QSettings
 
-from occ_gui.app.error_reports import ErrorReports
-from occ_gui.app.features import features, middle
-from occ_gui.app.lessons_in_window import LessonsInWindow
+from occ_gui.app.features import features
+from occ_gui.app.parts import Parts
 from occ_gui.app.photo_in_window import PhotoInWindow
 from occ_gui.app.scene_in_window import SceneInWindow
-from occ_gui.app.status_messages import StatusMessages
 from occ_gui.app.story_wiring import connect_story
-from occ_gui.app.video_pane import VideoPane
-from occ_gui.app.view_options import ViewOptions
-from occ_gui.core.store import Store
 from occ_gui.core.workspace import Workspace
-from occ_gui.detection_map.slider_strip import SliderStrips
-from occ_gui.detection_map.wiring import Measuring
-from occ_gui.files.document import Document
-from occ_gui.files.file_controller import FileController, sample_photos
-from occ_gui.files.preferences import Preferences
-from occ_gui.files.preset_controller import PresetController
+from occ_gui.files.file_controller import sample_photos
 from occ_gui.files.session import Session
-from occ_gui.photo.photo_controller import PhotoController
-from occ_gui.pins.pin_controller import PinController
-from occ_gui.scene.control_panel import ControlPanel
-from occ_gui.scene.scene_editor import SceneEditor
-from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.outdated_marks import OutdatedMarks
-from occ_gui.shell.results import Board
-from occ_gui.shell.shell import Shell
-from occ_gui.simulation.controller import SimulationController
-from occ_gui.simulation.present_results import PresentResults
-from occ_gui.story.story_view import StoryView
-from occ_gui.window.current_pane import CurrentPane
-from occ_gui.window.main_window import MainWindow
-from occ_model.effects.registry import EFFECTS
+from occ_gui.window.docks import CurrentPane
 from occ_model.plugins import all_at_work
 from occ_model.scene.parameters import PARAMETERS
 
 
-class Application(QObject):
-    """Stores, features and window, connected.
-
-    ``preferences``: the stored preferences; by default nothing is stored.
-    """
+class Application(Parts):
+    """The window, with all its parts connected."""
 
     def __init__(self, workspace: Workspace, preferences: QSettings | None = None) -> None:
-        super().__init__()
-        store = Store(workspace)
-        self.store = SceneStore(store, {e.name: e.label for e in EFFECTS})
-        self.settings = self.store.settings
-        self.editor = SceneEditor(self.store)
-        self.preferences = Preferences(preferences)
-        # Simulates the first picture while the panes are created.
-        self.simulation = SimulationController(self.store)
-        self.present = PresentResults(self.simulation)
-        self.controls = _controls()
-        self.slider_strips = SliderStrips(self.controls.main_rows())
-        self.board = Board()
-        self.shell = Shell(store, self.board)
-        centre = middle(self)
-        self.story: StoryView = self.view("story")
-        self.window = MainWindow(
-            self.controls, centre, self.story, undo_stack=self.store.undo_stack
-        )
-        self.messages = StatusMessages(self.window, self.controls)
-        self.photos = PhotoController(store, self.board)
-        self.presets = PresetController(self.window, self.store)
-        self.files = FileController(
-            self.window, self.store, self.photos, self.preferences, self.present.ask
-        )
-        self.document = Document(self.window, self.store, self.files)
-        self.measuring = Measuring(self.store, self.slider_strips, self._has_picture)
-        self.pins = PinController(self.store, self.present.is_present)
-        self.lessons = LessonsInWindow(self.window, self.shell)
-        self.video = VideoPane(
-            self.window,
-            self.shell,
-            store,
-            self.files.ask_for_film,
-            self.files.ask_to_save_film,
-        )
-        self.options = ViewOptions(self.window, store, self.preferences, self.editor.brightness)
-        self.error_reports = ErrorReports()
+        super().__init__(workspace, preferences)
         self.photo = PhotoInWindow(self)
         for feature in features(self, self.photo):
             self.shell.add(feature, self.window)
@@ -96,7 +34,7 @@ class Application(QObject):
         self._offer_exports()
         connect_story(self)
         self.scene = SceneInWindow(self)
-        self.session = Session(store, self._users_own)
+        self.session = Session(self.store.store, self._users_own)
         self._connect_parts()
 
     def _offer_exports(self) -> None:
@@ -124,8 +62,6 @@ class Application(QObject):
         self.photos.opened.connect(self.document.show_photo)
         window.dropped.connect(self.files.open_dropped)
         window.menus.show_samples(sample_photos(), self.files.open_sample)
-        self.files.film_asked.connect(self.video.open)
-        self.files.film_save_asked.connect(self.video.save)
         self.controls.player.run_changed.connect(self.outdated.follow_run)
         self.pins.both_pinned.connect(self._show_comparison)
         story.verdict.lesson_wanted.connect(self._show_lesson)
@@ -157,16 +93,9 @@ class Application(QObject):
         parts = (self.simulation.runner, self.outdated, self.pins, self.shell)
         return all(part.is_idle for part in parts)
 
-    def _has_picture(self) -> bool:
-        return self.present.latest is not None or self.simulation.runner.is_idle
-
     @property
     def is_measured(self) -> bool:
         return self.measuring.is_idle and self.shell.is_measured
-
-    def view(self, name: str) -> Any:
-        """Return the view of a pane, which is made if it has never been seen."""
-        return self.shell.pane(name).view
 
     def open_photo(self, path: Path, match: bool = False, front: bool = True) -> None:
         """Open a photo.
@@ -215,10 +144,3 @@ class Application(QObject):
         for part in (self.simulation, self.pins.runner, self.shell, self.measuring):
             part.stop()
         self.error_reports.remove()
-
-
-def _controls() -> ControlPanel:
-    """Make the controls, those of the effects in the order that light travels."""
-    effects = dict.fromkeys(name for effect in EFFECTS for name in effect.parameters)
-    stages = {name: e.stage for e in reversed(EFFECTS) for name in e.parameters}
-    return ControlPanel([], [*effects], {name: stages[name] for name in effects})

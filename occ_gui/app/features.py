@@ -2,8 +2,6 @@
 
 from typing import Any
 
-from PySide6.QtWidgets import QWidget
-
 from occ_gui.accuracy.feature import accuracy
 from occ_gui.app.parts import Parts
 from occ_gui.app.photo_in_window import PhotoInWindow
@@ -16,33 +14,17 @@ from occ_gui.export.feature import animation, export
 from occ_gui.help.feature import manual
 from occ_gui.lessons.feature import lessons
 from occ_gui.photo.feature import photo, photos
-from occ_gui.picture.feature import picture
 from occ_gui.pins.feature import compare
 from occ_gui.profile.feature import profile
 from occ_gui.room.feature import room
 from occ_gui.shell.feature import Feature
 from occ_gui.spectrum.feature import spectrum
-from occ_gui.story.feature import story
 from occ_gui.transmitter.feature import transmitter
 from occ_gui.video.feature import video
 from occ_gui.welcome.feature import welcome
-from occ_model.receiver.decoders import DECODERS
 from occ_model.scene.from_text import DEFAULT_PRESET
 from occ_model.scene.presets import load_preset
 from occ_model.version import __version__
-
-
-def middle(parts: Parts) -> QWidget:
-    """Give the story its place, with one for the whole picture in it."""
-    shell, scenes = parts.shell, parts.store
-    whole = shell.embed(picture(scenes.store, lambda: about_photo(parts)))
-    return shell.embed(story(scenes, parts.simulation, whole, [*DECODERS]))
-
-
-def about_photo(parts: Parts) -> str:
-    """Return the photo's name and what its match is worth; empty if none is open."""
-    pane = parts.shell.made_pane("photo")
-    return "" if pane is None else str(pane.verdict.about())
 
 
 def features(parts: Parts, of_photo: PhotoInWindow) -> tuple[Feature[Any], ...]:
@@ -59,7 +41,7 @@ def features(parts: Parts, of_photo: PhotoInWindow) -> tuple[Feature[Any], ...]:
     return (
         decoding(workspace),
         photo(store, parts.photos, lambda: shell.pane("picture").view, parts.board),
-        profile(workspace, parts.board, lambda: about_photo(parts)),
+        profile(workspace, parts.board, parts.about_photo),
         photos(lambda: shell.pane("photo")),
         accuracy(store, parts.simulation),
         detection_map(store, parts.measuring, choose_decoder),
@@ -140,8 +122,7 @@ def _show_about(parts: Parts) -> None:
 
 
 def _show_shortcuts(parts: Parts) -> None:
-    from occ_gui.window.command_palette import shortcuts_of
-    from occ_gui.window.shortcut_sheet import ShortcutSheet
+    from occ_gui.window.command_lists import ShortcutSheet, shortcuts_of
 
     sheet = ShortcutSheet(shortcuts_of(parts.window.menuBar()), parts.window)
     sheet.exec()
@@ -149,7 +130,7 @@ def _show_shortcuts(parts: Parts) -> None:
 
 
 def _show_palette(parts: Parts) -> None:
-    from occ_gui.window.command_palette import CommandPalette, commands_of
+    from occ_gui.window.command_lists import CommandPalette, commands_of
 
     window = parts.window
     found = commands_of(window.menuBar(), parts.controls, window.bring_to_front)

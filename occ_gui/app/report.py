@@ -18,7 +18,7 @@ from PySide6.QtWidgets import (
 )
 
 import occ_model as occ
-from occ_gui.widgets.copying import copy_text
+from occ_gui.widgets.plain_text import copy_text
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 

@@ -51,7 +51,9 @@ class SceneInWindow(QObject):
         self._news.changed.connect(parts.board.show_switched)
         self._news.changed.connect(self._tell_switched)
         # What the pictures are compared with comes before them.
-        simulation.show_in((self.before, parts.pins, self._news, parts.board), (parts.board,))
+        for view in (self.before, parts.pins, self._news, parts.board):
+            simulation.snapshot_ready.connect(view.show_snapshot)
+        simulation.reading_shown.connect(parts.board.show_reading)
         simulation.picture_ready.connect(parts.board.show_picture)
         simulation.snapshot_shown.connect(self._on_snapshot)
         simulation.failed_for.connect(parts.messages.show_failure)

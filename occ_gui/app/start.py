@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from PySide6.QtCore import QSettings
 
     from occ_gui.app.application import Application
-    from occ_gui.files.session_file import SessionFile
+    from occ_gui.files.session import SessionFile
 
 
 _NAMES = ("occ-explorer", "occ-gui")
@@ -72,8 +72,7 @@ def start_of(options: Namespace, scene: Scene, settings: SimulationSettings, own
     first = Workspace(scene, settings)
     if options.screenshot:  # it does not depend on the last session
         return Start(first, asked, fresh=True)
-    from occ_gui.files.session import restored
-    from occ_gui.files.session_file import SessionFile, state_folder
+    from occ_gui.files.session import SessionFile, restored, state_folder
 
     file = SessionFile(state_folder())
     if not options.fresh:
@@ -85,7 +84,7 @@ def kept_settings() -> "QSettings":
     """Open the stored preferences: those of the folder that the environment names, or of Qt's."""
     from PySide6.QtCore import QSettings
 
-    from occ_gui.files.session_file import STATE_FOLDER, state_folder
+    from occ_gui.files.session import STATE_FOLDER, state_folder
 
     if os.environ.get(STATE_FOLDER):
         return QSettings(str(state_folder() / "settings.ini"), QSettings.Format.IniFormat)

@@ -9,7 +9,7 @@ from occ_gui.app.parts import Parts
 from occ_gui.shell.shell import Shell
 from occ_gui.story.column_axis import Crosshair
 from occ_gui.story.story_view import StoryView
-from occ_gui.widgets.copying import copy_text
+from occ_gui.widgets.plain_text import copy_text
 
 if TYPE_CHECKING:
     from occ_gui.explanation.pane import ExposureController

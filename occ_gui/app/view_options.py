@@ -6,9 +6,9 @@ from PySide6.QtCore import QObject
 
 from occ_gui.core.store import Store
 from occ_gui.files.preferences import Preferences
-from occ_gui.scene.hold_brightness import HoldBrightness
+from occ_gui.scene.scene_editor import HoldBrightness
 from occ_gui.values.photo_choice import MODES
-from occ_gui.window.dock_layout import DockLayout
+from occ_gui.window.docks import DockLayout
 from occ_gui.window.main_window import MainWindow
 from occ_gui.window.text_size import TextSize
 from occ_gui.window.theme import ThemeController

@@ -6,7 +6,7 @@ from typing import Any
 
 from PySide6.QtCore import QObject, Qt, Signal, Slot
 
-from occ_gui.background.failure import sentence_of
+from occ_gui.background.task import sentence_of
 from occ_model.errors import one_line
 from occ_model.parallel.job import Stages, Workers
 from occ_model.parallel.request import Run

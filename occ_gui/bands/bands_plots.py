@@ -8,11 +8,9 @@ from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 
 from occ_gui.bands.jobs import ShownBands
 from occ_gui.widgets.axes import LogAxis
-from occ_gui.widgets.contrast import seen_on
-from occ_gui.widgets.layouts import filled
-from occ_gui.widgets.legend import LineLegend
-from occ_gui.widgets.pens import BAND, SIMULATION, thin
-from occ_gui.widgets.plot import marker, new_plot
+from occ_gui.widgets.building import filled
+from occ_gui.widgets.colours import BAND, SIMULATION, seen_on, thin
+from occ_gui.widgets.plot import LineLegend, marker, new_plot
 from occ_model.scene.parameters import quantity
 from occ_model.scene.units import HERTZ, SECOND, Unit
 

@@ -14,8 +14,7 @@ from PySide6.QtWidgets import (
 
 from occ_gui.bands.bands_plots import DepthPlot, RiskPlot
 from occ_gui.bands.jobs import ShownBands
-from occ_gui.widgets.layouts import filled
-from occ_gui.widgets.named import paragraph
+from occ_gui.widgets.building import filled, paragraph
 from occ_gui.widgets.outdated_mark import OutdatedMark
 from occ_gui.widgets.text_scale import TextSize, scaled
 from occ_model.results.bands import SpeedDepth, percent

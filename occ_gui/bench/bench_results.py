@@ -19,8 +19,7 @@ from PySide6.QtWidgets import (
 )
 
 from occ_gui.widgets.axes import LogAxis
-from occ_gui.widgets.contrast import seen_on
-from occ_gui.widgets.pens import BAND, NOISE, PHOTO, REGION, SIMULATION, thin
+from occ_gui.widgets.colours import BAND, NOISE, PHOTO, REGION, SIMULATION, seen_on, thin
 from occ_gui.widgets.plot import Plot, new_plot
 from occ_model.results.bench import BenchBounds, BenchPoint, BenchRequest
 

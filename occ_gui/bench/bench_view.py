@@ -22,15 +22,13 @@ from occ_gui.bench.bench_results import (
     BenchPlots,
     BenchTable,
 )
-from occ_gui.scene.quantity_edit import QuantityEdit
+from occ_gui.scene.number_edits import QuantityEdit
+from occ_gui.widgets.building import filled, named, push_button
+from occ_gui.widgets.colours import thin
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
-from occ_gui.widgets.layouts import filled
-from occ_gui.widgets.legend import LineLegend
-from occ_gui.widgets.named import named, push_button
 from occ_gui.widgets.outdated_mark import DELAY, OutdatedMark
-from occ_gui.widgets.pens import thin
-from occ_gui.widgets.plot import marker
+from occ_gui.widgets.plot import LineLegend, marker
 from occ_gui.widgets.work_bar import WorkBar
 from occ_model.results.bench import BenchBounds, BenchPoint, BenchRequest
 from occ_model.scene.recording import FRAME_RATE

@@ -1,14 +1,54 @@
 """Store: holds the workspace, tells who looks at a part of it, and keeps the steps to undo."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
 from typing import Any, Generic, TypeVar
 
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QUndoCommand, QUndoStack
 
-from occ_gui.core.step_history import History, StepChange
 from occ_gui.core.workspace import Step, Workspace
+from occ_gui.values.room_choice import RoomChoice
 from occ_model.errors import OccError, one_line
+from occ_model.scene.parameter_kinds import ParameterValue
+from occ_model.scene.parameters import PARAMETERS
+
+
+@dataclass(frozen=True, slots=True)
+class StepChange:
+    """One step: its title, the scene's values that it changes, and the rest of what it led to."""
+
+    title: str
+    values: Mapping[str, ParameterValue]
+    force: Mapping[str, bool]
+    room: RoomChoice = field(default_factory=RoomChoice)
+    preset: str = ""
+
+    @classmethod
+    def between(cls, title: str, before: Step, after: Step) -> "StepChange":
+        old, new = before.scene, after.scene
+        values = {
+            name: new.value(name) for name in PARAMETERS if new.value(name) != old.value(name)
+        }
+        return cls(title, values, after.force, after.room, after.preset)
+
+
+@dataclass(frozen=True, slots=True)
+class History:
+    """The state before the first step, the steps, and how many of them are done."""
+
+    first: Step
+    steps: tuple[StepChange, ...] = ()
+    done: int = 0
+
+    def states(self) -> Iterator[Step]:
+        """Return the state before each step and that after the last; errors as `Scene.replace`."""
+        scene = self.first.scene
+        yield self.first
+        for step in self.steps:
+            scene = scene.replace(**step.values)
+            yield Step(scene, dict(step.force), step.room, step.preset)
+
 
 T = TypeVar("T")
 

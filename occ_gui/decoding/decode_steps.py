@@ -7,12 +7,10 @@ from PySide6.QtGui import QPalette
 from PySide6.QtWidgets import QLabel, QSizePolicy, QVBoxLayout, QWidget
 
 from occ_gui.widgets.axes import Axis
-from occ_gui.widgets.contrast import seen_on
-from occ_gui.widgets.first_periods import PACKETS_IN_VIEW
-from occ_gui.widgets.layouts import filled
-from occ_gui.widgets.legend import LineLegend
-from occ_gui.widgets.pens import BAND, SIMULATION, THRESHOLD, thin
-from occ_gui.widgets.plot import new_plot
+from occ_gui.widgets.building import filled
+from occ_gui.widgets.colours import BAND, SIMULATION, THRESHOLD, seen_on, thin
+from occ_gui.widgets.columns import PACKETS_IN_VIEW
+from occ_gui.widgets.plot import LineLegend, new_plot
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.results.decoding import DecodeResult
 

@@ -11,8 +11,7 @@ from occ_gui.decoding.bit_strip import BitStrip, PayloadText
 from occ_gui.decoding.decode_steps import RunLengthPlot, SignalPlot
 from occ_gui.simulation.snapshot import Reading
 from occ_gui.simulation.verdict import is_right, left_out_in_words, result_of, verdict_on
-from occ_gui.widgets.layouts import filled
-from occ_gui.widgets.named import named, paragraph
+from occ_gui.widgets.building import filled, named, paragraph
 from occ_gui.widgets.state_look import State
 from occ_gui.widgets.text_scale import emboldened
 from occ_model.results.decoding import DecodeResult, Location

@@ -18,8 +18,7 @@ from occ_gui.detection_map.colour_map import (
 )
 from occ_gui.detection_map.map_plot import STYLES, MapPlot, Point
 from occ_gui.detection_map.rate_map import LINES, RateMap, TheoryFields
-from occ_gui.widgets.layouts import filled
-from occ_gui.widgets.named import named
+from occ_gui.widgets.building import filled, named
 from occ_model.arrays import FloatArray
 from occ_model.results.sweep_request import Shown
 from occ_model.scene.parameters import quantity

@@ -7,9 +7,8 @@ from PySide6.QtGui import QHideEvent, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QWidget
 
 from occ_gui.detection_map.advice_sentences import line_on_highest_frequency
+from occ_gui.widgets.building import filled, named, paragraph, push_button
 from occ_gui.widgets.elided_label import ElidedLabel
-from occ_gui.widgets.layouts import filled
-from occ_gui.widgets.named import named, paragraph, push_button
 from occ_gui.widgets.text_scale import TextSize, scaled
 from occ_model.results.advice import Advice, gaps_text, own_text, searched_to, written
 from occ_model.results.bit_errors import FRAMES_A_SECOND, MostBits

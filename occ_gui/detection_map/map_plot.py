@@ -19,8 +19,8 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
+from occ_gui.widgets.columns import round_step
 from occ_gui.widgets.guarded_paint import guarded
-from occ_gui.widgets.round_step import round_step
 from occ_model.arrays import FloatArray, IndexArray
 from occ_model.scene.parameter_kinds import Quantity
 

@@ -10,11 +10,10 @@ from occ_gui.detection_map.advice_view import AdviceView
 from occ_gui.detection_map.decoder_maps import MapLegend, MapPlots
 from occ_gui.detection_map.limit_cards import MostBitsCard
 from occ_gui.detection_map.rate_map import MAP_PARAMETERS, PointFacts, RateMap
-from occ_gui.scene.quantity_edit import QuantityEdit
+from occ_gui.scene.number_edits import QuantityEdit
+from occ_gui.widgets.building import filled, named, push_button
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
-from occ_gui.widgets.layouts import filled
-from occ_gui.widgets.named import named, push_button
 from occ_gui.widgets.outdated_mark import OutdatedMark
 from occ_model.results.sweep_request import Shown
 from occ_model.scene.parameters import quantity

@@ -15,11 +15,9 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from occ_gui.widgets.contrast import pen_on
+from occ_gui.widgets.building import filled, named, paragraph
+from occ_gui.widgets.colours import BAND, REGION, SIMULATION, pen_on, thin
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
-from occ_gui.widgets.layouts import filled
-from occ_gui.widgets.named import named, paragraph
-from occ_gui.widgets.pens import BAND, REGION, SIMULATION, thin
 from occ_gui.widgets.plot import Plot, new_plot
 from occ_model.results.teaching import ExposureWindow
 from occ_model.scene.units import SECOND

@@ -10,7 +10,7 @@ from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Pane
 from occ_gui.shell.results import of_snapshot
 from occ_gui.simulation.snapshot import Snapshot
-from occ_gui.widgets.layouts import filled
+from occ_gui.widgets.building import filled
 from occ_gui.widgets.plot import Plot
 from occ_model.teaching.light_over_columns import exposure_window
 

@@ -8,7 +8,6 @@ from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QWidget
 
 from occ_gui.files.file_controller import FileController
-from occ_gui.files.kept_file import is_readable
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.widgets.plain_text import in_title
 from occ_model.scene.from_text import read_scene_file
@@ -77,6 +76,6 @@ class Document(QObject):
 
 def _saved_in(path: Path) -> Scene | None:
     try:
-        return read_scene_file(path) if is_readable(path) else None
+        return read_scene_file(path)
     except Exception:  # noqa: BLE001 - the window starts whatever the file contains
         return None

@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QInputDialog, QLineEdit, QMessageBox, QWidget
 
-from occ_gui.scene.gesture import new_gesture
-from occ_gui.scene.scene_store import SceneStore
+from occ_gui.scene.scene_store import SceneStore, new_gesture
 from occ_gui.widgets.plain_text import LONGEST
 from occ_model.errors import OccError, one_line
 from occ_model.scene.preset_file import Preset

@@ -4,13 +4,12 @@ Parts that cannot be read are as at first: a window starts whatever its file con
 """
 
 import json
-from collections.abc import Mapping
-from contextlib import suppress
+from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
-from occ_gui.core.step_history import History, StepChange
+from occ_gui.core.store import History, StepChange
 from occ_gui.core.workspace import FIRST_SETTINGS, Step, Workspace
 from occ_gui.files.preferences import text_of
 from occ_gui.values.film_choice import FRAMES, FilmChoice
@@ -42,6 +41,8 @@ from occ_model.scene.simulation_settings import (
     SimulationSettings,
 )
 from occ_model.scene.square_wave import SQUARE_FREQUENCY
+
+T = TypeVar("T")
 
 _MOST_OF_HISTORY = 1_000_000
 """Characters of the steps in a record; the oldest ones are left out of longer ones."""
@@ -156,34 +157,46 @@ def _history_record(history: History) -> dict[str, Any] | None:
     }
 
 
+def _read(first: T, read: Callable[[], T]) -> T:
+    """Return what is read, or what there is at first where it cannot be."""
+    try:
+        return read()
+    except Exception:  # noqa: BLE001 - the window starts whatever the file contains
+        return first
+
+
+def _check(holds: bool) -> None:
+    if not holds:
+        raise ValueError("no session has this")
+
+
 def kept_in(record: Mapping[str, Any] | None) -> Kept | None:
     """Read what was kept; None without a scene that can be read."""
-    scene = None if record is None else _scene(record.get("scene"))
-    if record is None or scene is None:
+    values: Mapping[str, Any] = record or {}
+    if (scene := _read(None, lambda: _scene(values["scene"]))) is None:
         return None
     workspace = Workspace(
         scene,
-        _settings(record.get("settings")) or FIRST_SETTINGS,
-        photo=_photo(record.get("photo"), record.get("region")),
-        film=_film(record.get("film")),
-        room=_room(record.get("room"), RoomChoice()),
-        pins=_pins(record.get("pins")),
-        preset=_preset(record.get("preset")),
-        scene_file=_file(record.get("scene_file")),
+        _read(FIRST_SETTINGS, lambda: _settings(values["settings"])),
+        photo=_photo(values.get("photo"), values.get("region")),
+        film=_film(values.get("film")),
+        room=_room(values.get("room"), RoomChoice()),
+        pins=_pins(values.get("pins")),
+        preset=_preset(values.get("preset")),
+        scene_file=_file(values.get("scene_file")),
     )
-    return Kept(_with_view(workspace, record.get("view")), _history(record.get("history")))
+    view: Any = values.get("view")
+    chosen = _read(workspace, lambda: _with_view(workspace, view))
+    timed = _read(chosen, lambda: replace(chosen, frame_rate=FRAME_RATE.check(view["frame_rate"])))
+    return Kept(timed, _read(None, lambda: _history(values["history"])))
 
 
 def _with_view(workspace: Workspace, values: Any) -> Workspace:
-    if not isinstance(values, dict):
-        return workspace
     chosen: dict[str, Any] = {
         name: known[known.index(values[name])]  # True, where there is a 1
         for name, known in _VIEW.items()
         if values.get(name) in known
     }
-    with suppress(Exception):  # the window starts whatever the file contains
-        chosen["frame_rate"] = FRAME_RATE.check(values["frame_rate"])
     return replace(workspace, **chosen)
 
 
@@ -191,21 +204,22 @@ def _photo(values: Any, region: Any) -> PhotoChoice:
     """Return what was set about photos; in the former format there are a path and a region."""
     if not isinstance(values, dict):
         values = {"path": values, "region": region}
-    path, part = _file(values.get("path")), _region(values.get("region"))
+    path, part = _file(values.get("path")), _read(None, lambda: _region(values["region"]))
     parts = {} if path is None or part is None else {PhotoFrame(path): part}
     photo = PhotoChoice(path, parts=parts)
-    try:
+
+    def chosen() -> PhotoChoice:
         reading, form = PhotoReading(**values["reading"]), MatchChoice(**values["form"])
         certain = {name: quantity(name).check(value) for name, value in values["certain"].items()}
-        is_known = (
+        SQUARE_FREQUENCY.check(form.square_frequency)
+        _check(
             reading.scan_axis in SCAN_AXES and reading.channel in CHANNELS
             and form.sent in SENT and form.estimate in KNOWN and certain.keys() <= {*KNOWN}
             and isinstance(form.fit_gamma, bool)
         )  # fmt: skip
-        SQUARE_FREQUENCY.check(form.square_frequency)
-    except Exception:  # noqa: BLE001 - the window starts whatever the file contains
-        return photo
-    return replace(photo, reading=reading, form=form, certain=certain) if is_known else photo
+        return replace(photo, reading=reading, form=form, certain=certain)
+
+    return _read(photo, chosen)
 
 
 def _film(values: Any) -> FilmChoice:
@@ -213,18 +227,20 @@ def _film(values: Any) -> FilmChoice:
     if not isinstance(values, dict):
         return FilmChoice(_file(values))
     film = FilmChoice(_file(values.get("path")))
-    try:
+
+    def chosen() -> FilmChoice:
         axis, frames = values["axis"], values["frames"]
+        _check(axis in SCAN_AXES and type(frames) is int and frames in FRAMES)
         recording = film.recording.replace(**values["recording"])
-        is_known = axis in SCAN_AXES and type(frames) is int and frames in FRAMES
-    except Exception:  # noqa: BLE001 - the window starts whatever the file contains
-        return film
-    return replace(film, axis=axis, frames=frames, recording=recording) if is_known else film
+        return replace(film, axis=axis, frames=frames, recording=recording)
+
+    return _read(film, chosen)
 
 
 def _room(values: Any, former: RoomChoice) -> RoomChoice:
     """Return what was set about rooms; a room that is not written is the former one."""
-    try:
+
+    def chosen() -> RoomChoice:
         length, photo = values["focal_length"], _file(values["photo"])
         if length is not None:
             length = quantity("equivalent_focal_length").check(length)
@@ -236,8 +252,8 @@ def _room(values: Any, former: RoomChoice) -> RoomChoice:
         known = former.room if values["room"] is None else Room.from_toml(values["room"])
         room = known.replace(camera=Place(**values["camera"]))  # type: ignore[union-attr]  # as any
         return RoomChoice(str(values["name"]), room, photo, length)
-    except Exception:  # noqa: BLE001 - the window starts whatever the file contains
-        return RoomChoice()
+
+    return _read(RoomChoice(), chosen)
 
 
 def _preset(name: Any) -> str:
@@ -245,93 +261,68 @@ def _preset(name: Any) -> str:
 
 
 def _pins(values: Any) -> Pins:
-    if not isinstance(values, list) or len(values) != 2:
-        return None, None
-    a, b = (_pin(value) for value in values)
-    return a, b
+    a, b = _read((None, None), lambda: (values[0], values[1]))
+    return _read(None, lambda: _pin(a)), _read(None, lambda: _pin(b))
 
 
-def _pin(values: Any) -> PinnedScene | None:
-    if not isinstance(values, dict):
-        return None
-    scene, settings = _scene(values.get("scene")), _settings(values.get("settings"))
-    more = values.get("decoders")
-    if scene is None or settings is None or not isinstance(more, list):
-        return None
-    request = SimulationRequest(scene, settings, more=tuple(map(str, more)))
+def _pin(values: Any) -> PinnedScene:
+    scene, settings = _scene(values["scene"]), _settings(values["settings"])
+    _check(isinstance(values["decoders"], list))
+    request = SimulationRequest(scene, settings, more=tuple(map(str, values["decoders"])))
     return PinnedScene(request, _preset(values.get("preset")))
 
 
-def _history(values: Any) -> History | None:
+def _history(values: Any) -> History:
     """Return the steps if each of them leads to a scene; the former format knows no rooms."""
-    try:
-        first = Step(
-            Scene.from_toml(values["scene"]),
-            _force(values["force"]),
-            _room(values.get("room"), RoomChoice()),
-            _preset(values.get("preset")),
-        )
-        steps, room = list[StepChange](), first.room
-        for title, changed, force, *more in values["steps"]:
-            preset, there = more or ("", None)
-            room = room if there is None else _room(there, room)
-            steps.append(
-                StepChange(str(title), dict(changed), _force(force), room, _preset(preset))
-            )
-        history = History(first, tuple(steps), int(values["done"]))
-        states = [*history.states()]
-    except Exception:  # noqa: BLE001 - the window starts whatever the file contains
-        return None
-    return history if 0 <= history.done < len(states) else None
+    first = Step(
+        Scene.from_toml(values["scene"]),
+        _force(values["force"]),
+        _room(values.get("room"), RoomChoice()),
+        _preset(values.get("preset")),
+    )
+    steps, room = list[StepChange](), first.room
+    for title, changed, force, *more in values["steps"]:
+        preset, there = more or ("", None)
+        room = room if there is None else _room(there, room)
+        steps.append(StepChange(str(title), dict(changed), _force(force), room, _preset(preset)))
+    history = History(first, tuple(steps), int(values["done"]))
+    _check(0 <= history.done < len([*history.states()]))
+    return history
 
 
 def _force(values: Any) -> dict[str, bool]:
-    forced = dict(values)
-    if not all(isinstance(on, bool) for on in forced.values()):
-        raise TypeError("an effect is forced by true or false")
-    return {str(name): bool(on) for name, on in forced.items()}
+    _check(all(isinstance(on, bool) for on in dict(values).values()))
+    return {str(name): on for name, on in dict(values).items()}
 
 
-def _scene(text: object) -> Scene | None:
-    try:
-        return Scene.from_toml(text) if isinstance(text, str) and text else None
-    except Exception:  # noqa: BLE001 - the window starts whatever the file contains
-        return None
+def _scene(text: Any) -> Scene:
+    _check(bool(text))
+    return Scene.from_toml(text)
 
 
-def _settings(values: Any) -> SimulationSettings | None:
-    try:
-        force = _force(values["force"])
-        settings = SimulationSettings(
-            tolerance=TOLERANCE.check(values["tolerance"]),
-            observable=values["observable"],
-            force={name: on for name, on in force.items() if name in NAMES},
-            noise=values["noise"],
-            seed=values["seed"],
-        )
-        check_seed(settings.seed)
-        is_known = settings.observable in OBSERVABLES and settings.noise in NOISE_SOURCES
-    except Exception:  # noqa: BLE001 - the window starts whatever the file contains
-        return None
-    return settings if is_known else None
+def _settings(values: Any) -> SimulationSettings:
+    force = _force(values["force"])
+    _check(values["observable"] in OBSERVABLES and values["noise"] in NOISE_SOURCES)
+    check_seed(values["seed"])
+    return SimulationSettings(
+        tolerance=TOLERANCE.check(values["tolerance"]),
+        observable=values["observable"],
+        force={name: on for name, on in force.items() if name in NAMES},
+        noise=values["noise"],
+        seed=values["seed"],
+    )
 
 
-def _region(values: Any) -> Region | None:
+def _region(values: Any) -> Region:
     """Return a rectangle of whole numbers; whether it lies in the photo shows when that is read."""
-    try:
-        region = Region(**values)
-    except TypeError:
-        return None
-    sides = asdict(region).values()
-    return region if all(type(side) is int and side >= 0 for side in sides) else None
+    region = Region(**values)
+    _check(all(type(side) is int and side >= 0 for side in asdict(region).values()))
+    return region
 
 
-def _file(text: object) -> Path | None:
-    try:
-        path = Path(text) if isinstance(text, str) and text else None
-        return path if path is not None and path.is_absolute() and path.is_file() else None
-    except (OSError, ValueError):
-        return None
+def _file(text: Any) -> Path | None:
+    path = _read(Path(), lambda: Path(text))
+    return path if _read(False, lambda: path.is_absolute() and path.is_file()) else None
 
 
 def _text(path: Path | None) -> str:

@@ -19,8 +19,7 @@ from PySide6.QtWidgets import (
 from occ_gui.help.help_browser import HelpBrowser
 from occ_gui.help.pages import GUIDE, Section, docs_folder, pages, search, sections
 from occ_gui.shell.feature import Service
-from occ_gui.widgets.layouts import filled
-from occ_gui.widgets.named import named
+from occ_gui.widgets.building import filled, named
 
 _SIZE = QSize(960, 720)
 _LIST_WIDTH = 190

@@ -11,10 +11,10 @@ from occ_gui.files.file_controller import sample_photos
 from occ_gui.lessons.answers import LessonAnswers, MatchedPhoto
 from occ_gui.lessons.lesson_view import LessonView
 from occ_gui.photo.photo_part import found_in
-from occ_gui.scene.gesture import new_gesture
+from occ_gui.scene.scene_store import new_gesture
 from occ_gui.shell.results import Board
 from occ_gui.values.photo_choice import PhotoChoice
-from occ_gui.widgets.first_periods import PACKETS_IN_VIEW
+from occ_gui.widgets.columns import PACKETS_IN_VIEW
 from occ_gui.widgets.plain_text import LONGEST
 from occ_model.errors import OccError, one_line
 from occ_model.results.teaching import Lesson, LessonList, Step

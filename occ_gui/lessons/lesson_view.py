@@ -13,8 +13,7 @@ from PySide6.QtWidgets import (
 )
 
 from occ_gui.lessons.step_page import LEAST, StepPage, heading, paragraph
-from occ_gui.widgets.layouts import filled
-from occ_gui.widgets.named import named, push_button
+from occ_gui.widgets.building import filled, named, push_button
 from occ_gui.widgets.plain_text import in_menu
 from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_model.results.teaching import CheckedAnswer, Lesson

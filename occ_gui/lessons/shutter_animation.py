@@ -14,7 +14,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QWidget
 
-from occ_gui.widgets.contrast import mixed
+from occ_gui.widgets.colours import mixed
 from occ_gui.widgets.guarded_paint import guarded
 from occ_model.results.teaching import RollingShutter
 

@@ -18,10 +18,9 @@ from PySide6.QtWidgets import (
 
 from occ_gui.explanation.equation_text import EquationText
 from occ_gui.lessons.shutter_animation import ShutterAnimation
+from occ_gui.widgets.building import filled, named, push_button
+from occ_gui.widgets.building import paragraph as plain_paragraph
 from occ_gui.widgets.event_filters import leave_undo_to_window
-from occ_gui.widgets.layouts import filled
-from occ_gui.widgets.named import named, push_button
-from occ_gui.widgets.named import paragraph as plain_paragraph
 from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_gui.widgets.text_scale import emboldened
 from occ_model.results.teaching import CheckedAnswer, Equation, Lesson

@@ -18,10 +18,9 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from occ_gui.widgets.building import filled, named, push_button
+from occ_gui.widgets.colours import PHOTO, REGION
 from occ_gui.widgets.guarded_paint import guarded
-from occ_gui.widgets.layouts import filled
-from occ_gui.widgets.named import named, push_button
-from occ_gui.widgets.pens import PHOTO, REGION
 from occ_model.results.decoding import Region
 from occ_model.results.lamp import Lamp
 from occ_model.scene.units import NONE

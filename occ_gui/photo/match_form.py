@@ -14,14 +14,13 @@ from PySide6.QtWidgets import (
 )
 
 from occ_gui.photo.match_figures import is_certain
-from occ_gui.scene.gesture import new_gesture
+from occ_gui.scene.number_edits import QuantityEdit
 from occ_gui.scene.parameter_rows import explain
-from occ_gui.scene.quantity_edit import QuantityEdit
 from occ_gui.scene.refusal_notice import RefusalNotice
+from occ_gui.scene.scene_store import new_gesture
 from occ_gui.values.photo_choice import KNOWN, MatchChoice
+from occ_gui.widgets.building import filled, named, paragraph, push_button
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
-from occ_gui.widgets.layouts import filled
-from occ_gui.widgets.named import named, paragraph, push_button
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 from occ_model.scene.square_wave import CHIPS_OF_A_CYCLE, SQUARE_FREQUENCY

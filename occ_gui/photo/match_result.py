@@ -8,8 +8,7 @@ from PySide6.QtGui import QPalette
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
 
 from occ_gui.photo.match_figures import MatchValues, PasteLines, condition_of, is_stale
-from occ_gui.widgets.layouts import filled
-from occ_gui.widgets.named import named, paragraph, push_button
+from occ_gui.widgets.building import filled, named, paragraph, push_button
 from occ_gui.widgets.outdated_mark import DELAY, OutdatedMark
 from occ_gui.widgets.state_look import State, colours_of
 from occ_model.photo.many.other_programs import lines_of_match

@@ -7,9 +7,8 @@ from PySide6.QtWidgets import QHBoxLayout, QPushButton, QSizePolicy, QWidget
 
 from occ_gui.photo.match_figures import condition_of
 from occ_gui.photo.match_result import STATES
+from occ_gui.widgets.building import filled, push_button
 from occ_gui.widgets.chip_row import Chip
-from occ_gui.widgets.layouts import filled
-from occ_gui.widgets.named import push_button
 from occ_gui.widgets.state_bar import StateBar
 from occ_gui.widgets.state_look import State
 from occ_model.errors import one_line

@@ -15,8 +15,7 @@ from occ_gui.photo.photo_verdict import EARLIER, PhotoSteps, PhotoVerdictBar
 from occ_gui.photo.placement_form import PlacementForm
 from occ_gui.values.photo_choice import PhotoChoice
 from occ_gui.values.photo_results import FoundMatch
-from occ_gui.widgets.layouts import filled
-from occ_gui.widgets.named import paragraph, push_button
+from occ_gui.widgets.building import filled, paragraph, push_button
 from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_model.photo.reading.load import Photo
 from occ_model.results.bands import Cure

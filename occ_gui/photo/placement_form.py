@@ -9,9 +9,8 @@ from occ_gui.scene.number_edits import DecimalEdit
 from occ_gui.scene.parameter_rows import explain
 from occ_gui.scene.refusal_notice import RefusalNotice
 from occ_gui.values.photo_choice import LARGEST_SCALE, LEAST_SCALE, Placement
+from occ_gui.widgets.building import filled, named, push_button
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
-from occ_gui.widgets.layouts import filled
-from occ_gui.widgets.named import named, push_button
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.units import NONE, PIXEL
 

@@ -10,7 +10,7 @@ from PySide6.QtCore import QPointF, QRect, QRectF, Qt
 from PySide6.QtGui import QFontMetricsF, QImage, QPainter, QTransform
 from PySide6.QtWidgets import QStyleOptionGraphicsItem, QWidget
 
-from occ_gui.simulation.preview import halved
+from occ_gui.simulation.snapshot import halved
 from occ_gui.widgets.guarded_paint import guarded
 from occ_model.arrays import ByteArray
 

@@ -6,8 +6,8 @@ from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QSlider, QWidget
 
 from occ_gui.picture.averaged_image import AveragedImage
 from occ_gui.simulation.snapshot import Snapshot
-from occ_gui.widgets.layouts import filled
-from occ_gui.widgets.pens import BEFORE
+from occ_gui.widgets.building import filled
+from occ_gui.widgets.colours import BEFORE
 from occ_model.arrays import ByteArray
 from occ_model.results.frame import PICTURES, Frame
 

@@ -20,11 +20,10 @@ from occ_gui.picture.photo_overlay import PhotoOverlay
 from occ_gui.picture.picture_pane import PicturePane
 from occ_gui.shell.feature import Pane
 from occ_gui.shell.results import of_picture
-from occ_gui.simulation.preview import Picture
-from occ_gui.simulation.snapshot import Reading, Snapshot
+from occ_gui.simulation.snapshot import Picture, Reading, Snapshot
 from occ_gui.values.photo_choice import MODES, Placement
+from occ_gui.widgets.building import filled
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
-from occ_gui.widgets.layouts import filled
 from occ_model.photo.reading.load import Photo
 from occ_model.results.frame import PICTURES, Frame
 

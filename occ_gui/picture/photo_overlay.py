@@ -11,8 +11,8 @@ from PySide6.QtWidgets import QStyleOptionGraphicsItem, QWidget
 
 from occ_gui.picture.averaged_image import AveragedImage
 from occ_gui.values.photo_choice import MODES, Placement
+from occ_gui.widgets.colours import PHOTO, REGION
 from occ_gui.widgets.guarded_paint import guarded
-from occ_gui.widgets.pens import PHOTO, REGION
 from occ_model.arrays import ByteArray, FloatArray
 
 _NO_IMAGE: ByteArray = np.zeros((0, 0), dtype=np.uint8)

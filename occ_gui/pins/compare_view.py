@@ -13,14 +13,13 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from occ_gui.pins.pinned import ComparedRow, Pin, Pinned
-from occ_gui.widgets.first_periods import PACKETS_IN_VIEW
-from occ_gui.widgets.layouts import filled
-from occ_gui.widgets.legend import LineLegend
-from occ_gui.widgets.named import paragraph, push_button
-from occ_gui.widgets.pens import BAND, SIMULATION, thin
+from occ_gui.pins.pin_controller import ComparedRow, Pin, PinController, Pinned
+from occ_gui.shell.feature import Pane
+from occ_gui.widgets.building import filled, paragraph, push_button
+from occ_gui.widgets.colours import BAND, SIMULATION, thin
+from occ_gui.widgets.columns import PACKETS_IN_VIEW
 from occ_gui.widgets.plain_text import in_tool_tip
-from occ_gui.widgets.plot import new_plot
+from occ_gui.widgets.plot import LineLegend, new_plot
 
 _LEAST_TABLE = 250
 
@@ -204,3 +203,24 @@ class CompareView(QWidget):
         self.plot.setXRange(first, max(last, first + 1.0), padding=0.01)
         largest = max(float(pin.profile.max()) for pin in pins)
         self.plot.setYRange(0.0, max(20.0, largest), padding=0.06)
+
+
+class ComparePane(Pane[None]):
+    """The differences between A and B, and the buttons that pin them."""
+
+    def __init__(self, pins: PinController) -> None:
+        view = CompareView()
+        super().__init__(view)
+        self.view = view
+        self._pins = pins
+        view.pin_asked.connect(pins.pin)
+        view.go_asked.connect(pins.go_to)
+        view.clear_asked.connect(pins.clear)
+        pins.changed.connect(self._show)
+        self._show()
+
+    def _show(self) -> None:
+        self.view.show_pinned(self._pins.pinned)
+
+    def set_seen(self, seen: bool) -> None:
+        self.view.set_seen(seen)

@@ -6,7 +6,7 @@ from occ_gui.shell.feature import Feature, Pane
 
 def compare(pins: PinController) -> Feature[None]:
     def make() -> Pane[None]:
-        from occ_gui.pins.pane import ComparePane
+        from occ_gui.pins.compare_view import ComparePane
 
         return ComparePane(pins)
 

@@ -2,27 +2,61 @@
 
 from collections.abc import Callable, Iterator
 from contextlib import suppress
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from PySide6.QtCore import QObject, Signal
 
 from occ_gui.background.task import Report, Task
-from occ_gui.pins.pinned import ComparedRow, Pin, Pinned
 from occ_gui.scene.forced_effects import forced_text
-from occ_gui.scene.gesture import new_gesture
 from occ_gui.scene.parameter_rows import explain
-from occ_gui.scene.scene_store import SceneStore
+from occ_gui.scene.scene_store import SceneStore, new_gesture
 from occ_gui.simulation.jobs import snapshot_of
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.values.simulated import PinnedScene, Pins, SimulationRequest
+from occ_model.arrays import FloatArray
 from occ_model.errors import OccError, one_line
 from occ_model.results.decoding import DecodeResult
 from occ_model.scene.parameter_kinds import Parameter, ParameterValue, distinguished
 from occ_model.scene.parameters import PARAMETERS
-from occ_model.scene.scene import GROUPS
-from occ_model.scene.simulation_settings import TOLERANCE
+from occ_model.scene.scene import GROUPS, Scene
+from occ_model.scene.simulation_settings import TOLERANCE, SimulationSettings
 from occ_model.simulation.render import render_with
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Pin:
+    request: SimulationRequest
+    profile: FloatArray  # shape (columns,): its profile in grey levels
+    # The first column of the panel, and the columns of one period of the signal sent
+    first_column: float
+    packet_columns: float
+    outputs: tuple[tuple[str, str, str], ...]
+
+    @property
+    def scene(self) -> Scene:
+        return self.request.scene
+
+    @property
+    def settings(self) -> SimulationSettings:
+        return self.request.settings
+
+
+@dataclass(frozen=True, slots=True)
+class ComparedRow:
+    what: str
+    a: str
+    b: str
+    meaning: str = ""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Pinned:
+    a: Pin | None = None
+    b: Pin | None = None
+    inputs: tuple[ComparedRow, ...] = ()
+    outputs: tuple[ComparedRow, ...] = ()
+
 
 _LONGEST_PAYLOAD = 24  # characters of a payload that the table shows
 

@@ -19,12 +19,10 @@ from occ_gui.profile.below_profile import ChipStrip, ResidualPlot
 from occ_gui.simulation.band_drift import drift_sentence
 from occ_gui.simulation.snapshot import Reading, Snapshot
 from occ_gui.values.photo_results import PhotoProfile
-from occ_gui.widgets.first_periods import PACKETS_IN_VIEW, first_periods
-from occ_gui.widgets.layouts import filled
-from occ_gui.widgets.legend import LineLegend
-from occ_gui.widgets.named import paragraph
-from occ_gui.widgets.pens import BAND, BEFORE, PHOTO, SIMULATION, THRESHOLD, thin
-from occ_gui.widgets.plot import new_plot
+from occ_gui.widgets.building import filled, paragraph
+from occ_gui.widgets.colours import BAND, BEFORE, PHOTO, SIMULATION, THRESHOLD, thin
+from occ_gui.widgets.columns import PACKETS_IN_VIEW, first_periods
+from occ_gui.widgets.plot import LineLegend, new_plot
 from occ_model.arrays import FloatArray
 
 _LEAST_HEIGHT = 76  # pixels: in a low window all panes share the height

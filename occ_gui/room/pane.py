@@ -11,7 +11,7 @@ from occ_gui.background.task import Reporter, Task
 from occ_gui.core.store import NO_GESTURE, Store
 from occ_gui.room.jobs import FloorMap, Look, ShownRoom, map_room, plan_of, show_room
 from occ_gui.room.room_view import RoomView
-from occ_gui.scene.gesture import Gestures
+from occ_gui.scene.scene_store import Gestures
 from occ_gui.shell.feature import Pane
 from occ_gui.values.room_choice import FIRST_ROOM, RoomChoice
 from occ_gui.widgets.scroll_pane import ScrollPane

@@ -9,10 +9,9 @@ from PySide6.QtGui import QPalette
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from occ_gui.room.jobs import FloorMap, RoomPlan, ShownRoom
-from occ_gui.scene.gesture import Gestures
-from occ_gui.widgets.contrast import pen_on
-from occ_gui.widgets.layouts import filled
-from occ_gui.widgets.pens import BAND, PHOTO, SIMULATION, thin
+from occ_gui.scene.scene_store import Gestures
+from occ_gui.widgets.building import filled
+from occ_gui.widgets.colours import BAND, PHOTO, SIMULATION, pen_on, thin
 from occ_gui.widgets.plot import new_plot
 from occ_model.arrays import FloatArray
 from occ_model.room.pose_fit import Located

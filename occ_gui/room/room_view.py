@@ -15,8 +15,7 @@ from PySide6.QtWidgets import (
 
 from occ_gui.room.jobs import FloorMap, RoomPlan, ShownRoom
 from occ_gui.room.room_plots import PicturePlot, PlanPlot
-from occ_gui.widgets.layouts import filled
-from occ_gui.widgets.named import paragraph, push_button
+from occ_gui.widgets.building import filled, paragraph, push_button
 from occ_gui.widgets.text_scale import TextSize, scaled
 from occ_model.errors import one_line
 from occ_model.room.locate import RoomReading

@@ -6,9 +6,9 @@ from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtGui import QFontDatabase
 from PySide6.QtWidgets import QGridLayout, QLabel, QLineEdit, QWidget
 
-from occ_gui.scene.gesture import Gestures
 from occ_gui.scene.number_edits import CountEdit
 from occ_gui.scene.refusal_notice import RefusalNotice
+from occ_gui.scene.scene_store import Gestures
 from occ_gui.widgets.event_filters import leave_undo_to_window
 from occ_model.errors import ParameterError, one_line, shown
 from occ_model.scene.parameters import count, payload_parameter

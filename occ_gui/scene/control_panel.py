@@ -9,8 +9,7 @@ from PySide6.QtWidgets import QComboBox, QLabel, QTabWidget, QVBoxLayout, QWidge
 
 from occ_gui.scene.code_entry import CodeEntry
 from occ_gui.scene.forced_effects import ForcedEffects
-from occ_gui.scene.parameter_page import ParameterPage
-from occ_gui.scene.parameter_panel import ParameterPanel
+from occ_gui.scene.parameter_panel import ParameterPage, ParameterPanel
 from occ_gui.scene.parameter_rows import CountRow, ParameterRow, QuantityRow
 from occ_gui.scene.player import Player
 from occ_gui.scene.scene_editor import SceneEditor

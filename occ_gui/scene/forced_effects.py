@@ -5,8 +5,7 @@ from collections.abc import Mapping
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QPushButton, QSizePolicy, QWidget
 
-from occ_gui.widgets.layouts import filled
-from occ_gui.widgets.named import paragraph
+from occ_gui.widgets.building import filled, paragraph
 
 
 def switch_text(effect: str, included: bool | None, labels: Mapping[str, str]) -> str:

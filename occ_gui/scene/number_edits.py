@@ -6,9 +6,9 @@ Any text can be typed; what is no allowed number is refused with a sentence. Qt'
 
 from dataclasses import replace
 
-from PySide6.QtCore import Signal
+from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QValidator
-from PySide6.QtWidgets import QDoubleSpinBox, QSpinBox
+from PySide6.QtWidgets import QAbstractSpinBox, QDoubleSpinBox, QSpinBox
 
 from occ_gui.widgets.event_filters import leave_undo_to_window, select_numbers_whole
 from occ_model.errors import ParameterError
@@ -73,3 +73,91 @@ def _read(field: CountEdit | DecimalEdit, declared: Count | Quantity, text: str)
         return field.value()
     field.accepted.emit()
     return value
+
+
+_STEP = 0.01  # step of the arrows, as a fraction of the slider's range
+
+_WIDEST = "888.888 cd/m²"
+
+
+class QuantityEdit(QAbstractSpinBox):
+    """Shows a quantity with its unit; accepts ``10 kHz``, ``68us``, ``1/8000 s`` or a number.
+
+    A number without a unit is read in the unit shown. The value keeps all digits; only the text is
+    rounded.
+    """
+
+    edited = Signal(float)  # the value that the user entered, in SI units
+
+    refused = Signal(str)
+    """The reason why an input is not valid; the field shows the last value again."""
+
+    def __init__(self, quantity: Quantity) -> None:
+        super().__init__()
+        self._quantity = quantity
+        self._value = quantity.default
+        self.setKeyboardTracking(False)
+        self.setAlignment(Qt.AlignmentFlag.AlignRight)
+        self.lineEdit().textEdited.connect(self._note_typing)
+        self.editingFinished.connect(self.take_typed)
+        self._typed = False
+        leave_undo_to_window(self)
+        select_numbers_whole(self)
+        self._show()
+
+    def value(self) -> float:
+        """Return the value in SI units."""
+        return self._value
+
+    def set_value(self, value: float) -> None:
+        """Show a value in SI units."""
+        self._value = value
+        self._show()
+
+    def _show(self) -> None:
+        self._typed = False
+        self.lineEdit().setText(self._quantity.format(self._value))
+
+    def _note_typing(self) -> None:
+        self._typed = True
+
+    def take_typed(self) -> None:
+        """Accept the typed text, as leaving the field does."""
+        if not self._typed:  # leaving the field must not round the value
+            return
+        plain = self._quantity.unit.display(self._value)[1]
+        try:
+            value = self._quantity.parse(self.lineEdit().text(), plain)
+        except ParameterError as error:
+            self._show()
+            self.refused.emit(refusal_of(error))
+            return
+        self.set_value(value)
+        self.edited.emit(value)
+
+    def stepBy(self, steps: int) -> None:  # noqa: N802 - Qt's name
+        self.take_typed()  # the step starts from the typed value
+        fraction = self._quantity.fraction(self._value) + steps * _STEP
+        self.set_value(self._quantity.at(min(max(fraction, 0.0), 1.0)))
+        self.edited.emit(self._value)
+
+    def stepEnabled(self) -> QAbstractSpinBox.StepEnabledFlag:  # noqa: N802 - Qt's name
+        enabled = QAbstractSpinBox.StepEnabledFlag.StepNone
+        low, high = self._quantity.slider
+        if self._value > low:
+            enabled |= QAbstractSpinBox.StepEnabledFlag.StepDownEnabled
+        if self._value < high:
+            enabled |= QAbstractSpinBox.StepEnabledFlag.StepUpEnabled
+        return enabled
+
+    def validate(self, text: str, position: int) -> tuple[QValidator.State, str, int]:
+        """Allow any text to be typed; invalid text is refused with a sentence at the end."""
+        return QValidator.State.Acceptable, text, position
+
+    def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        width = self.fontMetrics().horizontalAdvance(_WIDEST) + 28
+        return QSize(width, super().sizeHint().height())
+
+    def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Return the same size, so that no value is cut off."""
+        return self.sizeHint()

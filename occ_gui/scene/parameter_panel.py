@@ -1,15 +1,17 @@
-"""Parameter panel: a form of parameter rows with their labels."""
+"""Parameter panel: a form of parameter rows with their labels, and the page that it stands on."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from types import MappingProxyType
 
-from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QShowEvent
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QScrollArea, QVBoxLayout, QWidget
 
 from occ_gui.scene.parameter_rows import ParameterRow, QuantityRow, explain, row_for
 from occ_gui.scene.player import PlayButton
 from occ_gui.scene.slider_scale import SliderScale
-from occ_gui.widgets.layouts import filled
+from occ_gui.widgets.building import filled
+from occ_gui.widgets.event_filters import leave_drops_to_window
 from occ_gui.widgets.text_scale import TextSize, scaled
 from occ_model.results.teaching import MarkedValue
 from occ_model.scene.parameter_kinds import Parameter, Quantity
@@ -91,3 +93,36 @@ def _label(declared: Parameter) -> QLabel:
     label = QLabel(text, textFormat=Qt.TextFormat.RichText)
     label.setToolTip(explain(declared))
     return label
+
+
+_BAR = 20  # pixels that the scroll bar takes at most
+
+
+class ParameterPage(QScrollArea):
+    """A page with the controls of some parameters; by default without headings."""
+
+    made = Signal(object)  # its controls have been made: the ParameterPanel
+
+    def __init__(
+        self, names: Sequence[str], make: Callable[[], ParameterPanel] | None = None
+    ) -> None:
+        super().__init__()
+        self.names = names
+        self.content: ParameterPanel | None = None
+        self._make = make or (lambda: ParameterPanel(names))
+        self.setWidgetResizable(True)
+        self.setFrameShape(QFrame.Shape.NoFrame)
+        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+
+    def panel(self) -> ParameterPanel:
+        if self.content is None:
+            self.content = self._make()
+            self.setWidget(self.content)
+            self.setMinimumWidth(self.content.minimumSizeHint().width() + _BAR)
+            leave_drops_to_window(self)
+            self.made.emit(self.content)
+        return self.content
+
+    def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 - Qt's name
+        self.panel()
+        super().showEvent(event)

@@ -10,12 +10,11 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from occ_gui.scene.gesture import Gestures
-from occ_gui.scene.number_edits import CountEdit
-from occ_gui.scene.quantity_edit import QuantityEdit
+from occ_gui.scene.number_edits import CountEdit, QuantityEdit
 from occ_gui.scene.refusal_notice import RefusalNotice
+from occ_gui.scene.scene_store import Gestures
+from occ_gui.widgets.building import filled
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling, leave_undo_to_window
-from occ_gui.widgets.layouts import filled
 from occ_model.errors import ParameterError
 from occ_model.scene.parameter_kinds import (
     ChipPattern,

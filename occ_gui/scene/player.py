@@ -5,7 +5,7 @@ from PySide6.QtGui import QAction, QActionGroup
 from PySide6.QtWidgets import QMenu
 
 from occ_gui.scene.parameter_rows import QuantityRow
-from occ_gui.widgets.icon_button import IconButton
+from occ_gui.widgets.icons import IconButton
 from occ_model.scene.scene import Scene
 
 _TURN_MS = 40

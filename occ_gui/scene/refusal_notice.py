@@ -13,7 +13,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QAbstractScrollArea, QApplication, QDockWidget, QLabel, QWidget
 
-from occ_gui.widgets.contrast import seen_on
+from occ_gui.widgets.colours import seen_on
 from occ_gui.widgets.guarded_paint import guarded
 
 _RED = QColor("#b3261e")

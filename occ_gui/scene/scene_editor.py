@@ -2,9 +2,73 @@
 
 from PySide6.QtCore import QObject, Signal
 
-from occ_gui.scene.hold_brightness import HoldBrightness
 from occ_gui.scene.scene_store import SceneStore
 from occ_model.scene.parameter_kinds import ParameterValue
+from occ_model.scene.parameters import quantity
+from occ_model.scene.scene import Scene
+
+_EXPOSURE, _ISO = "exposure_time", "iso"
+
+
+class HoldBrightness(QObject):
+    """While it is on, the product S t of equation (1) stays constant as the exposure changes."""
+
+    switched = Signal(bool)
+
+    status_message = Signal(str)  # the reason why the brightness could not be held
+
+    def __init__(self, store: SceneStore) -> None:
+        super().__init__()
+        self._store = store
+        self._on = False
+        self._product = 0.0
+        self._asked: tuple[float, float] | None = None
+        self._limit = ""
+        self._note_product(store.scene)
+        store.changed.connect(self._note_product)
+
+    @property
+    def is_on(self) -> bool:
+        return self._on
+
+    def switch(self, on: bool) -> None:
+        self._asked = None
+        self._note_product(self._store.scene)
+        if on != self._on:
+            self._on = on
+            self.switched.emit(on)
+
+    def changes(self, name: str, value: ParameterValue) -> dict[str, ParameterValue]:
+        """Return the change of a parameter, together with that of the ISO speed if it follows."""
+        self._limit = ""
+        time = value if isinstance(value, float) else 0.0
+        if not self._on or name != _EXPOSURE or time <= 0.0:
+            return {name: value}
+        iso = quantity(_ISO)
+        low, high = iso.slider
+        wanted = self._product / time
+        held = min(max(wanted, low), high)
+        self._asked = (time, held)
+        if held != wanted:
+            self._limit = (
+                f"The brightness cannot be held: it takes ISO {iso.format(wanted)}; the "
+                "slider goes from "
+                f"{iso.format(low)} to {iso.format(high)}."
+            )
+        return {_EXPOSURE: time, _ISO: held}
+
+    def report_limit(self) -> None:
+        """Report, after the change, that the ISO speed has reached an end of its slider."""
+        if self._limit:
+            self.status_message.emit(self._limit)
+
+    def _note_product(self, scene: Scene) -> None:
+        # After a change of this rule's own, the ISO speed may be at the end of its slider: then
+        # its product is not the one to be held.
+        camera = scene.camera
+        if (camera.exposure_time, camera.iso) != self._asked:
+            self._asked = None
+            self._product = camera.iso * camera.exposure_time
 
 
 class SceneEditor(QObject):

@@ -1,19 +1,62 @@
-"""Scene store: edits of the scene and of the effects forced by hand, each a step to undo."""
+"""Scene store: edits of the scene and of the settings of its simulation, and which are steps."""
 
 from collections.abc import Mapping
 from dataclasses import replace
+from itertools import count
 
-from PySide6.QtCore import QObject, Signal
+from PySide6.QtCore import QElapsedTimer, QObject, Signal
 
 from occ_gui.core.store import NO_GESTURE, Store
 from occ_gui.core.workspace import Workspace
 from occ_gui.scene.forced_effects import switch_text
-from occ_gui.scene.settings_store import SettingsStore
 from occ_model.errors import OccError
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.refusal import refusal_of
 from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import (
+    TOLERANCE,
+    NoiseSource,
+    Observable,
+    SimulationSettings,
+)
+
+
+class SettingsStore(QObject):
+    """The settings of the simulation in a workspace, and the edits of them.
+
+    ``effect_labels`` are the names on the screen of all effects, by their names in the program.
+    """
+
+    changed = Signal(object)
+
+    refused = Signal(str)  # the reason why a change was not made; the settings are unchanged
+
+    def __init__(self, store: Store, effect_labels: Mapping[str, str] | None = None) -> None:
+        super().__init__()
+        self.effect_labels = effect_labels or {}
+        self._store = store
+        store.select(lambda workspace: workspace.settings).changed.connect(self.changed)
+
+    @property
+    def settings(self) -> SimulationSettings:
+        return self._store.workspace.settings
+
+    def set_tolerance(self, tolerance: float) -> None:
+        try:
+            self._put(replace(self.settings, tolerance=TOLERANCE.check(tolerance)))
+        except OccError as error:
+            self.refused.emit(refusal_of(error))
+
+    def set_observable(self, observable: Observable) -> None:
+        self._put(replace(self.settings, observable=observable))
+
+    def set_noise(self, noise: NoiseSource) -> None:
+        self._put(replace(self.settings, noise=noise))
+
+    def _put(self, settings: SimulationSettings) -> None:
+        self._store.put(replace(self._store.workspace, settings=settings))
+
 
 _MOST_OF_A_CHANGE = 2
 """Parameters that one change of the user has at most: the exposure and, held by it, the ISO."""
@@ -86,3 +129,37 @@ class SceneStore(QObject):
         changed = sum(scene.value(name) != last.value(name) for name in PARAMETERS)
         preset = preset or (workspace.preset if changed <= _MOST_OF_A_CHANGE else "")
         return replace(workspace, scene=scene, preset=preset)
+
+
+_PAUSE_MS = 700  # a longer pause between two changes of a control ends a gesture
+
+_numbers = count()
+
+
+def new_gesture() -> int:
+    return next(_numbers)
+
+
+class Gestures:
+    """Assigns the changes of one control to gestures.
+
+    Changes in quick succession, as by keys, arrows or the wheel, are one gesture.
+    """
+
+    def __init__(self) -> None:
+        self._number = NO_GESTURE
+        self._since_change = QElapsedTimer()
+
+    def end(self) -> None:
+        """Let the next change begin a new gesture, however soon it follows."""
+        self._since_change.invalidate()
+
+    def of_change(self, held: bool = False) -> int:
+        """Return the gesture of a change made now; while held, a pause does not end a gesture."""
+        goes_on = self._since_change.isValid() and (
+            held or not self._since_change.hasExpired(_PAUSE_MS)
+        )
+        if not goes_on:
+            self._number = new_gesture()
+        self._since_change.start()
+        return self._number

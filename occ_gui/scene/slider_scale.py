@@ -9,6 +9,7 @@ from PySide6.QtGui import QFont, QFontMetricsF, QHelpEvent, QPainter, QPaintEven
 from PySide6.QtWidgets import QSizePolicy, QSlider, QStyle, QStyleOptionSlider, QToolTip, QWidget
 
 from occ_gui.widgets.guarded_paint import guarded
+from occ_gui.widgets.text_scale import resized
 from occ_model.results.teaching import MarkedValue
 from occ_model.scene.parameter_kinds import Quantity
 
@@ -46,9 +47,7 @@ class SliderScale(QWidget):
         return f"{self._quantity.format(mark.value, 3)}: {mark.meaning}"
 
     def _font(self) -> QFont:
-        font = self.font()
-        font.setPointSizeF(font.pointSizeF() * _SMALLER)
-        return font
+        return resized(self.font(), _SMALLER)
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         return QSize(60, round(QFontMetricsF(self._font()).height() + _TICK + 2))

@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QWidget
 from occ_gui.shell.feature import Pane, VerdictView
 from occ_gui.shell.results import Board, MadeOf, of_picture, of_reading, of_snapshot
 from occ_gui.simulation.controller import SimulationController
-from occ_gui.simulation.preview import Picture
+from occ_gui.simulation.snapshot import Picture
 from occ_gui.values.simulated import SimulationRequest
 from occ_gui.widgets.outdated_mark import DELAY, OutdatedMark
 from occ_model.scene.parameters import quantity

@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 from PySide6.QtCore import QObject, Signal
 
 from occ_gui.core.store import Selection
-from occ_gui.simulation.preview import Picture
-from occ_gui.simulation.snapshot import Reading, Snapshot
+from occ_gui.simulation.snapshot import Picture, Reading, Snapshot
 from occ_gui.values.simulated import SimulationRequest
 from occ_model.results.plan import Decision
 

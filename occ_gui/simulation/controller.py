@@ -10,16 +10,15 @@ The results of a change arrive in this order, each by a signal:
    scene goes on changing, it begins again at 1.
 3. ``picture_ready`` with the exact Picture, before it is decoded. Where there is no draft, the
    Reading comes with it; or before it, where the picture is small but not there at once.
-4. ``reading_shown`` and ``snapshot_shown`` with the Snapshot, which was read from that picture.
-   It is a Reading, too, and has the last word.
+4. ``snapshot_ready``, ``reading_shown`` and ``snapshot_shown`` with the Snapshot, which was read
+   from that picture. It is a Reading, too, and has the last word.
 
 A reading is never replaced by one of an earlier scene. ``failed`` says why a scene has no picture.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import replace
 from time import perf_counter
-from typing import Protocol
 
 from PySide6.QtCore import QObject, Signal
 
@@ -27,16 +26,15 @@ from occ_gui.background.result_age import ResultAges
 from occ_gui.background.task import Reporter, Task
 from occ_gui.core.workspace import FIRST_SETTINGS
 from occ_gui.scene.scene_store import SceneStore
-from occ_gui.simulation.draft_rows import DraftRows
 from occ_gui.simulation.jobs import (
+    DraftRows,
     draft_of,
     is_soon,
     reading_by_profile,
     reading_of_draft,
     snapshot_of,
 )
-from occ_gui.simulation.preview import Picture
-from occ_gui.simulation.snapshot import SOURCES, Reading, Snapshot
+from occ_gui.simulation.snapshot import SOURCES, Picture, Reading, Snapshot
 from occ_gui.values.simulated import LEAST_DRAFT_STEP, SimulationRequest
 from occ_model.receiver.decoders import QUICK_DECODERS
 from occ_model.scene.scene import Scene
@@ -54,18 +52,6 @@ _LOOK, _MOST_LOOKS = 0.005, 20
 
 def _go_on() -> None:
     """Give way to nothing."""
-
-
-class ReadingView(Protocol):
-    """A pane that shows what is read of a scene, with or without its picture."""
-
-    def show_reading(self, reading: Reading) -> None: ...
-
-
-class SnapshotView(Protocol):
-    """A pane that shows the results for a scene with its picture."""
-
-    def show_snapshot(self, snapshot: Snapshot) -> None: ...
 
 
 def simulate(scene: Scene, settings: SimulationSettings = FIRST_SETTINGS) -> Snapshot:
@@ -89,7 +75,8 @@ class SimulationController(QObject):
     reading_shown = Signal(object)
     """The Reading that the panes show from now on; a Snapshot where it is the picture's."""
 
-    snapshot_shown = Signal(object)  # the Snapshot of a picture that has been decoded
+    snapshot_ready = Signal(object)  # the Snapshot of a picture that has been decoded
+    snapshot_shown = Signal(object)  # the same, once the panes show it
     failed = Signal(str)  # the reason why a scene has no picture; the panes keep the last one
     failed_for = Signal(str, object)  # the same, and the names of the parameters that it is about
 
@@ -99,8 +86,6 @@ class SimulationController(QObject):
     def __init__(self, scenes: SceneStore) -> None:
         super().__init__()
         self._scenes = scenes
-        self._views: Sequence[SnapshotView] = ()
-        self._readers: Sequence[ReadingView] = ()
         self._read: Reading | None = None
         self._rows_per_pixel: Callable[[], float] = lambda: float(LEAST_DRAFT_STEP)
         self._draft_rows = DraftRows()
@@ -117,10 +102,6 @@ class SimulationController(QObject):
         self.ages = ResultAges(self._request())
         # Only the picture: the panes are not there yet, and it is not late at the start.
         self.runner.ask(self.ages.present)
-
-    def show_in(self, views: Sequence[SnapshotView], readers: Sequence[ReadingView] = ()) -> None:
-        """Set the panes that show the results; none arrives before the event loop runs."""
-        self._views, self._readers = views, readers
 
     def draft_for(self, rows_per_pixel: Callable[[], float]) -> None:
         """Draft as many rows from now on as the screen shows, or fewer where drafts are late.
@@ -200,16 +181,13 @@ class SimulationController(QObject):
             self.picture_ready.emit(part)
 
     def _show(self, snapshot: Snapshot) -> None:
-        for view in self._views:
-            view.show_snapshot(snapshot)
+        self.snapshot_ready.emit(snapshot)
         if self._is_news(snapshot):
             self._show_reading(snapshot)
         self.snapshot_shown.emit(snapshot)
 
     def _show_reading(self, reading: Reading) -> None:
         self._read = reading
-        for view in self._readers:
-            view.show_reading(reading)
         self.reading_shown.emit(reading)
 
     def _is_news(self, reading: Reading) -> bool:

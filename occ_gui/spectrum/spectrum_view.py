@@ -5,10 +5,8 @@ import pyqtgraph as pg
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QGridLayout, QLabel, QSizePolicy, QWidget
 
-from occ_gui.widgets.contrast import pen_on, seen_on
-from occ_gui.widgets.legend import LineLegend
-from occ_gui.widgets.pens import BAND, SIMULATION, thin
-from occ_gui.widgets.plot import new_plot
+from occ_gui.widgets.colours import BAND, SIMULATION, pen_on, seen_on, thin
+from occ_gui.widgets.plot import LineLegend, new_plot
 from occ_model.results.spectrum import LevelHistogram, Spectrum
 from occ_model.scene.units import HERTZ
 

@@ -19,7 +19,7 @@ from occ_gui.story.column_axis import LEFT, RIGHT, ColumnAxis, Crosshair, line_h
 from occ_gui.story.column_facts import PacketField, received_edges, received_fields
 from occ_gui.story.story_row import StoryRow
 from occ_gui.widgets.chip_cell import draw_chips
-from occ_gui.widgets.pens import SIMULATION
+from occ_gui.widgets.colours import SIMULATION
 from occ_gui.widgets.state_look import State
 from occ_gui.widgets.unchanged import are_same
 from occ_model.arrays import FloatArray

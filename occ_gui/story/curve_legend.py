@@ -7,9 +7,9 @@ from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QPainter, QPaintEvent, QPalette, QPen, QResizeEvent
 from PySide6.QtWidgets import QBoxLayout, QHBoxLayout, QSizePolicy, QWidget
 
-from occ_gui.widgets.contrast import pen_on
+from occ_gui.widgets.building import filled
+from occ_gui.widgets.colours import pen_on
 from occ_gui.widgets.guarded_paint import guarded
-from occ_gui.widgets.layouts import filled
 
 _SAMPLE, _GAP, _APART = 24, 6, 16
 _SPACING = 6  # pixels between the legend and what stands beside it

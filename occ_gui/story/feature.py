@@ -13,8 +13,7 @@ from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Feature, Pane
 from occ_gui.shell.results import Results, of_picture, of_reading
 from occ_gui.simulation.controller import SimulationController
-from occ_gui.simulation.preview import Picture
-from occ_gui.simulation.snapshot import Reading
+from occ_gui.simulation.snapshot import Picture, Reading
 from occ_gui.story.column_facts import Step
 from occ_gui.story.story_view import StoryView
 from occ_gui.values.photo_results import PhotoProfile

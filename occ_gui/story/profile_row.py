@@ -12,8 +12,7 @@ from occ_gui.story.column_facts import threshold_levels
 from occ_gui.story.curve_lines import DASH, envelope, lines_of
 from occ_gui.story.story_row import StoryRow
 from occ_gui.values.photo_results import PhotoProfile
-from occ_gui.widgets.contrast import mixed, seen_on
-from occ_gui.widgets.pens import BAND, PHOTO, SIMULATION, THRESHOLD
+from occ_gui.widgets.colours import BAND, PHOTO, SIMULATION, THRESHOLD, mixed, seen_on
 from occ_gui.widgets.unchanged import are_same
 from occ_model.arrays import FloatArray
 from occ_model.results.decoding import DecodeResult

@@ -4,8 +4,7 @@ from PySide6.QtCore import QEvent, Qt, Signal
 from PySide6.QtWidgets import QPushButton, QVBoxLayout, QWidget
 
 from occ_gui.simulation.band_drift import drift_of, what_is_compared, why_it_drifts
-from occ_gui.simulation.preview import Picture, PictureView
-from occ_gui.simulation.snapshot import ColumnView
+from occ_gui.simulation.snapshot import ColumnView, Picture, PictureView
 from occ_gui.simulation.verdict import result_of
 from occ_gui.story.code_row import CodeRow
 from occ_gui.story.column_axis import MARGIN, ColumnAxis, Crosshair, Scale, gutter_of
@@ -21,10 +20,9 @@ from occ_gui.story.light_row import LightRow
 from occ_gui.story.profile_row import ProfileRow
 from occ_gui.story.stripes_row import StripesRow
 from occ_gui.values.photo_results import PhotoProfile
-from occ_gui.widgets.first_periods import PACKETS_IN_VIEW, first_periods
-from occ_gui.widgets.layouts import filled
-from occ_gui.widgets.named import push_button
-from occ_gui.widgets.pens import BAND, PHOTO, SIMULATION, THRESHOLD, thin
+from occ_gui.widgets.building import filled, push_button
+from occ_gui.widgets.colours import BAND, PHOTO, SIMULATION, THRESHOLD, thin
+from occ_gui.widgets.columns import PACKETS_IN_VIEW, first_periods
 from occ_model.results.decoding import DecodeResult
 from occ_model.results.frame import PICTURES
 

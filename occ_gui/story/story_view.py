@@ -12,14 +12,12 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from occ_gui.simulation.preview import Picture
-from occ_gui.simulation.snapshot import Reading
+from occ_gui.simulation.snapshot import Picture, Reading
 from occ_gui.story.story_rows import StoryRows
 from occ_gui.story.verdict_bar import VerdictBar
+from occ_gui.widgets.building import filled, named, push_button
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
-from occ_gui.widgets.layouts import filled
-from occ_gui.widgets.named import named, push_button
 
 _WHOLE, _WHOLE_TIP = "Whole picture", "Show the whole picture in place of the four rows."
 

@@ -8,11 +8,11 @@ from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtGui import QImage, QPainter, QPaintEvent, QPalette, QPen, QResizeEvent
 from PySide6.QtWidgets import QAbstractButton, QWidget
 
-from occ_gui.simulation.preview import PictureView
+from occ_gui.simulation.snapshot import PictureView
 from occ_gui.story.column_axis import GUTTER, ColumnAxis, Crosshair
 from occ_gui.story.story_row import StoryRow
+from occ_gui.widgets.colours import REGION
 from occ_gui.widgets.guarded_paint import guarded
-from occ_gui.widgets.pens import REGION
 from occ_model.arrays import ByteArray, FloatArray
 
 _LEAST_HEIGHT = 40

@@ -13,9 +13,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from occ_gui.widgets.building import filled, paragraph
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
-from occ_gui.widgets.layouts import filled
-from occ_gui.widgets.named import paragraph
 
 _FIGURE = QSize(700, 553)  # size of the wiring on the screen, in the proportions of its figure
 

@@ -14,11 +14,10 @@ from PySide6.QtWidgets import (
 )
 
 from occ_gui.video.camera import AXES, CameraDevice
+from occ_gui.widgets.building import filled, named, push_button
 from occ_gui.widgets.elided_label import ElidedLabel
-from occ_gui.widgets.icon_button import IconButton
+from occ_gui.widgets.icons import IconButton
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
-from occ_gui.widgets.layouts import filled
-from occ_gui.widgets.named import named, push_button
 from occ_gui.widgets.plain_text import in_menu
 
 _ICON = 16

@@ -5,8 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 import occ_model as occ
-from occ_gui.simulation.preview import PictureView, halved
-from occ_gui.simulation.snapshot import ColumnView
+from occ_gui.simulation.snapshot import ColumnView, PictureView, halved
 from occ_gui.video.frame_views import FrameStory, ShownPicture
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.errors import OccError

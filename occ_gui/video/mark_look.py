@@ -6,7 +6,7 @@ from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtGui import QBrush, QColor, QPainter, QPalette, QPen
 
 from occ_gui.video.film_reading import MarkState
-from occ_gui.widgets.legend import Drawing, LineLegend
+from occ_gui.widgets.plot import Drawing, LineLegend
 from occ_gui.widgets.state_look import State, colours_of
 
 

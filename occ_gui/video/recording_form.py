@@ -3,14 +3,12 @@
 from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtWidgets import QFormLayout, QHBoxLayout, QPushButton, QSizePolicy, QWidget
 
-from occ_gui.scene.number_edits import CountEdit
+from occ_gui.scene.number_edits import CountEdit, QuantityEdit
 from occ_gui.scene.parameter_rows import explain
-from occ_gui.scene.quantity_edit import QuantityEdit
 from occ_gui.values.film_choice import FIRST_FRAMES
 from occ_gui.values.film_choice import FRAMES as COUNTS
+from occ_gui.widgets.building import filled, paragraph
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
-from occ_gui.widgets.layouts import filled
-from occ_gui.widgets.named import paragraph
 from occ_gui.widgets.work_bar import WorkBar
 from occ_model.errors import OccError
 from occ_model.scene.parameter_kinds import Count

@@ -19,8 +19,8 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from occ_gui.video.film_reading import Marks, MarkState
 from occ_gui.video.mark_look import LOOKS, brush_of, draw_mark
+from occ_gui.widgets.columns import round_step
 from occ_gui.widgets.guarded_paint import guarded
-from occ_gui.widgets.round_step import round_step
 
 _LEAST_GUTTER, _BESIDE, _MARGIN = 64, 6, 10
 """Pixels at the left at least, around the names of the rows, and at the right."""

@@ -20,8 +20,7 @@ from occ_gui.video.frame_views import FilmPictures, FrameRows
 from occ_gui.video.mark_look import MarkLegend
 from occ_gui.video.recording_form import RecordingForm
 from occ_gui.video.timeline import Timeline
-from occ_gui.widgets.layouts import filled
-from occ_gui.widgets.named import paragraph
+from occ_gui.widgets.building import filled, paragraph
 from occ_gui.widgets.outdated_mark import OutdatedMark
 from occ_gui.widgets.plain_text import in_tool_tip
 from occ_gui.widgets.scroll_pane import ScrollPane

@@ -8,8 +8,8 @@ from PySide6.QtCore import QRectF
 from PySide6.QtGui import QPainter
 from PySide6.QtWidgets import QStyleOptionGraphicsItem, QWidget
 
+from occ_gui.widgets.columns import round_step
 from occ_gui.widgets.guarded_paint import guarded
-from occ_gui.widgets.round_step import round_step
 
 _NUMBER_LENGTH = {"left": 18.0, "bottom": 36.0}  # pixels that a number occupies along the axis
 

@@ -6,7 +6,7 @@ from functools import cache
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPalette, QPen, QStaticText
 
-from occ_gui.widgets.contrast import seen_on
+from occ_gui.widgets.colours import seen_on
 
 _LEAST_FOR_DIGIT = 7.5
 

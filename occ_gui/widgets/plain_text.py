@@ -2,7 +2,10 @@
 
 import html
 
-from PySide6.QtGui import Qt  # only this one has mightBeRichText
+from PySide6.QtGui import (
+    QGuiApplication,
+    Qt,  # only this one has mightBeRichText
+)
 
 from occ_model.errors import one_line
 
@@ -29,3 +32,12 @@ def in_title(text: str) -> str:
 def plain(text: str) -> str:
     """Return a menu entry's text without the marks of its shortcut letters."""
     return text.replace("&&", "\0").replace("&", "").replace("\0", "&")
+
+
+_MAX_SHOWN_CHARACTERS = 80  # characters of a copied text that the message shows
+
+
+def copy_text(text: str) -> str:
+    QGuiApplication.clipboard().setText(text)
+    first, _, more = text.strip().partition("\n")
+    return f"Copied: {one_line(f'{first} …' if more else first, _MAX_SHOWN_CHARACTERS)}"

@@ -28,20 +28,14 @@ class StateColours:
     paper: QColor
 
 
-_LIGHT = {
-    State.GOOD: ("#0b5c24", "#d6f0dc"),
-    State.DOUBTFUL: ("#6b4500", "#fdedc8"),
-    State.WAITING: ("#6b4500", "#fdedc8"),
-    State.BAD: ("#8c1d18", "#fbdedb"),
-    State.NEUTRAL: ("#2b2b2b", "#e2e4e8"),
+_COLOURS = {
+    State.GOOD: (("#0b5c24", "#d6f0dc"), ("#98e8ae", "#143a20")),
+    State.DOUBTFUL: (("#6b4500", "#fdedc8"), ("#ffd983", "#44340c")),
+    State.WAITING: (("#6b4500", "#fdedc8"), ("#ffd983", "#44340c")),
+    State.BAD: (("#8c1d18", "#fbdedb"), ("#ffb8b0", "#521a16")),
+    State.NEUTRAL: (("#2b2b2b", "#e2e4e8"), ("#ececec", "#4a4d52")),
 }
-_DARK = {
-    State.GOOD: ("#98e8ae", "#143a20"),
-    State.DOUBTFUL: ("#ffd983", "#44340c"),
-    State.WAITING: ("#ffd983", "#44340c"),
-    State.BAD: ("#ffb8b0", "#521a16"),
-    State.NEUTRAL: ("#ececec", "#4a4d52"),
-}
+"""Ink and paper, in the light and in the dark."""
 
 
 def is_dark(palette: QPalette) -> bool:
@@ -56,7 +50,7 @@ def colours_of(state: State, palette: QPalette) -> StateColours:
 
 @cache
 def _colours(state: State, dark: bool) -> StateColours:
-    ink, paper = (_DARK if dark else _LIGHT)[state]
+    ink, paper = _COLOURS[state][dark]
     return StateColours(QColor(ink), QColor(paper))
 
 

@@ -18,12 +18,17 @@ class TextSize(Enum):
     TITLE = 20 / 13
 
 
-def scaled(font: QFont, size: TextSize, *, bold: bool = False) -> QFont:
+def resized(font: QFont, factor: float) -> QFont:
     found = QFont(font)
     if font.pointSizeF() > 0.0:
-        found.setPointSizeF(size.value * font.pointSizeF())
+        found.setPointSizeF(factor * font.pointSizeF())
     else:  # a font whose size is given in pixels
-        found.setPixelSize(round(size.value * font.pixelSize()))
+        found.setPixelSize(round(factor * font.pixelSize()))
+    return found
+
+
+def scaled(font: QFont, size: TextSize, *, bold: bool = False) -> QFont:
+    found = resized(font, size.value)
     found.setBold(bold)
     return found
 

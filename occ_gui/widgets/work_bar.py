@@ -3,8 +3,7 @@
 from PySide6.QtCore import QTimer, Signal
 from PySide6.QtWidgets import QHBoxLayout, QProgressBar, QWidget
 
-from occ_gui.widgets.layouts import filled
-from occ_gui.widgets.named import push_button
+from occ_gui.widgets.building import filled, push_button
 
 _STEPS = 1000
 

@@ -16,14 +16,13 @@ from occ_gui.scene.control_panel import ControlPanel
 from occ_gui.story.story_view import StoryView
 from occ_gui.widgets.event_filters import leave_drops_to_window
 from occ_gui.widgets.scroll_pane import bring_into_view
-from occ_gui.window.dock import Dock
+from occ_gui.window.docks import Dock
 from occ_gui.window.menus import Menus
-from occ_gui.window.modes.mode import HOMES, MODES, PICTURE
-from occ_gui.window.modes.mode_switch import ModeSwitch
+from occ_gui.window.modes import HOMES, MODES, PICTURE, ModeSwitch
 from occ_gui.window.reading_order import next_to_focus
 from occ_gui.window.status_line import StatusLine
 from occ_gui.window.style_sheet import style_sheet
-from occ_gui.window.toolbar.toolbar import ToolBar
+from occ_gui.window.toolbar import ToolBar
 
 _OPENED_BELOW, _OPENED_BESIDE = 0.37, 0.26
 """Fractions of the window's height and width for a pane opened below the middle, or beside it."""

@@ -3,16 +3,15 @@
 import re
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
+from typing import NamedTuple
 
-from PySide6.QtCore import QObject
+from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtGui import QAction, QActionGroup, QKeySequence, QUndoStack
 from PySide6.QtWidgets import QDockWidget, QMainWindow, QMenu
 
 from occ_gui.values.photo_choice import MODES as OVERLAYS
 from occ_gui.widgets.plain_text import LONGEST, in_menu, in_tool_tip
-from occ_gui.window.full_screen import FullScreen
-from occ_gui.window.modes.mode import MODES
-from occ_gui.window.search_words import give_words
+from occ_gui.window.modes import MODES
 from occ_gui.window.theme import THEMES
 from occ_model.errors import one_line
 from occ_model.photo.reading.choices import SCAN_AXES
@@ -25,6 +24,147 @@ _WITH_PHOTO = (
 
 _WITH_MATCH = ("apply_match", "save_match")
 """Entries that are enabled while there is the result of a match."""
+
+_SEARCH_WORDS = "search_words"  # the property of an action in which they stand
+
+_FIGURE = "save figure plot pdf png svg csv"
+_TEXT = "font zoom bigger size projector"
+_LEARN = "learn course tutorial teach student lab sheet"
+
+
+class _Entry(NamedTuple):
+    name: str
+    text: str
+    keys: QKeySequence.StandardKey | str = ""
+    tip: str = ""
+    words: str = ""  # by which it is found besides those of its text
+    is_checkable: bool = False
+
+
+_KEYS = QKeySequence.StandardKey
+_SEPARATOR = None
+_OPEN_PHOTO = _Entry("open_photo", "Open &photos…", _KEYS.Open, words="image picture jpeg heic raw")
+_FILE = (
+    _Entry("close_photo", "&Close photo"),
+    _Entry("open_film", "Open &film…", "Ctrl+Alt+O", words="video movie mp4 avi mkv camera"),
+    _Entry("close_film", "C&lose film"),
+    _SEPARATOR,
+    _Entry("open_scene", "Open sc&ene…", "Ctrl+Shift+O", words="toml load"),
+    _Entry("save_scene", "&Save scene", _KEYS.Save, words="toml"),
+    _Entry("save_scene_as", "Save scene &as…", "Ctrl+Shift+S", words="toml"),
+    _Entry("save_picture", "Save simulated p&icture as…", words="image png export"),
+    _SEPARATOR,
+)
+_EXPORT_ALL = _Entry("export_all", "A&ll figures…", "Ctrl+Shift+E", words=_FIGURE)
+_TRANSMITTER_AND_QUIT = (
+    _Entry(
+        "transmitter", "&Transmitter…", words="arduino pico board microcontroller sketch code led"
+    ),
+    _SEPARATOR,
+    _Entry("quit", "&Quit", "Ctrl+Q"),
+)
+_PINS = (
+    _Entry("pin_a", "Pin as &A", "Ctrl+Shift+A", words="compare"),
+    _Entry("pin_b", "Pin as &B", "Ctrl+Shift+B", words="compare"),
+    _Entry("go_to_a", "Take me &to A"),
+    _Entry("go_to_b", "Take me t&o B"),
+    _Entry("clear_pins", "C&lear both"),
+)
+_EDIT = (
+    _SEPARATOR,
+    _Entry("copy_figure", "Copy fi&gure", "Ctrl+Shift+C", words="clipboard"),
+    _SEPARATOR,
+    _Entry(
+        "hold_brightness", "&Hold brightness", "Ctrl+B",
+        "While on, the ISO speed moves against the exposure time.", is_checkable=True,
+    ),
+    _Entry("reset_scene", "Reset &scene"),
+)  # fmt: skip
+_PHOTO = (
+    _Entry("match", "&Match photo", "Ctrl+M", words="fit measure camera readout"),
+    _Entry("match_all", "Ma&tch all photos", words="batch table several"),
+    _Entry("find_lamps", "&Find lamps", words="led light"),
+    _Entry("region_by_hand", "&Region by hand", words="crop rectangle"),
+    _Entry("whole_photo", "&Whole photo"),
+    _Entry("apply_match", "&Apply to the scene", "Ctrl+Shift+M"),
+    _Entry("save_match", "Save match as &preset…"),
+    _Entry("delete_preset", "D&elete preset…"),
+    _Entry("use_settings", "&Use this photo's settings"),
+    _SEPARATOR,
+)
+_OVERLAYS = {
+    "beside": ("&Side by side", "", ""),
+    "blend": ("&Blended over the simulation", "", "overlay"),
+    "split": ("Sp&lit along a line", "", "overlay wipe"),
+    "difference": ("&Difference", "", ""),
+}
+_SCAN_AXES = {
+    "auto": ("&Automatic: across its stripes", "", ""),
+    "columns": ("Column by &column", "", ""),
+    "lines": ("&Line by line", "", ""),
+}
+_MODES = {
+    "explore": ("&Explore", "From the LED's light to the bits.", "story simulation"),
+    "photo": ("&Photo", "Explain a photo of your own.", "match camera readout"),
+    "limits": (
+        "&Limits", "How fast the code can be, and still be read.",
+        "map how fast bits bit rate most highest frequency range",
+    ),
+    "effects": (
+        "E&ffects", "What accuracy costs in time.",
+        "accuracy cost time tolerance noise lens jpeg",
+    ),
+    "lessons": ("Le&ssons", "Learn step by step.", _LEARN),
+    "video": ("&Video", "Read films, and what a camera sees.", "film movie camera live mp4"),
+    "room": ("&Room", "Many lamps in one picture: where am I?", ""),
+}  # fmt: skip
+_THEMES = {
+    "system": ("&System", "", "colour color"),
+    "light": ("&Light", "", "colour color bright"),
+    "dark": ("&Dark", "", "colour color night black"),
+}
+_LOOK = (
+    _Entry("fit", "&Fit pictures", "Ctrl+0", words="zoom whole reset"),
+    _Entry(
+        "before", "&Before the change", "Ctrl+Alt+Z",
+        "Show the picture before the latest change beside the one now.", is_checkable=True,
+    ),
+    _Entry(
+        "measure", "Meas&ure", "Ctrl+Shift+D",
+        "Two cursors, 1 and 2, that you drag over the rows.",
+        "cursor difference distance", is_checkable=True,
+    ),
+)  # fmt: skip
+_SIZES = (
+    _Entry(
+        "text_larger", "Lar&ger text", _KEYS.ZoomIn,
+        "As for a projector: all text of the window.", f"larger {_TEXT}",
+    ),
+    _Entry("text_smaller", "Smaller te&xt", _KEYS.ZoomOut, words=f"smaller {_TEXT}"),
+    _Entry("text_normal", "&Normal text size", "Ctrl+Alt+0", words=f"reset {_TEXT}"),
+    _Entry(
+        "full_screen", "Fu&ll screen", "F11",
+        "The window as large as the screen, as for a projector.",
+        "projector beamer presentation fullscreen maximize", is_checkable=True,
+    ),
+    _Entry("reset_layout", "&Reset layout"),
+    _Entry(
+        "slider_strips", "&Slider strips", "",
+        "The fraction of bits that the decoder reads along each slider.",
+        "success rate", is_checkable=True,
+    ),
+    _SEPARATOR,
+)  # fmt: skip
+_HELP = (
+    _Entry("guide", "&User's guide"),
+    _Entry("about_pane", "About this &pane", "Shift+F1"),
+    _Entry("welcome", "&Welcome…"),
+    _Entry("lessons", "&Lessons", words=_LEARN),
+    _Entry("report", "&Report…", words="bug error problem"),
+    _Entry("about", "&About"),
+    _Entry("shortcuts", "&Keyboard shortcuts…", "F1", words="keys hotkeys"),
+    _Entry("palette", "Find a &command…", "Ctrl+Shift+P"),
+)
 
 
 class Menus(QObject):
@@ -41,7 +181,7 @@ class Menus(QObject):
         self._make_edit_menu(undo_stack)
         self._make_photo_menu()
         self._make_view_menu(window, docks)
-        self._make_help_menu()
+        self._fill(self._top("help", "&Help"), *_HELP)
         self.show_photo_open(False)
         self.show_match_found(False)
         self.actions["close_film"].setEnabled(False)
@@ -50,54 +190,57 @@ class Menus(QObject):
         self.tops[name] = self._bar.addMenu(text)
         return self.tops[name]
 
-    def _add(
+    def _fill(self, menu: QMenu, *entries: _Entry | None) -> None:
+        for entry in entries:
+            if entry is None:
+                menu.addSeparator()
+                continue
+            action = self.actions[entry.name] = menu.addAction(entry.text)
+            if entry.keys:
+                action.setShortcut(QKeySequence(entry.keys))
+            if entry.tip:
+                action.setToolTip(entry.tip)
+            action.setCheckable(entry.is_checkable)
+            action.setProperty(_SEARCH_WORDS, entry.words)
+
+    def _choice(
         self,
         menu: QMenu,
-        name: str,
-        text: str,
-        shortcut: QKeySequence.StandardKey | str | None = None,
-        tip: str = "",
-        *,
-        is_checkable: bool = False,
-    ) -> QAction:
-        action = menu.addAction(text)
-        if shortcut is not None:
-            action.setShortcut(QKeySequence(shortcut))
-        if tip:
-            action.setToolTip(tip)
-        action.setCheckable(is_checkable)
-        self.actions[name] = action
-        give_words(name, action)
-        return action
+        prefix: str,
+        names: Iterable[str],
+        entries: Mapping[str, tuple[str, str, str]],
+        keys: str = "",
+    ) -> QActionGroup:
+        """Add entries of which one is checked, in this order: by name text, tip and words.
+
+        ``keys``: their shortcuts, with braces for an entry's number, which counts from 1.
+        """
+        group = QActionGroup(self)
+        for place, name in enumerate(names, 1):
+            text, tip, words = entries[name]
+            entry = f"{prefix}_{name}"
+            self._fill(menu, _Entry(entry, text, keys.format(place), tip, words, is_checkable=True))
+            action = self.actions[entry]
+            action.setChecked(place == 1)
+            action.setData(name)
+            group.addAction(action)
+        return group
 
     def _make_file_menu(self, window: QMainWindow) -> None:
-        keys = QKeySequence.StandardKey
         menu = self._top("file", "&File")
-        self._add(menu, "open_photo", "Open &photos…", keys.Open)
+        self._fill(menu, _OPEN_PHOTO)
         self.recent = menu.addMenu("Open &recent")
         self.samples = menu.addMenu("Open sa&mple photo")
         for submenu in (self.recent, self.samples):
             submenu.setToolTipsVisible(True)
             submenu.setEnabled(False)
-        self._add(menu, "close_photo", "&Close photo")
-        self._add(menu, "open_film", "Open &film…", "Ctrl+Alt+O")
-        self._add(menu, "close_film", "C&lose film")
-        menu.addSeparator()
-        self._add(menu, "open_scene", "Open sc&ene…", "Ctrl+Shift+O")
-        self._add(menu, "save_scene", "&Save scene", keys.Save)
-        self._add(menu, "save_scene_as", "Save scene &as…", "Ctrl+Shift+S")
-        self._add(menu, "save_picture", "Save simulated p&icture as…")
-        menu.addSeparator()
-        self._make_export_menu(menu)
-        self._add(menu, "transmitter", "&Transmitter…")
-        menu.addSeparator()
-        self._add(menu, "quit", "&Quit", "Ctrl+Q").triggered.connect(window.close)
-
-    def _make_export_menu(self, file: QMenu) -> None:
-        self._export = self.drop_downs["export"] = file.addMenu("E&xport")
+        self._fill(menu, *_FILE)
+        self._export = self.drop_downs["export"] = menu.addMenu("E&xport")
         self._export.setToolTipsVisible(True)
         self._after_figures = self._export.addSeparator()
-        self._add(self._export, "export_all", "A&ll figures…", "Ctrl+Shift+E")
+        self._fill(self._export, _EXPORT_ALL)
+        self._fill(menu, *_TRANSMITTER_AND_QUIT)
+        self.actions["quit"].triggered.connect(window.close)
 
     def add_figures(self, titles: Mapping[str, str], ask: Callable[[str], None]) -> None:
         for name, title in titles.items():
@@ -107,143 +250,54 @@ class Menus(QObject):
             self.figures[name] = self.actions[f"export_{name}"] = action
             action.setEnabled(f"export_{name}" not in _WITH_PHOTO)
             action.triggered.connect(lambda _=False, name=name: ask(name))
-            give_words(f"export_{name}", action)
+            action.setProperty(_SEARCH_WORDS, _FIGURE)
 
     def add_animations(self, labels: Mapping[str, str], ask: Callable[[str], None]) -> None:
         """Offer an animation of each of these sliders in the export menu."""
         menu = QMenu("A&nimation of a slider", self._export)
         self._export.insertMenu(self._after_figures, menu)
         menu.setToolTipsVisible(True)
+        words = "gif mp4 film video movie play run slider save export"
         for name, label in labels.items():
             action = menu.addAction(f"{in_menu(label)}…")
             action.setToolTip("The slider's run from end to end, as GIF, MP4 or PNG.")
             action.triggered.connect(lambda _=False, name=name: ask(name))
-            give_words("animation", action)
+            action.setProperty(_SEARCH_WORDS, words)
 
     def _make_edit_menu(self, undo_stack: QUndoStack) -> None:
         menu = self._top("edit", "&Edit")
         undo = undo_stack.createUndoAction(self, "&Undo")
         redo = undo_stack.createRedoAction(self, "&Redo")
-        undo.setShortcut(QKeySequence(QKeySequence.StandardKey.Undo))
-        redo.setShortcut(QKeySequence(QKeySequence.StandardKey.Redo))
+        undo.setShortcut(QKeySequence(_KEYS.Undo))
+        redo.setShortcut(QKeySequence(_KEYS.Redo))
         menu.addActions([undo, redo])
         self.actions |= {"undo": undo, "redo": redo}
-        self._make_pin_menu(menu)
-        menu.addSeparator()
-        self._add(menu, "copy_figure", "Copy fi&gure", "Ctrl+Shift+C")
-        menu.addSeparator()
-        tip = "While on, the ISO speed moves against the exposure time."
-        self._add(menu, "hold_brightness", "&Hold brightness", "Ctrl+B", tip, is_checkable=True)
-        self._add(menu, "reset_scene", "Reset &scene")
-
-    def _make_pin_menu(self, edit: QMenu) -> None:
-        menu = edit.addMenu("Pi&n and compare")
-        self._add(menu, "pin_a", "Pin as &A", "Ctrl+Shift+A")
-        self._add(menu, "pin_b", "Pin as &B", "Ctrl+Shift+B")
-        self._add(menu, "go_to_a", "Take me &to A")
-        self._add(menu, "go_to_b", "Take me t&o B")
-        self._add(menu, "clear_pins", "C&lear both")
+        self._fill(menu.addMenu("Pi&n and compare"), *_PINS)
+        self._fill(menu, *_EDIT)
 
     def _make_photo_menu(self) -> None:
         menu = self._top("photo", "&Photo")
-        self._add(menu, "match", "&Match photo", "Ctrl+M")
-        self._add(menu, "match_all", "Ma&tch all photos")
-        self._add(menu, "find_lamps", "&Find lamps")
-        self._add(menu, "region_by_hand", "&Region by hand")
-        self._add(menu, "whole_photo", "&Whole photo")
-        self._add(menu, "apply_match", "&Apply to the scene", "Ctrl+Shift+M")
-        self._add(menu, "save_match", "Save match as &preset…")
-        self._add(menu, "delete_preset", "D&elete preset…")
-        self._add(menu, "use_settings", "&Use this photo's settings")
-        menu.addSeparator()
-        words = {
-            "beside": "&Side by side",
-            "blend": "&Blended over the simulation",
-            "split": "Sp&lit along a line",
-            "difference": "&Difference",
-        }
-        self.overlays = QActionGroup(self)
-        for place, mode in enumerate(OVERLAYS, 1):
-            action = self._add_choice(menu, self.overlays, f"show_{mode}", words[mode], mode)
-            action.setShortcut(QKeySequence(f"Ctrl+Alt+{place}"))
+        self._fill(menu, *_PHOTO)
+        self.overlays = self._choice(menu, "show", OVERLAYS, _OVERLAYS, "Ctrl+Alt+{}")
         menu.addSeparator()
         axes = menu.addMenu("Photo was s&canned")
-        words = {
-            "auto": "&Automatic: across its stripes",
-            "columns": "Column by &column",
-            "lines": "&Line by line",
-        }
-        self.scan_axes = QActionGroup(self)
-        for axis in SCAN_AXES:
-            self._add_choice(axes, self.scan_axes, f"scan_{axis}", words[axis], axis)
-
-    def _make_mode_menu(self, view: QMenu) -> None:
-        menu = view.addMenu("&Mode")
-        menu.setToolTipsVisible(True)
-        texts = {
-            "explore": ("&Explore", "From the LED's light to the bits."),
-            "photo": ("&Photo", "Explain a photo of your own."),
-            "limits": ("&Limits", "How fast the code can be, and still be read."),
-            "effects": ("E&ffects", "What accuracy costs in time."),
-            "lessons": ("Le&ssons", "Learn step by step."),
-            "video": ("&Video", "Read films, and what a camera sees."),
-            "room": ("&Room", "Many lamps in one picture: where am I?"),
-        }
-        self.modes = QActionGroup(self)
-        for place, name in enumerate(MODES, 1):
-            text, meaning = texts[name]
-            action = self._add_choice(menu, self.modes, f"mode_{name}", text, name)
-            action.setShortcut(QKeySequence(f"Ctrl+{place}"))
-            action.setToolTip(meaning)
+        self.scan_axes = self._choice(axes, "scan", SCAN_AXES, _SCAN_AXES)
 
     def _make_view_menu(self, window: QMainWindow, docks: Iterable[QDockWidget]) -> None:
         menu = self._view = self._top("view", "&View")
-        self._make_mode_menu(menu)
-        self._add(menu, "fit", "&Fit pictures", "Ctrl+0")
-        tip = "Show the picture before the latest change beside the one now."
-        self._add(menu, "before", "&Before the change", "Ctrl+Alt+Z", tip, is_checkable=True)
-        tip = "Two cursors, 1 and 2, that you drag over the rows."
-        self._add(menu, "measure", "Meas&ure", "Ctrl+Shift+D", tip, is_checkable=True)
+        modes = menu.addMenu("&Mode")
+        modes.setToolTipsVisible(True)
+        self.modes = self._choice(modes, "mode", MODES, _MODES, "Ctrl+{}")
+        self._fill(menu, *_LOOK)
         theme = self.drop_downs["theme"] = menu.addMenu("&Theme")
-        self.themes = QActionGroup(self)
-        for key in THEMES:
-            self._add_choice(theme, self.themes, f"theme_{key}", f"&{key.capitalize()}", key)
-        keys = QKeySequence.StandardKey
-        tip = "As for a projector: all text of the window."
-        self._add(menu, "text_larger", "Lar&ger text", keys.ZoomIn, tip)
-        self._add(menu, "text_smaller", "Smaller te&xt", keys.ZoomOut)
-        self._add(menu, "text_normal", "&Normal text size", "Ctrl+Alt+0")
-        tip = "The window as large as the screen, as for a projector."
-        FullScreen(window, self._add(menu, "full_screen", "Fu&ll screen", "F11", tip))
-        self._add(menu, "reset_layout", "&Reset layout")
-        tip = "The fraction of bits that the decoder reads along each slider."
-        self._add(menu, "slider_strips", "&Slider strips", tip=tip, is_checkable=True)
-        menu.addSeparator()
+        self.themes = self._choice(theme, "theme", THEMES, _THEMES)
+        self._fill(menu, *_SIZES)
+        FullScreen(window, self.actions["full_screen"])
         for dock in docks:
             self.add_dock(dock)
 
     def add_dock(self, dock: QDockWidget) -> None:
         self._view.addAction(dock.toggleViewAction())
-
-    def _make_help_menu(self) -> None:
-        menu = self._top("help", "&Help")
-        self._add(menu, "guide", "&User's guide")
-        self._add(menu, "about_pane", "About this &pane", "Shift+F1")
-        self._add(menu, "welcome", "&Welcome…")
-        self._add(menu, "lessons", "&Lessons")
-        self._add(menu, "report", "&Report…")
-        self._add(menu, "about", "&About")
-        self._add(menu, "shortcuts", "&Keyboard shortcuts…", "F1")
-        self._add(menu, "palette", "Find a &command…", "Ctrl+Shift+P")
-
-    def _add_choice(
-        self, menu: QMenu, group: QActionGroup, name: str, text: str, key: str
-    ) -> QAction:
-        action = self._add(menu, name, text, is_checkable=True)
-        action.setChecked(not group.actions())
-        action.setData(key)
-        group.addAction(action)
-        return action
 
     def show_choice(self, group: QActionGroup, key: str) -> None:
         """Check the entry of a group that stands for a key, without triggering it."""
@@ -281,6 +335,11 @@ class Menus(QObject):
         self.samples.setEnabled(not self.samples.isEmpty())
 
 
+def search_words(action: QAction) -> str:
+    """Return the words by which an entry is found besides those of its text."""
+    return str(action.property(_SEARCH_WORDS) or "")
+
+
 def words_of(name: str) -> str:
     """Write a file's name in words: ``led-1khz`` as LED 1 kHz."""
     words = re.sub(r"(\d)(k?)hz\b", r"\1 \2Hz", name.replace("-", " "))
@@ -292,3 +351,25 @@ def _add_file(menu: QMenu, path: Path, text: str, open_file: Callable[[Path], No
     action = menu.addAction(in_menu(text))
     action.setToolTip(in_tool_tip(one_line(str(path), LONGEST)))
     action.triggered.connect(lambda: open_file(path))
+
+
+class FullScreen(QObject):
+    """Connects the entry of the menu with the window's state, whoever changes it."""
+
+    def __init__(self, window: QMainWindow, action: QAction) -> None:
+        super().__init__(window)
+        self._window, self._action = window, action
+        action.setCheckable(True)
+        action.toggled.connect(self._show)
+        window.installEventFilter(self)
+
+    def _show(self, full: bool) -> None:
+        # One bit of the state only, so that a maximized window is one again afterwards.
+        state = self._window.windowState()
+        flag = Qt.WindowState.WindowFullScreen
+        self._window.setWindowState(state | flag if full else state & ~flag)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
+        if watched is self._window and event.type() == QEvent.Type.WindowStateChange:
+            self._action.setChecked(self._window.isFullScreen())
+        return False

@@ -1,8 +1,9 @@
 """Text size: all text of the application larger, as for a projector, or smaller again."""
 
 from PySide6.QtCore import QObject, Qt, Signal
-from PySide6.QtGui import QFont
 from PySide6.QtWidgets import QApplication, QWidget
+
+from occ_gui.widgets.text_scale import resized
 
 SIZES = (100, 115, 130)  # percent of the system's size of text, the normal one first
 
@@ -43,8 +44,8 @@ class TextSize(QObject):
     def _scale_to(self, percent: int) -> None:
         factor = percent / self.percent
         self.percent = percent
-        own = [(widget, _scaled(widget.font(), factor)) for widget in _with_own_size()]
-        QApplication.setFont(_scaled(QApplication.font(), factor))
+        own = [(widget, resized(widget.font(), factor)) for widget in _with_own_size()]
+        QApplication.setFont(resized(QApplication.font(), factor))
         for widget, font in own:
             widget.setFont(font)
 
@@ -56,12 +57,3 @@ def _with_own_size() -> list[QWidget]:
         for widget in QApplication.allWidgets()
         if widget.testAttribute(_SET_FONT) and widget.font().resolveMask() & _HAS_SIZE
     ]
-
-
-def _scaled(font: QFont, factor: float) -> QFont:
-    found = QFont(font)
-    if font.pointSizeF() > 0.0:
-        found.setPointSizeF(factor * font.pointSizeF())
-    else:  # a font whose size is given in pixels
-        found.setPixelSize(round(factor * font.pixelSize()))
-    return found

@@ -1,6 +1,6 @@
-"""Command palette: find a menu command or a parameter by a few letters of its name."""
+"""Dialogs that list the menus' entries: the palette finds one, the sheet shows all with keys."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from PySide6.QtCore import QEvent, QObject, Qt
@@ -8,11 +8,15 @@ from PySide6.QtGui import QAction, QKeyEvent, QKeySequence
 from PySide6.QtWidgets import (
     QAbstractSpinBox,
     QDialog,
+    QDialogButtonBox,
+    QHeaderView,
     QLabel,
     QLineEdit,
     QListWidget,
     QMenu,
     QMenuBar,
+    QTableWidget,
+    QTableWidgetItem,
     QVBoxLayout,
     QWidget,
 )
@@ -21,7 +25,7 @@ from occ_gui.scene.control_panel import ControlPanel
 from occ_gui.scene.parameter_rows import ParameterRow
 from occ_gui.widgets.plain_text import plain
 from occ_gui.widgets.scroll_pane import bring_into_view
-from occ_gui.window.search_words import words_of
+from occ_gui.window.menus import search_words
 from occ_model.scene.parameters import PARAMETERS
 
 _NATIVE = QKeySequence.SequenceFormat.NativeText
@@ -129,7 +133,7 @@ def commands_of(
             f"{path}: {plain(action.text())}",
             action.shortcut().toString(_NATIVE),
             action.trigger,
-            f"{action.toolTip()} {words_of(action)}",
+            f"{action.toolTip()} {search_words(action)}",
         )
         for path, action in entries(bar)
         if action.isEnabled()
@@ -155,3 +159,40 @@ def _jump(
 
     symbol = f" {declared.symbol}" if declared.symbol else ""
     return Command(f"{page}: {declared.label}{symbol}", "", jump, declared.meaning)
+
+
+_WIDTH, _HEIGHT = 560, 560
+
+
+class ShortcutSheet(QDialog):
+    def __init__(self, rows: Iterable[tuple[str, str, str]], parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setWindowTitle("Keyboard shortcuts")
+        shown = list(rows)
+        self.table = QTableWidget(len(shown), 3)
+        self.table.setAccessibleName("Keyboard shortcuts")
+        self.table.setHorizontalHeaderLabels(["Menu", "Does", "Keys"])
+        self.table.verticalHeader().hide()
+        self.table.setShowGrid(False)
+        self.table.setAlternatingRowColors(True)
+        self.table.setTabKeyNavigation(False)
+        self.table.setSelectionBehavior(QTableWidget.SelectionBehavior.SelectRows)
+        for line, texts in enumerate(shown):
+            for column, text in enumerate(texts):
+                item = QTableWidgetItem(text)
+                item.setFlags(Qt.ItemFlag.ItemIsEnabled | Qt.ItemFlag.ItemIsSelectable)
+                self.table.setItem(line, column, item)
+        header = self.table.horizontalHeader()
+        header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
+        header.setSectionResizeMode(1, QHeaderView.ResizeMode.Stretch)
+        hint = QLabel(
+            "Sliders: arrows and Page Up/Down. Fields: type a number with its unit, such as "
+            "68us or 1/8000 s; Enter takes it. Alt and an underlined letter opens a menu."
+        )
+        hint.setWordWrap(True)
+        buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
+        buttons.rejected.connect(self.reject)
+        layout = QVBoxLayout(self)
+        for widget in (self.table, hint, buttons):
+            layout.addWidget(widget)
+        self.resize(_WIDTH, _HEIGHT)

@@ -1,8 +1,11 @@
-"""Contrast: colours that can be distinguished from their background, by WCAG 2.1."""
+"""Colours and pens that plots, rows and legends share, seen on their background by WCAG 2.1."""
 
 from functools import lru_cache
 
-from PySide6.QtGui import QColor, QPalette, QPen
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QBrush, QColor, QPalette, QPen
+
+from occ_model import colours
 
 _CONTRAST = 4.5  # least contrast of text to its background by WCAG 2.1 (success criterion 1.4.3)
 _LIGHTER = 108  # step of the lightness, in percent
@@ -50,3 +53,20 @@ def pen_on(palette: QPalette, pen: QPen) -> QPen:
     seen = QPen(pen)
     seen.setColor(seen_on(palette, pen.color()))
     return seen
+
+
+SIMULATION = QColor(colours.SIMULATION)
+BAND = QColor(colours.BAND)
+PHOTO = QColor(colours.PHOTO)
+THRESHOLD = QColor(colours.THRESHOLD)
+REGION = QColor(colours.REGION)
+NOISE = QColor(colours.NOISE)
+BEFORE = QColor("#8A8A8A")
+"""Colour of the results before the last change: grey, which nothing else uses."""
+
+
+def thin(colour: QColor, style: Qt.PenStyle = Qt.PenStyle.SolidLine) -> QPen:
+    """Return a pen of width one, as of lines that divide and mark."""
+    pen = QPen(QBrush(colour), 1.0, style)
+    pen.setCosmetic(True)
+    return pen

@@ -1,0 +1,68 @@
+"""Layouts that are filled, and widgets that are made and named, in one call."""
+
+from collections.abc import Callable
+from typing import Any, TypeAlias, TypeVar
+
+from PySide6.QtCore import Qt, SignalInstance
+from PySide6.QtWidgets import QBoxLayout, QLabel, QLayout, QPushButton, QWidget
+
+Box = TypeVar("Box", bound=QBoxLayout)
+Part: TypeAlias = QWidget | QLayout | int | tuple[Any, ...] | None
+"""A widget or a layout, also with its stretch and alignment; pixels of space; None: a stretch."""
+
+
+def filled(
+    layout: Box,
+    *parts: Part,
+    margins: int | tuple[int, int, int, int] | None = None,
+    spacing: int | None = None,
+) -> Box:
+    """Fill a layout; margins and spacing that are not given are those of the style."""
+    if margins is not None:
+        left, top, right, bottom = (margins,) * 4 if isinstance(margins, int) else margins
+        layout.setContentsMargins(left, top, right, bottom)
+    if spacing is not None:
+        layout.setSpacing(spacing)
+    for part in parts:
+        what, *how = part if isinstance(part, tuple) else (part,)
+        if what is None:
+            layout.addStretch(*how)
+        elif isinstance(what, int):
+            layout.addSpacing(what)
+        elif isinstance(what, QLayout):
+            layout.addLayout(what, *how)
+        else:
+            layout.addWidget(what, *how)
+    return layout
+
+
+Widget = TypeVar("Widget", bound=QWidget)
+
+
+def named(widget: Widget, name: str, tip: str = "") -> Widget:
+    widget.setAccessibleName(name)
+    if tip:
+        widget.setToolTip(tip)
+    return widget
+
+
+def push_button(
+    text: str = "",
+    tip: str = "",
+    do: Callable[..., object] | SignalInstance | None = None,
+    *,
+    name: str = "",
+) -> QPushButton:
+    """Make a button; without a name of its own Qt gives screen readers its present text."""
+    made = named(QPushButton(text), name, tip)
+    if do is not None:
+        made.clicked.connect(do)
+    return made
+
+
+def paragraph(text: str = "", *, name: str = "", is_selectable: bool = False) -> QLabel:
+    """Make a label of plain text, wrapped where it is too long for one line."""
+    label = named(QLabel(text, wordWrap=True, textFormat=Qt.TextFormat.PlainText), name)
+    if is_selectable:
+        label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+    return label

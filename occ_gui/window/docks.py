@@ -1,0 +1,129 @@
+"""Docks: where a pane floats, which one is the current pane, and the layout that is stored."""
+
+from collections.abc import Mapping
+
+from PySide6.QtCore import QByteArray, QObject, QPoint, QRect, QSize, Signal
+from PySide6.QtGui import QMoveEvent, QResizeEvent
+from PySide6.QtWidgets import QApplication, QDockWidget, QMainWindow, QWidget
+
+from occ_gui.files.preferences import Preferences
+from occ_gui.window.modes import MODES, ModeSwitch
+
+_STEP = 24  # pixels by which a floated pane is moved from its place, so that it is seen to float
+
+
+def beside(place: QRect, screen: QRect) -> QRect:
+    """Return where a pane floats that stood at a place: near it, and whole on the screen."""
+    size = QSize(min(place.width(), screen.width()), min(place.height(), screen.height()))
+    corner = place.topLeft() + QPoint(_STEP, _STEP)
+    return QRect(
+        QPoint(
+            max(screen.left(), min(corner.x(), screen.right() + 1 - size.width())),
+            max(screen.top(), min(corner.y(), screen.bottom() + 1 - size.height())),
+        ),
+        size,
+    )
+
+
+class Dock(QDockWidget):
+    opened_by_user = Signal()  # its entry in the menu has shown it
+
+    def __init__(self, name: str, title: str, content: QWidget, parent: QWidget) -> None:
+        super().__init__(title, parent)
+        self.setObjectName(name)
+        self.setWidget(content)
+        self._place = QRect()
+        self.topLevelChanged.connect(self._on_floated)
+        self.toggleViewAction().triggered.connect(self._on_switched)
+        self.hide()  # until a mode lays it out
+
+    def _on_switched(self, shown: bool) -> None:
+        if shown:
+            self.opened_by_user.emit()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
+        super().resizeEvent(event)
+        self._note_place()
+
+    def moveEvent(self, event: QMoveEvent) -> None:  # noqa: N802 - Qt's name
+        super().moveEvent(event)
+        self._note_place()
+
+    def _note_place(self) -> None:
+        if not self.isFloating() and self.isVisible():
+            self._place = QRect(self.mapToGlobal(QPoint()), self.size())
+
+    def _on_floated(self, floats: bool) -> None:
+        # Not while the mouse holds it.
+        if floats and self._place.isValid() and QWidget.mouseGrabber() is not self:
+            self.setGeometry(beside(self._place, self.screen().availableGeometry()))
+
+
+PICTURE = "picture"
+
+
+class CurrentPane(QObject):
+    def __init__(self, window: QMainWindow, docks: Mapping[str, QDockWidget]) -> None:
+        super().__init__(window)
+        self._window = window
+        self._docks = docks
+        self.name = PICTURE
+        for name, dock in docks.items():
+            dock.visibilityChanged.connect(lambda seen, name=name: self._on_seen(name, seen))
+        application = QApplication.instance()
+        if isinstance(application, QApplication):
+            application.focusChanged.connect(self._on_focus)
+
+    def _on_seen(self, name: str, seen: bool) -> None:
+        # When the window is first shown all docks become visible without the user's choosing one.
+        tabbed = self._window.tabifiedDockWidgets(self._docks[name])
+        if seen and tabbed and self._window.isActiveWindow():
+            self.name = name
+
+    def _on_focus(self, _before: QWidget | None, now: QWidget | None) -> None:
+        if now is None or now.window() is not self._window:
+            return
+        middle = self._window.centralWidget()
+        if middle is not None and (now is middle or middle.isAncestorOf(now)):
+            self.name = PICTURE
+        for name, dock in self._docks.items():
+            if dock.isAncestorOf(now):
+                self.name = name
+
+
+_GEOMETRY, _MODE, _STATE = "window/geometry", "window/mode", "window/layout"
+
+
+class DockLayout(QObject):
+    """Stores position and size of the window, its mode, and the layout of each mode."""
+
+    def __init__(self, window: QMainWindow, modes: ModeSwitch, preferences: Preferences) -> None:
+        super().__init__(window)
+        self._window, self._modes = window, modes
+        self._preferences = preferences
+
+    def restore(self) -> None:
+        """Restore the window's position and size, its mode and the layouts, before it is shown."""
+        recall = self._preferences.recall
+        geometry = _bytes(recall(_GEOMETRY))
+        if not geometry.isEmpty():
+            self._window.restoreGeometry(geometry)
+        layouts = {name: _bytes(recall(f"{_STATE}/{name}")) for name in MODES}
+        self._modes.layouts |= {name: kept for name, kept in layouts.items() if not kept.isEmpty()}
+        self._modes.switch(recall(_MODE))
+
+    def keep(self) -> None:
+        if not self._modes.is_shown:
+            return
+        self._preferences.keep(_GEOMETRY, _text(self._window.saveGeometry()))
+        self._preferences.keep(_MODE, self._modes.mode)
+        for name, layout in self._modes.present_layouts().items():
+            self._preferences.keep(f"{_STATE}/{name}", _text(layout))
+
+
+def _text(content: QByteArray) -> str:
+    return bytes(content.toBase64().data()).decode("ascii")
+
+
+def _bytes(text: str) -> QByteArray:
+    return QByteArray.fromBase64(QByteArray(text.encode("ascii", "replace")))

@@ -1,1 +1,0 @@
-"""Modes of the window: one for each task, with panes laid out for it."""

@@ -1,1 +1,0 @@
-"""Toolbar: the commands that are used most, as icons."""

@@ -23,8 +23,7 @@ from PySide6.QtCore import QEventLoop, QObject, Qt, QTimer
 import occ_model as occ
 from occ_gui.app.command_line import start
 from occ_gui.core.workspace import Workspace
-from occ_gui.simulation.preview import Picture
-from occ_gui.simulation.snapshot import Reading
+from occ_gui.simulation.snapshot import Picture, Reading
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 

@@ -27,9 +27,8 @@ from occ_gui.shell.results import Board
 from occ_gui.shell.shell import Shell
 from occ_gui.simulation.controller import simulate
 from occ_gui.simulation.present_results import Use
-from occ_gui.simulation.preview import Picture
-from occ_gui.simulation.snapshot import Snapshot
-from occ_gui.window.current_pane import CurrentPane
+from occ_gui.simulation.snapshot import Picture, Snapshot
+from occ_gui.window.docks import CurrentPane
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 

@@ -35,7 +35,7 @@ from occ_gui.values.film_choice import FilmChoice
 from occ_gui.values.photo_choice import MODES as OVERLAYS
 from occ_gui.values.photo_choice import MatchChoice, PhotoChoice
 from occ_gui.values.room_choice import RoomChoice
-from occ_gui.window.modes.mode import MODES
+from occ_gui.window.modes import MODES
 from occ_model.receiver.decoders import DECODERS
 from occ_model.scene.scene import Scene
 

@@ -23,7 +23,7 @@ from occ_gui.core.store import NO_GESTURE
 from occ_gui.core.workspace import FIRST_SETTINGS
 from occ_gui.files.file_controller import sample_photos
 from occ_gui.lessons.lesson_view import LessonView
-from occ_gui.scene.gesture import new_gesture
+from occ_gui.scene.scene_store import new_gesture
 from occ_gui.values.photo_choice import MODES
 from occ_gui.video.wiring import VideoWiring
 from occ_gui.window.theme import THEMES
@@ -99,17 +99,18 @@ class Monkey:
         self._errands = Errands(
             application, qtbot, dialogs.lay_ready, folder, scene, self._random
         )  # fmt: skip
+        at, chance = application, self._random
         # In an order in which each finds at the first time what it needs.
         self._deeds: dict[Callable[[], object], int] = {
             self.move_a_slider: 1200,
             self.choose_a_word: 80,
-            self.change_the_code: 80,
-            self.undo_or_redo: 120,
+            lambda: at.store.change(code=chance.randrange(1024), bits=10): 80,
+            lambda: chance.choice([at.store.undo_stack.undo, at.store.undo_stack.redo])(): 120,
             self.load_a_preset: 60,
             self.force_an_effect: 40,
-            self.change_the_tolerance: 40,
-            self.open_a_sample: 20,
-            self.choose_a_mode: 60,
+            lambda: at.settings.set_tolerance(10.0 ** chance.uniform(-1.0, 2.0)): 40,
+            lambda: at.open_photo(chance.choice(sample_photos())): 20,
+            lambda: at.view("picture").set_mode(chance.choice(MODES)): 60,
             self.choose_a_task: 30,
             self.press_a_tool: 40,
             self.lay_the_photo_over: 20,
@@ -123,13 +124,13 @@ class Monkey:
             self.measure_between_columns: 10,
             self.use_a_context_menu: 20,
             self.go_to_a_limit: 6,
-            self.pin: 20,
-            self.go_to_what_is_pinned: 10,
+            lambda: self._trigger(f"pin_{chance.choice('ab')}"): 20,
+            lambda: self._trigger(f"go_to_{chance.choice('ab')}"): 10,
             partial(self._trigger, "clear_pins"): 6,
             self.choose_a_lesson: 10,
             self.step_on_or_back: 20,
             self.leave_the_lesson: 6,
-            self.choose_a_theme: 6,
+            lambda: self._trigger(f"theme_{chance.choice(THEMES)}"): 6,
             self.save_the_scene: 10,
             self.open_the_saved_scene: 10,
             self.export_a_figure: 12,
@@ -140,7 +141,7 @@ class Monkey:
             partial(self._trigger, "reset_layout"): 8,
             self.open_a_film: 6,
             self.read_or_stop: 10,
-            self.play_or_pause: 20,
+            lambda: self._films.view.transport.play.click(): 20,
             self.seek_a_frame: 30,
             self.record_otherwise: 10,
             self.film_live: 6,
@@ -211,13 +212,6 @@ class Monkey:
         word = self._random.choice(declared.choices)
         self._application.store.change(NO_GESTURE, **{declared.name: word})
 
-    def change_the_code(self) -> None:
-        self._application.store.change(code=self._random.randrange(1024), bits=10)
-
-    def undo_or_redo(self) -> None:
-        stack = self._application.store.undo_stack
-        self._random.choice([stack.undo, stack.redo])()
-
     def load_a_preset(self) -> None:
         scene = occ.load_preset(self._random.choice(occ.presets()))
         self._application.store.put(smaller(scene), "preset")
@@ -226,17 +220,8 @@ class Monkey:
         included = self._random.choice([True, False, None, None])
         self._application.store.force(self._random.choice(NAMES), included)
 
-    def change_the_tolerance(self) -> None:
-        self._application.settings.set_tolerance(10.0 ** self._random.uniform(-1.0, 2.0))
-
-    def open_a_sample(self) -> None:
-        self._application.open_photo(self._random.choice(sample_photos()))
-
     def close_the_photo(self) -> None:
         self._application.photos.close()
-
-    def choose_a_mode(self) -> None:
-        self._application.view("picture").set_mode(self._random.choice(MODES))
 
     def choose_a_task(self) -> None:
         tabs = self._application.window.toolbar.modes
@@ -280,9 +265,6 @@ class Monkey:
         self._films.view.form.count.setValue(self._random.randrange(2, 5))
         self._films.view.bar.read.click()
 
-    def play_or_pause(self) -> None:
-        self._films.view.transport.play.click()
-
     def seek_a_frame(self) -> None:
         keys = (Qt.Key.Key_Left, Qt.Key.Key_Right, Qt.Key.Key_Home, Qt.Key.Key_End)
         self._qtbot.keyClick(self._films.view.timeline, self._random.choice(keys))
@@ -316,9 +298,6 @@ class Monkey:
         slider = self._application.controls.main_rows()["exposure_time"].slider
         slider.setValue(self._random.randint(slider.minimum(), slider.maximum()))
 
-    def choose_a_theme(self) -> None:
-        self._trigger(f"theme_{self._random.choice(THEMES)}")
-
     def run_a_slider(self) -> None:
         panels = self._application.controls.panels.values()
         buttons = [button for panel in panels for button in panel.play_buttons.values()]
@@ -348,12 +327,6 @@ class Monkey:
     def go_to_a_limit(self) -> None:
         cards = self._application.shell.pane("map").view.cards.cards
         self._random.choice([*cards.values()]).go.click()
-
-    def pin(self) -> None:
-        self._trigger(f"pin_{self._random.choice('ab')}")
-
-    def go_to_what_is_pinned(self) -> None:
-        self._trigger(f"go_to_{self._random.choice('ab')}")
 
     def _guide(self) -> LessonView:
         guide = self._application.shell.pane("lessons").view

@@ -44,6 +44,16 @@ sys.exit(main())
 """
 """What ``python -m occ_gui`` does."""
 
+UNMEASURED = """
+import sys
+from occ_gui.__main__ import main
+from occ_gui.detection_map.wiring import Measuring
+
+Measuring.is_idle, Measuring._begin = True, lambda measuring: None
+sys.exit(main())
+"""
+"""The same without the rates beside the sliders, which a screenshot waits half a minute for."""
+
 
 class Starts:
     """Starts programs, after what they need has been imported once."""

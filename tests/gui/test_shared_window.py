@@ -11,7 +11,7 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
 from occ_gui.core.workspace import FIRST_SETTINGS
-from occ_gui.window.modes.mode import MODES
+from occ_gui.window.modes import MODES
 from occ_model.scene.scene import Scene
 
 Change = Callable[[Application], object]
@@ -40,6 +40,8 @@ UNDONE: dict[str, Change] = {
     "several photos": lambda at: at.photo._show_several([Path("a.png"), Path("b.png")]),
 }
 
+EVERY_DAY = ("settings", "mode", "refusal", "several photos")
+
 LASTING: dict[str, Change] = {
     "label": lambda at: at.story.verdict.setToolTip("something"),
     "entry": lambda at: at.window.actions_by_name["quit"].setEnabled(False),
@@ -62,7 +64,9 @@ def is_lent_again(shared: SharedWindow, qtbot: QtBot, scene: Scene, change: Chan
         return second is first
 
 
-@pytest.mark.parametrize("change", UNDONE)
+@pytest.mark.parametrize(
+    "change", [pytest.param(c, marks=() if c in EVERY_DAY else pytest.mark.whole) for c in UNDONE]
+)
 def test_a_window_that_can_be_put_back_is_lent_again_as_it_was(
     kept_window: SharedWindow, qtbot: QtBot, small_scene: Scene, change: str
 ) -> None:

@@ -7,11 +7,14 @@ from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
-from gui.starts import PROJECT, Starts
+from gui.starts import PROJECT, UNMEASURED, Starts
 from PIL import Image
+from PySide6.QtCore import QTimer
 
-from occ_gui.app.command_line import _parser, main
+from occ_gui.app.application import Application
+from occ_gui.app.command_line import _parser, _take_screenshot, main
 from occ_gui.app.system_libraries import missing_libraries
+from occ_gui.detection_map.wiring import Measuring
 
 ENVIRONMENT = {**os.environ, "QT_QPA_PLATFORM": "offscreen"}
 
@@ -40,11 +43,13 @@ def is_one_sentence(text: str) -> bool:
     return text.startswith("occ-gui: ") and text.endswith(".\n") and text.count("\n") == 1
 
 
-def test_a_screenshot_of_the_size_asked_for_is_written(tmp_path: Path, photo_file: Path) -> None:
+def test_a_screenshot_of_the_size_asked_for_is_written(
+    tmp_path: Path, starts: Starts, photo_file: Path
+) -> None:
     picture = tmp_path / "window.png"
-    ended = run(
-        "-m", "occ_gui", "--screenshot", picture, "--size", "1920x1080", "--photo", photo_file,
-        SMALL,
+    ended = starts.run(
+        "--screenshot", picture, "--size", "1920x1080", "--photo", photo_file, SMALL,
+        program=UNMEASURED,
     )  # fmt: skip
     assert (ended.returncode, ended.stdout, ended.stderr) == (0, "", "")
     with Image.open(picture) as image:
@@ -54,13 +59,25 @@ def test_a_screenshot_of_the_size_asked_for_is_written(tmp_path: Path, photo_fil
     assert REGION in colours, "the picture was taken before the simulation was shown"
 
 
+def test_a_screenshot_waits_for_the_rates_beside_the_sliders(
+    application: Application, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    measured = list[bool]()
+    monkeypatch.setattr(Measuring, "is_idle", property(lambda _: bool(measured)))
+    QTimer.singleShot(50, application.window, lambda: measured.append(True))
+    _take_screenshot(application, tmp_path / "w.png")
+    assert measured
+    assert (tmp_path / "w.png").is_file()
+
+
 def test_a_screenshot_of_the_accuracy_pane_waits_for_the_study(
     tmp_path: Path, starts: Starts
 ) -> None:
     small = [f"--set={size}" for size in ("rows=60", "columns=100")]
     ended = starts.run(
-        "--screenshot", tmp_path / "w.png", "--dock", "accuracy", "--tolerance", "2", *small
-    )
+        "--screenshot", tmp_path / "w.png", "--dock", "accuracy", "--tolerance", "2", *small,
+        program=UNMEASURED,
+    )  # fmt: skip
     assert (ended.returncode, ended.stderr) == (0, "")
     with Image.open(tmp_path / "w.png") as image:
         colours = {colour for _, colour in image.convert("RGB").getcolors(2**24) or []}
@@ -73,7 +90,7 @@ def test_a_screenshot_of_a_matched_photo_waits_for_the_match(
     blinking = ["--set=pattern=10", "--set=switching_frequency=4kHz"]
     ended = starts.run(
         "--screenshot", tmp_path / "w.png", "--photo", photo_file, "--match",
-        "--overlay", "split", "--dock", "photo", *blinking, SMALL,
+        "--overlay", "split", "--dock", "photo", *blinking, SMALL, program=UNMEASURED,
     )  # fmt: skip
     assert (ended.returncode, ended.stderr) == (0, "")
     assert (tmp_path / "w.png").is_file()
@@ -82,7 +99,8 @@ def test_a_screenshot_of_a_matched_photo_waits_for_the_match(
 def test_a_photo_that_cannot_be_matched_gives_a_sentence(tmp_path: Path, starts: Starts) -> None:
     flat = tmp_path / "flat.png"
     Image.new("L", (100, 60), 90).save(flat)
-    ended = starts.run("--screenshot", tmp_path / "w.png", "--photo", flat, "--match", SMALL)
+    words = ("--screenshot", tmp_path / "w.png", "--photo", flat, "--match", SMALL)
+    ended = starts.run(*words, program=UNMEASURED)
     assert ended.returncode == 2
     assert is_one_sentence(ended.stderr)
     assert not (tmp_path / "w.png").exists()
@@ -115,7 +133,7 @@ def test_a_screenshot_is_not_written_over_the_photo(
 def test_a_screenshot_that_cannot_be_is_answered_in_a_sentence_and_leaves_no_file(
     tmp_path: Path, starts: Starts, picture: str, more: list[str], named: str
 ) -> None:
-    ended = starts.run("--screenshot", tmp_path / picture, *more, SMALL)
+    ended = starts.run("--screenshot", tmp_path / picture, *more, SMALL, program=UNMEASURED)
     assert ended.returncode == 2
     assert is_one_sentence(ended.stderr)
     assert named.format(folder=tmp_path) in ended.stderr
@@ -169,16 +187,6 @@ def test_a_wrong_option_is_refused_in_one_line(capsys: pytest.CaptureFixture[str
     last = refusal(["--no-such=\x1b[31m" + "9" * 5000], capsys)
     assert last.startswith("occ-gui: error: unrecognized arguments: --no-such=\\x1b[31m999")
     assert len(last) < 1100
-
-
-def test_help_names_every_option(capsys: pytest.CaptureFixture[str]) -> None:
-    with pytest.raises(SystemExit) as ended:
-        main(["--help"])
-    assert ended.value.code == 0
-    told = capsys.readouterr().out
-    scene = ("--preset", "--scene", "--set", "--photo", "--tolerance", "--on", "--off")
-    for option in (*scene, "--screenshot", "--size", "--dock", "--match", "--overlay"):
-        assert option in told
 
 
 def test_without_a_display_a_screenshot_is_offered(

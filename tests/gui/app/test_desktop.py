@@ -20,13 +20,17 @@ from occ_gui.core.workspace import Workspace
 from occ_gui.files.preferences import Preferences
 from occ_gui.help.help_window import HelpWindow
 from occ_gui.help.pages import docs_folder, heading_id
-from occ_gui.scene.gesture import new_gesture
 from occ_gui.scene.scene_editor import SceneEditor
-from occ_gui.scene.scene_store import SceneStore
+from occ_gui.scene.scene_store import SceneStore, new_gesture
 from occ_gui.widgets.plot import Plot
-from occ_gui.window.command_palette import Command, CommandPalette, commands_of, shortcuts_of
-from occ_gui.window.current_pane import PICTURE
-from occ_gui.window.shortcut_sheet import ShortcutSheet
+from occ_gui.window.command_lists import (
+    Command,
+    CommandPalette,
+    ShortcutSheet,
+    commands_of,
+    shortcuts_of,
+)
+from occ_gui.window.docks import PICTURE
 from occ_model.scene.scene import Scene
 
 
@@ -245,14 +249,6 @@ def test_a_brightness_set_by_hand_is_the_one_that_is_held(held: Any) -> None:
     assert store.scene.camera.iso == pytest.approx(800.0)
 
 
-def test_the_menu_holds_the_brightness_of_the_window(application: Application, user: User) -> None:
-    user.choose("&Hold brightness")
-    light = product(application.store)
-    user.enter("exposure_time", "50 us")
-    assert product(application.store) == pytest.approx(light)
-    assert user.row("iso").field.value() == application.store.scene.camera.iso
-
-
 def test_the_view_menu_hides_the_strips_and_it_is_remembered(
     qtbot: QtBot, small_scene: Scene, tmp_path: Path
 ) -> None:
@@ -291,17 +287,3 @@ def test_each_door_of_the_welcome_page_leads_to_its_mode(
     assert len(asked) == 1
     place = application.shell.pane("lessons").view.step.place.text()
     assert place == "What is a rolling shutter? · step 1 of 3"
-
-
-def test_the_pane_opens_by_itself_once_there_are_two_states(
-    application: Application, user: User, qtbot: QtBot
-) -> None:
-    window = application.window
-    window.resize(1280, 800)
-    user.choose("Pin as &A")
-    assert "pin B, too" in user.message
-    assert window.docks["compare"].isHidden()
-    user.enter("iso", "200")
-    user.choose("Pin as &B")
-    compare = window.docks["compare"]
-    qtbot.waitUntil(lambda: compare.isVisible() and compare.height() > 0.3 * 800)

@@ -10,7 +10,7 @@ from PySide6.QtCore import QSize
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
-from occ_gui.files.session_file import SessionFile
+from occ_gui.files.session import SessionFile
 from occ_gui.lessons.lesson_view import LessonView
 from occ_gui.window.main_window import MainWindow
 from occ_model.scene.scene import Scene
@@ -133,6 +133,7 @@ def test_a_lesson_beside_its_photo_fits_into_a_small_window(
     assert window.width() == 1000
 
 
+@pytest.mark.whole  # each day one in a small window shows that both have room
 def test_in_a_large_window_a_lesson_leaves_its_photo_the_height_that_it_does_not_need(
     application: Application, guide: LessonView, user: User, qtbot: QtBot
 ) -> None:

@@ -19,11 +19,8 @@ from occ_gui.app.application import Application
 from occ_gui.detection_map import wiring
 from occ_gui.detection_map.colour_map import RATES, to_colours
 from occ_gui.detection_map.map_schedule import MapRequest
-from occ_gui.detection_map.rate_map import lattice
-from occ_gui.detection_map.slider_strip import IMAGES
 from occ_gui.detection_map.slider_strip_controller import (
     OWN_IMAGES,
-    POSITIONS,
     own_rate,
     own_rate_stages,
 )
@@ -116,23 +113,6 @@ def test_a_picture_that_the_studies_would_contradict_says_what_it_lacks(
     application.settings.set_observable("signal")
     user.wait_until_idle()
     assert lacks.isHidden()
-
-
-@pytest.mark.parametrize("preset", ["phone-136us", "phone-136us-real"])
-def test_a_strip_shows_the_success_rate_of_each_position(preset: str) -> None:
-    scene = occ.load_preset(preset)
-    scene = scene.replace(rows=scene.camera.rows // 12, columns=scene.camera.columns // 2)
-    settings = rate_settings(SimulationSettings(), IMAGES, ("threshold",), True)
-    values = lattice("switching_frequency", POSITIONS)
-    places = [12, 18]
-    points: list[tuple[int, dict[str, ParameterValue]]] = [
-        (place, {"switching_frequency": values[place]}) for place in places
-    ]
-    found = measure_points(scene, settings, points, lambda: None).points
-    for place, point in zip(places, found, strict=True):
-        at = scene.replace(switching_frequency=values[place])
-        rate = occ.success_rate(at, IMAGES, "threshold", SEED)
-        assert 100.0 * point.right[0] / point.sent == rate
 
 
 def twelve_settings() -> list[tuple[Scene, str]]:

@@ -3,18 +3,15 @@
 import shutil
 from pathlib import Path
 
-import numpy as np
 import pytest
 from gui.user import User
 from PIL import Image
-from PySide6.QtCore import QSettings
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QMenu
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.app.application import Application
-from occ_gui.core.workspace import Workspace
 from occ_gui.export.jobs import ExportJob
 from occ_gui.files import file_controller
 from occ_model.scene.provenance import scene_inside
@@ -59,22 +56,6 @@ def test_files_that_were_opened_are_listed_and_opened_again(
     assert application.window.windowTitle().startswith("taken.png")
     user.choose("&Clear this list")
     assert not recent.isEnabled()
-
-
-def test_what_was_opened_is_listed_at_the_next_start(
-    qtbot: QtBot, small_scene: Scene, tmp_path: Path
-) -> None:
-    settings = QSettings(str(tmp_path / "settings.ini"), QSettings.Format.IniFormat)
-    scene = tmp_path / "mine.toml"
-    scene.write_text(small_scene.to_toml(), encoding="utf-8")
-    listed = []
-    for _ in range(2):
-        application = Application(Workspace(small_scene), settings)
-        qtbot.addWidget(application.window)
-        listed.append(entries(application.window.menus.recent)[:1])
-        application.files.open_scene(scene)
-        application.window.close()
-    assert listed == [[], ["mine.toml"]]
 
 
 def test_a_missing_recent_file_is_reported_and_removed(
@@ -128,15 +109,6 @@ def test_a_table_whose_first_photo_is_damaged_is_shown(
     application.view("photo").many.photo_chosen.emit(photo_file)
     user.wait_until_idle()
     assert application.window.windowTitle().startswith("stripes.png")
-
-
-@pytest.mark.parametrize("what", ["nothing", "folder"])
-def test_what_is_nothing_usable_is_answered_by_a_sentence(
-    application: Application, user: User, tmp_path: Path, what: str
-) -> None:
-    application.window.dropped.emit([] if what == "nothing" else [tmp_path])
-    assert user.message.endswith("; drop a photo, a film or a scene (.toml).")
-    assert ("computer" in user.message) == (what == "nothing")
 
 
 @pytest.fixture
@@ -194,19 +166,6 @@ def test_an_open_photo_stands_in_the_title_and_is_turned_and_laid_over_by_the_me
     assert not application.view("picture").photo.isVisible()
 
 
-def test_the_photos_profile_is_drawn_beside_the_simulations(
-    application: Application, user: User, photo_file: Path
-) -> None:
-    assert not application.view("profile").residual.isVisible()
-    application.open_photo(photo_file)
-    user.wait_until_idle()
-    columns, levels = application.view("profile").photo.getOriginalDataset()
-    _, residual = application.view("profile").residual.curve.getOriginalDataset()
-    profile = application.view("profile").simulation.getOriginalDataset()[1]
-    assert np.allclose(levels - profile[columns.astype(int)], residual)
-    assert "correlation" in application.view("profile").residual.numbers.toolTip()
-
-
 def test_a_full_disk_while_saving_keeps_the_old_file_and_says_so(
     application: Application, user: User, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -233,7 +192,7 @@ def test_a_full_disk_while_saving_keeps_the_old_file_and_says_so(
     assert path.read_bytes() != old
 
 
-@pytest.mark.parametrize("where", ["file", "clipboard"])
+@pytest.mark.parametrize("where", ["file", pytest.param("clipboard", marks=pytest.mark.whole)])
 def test_an_exported_figure_is_of_the_scene_just_chosen(
     application: Application, user: User, tmp_path: Path, where: str
 ) -> None:

@@ -16,8 +16,7 @@ from occ_gui.background.result_age import PAUSE, ResultAges
 from occ_gui.shell.feature import Pane
 from occ_gui.shell.outdated_marks import VERDICT_DELAY, OutdatedMarks
 from occ_gui.shell.results import Board, of_picture, of_reading, of_snapshot
-from occ_gui.simulation.preview import Picture
-from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.simulation.snapshot import Picture, Snapshot
 from occ_gui.values.simulated import SimulationRequest
 from occ_gui.widgets.outdated_mark import DELAY, OutdatedMark
 from occ_model.receiver.decoders import DECODERS, QUICK_DECODERS

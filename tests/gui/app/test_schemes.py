@@ -105,22 +105,6 @@ def test_all_places_say_that_what_was_typed_is_sent(
     assert rows.light.sent_in_words() == "code 718, 10 bits"
 
 
-@pytest.mark.parametrize("typed", ["hex:4", "x" * 513])
-def test_a_payload_that_cannot_be_read_stays_with_the_reason(
-    application: Application, user: User, qtbot: QtBot, typed: str
-) -> None:
-    field = row(application, "payload")
-    assert isinstance(field, PatternRow)
-    field.field.setText(typed)
-    qtbot.keyClick(field.field, Qt.Key.Key_Return)
-    user.enter("iso", "200")
-    assert field.field.text() == typed
-    assert field.notice.text().startswith("Payload cannot ")
-    assert application.store.scene.transmitter.payload == ""
-    application.store.change(payload="HI")
-    assert (field.field.text(), field.notice.text()) == ("HI", "")
-
-
 def test_a_code_and_a_framing_that_do_not_fit_are_told_at_both_fields(
     application: Application, user: User
 ) -> None:

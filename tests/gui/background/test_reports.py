@@ -7,7 +7,6 @@ import pytest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-import occ_model as occ
 from occ_gui.background.task import Report, Task
 
 PATIENCE_S = 10.0
@@ -32,8 +31,6 @@ class Bench:
         for number in range(3):
             self.at_work.set()
             assert self._allowed.acquire(timeout=PATIENCE_S)
-            if request == "refused" and number == 1:
-                raise occ.ProjectionError("The panel is behind the camera.")
             if request == "mistake" and number == 1:
                 raise RuntimeError("out of luck")
             self.made.append(f"{request} {number}")
@@ -104,25 +101,6 @@ def test_a_newer_start_cancels_the_older(bench: Bench) -> None:
     assert bench.ends == ["finished"]
 
 
-@pytest.mark.parametrize(
-    ("request_", "sentence"),
-    [
-        ("refused", "The panel is behind the camera."),
-        ("mistake", "The test of the runner failed: RuntimeError: out of luck."),
-    ],
-)
-def test_an_error_is_a_sentence_after_the_items_before_it(
-    bench: Bench, request_: str, sentence: str, caplog: pytest.LogCaptureFixture
-) -> None:
-    bench.allow(2)
-    bench.runner.ask(request_)
-    bench.wait_for_end()
-    assert bench.items == [f"{request_} 0"]
-    assert bench.ends == [sentence]
-    assert ("Traceback" in caplog.text) == (request_ == "mistake")
-    assert bench.runner.is_idle
-
-
 def test_an_error_of_a_cancelled_run_does_not_arrive(bench: Bench) -> None:
     bench.runner.ask("mistake")
     assert bench.at_work.wait(PATIENCE_S)
@@ -130,15 +108,3 @@ def test_an_error_of_a_cancelled_run_does_not_arrive(bench: Bench) -> None:
     bench.allow(5)
     bench.wait_for_end()
     assert bench.ends == ["finished"]
-
-
-def test_stopping_waits_for_the_item_and_delivers_nothing(bench: Bench) -> None:
-    bench.runner.ask("a")
-    assert bench.at_work.wait(PATIENCE_S)
-    release = threading.Timer(0.05, bench.allow)
-    release.start()
-    bench.runner.stop()
-    bench.runner.stop()
-    QApplication.processEvents()
-    assert bench.made == ["a 0"]
-    assert bench.items == bench.ends == []

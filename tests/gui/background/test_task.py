@@ -4,12 +4,14 @@ import threading
 from collections.abc import Callable, Iterator
 
 import pytest
-from PySide6.QtCore import QTimer
+from PySide6.QtCore import QObject, Qt, QTimer, Signal, Slot
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
-from occ_gui.background.task import Reporter, Task
+from occ_gui.background import task as tasks
+from occ_gui.background.task import Reporter, Task, WorkerThread
+from occ_model import plugins
 
 PATIENCE_S = 10.0
 
@@ -104,22 +106,16 @@ def test_work_runs_on_another_thread_and_results_on_the_windows(
     assert bench.result_threads == {window_thread}
 
 
-def test_a_refusal_arrives_as_its_sentence(bench: Bench, finish: Callable[[], None]) -> None:
-    bench.ask_and_hold(occ.ProjectionError("The panel is behind the camera."))
-    finish()
-    assert bench.failures == ["The panel is behind the camera."]
-    assert bench.results == []
-
-
 @pytest.mark.parametrize(
     ("mistake", "expected"),
     [
         (RuntimeError("out of luck"), "The test of the runner failed: RuntimeError: out of luck."),
         (ValueError("No dot twice."), "The test of the runner failed: ValueError: No dot twice."),
         (MemoryError(), "The test of the runner failed: MemoryError."),
+        (occ.ProjectionError("The panel is behind the camera."), "The panel is behind the camera."),
     ],
 )
-def test_an_internal_error_is_a_sentence_and_the_runner_goes_on(
+def test_an_error_is_a_sentence_and_the_runner_goes_on(
     bench: Bench,
     finish: Callable[[], None],
     mistake: Exception,
@@ -131,7 +127,7 @@ def test_an_internal_error_is_a_sentence_and_the_runner_goes_on(
     finish()
     assert bench.failures == [expected]
     assert bench.results == ["result of next"]
-    assert "Traceback" in caplog.text
+    assert ("Traceback" in caplog.text) == (not isinstance(mistake, occ.OccError))
 
 
 def test_the_runner_is_idle_when_nothing_runs_or_waits(
@@ -232,3 +228,81 @@ def test_work_waits_until_what_it_has_reported_is_painted(qtbot: QtBot) -> None:
         task.ask(None)
     task.stop()
     assert order == ["a part", "painted", "goes on"]
+
+
+class Worker(QObject):
+    asked = Signal()
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.done_on: list[int] = []
+        self.asked.connect(self.work, Qt.ConnectionType.QueuedConnection)
+
+    @Slot()
+    def work(self) -> None:
+        self.done_on.append(threading.get_ident())
+
+
+def test_work_waits_for_the_thread_and_none_begins_after_its_end(qtbot: QtBot) -> None:
+    worker = Worker()
+    thread = WorkerThread(worker, "work")
+    worker.asked.emit()
+    qtbot.wait(20)
+    assert worker.done_on == []
+    thread.begin()
+    qtbot.waitUntil(lambda: bool(worker.done_on))
+    assert threading.get_ident() not in worker.done_on
+    thread.end()
+    worker = Worker()
+    thread = WorkerThread(worker, "work")
+    thread.end()
+    thread.begin()
+    worker.asked.emit()
+    qtbot.wait(20)
+    assert worker.done_on == []
+
+
+@pytest.fixture
+def busy(qtbot: QtBot) -> Iterator[tuple[WorkerThread, threading.Event, list[str]]]:
+    """Return a thread at work on what ends with an event, and what it has done."""
+    done: list[str] = []
+    begun, go_on = threading.Event(), threading.Event()
+
+    class Holding(Worker):
+        @Slot()
+        def work(self) -> None:
+            with plugins.at_work("The plug-in"):
+                begun.set()
+                go_on.wait()
+            done.append("plug-in")
+
+    worker = Holding()
+    thread = WorkerThread(worker, "work")
+    thread.begin()
+    worker.asked.emit()
+    assert begun.wait(PATIENCE_S)
+    yield thread, go_on, done
+    go_on.set()
+    while tasks._left:
+        tasks._left.pop().wait()
+
+
+def test_a_plug_in_that_does_not_come_back_is_left_behind(
+    busy: tuple[WorkerThread, threading.Event, list[str]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(tasks, "PATIENCE_MS", 20)
+    thread, _, done = busy
+    thread.end()
+    assert done == []
+    assert plugins.all_at_work() == ("The plug-in",)
+
+
+def test_a_plug_in_that_comes_back_in_time_is_waited_for(
+    busy: tuple[WorkerThread, threading.Event, list[str]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(tasks, "PATIENCE_MS", 1e9)
+    thread, go_on, done = busy
+    threading.Timer(0.1, go_on.set).start()
+    thread.end()
+    assert done == ["plug-in"]
+    assert plugins.all_at_work() == ()

@@ -8,12 +8,11 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import fields, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
-from gui.kinds import not_none
 from gui.starts import PROJECT, Starts
 from gui.user import User
 from PySide6.QtCore import QEvent, QSettings, Qt
@@ -23,20 +22,13 @@ from small_rooms import small_room
 
 from occ_gui.app.application import Application
 from occ_gui.app.start import Start
-from occ_gui.core.step_history import History, StepChange
 from occ_gui.core.store import Store
-from occ_gui.core.workspace import FIRST_SETTINGS, Step, Workspace
+from occ_gui.core.workspace import FIRST_SETTINGS, Workspace
 from occ_gui.files import session as session_module
-from occ_gui.files.session import Session, restored
-from occ_gui.files.session_file import SessionFile
-from occ_gui.files.session_record import Kept, kept_in, record_of
-from occ_gui.values.film_choice import FilmChoice
-from occ_gui.values.photo_choice import MatchChoice, PhotoChoice, PhotoFrame, PhotoReading
+from occ_gui.files.session import Session, SessionFile, restored
+from occ_gui.files.session_record import Kept
 from occ_gui.values.room_choice import RoomChoice
-from occ_gui.values.simulated import PinnedScene, SimulationRequest
-from occ_gui.window.modes.mode import MODES
-from occ_model.results.decoding import Region
-from occ_model.scene.recording import Recording
+from occ_gui.window.modes import MODES
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 
@@ -76,78 +68,6 @@ def start(qtbot: QtBot, small_scene: Scene, tmp_path: Path, kept: QSettings) -> 
     return begin
 
 
-def test_all_that_is_set_is_there_again(tmp_path: Path) -> None:
-    here, scene = Path(__file__), Scene().replace(iso=321.0)
-    photo = PhotoChoice(
-        here, PhotoReading("lines", "green"), parts={PhotoFrame(here): Region(1, 20, 3, 40)},
-        form=MatchChoice("square", 750.0, "switching_frequency", fit_gamma=True),
-        certain={"readout_time": 8e-6},
-    )  # fmt: skip
-    recording = Recording(
-        frame_rate=24.0, frame_jitter=1e-5, camera_drift=1e-5, transmitter_drift=-1e-5
-    )
-    film = FilmChoice(here, "lines", recording=recording, frames=7)
-    settings = SimulationSettings(2.0, "signal", {"jpeg": True}, "exact", 7)
-    pin = PinnedScene(SimulationRequest(scene, settings, more=("sequence",)), "phone-68us")
-    workspace = Workspace(
-        scene, settings, 24.0, "bits", "matched", "receiver", "split", is_enhanced=True,
-        photo=photo, film=film, room=RoomChoice("my.toml", small_room(), here, 0.031),
-        pins=(None, pin), preset="tablet-61us", scene_file=here,
-    )  # fmt: skip
-    first = Workspace(Scene())
-    same = [each.name for each in fields(first)
-            if getattr(first, each.name) == getattr(workspace, each.name)]  # fmt: skip
-    assert not same
-    file = SessionFile(tmp_path)
-    file.write(Kept(workspace), in_use=False)
-    file.close()
-    again = SessionFile(tmp_path)
-    assert again.last == Kept(workspace)
-    kept = not_none(again.last.workspace.pins[1])
-    assert kept.request.more == pin.request.more  # by which pins are not told apart
-    again.close()
-
-
-def test_a_file_of_the_former_format_is_read() -> None:
-    scene, pinned = Scene().replace(iso=321.0), Scene().replace(iso=99.0)
-    settings = {"tolerance": 2.0, "observable": "signal", "force": {"jpeg": True}, "noise": "exact",
-                "seed": 7}  # fmt: skip
-    record = {
-        "scene": scene.to_toml(), "settings": settings, "scene_file": __file__,
-        "photo": {"path": __file__}, "film": {"path": __file__}, "preset": "phone-68us",
-        "pins": [{"scene": pinned.to_toml(), "settings": settings, "decoders": []}, None],
-        "history": {"scene": pinned.to_toml(), "force": {}, "done": 1,
-                    "steps": [["change", {"iso": 321.0}, {"jpeg": True}]]},
-    }  # fmt: skip
-    here, known = Path(__file__), SimulationSettings(2.0, "signal", {"jpeg": True}, "exact", 7)
-    workspace = Workspace(
-        scene, known, photo=PhotoChoice(here), film=FilmChoice(here), preset="phone-68us",
-        pins=(PinnedScene(SimulationRequest(pinned, known)), None), scene_file=here,
-    )  # fmt: skip
-    step = StepChange("change", {"iso": 321.0}, {"jpeg": True})
-    assert kept_in(record) == Kept(workspace, History(Step(pinned, {}), (step,), done=1))
-
-
-@pytest.mark.parametrize(
-    ("name", "value"),
-    [
-        ("camera", {"x": "far"}),
-        ("camera", [1]),
-        ("room", "lamps = 3"),
-        ("room", None),
-        ("focal_length", -1.0),
-        ("photo", "/nowhere/room.jpg"),
-    ],
-)
-def test_what_cannot_be_of_a_room_is_as_at_first(name: str, value: object) -> None:
-    choice = RoomChoice("my.toml", small_room(), Path(__file__), 0.031)
-    record = record_of(Kept(Workspace(Scene(), room=choice)))
-    record["room"][name] = value
-    kept = not_none(kept_in(record))
-    left = replace(choice, photo=None) if name == "photo" else RoomChoice()
-    assert kept.workspace.room == left
-
-
 def test_a_room_outlives_a_kill_with_the_steps_of_its_camera(qapp: object, tmp_path: Path) -> None:
     first, file = Workspace(Scene(), frame_rate=24.0), SessionFile(tmp_path)
     store = Store(first)
@@ -180,26 +100,6 @@ def test_a_room_outlives_a_kill_with_the_steps_of_its_camera(qapp: object, tmp_p
     later.undo_stack.redo()
     assert later.workspace.room == seen[1]
     again.close()
-
-
-@pytest.mark.parametrize(
-    ("part", "name", "value"),
-    [
-        ("reading", "channel", "infrared"),
-        ("form", "sent", "?"),
-        ("form", "square_frequency", -1.0),
-        ("form", "fit_gamma", 2),
-        ("certain", "iso", 100.0),
-        ("certain", "readout_time", "8"),
-    ],
-)
-def test_what_cannot_be_set_about_a_photo_is_as_at_first(
-    part: str, name: str, value: object
-) -> None:
-    photo = PhotoChoice(Path(__file__), certain={"readout_time": 8e-6})
-    record = record_of(Kept(Workspace(Scene(), photo=photo)))
-    record["photo"][part][name] = value
-    assert kept_in(record) == Kept(Workspace(Scene(), photo=PhotoChoice(Path(__file__))))
 
 
 def test_scene_settings_photo_and_options_are_there_again(
@@ -264,14 +164,17 @@ def test_a_layout_of_other_panes_is_left_alone(start: Starting, kept: QSettings)
 
 def test_mode_and_layouts_are_there_at_the_next_start(start: Starting) -> None:
     with start() as application:
-        application.window.modes.switch("effects")
+        application.window.modes.switch("photo")
         application.window.docks["controls"].hide()
         application.window.modes.switch("limits")
     with start() as application:
         modes, docks = application.window.modes, application.window.docks
         assert modes.mode == "limits"
         assert application.window.toolbar.modes.currentIndex() == [*MODES].index("limits")
-        for mode, panes in (("limits", set(MODES["limits"].panes)), ("effects", {"accuracy"})):
+        for mode, panes in (
+            ("limits", {*MODES["limits"].panes}),
+            ("photo", {"photo", "profile", "photos"}),
+        ):
             modes.switch(mode)
             assert {name for name, dock in docks.items() if not dock.isHidden()} == panes
 
@@ -304,21 +207,6 @@ def test_rubbish_in_what_was_kept_is_left_out(
             assert application.settings.settings == FIRST_SETTINGS, rubbish
             assert application.options.theme.theme == "system", rubbish
             application.store.change(iso=321.0)
-
-
-@pytest.mark.parametrize(
-    "text",
-    [
-        '{"tolerance": -1, "observable": "image", "force": {}, "noise": "exact", "seed": 1}',
-        '{"tolerance": 1, "observable": "sound", "force": {}, "noise": "exact", "seed": 1}',
-        '{"tolerance": 1, "observable": "image", "force": 3, "noise": "exact", "seed": 1}',
-        '{"tolerance": 1, "observable": "image", "force": {}, "noise": "exact", "seed": -1}',
-        '{"tolerance": 1, "observable": [], "force": {}, "noise": {}, "seed": 1}',
-    ],
-)
-def test_settings_that_cannot_be_are_left_out(text: str) -> None:
-    record = {"scene": Scene().to_toml(), "settings": json.loads(text)}
-    assert kept_in(record) == Kept(Workspace(Scene()))
 
 
 def test_a_settings_file_that_is_none_is_left_out_and_one_of_the_older_form_alone(

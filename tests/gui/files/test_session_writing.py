@@ -14,8 +14,7 @@ from pytestqt.qtbot import QtBot
 from occ_gui.app.application import Application
 from occ_gui.core.workspace import Workspace
 from occ_gui.files import session as session_module
-from occ_gui.files.session import Session
-from occ_gui.files.session_file import SessionFile
+from occ_gui.files.session import Session, SessionFile
 from occ_gui.files.session_record import Kept
 from occ_gui.scene.scene_store import SceneStore
 from occ_model.scene.scene import Scene

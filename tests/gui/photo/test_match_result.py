@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
 
 from occ_gui.photo.match_result import SIGNS, VerdictView
-from occ_gui.widgets.contrast import contrast
+from occ_gui.widgets.colours import contrast
 from occ_gui.widgets.state_look import State
 from occ_model.photo.match_facts import estimate_text
 from occ_model.photo.reading.load import Photo

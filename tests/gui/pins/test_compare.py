@@ -12,11 +12,10 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.pins.compare_view import CompareView
 from occ_gui.pins.feature import compare
-from occ_gui.pins.pin_controller import PinController
-from occ_gui.pins.pinned import Pinned
+from occ_gui.pins.pin_controller import PinController, Pinned
 from occ_gui.simulation.jobs import snapshot_of as snapshot_of_frame
 from occ_gui.simulation.snapshot import Snapshot
-from occ_gui.widgets.first_periods import PACKETS_IN_VIEW
+from occ_gui.widgets.columns import PACKETS_IN_VIEW
 from occ_model.scene.scene import Scene
 
 

@@ -17,7 +17,7 @@ from occ_gui.profile.profile_view import ProfileView
 from occ_gui.simulation.controller import simulate
 from occ_gui.simulation.snapshot import Snapshot, Source
 from occ_gui.values.photo_results import PhotoProfile
-from occ_gui.widgets import first_periods
+from occ_gui.widgets import columns as over_columns
 from occ_model.camera.enhancement import enhance
 from occ_model.photo.reading.load import Photo
 from occ_model.results.decoding import DecodeResult, Region
@@ -236,7 +236,7 @@ def test_whatever_is_drawn_lies_within_the_levels_in_view_up_to_the_next_step_ab
 def test_the_packets_that_the_button_names_are_those_in_view(
     qtbot: QtBot, monkeypatch: pytest.MonkeyPatch, snapshot: Snapshot
 ) -> None:
-    for module in (profile_view, first_periods):
+    for module in (profile_view, over_columns):
         monkeypatch.setattr(module, "PACKETS_IN_VIEW", 1)
     view = add_widget(qtbot, ProfileView())
     view.show_reading(snapshot)

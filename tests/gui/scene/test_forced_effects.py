@@ -2,7 +2,6 @@
 
 import pytest
 from gui.user import User
-from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.app.application import Application
@@ -51,30 +50,19 @@ def test_a_click_gives_all_effects_back_to_the_plan(by_hand: Application, user: 
     assert forced(by_hand) == {"jpeg": False, "vignetting": True}
 
 
-def test_another_preset_ends_the_forced_effects(by_hand: Application, user: User) -> None:
-    name = user.choose_next_preset()
-    assert by_hand.store.scene == occ.load_preset(name)
-    assert forced(by_hand) == {}
-    user.choose("&Undo")
-    assert forced(by_hand) == {"jpeg": False, "vignetting": True}
-
-
-def test_reset_ends_the_forced_effects_also_of_the_scene_it_already_is(
+def test_another_preset_and_a_reset_end_the_forced_effects_in_one_step(
     by_hand: Application, user: User
-) -> None:
-    user.choose("Reset &scene")
-    assert forced(by_hand) == {}
-    by_hand.store.force("jpeg", True)
-    user.choose("Reset &scene")
-    assert forced(by_hand) == {}
-
-
-def test_a_preset_is_simulated_once_without_the_forced_effects(
-    by_hand: Application, user: User, qtbot: QtBot
 ) -> None:
     simulated: list[dict[str, bool]] = []
     by_hand.simulation.snapshot_shown.connect(
         lambda snapshot: simulated.append(dict(snapshot.request.settings.force))
     )
-    user.choose_next_preset()
+    name = user.choose_next_preset()
+    assert by_hand.store.scene == occ.load_preset(name)
     assert simulated == [{}]
+    user.choose("&Undo")
+    assert forced(by_hand) == {"jpeg": False, "vignetting": True}
+    for _ in range(2):  # the second time of the scene that it already is
+        user.choose("Reset &scene")
+        assert forced(by_hand) == {}
+        by_hand.store.force("jpeg", True)

@@ -1,7 +1,10 @@
 """The controls of one parameter show its value and emit what the user enters."""
 
+import math
+
 import pytest
-from gui.scene.told import Told
+from gui.mouse import turn_wheel_at
+from gui.scene.told import QUANTITIES, Told
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
@@ -18,7 +21,6 @@ from occ_model.scene.parameter_kinds import (
     Choice,
     Count,
     OpenChoice,
-    ParameterValue,
     Payload,
     Quantity,
 )
@@ -39,28 +41,6 @@ def test_every_kind_of_declaration_has_its_kind_of_row(qtbot: QtBot, name: str) 
     row = Told(name, qtbot).row
     assert row.name == name
     assert type(row) is KINDS[type(PARAMETERS[name])]
-
-
-@pytest.mark.parametrize("name", PARAMETERS)
-def test_showing_a_value_tells_nothing(qtbot: QtBot, name: str) -> None:
-    told = Told(name, qtbot)
-    declared = PARAMETERS[name]
-    others: dict[str, ParameterValue] = {
-        "pattern": "0110",
-        "preamble": "0110",
-        "payload": "text:A",
-        "line_code": "4b6b",
-        "framing": "raw",
-        "error_correction": "reed-solomon",
-        "averaging": "light",
-        "enhancement": "none",
-        "band_reading": "literal",
-    }
-    value = others.get(name, 3 if isinstance(declared, Count) else 0.5)
-    told.row.show_value(value)
-    told.row.show_value(declared.default)
-    assert told.edits == []
-    assert told.refused == []
 
 
 def test_a_whole_number_is_emitted_when_its_typing_ends_and_quick_steps_are_one_gesture(
@@ -123,3 +103,128 @@ def test_a_tooltip_tells_meaning_symbol_and_allowed_range(name: str) -> None:
     text = explain(declared)
     for part in (declared.label, declared.symbol, declared.meaning, declared.allowed):
         assert part in text
+
+
+@pytest.mark.parametrize("declared", QUANTITIES, ids=lambda declared: declared.name)
+def test_the_slider_ends_at_the_declared_range_and_its_middle_is_their_mean(
+    qtbot: QtBot, declared: Quantity
+) -> None:
+    told = Told(declared.name, qtbot)
+    slider = told.row.slider
+    for position in (slider.minimum(), slider.maximum(), slider.minimum(), slider.maximum() // 2):
+        slider.setValue(position)
+    low, high = declared.slider
+    mean = math.sqrt(low * high) if declared.scale == "log" else (low + high) / 2
+    assert told.values[-3:-1] == [high, low]
+    assert told.values[-1] == pytest.approx(mean, rel=1e-3, abs=1e-3 * (high - low))
+    assert {name for name, _, _ in told.edits} == {declared.name}
+
+
+def test_slider_and_field_show_the_same_value_whichever_is_moved(qtbot: QtBot) -> None:
+    told = Told("distance", qtbot)
+    row = told.row
+    row.slider.setValue(row.slider.maximum())
+    assert row.field.value() == 5.0
+    row.field.selectAll()
+    qtbot.keyClicks(row.field, "20 cm")
+    qtbot.keyClick(row.field, Qt.Key.Key_Return)
+    assert row.slider.value() == row.slider.minimum()
+    assert told.values == [5.0, 0.2]
+
+
+@pytest.mark.parametrize("declared", QUANTITIES, ids=lambda declared: declared.name)
+def test_what_a_slider_gives_is_what_typing_the_shown_text_gives(
+    qtbot: QtBot, declared: Quantity
+) -> None:
+    told = Told(declared.name, qtbot)
+    row = told.row
+    for position in range(0, 1001, 50):
+        row.slider.setValue(position)
+        assert declared.parse(row.field.text()) == row.field.value()
+
+
+def test_a_value_beyond_the_slider_is_kept_and_shown(qtbot: QtBot) -> None:
+    told = Told("distance", qtbot)
+    row = told.row
+    row.show_value(50.0)
+    assert row.slider.value() == row.slider.maximum()
+    assert row.field.value() == 50.0
+    assert row.field.text() == "50 m"
+
+
+def test_one_drag_is_one_gesture_and_so_are_keys_until_a_pause_but_none_of_the_drag(
+    qtbot: QtBot,
+) -> None:
+    told = Told("iso", qtbot)
+    slider = told.row.slider
+    for _ in range(2):
+        slider.setSliderDown(True)
+        for position in (500, 600, 700):
+            slider.setValue(position)
+        slider.setSliderDown(False)
+    assert len(told.edits) == 6
+    assert len(told.gestures) == 2
+    for gestures in (3, 4):
+        for _ in range(3):
+            qtbot.keyClick(slider, Qt.Key.Key_Right)
+        assert len(told.gestures) == gestures
+        told.row._gestures.end()  # as after a pause
+    told = Told("iso", qtbot)
+    told.row.slider.setSliderDown(True)
+    told.row.slider.setValue(500)
+    told.row.slider.setSliderDown(False)
+    qtbot.keyClick(told.row.field, Qt.Key.Key_Up)
+    assert len(told.edits) == len(told.gestures) == 2
+
+
+def test_steps_of_the_field_are_one_gesture_until_a_pause(qtbot: QtBot) -> None:
+    told = Told("iso", qtbot)
+    for gestures in (1, 2):
+        for key in (Qt.Key.Key_Up, Qt.Key.Key_Up, Qt.Key.Key_Down):
+            qtbot.keyClick(told.row.field, key)
+        assert len(told.gestures) == gestures
+        told.row._gestures.end()  # as after a pause
+    assert len(told.edits) == 6
+
+
+def test_every_number_typed_is_a_gesture_of_its_own(qtbot: QtBot) -> None:
+    told = Told("iso", qtbot)
+    field = told.row.field
+    for text in ("200", "300"):
+        qtbot.keyClick(field, Qt.Key.Key_Up)
+        field.selectAll()
+        qtbot.keyClicks(field, text)
+        qtbot.keyClick(field, Qt.Key.Key_Return)
+    assert told.values[1::2] == [200.0, 300.0]
+    assert told.edits[1][2] not in {told.edits[0][2], told.edits[3][2]}
+
+
+def test_arrow_and_page_keys_move_the_slider(qtbot: QtBot) -> None:
+    told = Told("gamma", qtbot)
+    slider = told.row.slider
+    slider.setValue(500)
+    for key, position in (
+        (Qt.Key.Key_Right, 501),
+        (Qt.Key.Key_PageUp, 551),
+        (Qt.Key.Key_PageDown, 501),
+        (Qt.Key.Key_Left, 500),
+        (Qt.Key.Key_Home, 0),
+        (Qt.Key.Key_End, 1000),
+    ):
+        qtbot.keyClick(slider, key)
+        assert slider.value() == position
+    assert told.values[-2:] == [1.0, 4.0]
+
+
+def test_the_wheel_scrolls_the_page_until_a_control_is_chosen(qtbot: QtBot) -> None:
+    told = Told("iso", qtbot)
+    told.row.show()
+    slider = told.row.slider
+
+    slider.clearFocus()
+    turn_wheel_at(slider, slider.rect().center())
+    assert told.edits == []
+    slider.setFocus()
+    qtbot.waitUntil(slider.hasFocus)
+    turn_wheel_at(slider, slider.rect().center())
+    assert len(told.edits) == 1

@@ -8,9 +8,8 @@ from gui.stores import store_of
 from pytestqt.qtbot import QtBot
 
 from occ_gui.core.store import NO_GESTURE
-from occ_gui.scene import gesture
-from occ_gui.scene.gesture import Gestures, new_gesture
-from occ_gui.scene.scene_store import SceneStore
+from occ_gui.scene import scene_store
+from occ_gui.scene.scene_store import Gestures, SceneStore, new_gesture
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 
@@ -143,27 +142,11 @@ def test_undo_and_redo_give_exactly_the_same_scenes(
     assert told == forth[1:]
 
 
-def test_a_change_after_undo_forgets_what_was_undone(store: SceneStore, small_scene: Scene) -> None:
-    store.change(iso=110.0)
-    store.undo_stack.undo()
-    store.change(iso=120.0)
-    assert not store.undo_stack.canRedo()
-    store.undo_stack.undo()
-    assert store.scene == small_scene
-
-
 def test_the_undo_menu_names_the_step(store: SceneStore) -> None:
     store.change(switching_frequency=5e3)
     assert store.undo_stack.undoText() == "change of switching frequency"
     store.put(Scene(), "preset phone-136us")
     assert store.undo_stack.undoText() == "preset phone-136us"
-
-
-def test_gestures_have_numbers_that_qt_can_merge_by() -> None:
-    numbers = [new_gesture() for _ in range(3)]
-    assert len(set(numbers)) == 3
-    assert NO_GESTURE not in numbers
-    assert all(0 <= number < 2**31 for number in numbers)
 
 
 def test_effects_forced_by_hand_are_undone_and_redone(
@@ -226,7 +209,7 @@ def test_changes_without_a_pause_are_one_gesture_and_no_others() -> None:
 def test_a_pause_ends_a_gesture_unless_it_is_held(
     qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(gesture, "_PAUSE_MS", 1)
+    monkeypatch.setattr(scene_store, "_PAUSE_MS", 1)
     gestures = Gestures()
     first = gestures.of_change()
     qtbot.wait(10)

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 from gui.kinds import SnapshotOf, collect, not_none
-from gui.simulation.bench import Bench
+from gui.simulation.conftest import Bench
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 

@@ -6,8 +6,8 @@ from gui.kinds import SnapshotOf, not_none
 
 import occ_model as occ
 from occ_gui.simulation import jobs
-from occ_gui.simulation.draft_rows import LEAST_ROWS, LONGEST, THINNEST, DraftRows
-from occ_gui.simulation.preview import Picture, halved
+from occ_gui.simulation.jobs import LEAST_ROWS, LONGEST, THINNEST, DraftRows
+from occ_gui.simulation.snapshot import Picture, halved
 from occ_gui.values.simulated import LEAST_DRAFT_STEP
 from occ_model.scene.scene import Scene
 from occ_model.simulation.render import plan_scene

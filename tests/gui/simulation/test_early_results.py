@@ -8,13 +8,13 @@ from typing import Any
 import numpy as np
 import pytest
 from gui.kinds import collect
-from gui.simulation.bench import Bench
+from gui.simulation.conftest import Bench
 from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from occ_gui.simulation import controller, jobs
-from occ_gui.simulation.preview import Picture
+from occ_gui.simulation.snapshot import Picture
 from occ_gui.values.simulated import LEAST_DRAFT_STEP, SimulationRequest
 from occ_model.effects import plan
 from occ_model.effects.paper_view import PaperView

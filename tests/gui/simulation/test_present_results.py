@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 import pytest
 from gui.kinds import not_none
-from gui.simulation.bench import Bench
+from gui.simulation.conftest import Bench
 
 import occ_model as occ
 from occ_gui.files.file_controller import FileController

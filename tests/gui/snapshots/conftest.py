@@ -6,8 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from gui.shared_window import SharedWindow
-from gui.snapshots.difference import LEAST_SIMILARITY, MOST_COLOUR, difference
-from gui.snapshots.drawing import settled
+from gui.snapshots.drawing import LEAST_SIMILARITY, MOST_COLOUR, difference, settled
 from PIL import Image
 from PySide6.QtGui import QFont
 from PySide6.QtWidgets import QApplication, QWidget

@@ -1,10 +1,68 @@
-"""Draws a widget into an array, once its layout has come to rest."""
+"""Draws a widget, and tells how far two pictures of it differ for an eye.
+
+Both are taken tile by tile, and the worst tile counts: in a mean over the whole picture a legend
+that has gone would drown in the white around it.
+"""
+
+from dataclasses import dataclass
 
 import numpy as np
-from gui.snapshots.difference import Colours
+from numpy.typing import NDArray
 from PySide6.QtGui import QImage
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
+from skimage.metrics import structural_similarity
+
+TILE = 24
+"""The side of a tile in pixels: a line of text, or two ticks of an axis."""
+
+LEAST_SIMILARITY = 0.75
+"""Of the worst tile's structure, where 1 is the same."""
+
+MOST_COLOUR = 5.0
+"""Of the worst tile's mean colour, in grey levels of 0 to 255."""
+
+Colours = NDArray[np.uint8]
+"""Shape (height, width, 3)."""
+
+
+@dataclass(frozen=True)
+class Difference:
+    """The worst tile's similarity of structure, and the worst one's difference of mean colour."""
+
+    similarity: float
+    colour: float
+
+    @property
+    def is_small(self) -> bool:
+        """Whether nobody would call the pictures different."""
+        return self.similarity >= LEAST_SIMILARITY and self.colour <= MOST_COLOUR
+
+
+def tile_means(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Average over tiles that overlap by half: shape (height, width, ...) to (y, x, ...)."""
+    height, width = (max(1, side // (TILE // 2) - 1) for side in values.shape[:2])
+    step = TILE // 2
+    means = [
+        [
+            values[y * step : y * step + TILE, x * step : x * step + TILE].mean(axis=(0, 1))
+            for x in range(width)
+        ]
+        for y in range(height)
+    ]
+    return np.array(means)
+
+
+def difference(found: Colours, expected: Colours) -> Difference:
+    """Compare two pictures of one size, shape (height, width, 3)."""
+    if found.shape != expected.shape:
+        raise ValueError(f"the picture is {found.shape}, not {expected.shape}")
+    _, similarity = structural_similarity(
+        found, expected, channel_axis=-1, full=True, data_range=255.0
+    )
+    colour = np.abs(tile_means(found.astype(float)) - tile_means(expected.astype(float)))
+    return Difference(float(tile_means(similarity).min()), float(colour.max()))
+
 
 _ROUNDS = 50
 

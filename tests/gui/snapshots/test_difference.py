@@ -1,13 +1,13 @@
 """The comparison of pictures sees what an eye sees, and lets pass what only a system draws."""
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import pyqtgraph as pg
 import pytest
 from gui.kinds import SnapshotOf
-from gui.snapshots.difference import Colours, difference
-from gui.snapshots.drawing import settled, show
+from gui.snapshots.drawing import Colours, difference, settled, show
 from PySide6.QtGui import QFont
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
@@ -38,84 +38,37 @@ def pixel(plot: pg.PlotWidget) -> tuple[float, float]:
     return width, height
 
 
-def shift_curve_aside(view: ProfileView) -> None:
-    view.simulation.setPos(pixel(view.plot)[0], 0)
-
-
-def shift_curve_up(view: ProfileView) -> None:
-    view.simulation.setPos(0, pixel(view.plot)[1])
-
-
-def shift_dashed_curve(view: ProfileView) -> None:
-    view.band.setPos(pixel(view.plot)[0], 0)
-
-
-def change_colour(view: ProfileView) -> None:
-    view.simulation.setPen(pg.mkPen("#009e73"))
-
-
-def lose_curve(view: ProfileView) -> None:
-    view.band.hide()
-
-
-def lose_legend(view: ProfileView) -> None:
-    view.legend.hide()
-
-
-def lose_line_of_legend(view: ProfileView) -> None:
-    view.legend.show_line("band", False)
-
-
-CHANGES = (
-    shift_curve_aside,
-    shift_curve_up,
-    shift_dashed_curve,
-    change_colour,
-    lose_curve,
-    lose_legend,
-    lose_line_of_legend,
-)
-
-
-@pytest.mark.parametrize("change", CHANGES)
-def test_a_change_of_the_profile_is_seen(
-    profile: ProfileView, change: Callable[[ProfileView], None]
-) -> None:
-    before = settled(profile)
-    change(profile)
-    assert not difference(settled(profile), before).is_small
-
-
 def shift_threshold(view: DecodeView) -> None:
     line = view.signal.threshold
     line.setValue(line.value() + pixel(view.signal.plot)[1])
 
 
-def change_threshold_colour(view: DecodeView) -> None:
-    view.signal.threshold.setPen(pg.mkPen("#0072b2", width=1))
+CHANGES: dict[str, tuple[str, Callable[[Any], object]]] = {
+    "curve aside": ("profile", lambda v: v.simulation.setPos(pixel(v.plot)[0], 0)),
+    "curve up": ("profile", lambda v: v.simulation.setPos(0, pixel(v.plot)[1])),
+    "dashed curve aside": ("profile", lambda v: v.band.setPos(pixel(v.plot)[0], 0)),
+    "colour": ("profile", lambda v: v.simulation.setPen(pg.mkPen("#009e73"))),
+    "no curve": ("profile", lambda v: v.band.hide()),
+    "no legend": ("profile", lambda v: v.legend.hide()),
+    "no line of the legend": ("profile", lambda v: v.legend.show_line("band", False)),
+    "threshold up": ("decode", shift_threshold),
+    "colour of the threshold": (
+        "decode",
+        lambda v: v.signal.threshold.setPen(pg.mkPen("#0072b2", width=1)),
+    ),
+    "no bar": ("decode", lambda v: v.run_lengths.bars[0].setOpts(height=0)),
+    "no verdict": ("decode", lambda v: v.verdict.setText("")),
+}
 
 
-def lose_bar(view: DecodeView) -> None:
-    view.run_lengths.bars[0].setOpts(height=0)
-
-
-def lose_verdict(view: DecodeView) -> None:
-    view.verdict.setText("")
-
-
-@pytest.mark.parametrize(
-    "change", [shift_threshold, change_threshold_colour, lose_bar, lose_verdict]
-)
-def test_a_change_of_the_decoders_steps_is_seen(
-    decode: DecodeView, change: Callable[[DecodeView], None]
-) -> None:
-    before = settled(decode)
-    change(decode)
-    assert not difference(settled(decode), before).is_small
-
-
-def test_the_same_pane_drawn_again_does_not_differ(profile: ProfileView) -> None:
-    assert difference(settled(profile), settled(profile)).colour == 0.0
+@pytest.mark.parametrize("name", CHANGES)
+def test_a_change_of_a_pane_is_seen(request: pytest.FixtureRequest, name: str) -> None:
+    pane, change = CHANGES[name]
+    view = request.getfixturevalue(pane)
+    before = settled(view)
+    assert difference(settled(view), before).colour == 0.0
+    change(view)
+    assert not difference(settled(view), before).is_small
 
 
 def test_other_hints_of_a_font_do_not_count(

@@ -8,12 +8,14 @@ what looks different and why. It is wrong where a test fails for a reason that n
 
 from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 from accuracy_points import EACH_WAY
-from gui.kinds import SnapshotOf
+from gui.kinds import SnapshotOf, show_widget
 from gui.snapshots.drawing import show
 from matches import match_with
+from PIL import Image
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
@@ -26,9 +28,14 @@ from occ_gui.bench.pane import request_of
 from occ_gui.decoding.decode_view import DecodeView
 from occ_gui.detection_map.map_view import MapView
 from occ_gui.detection_map.rate_map import LINES, RateMap, TheoryFields, lattice
+from occ_gui.explanation.pane import ExplanationView
+from occ_gui.help.help_window import HelpWindow
 from occ_gui.photo.match_result import MatchResult
+from occ_gui.photo.photo_view import PhotoView
 from occ_gui.picture.image_view import ImageView
 from occ_gui.profile.profile_view import ProfileView
+from occ_gui.welcome.welcome import WelcomeDialog
+from occ_model.photo.reading.load import Photo
 from occ_model.results.accuracy import Forecast
 from occ_model.results.bench import BenchPoint
 from occ_model.results.bit_errors import BitErrors
@@ -37,6 +44,8 @@ from occ_model.results.sweep_request import SweepPoint
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.study.effect_differences import CompleteSimulation
+from occ_model.teaching.equations import equations
+from occ_model.teaching.light_over_columns import exposure_window
 
 Matches = Callable[[QWidget, str], None]
 
@@ -173,3 +182,65 @@ def test_the_bars_look_as_stored(
     lamp = small_scene.replace(pattern="1110", switching_frequency=800.0, exposure_time=2e-3)
     view.show_bands(shown_bands(lamp))
     matches_its_picture(view, "bands")
+
+
+PAGE = """\
+# A page
+
+A paragraph of some words,
+with a [link](index.md).
+
+```
+code = of
+two + lines
+```
+
+## A heading below
+
+| one | two |
+|---|---|
+| 1 | 2.5 |
+
+The last words.
+
+![a picture](picture.png)
+"""
+
+
+def test_the_three_doors_look_as_stored(qtbot: QtBot, matches_its_picture: Matches) -> None:
+    dialog = show_widget(qtbot, WelcomeDialog())
+    matches_its_picture(dialog, "welcome")
+
+
+def test_a_page_of_the_manual_looks_as_stored(
+    qtbot: QtBot, matches_its_picture: Matches, tmp_path: Path
+) -> None:
+    (tmp_path / "index.md").write_text("* [A page](page.md): about it\n", encoding="utf-8")
+    (tmp_path / "page.md").write_text(PAGE, encoding="utf-8")
+    Image.new("RGB", (900, 60), (60, 120, 180)).save(tmp_path / "picture.png")
+    manual = HelpWindow(tmp_path)
+    show(qtbot, manual, 520, 470)
+    manual.show_page("page.md")
+    matches_its_picture(manual, "manual")
+
+
+def test_the_explanation_looks_as_stored(
+    qtbot: QtBot, matches_its_picture: Matches, snapshot_of: SnapshotOf
+) -> None:
+    view = ExplanationView()
+    show(qtbot, view, 400, 360)
+    scene = snapshot_of().frame.scene
+    view.equations.show_equations(equations(scene), frozenset())
+    view.exposure.show_column(100, scene.camera.columns, True)
+    view.exposure.show_window(exposure_window(scene, 100), 42.25)
+    matches_its_picture(view, "explanation")
+
+
+def test_the_pane_of_a_photo_looks_as_stored(
+    qtbot: QtBot, matches_its_picture: Matches, photo: Photo
+) -> None:
+    view = PhotoView()
+    show(qtbot, view, 400, 420)
+    view.show_scene(Scene())
+    view.show_photo(photo)
+    matches_its_picture(view, "photo")

@@ -5,8 +5,7 @@ from gui.kinds import SnapshotOf, show_widget
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from occ_gui.simulation.preview import Picture
-from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.simulation.snapshot import Picture, Snapshot
 from occ_gui.story.story_rows import StoryRows
 
 

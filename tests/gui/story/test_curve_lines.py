@@ -13,7 +13,7 @@ from pytestqt.qtbot import QtBot
 from occ_gui.story.curve_legend import CurveLegend
 from occ_gui.story.curve_lines import DASH, envelope, lines_of
 from occ_gui.story.stripes_row import resampled, shrunk
-from occ_gui.widgets.pens import BAND, SIMULATION, THRESHOLD, thin
+from occ_gui.widgets.colours import BAND, SIMULATION, THRESHOLD, thin
 
 
 @pytest.fixture

@@ -16,8 +16,7 @@ from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
-from occ_gui.simulation.preview import Picture
-from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.simulation.snapshot import Picture, Snapshot
 from occ_gui.story import code_row, stripes_row
 from occ_gui.story.bit_cells import draw_field, have_room_for_bits, have_room_for_marks
 from occ_gui.story.column_axis import GUTTER, Crosshair

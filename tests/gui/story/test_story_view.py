@@ -7,12 +7,11 @@ from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 from shiboken6 import delete, isValid
 
-from occ_gui.simulation.preview import Picture
-from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.simulation.snapshot import Picture, Snapshot
 from occ_gui.story.column_values import measure
 from occ_gui.story.story_rows import StoryRows
 from occ_gui.story.story_view import StoryView
-from occ_gui.widgets.round_step import round_step
+from occ_gui.widgets.columns import round_step
 
 
 @pytest.fixture

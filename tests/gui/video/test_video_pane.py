@@ -13,7 +13,7 @@ from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
-from occ_gui.files.session_file import SessionFile
+from occ_gui.files.session import SessionFile
 from occ_gui.values.film_choice import FilmChoice
 from occ_gui.video.film_reading import MarkState
 from occ_gui.video.wiring import VideoWiring

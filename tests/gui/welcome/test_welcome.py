@@ -13,7 +13,7 @@ from pytestqt.qtbot import QtBot
 from occ_gui.app.start import Start
 from occ_gui.core.workspace import Workspace
 from occ_gui.files.preferences import Preferences
-from occ_gui.files.session_file import SessionFile
+from occ_gui.files.session import SessionFile
 from occ_gui.files.session_record import Kept
 from occ_gui.welcome.feature import welcome
 from occ_gui.welcome.welcome import Door, Welcome, WelcomeDialog

@@ -7,7 +7,7 @@ from PySide6.QtWidgets import QApplication, QCheckBox, QMainWindow
 from pytestqt.qtbot import QtBot
 
 from occ_gui.profile.profile_view import ProfileView
-from occ_gui.widgets.contrast import contrast, pen_on, seen_on
+from occ_gui.widgets.colours import contrast, pen_on, seen_on
 from occ_gui.window.style_sheet import style_sheet
 from occ_gui.window.theme import ThemeController, palette_of
 from occ_model import colours

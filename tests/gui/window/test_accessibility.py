@@ -1,19 +1,21 @@
 """Who hears the window finds each control by name, its value with unit, in the order it is read."""
 
 from collections.abc import Iterator
-from itertools import pairwise
+from itertools import groupby, pairwise
 
 import pytest
 from gui.kinds import not_none
 from gui.user import User
-from PySide6.QtCore import QObject, QPoint
+from PySide6.QtCore import QObject, QPoint, QRect, Qt
 from PySide6.QtGui import QAccessible, QAccessibleInterface
-from PySide6.QtWidgets import QApplication, QWidget
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication, QGridLayout, QLineEdit, QMainWindow, QWidget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
 from occ_gui.scene.control_panel import MAIN
-from occ_gui.window.modes.mode import MODES
+from occ_gui.window.modes import MODES
+from occ_gui.window.reading_order import focus_stops
 
 NAME, VALUE, DESCRIPTION = (
     QAccessible.Text.Name, QAccessible.Text.Value, QAccessible.Text.Description,
@@ -113,15 +115,113 @@ def test_a_slider_and_its_field_tell_the_value_with_its_unit(
     assert face_of(slider).text(DESCRIPTION) == "250 µs"
 
 
-def test_the_tab_key_goes_through_the_story_as_it_is_read(
+MOST = 150
+"""More keys than any mode has places to stop at."""
+
+SLACK = 6
+"""Pixels by which neighbours may overlap."""
+
+
+def place_of(widget: QWidget, window: QWidget) -> QRect:
+    return QRect(widget.mapTo(window, QPoint()), widget.size())
+
+
+def walk(window: QWidget, key: Qt.Key) -> list[QWidget]:
+    """Press a key until the focus comes round, and give the widgets on its way."""
+    window.setFocus()
+    stops: list[QWidget] = []
+    for _ in range(MOST):
+        QTest.keyClick(QApplication.focusWidget() or window, key)
+        widget = not_none(QApplication.focusWidget())
+        if widget in stops:
+            assert widget is stops[0], f"the key is caught at {widget.accessibleName()}"
+            return stops
+        stops.append(widget)
+    raise AssertionError("the focus does not come round")
+
+
+def pane_of(widget: QWidget, window: QWidget) -> QWidget:
+    """Return the part of the window in which a widget lies."""
+    while (parent := widget.parentWidget()) is not window:
+        assert parent is not None
+        widget = parent
+    return widget
+
+
+def comes_after(place: QRect, other: QRect) -> bool:
+    """Whether a place is read after another: it is lower, or in a column to the right."""
+    return place.bottom() > other.top() + SLACK or place.left() >= other.right() - SLACK
+
+
+def show_mode(application: Application, qtbot: QtBot, mode: str) -> None:
+    application.window.resize(1280, 800)
+    application.window.modes.switch(mode)
+    qtbot.waitUntil(lambda: application.is_idle)
+    # Where the mode shows its panes for the first time, the window may have lost it.
+    application.window.activateWindow()
+    qtbot.waitUntil(application.window.isActiveWindow)
+
+
+@pytest.mark.parametrize(
+    "mode", [pytest.param(m, marks=() if m == "explore" else pytest.mark.whole) for m in MODES]
+)
+def test_the_tab_key_goes_through_every_mode_as_it_is_read(
+    application: Application, qtbot: QtBot, mode: str
+) -> None:
+    window = application.window
+    show_mode(application, qtbot, mode)
+    stops = walk(window, Qt.Key.Key_Tab)
+    assert stops[0] is window.toolbar.modes
+    panes = [pane for pane, _ in groupby(pane_of(stop, window) for stop in stops)]
+    assert len(panes) == len(set(panes)), "a pane is left and entered again"
+    ways = [panes, *(list(each) for _, each in groupby(stops, lambda s: pane_of(s, window)))]
+    for way in ways:
+        for one, after in pairwise(way):
+            if one.isAncestorOf(after):  # which may have been scrolled
+                continue
+            read = comes_after(place_of(after, window), place_of(one, window))
+            assert read, (one, place_of(one, window), after, place_of(after, window))
+
+
+def test_the_tab_key_reaches_all_that_can_be_handled_and_back(
     application: Application, user: User
 ) -> None:
     user.wait_until_idle()
-    window, story = application.window, application.story
-    story.decoder.setFocus()
-    tops = []
-    while (widget := window.focusWidget()) is not None and story.isAncestorOf(widget):
-        tops.append(widget.mapTo(window, QPoint()).y())
-        window.focusNextChild()
-    assert len(tops) == 10
-    assert all(after >= before - ROW for before, after in pairwise(tops)), tops
+    window = application.window
+    window.activateWindow()
+    stops = walk(window, Qt.Key.Key_Tab)
+    assert walk(window, Qt.Key.Key_Backtab) == stops[::-1]
+    rows = application.controls.main_rows().values()
+    wanted = {
+        *(row.slider for row in rows), *(row.field for row in rows), application.controls.preset,
+        application.story.decoder, application.story.whole,
+        *(b for b in window.toolbar.buttons.values() if b.isEnabled() and b.isVisible()),
+    }  # fmt: skip
+    assert wanted <= set(stops)
+
+
+def test_a_pane_that_is_moved_is_read_at_its_new_place(
+    application: Application, qtbot: QtBot
+) -> None:
+    window = application.window
+    show_mode(application, qtbot, "explore")
+    window.addDockWidget(Qt.DockWidgetArea.RightDockWidgetArea, window.docks["controls"])
+    QApplication.processEvents()
+    stops = walk(window, Qt.Key.Key_Tab)
+    assert stops.index(application.story.decoder) < stops.index(application.controls.preset)
+
+
+@pytest.mark.parametrize("made", [(0, 1, 2, 3), (3, 1, 0, 2)])
+def test_rows_come_before_columns_whatever_was_made_first(
+    qtbot: QtBot, made: tuple[int, ...]
+) -> None:
+    window, middle = QMainWindow(), QWidget()
+    qtbot.addWidget(window)
+    window.setCentralWidget(middle)
+    grid = QGridLayout(middle)
+    fields = {place: QLineEdit() for place in made}
+    for place, field in fields.items():
+        grid.addWidget(field, place // 2, place % 2)
+    window.show()
+    qtbot.waitExposed(window)
+    assert list(focus_stops(window)) == [fields[place] for place in range(4)]

@@ -31,7 +31,7 @@ from occ_gui.app.application import Application
 from occ_gui.core.workspace import Workspace
 from occ_gui.detection_map.rate_map import RateMap, lattice
 from occ_gui.values.photo_choice import MODES
-from occ_gui.window.modes.mode import MODES as WINDOW_MODES
+from occ_gui.window.modes import MODES as WINDOW_MODES
 from occ_model.results.sweep_request import SweepPoint
 from occ_model.scene.scene import Scene
 from occ_model.teaching.lessons import lessons

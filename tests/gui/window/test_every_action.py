@@ -34,11 +34,8 @@ from pytestqt.qtbot import QtBot
 from shiboken6 import isValid
 
 from occ_gui.app.application import Application
-from occ_gui.scene.parameter_rows import QuantityRow
 from occ_gui.widgets.plain_text import plain
-from occ_gui.window.command_palette import entries
-from occ_model.scene.parameter_kinds import Quantity
-from occ_model.scene.parameters import PARAMETERS
+from occ_gui.window.command_lists import entries
 
 READ_LATER = ("Fit gamma too",)
 """Boxes that are looked at when a button is pressed, and tell of nothing before."""
@@ -135,22 +132,6 @@ def test_each_control_is_named_explained_connected_and_reached_by_the_keys(
     assert {"Pin A", "Show the explanation", "Column whose exposure is shown"} <= names
     for what in ("name", "tip", "is_connected", "is_in_reach"):
         assert [str(each) for each in controls if not getattr(each, what)] == [], what
-
-
-def test_each_tooltip_has_meaning_symbol_range_and_unit(application: Application) -> None:
-    for panel in application.controls.panels.values():
-        for name, row in panel.rows.items():
-            declared = PARAMETERS[name]
-            shown = [row.slider, row.field] if isinstance(row, QuantityRow) else [row.field]  # type: ignore[attr-defined]
-            for control in shown:
-                tip = control.toolTip()
-                assert declared.meaning in tip
-                assert declared.symbol in tip
-                assert declared.allowed in tip
-                if isinstance(declared, Quantity):
-                    ends = (declared.low, declared.default)
-                    symbols = [declared.unit.display(value)[0] for value in ends]
-                    assert any(symbol in tip for symbol in symbols), (name, tip)
 
 
 def all_entries(application: Application) -> list[tuple[str, QAction]]:

@@ -1,14 +1,17 @@
 """The look: contrasts of every theme, sizes of text, and a sheet without colours of its own."""
 
 import re
+from collections.abc import Iterator
 
 import pytest
 from gui.kinds import add_widget
+from gui.user import User
 from PySide6.QtCore import QPoint, QRect
 from PySide6.QtGui import QFont, QImage, QPainter, QPalette
 from PySide6.QtWidgets import (
     QApplication,
     QComboBox,
+    QLabel,
     QMainWindow,
     QPushButton,
     QStyle,
@@ -17,11 +20,12 @@ from PySide6.QtWidgets import (
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
-from occ_gui.widgets.contrast import contrast
+from occ_gui.widgets.colours import contrast
 from occ_gui.widgets.state_look import State, colours_of
 from occ_gui.widgets.text_scale import TextSize, scaled
-from occ_gui.window.dock import beside
+from occ_gui.window.docks import beside
 from occ_gui.window.style_sheet import _SHEET, style_sheet
+from occ_gui.window.text_size import SIZES
 from occ_gui.window.theme import palette_of
 from occ_model.files.resources import resource_names
 
@@ -171,3 +175,62 @@ def test_a_floated_pane_lands_beside_its_place(application: Application, qtbot: 
     screen = dock.screen().availableGeometry()
     qtbot.waitUntil(lambda: dock.geometry() == beside(place, screen))
     dock.setFloating(False)
+
+
+@pytest.fixture
+def resized(application: Application) -> Iterator[Application]:
+    """Give a window whose text may be made larger, and make it normal again."""
+    yield application
+    application.options.text_size.normal()
+
+
+def sizes(application: Application) -> list[float]:
+    bar, scene = application.story.verdict, application.controls
+    shown = (
+        bar.title, bar.sentence, scene.panels["Main"].labels["distance"], scene.preset,
+        scene.code.bits, application.view("decode").verdict, application.view("accuracy").table,
+    )  # fmt: skip
+    QApplication.processEvents()  # Qt tells its windows of another font by an event
+    return [widget.font().pointSizeF() for widget in shown]
+
+
+def test_every_text_grows_alike_and_comes_back(resized: Application, user: User) -> None:
+    before, system = sizes(resized), QApplication.font().pointSizeF()
+    user.choose("Lar&ger text")
+    user.choose("Lar&ger text")
+    factor = SIZES[-1] / SIZES[0]
+    assert QApplication.font().pointSizeF() == pytest.approx(factor * system)
+    assert sizes(resized) == pytest.approx([factor * size for size in before])
+    user.choose("Lar&ger text")  # there is none larger
+    assert sizes(resized) == pytest.approx([factor * size for size in before])
+    made_later = QLabel("new")
+    assert made_later.font().pointSizeF() == pytest.approx(factor * system)
+    user.choose("Smaller te&xt")
+    user.choose("&Normal text size")
+    assert sizes(resized) == pytest.approx(before)
+
+
+def test_the_size_is_kept_for_the_next_start(resized: Application, user: User) -> None:
+    user.choose("Lar&ger text")
+    kept = resized.preferences.recall("view/text_percent")
+    assert kept == str(SIZES[1])
+    assert user.message == f"Text at {SIZES[1]} %"
+
+
+@pytest.mark.parametrize(
+    "percent", [SIZES[-1], *(pytest.param(s, marks=pytest.mark.whole) for s in SIZES[:-1])]
+)
+def test_larger_text_is_not_cut_in_bars_and_buttons(
+    resized: Application, user: User, qtbot: QtBot, percent: int
+) -> None:
+    window = resized.window
+    window.resize(1280, 800)
+    resized.options.text_size.choose(percent)
+    user.wait_until_idle()
+    story, bar = resized.story, resized.story.verdict
+    legend, buttons = story.rows.legend, [story.whole, *story.rows.ranges.values()]
+    qtbot.waitUntil(lambda: bar.title.text() == bar.heading)
+    qtbot.waitUntil(lambda: all(b.width() >= b.minimumSizeHint().width() for b in buttons))
+    qtbot.waitUntil(lambda: all(b.height() >= b.minimumSizeHint().height() for b in buttons))
+    qtbot.waitUntil(lambda: legend.height() >= legend.heightForWidth(legend.width()))
+    assert (window.size().width(), window.size().height()) == (1280, 800)

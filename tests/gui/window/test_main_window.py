@@ -21,8 +21,8 @@ from pytestqt.qtbot import QtBot
 from occ_gui.app.application import Application
 from occ_gui.app.command_line import PANES
 from occ_gui.values.photo_choice import MODES as OVERLAYS
-from occ_gui.window.full_screen import FullScreen
-from occ_gui.window.modes.mode import MODES
+from occ_gui.window.menus import FullScreen
+from occ_gui.window.modes import MODES
 
 
 def menus(menu: QWidget) -> Iterator[QMenu]:
@@ -63,12 +63,6 @@ def test_every_dock_can_be_hidden_and_shown_again(application: Application) -> N
         for is_seen in (True, False, True):
             assert dock.isVisible() == toggle.isChecked() == dock.widget().isVisible() == is_seen
             toggle.trigger()
-
-
-@pytest.mark.own_window
-def test_quit_closes_the_window(application: Application) -> None:
-    application.window.actions_by_name["quit"].trigger()
-    assert not application.window.isVisible()
 
 
 def test_what_cannot_be_done_is_not_offered_and_every_picture_and_plot_has_a_name(
@@ -143,7 +137,7 @@ def test_the_window_alone_takes_drops_of_files_and_reports_them(
     assert takers == []
 
 
-@pytest.mark.parametrize("height", [800, 1080])
+@pytest.mark.parametrize("height", [800, pytest.param(1080, marks=pytest.mark.whole)])
 @pytest.mark.own_window
 def test_a_pane_that_opens_below_the_middle_is_high_enough(
     application: Application, qtbot: QtBot, height: int

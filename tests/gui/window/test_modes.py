@@ -10,7 +10,7 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.app import command_line
 from occ_gui.app.application import Application
-from occ_gui.window.modes.mode import HOMES, MODES, PICTURE
+from occ_gui.window.modes import HOMES, MODES, PICTURE
 
 NAMES = list(MODES)
 CONTROL, RIGHT = Qt.KeyboardModifier.ControlModifier, Qt.DockWidgetArea.RightDockWidgetArea
@@ -171,7 +171,7 @@ def test_no_change_of_the_mode_widens_the_window_even_for_a_moment(
     window.resize(1000, 700)
     QApplication.processEvents()
     widths = Widths(window)  # a maximized window would keep the largest of them
-    for mode in ("limits", "effects", "photo", "video", "lessons"):
+    for mode in ("effects", "photo", "lessons"):
         for shown_mode in (mode, "explore", mode):
             window.modes.switch(shown_mode)
             QApplication.processEvents()

@@ -1,14 +1,11 @@
 """The toolbar: icons of menu entries, named, sharp on every screen and in every theme."""
 
 import re
-from pathlib import Path
 
 import numpy as np
 import pytest
 from gui.kinds import add_widget
 from PySide6.QtGui import (
-    QAction,
-    QActionGroup,
     QColor,
     QIcon,
     QImage,
@@ -16,17 +13,16 @@ from PySide6.QtGui import (
     QUndoCommand,
     QUndoStack,
 )
-from PySide6.QtWidgets import QMenu, QWidget
+from PySide6.QtWidgets import QMenu
 from pytestqt.qtbot import QtBot
 from shiboken6 import delete
 
 from occ_gui.app.application import Application
 from occ_gui.widgets.icons import icon, pixmap
-from occ_gui.window.command_palette import entries
-from occ_gui.window.modes.mode import MODES
+from occ_gui.window.command_lists import entries
+from occ_gui.window.modes import MODES
 from occ_gui.window.theme import palette_of
-from occ_gui.window.toolbar.tool_button import ToolButton
-from occ_gui.window.toolbar.toolbar import TOOLS, ToolBar
+from occ_gui.window.toolbar import TOOLS, ToolButton
 from occ_model.files.resources import resource_text
 
 DRAWN = {drawing for group in TOOLS for drawing in group.values()}
@@ -69,12 +65,6 @@ def test_tooltips_name_the_keys_of_the_entry(application: Application) -> None:
         keys = button.shown.shortcut().toString(button.shown.shortcut().SequenceFormat.NativeText)
         assert button.accessibleName() in button.toolTip(), name
         assert keys in button.toolTip(), name
-
-
-def test_an_entry_that_is_not_there_has_no_button(qtbot: QtBot) -> None:
-    owner = add_widget(qtbot, QWidget())
-    bar = ToolBar({"undo": QAction("&Undo")}, {}, QActionGroup(owner), owner)
-    assert list(bar.buttons) == ["undo"]
 
 
 def test_icons_name_no_colour_of_their_own() -> None:
@@ -130,11 +120,6 @@ def test_another_theme_draws_the_icons_anew(application: Application, qtbot: QtB
 
         qtbot.waitUntil(check)
     application.options.theme.choose("system")
-
-
-def test_every_icon_comes_with_the_package() -> None:
-    text = (Path(__file__).parents[3] / "pyproject.toml").read_text(encoding="utf-8")
-    assert '"resources/icons" = "occ_model/resources/icons"' in text
 
 
 def test_a_button_asks_nothing_of_an_entry_that_is_deleted(qtbot: QtBot) -> None:

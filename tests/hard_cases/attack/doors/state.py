@@ -29,9 +29,9 @@ _LAYOUT = re.compile(r"(?<==)[A-Za-z0-9+/]{80,}=*")
 @cache
 def session_text() -> str:
     """A whole session file."""
-    from occ_gui.core.step_history import History, StepChange
+    from occ_gui.core.store import History, StepChange
     from occ_gui.core.workspace import Step, Workspace
-    from occ_gui.files.session_file import SessionFile
+    from occ_gui.files.session import SessionFile
     from occ_gui.files.session_record import Kept
     from occ_gui.values.film_choice import FilmChoice
     from occ_gui.values.photo_choice import MatchChoice, PhotoChoice, PhotoFrame, PhotoReading
@@ -78,7 +78,7 @@ def session_text() -> str:
 
 def _check_session(session: "Kept | None") -> None:
     """See that a session can be written, and is the same again when it is read."""
-    from occ_gui.files.session_file import SessionFile
+    from occ_gui.files.session import SessionFile
 
     if session is None:
         return
@@ -93,7 +93,7 @@ def _check_session(session: "Kept | None") -> None:
 
 
 def _session(chance: Random, folder: Path) -> list[str]:
-    from occ_gui.files.session_file import SessionFile
+    from occ_gui.files.session import SessionFile
 
     text = made.damaged(chance, session_text())
     (folder / SESSION).write_bytes(made.encoded(chance, text))

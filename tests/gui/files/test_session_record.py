@@ -1,0 +1,188 @@
+"""What a window is working on is read as it was written; what cannot be read is as at first."""
+
+import json
+import re
+from dataclasses import fields, replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+from gui.kinds import not_none
+from small_rooms import small_room
+
+from occ_gui.core.store import History, StepChange
+from occ_gui.core.workspace import FIRST_SETTINGS, Step, Workspace
+from occ_gui.files.session import LARGEST, SessionFile
+from occ_gui.files.session_record import Kept, kept_in, record_of
+from occ_gui.values.film_choice import FilmChoice
+from occ_gui.values.photo_choice import MatchChoice, PhotoChoice, PhotoFrame, PhotoReading
+from occ_gui.values.room_choice import RoomChoice
+from occ_gui.values.simulated import PinnedScene, SimulationRequest
+from occ_model.results.decoding import Region
+from occ_model.scene.recording import Recording
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import SimulationSettings
+
+HERE = Path(__file__)
+
+
+def everything_set() -> Workspace:
+    """Return a workspace no field of which has its first value."""
+    scene = Scene().replace(iso=321.0)
+    photo = PhotoChoice(
+        HERE, PhotoReading("lines", "green"), parts={PhotoFrame(HERE): Region(1, 20, 3, 40)},
+        form=MatchChoice("square", 750.0, "switching_frequency", fit_gamma=True),
+        certain={"readout_time": 8e-6},
+    )  # fmt: skip
+    recording = Recording(
+        frame_rate=24.0, frame_jitter=1e-5, camera_drift=1e-5, transmitter_drift=-1e-5
+    )
+    film = FilmChoice(HERE, "lines", recording=recording, frames=7)
+    settings = SimulationSettings(2.0, "signal", {"jpeg": True}, "exact", 7)
+    pin = PinnedScene(SimulationRequest(scene, settings, more=("sequence",)), "phone-68us")
+    return Workspace(
+        scene, settings, 24.0, "bits", "matched", "receiver", "split", is_enhanced=True,
+        photo=photo, film=film, room=RoomChoice("my.toml", small_room(), HERE, 0.031),
+        pins=(None, pin), preset="tablet-61us", scene_file=HERE,
+    )  # fmt: skip
+
+
+def test_all_that_is_set_is_there_again(tmp_path: Path) -> None:
+    first, workspace = Workspace(Scene()), everything_set()
+    same = [each.name for each in fields(first)
+            if getattr(first, each.name) == getattr(workspace, each.name)]  # fmt: skip
+    assert not same
+    file = SessionFile(tmp_path)
+    file.write(Kept(workspace), in_use=False)
+    file.close()
+    again = SessionFile(tmp_path)
+    assert again.last == Kept(workspace)
+    kept = not_none(again.last.workspace.pins[1])
+    assert kept.request.more == ("sequence",)  # by which pins are not told apart
+    again.close()
+
+
+DAMAGED: list[tuple[tuple[str, ...], object]] = [
+    (("room", "camera"), {"x": "far"}),
+    (("room", "camera"), [1]),
+    (("room", "room"), "lamps = 3"),
+    (("room", "room"), None),
+    (("room", "focal_length"), -1.0),
+    (("room", "photo"), "/nowhere/room.jpg"),
+    (("photo", "reading", "channel"), "infrared"),
+    (("photo", "form", "sent"), "?"),
+    (("photo", "form", "square_frequency"), -1.0),
+    (("photo", "form", "fit_gamma"), 2),
+    (("photo", "certain", "iso"), 100.0),
+    (("photo", "certain", "readout_time"), "8"),
+    (("settings", "tolerance"), -1),
+    (("settings", "observable"), "sound"),
+    (("settings", "observable"), []),
+    (("settings", "force"), 3),
+    (("settings", "force"), {"vignetting": 1}),
+    (("settings", "noise"), {}),
+    (("settings", "seed"), -1),
+]
+
+
+@pytest.mark.parametrize(("place", "value"), DAMAGED)
+def test_a_part_that_cannot_be_is_as_at_first_and_no_other_is(
+    place: tuple[str, ...], value: object
+) -> None:
+    workspace = everything_set()
+    first: dict[str, Any] = {
+        "room": RoomChoice(),
+        "photo": PhotoChoice(HERE, parts=workspace.photo.parts),
+        "settings": FIRST_SETTINGS,
+    }
+    if place == ("room", "photo"):  # a file that is gone
+        first["room"] = replace(workspace.room, photo=None)
+    record: Any = record_of(Kept(workspace))
+    at = record
+    for name in place[:-1]:
+        at = at[name]
+    at[place[-1]] = value
+    kept = not_none(kept_in(record))
+    assert kept.workspace == replace(workspace, **{place[0]: first[place[0]]})
+
+
+def test_a_file_of_the_former_format_is_read() -> None:
+    scene, pinned = Scene().replace(iso=321.0), Scene().replace(iso=99.0)
+    settings = {"tolerance": 2.0, "observable": "signal", "force": {"jpeg": True}, "noise": "exact",
+                "seed": 7}  # fmt: skip
+    record = {
+        "scene": scene.to_toml(), "settings": settings, "scene_file": __file__,
+        "photo": {"path": __file__}, "film": {"path": __file__}, "preset": "phone-68us",
+        "pins": [{"scene": pinned.to_toml(), "settings": settings, "decoders": []}, None],
+        "history": {"scene": pinned.to_toml(), "force": {}, "done": 1,
+                    "steps": [["change", {"iso": 321.0}, {"jpeg": True}]]},
+    }  # fmt: skip
+    here, known = Path(__file__), SimulationSettings(2.0, "signal", {"jpeg": True}, "exact", 7)
+    workspace = Workspace(
+        scene, known, photo=PhotoChoice(here), film=FilmChoice(here), preset="phone-68us",
+        pins=(PinnedScene(SimulationRequest(pinned, known)), None), scene_file=here,
+    )  # fmt: skip
+    step = StepChange("change", {"iso": 321.0}, {"jpeg": True})
+    assert kept_in(record) == Kept(workspace, History(Step(pinned, {}), (step,), done=1))
+
+
+LONG_NUMBER = "9" * 4000
+DEEP = 1500
+
+DAMAGED_SCENES = {
+    "a number of 4,000 digits": f"format = 1\n[camera]\niso = {LONG_NUMBER}\n",
+    "a format of 4,000 digits": f"format = {LONG_NUMBER}\n",
+    "a longer number": f"format = 1\n[camera]\niso = {LONG_NUMBER * 2}\n",
+    "a deep key": f"format = 1\n{'a.' * DEEP}a = 1\n",
+    "a deep list": f"format = 1\na = {'[' * DEEP}{']' * DEEP}\n",
+    "a very deep list": f"format = 1\na = {'[' * 100_000}\n",
+    "a deep parameter": f"format = 1\n[camera]\niso = {'{a=' * DEEP}1{'}' * DEEP}\n",
+    "much": "format = 1\n#" + LARGEST * "x",
+    "no text": "\ud800",
+}
+
+DAMAGED_SETTINGS = {
+    "a seed below zero of 4,000 digits": '"seed": -' + LONG_NUMBER,
+    "a tolerance below zero of 4,000 digits": '"tolerance": -' + LONG_NUMBER,
+    "a longer number": '"seed": ' + LONG_NUMBER * 2,
+    "a deep list": '"observable": ' + "[" * DEEP + "]" * DEEP,
+    "a very deep list": '"observable": ' + "[" * 100_000,
+    "a switch that is no switch": '"force": {"vignetting": 1}',
+    "a deep switch": '"force": ' + '{"vignetting": ' * DEEP + "1" + "}" * DEEP,
+}
+
+
+def left_behind(folder: Path, **record: object) -> None:
+    (folder / "session-1.json").write_text(json.dumps({"format": 1, **record}), "ascii")
+
+
+@pytest.mark.parametrize("text", DAMAGED_SETTINGS.values(), ids=DAMAGED_SETTINGS)
+def test_damaged_settings_in_the_session_are_left_out(tmp_path: Path, text: str) -> None:
+    file = SessionFile(tmp_path)
+    file.write(Kept(Workspace(Scene(), SimulationSettings())), in_use=False)
+    file.close()
+    path = tmp_path / "session-1.json"
+    whole = path.read_text("ascii")
+    damaged = re.sub(
+        r'("settings": \{[^}]*\}[^}]*)\}', lambda found: f"{found[1]}, {text}}}", whole
+    )
+    assert damaged != whole
+    file = SessionFile(tmp_path)
+    assert file.last is not None
+    assert file.last.workspace.settings == SimulationSettings()
+    file.close()
+    path.write_text(damaged, "ascii")
+    file = SessionFile(tmp_path)
+    kept = file.last  # none where it is no JSON any more
+    assert kept is None or kept.workspace.settings == FIRST_SETTINGS
+    file.close()
+
+
+@pytest.mark.parametrize("text", DAMAGED_SCENES.values(), ids=DAMAGED_SCENES)
+def test_a_damaged_scene_of_a_crash_is_left_out_and_kept_aside(tmp_path: Path, text: str) -> None:
+    left_behind(tmp_path, in_use=True, scene=text)
+    file = SessionFile(tmp_path)
+    assert (file.last, file.crashed) == (None, None)
+    aside = (tmp_path / "session-1.unreadable").read_text("ascii")
+    assert json.loads(aside) == {"format": 1, "in_use": True, "scene": text}
+    file.close()

@@ -1,0 +1,166 @@
+"""Small widgets: labels, panes that scroll, bars of a state, and what is drawn of them."""
+
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+from gui.kinds import add_widget, show_widget
+from PySide6.QtCore import QRectF, QSize
+from PySide6.QtGui import QColor, QImage, QPainter, QPalette
+from PySide6.QtWidgets import QApplication, QLabel, QTabWidget, QVBoxLayout, QWidget
+from pytestqt.qtbot import QtBot
+
+from occ_gui.widgets.axes import LogAxis
+from occ_gui.widgets.elided_label import ElidedLabel
+from occ_gui.widgets.plain_text import in_tool_tip
+from occ_gui.widgets.plot import marker
+from occ_gui.widgets.scroll_pane import ScrollPane, bring_into_view
+from occ_gui.widgets.state_bar import StateBar
+from occ_gui.widgets.state_look import _BADGES, State
+from occ_gui.widgets.text_scale import emboldened
+from occ_gui.widgets.unchanged import are_same
+
+LONG = "Photo a_name_that_goes_on_and_on_<b>and</b>_on_until_it_ends.png"
+
+
+@pytest.fixture
+def label(qtbot: QtBot) -> ElidedLabel:
+    return show_widget(qtbot, ElidedLabel(LONG))
+
+
+@pytest.mark.parametrize("width", [40, 120, 300])
+def test_a_text_too_long_is_shown_in_part_and_never_cut_off(label: ElidedLabel, width: int) -> None:
+    label.resize(width, 20)
+    assert label.text() != LONG
+    assert "…" in label.text()
+    assert label.fontMetrics().horizontalAdvance(label.text()) <= width
+
+
+def test_a_text_that_fits_is_shown_whole_and_literally(label: ElidedLabel) -> None:
+    label.resize(40, 20)
+    label.resize(900, 20)
+    assert label.text() == LONG
+    assert label.sizeHint().width() > label.fontMetrics().horizontalAdvance(LONG[:-5])
+
+
+def test_the_tooltip_tells_the_whole_text_which_asks_for_no_width(label: ElidedLabel) -> None:
+    label.resize(40, 20)
+    assert label.toolTip() == in_tool_tip(LONG)
+    assert label.minimumSizeHint().width() == 0
+    label.set_full_text("short")
+    assert (label.text(), label.toolTip()) == ("short", "short")
+
+
+@pytest.fixture
+def same_font_after(qapp: QApplication) -> Iterator[None]:
+    font = qapp.font()
+    yield
+    qapp.setFont(font)
+
+
+def test_a_label_in_bold_alone_follows_the_applications_size(
+    qtbot: QtBot, qapp: QApplication, same_font_after: None
+) -> None:
+    label, larger = (show_widget(qtbot, emboldened(QLabel(), factor)) for factor in (1.0, 1.25))
+    usual = qapp.font().pointSizeF()
+    assert larger.font().pointSizeF() == pytest.approx(1.25 * usual)
+    font = qapp.font()
+    font.setPointSizeF(2.0 * usual)
+    qapp.setFont(font)
+    qapp.processEvents()  # Qt tells its windows of another font by an event
+    assert label.font().bold()
+    assert label.font().pointSizeF() == pytest.approx(2.0 * usual)
+
+
+ARRAY = np.array([1.0, 2.0])
+
+
+@pytest.mark.parametrize(
+    ("ones", "others", "same"),
+    [
+        ([], [], True),
+        ([1, "a"], [1, "a"], True),
+        ([1, "a"], [1, "b"], False),
+        ([1, "a"], [2, "a"], False),
+        ([1], [1, 2], False),
+        ([1, 2], [1], False),
+        ([ARRAY, 1], [ARRAY.copy(), 1], True),
+        ([ARRAY, 1], [ARRAY, 2], False),
+        ([ARRAY], [ARRAY + 1.0], False),
+        ([ARRAY], [ARRAY[:1]], False),
+        ([ARRAY], [1.0], False),
+        ([1.0], [ARRAY], False),
+    ],
+)
+def test_lists_are_the_same_where_every_value_is(
+    ones: list[object], others: list[object], same: bool
+) -> None:
+    assert are_same(ones, others) is same
+
+
+@pytest.mark.parametrize(("height", "asked"), [(500, 120), (70, 70)])
+def test_the_pane_asks_for_its_contents_size_up_to_its_limit(
+    qtbot: QtBot, height: int, asked: int
+) -> None:
+    content = QWidget()
+    layout = QVBoxLayout(content)
+    layout.setContentsMargins(0, 0, 0, 0)
+    label = QLabel("text")
+    label.setMinimumHeight(height)
+    layout.addWidget(label)
+    pane = show_widget(qtbot, ScrollPane(content, QSize(200, 120)), 200, 120)
+    assert pane.minimumSizeHint() == QSize(200, asked)
+    assert pane.verticalScrollBar().isVisible() == (height > 120)
+    assert not pane.horizontalScrollBar().isVisible()
+
+
+def test_a_widget_is_brought_into_view_from_a_page_that_was_never_in_front(qtbot: QtBot) -> None:
+    pages, last = QTabWidget(), QLabel()
+    for name in ("first", "second"):
+        content = QWidget()
+        layout = QVBoxLayout(content)
+        for place in range(60):
+            last = QLabel(f"{name} {place}")
+            layout.addWidget(last)
+        pages.addTab(ScrollPane(content, QSize(200, 120)), name)
+    show_widget(qtbot, pages, 300, 300)
+    bring_into_view(last)
+    assert pages.currentIndex() == 1
+    assert not last.visibleRegion().isEmpty()
+
+
+@pytest.mark.parametrize("state", _BADGES)
+def test_the_outline_of_an_icon_is_the_same_on_both_sides(state: State) -> None:
+    points = _BADGES[state].toList()
+    corners = {(point.x(), point.y()) for point in points}
+    assert corners == {(-x, y) for x, y in corners}
+    assert len(corners) == len(points)
+
+
+@pytest.mark.parametrize("fill", [None, QColor("red")])
+def test_a_legends_point_is_a_ring_or_filled(qtbot: QtBot, fill: QColor | None) -> None:
+    image = QImage(40, 40, QImage.Format.Format_Grayscale8)
+    image.fill(0)
+    palette = QPalette()
+    palette.setColor(QPalette.ColorRole.Text, QColor("white"))
+    painter = QPainter(image)
+    marker("o", 20.0, fill)(painter, QRectF(0, 0, 40, 40), palette)
+    painter.end()
+    grey = np.frombuffer(image.constBits(), dtype=np.uint8).reshape(40, -1)[:, :40]
+    assert (grey[20] > 0).any()
+    assert bool(grey[20, 20]) == (fill is not None)
+
+
+def test_the_bar_of_a_state_holds_its_title_and_its_sentence(qtbot: QtBot) -> None:
+    bar = add_widget(qtbot, StateBar())
+    bar.resize(400, bar.minimumSizeHint().height())
+    bar.show()
+    for part in (bar.title, bar.sentence):
+        assert bar.rect().adjusted(0, 1, 0, -1).contains(part.geometry())
+
+
+def test_a_logarithmic_axis_has_ticks_at_both_its_ends(qtbot: QtBot) -> None:
+    (_, numbered), (_, between) = LogAxis("left").tickValues(0.0, 2.0, 400.0)
+    ticks = sorted([*numbered, *between])
+    assert (ticks[0], ticks[-1], len(ticks)) == (0.0, 2.0, 19)
+    assert len(set(ticks)) == len(ticks)

@@ -49,16 +49,6 @@ def test_a_film_of_another_scheme_fails_with_a_sentence(
     assert "chips" in words
 
 
-@pytest.mark.parametrize("percent", ["nan", "-5", "0", "51"])
-def test_a_tolerance_is_refused_in_percent_as_it_was_given(
-    percent: str, film: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    given = f"--readout-tolerance={percent}"
-    assert main(["decode", str(film), *SCENE, given]) == 2
-    words = f"--readout-tolerance is {percent} %; allowed: above 0 % up to 50 %."
-    assert words in capsys.readouterr().err
-
-
 def test_a_film_is_told_from_a_picture_by_its_content(film: Path, tmp_path: Path) -> None:
     assert is_film(film)
     for name, start in (

@@ -30,6 +30,7 @@ WITHOUT_FILES = {
     "room locate --room cellar": "There is no room 'cellar'",
     "room locate --set distance=2m": "A room has no distance: ",
     "sweep --vary distance=1,1": "distance is 1 m twice",
+    "sweep --vary distance=1 --vary distance=2": "distance is varied twice",
     "sweep --vary distance=1 --images 0": "images is 0",
     "sweep --vary distance=1 --jobs 0": "jobs is 0",
     "sweep --vary distance=1 --jobs 100000": "allowed: a whole number from 1 to 1,024.",
@@ -47,6 +48,8 @@ WITHOUT_FILES = {
     "figures --out new --seed -1": "seed is -1",
     "figures --out new --images 0": "images is 0",
     "figures --out new --jobs 0": "jobs is 0",
+    "transmit --set switching_frequency=1MHz -o new": "switching_frequency is 1 MHz; allowed on Ard",
+    "transmit --set line_code=nrz --set framing=c-ook -o new": "line_code is 'nrz', which limits",
 }
 
 READING = {
@@ -57,6 +60,11 @@ READING = {
     "decode folder.png": "folder.png is a folder, not a photo.",
     "decode text.txt": "text.txt is not an image that can be read.",
     "bench --data no-such-table.csv": "no-such-table.csv cannot be read",
+    **{
+        f"decode p.png --follow --readout-tolerance={percent}": f"--readout-tolerance is {percent} "
+        "%; allowed: above 0 % up to 50 %."
+        for percent in ("nan", "-5", "0", "51")
+    },
     "match p.png --chips --lamps": "--chips is given with --lamps",
     "match p.png --chips --out fit.toml": "--out is given with --chips",
     "match p.png 0.png --chips": "--chips is given with several photos",
@@ -77,6 +85,7 @@ WRITING = {
     "film -o film.avi": "film.avi has no ending of a film",
     "match 0.png p.png --out nowhere/x.csv": "name a file in a folder that is there",
     "match 0.png p.png --out .": "name a file to write to",
+    "figures --out p.png/new": "cannot be made",
     "sweep --vary distance=1 --plot x.gif": "'.gif'; allowed: .png, .pdf, .svg",
     "sweep --vary distance=1 --plot no/such/x.png": "cannot be written",
     "sweep --vary distance=1 --out .": "is a folder",
@@ -113,6 +122,7 @@ SAME_FILE = {
     "figures --out figures --photo-68us figures/figure-3.png": "the file of --photo-68us; ",
     "figures --out figures --photo-136us fig-link.png": "the file of --photo-136us; ",
     "accuracy --out figures --scene figures/accuracy.csv": "the file of --scene; ",
+    "transmit --scene scene.toml -o .": "--out, where scene.toml goes, is scene.toml, the",
 }
 
 REFUSED = WITHOUT_FILES | READING | WRITING | SAME_FILE
@@ -130,7 +140,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
         scene = occ.load_preset("phone-68us").replace(rows=60)
         for name in ("p.png", "0.png", "figures/figure-3.png"):
             write_image(Path(name), occ.render(scene).image)
-        for name in ("s.toml", "w.csv", "figures/accuracy.csv", "mine.toml"):
+        for name in ("s.toml", "w.csv", "figures/accuracy.csv", "mine.toml", "scene.toml"):
             Path(name).write_text(scene.to_toml())
         Path("text.txt").write_text("no picture\n")
         Path("link.toml").symlink_to("p.png")

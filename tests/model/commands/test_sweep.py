@@ -103,11 +103,6 @@ def test_axes_are_refused_before_all_their_points_are_made() -> None:
     )
 
 
-def test_a_parameter_is_varied_once() -> None:
-    with pytest.raises(ParameterError, match="distance is varied twice"):
-        axes_of(["distance=1", "distance=2"])
-
-
 def test_the_command_writes_the_sweeps_table_and_draws_it(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -73,30 +73,6 @@ def test_without_a_wav_file_it_is_said_why(
     assert "A WAV file holds up to 192 kHz" in capsys.readouterr().out
 
 
-@pytest.mark.parametrize(
-    ("words", "said"),
-    [
-        (["--set", "switching_frequency=1MHz"], "switching_frequency is 1 MHz; allowed on Arduino"),
-        (["--set", "line_code=nrz", "--set", "framing=c-ook"], "line_code is 'nrz', which limits"),
-        (["--scene", "scene.toml", "-o", "."], "--out, where scene.toml goes, is scene.toml, the"),
-    ],
-)
-def test_a_misuse_gives_one_sentence_and_writes_nothing(
-    tmp_path: Path,
-    capsys: pytest.CaptureFixture[str],
-    monkeypatch: pytest.MonkeyPatch,
-    words: list[str],
-    said: str,
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    Path("scene.toml").write_text(occ.Scene().to_toml())
-    assert run(*words, *([] if "-o" in words else ["-o", "blink"])) == 2
-    error = capsys.readouterr().err
-    assert error.startswith(f"occ-model: {said}")
-    assert error.count("\n") == 1
-    assert [path.name for path in tmp_path.iterdir()] == ["scene.toml"]
-
-
 @pytest.mark.usefixtures("undrawn")
 def test_a_file_in_the_folders_place_is_left_alone(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]

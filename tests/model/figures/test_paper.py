@@ -128,14 +128,6 @@ def test_a_photo_is_drawn_beside_the_simulation(tmp_path: Path) -> None:
     assert "photo.png" in comments(tmp_path / "figure-3.csv")
 
 
-def test_a_folder_that_cannot_be_made_is_a_sentence(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    (tmp_path / "file").write_text("in the way")
-    assert main(["figures", "--out", str(tmp_path / "file" / "x")]) == 2
-    assert "cannot be made" in capsys.readouterr().err
-
-
 def test_figure_2_holds_the_calculated_values_and_the_mask(folder: Path) -> None:
     frame = occ.render(occ.load_preset("phone-68us"), tolerance=math.inf)
     table = rows(folder / "figure-2.csv")

@@ -1,6 +1,7 @@
 """Which job goes next and when results are reported, with one held worker and two channels."""
 
 from collections.abc import Iterator
+from typing import Any
 
 import pytest
 from model.parallel.bench import Bench, stage
@@ -16,40 +17,66 @@ def bench() -> Bench:
     return Bench()
 
 
-def occupy(bench: Bench) -> None:
-    """Give the worker all that it takes: what is asked for next has to wait."""
-    bench.ask(STRIPS, 1, stage(9, "busy", "busy too"))
+BUSY = (STRIPS, 1, stage(9, "busy", "busy too"))  # all that the worker takes: the next has to wait
+
+# By law: the requests, each a channel, its number and its stages; the jobs sent; the runs that end.
+ORDERS: dict[str, tuple[list[Any], str, list[tuple[int, int]]]] = {
+    "the lowest rank first": (
+        [BUSY, (MAP, 1, stage(5, "m", "n")), (STRIPS, 2, stage(1, "s", "t"))],
+        "busy, busy too, s, t, m, n", [(STRIPS, 2), (MAP, 1)],
+    ),
+    "the lowest rank first, whoever asked": (
+        [BUSY, (MAP, 1, stage(1, "m", "n")), (STRIPS, 2, stage(5, "s", "t"))],
+        "busy, busy too, m, n, s, t", [(MAP, 1), (STRIPS, 2)],
+    ),
+    "the rank is looked at before each job": (
+        [(MAP, 1, stage(5, *"abcd")), (STRIPS, 1, stage(1, "x"), stage(7, "y"))],
+        "a, b, x, c, d, y", [(MAP, 1), (STRIPS, 1)],
+    ),
+    "of equal ranks the request that began first": (
+        [(STRIPS, 1, stage(2, *"stu")), (MAP, 1, stage(2, *"mn"))],
+        "s, t, u, m, n", [(STRIPS, 1), (MAP, 1)],
+    ),
+    "jobs of a stage and stages of a request keep order": (
+        [(MAP, 1, stage(8, *"abc"), stage(4), stage(1, *"de"))], "a, b, c, d, e", [(MAP, 1)],
+    ),
+    "an uninterruptible stage ends despite a newer request": (
+        [(MAP, 1, stage(0, *"abc", whole=True), stage(2, "fine")),
+         (MAP, 2, stage(0, "x", whole=True), stage(2, "new fine"))],
+        "a, b, c, x, new fine", [(MAP, 2)],
+    ),
+    "an uninterruptible stage that has not begun is replaced": (
+        [(MAP, 1, stage(0, *"abc"), stage(0, "d", whole=True)), (MAP, 2, stage(0, "x"))],
+        "a, b, x", [(MAP, 2)],
+    ),
+    "a newer request replaces an older one before it starts": (
+        [BUSY, (MAP, 1, stage(0, "old")), (MAP, 2, stage(0, "new"))],
+        "busy, busy too, new", [(STRIPS, 1), (MAP, 2)],
+    ),
+    "behind an uninterruptible stage only the newest is done": (
+        [(MAP, 1, stage(0, *"abc", whole=True)), (MAP, 2, stage(0, "passed over", whole=True)),
+         (MAP, 3, stage(0, "x", whole=True))],
+        "a, b, c, x", [(MAP, 3)],
+    ),
+    "a stage without jobs holds nothing up": (
+        [(MAP, 1, stage(0, whole=True), stage(1, *"abc")), (MAP, 2, stage(1, "x"))],
+        "a, b, x", [(MAP, 2)],
+    ),
+    "other channels keep their requests": (
+        [(MAP, 1, stage(0, *"mn")), (STRIPS, 1, stage(0, "s")), (MAP, 2, stage(0, "o"))],
+        "m, n, s, o", [(STRIPS, 1), (MAP, 2)],
+    ),
+}  # fmt: skip
 
 
-@pytest.mark.parametrize("ranks", [(5, 1), (1, 5)])
-def test_the_lowest_rank_goes_first_whoever_asked_first(
-    bench: Bench, ranks: tuple[int, int]
-) -> None:
-    of_map, of_strips = ranks
-    bench.ask(MAP, 1, stage(0, "busy", "busy too"), stage(of_map, of_map, of_map))
-    bench.ask(STRIPS, 1, stage(of_strips, of_strips, of_strips))
+@pytest.mark.parametrize("law", ORDERS)
+def test_jobs_are_sent_in_order(bench: Bench, law: str) -> None:
+    requests, sent, ended = ORDERS[law]
+    for request in requests:
+        bench.ask(*request)
     bench.finish_all()
-    assert bench.sent == ["busy", "busy too", 1, 1, 5, 5]
-
-
-def test_the_rank_is_looked_at_again_before_each_job(bench: Bench) -> None:
-    bench.ask(MAP, 1, stage(5, *"abcd"))
-    bench.ask(STRIPS, 1, stage(1, "x"), stage(7, "y"))
-    bench.finish_all()
-    assert bench.sent == ["a", "b", "x", "c", "d", "y"]
-
-
-def test_of_equal_ranks_the_request_that_began_first_goes_first(bench: Bench) -> None:
-    bench.ask(STRIPS, 1, stage(2, "s1", "s2", "s3"))
-    bench.ask(MAP, 1, stage(2, "m1", "m2"))
-    bench.finish_all()
-    assert bench.sent == ["s1", "s2", "s3", "m1", "m2"]
-
-
-def test_jobs_of_a_stage_and_stages_of_a_request_keep_order(bench: Bench) -> None:
-    bench.ask(MAP, 1, stage(8, "a", "b", "c"), stage(4), stage(1, "d", "e"))
-    bench.finish_all()
-    assert bench.sent == bench.results == ["a", "b", "c", "d", "e"]
+    assert (bench.sent, bench.ended) == (sent.split(", "), ended)
+    assert bench.results[-1] == bench.sent[-1]
 
 
 def test_a_stage_begins_while_the_previous_ones_last_jobs_run(bench: Bench) -> None:
@@ -118,15 +145,6 @@ def test_an_abandoned_stage_delays_nothing(bench: Bench) -> None:
     assert bench.sent == ["coarse", "strip"]
 
 
-def test_an_uninterruptible_stage_ends_despite_a_newer_request(bench: Bench) -> None:
-    bench.ask(MAP, 1, stage(0, "a", "b", "c", whole=True), stage(2, "fine"))
-    bench.ask(MAP, 2, stage(0, "x", whole=True), stage(2, "new fine"))
-    bench.finish_all()
-    assert bench.sent == ["a", "b", "c", "x", "new fine"]
-    assert bench.results == ["a", "b", "c", "x", "new fine"]
-    assert bench.ended == [(MAP, 2)]
-
-
 def test_only_an_old_requests_uninterruptible_stage_goes_on(bench: Bench) -> None:
     # The stage that fills the gap is more urgent: only that it is superseded holds it back.
     bench.ask(MAP, 1, stage(2, "a", whole=True), stage(0, "b", "c"))
@@ -137,14 +155,6 @@ def test_only_an_old_requests_uninterruptible_stage_goes_on(bench: Bench) -> Non
     assert bench.sent == ["a", "b"]
     bench.finish_all()
     assert bench.sent == ["a", "b", "x"]
-
-
-def test_an_uninterruptible_stage_that_has_not_begun_is_replaced(bench: Bench) -> None:
-    bench.ask(MAP, 1, stage(0, "a", "b", "c"), stage(0, "d", whole=True))
-    bench.ask(MAP, 2, stage(0, "x"))
-    bench.finish_all()
-    assert bench.sent == ["a", "b", "x"]
-    assert bench.ended == [(MAP, 2)]
 
 
 def test_a_request_waits_only_for_its_own_channels_stages(bench: Bench) -> None:
@@ -158,24 +168,6 @@ def test_a_request_waits_only_for_its_own_channels_stages(bench: Bench) -> None:
     assert bench.sent == ["a", "b", "c", "t", "x"]
 
 
-def test_a_newer_request_replaces_an_older_one_before_it_starts(bench: Bench) -> None:
-    occupy(bench)
-    bench.ask(MAP, 1, stage(0, "old"))
-    bench.ask(MAP, 2, stage(0, "new"))
-    bench.finish_all()
-    assert bench.sent == ["busy", "busy too", "new"]
-    assert bench.ended == [(STRIPS, 1), (MAP, 2)]
-
-
-def test_behind_an_uninterruptible_stage_only_the_newest_is_done(bench: Bench) -> None:
-    bench.ask(MAP, 1, stage(0, "a", "b", "c", whole=True))
-    bench.ask(MAP, 2, stage(0, "passed over", whole=True))
-    bench.ask(MAP, 3, stage(0, "x", whole=True))
-    bench.finish_all()
-    assert bench.sent == ["a", "b", "c", "x"]
-    assert bench.ended == [(MAP, 3)]
-
-
 def test_a_newer_request_replaces_a_running_one_at_once(bench: Bench) -> None:
     bench.ask(MAP, 1, stage(0, "a", "b", "c"))
     bench.ask(MAP, 2, stage(0, "x"))
@@ -183,15 +175,6 @@ def test_a_newer_request_replaces_a_running_one_at_once(bench: Bench) -> None:
     bench.finish_all()
     assert bench.sent == ["a", "b", "x"]
     assert bench.results == ["x"]
-
-
-def test_other_channels_keep_their_requests(bench: Bench) -> None:
-    bench.ask(MAP, 1, stage(0, "m1", "m2"))
-    bench.ask(STRIPS, 1, stage(0, "s"))
-    bench.ask(MAP, 2, stage(0, "n"))
-    bench.finish_all()
-    assert sorted(bench.results) == ["n", "s"]
-    assert sorted(bench.ended) == [(MAP, 2), (STRIPS, 1)]
 
 
 def test_a_cancelled_request_ends_and_the_one_behind_it_too(bench: Bench) -> None:
@@ -228,17 +211,10 @@ def test_cancelling_earlier_requests_leaves_the_one_at_work(bench: Bench) -> Non
 
 
 def test_a_request_without_jobs_ends_at_once_on_busy_workers(bench: Bench) -> None:
-    occupy(bench)
+    bench.ask(*BUSY)
     bench.ask(MAP, 1)
     bench.ask(MAP, 2, stage(0), stage(1, whole=True))
     assert bench.ended == [(MAP, 1), (MAP, 2)]
-
-
-def test_a_stage_without_jobs_holds_nothing_up(bench: Bench) -> None:
-    bench.ask(MAP, 1, stage(0, whole=True), stage(1, "a", "b", "c"))
-    bench.ask(MAP, 2, stage(1, "x"))
-    bench.finish_all()
-    assert bench.sent == ["a", "b", "x"]
 
 
 def test_the_end_is_reported_once_after_all_results(bench: Bench) -> None:

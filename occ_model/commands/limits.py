@@ -28,6 +28,7 @@ from occ_model.results.advice import (
 )
 from occ_model.results.bit_errors import FRAMES_A_SECOND
 from occ_model.results.limits import Limits, RangeEnd, WorkingRange
+from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.parameters import quantity
 from occ_model.scene.recording import FRAME_RATE
 from occ_model.scene.scene import Scene
@@ -86,15 +87,9 @@ def _run(options: argparse.Namespace) -> int:
             bar.write(row(found, options.fps))
             sys.stdout.flush()
 
+        settings = RateSettings(options.images, decoders, options.seed)
         answers = limits_of(
-            scene,
-            decoders,
-            rate=options.rate,
-            images=options.images,
-            seed=options.seed,
-            jobs=options.jobs,
-            progress=show,
-            found=show_row,
+            scene, settings, options.rate, jobs=options.jobs, progress=show, found=show_row
         )
     for line in sentences(answers, options.fps):
         print(line)

@@ -10,6 +10,7 @@ from occ_model.boards.waveform_files import wav_timing
 from occ_model.commands.files import Written
 from occ_model.commands.options import Commands, add_option, add_scene_options, scene_of
 from occ_model.errors import one_line
+from occ_model.files.writing import make_folder
 from occ_model.scene.units import HERTZ
 
 
@@ -35,6 +36,7 @@ def _written(options: argparse.Namespace) -> Written:
 
 def _run(options: argparse.Namespace) -> int:
     sent = transmission(scene_of(options), board_named(options.board))
+    make_folder(options.out)  # a refusal must not come after the drawing
     # matplotlib takes half a second to import: only where a figure is drawn.
     from occ_model.figures.transmitter_files import write_transmitter_files
 

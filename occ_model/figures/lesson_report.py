@@ -46,19 +46,19 @@ def write_lesson_report(
             _write_markdown(path, lesson, steps, about)
             return
         parts = tuple(steps_of_pages(steps))
+        if len(parts) > 1 and path.suffix.lower() != ".pdf":
+            raise OutputError(
+                f"{one_line(path.name)}: the report has {len(parts)} pages; "
+                "allowed endings: .pdf and .md."
+            )
         pages = [
             draw_page(lesson.title, about, _foot(place, len(parts)), part, first)
             for place, (first, part) in enumerate(parts, 1)
         ]
         if len(pages) == 1:
             write_figure(path, pages[0], provenance)
-        elif path.suffix.lower() == ".pdf":
-            write_whole(path, _pdf(pages, provenance))
         else:
-            raise OutputError(
-                f"{one_line(path.name)}: the report has {len(pages)} pages; "
-                "allowed endings: .pdf and .md."
-            )
+            write_whole(path, _pdf(pages, provenance))
 
 
 def _foot(page: int, pages: int) -> str:

@@ -8,13 +8,14 @@ so that one process searches along one parameter for all of them.
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import wait
 from contextlib import ExitStack, suppress
+from dataclasses import replace
 from functools import partial
 from itertools import cycle, islice
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from occ_model.errors import ParameterError, shown
 from occ_model.parallel.job import NO_PROCESSES, Heartbeat, Job, JobResult
-from occ_model.receiver.decoders import DECODERS, PAPER_DECODER
+from occ_model.receiver.decoders import PAPER_DECODER
 from occ_model.results.advice import Advice, TheoryLimits
 from occ_model.results.limits import Limits, WorkingRange
 from occ_model.results.sweep_request import MOST_JOBS, RateSettings, SignalPath
@@ -83,23 +84,16 @@ def limits(  # noqa: PLR0913 - a study's settings, most of them optional
     ProjectionError
         The scene has no picture.
     """
-    (found,) = limits_of(
-        scene, (decoder,), rate=rate, images=images, seed=seed, tolerance=tolerance, force=force,
-        path=path, jobs=jobs, heartbeat=heartbeat, progress=progress,
-    )  # fmt: skip
+    settings = RateSettings(images, (decoder,), seed, tolerance, force or {}, path)
+    (found,) = limits_of(scene, settings, rate, jobs=jobs, heartbeat=heartbeat, progress=progress)
     return found
 
 
-def limits_of(  # noqa: PLR0913 - a study's settings, most of them optional
+def limits_of(
     scene: Scene,
-    decoders: Sequence[str] = tuple(DECODERS),
+    settings: RateSettings,
+    rate: float,
     *,
-    rate: float = READ_RATE,
-    images: int = 20,
-    seed: int = 1,
-    tolerance: float = TOLERANCE.default,
-    force: Mapping[str, bool] | None = None,
-    path: SignalPath = "auto",
     jobs: int = 1,
     heartbeat: Heartbeat = lambda: None,
     progress: Callable[[float, str], object] = lambda _share, _what: None,
@@ -113,18 +107,19 @@ def limits_of(  # noqa: PLR0913 - a study's settings, most of them optional
     wanted = _checked(rate)
     check_count("jobs", jobs, 1, MOST_JOBS)
     asked = []
-    for decoder in decoders:
-        settings = RateSettings(images, (decoder,), seed, tolerance, force or {}, path)
-        check_rate(scene, settings)
-        asked += [(scene, name, wanted, settings) for name in SEARCHED]
-    usual = len(asked) * usual_images(images, wanted)
+    for decoder in settings.decoders:
+        own = replace(settings, decoders=(decoder,))
+        check_rate(scene, own)
+        asked += [(scene, name, wanted, own) for name in SEARCHED]
+    answers = partial(_answers, scene, settings, wanted)
+    usual = len(asked) * usual_images(settings.images, wanted)
     with ExitStack() as stack:
         ways = _Ways(stack, jobs, usual, heartbeat, progress)
         searched: list[WorkingRange] = []
-        for working_range in ways.answers(search_along, asked, (1,) * len(SEARCHED)):
-            searched.append(working_range)
+        for each in ways.answers(working_range, asked, (1,) * len(SEARCHED)):
+            searched.append(each)
             if len(searched) % len(SEARCHED) == 0:
-                found(_answers(scene, decoders, (wanted, images, seed), searched)[-1])
+                found(answers(searched)[-1])
         pairs = [(one, pairs_of(each)) for one, each in zip(asked, searched, strict=True)]
         # The slowest decoder, which is the last, first: nothing else waits for it then.
         again = [(*one, pair) for one, several in pairs for pair in several][::-1]
@@ -134,7 +129,7 @@ def limits_of(  # noqa: PLR0913 - a study's settings, most of them optional
             for each, (_, several) in zip(searched, pairs, strict=True)
         ]
     progress(1.0, "")
-    return tuple(_answers(scene, decoders, (wanted, images, seed), ranges))
+    return tuple(answers(ranges))
 
 
 SEARCHED = ("switching_frequency", "exposure_time")  # the parameters whose limits are searched
@@ -148,21 +143,11 @@ def usual_images(images: int, rate: float) -> int:
 
 
 def _answers(
-    scene: Scene,
-    decoders: Sequence[str],
-    settings: tuple[float, int, int],
-    ranges: Sequence[WorkingRange],
+    scene: Scene, settings: RateSettings, rate: float, ranges: Sequence[WorkingRange]
 ) -> list[Limits]:
     """Put the ranges together, those of one decoder after the other."""
-    pairs = zip(ranges[::2], ranges[1::2], strict=False)
-    return [Limits(scene, each, *settings, *pair) for each, pair in zip(decoders, pairs)]  # noqa: B905
-
-
-def search_along(
-    scene: Scene, name: str, rate: float, settings: RateSettings, heartbeat: Heartbeat
-) -> WorkingRange:
-    """Search along one parameter, as the job of a process."""
-    return working_range(scene, name, rate, settings, heartbeat)
+    pairs = zip(settings.decoders, ranges[::2], ranges[1::2], strict=False)
+    return [Limits(scene, one, rate, settings.images, settings.seed, *pair) for one, *pair in pairs]
 
 
 class _Ways:

@@ -48,7 +48,7 @@ WITHOUT_FILES = {
     "figures --out new --seed -1": "seed is -1",
     "figures --out new --images 0": "images is 0",
     "figures --out new --jobs 0": "jobs is 0",
-    "transmit --set switching_frequency=1MHz -o new": "switching_frequency is 1 MHz; allowed on Ard",
+    "transmit --set switching_frequency=1MHz -o new": "switching_frequency is 1 MHz; allowed on",
     "transmit --set line_code=nrz --set framing=c-ook -o new": "line_code is 'nrz', which limits",
 }
 
@@ -86,6 +86,7 @@ WRITING = {
     "match 0.png p.png --out nowhere/x.csv": "name a file in a folder that is there",
     "match 0.png p.png --out .": "name a file to write to",
     "figures --out p.png/new": "cannot be made",
+    "transmit -o p.png": "cannot be made",
     "sweep --vary distance=1 --plot x.gif": "'.gif'; allowed: .png, .pdf, .svg",
     "sweep --vary distance=1 --plot no/such/x.png": "cannot be written",
     "sweep --vary distance=1 --out .": "is a folder",

@@ -22,12 +22,6 @@ def run(*words: str | Path) -> int:
     return main(["transmit", *map(str, words)])
 
 
-@pytest.fixture
-def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Leave out what takes long: drawing the wiring."""
-    monkeypatch.setattr(transmitter_files, "wiring_bytes", lambda sent, format_name: b"")
-
-
 def test_the_folder_has_sketch_waveform_wiring_and_scene(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -63,21 +57,11 @@ def test_the_sketch_has_the_name_that_the_board_wants(
     assert set(file_names(tmp_path / folder, board_named(board))) == {sketch, *FILES}
 
 
-@pytest.mark.usefixtures("undrawn")
 def test_without_a_wav_file_it_is_said_why(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    monkeypatch.setattr(transmitter_files, "wiring_bytes", lambda *_: b"")  # drawing takes long
     folder = tmp_path / "fast"
     assert run("--set", "switching_frequency=120kHz", "-o", folder) == 0
     assert not (folder / "waveform.wav").exists()
     assert "A WAV file holds up to 192 kHz" in capsys.readouterr().out
-
-
-@pytest.mark.usefixtures("undrawn")
-def test_a_file_in_the_folders_place_is_left_alone(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    (tmp_path / "blink").write_text("mine")
-    assert run(*SCENE, "-o", tmp_path / "blink") == 2
-    assert "cannot be made" in capsys.readouterr().err
-    assert (tmp_path / "blink").read_text() == "mine"

@@ -86,33 +86,26 @@ def observe_profile(
         region = noisy.draw_region(random)
         return Observation(noisy.means(region, random), region)
     panel, around = enhancement(columns.profile), to_bytes(columns.around)
-    region = region_without_noise(view.scene, span, panel, around)
-    return Observation(means_without_noise(region, span, panel, around), region)
+    return _without_noise(view.scene, span, panel, around)
 
 
-def region_without_noise(scene: Scene, span: Region, panel: ByteArray, around: ByteArray) -> Region:
-    """Find the rectangle that a receiver finds in a picture without noise."""
+def _without_noise(scene: Scene, span: Region, panel: ByteArray, around: ByteArray) -> Observation:
+    """Return the means of the rectangle that a receiver finds in a picture without noise."""
     rows, seen = scene.camera.rows, slice(span.first_column, span.last_column)
     counts = np.bincount(around, minlength=256) * rows
     counts += np.bincount(panel[seen], minlength=256) * span.rows
     counts -= np.bincount(around[seen], minlength=256) * span.rows
     level = bright_level(counts.astype(np.int64), scene.receiver.bright_fraction)
-    if level is None:
-        return span
-    shares = ((values >= level).astype(np.float64) for values in (panel, around))
-    return BrightShares(rows, span, *shares).draw_region(np.random.default_rng(0))
-
-
-def means_without_noise(
-    region: Region, span: Region, panel: ByteArray, around: ByteArray
-) -> FloatArray:
-    """Return the means of a rectangle's columns; the arguments as for the rectangle."""
+    region = span
+    if level is not None:
+        bright = ((values >= level).astype(np.float64) for values in (panel, around))
+        region = BrightShares(rows, span, *bright).draw_region(np.random.default_rng(0))
     columns = slice(region.first_column, region.last_column)
     crossed = max(0, min(region.last_row, span.last_row) - max(region.first_row, span.first_row))
     shares = np.zeros(len(panel))
-    shares[span.first_column : span.last_column] = crossed / region.rows
+    shares[seen] = crossed / region.rows
     shares = shares[columns]
-    return np.asarray(shares * panel[columns] + (1.0 - shares) * around[columns])
+    return Observation(shares * panel[columns] + (1.0 - shares) * around[columns], region)
 
 
 def shows_region(sample: SampledPicture, view: PaperView) -> bool:
@@ -207,10 +200,7 @@ def _column_means(
         return profile, signal, Observation(to_bytes(columns.around), None)
     seen = slice(span.first_column, span.last_column)
     if "noise" not in chosen.kinds:
-        around = to_bytes(columns.around)
-        region = region_without_noise(scene, span, enhanced, around)
-        means = means_without_noise(region, span, enhanced, around)
-        return profile, signal, Observation(means, region)
+        return profile, signal, _without_noise(scene, span, enhanced, to_bytes(columns.around))
     noisy = NoisyColumns(scene, columns, chosen, span, enhancement)
     region = noisy.draw_region(random)
     profile[seen], signal[seen] = noisy.plain_means(span), noisy.means(span, random)

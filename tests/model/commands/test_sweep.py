@@ -213,7 +213,9 @@ def table_of(**axes: object) -> occ.SweepTable:
     return occ.sweep(occ.load_preset("phone-136us"), axes, 1, ("threshold", "matched"))  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize("ending", ["png", "pdf", "svg"])
+@pytest.mark.parametrize(
+    "ending", ["svg", *(pytest.param(one, marks=pytest.mark.whole) for one in ("png", "pdf"))]
+)
 def test_a_figure_has_its_endings_format_and_its_provenance(tmp_path: Path, ending: str) -> None:
     path = tmp_path / f"f.{ending}"
     write_sweep_figure(path, table_of(switching_frequency=[4e3, 6e3, 15e3]))

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis.extra import numpy as arrays
-from PIL import Image
+from PIL import ExifTags, Image
 
 from occ_model.errors import OutputError
 from occ_model.files.writing import write_image
@@ -42,6 +42,17 @@ def test_a_lossy_format_gives_the_picture_back(
         assert read.format == format_name
         difference = np.asarray(read.convert("L"), dtype=float) - image
     assert np.abs(difference).max() < 8
+
+
+@pytest.mark.parametrize("ending", ["jpg", "tif", "webp", "bmp"])
+def test_formats_other_than_png_hold_a_description_as_exif_where_they_can(
+    tmp_path: Path, ending: str
+) -> None:
+    path = tmp_path / f"picture.{ending}"
+    write_image(path, IMAGE, "Camera's picture")
+    with Image.open(path) as picture:
+        text = picture.getexif().get(ExifTags.Base.ImageDescription)
+    assert text == (None if ending == "bmp" else "Camera's picture")
 
 
 @pytest.mark.parametrize("name", ["x", "x.", "x.txt", "x.png.x", ".png", "x.gif", "x.pdf"])

@@ -14,6 +14,8 @@ from occ_model.photo.many.other_programs import note_on
 from occ_model.photo.match_facts import ESTIMATES, LABELS, known_of, match_facts
 from occ_model.results.match import Match
 from occ_model.results.photo_table import assumption
+from occ_model.scene.parameters import quantity
+from occ_model.scene.scene import Scene
 
 WHAT_ERRORS_MEAN = (
     "± is one standard deviation, of the fit alone: the error of the value that is known comes "
@@ -28,15 +30,18 @@ def is_certain(name: str, value: float, certain: Mapping[str, float]) -> bool:
     return math.isclose(value, certain.get(name, math.nan), rel_tol=1e-9)
 
 
-def is_stale(
-    name: str, then: float, given: float, now: float, certain: Mapping[str, float]
-) -> bool:
-    """Whether the scene has another known value now than ``then``, when a result was found.
+def stale_sentence(
+    scene: Scene, name: str, then: float, given: float, certain: Mapping[str, float]
+) -> str:
+    """Begin to say that the scene has another known value now than ``then``; empty if it has not.
 
     What is certain of a photo holds whatever the scene becomes. ``given`` is what the scene had
     when the result was found: a square wave is known by its own frequency.
     """
-    return now not in {then, given} and not is_certain(name, then, certain)
+    declared, now = quantity(name), float(scene.value(name))
+    if now in {then, given} or is_certain(name, then, certain):
+        return ""
+    return f"Found with {declared.format(then)}; the scene has {declared.format(now)} now: "
 
 
 def condition(name: str, value: float, certain: Mapping[str, float], chips: int) -> str:

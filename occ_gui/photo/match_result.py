@@ -7,7 +7,7 @@ from PySide6.QtCore import QEvent, Qt, Signal
 from PySide6.QtGui import QPalette
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
 
-from occ_gui.photo.match_figures import MatchValues, PasteLines, condition_of, is_stale
+from occ_gui.photo.match_figures import MatchValues, PasteLines, condition_of, stale_sentence
 from occ_gui.widgets.building import filled, named, paragraph, push_button
 from occ_gui.widgets.outdated_mark import DELAY, OutdatedMark
 from occ_gui.widgets.state_look import State, colours_of
@@ -16,7 +16,6 @@ from occ_model.photo.match_facts import known_of
 from occ_model.results.bands import Cure
 from occ_model.results.match import Match
 from occ_model.results.photo_table import DOUBTFUL, REFUSED, SURE, UNREADABLE
-from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import HERTZ, SECOND
 
@@ -208,10 +207,7 @@ class MatchResult(QWidget):
         if match is None or scene is None:
             return
         name = known_of(match)
-        declared = quantity(name)
-        now, then = float(scene.value(name)), float(getattr(match, name))
-        self.stale.setText(
-            f"Found with {declared.format(then)}; the scene has {declared.format(now)} "
-            "now: match again."
-        )
-        self.stale.setVisible(is_stale(name, then, self._given, now, self._certain))
+        then = float(getattr(match, name))
+        stale = stale_sentence(scene, name, then, self._given, self._certain)
+        self.stale.setText(f"{stale}match again.")
+        self.stale.setVisible(bool(stale))

@@ -8,7 +8,7 @@ from PySide6.QtCore import QModelIndex, QSize, Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QTableView, QVBoxLayout, QWidget
 
 from occ_gui.photo.many.rows_model import KNOWN, NOTE, PHOTO, PhotoRowsModel
-from occ_gui.photo.match_figures import WHAT_ERRORS_MEAN, PasteLines, condition, is_stale
+from occ_gui.photo.match_figures import WHAT_ERRORS_MEAN, PasteLines, condition, stale_sentence
 from occ_gui.widgets.building import filled, named, paragraph, push_button
 from occ_gui.widgets.plain_text import copy_text
 from occ_gui.widgets.scroll_pane import ScrollPane
@@ -229,13 +229,10 @@ class ManyPhotosView(QWidget):
         self.stale.hide()
         if table is None or scene is None:
             return
-        known = quantity(table.known)
-        now, then = float(scene.value(known.name)), float(table.scene.value(known.name))
-        self.stale.setText(
-            f"Found with {known.format(then)}; the scene has {known.format(now)} now: "
-            "match all again."
-        )
-        self.stale.setVisible(is_stale(known.name, then, self._given, now, self._certain))
+        then = float(table.scene.value(table.known))
+        stale = stale_sentence(scene, table.known, then, self._given, self._certain)
+        self.stale.setText(f"{stale}match all again.")
+        self.stale.setVisible(bool(stale))
 
     def _rests_on(self, estimate: str, scene: Scene) -> str:
         """Name the value that an estimate rests on, unless the user is certain of it."""

@@ -21,7 +21,7 @@ from occ_gui.values.simulated import SimulationRequest
 from occ_gui.widgets.building import filled
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
-from occ_model.results.accuracy import Forecast, MeasuredCosts, TimeShares
+from occ_model.results.accuracy import Forecast, MeasuredCosts, TimeFractions
 from occ_model.results.plan import Decision
 from occ_model.scene.simulation_settings import SimulationSettings, unit_of
 
@@ -175,7 +175,7 @@ class AccuracyView(QWidget):
         self._show_detail(costs)
 
     def _known_costs(self, snapshot: Snapshot) -> MeasuredCosts:
-        picture = TimeShares.of(snapshot.frame)
+        picture = TimeFractions.of(snapshot.frame)
         if self._costs is None:
             return MeasuredCosts(picture)
         return self._costs.of(snapshot.request, picture)

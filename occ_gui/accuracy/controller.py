@@ -11,7 +11,7 @@ from occ_gui.scene.scene_store import SceneStore
 from occ_gui.simulation.controller import SimulationController
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.values.simulated import SimulationRequest
-from occ_model.results.accuracy import Forecast, MeasuredCosts, TimeShares
+from occ_model.results.accuracy import Forecast, MeasuredCosts, TimeFractions
 from occ_model.study.effect_differences import forecast
 
 IDLE_MS = 700  # milliseconds without a change after which the study starts
@@ -99,7 +99,7 @@ class AccuracyController(QObject):
         snapshot, request = self._snapshot, self._request()
         if not self._seen or snapshot is None or snapshot.request.scene != request.scene:
             return
-        times = TimeShares.of(snapshot.frame)
+        times = TimeFractions.of(snapshot.frame)
         costs = MeasuredCosts(times) if self._costs is None else self._costs.of(request, times)
         self.forecasts.ask((request, costs))
 

@@ -8,7 +8,7 @@ from time import perf_counter
 from occ_gui.background.task import Report
 from occ_gui.values.simulated import SimulationRequest
 from occ_model.effects.plan import plan_with
-from occ_model.results.accuracy import AccuracyPoint, EffectDifference, MeasuredCosts, TimeShares
+from occ_model.results.accuracy import AccuracyPoint, EffectDifference, MeasuredCosts, TimeFractions
 from occ_model.simulation.render import render_with
 from occ_model.simulation.stage_timer import StageTimer
 from occ_model.study.accuracy import accuracy, point_count
@@ -24,11 +24,11 @@ class SceneCosts:
     request: SimulationRequest
     # The times of pictures that were made in turn: with the effects of the request's plan, with all
     # of the scene, with none
-    pictures: tuple[TimeShares, ...] = ()
+    pictures: tuple[TimeFractions, ...] = ()
     differences: Mapping[str, EffectDifference] = field(default_factory=dict)
     errors: Mapping[frozenset[str], float] = field(default_factory=dict)
 
-    def of(self, request: SimulationRequest, picture: TimeShares) -> MeasuredCosts:
+    def of(self, request: SimulationRequest, picture: TimeFractions) -> MeasuredCosts:
         """Return what of it holds for a request, whose picture took these times when it was made.
 
         Where a picture with the same effects was made again, in turn with the others, its times
@@ -38,7 +38,7 @@ class SceneCosts:
         compared = _compared(request) == _compared(self.request)
         timed = self.request.scene == request.scene and here.noise == there.noise
         pictures = self.pictures if timed else ()
-        again = (shares for shares in pictures if shares.included == picture.included)
+        again = (fractions for fractions in pictures if fractions.included == picture.included)
         return MeasuredCosts(
             next(again, picture),
             pictures,
@@ -94,20 +94,20 @@ def _compared(request: SimulationRequest) -> tuple[object, ...]:
     return request.scene, request.settings.observable, request.settings.seed
 
 
-def _in_turn(request: SimulationRequest, report: Report) -> tuple[TimeShares, ...]:
+def _in_turn(request: SimulationRequest, report: Report) -> tuple[TimeFractions, ...]:
     """Time pictures with the plan's effects, with all and with none: the fastest of some runs."""
     settings = request.settings
     exact, bare = (replace(settings, tolerance=each, force={}) for each in (0.0, math.inf))
-    runs: dict[frozenset[str], list[TimeShares]] = {}
+    runs: dict[frozenset[str], list[TimeFractions]] = {}
     until = perf_counter() + _PATIENCE
     for run in range(_RUNS):
         if run and perf_counter() > until:
             break
         for each in (settings, exact, bare):
             report(None)
-            shares = TimeShares.of(render_with(request.scene, each))
-            runs.setdefault(shares.included, []).append(shares)
-    return tuple(TimeShares.of_runs(each) for each in runs.values())
+            fractions = TimeFractions.of(render_with(request.scene, each))
+            runs.setdefault(fractions.included, []).append(fractions)
+    return tuple(TimeFractions.of_runs(each) for each in runs.values())
 
 
 def _as_stated(point: AccuracyPoint, costs: SceneCosts) -> AccuracyPoint:

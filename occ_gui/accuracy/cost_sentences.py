@@ -3,7 +3,7 @@
 import math
 
 from occ_gui.accuracy.effect_rows import levels, milliseconds
-from occ_model.results.accuracy import Forecast, MeasuredCosts, TimeShares
+from occ_model.results.accuracy import Forecast, MeasuredCosts, TimeFractions
 from occ_model.results.frame import Frame
 
 
@@ -22,8 +22,8 @@ def ends_sentence(costs: MeasuredCosts, unit: str) -> str:
     """
     if not costs.is_comparable:
         return ""
-    bare = next((shares for shares in costs.others if not shares.included), None)
-    most = max(costs.others, key=lambda shares: len(shares.included))
+    bare = next((fractions for fractions in costs.others if not fractions.included), None)
+    most = max(costs.others, key=lambda fractions: len(fractions.included))
     error = costs.errors.get(frozenset())
     if bare is None or error is None or most is bare:
         return ""
@@ -35,7 +35,7 @@ def ends_sentence(costs: MeasuredCosts, unit: str) -> str:
     return sentence.strip()
 
 
-def forecast_sentence(frame: Frame, times: TimeShares, expected: Forecast) -> str:
+def forecast_sentence(frame: Frame, times: TimeFractions, expected: Forecast) -> str:
     """Say what the next picture will take, how exact it will be, and what is switched."""
     before, after = set(frame.plan.included), set(expected.plan.included)
     now = milliseconds(times.seconds)

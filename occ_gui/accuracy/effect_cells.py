@@ -26,7 +26,7 @@ _Index = QModelIndex | QPersistentModelIndex
 Rows: TypeAlias = Callable[[], Sequence[EffectRow]]
 
 _GAP = 4  # pixels between two things that are drawn side by side
-_BAR_SHARE = 0.5  # fraction of the cell's width for the bar; the number takes the rest
+_BAR_FRACTION = 0.5  # fraction of the cell's width for the bar; the number takes the rest
 
 
 def image_of(pixels: ByteArray) -> QImage:
@@ -83,7 +83,7 @@ class TimeCell(_Cell):
         row, largest = rows[index.row()], longest_of(rows)
         if not row.seconds or not largest:
             return
-        most = _BAR_SHARE * option.rect.width()
+        most = _BAR_FRACTION * option.rect.width()
         width = max(1, math.floor(most * row.seconds / largest))
         height = min(10, option.rect.height() - 8)
         top = option.rect.center().y() - height // 2
@@ -114,18 +114,18 @@ def place_of(levels: float, area: QRect) -> float:
     left, length = axis_of(area)
     if levels <= _LEAST_LEVELS:
         return float(left)
-    share = math.log(levels / _LEAST_LEVELS) / math.log(_MOST_LEVELS / _LEAST_LEVELS)
-    return left + length * min(share, 1.0)
+    fraction = math.log(levels / _LEAST_LEVELS) / math.log(_MOST_LEVELS / _LEAST_LEVELS)
+    return left + length * min(fraction, 1.0)
 
 
 def levels_at(place: float, area: QRect) -> float:
     """Return the error at a place on the axis: 0 before it, and infinity beyond it."""
     left, length = axis_of(area)
-    share = (place - left) / length
-    if share <= 0.0:
+    fraction = (place - left) / length
+    if fraction <= 0.0:
         return 0.0
-    levels: float = _LEAST_LEVELS * (_MOST_LEVELS / _LEAST_LEVELS) ** share
-    return levels if share < 1.0 else math.inf
+    levels: float = _LEAST_LEVELS * (_MOST_LEVELS / _LEAST_LEVELS) ** fraction
+    return levels if fraction < 1.0 else math.inf
 
 
 class ErrorCell(_Cell):

@@ -13,7 +13,7 @@ _GAP = 8
 
 _TALL = 440  # height in pixels from which panels stand one over the other
 _COLUMNS = 1100  # width in pixels from which a high pane has two columns
-_TOP_SHARE = 0.56  # largest fraction of the height for the upper panel
+_TOP_FRACTION = 0.56  # largest fraction of the height for the upper panel
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,7 +121,7 @@ class Panels(QWidget):
     def _over_each_other(self, area: QRect) -> tuple[QRect, QRect]:
         """Divide an area for the main panel and what stands below it."""
         wanted = self._panels[0].widget.sizeHint().height()
-        height = min(wanted, int(_TOP_SHARE * area.height()))
+        height = min(wanted, int(_TOP_FRACTION * area.height()))
         top = QRect(area.left(), area.top(), area.width(), height)
         below = area.adjusted(0, height + _GAP, 0, 0)
         return top, below

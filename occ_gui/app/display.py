@@ -16,7 +16,7 @@ _MISSING = re.compile(r"^(\S+): cannot open shared object file")
 """What the dynamic linker says of a library that it does not find."""
 
 _LARGEST, _LEAST = QSize(1680, 1050), QSize(1280, 800)
-_SHARE = 0.92
+_FRACTION = 0.92
 """Fraction of the screen that the first window takes: what lies behind it stays in sight.
 
 Where that is less than the sliders and the story need, the window takes the whole screen.
@@ -58,7 +58,7 @@ def unlisted_library(names: tuple[str, ...]) -> str | None:
 
 def first_place(screen: QRect) -> QRect:
     """Return where the first window opens: in the middle, or over all of a small screen."""
-    wanted = (screen.size() * _SHARE).boundedTo(_LARGEST)
+    wanted = (screen.size() * _FRACTION).boundedTo(_LARGEST)
     if wanted != wanted.expandedTo(_LEAST):
         return screen
     place = QRect(screen.topLeft(), wanted)

@@ -62,8 +62,8 @@ class DepthPlot(QWidget):
 
     def show_depths(self, found: ShownBands) -> None:
         low, high = np.log10(_DEPTHS)
-        shares = (np.log10(np.maximum(found.map.least, _DEPTHS[0])) - low) / (high - low)
-        self.image.setImage(np.clip(255.0 * shares, 0.0, 255.0), levels=(0.0, 255.0))
+        fractions = (np.log10(np.maximum(found.map.least, _DEPTHS[0])) - low) / (high - low)
+        self.image.setImage(np.clip(255.0 * fractions, 0.0, 255.0), levels=(0.0, 255.0))
         left, right = np.log10(found.map.frequencies[[0, -1]])
         bottom, top = np.log10(found.map.exposures[[0, -1]])
         self.image.setRect(QRectF(left, bottom, right - left, top - bottom))

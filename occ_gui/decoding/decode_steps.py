@@ -67,7 +67,7 @@ class SignalPlot(QWidget):
         if result.folded is not None and result.model is not None:
             self._show_folded(result.folded, result.model)
         elif result.light is not None and result.light_model is not None:
-            self._show_columns(result, result.light, "share of full light", packet_columns)
+            self._show_columns(result, result.light, "fraction of full light", packet_columns)
             _draw(self.model, result.light_model)
         elif result.equalized is not None:
             self._show_columns(result, result.equalized, "light", packet_columns)
@@ -83,7 +83,7 @@ class SignalPlot(QWidget):
 
     def _show_folded(self, folded: FloatArray, model: FloatArray) -> None:
         self.plot.setLabel("bottom", "bin of a packet")
-        self.plot.setLabel("left", "lit share")
+        self.plot.setLabel("left", "lit fraction")
         _draw(self.signal, folded)
         _draw(self.model, model)
         self.plot.setXRange(0, len(folded) - 1, padding=0.02)

@@ -93,9 +93,9 @@ class AdviceView(QWidget):
         if left_out:
             self._add(AdviceLine(f"This advice leaves out: {', '.join(left_out)}.", is_title=True))
 
-    def show_advice_progress(self, share: float) -> None:
+    def show_advice_progress(self, fraction: float) -> None:
         """Show the fraction of the search that is done, from 0 to 1."""
-        self.progress.setValue(round(100 * share))
+        self.progress.setValue(round(100 * fraction))
 
     def show_advice(self, advice: Advice) -> None:
         self.hint.hide()

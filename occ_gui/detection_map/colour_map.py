@@ -30,8 +30,8 @@ def colour_table(name: str) -> ByteArray:
 def to_colours(values: FloatArray, low: float, high: float, name: str) -> ByteArray:
     """Map values, shape (x, y), to colours, shape (x, y, 4); not-a-number becomes transparent."""
     there = np.isfinite(values)
-    share = np.where(there, (values - low) / (high - low), 0.0)
-    steps = np.rint(np.clip(share, 0.0, 1.0) * (_STEPS - 1)).astype(np.int64)
+    fraction = np.where(there, (values - low) / (high - low), 0.0)
+    steps = np.rint(np.clip(fraction, 0.0, 1.0) * (_STEPS - 1)).astype(np.int64)
     colours = np.empty((*values.shape, 4), dtype=np.uint8)
     colours[..., :3] = colour_table(name)[steps]
     colours[..., 3] = np.where(there, 255, 0)

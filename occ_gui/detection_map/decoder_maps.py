@@ -186,8 +186,8 @@ class MapPlots(QWidget):
         opaque = np.full((len(table), 1), 255, dtype=np.uint8)
         image: QImage = image_of(np.hstack([table, opaque])[None])
         numbers = tuple(
-            (share, self._number(low + share * (high - low), bool(low)))
-            for share in (0.0, 0.25, 0.5, 0.75, 1.0)
+            (fraction, self._number(low + fraction * (high - low), bool(low)))
+            for fraction in (0.0, 0.25, 0.5, 0.75, 1.0)
         )
         name = "Fraction of the bits that are read correctly, in percent"
         if scheme == DIFFERENCES:

@@ -130,10 +130,10 @@ class RateMap:
 
     def bits_a_second(self, decoder: str, frames_a_second: float) -> FloatArray:
         """Return the net bits a second at every point, of a payload a picture; NaN as above."""
-        share = np.full(self.shape, np.nan)
+        fraction = np.full(self.shape, np.nan)
         whole = self.whole[..., self.decoders.index(decoder)]
-        np.divide(whole, self.images, out=share, where=self.sent > 0)
-        return share * self.most_bits(frames_a_second)
+        np.divide(whole, self.images, out=fraction, where=self.sent > 0)
+        return fraction * self.most_bits(frames_a_second)
 
     def most_bits(self, frames_a_second: float) -> FloatArray:
         """Return the bits a second at every point if all were read, 0 where none is known."""

@@ -28,7 +28,7 @@ _AT_HANDLE = 3  # pixels that the present scene's colour is seen on either side 
 class OwnRate:
     """The fraction of right bits, from 0 to 1, with its 95 % interval, in so many pictures."""
 
-    share: float
+    fraction: float
     low: float
     high: float
     images: int
@@ -42,7 +42,7 @@ class SliderStrip(QWidget):
         super().__init__()
         self._slider = slider
         self._label = label
-        self.shares: tuple[float | None, ...] = ()
+        self.fractions: tuple[float | None, ...] = ()
         self.present: OwnRate | None = None
         """The fraction of bits that are read at the scene's own value."""
         slider.valueChanged.connect(self.update)
@@ -55,21 +55,22 @@ class SliderStrip(QWidget):
         self._explain()
 
     def _explain(self) -> None:
-        known = [share for share in self.shares if share is not None]
+        known = [fraction for fraction in self.fractions if fraction is not None]
         text = (
             "Fraction of the bits that the decoder shown reads correctly along this slider, all "
             f"else being equal: violet none, yellow all, grey not known. A mean over {IMAGES} "
             "pictures that begin at any time."
         )
         if self.present is not None:
-            share, low, high = (
-                100.0 * value for value in (self.present.share, self.present.low, self.present.high)
+            fraction, low, high = (
+                100.0 * value
+                for value in (self.present.fraction, self.present.low, self.present.high)
             )
             text += (
-                f"\nAt the handle {share:.3g} % of the bits of {self.present.images} pictures "
+                f"\nAt the handle {fraction:.3g} % of the bits of {self.present.images} pictures "
                 f"({low:.1f} to {high:.1f} %)."
             )
-        good = sum(share > 0.99 for share in known)
+        good = sum(fraction > 0.99 for fraction in known)
         read = f"read at {good} of {len(known)} positions"
         if self._is_outdated:
             text += "\nComputing; what is shown is of an earlier scene."
@@ -77,9 +78,9 @@ class SliderStrip(QWidget):
         self.setToolTip(text)
         self.setAccessibleDescription(read)
 
-    def show_shares(self, shares: tuple[float | None, ...]) -> None:
+    def show_fractions(self, fractions: tuple[float | None, ...]) -> None:
         """Show the fraction of bits read correctly at positions of the slider, None: not known."""
-        self.shares = shares
+        self.fractions = fractions
         self._explain()
         self.update()
 
@@ -91,7 +92,7 @@ class SliderStrip(QWidget):
             self.update()
 
     def show_outdated(self, outdated: bool) -> None:
-        """Show whether the shares are of an earlier scene; they fade if that lasts."""
+        """Show whether the fractions are of an earlier scene; they fade if that lasts."""
         if outdated == self._is_outdated:
             return
         self._is_outdated = outdated
@@ -130,18 +131,20 @@ class SliderStrip(QWidget):
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
         painter = QPainter(self)
         first, last = self.span()
-        count = max(2, len(self.shares))
+        count = max(2, len(self.fractions))
         half = (last - first) / (count - 1) / 2
         whole = QRectF(first - half, 0, last - first + 2 * half, self.height())
         painter.setClipRect(QRectF(first, 0, last - first, self.height()))
         painter.fillRect(whole, self.palette().color(QPalette.ColorRole.Midlight))
-        if self.shares:
+        if self.fractions:
             painter.setOpacity(_OUTDATED_OPACITY if self._is_faded else 1.0)
-            shares = np.array([[np.nan if share is None else share] for share in self.shares])
-            painter.drawImage(whole, image_of(to_colours(shares, 0.0, 1.0, RATES)))
+            fractions = np.array(
+                [[np.nan if fraction is None else fraction] for fraction in self.fractions]
+            )
+            painter.drawImage(whole, image_of(to_colours(fractions, 0.0, 1.0, RATES)))
         painter.setOpacity(1.0)
         if self.present is not None:
-            colour = image_of(to_colours(np.array([[self.present.share]]), 0.0, 1.0, RATES))
+            colour = image_of(to_colours(np.array([[self.present.fraction]]), 0.0, 1.0, RATES))
             painter.drawImage(self._at_handle(), colour)
         painter.setClipping(False)
         painter.setPen(self.palette().color(QPalette.ColorRole.Mid))
@@ -180,9 +183,9 @@ class StripLegend(QWidget):
         left, middle = 0.0, self.height() / 2
         for text in ("misread", None, "read"):
             if text is None:
-                shares = np.linspace(0.0, 1.0, _BAR.width())[:, None]
+                fractions = np.linspace(0.0, 1.0, _BAR.width())[:, None]
                 place = QRectF(QPointF(left, middle - _BAR.height() / 2), _BAR.toSizeF())
-                painter.drawImage(place, image_of(to_colours(shares, 0.0, 1.0, RATES)))
+                painter.drawImage(place, image_of(to_colours(fractions, 0.0, 1.0, RATES)))
                 left += _BAR.width() + _GAP
                 continue
             width = self.fontMetrics().horizontalAdvance(text)

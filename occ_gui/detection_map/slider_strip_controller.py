@@ -171,23 +171,23 @@ class SliderStripController(RestingController):
             known = self._known.get(result.name)
             if known is None or known[0] != wanted:
                 known = self._known[result.name] = (wanted, {})
-            known[1].update({point.index: _share(point) for point in result.points})
+            known[1].update({point.index: _fraction(point) for point in result.points})
         for name in {result.name for result in results}:
-            wanted, shares = self._known[name]
+            wanted, fractions = self._known[name]
             strip = self._pane.strips[name]
             strip.show_outdated(wanted != self._present().along(name))
-            strip.show_shares(tuple(_nearest(shares, place) for place in range(POSITIONS)))
+            strip.show_fractions(tuple(_nearest(fractions, place) for place in range(POSITIONS)))
 
 
-def _share(point: SweepPoint) -> float | None:
+def _fraction(point: SweepPoint) -> float | None:
     return point.right[0] / point.sent if point.sent else None
 
 
-def _nearest(shares: Mapping[int, float | None], place: int) -> float | None:
+def _nearest(fractions: Mapping[int, float | None], place: int) -> float | None:
     """Return a position's fraction, or that of the known one on the coarser lattice beside it."""
-    if place in shares:
-        return shares[place]
-    return shares.get(round(place / STRIDES[0]) * STRIDES[0])
+    if place in fractions:
+        return fractions[place]
+    return fractions.get(round(place / STRIDES[0]) * STRIDES[0])
 
 
 OWN_IMAGES = 20  # pictures of which the rate is: as many as those of the limits
@@ -243,5 +243,5 @@ def own_rate(measured: MeasuredPoints) -> OwnRate | None:
     if not point.sent:
         return None
     low, high = interval_of_pictures(point.right[0], point.sent, measured.images)
-    share, (whole,) = point.right[0] / point.sent, point.whole
-    return OwnRate(share, low / 100.0, high / 100.0, measured.images, whole)
+    fraction, (whole,) = point.right[0] / point.sent, point.whole
+    return OwnRate(fraction, low / 100.0, high / 100.0, measured.images, whole)

@@ -190,10 +190,10 @@ class ExposurePlot(QWidget):
         self.lit.setVisible(len(parts) > 0)
         self.plot.limit("bottom", 2.0 * last, _LEAST_SPAN * last)
         self.plot.setXRange(0.0, last, padding=0.01)
-        share = window.on_time / window.exposure_time
+        fraction = window.on_time / window.exposure_time
         text = (
             f"Column {window.column}: {SECOND.format(window.exposure_time, 4)} exposure, "
-            f"LED on for {SECOND.format(window.on_time, 4)} ({100.0 * share:.0f} %) "
+            f"LED on for {SECOND.format(window.on_time, 4)} ({100.0 * fraction:.0f} %) "
             f"→ {level:.1f} grey levels"
         )
         if window.shortened:

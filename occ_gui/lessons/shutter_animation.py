@@ -138,7 +138,7 @@ class _Drawing:
         step = height / len(shutter.columns)
         outline = QColor(self._ink)
         outline.setAlpha(90)
-        for place, (start, share) in enumerate(
+        for place, (start, fraction) in enumerate(
             zip(shutter.starts, shutter.lit_fraction, strict=True)
         ):
             x, y = self._x(start), top + place * step
@@ -146,7 +146,7 @@ class _Drawing:
             passed = min(max(self._now - start, 0.0), shutter.exposure_time)
             bar = QRectF(x, y, width, max(step - 1.0, 1.0))
             filled = QRectF(x, y, width * passed / shutter.exposure_time, bar.height())
-            self._painter.fillRect(filled, mixed(_LIT, _DARK, share))
+            self._painter.fillRect(filled, mixed(_LIT, _DARK, fraction))
             self._painter.setPen(QPen(outline, 1))
             self._painter.drawRect(bar)
 
@@ -154,17 +154,17 @@ class _Drawing:
         shutter = self._shutter
         top = self._height - _STRIPE_HEIGHT
         width = self._width / len(shutter.columns)
-        for place, (start, share) in enumerate(
+        for place, (start, fraction) in enumerate(
             zip(shutter.starts, shutter.lit_fraction, strict=True)
         ):
             if self._now >= start + shutter.exposure_time * (1.0 - 1e-9):
                 self._painter.fillRect(
-                    QRectF(place * width, top, width + 1.0, _STRIPE_HEIGHT), _grey(share)
+                    QRectF(place * width, top, width + 1.0, _STRIPE_HEIGHT), _grey(fraction)
                 )
         self._painter.setPen(QPen(self._ink, 1))
         self._painter.drawRect(QRectF(0.5, top + 0.5, self._width - 1.0, _STRIPE_HEIGHT - 1.0))
 
 
-def _grey(share: float) -> QColor:
-    level = round(40 + 215 * min(max(share, 0.0), 1.0))
+def _grey(fraction: float) -> QColor:
+    level = round(40 + 215 * min(max(fraction, 0.0), 1.0))
     return QColor(level, level, level)

@@ -225,9 +225,9 @@ class MatchForm(QWidget):
         self.gamma.setEnabled(not running)
         self.progress.setValue(0)
 
-    def show_progress(self, share: float) -> None:
+    def show_progress(self, fraction: float) -> None:
         """Show the fraction of the work that is done, from 0 to 1."""
-        self.progress.setValue(round(_STEPS * share))
+        self.progress.setValue(round(_STEPS * fraction))
 
     def _show_known(self) -> None:
         square = self.sent.key() == "square"

@@ -27,7 +27,7 @@ class BeforeWipe(QObject):
         self._frame: Frame | None = None
         self._whose = PICTURES[0]
         self._image: ByteArray | None = None
-        self._share = 0.5
+        self._fraction = 0.5
         self.picture = AveragedImage()
         self.line = pg.InfiniteLine(angle=90, movable=True, pen=_LINE_PEN)
         self.line.sigPositionChanged.connect(self._follow_line)
@@ -51,7 +51,7 @@ class BeforeWipe(QObject):
         self.chosen.toggled.connect(self._arrange)
         self.slider = QSlider(Qt.Orientation.Horizontal)
         self.slider.setRange(0, _SLIDER_STEPS)
-        self.slider.setValue(round(self._share * _SLIDER_STEPS))
+        self.slider.setValue(round(self._fraction * _SLIDER_STEPS))
         self.slider.setFixedWidth(_SLIDER_WIDTH)
         self.slider.setAccessibleName("Position of the line between before and now")
         self.slider.setToolTip("Position of the line, in percent of the picture's width.")
@@ -87,19 +87,19 @@ class BeforeWipe(QObject):
         """Place the line and the labels at the chosen fraction of the picture's width."""
         if self._image is None:
             return
-        column = self._share * self._image.shape[1] - 0.5
+        column = self._fraction * self._image.shape[1] - 0.5
         with QSignalBlocker(self.line), QSignalBlocker(self.slider):
             self.line.setValue(column)
-            self.slider.setValue(round(self._share * _SLIDER_STEPS))
+            self.slider.setValue(round(self._fraction * _SLIDER_STEPS))
         self.picture.show_within(last_column=column)
         for name in self._names:
             name.setPos(column, -0.5)
 
     def _follow_line(self) -> None:
         if self._image is not None:
-            self._share = (float(self.line.value()) + 0.5) / self._image.shape[1]
+            self._fraction = (float(self.line.value()) + 0.5) / self._image.shape[1]
             self._place()
 
     def _follow_slider(self, percent: int) -> None:
-        self._share = percent / _SLIDER_STEPS
+        self._fraction = percent / _SLIDER_STEPS
         self._place()

@@ -152,8 +152,10 @@ def _span(edges: FloatArray) -> float:
 
 def _interpolated(values: FloatArray, places: FloatArray) -> FloatArray:
     below = np.minimum(places.astype(np.intp), len(values) - 2)
-    share = (places - below)[:, None]
-    return np.asarray(values[below] * (1 - share) + values[below + 1] * share, dtype=np.float64)
+    fraction = (places - below)[:, None]
+    return np.asarray(
+        values[below] * (1 - fraction) + values[below + 1] * fraction, dtype=np.float64
+    )
 
 
 class PhotoOverlay(QObject):

@@ -125,8 +125,8 @@ class RoomView(QWidget):
         self.headline.setText(sentence)
         self.sentences.setText("")
 
-    def show_progress(self, share: float) -> None:
-        self.floor.setText(f"Measuring the floor: {100.0 * share:.0f} %")
+    def show_progress(self, fraction: float) -> None:
+        self.floor.setText(f"Measuring the floor: {100.0 * fraction:.0f} %")
 
     def show_no_map(self, sentence: str) -> None:
         self.plan.show_map(None)

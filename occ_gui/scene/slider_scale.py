@@ -116,7 +116,7 @@ class SliderScale(QWidget):
             text, x = mark.label.replace("t_LED", "1 chip"), self._x(mark.value)
             width = metrics.horizontalAdvance(text)
             most = max(self.width() - width, 0.0)
-            lefts = [x - width * share for share in (0.5, 0.75, 0.25)]
+            lefts = [x - width * fraction for fraction in (0.5, 0.75, 0.25)]
             lefts += [x - width + _OVER, x - _OVER]
             boxes = [
                 QRectF(min(max(left, 0.0), most), _TICK + 1.0, width, metrics.height())

@@ -54,7 +54,7 @@ class SpectrumView(QWidget):
     def _make_histogram(self) -> None:
         self.histogram = new_plot(
             "Histogram of the panel's pixels", "grey level",
-            "share (%)", self.palette(),
+            "fraction (%)", self.palette(),
         )  # fmt: skip
         self.bars = pg.BarGraphItem(x=np.arange(256), height=np.zeros(256), width=1.0)
         self.histogram.addItem(self.bars, ignoreBounds=True)
@@ -93,8 +93,8 @@ class SpectrumView(QWidget):
         )
 
     def show_histogram(self, found: LevelHistogram) -> None:
-        self.bars.setOpts(height=100.0 * found.shares)
-        self.histogram.setYRange(0.0, max(_HEADROOM * 100.0 * float(found.shares.max()), 1.0))
+        self.bars.setOpts(height=100.0 * found.fractions)
+        self.histogram.setYRange(0.0, max(_HEADROOM * 100.0 * float(found.fractions.max()), 1.0))
         if found.is_saturated:
             text = (
                 f"⚠ {100.0 * found.white:.0f} % of the panel's pixels are white: the light "

@@ -83,8 +83,8 @@ class ColumnAxis(QObject):
         """Show ``factor`` times as many columns; the one at ``at`` stays where it is."""
         whole = (self._ends[1] - self._ends[0]) * (1.0 + _MARGIN_FRACTION)
         span = min(max(self.span * factor, _LEAST_SPAN), max(whole, _LEAST_SPAN))
-        share = (at - self.first) / self.span
-        self._move(at - share * span, at + (1.0 - share) * span)
+        fraction = (at - self.first) / self.span
+        self._move(at - fraction * span, at + (1.0 - fraction) * span)
 
     def pan(self, columns: float) -> None:
         """Move by some columns, to the right where they are more than zero."""

@@ -21,7 +21,7 @@ class ColumnValues:
     time: float  # when its exposure begins, in seconds
     light: float  # the light at that time, 0 to 1
     # The mean light within its exposure, None for more chips than can be added up
-    share: float | None
+    fraction: float | None
     level: float
     chip: int | None = None
     bit: int | None = None
@@ -44,7 +44,7 @@ def values_at(
         column=column,
         time=scene.model.start_time + column * scene.camera.readout_time,
         light=0.0 if now is None else now.light_at(column),
-        share=None if curve is None else curve.mean(column, column + width),
+        fraction=None if curve is None else curve.mean(column, column + width),
         level=float(levels[column]),
         chip=chip,
         bit=bit,
@@ -59,9 +59,9 @@ def in_words(values: ColumnValues, scene: Scene) -> str:
         f"{values.time * _MICRO:.1f} µs",
         _light(values.light),
     ]
-    if values.share is not None:
+    if values.fraction is not None:
         exposure = scene.camera.exposure_time
-        lit, whole = SECOND.format(values.share * exposure, 3), SECOND.format(exposure, 4)
+        lit, whole = SECOND.format(values.fraction * exposure, 3), SECOND.format(exposure, 4)
         parts.append(f"lit for {lit} of {whole}")
     parts.append(f"level {values.level:.1f}")
     if values.chip is not None:

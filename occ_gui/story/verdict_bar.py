@@ -44,14 +44,16 @@ def computing() -> Chip:
 
 def of_pictures(rate: OwnRate) -> Chip:
     """Return what is read of pictures that begin at any time, beside the verdict on this one."""
-    text = f"of {rate.images} pictures: {100.0 * rate.share:.3g} % of bits"
+    text = f"of {rate.images} pictures: {100.0 * rate.fraction:.3g} % of bits"
     meaning = (
         f"This picture is one; of {rate.images} that begin at any time "
-        f"{100.0 * rate.share:.3g} % of the bits are "
+        f"{100.0 * rate.fraction:.3g} % of the bits are "
         f"read (95 % interval {100.0 * rate.low:.1f} to {100.0 * rate.high:.1f} %), and every bit "
-        f"of {rate.whole} pictures. The strips show the same share."
+        f"of {rate.whole} pictures. The strips show the same percentage."
     )
-    state = State.GOOD if rate.share >= _READS else State.DOUBTFUL if rate.share else State.BAD
+    state = (
+        State.GOOD if rate.fraction >= _READS else State.DOUBTFUL if rate.fraction else State.BAD
+    )
     return Chip("rate", text, meaning, state)
 
 

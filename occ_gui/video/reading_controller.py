@@ -19,7 +19,7 @@ from occ_model.study.reading_facts import film_facts
 _INTERVAL = 0.1  # seconds between two reports, so that the window can draw each of them
 _LIVE_INTERVAL = 0.03  # the same for a camera, whose picture is shown with each
 _LOOK_INTERVAL = 1.0  # seconds between two looks at all frames together
-_LOOK_SHARE = 0.2  # largest fraction of the time that looking at all frames together takes
+_LOOK_FRACTION = 0.2  # largest fraction of the time that looking at all frames together takes
 MOST_LIVE = 900  # frames of a live film that are remembered: half a minute of 30 a second
 MOST_MARKS = 1_000_000  # packets up to which each has a mark of its own
 
@@ -89,7 +89,7 @@ class _Collected:
         found = marks_of_packets(self._whole.packets)
         self._packets = _joined(self._before, found, self._times[0])
         took = monotonic() - began
-        self._next_look = monotonic() + max(_LOOK_INTERVAL, took / _LOOK_SHARE)
+        self._next_look = monotonic() + max(_LOOK_INTERVAL, took / _LOOK_FRACTION)
 
     def reading(self) -> FilmReading:
         known = self._known

@@ -89,10 +89,10 @@ class RecordingForm(QWidget):
         except OccError as error:
             self.gap.setText(labelled(error))
             return
-        gap, share = self.recording.gap(scene), 100.0 * self.recording.gap_ratio(scene)
+        gap, fraction = self.recording.gap(scene), 100.0 * self.recording.gap_ratio(scene)
         self.gap.setText(
             f"Between two frames no column is read for {SECOND.format(gap, 4)}, "
-            f"{share:.1f} % of a frame."
+            f"{fraction:.1f} % of a frame."
         )
 
     def _take(self, name: str, value: float) -> None:

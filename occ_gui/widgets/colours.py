@@ -42,10 +42,10 @@ def _seen(paper_rgba: int, ink_rgba: int) -> QColor:
     return ink
 
 
-def mixed(one: QColor, other: QColor, share: float) -> QColor:
+def mixed(one: QColor, other: QColor, fraction: float) -> QColor:
     """Return the opaque colour that a fraction of one colour over another has."""
     parts = zip(one.getRgb()[:3], other.getRgb()[:3], strict=True)  # type: ignore[index]
-    return QColor(*(round(share * a + (1.0 - share) * b) for a, b in parts))
+    return QColor(*(round(fraction * a + (1.0 - fraction) * b) for a, b in parts))
 
 
 def pen_on(palette: QPalette, pen: QPen) -> QPen:

@@ -33,8 +33,8 @@ class WorkBar(QWidget):
         if self.isHidden():
             self._patience.start()
 
-    def show_progress(self, share: float) -> None:
-        self.progress.setValue(round(_STEPS * share))
+    def show_progress(self, fraction: float) -> None:
+        self.progress.setValue(round(_STEPS * fraction))
 
     def end(self) -> None:
         self._patience.stop()

@@ -146,9 +146,9 @@ class MainWindow(QMainWindow):
         ]
         room = dock.height() + sum(other.height() for other in above)
         needed = sum(other.sizeHint().height() for other in above)
-        share = min(room // 2, room - needed)
-        if dock.height() < share:
-            self.resizeDocks([dock], [share], Qt.Orientation.Vertical)
+        fraction = min(room // 2, room - needed)
+        if dock.height() < fraction:
+            self.resizeDocks([dock], [fraction], Qt.Orientation.Vertical)
 
     def bring_into_view(self, name: str) -> None:
         """Show a pane in front in the present mode, unless the story has a row of the same.

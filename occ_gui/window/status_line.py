@@ -9,7 +9,7 @@ from occ_gui.widgets.plain_text import LONGEST
 from occ_gui.widgets.work_bar import WorkBar
 from occ_model.errors import one_line
 
-_MESSAGE_SHARE, _POINTED_SHARE, _TIMING_SHARE = 0.3, 0.4, 0.3
+_MESSAGE_FRACTION, _POINTED_FRACTION, _TIMING_FRACTION = 0.3, 0.4, 0.3
 """Fractions of the width: the message takes at least so much, the readouts at most."""
 
 _SEEN_ANEW = (QEvent.Type.Show, QEvent.Type.Hide, QEvent.Type.Paint)
@@ -89,9 +89,9 @@ class StatusLine(QStatusBar):
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         super().resizeEvent(event)
-        self._sentence.setMinimumWidth(round(_MESSAGE_SHARE * self.width()))
-        self.pointed.setMaximumWidth(round(_POINTED_SHARE * self.width()))
-        self._timing.setMaximumWidth(round(_TIMING_SHARE * self.width()))
+        self._sentence.setMinimumWidth(round(_MESSAGE_FRACTION * self.width()))
+        self.pointed.setMaximumWidth(round(_POINTED_FRACTION * self.width()))
+        self._timing.setMaximumWidth(round(_TIMING_FRACTION * self.width()))
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         """Return a width that does not depend on the present one: the window can be narrowed."""

@@ -53,7 +53,7 @@ def _joined(parts: list[CoveredPart]) -> list[CoveredPart]:
     return joined
 
 
-def _shares(parts: list[CoveredPart]) -> list[Pixels]:
+def _fractions(parts: list[CoveredPart]) -> list[Pixels]:
     return [part.fraction for part in parts if isinstance(part.fraction, np.ndarray)]
 
 
@@ -99,7 +99,7 @@ class Coverage:
 
         Between its rims the panel covers either all of each pixel or nothing.
         """
-        return MEMORY.recall((*self._key, rows), lambda: self._parts(rows), _shares)
+        return MEMORY.recall((*self._key, rows), lambda: self._parts(rows), _fractions)
 
     def _parts(self, rows: range) -> list[CoveredPart]:
         parts, before = [], 0

@@ -84,7 +84,7 @@ class Enhancement:
         return np.asarray(cv2.LUT(image, self.curve, dst=out), dtype=np.uint8)
 
 
-def byte_shares(levels: FloatArray, spread: FloatArray, weights: FloatArray) -> FloatArray:
+def byte_fractions(levels: FloatArray, spread: FloatArray, weights: FloatArray) -> FloatArray:
     """Return how many pixels have each of the 256 levels, by their means, noise and weights."""
     steps = PassedSteps.of(levels, spread)
     edge, passed = steps.edge, steps.passed
@@ -96,7 +96,7 @@ def byte_shares(levels: FloatArray, spread: FloatArray, weights: FloatArray) -> 
     return np.asarray(counts, dtype=np.float64)
 
 
-def share_above(limit: float, levels: FloatArray, spread: FloatArray) -> FloatArray:
+def fraction_above(limit: float, levels: FloatArray, spread: FloatArray) -> FloatArray:
     """Return the fraction of noisy pixels above a limit, for each mean and standard deviation."""
     return _tail((limit - levels) / np.maximum(spread, _LEVEL_TOLERANCE))
 

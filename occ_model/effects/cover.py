@@ -7,7 +7,7 @@ import numpy as np
 
 from occ_model.arrays import BoolArray, FloatArray
 from occ_model.camera.optics import Optics
-from occ_model.effects.normal_noise import normal_share
+from occ_model.effects.normal_noise import normal_fraction
 
 UNSEEN = 0.1  # blur in pixels below which a pixel receives nothing of its neighbours
 STEEP = 1.5  # slope from which a rim is steep
@@ -83,10 +83,10 @@ def _blurred(distance: FloatArray, blur: float) -> FloatArray:
     A narrow blur is one of whole pixels, whose weights are those of a Gaussian at whole distances.
     """
     if blur >= 1.0:
-        return normal_share(distance / blur)
+        return normal_fraction(distance / blur)
     weights = np.exp(-0.5 * (np.arange(-6.0, 7.0) / blur) ** 2)
-    shares = np.concatenate([[0.0], np.cumsum(weights)]) / weights.sum()
-    return np.asarray(np.interp(distance, np.arange(-6.5, 7.0), shares))
+    fractions = np.concatenate([[0.0], np.cumsum(weights)]) / weights.sum()
+    return np.asarray(np.interp(distance, np.arange(-6.5, 7.0), fractions))
 
 
 def _distances(

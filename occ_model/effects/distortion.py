@@ -198,8 +198,8 @@ def part_inside(polygon: FloatArray, side: FloatArray) -> FloatArray:
         if side[here] >= 0.0:
             kept.append(polygon[here])
         if (side[here] >= 0.0) != (side[there] >= 0.0):
-            share = side[here] / (side[here] - side[there])
-            kept.append(polygon[here] * (1.0 - share) + polygon[there] * share)
+            fraction = side[here] / (side[here] - side[there])
+            kept.append(polygon[here] * (1.0 - fraction) + polygon[there] * fraction)
     return np.array(kept, dtype=np.float64).reshape(-1, polygon.shape[1])
 
 
@@ -207,6 +207,6 @@ def subdivided(polygon: FloatArray, parts: IndexArray) -> FloatArray:
     """Divide the edge of a polygon from each corner to the next into so many equal parts."""
     edge = np.repeat(np.arange(len(polygon)), parts)
     before = np.cumsum(parts) - parts
-    share = ((np.arange(len(edge)) - before[edge]) / parts[edge])[:, None]
+    fraction = ((np.arange(len(edge)) - before[edge]) / parts[edge])[:, None]
     following = np.roll(polygon, -1, axis=0)
-    return np.asarray(polygon[edge] * (1.0 - share) + following[edge] * share)
+    return np.asarray(polygon[edge] * (1.0 - fraction) + following[edge] * fraction)

@@ -40,11 +40,11 @@ def observed(pixels: SampledPixels, observable: Observable) -> Observed:
     else:
         found = observed_profile(pixels) if observable == "profile" else observed_signal(pixels)
     if pixels.file is not None:
-        found.unsure = _UNDITHERED_FRACTION * pixels.file.undithered_share
+        found.unsure = _UNDITHERED_FRACTION * pixels.file.undithered_fraction
         doubt = pixels.file.undithered()
-        rims = pixels.rims.share  # where no noise spreads it, a rim's blocks round otherwise
+        rims = pixels.rims.fraction  # where no noise spreads it, a rim's blocks round otherwise
         square = rims * max(pixels.view.swing, pixels.contrast) ** 2 / 64.0
-        at_rims = pixels.file.undithered_share * pixels.file.added_at_a_rim(rims, square)
+        at_rims = pixels.file.undithered_fraction * pixels.file.added_at_a_rim(rims, square)
         doubt += at_rims if observable == "image" else at_rims / pixels.file.block_rows
         found.add_doubt(pixels.names, doubt)
     return found

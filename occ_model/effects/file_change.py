@@ -73,13 +73,13 @@ class FileChange:
         # Full pixels are rounded alike, which is no noise.
         inner = stack[0][:, sample.inner]
         full = float(inner.max())
-        share = float((inner == full).mean())
-        rounding = _ROUNDING * (1.0 - share)
+        fraction = float((inner == full).mean())
+        rounding = _ROUNDING * (1.0 - fraction)
         self._noise = math.sqrt(spread**2 + rounding)
-        self._rounding = rounding + share * (full - round(full)) ** 2
+        self._rounding = rounding + fraction * (full - round(full)) ** 2
         self._s = self._noise / self._step
         self.block_rows = max(rims.rows / 8.0, 1.0)
-        self._rims = rims.share
+        self._rims = rims.fraction
         self._filled = math.sqrt(rims.rows / (8.0 * rims.blocks))
         self._cut = rims.cut / rims.rows**2
         self._inside = self._in_blocks(stack) if len(self._blocks) else stack[:, None, None]
@@ -200,7 +200,7 @@ class FileChange:
         return np.asarray(np.sqrt(squares / max(float(squares.sum()), _TINY)))
 
     @property
-    def undithered_share(self) -> float:
+    def undithered_fraction(self) -> float:
         """The fraction of rounding's sawtooth, 0 to 1, that noise leaves: mean over the steps."""
         return float(np.exp(-DAMPING * self._s**2).mean())
 
@@ -213,17 +213,17 @@ class FileChange:
         sharp = self._step[:2] ** 2 * np.exp(-DAMPING * self._s[:2] ** 2)
         return float(sharp.sum()) / 2.0 / 64.0
 
-    def added_at_rims(self, shares: FloatArray, squares: FloatArray) -> FloatArray:
+    def added_at_rims(self, fractions: FloatArray, squares: FloatArray) -> FloatArray:
         """Return what a file adds to changes that lie in some fractions of the blocks.
 
         The changes are given as mean squares over all of the picture.
         """
-        sizes = np.sqrt(squares / np.maximum(shares, _TINY))
-        return shares * self._at_rims(sizes, self._along)
+        sizes = np.sqrt(squares / np.maximum(fractions, _TINY))
+        return fractions * self._at_rims(sizes, self._along)
 
-    def added_at_a_rim(self, share: float, square: float) -> float:
+    def added_at_a_rim(self, fraction: float, square: float) -> float:
         """Return the same for one change."""
-        return float(self.added_at_rims(np.array(share), np.array(square))) if share else 0.0
+        return float(self.added_at_rims(np.array(fraction), np.array(square))) if fraction else 0.0
 
     def spread(self, spread: FloatArray) -> FloatArray:
         """Return the deviation of a pixel's noise as it is read back, for some before."""

@@ -27,28 +27,28 @@ class LevelTable:
     def place(self, values: FloatArray) -> Places:
         """Return where values lie among the levels."""
         low, high = float(self.levels[0]), float(self.levels[-1])
-        share = (values - low) * ((_LEVELS - 1) / (high - low))
-        np.maximum(share, 0.0, out=share)
-        np.minimum(share, _LEVELS - 1.001, out=share)
-        below = share.astype(np.intp)
-        share -= below
-        return below, share
+        fraction = (values - low) * ((_LEVELS - 1) / (high - low))
+        np.maximum(fraction, 0.0, out=fraction)
+        np.minimum(fraction, _LEVELS - 1.001, out=fraction)
+        below = fraction.astype(np.intp)
+        fraction -= below
+        return below, fraction
 
     def at(self, table: FloatArray, places: Places) -> FloatArray:
         """Interpolate one table at some places, shape as these."""
-        below, share = places
-        return np.asarray(table.take(below) + share * _steps(table).take(below))
+        below, fraction = places
+        return np.asarray(table.take(below) + fraction * _steps(table).take(below))
 
     def look(self, tables: FloatArray, values: FloatArray) -> FloatArray:
         """Interpolate tables at values: (..., *values.shape)."""
-        below, share = self.place(values)
-        return np.asarray(tables[..., below] + share * _steps(tables)[..., below])
+        below, fraction = self.place(values)
+        return np.asarray(tables[..., below] + fraction * _steps(tables)[..., below])
 
     def look_each(self, tables: FloatArray, values: FloatArray) -> FloatArray:
         """Interpolate a table of its own for each of the values along their first axis."""
-        below, share = self.place(values)
+        below, fraction = self.place(values)
         below += _LEVELS * np.arange(len(tables)).reshape(-1, *(1,) * (values.ndim - 1))
-        return self.at(tables.ravel(), (below, share))
+        return self.at(tables.ravel(), (below, fraction))
 
     def slope(self, table: FloatArray) -> FloatArray:
         """Return the slope of a table at each level."""
@@ -62,8 +62,8 @@ class LevelTable:
 
         The product of a table with it is the weighted sum of what is interpolated there.
         """
-        below, share = places
-        above = (weights * share).ravel()
+        below, fraction = places
+        above = (weights * fraction).ravel()
         found = np.asarray(np.bincount(below.ravel(), weights.ravel() - above, _LEVELS), float)
         found[1:] += np.bincount(below.ravel(), above, _LEVELS)[:-1]
         return found

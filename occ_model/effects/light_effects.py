@@ -74,7 +74,7 @@ class Flicker(LightEffect):
         return seen_depth(scene) != 0.0
 
     def apply(self, scene: Scene, light: ColumnLight) -> ColumnLight:
-        return replace(light, ambient=light.ambient * ambient_shares(scene))
+        return replace(light, ambient=light.ambient * ambient_fractions(scene))
 
 
 def seen_depth(scene: Scene) -> float:
@@ -84,7 +84,7 @@ def seen_depth(scene: Scene) -> float:
 
 
 @lru_cache(maxsize=4)
-def ambient_shares(scene: Scene) -> FloatArray:
+def ambient_fractions(scene: Scene) -> FloatArray:
     """Return the mean external illuminance in each column's exposure, as a multiple of E_v."""
     surroundings, exposure = scene.surroundings, Fraction(scene.camera.exposure_time)
     cycles = cycle_phases(scene, surroundings.flicker_frequency, exposure / 2)

@@ -35,7 +35,7 @@ def _place(u: FloatArray) -> np.ndarray:
     return place.astype(np.intp)
 
 
-def normal_share(u: FloatArray) -> FloatArray:
+def normal_fraction(u: FloatArray) -> FloatArray:
     """Return the probability of a normal distribution below some standard deviations."""
     return _tables()[0].take(_place(-u))
 
@@ -52,10 +52,10 @@ def clipped_mean(levels: FloatArray, spread: FloatArray, white: float) -> FloatA
     return np.asarray(levels + least * above)
 
 
-def share_unclipped(levels: FloatArray, spread: FloatArray, white: float) -> FloatArray:
+def fraction_unclipped(levels: FloatArray, spread: FloatArray, white: float) -> FloatArray:
     """Return the fraction of noisy pixels that are cut off neither at black nor at white."""
     least = np.maximum(spread, 1e-9)
-    return normal_share(levels / least) - normal_share((levels - white) / least)
+    return normal_fraction(levels / least) - normal_fraction((levels - white) / least)
 
 
 _HARMONICS = 6
@@ -86,8 +86,8 @@ def rounding_mean(x: FloatArray, s: FloatArray) -> FloatArray:
     if sharp.all():
         return np.asarray(np.broadcast_to(found, np.broadcast_shapes(x.shape, s.shape)))
     damped = np.zeros(np.broadcast_shapes(x.shape, s.shape))
-    for n, angle, share in _harmonics(x, s):
-        damped += np.sin(angle) * (share / (math.pi * n))
+    for n, angle, fraction in _harmonics(x, s):
+        damped += np.sin(angle) * (fraction / (math.pi * n))
     return np.where(sharp, found, damped) if sharp.any() else damped
 
 
@@ -104,8 +104,8 @@ def _harmonics(x: FloatArray, s: FloatArray) -> Iterator[tuple[int, Pixels, Pixe
 
 def moved_steps(change: FloatArray) -> FloatArray:
     """Return by how much the mean square of a change grows when both values are rounded."""
-    share = change - np.floor(change)  # many times faster than a remainder
-    return share * (1.0 - share)
+    fraction = change - np.floor(change)  # many times faster than a remainder
+    return fraction * (1.0 - fraction)
 
 
 @lru_cache(maxsize=3)
@@ -144,7 +144,7 @@ def rounded_noise(s: FloatArray) -> FloatArray:
 
 def _square_of_rounded(s: FloatArray) -> FloatArray:
     step = np.arange(1.0, 17.0)
-    passed = 1.0 - normal_share((step - 0.5)[:, None] / np.maximum(s, _TINY))
+    passed = 1.0 - normal_fraction((step - 0.5)[:, None] / np.maximum(s, _TINY))
     return np.asarray(2.0 * ((2.0 * step - 1.0)[:, None] * passed).sum(axis=0))
 
 
@@ -152,7 +152,7 @@ def rounded_variance(x: FloatArray, s: FloatArray) -> FloatArray:
     """Return the variance of rounded values of some mean and noise, in steps."""
     away = x - np.rint(x)
     step = np.array([1.0, 2.0, 3.0]).reshape(-1, *(1,) * max(x.ndim, s.ndim))
-    above, below = (normal_share((sign * away - step + 0.5) / s) for sign in (1.0, -1.0))
+    above, below = (normal_fraction((sign * away - step + 0.5) / s) for sign in (1.0, -1.0))
     mean = (above - below).sum(axis=0)
     square = ((2.0 * step - 1.0) * (above + below)).sum(axis=0)
     return np.where(s > _WIDE, s * s + 1.0 / 12.0, np.maximum(square - mean * mean, 0.0))

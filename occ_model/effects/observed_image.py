@@ -7,7 +7,7 @@ import numpy as np
 
 from occ_model.arrays import FloatArray
 from occ_model.camera.photometry import WHITE
-from occ_model.effects.normal_noise import clipped_mean, normal_share, share_unclipped
+from occ_model.effects.normal_noise import clipped_mean, fraction_unclipped, normal_fraction
 from occ_model.effects.observed import Observed
 from occ_model.effects.sampled_pixels import SampledPixels
 from occ_model.effects.simulated_columns import Names
@@ -20,10 +20,10 @@ def observed_image(pixels: SampledPixels) -> Observed:
     """Return the pixels, each weighted by how much of its change is seen."""
     everything, file = pixels.names, pixels.file
     spread = pixels.spread(everything)
-    unclipped = share_unclipped(pixels.levels, spread, WHITE)
+    unclipped = fraction_unclipped(pixels.levels, spread, WHITE)
     # Where the light changes, its noise does; and pixels that are cut off change less.
-    share = pixels.at_whole(unclipped * (1.0 + pixels.table.slope(spread) ** 2))
-    weights = np.sqrt(np.maximum(share * pixels.sample.pixel_weights, 0.0)).ravel()
+    fraction = pixels.at_whole(unclipped * (1.0 + pixels.table.slope(spread) ** 2))
+    weights = np.sqrt(np.maximum(fraction * pixels.sample.pixel_weights, 0.0)).ravel()
 
     def seen(sets: Sequence[Names]) -> FloatArray:
         return pixels.values(sets).reshape(len(sets), -1) * weights
@@ -70,8 +70,10 @@ def observed_profile(pixels: SampledPixels) -> Observed:
         tables = clipped_mean(pixels.levels, spread, WHITE)
         if file is not None:  # whose error is cut off again, also of pixels that are at an end
             filed = [at for at, one in enumerate(sets) if pixels.files[0].name in one]
-            below = normal_share(-pixels.levels / np.maximum(spread[filed], _SHARP_NOISE))
-            above = normal_share((pixels.levels - WHITE) / np.maximum(spread[filed], _SHARP_NOISE))
+            below = normal_fraction(-pixels.levels / np.maximum(spread[filed], _SHARP_NOISE))
+            above = normal_fraction(
+                (pixels.levels - WHITE) / np.maximum(spread[filed], _SHARP_NOISE)
+            )
             error = math.sqrt(file.own_change)
             tables[filed] += (below - above) * error / math.sqrt(2.0 * math.pi)
         found = pixels.table.look_each(tables, pixels.read_back(sets))

@@ -8,7 +8,7 @@ import numpy as np
 from occ_model.arrays import FloatArray
 from occ_model.camera.enhancement import Enhancement, PassedSteps
 from occ_model.camera.photometry import FLAT, WHITE, saturate
-from occ_model.effects.normal_noise import clipped_mean, share_unclipped
+from occ_model.effects.normal_noise import clipped_mean, fraction_unclipped
 from occ_model.effects.observed import Observed
 from occ_model.effects.sampled_pixels import SampledPixels
 from occ_model.effects.signal_sampling import SURE_DEVIATIONS, SignalSampling
@@ -177,7 +177,7 @@ def _doubt_a_cut_file(pixels: SampledPixels, found: Observed) -> None:
     if float(spread.max()) <= _CLIPPED_NOISE:
         return
     lost = np.where(
-        spread > _CLIPPED_NOISE, 1.0 - share_unclipped(pixels.levels, spread, WHITE), 0.0
+        spread > _CLIPPED_NOISE, 1.0 - fraction_unclipped(pixels.levels, spread, WHITE), 0.0
     )
     cut = pixels.mean_at_whole(lost)
     gain = float(np.ptp(found.complete / np.sqrt(pixels.sample.weights))) / pixels.view.swing

@@ -13,7 +13,7 @@ if TYPE_CHECKING:  # what a file makes of pixels depends on their rims in turn
     from occ_model.effects.file_change import FileChange
 
 _UNSAMPLED_PIXELS = 1.0  # pixels of a rim that may change and that no sample shows
-_SEEN_SHARE = 0.003  # change of a pixel's light from beyond a rim that can round it otherwise
+_SEEN_FRACTION = 0.003  # change of a pixel's light from beyond a rim that can round it otherwise
 
 
 class Rims:
@@ -38,7 +38,7 @@ class Rims:
         return sum(rows * (8 - rows) / 8.0 for rows in ends)
 
     @cached_property
-    def shares(self) -> tuple[float, float]:
+    def fractions(self) -> tuple[float, float]:
         """The fractions of pixels in blocks of a file with rims along the rows, and upright ones.
 
         A turned rim is both.
@@ -53,9 +53,9 @@ class Rims:
         return min(1.0, 4.0 * ends / region.rows), min(1.0, 4.0 * sides / region.columns)
 
     @property
-    def share(self) -> float:
+    def fraction(self) -> float:
         """The fraction of the pixels in a file's blocks with any rim."""
-        return min(1.0, sum(self.shares))
+        return min(1.0, sum(self.fractions))
 
     def _moved(self, name: str) -> FloatArray | None:
         """Return what an effect changes in the panel's fraction of each pixel, None for nothing."""
@@ -70,7 +70,7 @@ class Rims:
         moved, sample = self._moved(name), self._sample
         if moved is None:
             return 0.0
-        is_seen = np.abs(moved) > _SEEN_SHARE
+        is_seen = np.abs(moved) > _SEEN_FRACTION
         middle = sample.inner.start + 2
         above, below = is_seen[:, :middle].any(axis=1), is_seen[:, middle:].any(axis=1)
         return float(((above * 1.0 + below) * sample.weights).sum())
@@ -97,7 +97,7 @@ class Rims:
         found = _UNSAMPLED_PIXELS * square
         if file is not None:
             pixels = self._region.rows * self._region.columns
-            found += file.added_at_a_rim(min(64.0 / pixels, self.share), found)
+            found += file.added_at_a_rim(min(64.0 / pixels, self.fraction), found)
         return found
 
     def cut_blocks(self, file: "FileChange | None") -> float:
@@ -105,7 +105,11 @@ class Rims:
 
         Its blocks are observed in part.
         """
-        return file.added_at_a_rim(self.share, self.share * self._swing**2 / 64.0) if file else 0.0
+        return (
+            file.added_at_a_rim(self.fraction, self.fraction * self._swing**2 / 64.0)
+            if file
+            else 0.0
+        )
 
     def cut_blocks_of_means(self, file: "FileChange | None", contrast: float) -> float:
         """Return the same in the means of columns, if a column of upright blocks becomes bright.
@@ -114,6 +118,6 @@ class Rims:
         """
         if file is None:
             return 0.0
-        added = file.added_at_a_rim(self.shares[1], self.shares[1] * contrast**2 / 8.0)
-        alike = file.undithered_share
+        added = file.added_at_a_rim(self.fractions[1], self.fractions[1] * contrast**2 / 8.0)
+        alike = file.undithered_fraction
         return added * (alike + (1.0 - alike) / file.block_rows)

@@ -178,12 +178,12 @@ def _with_side_rims(
         kept &= (columns < left) | (columns > right)
         nodes = np.rint(left + (right - left) * _evenly(_SIDE_NODES)[0])
         parts.append((nodes, (right - left) / (high - low)))
-    shares = sum(share for _, share in parts)
+    fractions = sum(fraction for _, fraction in parts)
     left_over = int(np.count_nonzero(kept))
     if not left_over:
         return columns, np.full(len(columns), 1.0 / len(columns))
-    weights = [np.full(left_over, (1.0 - shares) / left_over)]
-    weights += [np.full(_SIDE_NODES, share / _SIDE_NODES) for _, share in parts]
+    weights = [np.full(left_over, (1.0 - fractions) / left_over)]
+    weights += [np.full(_SIDE_NODES, fraction / _SIDE_NODES) for _, fraction in parts]
     return np.concatenate([columns[kept], *(nodes for nodes, _ in parts)]), np.concatenate(weights)
 
 
@@ -213,17 +213,17 @@ def _row_nodes(
     beside = _evenly(_BESIDE_NODES)
     parts = [beside, *across, (_GAUSS, _GAUSS_WEIGHTS), *across, beside]
     rows, weights = [], []
-    for (nodes, shares), start, end in zip(parts, ends[:-1], ends[1:], strict=True):
+    for (nodes, fractions), start, end in zip(parts, ends[:-1], ends[1:], strict=True):
         length = (end - start)[:, None]
         places = start[:, None] + length * nodes
         rows.append(places if nodes is _GAUSS else np.rint(places))
-        weights.append(length / (high - low) * shares)
-    places, shares = np.hstack(rows), np.hstack(weights)
+        weights.append(length / (high - low) * fractions)
+    places, fractions = np.hstack(rows), np.hstack(weights)
     first = (places.shape[1] - len(_GAUSS)) // 2
-    needed: BoolArray = np.asarray(shares.any(axis=0))
+    needed: BoolArray = np.asarray(fractions.any(axis=0))
     needed[first : first + len(_GAUSS)] = True
     needed[1:-1] |= needed[2:] | needed[:-2]
-    return places[:, needed], shares[:, needed], int(np.count_nonzero(needed[:first]))
+    return places[:, needed], fractions[:, needed], int(np.count_nonzero(needed[:first]))
 
 
 def _evenly(count: int) -> tuple[FloatArray, FloatArray]:
@@ -243,10 +243,12 @@ def _gain(
     lines = np.linspace(first, last, _GAIN_ROWS)
     place = np.clip((rows - first) * ((_GAIN_ROWS - 1) / (last - first)), 0.0, _GAIN_ROWS - 1.001)
     below = place.astype(np.int64)
-    share = place - below
+    fraction = place - below
     product: FloatArray = np.ones(rows.shape)
     for gain in gains:
         at = np.asarray(gain.at(lines, along), dtype=np.float64)[:, nearest]
         column = np.arange(len(nearest))[:, None]
-        product = product * (at[below, column] * (1.0 - share) + at[below + 1, column] * share)
+        product = product * (
+            at[below, column] * (1.0 - fraction) + at[below + 1, column] * fraction
+        )
     return product

@@ -54,8 +54,8 @@ class FixedPattern(NoiseEffect):
         return scene.sensor.gain_variation != 0.0
 
     def spread(self, scene: Scene, values: FloatArray) -> FloatArray:
-        share = scene.sensor.gain_variation
-        return deviation(values, scene, lambda electrons: np.asarray((share * electrons) ** 2))
+        fraction = scene.sensor.gain_variation
+        return deviation(values, scene, lambda electrons: np.asarray((fraction * electrons) ** 2))
 
 
 class SensorNoise(NoiseEffect):

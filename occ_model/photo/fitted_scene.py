@@ -117,7 +117,7 @@ def described(
         reasons=(*better.doubts, *unsure),
         exposure_reasons=(
             *better.exposure_doubts,
-            *_doubts_by_share("exposure_time", unknown, _MOST_UNSURE_EXPOSURE),
+            *_doubts_by_fraction("exposure_time", unknown, _MOST_UNSURE_EXPOSURE),
             *_doubts_by_others(photo, explanation),
             *_doubts_by_note(photo, camera.exposure_time, uncertainties["exposure_time"]),
         ),
@@ -125,17 +125,17 @@ def described(
 
 
 def _doubts_by_error(estimate: str, value: float, deviation: float) -> list[str]:
-    share = deviation / value
-    if refusal := _doubts_by_share(estimate, share, _MOST_UNKNOWN):
+    fraction = deviation / value
+    if refusal := _doubts_by_fraction(estimate, fraction, _MOST_UNKNOWN):
         raise MatchError(*refusal)
-    return _doubts_by_share(estimate, share, _MOST_UNSURE)
+    return _doubts_by_fraction(estimate, fraction, _MOST_UNSURE)
 
 
-def _doubts_by_share(name: str, share: float, limit: float) -> list[str]:
+def _doubts_by_fraction(name: str, fraction: float, limit: float) -> list[str]:
     """Say that a relative standard deviation is beyond its limit."""
-    if share <= limit:
+    if fraction <= limit:
         return []
-    shown, most = told_apart(100.0 * share, 100.0 * limit)
+    shown, most = told_apart(100.0 * fraction, 100.0 * limit)
     what = PARAMETERS[name].label.lower()
     return [f"The {what} is known only to {shown} %; at most {most} % are allowed."]
 

@@ -96,7 +96,7 @@ def match_photo(  # noqa: PLR0913 - all but the first two are words with default
         scene = scene.replace(gamma=1.0, enhancement="none")
         averaging, fit_gamma = "light", False
     check_words(scene, estimate, sent, averaging)
-    report = _Progress(progress or (lambda _share: None))
+    report = _Progress(progress or (lambda _fraction: None))
     report(0.0)
     stripes, scene = find_stripes(photo, region), with_notes(scene, photo)
     candidates = Candidates(
@@ -185,17 +185,17 @@ class _Progress:
     """Reports the fraction of the work that is done, again and again while a part of it lasts."""
 
     def __init__(self, report: Callable[[float], object]) -> None:
-        self._report, self._share, self._last = report, 0.0, 0.0
+        self._report, self._fraction, self._last = report, 0.0, 0.0
 
-    def __call__(self, share: float) -> None:
+    def __call__(self, fraction: float) -> None:
         """Report the fraction done."""
-        self._share, self._last = share, time.monotonic()
-        self._report(share)
+        self._fraction, self._last = fraction, time.monotonic()
+        self._report(fraction)
 
     def again(self) -> None:
         """Report the same fraction, if some time has passed: the receiver may end the work so."""
         if time.monotonic() - self._last > _SECONDS:
-            self(self._share)
+            self(self._fraction)
 
 
 def check_words(scene: Scene, estimate: str, sent: str, averaging: str) -> None:
@@ -284,12 +284,12 @@ def _exchanged_exposure(photo: Photo, match: Match, sent: str) -> float | None:
 
 
 def _doubt_of_exchange(match: Match, other: float) -> str:
-    share = 100.0 * match.exposure_in_chips / len(match.pattern)
+    fraction = 100.0 * match.exposure_in_chips / len(match.pattern)
     time_ = quantity("exposure_time").format(other)
     return (
-        f"A pulse that is lit for {share:.3g} % of a period, exposed for {time_}, makes the same "
-        "stripes, and the photo notes no exposure time: the duty may be that of the exposure. If "
-        "the duty is known, state that the scene's chips are sent."
+        f"A pulse that is lit for {fraction:.3g} % of a period, exposed for {time_}, makes the "
+        "same stripes, and the photo notes no exposure time: the duty may be that of the exposure. "
+        "If the duty is known, state that the scene's chips are sent."
     )
 
 

@@ -133,7 +133,7 @@ def grid_of(rows: int, columns: int) -> tuple[int, int]:
     return -(-rows // cell), -(-columns // cell)
 
 
-def least_bright_share() -> float:
+def least_bright_fraction() -> float:
     """Return the fraction of bright pixels that a cell of a contour exceeds, as a byte holds it."""
     return (math.floor(255 * _MIN_BRIGHT_FRACTION) + 0.5) / 255.0
 

@@ -39,7 +39,7 @@ class AccuracyPoint:
 
 
 @dataclass(frozen=True, slots=True)
-class TimeShares:
+class TimeFractions:
     """Computing time of one picture, divided among its effects and other stages."""
 
     effects: Mapping[str, float]  # Seconds of each effect computed separately
@@ -127,10 +127,10 @@ class EffectDifference:
 class MeasuredCosts:
     """Measured times and errors of a scene's effects."""
 
-    picture: TimeShares
+    picture: TimeFractions
     # Of pictures simulated alternately, among them one with all effects, which times those omitted,
     # and one with none, which times everything else where all rows are alike
-    others: tuple[TimeShares, ...] = ()
+    others: tuple[TimeFractions, ...] = ()
     differences: Mapping[str, EffectDifference] = field(default_factory=dict)
     # Measured total errors, by set of included effects
     errors: Mapping[frozenset[str], float] = field(default_factory=dict)
@@ -138,26 +138,26 @@ class MeasuredCosts:
     @property
     def is_comparable(self) -> bool:
         """Whether the picture was timed in turn with the others: a first one takes longer."""
-        return any(shares is self.picture for shares in self.others)
+        return any(fractions is self.picture for fractions in self.others)
 
     def seconds_of(self, effect: str) -> float | None:
         """Return an effect's time in the last picture, otherwise in another."""
-        for shares in (self.picture, *self.others):
-            if effect in shares.effects or effect in shares.together:
-                return shares.effects[shares.together.get(effect, effect)]
+        for fractions in (self.picture, *self.others):
+            if effect in fractions.effects or effect in fractions.together:
+                return fractions.effects[fractions.together.get(effect, effect)]
         return None
 
     def scatter_of(self, effect: str) -> float:
         """Return the scatter of an effect's time in seconds; 0 for a single run."""
-        for shares in (self.picture, *self.others):
-            if effect in shares.effects:
-                return shares.scatter.get(effect, 0.0)
+        for fractions in (self.picture, *self.others):
+            if effect in fractions.effects:
+                return fractions.scatter.get(effect, 0.0)
         return 0.0
 
     def shares_step_with(self, effect: str) -> str | None:
         """Return the effect of the last picture whose step includes, or would include, this one."""
-        for shares in (self.picture, *self.others):
-            other = shares.together.get(effect)
+        for fractions in (self.picture, *self.others):
+            other = fractions.together.get(effect)
             if other in self.picture.effects:
                 return other
         return None

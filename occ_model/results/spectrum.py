@@ -29,17 +29,17 @@ class Spectrum:
 class LevelHistogram:
     """How often each grey level occurs."""
 
-    shares: FloatArray  # Shape (256,): fraction of the pixels at each level; they add up to 1
+    fractions: FloatArray  # Shape (256,): fraction of the pixels at each level; they add up to 1
 
     @property
     def white(self) -> float:
         """Fraction of pixels that are white."""
-        return float(self.shares[_WHITE])
+        return float(self.fractions[_WHITE])
 
     @property
     def black(self) -> float:
         """Fraction of pixels that are black."""
-        return float(self.shares[0])
+        return float(self.fractions[0])
 
     @property
     def is_saturated(self) -> bool:

@@ -266,9 +266,9 @@ def exact_lit_fraction(scene: Scene, columns: IndexArray) -> FloatArray:
         lit: Fraction = period * before[-1] + before[chip] + (residual - chip) * chips[chip]
         return lit
 
-    shares = []
+    fractions = []
     for column in columns.tolist():
         start = Fraction(scene.model.start_time) + column * Fraction(scene.camera.readout_time)
         start *= frequency
-        shares.append(float((lit_until(start + exposure) - lit_until(start)) / exposure))
-    return np.array(shares)
+        fractions.append(float((lit_until(start + exposure) - lit_until(start)) / exposure))
+    return np.array(fractions)

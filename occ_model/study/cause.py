@@ -96,14 +96,14 @@ def _lost_panel(scene: Scene, region: Region | None) -> Cause | None:
     panel = region_of(panel_corners(scene), camera.rows, camera.columns)
     if region is None or panel is None or _area(region) < _LOST * _area(panel):
         return None
-    share, wanted = _area(panel) / (camera.rows * camera.columns), scene.receiver.bright_fraction
-    if share >= wanted:
+    fraction, wanted = _area(panel) / (camera.rows * camera.columns), scene.receiver.bright_fraction
+    if fraction >= wanted:
         return None
-    value = max(float(f"{0.5 * share:.2g}"), quantity("bright_fraction").low)
+    value = max(float(f"{0.5 * fraction:.2g}"), quantity("bright_fraction").low)
     return Cause(
         "the panel is not found",
         f"The brightest {100.0 * wanted:.3g} % of the pixels mark it, but it covers "
-        f"{100.0 * share:.2g} % of the picture: noise beside it is marked as well.",
+        f"{100.0 * fraction:.2g} % of the picture: noise beside it is marked as well.",
         Step(f"Mark the brightest {100.0 * value:.2g} %", {"bright_fraction": value}),
     )
 

@@ -13,14 +13,14 @@ from typing import NamedTuple
 import numpy as np
 
 from occ_model.arrays import BoolArray, FloatArray
-from occ_model.receiver.signal import grid_of, least_bright_share
+from occ_model.receiver.signal import grid_of, least_bright_fraction
 from occ_model.results.decoding import Region
 
 _MAX_PROBABILITY = 1.0 - 1e-12  # largest probability of a bright pixel, for its logarithm
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class BrightShares:
+class BrightFractions:
     """The probability that a pixel counts as bright."""
 
     rows: int
@@ -35,7 +35,7 @@ class BrightShares:
         columns = len(self.around)
         whole = Region(0, self.rows, 0, columns)
         grid = grid_of(self.rows, columns)
-        for least in (least_bright_share(), 0.5 / 255.0):
+        for least in (least_bright_fraction(), 0.5 / 255.0):
             marked = self._marked_cells(grid, least, random)
             if marked.any():
                 pixels = round(self.rows / grid[0] * columns / grid[1])

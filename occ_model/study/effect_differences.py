@@ -211,7 +211,7 @@ def _seconds(included: tuple[str, ...], costs: MeasuredCosts) -> float | None:
     """Add up the times of effects and of everything else, as each was last measured."""
     rows_differ = any(effect.name in included and effect.kind != "column" for effect in EFFECTS)
     measured = (costs.picture, *costs.others)
-    rest = [shares for shares in measured if shares.rows_differ == rows_differ]
+    rest = [fractions for fractions in measured if fractions.rows_differ == rows_differ]
     if not rest:
         return None
     total = rest[0].everything_else
@@ -220,7 +220,7 @@ def _seconds(included: tuple[str, ...], costs: MeasuredCosts) -> float | None:
         seconds = costs.seconds_of(name)
         if seconds is None:
             return None
-        together = (shares.together.get(name) for shares in measured)
+        together = (fractions.together.get(name) for fractions in measured)
         group = next((own for own in together if own is not None), name)
         if group not in counted:
             counted.add(group)

@@ -47,7 +47,7 @@ def limits(  # noqa: PLR0913 - a study's settings, most of them optional
     path: SignalPath = "auto",
     jobs: int = 1,
     heartbeat: Heartbeat = lambda: None,
-    progress: Callable[[float, str], object] = lambda _share, _what: None,
+    progress: Callable[[float, str], object] = lambda _fraction, _what: None,
 ) -> Limits:
     """Find the switching frequencies and the exposure times at which a decoder reads a scene.
 
@@ -96,7 +96,7 @@ def limits_of(
     *,
     jobs: int = 1,
     heartbeat: Heartbeat = lambda: None,
-    progress: Callable[[float, str], object] = lambda _share, _what: None,
+    progress: Callable[[float, str], object] = lambda _fraction, _what: None,
     found: Callable[[Limits], object] = lambda _limits: None,
 ) -> tuple[Limits, ...]:
     """Find the limits of several decoders, as :func:`limits` does for each of them.

@@ -10,7 +10,7 @@ from functools import lru_cache
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.camera.enhancement import Enhancement, byte_shares, share_above
+from occ_model.camera.enhancement import Enhancement, byte_fractions, fraction_above
 from occ_model.camera.photometry import WHITE, saturate
 from occ_model.effects.effect import NoiseEffect, PixelEffect
 from occ_model.effects.registry import planned
@@ -20,7 +20,7 @@ from occ_model.results.plan import Plan
 from occ_model.scene.scene import Camera, Scene, Sensor
 from occ_model.simulation.columns import Columns
 from occ_model.simulation.noise import NoiseSpread
-from occ_model.study.drawn_region import BrightShares
+from occ_model.study.drawn_region import BrightFractions
 
 _LEVELS = 512  # column values at which means are computed where there are more; linear between
 _BINS = 128  # column values of which the histogram of the pixels is made
@@ -117,13 +117,13 @@ class NoisyColumns:
         if level is None:
             return span
         panel, around = (
-            share_above(limit - 0.5, *self._distribution(values))
+            fraction_above(limit - 0.5, *self._distribution(values))
             for limit, values in (
                 (int(np.searchsorted(self._enhancement.curve, level)), self._columns.panel),
                 (level, self._columns.surroundings),
             )
         )
-        return BrightShares(scene.camera.rows, span, panel, around).draw_region(random)
+        return BrightFractions(scene.camera.rows, span, panel, around).draw_region(random)
 
     def _histogram(self) -> FloatArray:
         """Return the expected number of pixels of each grey level in the whole image."""
@@ -131,13 +131,13 @@ class NoisyColumns:
         on_panel = self._columns.panel[span.first_column : span.last_column]
         beside = np.full(len(self._columns.panel), float(rows))
         beside[span.first_column : span.last_column] -= span.rows
-        panel = self._shares(on_panel, np.full(len(on_panel), float(span.rows)))
+        panel = self._fractions(on_panel, np.full(len(on_panel), float(span.rows)))
         curve = self._enhancement.curve
         counts = np.asarray(np.bincount(curve, weights=panel, minlength=256), dtype=np.float64)
-        counts += self._shares(self._columns.surroundings, beside)
+        counts += self._fractions(self._columns.surroundings, beside)
         return np.maximum(counts, 0.0)
 
-    def _shares(self, values: FloatArray, pixels: FloatArray) -> FloatArray:
+    def _fractions(self, values: FloatArray, pixels: FloatArray) -> FloatArray:
         """Return the expected number of columns' pixels of each grey level before enhancement."""
         low, high = float(values.min()), float(values.max())
         bins = _BINS if high > low else 1
@@ -146,12 +146,12 @@ class NoisyColumns:
         middles = np.asarray(low + step * (np.arange(bins) + 0.5), dtype=np.float64)
         value, spread = self._distribution(middles)
         weights = np.bincount(place, weights=pixels, minlength=bins)
-        return byte_shares(value, spread, np.asarray(weights, dtype=np.float64))
+        return byte_fractions(value, spread, np.asarray(weights, dtype=np.float64))
 
 
 def _lost_beyond(distance: FloatArray, spread: FloatArray) -> FloatArray:
     """Return the mean of what noise of some spread would reach beyond a limit at some distance."""
     deviations = distance / np.maximum(spread, _NO_SPREAD)
     density = np.exp(-0.5 * deviations**2) / math.sqrt(2.0 * math.pi)
-    beyond = density - deviations * share_above(0.0, -deviations, np.ones_like(deviations))
+    beyond = density - deviations * fraction_above(0.0, -deviations, np.ones_like(deviations))
     return np.asarray(spread * np.maximum(beyond, 0.0))

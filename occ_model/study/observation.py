@@ -14,7 +14,7 @@ from functools import lru_cache
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
-from occ_model.camera.enhancement import Enhancement, share_above, to_bytes
+from occ_model.camera.enhancement import Enhancement, fraction_above, to_bytes
 from occ_model.camera.projection import check_size, panel_corners, row_spans
 from occ_model.effects.paper_view import PaperView, paper_view_of
 from occ_model.effects.plan import signal_plan
@@ -27,7 +27,7 @@ from occ_model.scene.scene import Scene, check_scene
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.simulation.columns import Columns, expose_columns
 from occ_model.simulation.row_sample import SampledPicture
-from occ_model.study.drawn_region import BrightShares
+from occ_model.study.drawn_region import BrightFractions
 from occ_model.study.noisy_columns import NoisyColumns
 
 
@@ -99,13 +99,13 @@ def _without_noise(scene: Scene, span: Region, panel: ByteArray, around: ByteArr
     region = span
     if level is not None:
         bright = ((values >= level).astype(np.float64) for values in (panel, around))
-        region = BrightShares(rows, span, *bright).draw_region(np.random.default_rng(0))
+        region = BrightFractions(rows, span, *bright).draw_region(np.random.default_rng(0))
     columns = slice(region.first_column, region.last_column)
     crossed = max(0, min(region.last_row, span.last_row) - max(region.first_row, span.first_row))
-    shares = np.zeros(len(panel))
-    shares[seen] = crossed / region.rows
-    shares = shares[columns]
-    return Observation(shares * panel[columns] + (1.0 - shares) * around[columns], region)
+    fractions = np.zeros(len(panel))
+    fractions[seen] = crossed / region.rows
+    fractions = fractions[columns]
+    return Observation(fractions * panel[columns] + (1.0 - fractions) * around[columns], region)
 
 
 def shows_region(sample: SampledPicture, view: PaperView) -> bool:
@@ -123,7 +123,7 @@ def shows_region(sample: SampledPicture, view: PaperView) -> bool:
         if not part.size:
             continue
         mean, spread = np.array([part.mean()]), np.array([part.std()])
-        (bright,) = share_above(found.bright_level - 0.5, mean, spread)
+        (bright,) = fraction_above(found.bright_level - 0.5, mean, spread)
         if (
             np.any(part >= found.bright_level)
             or bright * part.size * sample.rows_each > _MAX_EXPECTED_BRIGHT

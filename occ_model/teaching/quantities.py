@@ -89,7 +89,7 @@ def _bit_rate(scene: Scene) -> float:
     return sent.payload_length * sent.switching_frequency / len(sent_chips(sent))
 
 
-def _share_seen(scene: Scene) -> float:
+def _fraction_seen(scene: Scene) -> float:
     return min(1.0, FRAME_RATE * panel_readout_time(scene))
 
 
@@ -155,11 +155,11 @@ QUANTITIES = {  # by the name that a lesson's file uses
     ),
     "share-seen": LessonQuantity(
         f"fraction of the time in which a film of {FRAME_RATE:g} frames a second sees the panel",
-        _PERCENT, "%", _share_seen,
+        _PERCENT, "%", _fraction_seen,
     ),
     "bit-rate-seen": LessonQuantity(
         f"bits a second that a film of {FRAME_RATE:g} frames a second sees", _BITS_A_SECOND,
-        "bit/s", lambda scene: _bit_rate(scene) * _share_seen(scene),
+        "bit/s", lambda scene: _bit_rate(scene) * _fraction_seen(scene),
     ),
     "photo-readout-time": LessonQuantity(
         "readout time of the photo's camera", SECOND, "µs",

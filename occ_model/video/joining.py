@@ -42,7 +42,7 @@ class Joined:
         self._votes = np.zeros(period.length)
         self._counts = np.zeros(period.length, dtype=np.int64)
         scheme = period.scheme
-        self._share = 1.0 if scheme is None else float(1 / scheme.line_code.chips_a_bit)
+        self._fraction = 1.0 if scheme is None else float(1 / scheme.line_code.chips_a_bit)
 
     @property
     def ratios(self) -> FloatArray:
@@ -125,7 +125,7 @@ class Joined:
         at = np.arange(len(sureness)) % length
         for row, agreed in enumerate((np.log1p(sureness), np.log1p(-sureness))):
             # Chips of a line code follow from each other: agreement says no more than their bits.
-            np.add.at(folded[row], at, np.where(agreed > 0.0, self._share * agreed, agreed))
+            np.add.at(folded[row], at, np.where(agreed > 0.0, self._fraction * agreed, agreed))
         spectrum = np.fft.rfft(lit) * np.conj(np.fft.rfft(folded[0]))
         spectrum += np.fft.rfft(dark) * np.conj(np.fft.rfft(folded[1]))
         return np.asarray(np.fft.irfft(spectrum, length))

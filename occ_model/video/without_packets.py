@@ -8,7 +8,7 @@ import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.photo.stripes.envelope import without_trend
-from occ_model.photo.stripes.period import correlated_columns, repeat_period, unrepeated_share
+from occ_model.photo.stripes.period import correlated_columns, repeat_period, unrepeated_fraction
 from occ_model.receiver.signal import column_means
 from occ_model.results.decoding import Region
 from occ_model.results.video_reading import Clock, Measured
@@ -147,7 +147,7 @@ def _look(time: float, level: float, even: FloatArray, first_column: int) -> _Lo
     if found is None or found[0] * _MIN_PERIODS > columns:
         return _Look(time, level)
     period, error = found
-    left = unrepeated_share(even, period)
+    left = unrepeated_fraction(even, period)
     if left > _MAX_UNREPEATED:
         return _Look(time, level)
     middle = 0.5 * (columns - 1)

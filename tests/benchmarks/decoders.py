@@ -71,7 +71,7 @@ def counts(
 ) -> dict[str, tuple[int, int]]:
     """Count the codes that each decoder reads rightly and wrongly.
 
-    The receiver has the parameters in ``wrong`` off by these shares.
+    The receiver has the parameters in ``wrong`` off by these fractions.
     """
     frequency = base.transmitter.switching_frequency
     random = np.random.default_rng(int(frequency))
@@ -162,8 +162,9 @@ def print_poses(options: argparse.Namespace) -> None:
     with ProcessPoolExecutor(options.jobs) as pool:
         for pose in POSES:
             cells = pool.map(partial(codes_read, pose, codes=options.all_codes), NOISES)
-            shares = [100.0 * read / options.all_codes for cell in cells for read in cell]
-            print(f"| {pose} | {' | '.join(f'{share:.1f} %' for share in shares)} |", flush=True)
+            fractions = [100.0 * read / options.all_codes for cell in cells for read in cell]
+            row = " | ".join(f"{fraction:.1f} %" for fraction in fractions)
+            print(f"| {pose} | {row} |", flush=True)
 
 
 def print_confidences(options: argparse.Namespace) -> None:

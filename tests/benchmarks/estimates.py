@@ -134,18 +134,18 @@ def summary() -> None:
     for (observable, is_known), values in sorted(ratios().items()):
         quantiles = " | ".join(f"{at:.3g}" for at in np.quantile(values, (0.05, 0.5, 0.95)))
         ends = [100.0 * np.mean(values < 0.8), 100.0 * np.mean(values > 1.5)]
-        beyond = " | ".join(f"{share:.1f} %" for share in ends)
+        beyond = " | ".join(f"{fraction:.1f} %" for fraction in ends)
         which = "known" if is_known else "all"
         print(f"| {observable} | {which} | {len(values)} | {quantiles} | {beyond} |")
-    shares = [
+    fractions = [
         (change / tolerance, seed, observable, effect)
         for seed, observable, effect, tolerance, _, change in kept()
         if effect.startswith("tolerance")
     ]
-    held = 100.0 * np.mean([share <= 1.0 for share, *_ in shares])
-    print(f"\nThe promise holds in {held:.2f} % of {len(shares)} plans; the largest shares:")
-    for share, seed, observable, effect in sorted(shares, reverse=True)[:6]:
-        print(f"{share:.2f}: scene {seed}, {observable}, {effect}")
+    held = 100.0 * np.mean([fraction <= 1.0 for fraction, *_ in fractions])
+    print(f"\nThe promise holds in {held:.2f} % of {len(fractions)} plans; the largest fractions:")
+    for fraction, seed, observable, effect in sorted(fractions, reverse=True)[:6]:
+        print(f"{fraction:.2f}: scene {seed}, {observable}, {effect}")
 
 
 def plans(folder: str = "") -> None:
@@ -280,7 +280,7 @@ def figure(file: str = "estimates.png") -> None:
             axis.hist(shown, edges, weights=weights, color=color, label=label)
         axis.axvspan(1.0, 1.5, color="#ccbb44", alpha=0.3, lw=0)
         axis.set(xscale="log", title=observable, xlabel="estimate / measured")
-    axes[0].set_ylabel("share of effects (%)")
+    axes[0].set_ylabel("fraction of effects (%)")
     axes[0].legend(frameon=False, loc="upper right")
     drawn.savefig(file, dpi=110)
 

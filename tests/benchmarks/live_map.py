@@ -48,17 +48,17 @@ class Beat:
     def stop(self) -> None:
         self._timer.stop()
 
-    def percentile(self, share: float) -> float:
-        """Say what this share of the ticks was not later than, in milliseconds."""
-        return sorted(self.late)[int(share * len(self.late))]
+    def percentile(self, fraction: float) -> float:
+        """Say what this fraction of the ticks was not later than, in milliseconds."""
+        return sorted(self.late)[int(fraction * len(self.late))]
 
-    def waiting(self, share: float) -> float:
-        """Say what this share of events that come at any moment has to wait at most, in ms.
+    def waiting(self, fraction: float) -> float:
+        """Say what this fraction of events that come at any moment has to wait at most, in ms.
 
         Unlike ticks, of which there are none while the window is held up.
         """
         gaps = sorted((late + _BEAT_MS for late in self.late), reverse=True)
-        most, beyond = (1.0 - share) * sum(gaps), 0.0
+        most, beyond = (1.0 - fraction) * sum(gaps), 0.0
         for count, gap in enumerate(gaps, 1):
             beyond += gap
             shorter = gaps[count] if count < len(gaps) else 0.0

@@ -66,7 +66,7 @@ _BOUNDS: dict[str, dict[str, Any]] = {
 
 
 def row(name: str, found: list[Trial], what: str) -> str:
-    """Write a line of the table, each share with its own standard deviation."""
+    """Write a line of the table, each fraction with its own standard deviation."""
     sure = [one for one in found if one.is_sure_of(what)]
     if not sure:
         return f"| {name} | {len(found)} | 0 | {what} | | | | | | | |"
@@ -76,25 +76,25 @@ def row(name: str, found: list[Trial], what: str) -> str:
     bounds = np.array([(one.picture_bounds[number], one.light_bounds[number]) for one in sure])
     off = error / stated
     # The median of an error is 0.674 of its standard deviation.
-    shares = (np.median(error), np.median(stated), *(0.674 * np.median(bounds, axis=0)))
+    fractions = (np.median(error), np.median(stated), *(0.674 * np.median(bounds, axis=0)))
     return (
         f"| {name} | {len(found)} | {len(sure)} | {what} | {within(off, 1.0)} | "
-        f"{within(off, 2.0)} | {off.max():.1f} | " + " | ".join(map(as_share, shares)) + " |"
+        f"{within(off, 2.0)} | {off.max():.1f} | " + " | ".join(map(as_fraction, fractions)) + " |"
     )
 
 
-def as_share(value: float) -> str:
-    """Write a share in percent, a very small one in parts in a million."""
+def as_fraction(value: float) -> str:
+    """Write a fraction in percent, a very small one in parts in a million."""
     return f"{1e6 * value:.2g} ppm" if value < _SMALL else f"{100.0 * value:.2g} %"
 
 
 def within(off: np.ndarray, most: float) -> str:
     """Return the fraction of errors below some deviations, and by how much chance changes it."""
-    share = float(np.mean(off < most))
+    fraction = float(np.mean(off < most))
     # By Agresti and Coull's estimate, which is not 0 where all are (Am. Stat. 52:119, 1998).
-    likely = (share * len(off) + 2.0) / (len(off) + 4.0)
+    likely = (fraction * len(off) + 2.0) / (len(off) + 4.0)
     chance = np.sqrt(likely * (1.0 - likely) / (len(off) + 4.0))
-    return f"{100.0 * share:.0f} ± {100.0 * chance:.0f} %"
+    return f"{100.0 * fraction:.0f} ± {100.0 * chance:.0f} %"
 
 
 def told(found: list[Trial]) -> list[str]:

@@ -83,7 +83,7 @@ def so_far(found: list[TwoPaths]) -> str:
 
 
 def compare_pictures() -> None:
-    """Print the study's rate and the share of whole pictures that are read."""
+    """Print the study's rate and the fraction of whole pictures that are read."""
     scene = occ.load_preset("phone-136us")
     end = occ.limits(scene).frequency.highest
     inside = [end.inside.value] if end is not None and end.inside is not None else []

@@ -100,7 +100,7 @@ def edges_off(room: Room, image: ByteArray) -> Iterator[tuple[bool, float, float
             yield upright, float(own.mean()), float(np.sqrt(edge.covariance.mean()))
 
 
-def shares(deviations: FloatArray) -> str:
+def fractions(deviations: FloatArray) -> str:
     """Say what lies within one and two stated errors, and how far the farthest is."""
     size = np.abs(deviations)
     return (
@@ -144,10 +144,10 @@ def main() -> None:
     print(f"{options.poses} places, {located} found, {len(deviations)} sure; {wrong} of {named} "
           "lamps named wrongly")  # fmt: skip
     if deviations:
-        print(f"places: {shares(np.array(deviations).ravel())}")
+        print(f"places: {fractions(np.array(deviations).ravel())}")
     for upright in (False, True) if options.edges else ():
         some = np.array([each[1:] for each in off if each[0] is upright])
-        print(f"{'upright' if upright else 'level'} edges: {shares(some[:, 0] / some[:, 1])}; "
+        print(f"{'upright' if upright else 'level'} edges: {fractions(some[:, 0] / some[:, 1])}; "
               f"median off {np.median(np.abs(some[:, 0])):.3f} px, "
               f"stated {np.median(some[:, 1]):.3f}")  # fmt: skip
 

@@ -37,7 +37,7 @@ class _Found:
     mapping: list[bool] = field(default_factory=list)
     studying: list[bool] = field(default_factory=list)
 
-    def shares(self) -> tuple[float, float, float]:
+    def fractions(self) -> tuple[float, float, float]:
         """Give the percentages of the time: of the map, of the study, and of both at once."""
         both = [a and b for a, b in zip(self.mapping, self.studying, strict=True)]
         one, other, two = (100 * sum(v) / len(v) for v in (self.mapping, self.studying, both))
@@ -63,10 +63,13 @@ def main() -> None:
     for title, with_map, with_study in _SEEN:
         _show_panes(application, with_map, with_study)
         found = _watch(application, options.seconds)
-        beat, shares = found.beat, "".join(f"{share:5.0f} %" for share in found.shares())
+        beat, fractions = (
+            found.beat,
+            "".join(f"{fraction:5.0f} %" for fraction in found.fractions()),
+        )
         print(
             f"  {title:20s}{median(beat.late):8.1f}{beat.percentile(0.95):7.1f}"
-            f"{max(beat.late):7.1f} |{beat.waiting(0.95):16.1f} | {shares}"
+            f"{max(beat.late):7.1f} |{beat.waiting(0.95):16.1f} | {fractions}"
         )
     application.window.close()
 

@@ -97,12 +97,12 @@ class ExactTimes:
         within = doubled[chip] + part * (2 * lit[chip] + part * self.chips[chip])
         return (whole + within) / 2 + lit[-1] * periods * remainder
 
-    def share(self, column: int) -> Fraction:
-        """The lit share of a column's exposure, the LED's edges sharp."""
+    def fraction(self, column: int) -> Fraction:
+        """The lit fraction of a column's exposure, the LED's edges sharp."""
         x = self.start(column)
         return (self.lit_until(x + self.exposure) - self.lit_until(x)) / self.exposure
 
-    def edged_share(self, column: int) -> Fraction:
+    def edged_fraction(self, column: int) -> Fraction:
         """The same, the LED taking its time."""
         x, t, tau = self.start(column), self.exposure, self.edge
         until = self.lit_until_integrated
@@ -126,7 +126,7 @@ GEOMETRY = {"sensor-noise": False, "fixed-pattern": False, "distortion": True, "
 def poses(draw: st.DrawFn) -> Scene:
     """A panel of any size anywhere before a small picture, the lens and the light as they are."""
     distance = draw(decades(1e-3, 1e4))
-    size = decades(1e-3, 1e4).map(lambda share: within("panel_width", share * distance))
+    size = decades(1e-3, 1e4).map(lambda fraction: within("panel_width", fraction * distance))
     aside = st.just(0.0) | st.floats(-1.0, 1.0) | signed_decades(1e-6, 1.0)
     scene = Scene().replace(
         rows=draw(st.integers(1, 24)),

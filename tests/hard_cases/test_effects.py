@@ -14,7 +14,7 @@ from occ_model.camera.optics import Gain, Optics
 from occ_model.camera.photometry import saturation_value
 from occ_model.camera.projection import rotation_of
 from occ_model.effects.effect import NoiseEffect, OpticsEffect
-from occ_model.effects.light_effects import Flicker, ambient_shares, response
+from occ_model.effects.light_effects import Flicker, ambient_fractions, response
 from occ_model.effects.optics_effects import Emission, Vignetting
 from occ_model.effects.sensor_effects import FixedPattern, SensorNoise
 from occ_model.scene.scene import Scene
@@ -50,8 +50,8 @@ def test_flicker_is_that_of_its_integral_in_fifty_digits(
         when = Fraction(start) + column * Fraction(scene.camera.readout_time)
         middle = ((when + Fraction(exposure) / 2) * Fraction(frequency)) % 1
         angle = 2 * mpmath.pi * mpmath.mpf(middle.numerator) / middle.denominator + phase
-        share = 1 + depth * exact * mpmath.cos(angle)
-        worst = max(worst, abs(float(ambient_shares(scene)[column] - share)))
+        fraction = 1 + depth * exact * mpmath.cos(angle)
+        worst = max(worst, abs(float(ambient_fractions(scene)[column] - fraction)))
     record("flickering light, of its mean", "F 0.01 Hz to 1 GHz, t_0 to 1e9 s", worst)
     assert worst <= 1e-14
 

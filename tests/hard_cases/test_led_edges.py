@@ -18,7 +18,7 @@ LONG = ["1" * 2048 + "0" * 2048, "10" * 2048, "1" + "0" * 4095, ("1" * 63 + "0")
 
 FREQUENCY = 1e6
 
-EDGED = "lit share with LED edges"
+EDGED = "lit fraction with LED edges"
 WIDE = "edges 1e-12 to 1e6 chips, t 1e-3 to 1e6, packets to 4096 chips"
 
 
@@ -32,12 +32,13 @@ def edged(edge: float, exposure: float, **changes: float | str) -> Scene:
 
 
 def edge_error(scene: Scene) -> float:
-    """The worst column's lit share less that of rational arithmetic."""
+    """The worst column's lit fraction less that of rational arithmetic."""
     exact, found = ExactTimes(scene), edged_lit_fraction(scene)
     assert 0.0 <= found.min() <= found.max() <= 1.0
     columns = some_columns(scene)
     return max(
-        float(abs(Fraction(float(found[column])) - exact.edged_share(column))) for column in columns
+        float(abs(Fraction(float(found[column])) - exact.edged_fraction(column)))
+        for column in columns
     )
 
 
@@ -68,7 +69,7 @@ def test_the_longest_patterns_lose_no_digits_to_long_edges(
 
 
 @cases(edge=decades(1e-300, 1e-3), exposure=decades(1e-3, 1e3), start=STARTS, pattern=PATTERNS)
-def test_a_vanishing_edge_moves_no_more_light_than_its_share(
+def test_a_vanishing_edge_moves_no_more_light_than_its_fraction(
     edge: float, exposure: float, start: float, pattern: str
 ) -> None:
     scene = edged(edge, exposure, start_time=start, pattern=pattern)

@@ -58,8 +58,8 @@ def test_the_bent_outline_lies_on_the_curve_that_opencv_projects(
         record("distorted corners against OpenCV, px", "k to 10, p to 1", error)
         assert error <= 1e-9
     # and every edge of it that is in the picture lies along the curve.
-    share = np.linspace(0, 1, 41)[:, None, None]
-    line = rays * (1 - share) + np.roll(rays, -1, axis=0) * share
+    fraction = np.linspace(0, 1, 41)[:, None, None]
+    line = rays * (1 - fraction) + np.roll(rays, -1, axis=0) * fraction
     curve = opencv_places(line.reshape(-1, 2), scene)
     reached = np.hypot(*line.reshape(-1, 2).T) * scene.camera.focal_length_pixels < 500
     seen = curve[((curve >= 0) & (curve <= [799, 599])).all(axis=1) & reached]

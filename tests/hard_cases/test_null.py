@@ -19,7 +19,7 @@ mpmath.mp.dps = 40
 
 METHODS = st.sampled_from(["equalization", "stretch", "none"])
 OFF_THE_NULL = st.one_of(st.just(0.0), signed_decades(1e-16, 1e-2))
-"""By how much the frequency misses the null, as a share."""
+"""By how much the frequency misses the null, as a fraction."""
 
 
 def null_scene(packets: int, exposure: float, off: float, **changes: float | str) -> Scene:
@@ -32,8 +32,8 @@ def null_scene(packets: int, exposure: float, off: float, **changes: float | str
 def exact_value(scene: Scene, column: int) -> mpmath.mpf:
     """A column's pixel value, by equations (1) to (3), to 40 digits."""
     camera, surroundings = scene.camera, scene.surroundings
-    exact = ExactTimes(scene).share(column)
-    share = mpmath.mpf(exact.numerator) / exact.denominator
+    exact = ExactTimes(scene).fraction(column)
+    fraction = mpmath.mpf(exact.numerator) / exact.denominator
     dark = mpmath.mpf(surroundings.illuminance) * surroundings.reflectance / mpmath.pi
     lit = mpmath.mpf(scene.transmitter.luminance)
     gain = mpmath.mpf(camera.iso) * camera.exposure_time
@@ -43,9 +43,9 @@ def exact_value(scene: Scene, column: int) -> mpmath.mpf:
         return 118 * (gain * luminance) ** (1 / mpmath.mpf(camera.gamma))
 
     if scene.model.averaging == "light":
-        mean = value(dark + lit * share)
+        mean = value(dark + lit * fraction)
     else:
-        mean = value(dark + lit) * share + value(dark) * (1 - share)
+        mean = value(dark + lit) * fraction + value(dark) * (1 - fraction)
     return min(mean, mpmath.mpf(255))
 
 
@@ -106,8 +106,8 @@ def test_a_profile_of_less_than_one_level_gets_rounding_only(
 def test_the_least_stripes_that_count_are_enhanced_in_order(
     low: float, swing: float, method: str, seed: int
 ) -> None:
-    share = np.concatenate([[0.0, 1.0], np.random.default_rng(seed).random(100)])
-    profile = low + swing * share
+    fraction = np.concatenate([[0.0, 1.0], np.random.default_rng(seed).random(100)])
+    profile = low + swing * fraction
     enhanced = enhance(profile, method)
     ordered = enhanced[np.argsort(profile, kind="stable")].astype(int)
     against = float(max(-np.diff(ordered).min(), 0))

@@ -30,7 +30,7 @@ def variances(counts: list[int], splits: Iterable[int]) -> dict[int, Fraction]:
 
 
 def shortfall(counts: list[int], split: int | None) -> float:
-    """By which share of the largest variance the split's falls short of it."""
+    """By which fraction of the largest variance the split's falls short of it."""
     filled = {place for place, count in enumerate(counts) if count}
     exact = variances(counts, filled if split is None else {*filled, split})
     if not exact:

@@ -127,7 +127,7 @@ def test_a_profile_is_finite_and_between_its_two_levels(scene: Scene) -> None:
 @cases(scene=lit_scenes())
 def test_a_profile_is_that_of_equations_1_to_3(scene: Scene) -> None:
     found = panel_values(scene, Light.of(scene))
-    shares = lit_fraction(scene)
+    fractions = lit_fraction(scene)
     surroundings = scene.surroundings
     worst = 0.0
     with mpmath.workdps(50):
@@ -135,8 +135,8 @@ def test_a_profile_is_that_of_equations_1_to_3(scene: Scene) -> None:
         dark /= mpmath.pi
         lit = mpmath.mpf(scene.transmitter.luminance)
         low, high = value_of(dark, scene.camera), value_of(dark + lit, scene.camera)
-        for value, share in zip(found.tolist(), shares.tolist(), strict=True):
-            part = mpmath.mpf(share)
+        for value, fraction in zip(found.tolist(), fractions.tolist(), strict=True):
+            part = mpmath.mpf(fraction)
             if scene.model.averaging == "light":
                 expected = value_of(dark + lit * part, scene.camera)
             else:

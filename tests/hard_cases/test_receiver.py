@@ -302,7 +302,7 @@ def test_an_exposure_that_leaves_only_the_mean_is_refused(exposure: float) -> No
 
 
 LOCATED: dict[str, tuple[np.ndarray, Region]] = {
-    # The share of the brightest pixels is less than one pixel.
+    # The fraction of the brightest pixels is less than one pixel.
     "one pixel of a million": (np.zeros((1000, 1000), np.uint8), Region(999, 1000, 0, 1)),
     # Less than a cell of the grid that contours are grown on, at the far end of it.
     "the last of 100,000 columns": (

@@ -48,7 +48,7 @@ def error_of(scene: Scene) -> float:
     t = Fraction(scene.camera.exposure_time)
     scale = max(t, Fraction(1, 1000) / exact.frequency)
     return max(
-        float(abs(Fraction(float(on_time[column])) - exact.share(column) * t) / scale)
+        float(abs(Fraction(float(on_time[column])) - exact.fraction(column) * t) / scale)
         for column in some_columns(scene)
     )
 
@@ -94,7 +94,7 @@ def test_a_packet_may_start_just_where_a_column_does(
     start = within("start_time", start)
     scene = timed(chips, frequency, readout_time=seconds, start_time=start)
     exact, found = ExactTimes(scene), occ.on_time(scene)[column] / scene.camera.exposure_time
-    error = float(abs(Fraction(float(found)) - exact.share(column)))
+    error = float(abs(Fraction(float(found)) - exact.fraction(column)))
     record(COINCIDENCE, "t of whole chips, packets at a column's start, +- 1 ulp", error)
     assert error <= 1e-12
 
@@ -141,9 +141,9 @@ def test_a_start_whole_packets_later_changes_only_rounding(
     wanted = Fraction(start) + packets * period
     later = scene.replace(start_time=within("start_time", float(wanted)))
     moved = abs(Fraction(later.model.start_time) - wanted) % period
-    share = float(min(moved, period - moved)) / scene.camera.exposure_time
+    fraction = float(min(moved, period - moved)) / scene.camera.exposure_time
     change = float(np.abs(lit_fraction(later) - lit_fraction(scene)).max())
-    beyond = max(change - share * (1 + 1e-12), 0.0)
+    beyond = max(change - fraction * (1 + 1e-12), 0.0)
     record("t_on whole packets later, of t beyond t_0's rounding", "to 1e9 packets", beyond)
     assert beyond <= 1e-12
 
@@ -159,12 +159,12 @@ def test_a_start_whole_packets_later_changes_only_rounding(
     sign=st.sampled_from([-1, 1]),
     size=decades(1e-16, 1e-6),
 )  # fmt: skip
-def test_a_small_change_of_a_time_changes_on_time_by_its_share(
+def test_a_small_change_of_a_time_changes_on_time_by_its_fraction(
     chips: float, frequency: float, readout: float, start: float, which: str, sign: int, size: float
 ) -> None:
-    """The change is relative, 1e-12 among others; its share is exact arithmetic's Lipschitz bound.
+    """The change is relative, 1e-12 among others; its bound is that of exact arithmetic.
 
-    t_on moves by no more than the start moves, or than t grows. Where f changes by the share e,
+    t_on moves by no more than the start moves, or than t grows. Where f changes by the fraction e,
     all of time stretches about zero: the window starts e (t_0 + i t_r) later, and is e t longer
     in chips, which are e shorter.
     """
@@ -176,14 +176,14 @@ def test_a_small_change_of_a_time_changes_on_time_by_its_share(
     exact = ExactTimes(scene)
     found = [occ.on_time(one) for one in (scene, changed)]
     for column in some_columns(scene):
-        share = delta
+        fraction = delta
         if which == "readout_time":
-            share = column * delta
+            fraction = column * delta
         elif which == "switching_frequency":
             stretch = delta / min(Fraction(new), Fraction(old))
-            share = stretch * (abs(exact.start(column)) / exact.frequency + 2 * t)
+            fraction = stretch * (abs(exact.start(column)) / exact.frequency + 2 * t)
         change = abs(Fraction(float(found[0][column])) - Fraction(float(found[1][column])))
-        beyond = float(max(change - share, Fraction(0)) / t)
+        beyond = float(max(change - fraction, Fraction(0)) / t)
         record("t_on's change beyond its share, of t", "any time by 1e-16 to 1e-6", beyond)
         assert beyond <= 1e-12
 

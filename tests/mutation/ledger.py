@@ -97,5 +97,5 @@ def _row(name: str, count: Counter[str]) -> str:
     drawn, killed, equal = count.total(), count[KILLED], count[EQUIVALENT]
     survived, unreached = count[SURVIVED], count[UNREACHED]
     changing = drawn - equal
-    share = f"{100.0 * killed / changing:.0f} %" if changing else ""
-    return f"| {name} | {drawn} | {killed} | {equal} | {survived} | {unreached} | {share} |"
+    fraction = f"{100.0 * killed / changing:.0f} %" if changing else ""
+    return f"| {name} | {drawn} | {killed} | {equal} | {survived} | {unreached} | {fraction} |"

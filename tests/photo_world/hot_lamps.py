@@ -167,9 +167,9 @@ def _placed(
 
 def _mirrored(random: np.random.Generator, thing: Thing, shape: tuple[int, int]) -> Thing:
     """Mirror a lamp in what lies below it: fainter, and as wide."""
-    share = random.uniform(0.02, 0.15)
+    fraction = random.uniform(0.02, 0.15)
     row = min(thing.row + thing.height * random.uniform(1.2, 2.0), shape[0] - 1.0)
-    return replace(thing, row=row, radiance=share * thing.radiance)
+    return replace(thing, row=row, radiance=fraction * thing.radiance)
 
 
 def _surface(random: np.random.Generator, thing: Thing, shape: tuple[int, int]) -> np.ndarray:

@@ -223,8 +223,8 @@ def _reflections(
     found: list[Thing | None] = []
     for lamp in lamps[:2]:
         if random.random() < 0.5:
-            share = float(random.uniform(0.05, 0.3))
-            faint = replace(lamp, radiance=share * min(lamp.radiance, 1.0))
+            fraction = float(random.uniform(0.05, 0.3))
+            faint = replace(lamp, radiance=fraction * min(lamp.radiance, 1.0))
             found.append(_place(random, faint, rows, columns, placed))
     return tuple(one for one in found if one is not None)
 

@@ -59,11 +59,11 @@ def _smooth_noise(random: Random, count: int, width: float) -> FloatArray:
 def blinds(random: Random) -> FloatArray:
     """Draw lamellas with light between them, shaded across each."""
     rows, columns = _size(random)
-    pitch, open_share = random.uniform(8.0, 60.0), random.uniform(0.1, 0.6)
+    pitch, open_fraction = random.uniform(8.0, 60.0), random.uniform(0.1, 0.6)
     place = np.arange(columns) / pitch + random.uniform()
     within = place % 1.0
     slat = 0.15 + 0.3 * random.uniform() * np.sin(np.pi * within)
-    light = np.where(within < open_share, 1.0, slat)
+    light = np.where(within < open_fraction, 1.0, slat)
     return _columns(cv2.GaussianBlur(light[None], (0, 0), random.uniform(0.3, 3.0))[0], rows)
 
 
@@ -86,8 +86,8 @@ def slats(random: Random) -> FloatArray:
 def fence(random: Random) -> FloatArray:
     """Draw posts before a background of hills and sky."""
     rows, columns = _size(random)
-    pitch, share = random.uniform(15.0, 70.0), random.uniform(0.3, 0.7)
-    posts = (np.arange(columns) / pitch + random.uniform()) % 1.0 < share
+    pitch, fraction = random.uniform(15.0, 70.0), random.uniform(0.3, 0.7)
+    posts = (np.arange(columns) / pitch + random.uniform()) % 1.0 < fraction
     hills = rows * (0.5 + 0.1 * _smooth_noise(random, columns, columns / 10))
     ground = np.where(np.arange(rows)[:, None] > hills[None, :], 0.3, 0.8)
     post = random.choice([0.1, 0.95])

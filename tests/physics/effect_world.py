@@ -108,8 +108,8 @@ def weaken(changes: dict[str, ParameterValue], random: np.random.Generator) -> N
         if random.random() < (0.7 if name == "jpeg_quality" else 0.4):
             changes[name] = nothing
         elif weak and name not in ("jpeg_quality", "focus_distance"):
-            share = 10.0 ** random.uniform(-3.0, 0.0)
-            changes[name] = nothing + (changes[name] - nothing) * share  # type: ignore[operator]
+            fraction = 10.0 ** random.uniform(-3.0, 0.0)
+            changes[name] = nothing + (changes[name] - nothing) * fraction  # type: ignore[operator]
     if weak:
         changes["pixel_pitch"] = float(10 ** random.uniform(-6.0, -4.5))
 

@@ -21,7 +21,7 @@ IN_DOUBT = (0.05, 0.95)  # between which rates a scene's rate is in doubt
 
 @dataclass(frozen=True)
 class TwoPaths:
-    """The share of right bits in images of one scene, by a study and of whole pictures.
+    """The fraction of right bits in images of one scene, by a study and of whole pictures.
 
     Parameters
     ----------
@@ -102,8 +102,8 @@ def random_scene(random: np.random.Generator) -> Scene:
     return scene.replace(**changes)
 
 
-def shares(scene: Scene, path: SignalPath, images: int, seed: int) -> np.ndarray:
-    """The share of right bits in each image, shape (images, decoders)."""
+def fractions(scene: Scene, path: SignalPath, images: int, seed: int) -> np.ndarray:
+    """The fraction of right bits in each image, shape (images, decoders)."""
     settings = RateSettings(images, DECODERS, seed, path=path)
     counts = np.array([*right_bits_of_images(scene, settings)])
     return np.asarray(counts / scene.transmitter.payload_length)
@@ -133,8 +133,8 @@ def compared(scenes: Iterable[int], images: int, seed: int) -> Iterator[TwoPaths
 
 def compared_at(scene: Scene, images: int, number: int) -> Iterator[TwoPaths]:
     """Compare both at a scene, by images with seeds of their own."""
-    by_study = shares(scene, "auto", images, number)
-    by_image = shares(scene, "image", images, 500_000_000 + number)
+    by_study = fractions(scene, "auto", images, number)
+    by_image = fractions(scene, "image", images, 500_000_000 + number)
     for place, decoder in enumerate(DECODERS):
         yield TwoPaths(number, scene, decoder, by_study[:, place], by_image[:, place])
 

@@ -33,11 +33,13 @@ def test_bands_are_as_long_as_published(
     assert occ.band_lengths(scene) == pytest.approx((complete, transition), abs=last_digit / 2)
 
 
-@given(period=st.floats(1e-5, 1e-2), share=st.floats(0.01, 1.0), readout=st.floats(1e-6, 1e-4))
-def test_a_band_and_a_transition_make_a_chip(period: float, share: float, readout: float) -> None:
+@given(period=st.floats(1e-5, 1e-2), fraction=st.floats(0.01, 1.0), readout=st.floats(1e-6, 1e-4))
+def test_a_band_and_a_transition_make_a_chip(
+    period: float, fraction: float, readout: float
+) -> None:
     scene = Scene().replace(
         switching_frequency=1 / period,
-        exposure_time=share / (1 / period) * (1 - 1e-12),
+        exposure_time=fraction / (1 / period) * (1 - 1e-12),
         readout_time=readout,
     )
     assert sum(occ.band_lengths(scene)) == pytest.approx(period / readout, rel=1e-9)
@@ -56,19 +58,19 @@ def test_an_exposure_of_exactly_one_period_is_the_last_defined() -> None:
 
 
 @given(
-    share=st.floats(0.02, 1.0),
+    fraction=st.floats(0.02, 1.0),
     code=st.integers(0, 1023),
     start=st.floats(0.0, 0.01),
     readout=st.floats(1e-6, 2e-4),
     iso=st.floats(50.0, 10_000.0),
 )
 def test_the_aligned_reading_is_exact_where_defined(
-    share: float, code: int, start: float, readout: float, iso: float
+    fraction: float, code: int, start: float, readout: float, iso: float
 ) -> None:
     scene = Scene().replace(
         code=code,
         iso=iso,
-        exposure_time=share * 1e-4,
+        exposure_time=fraction * 1e-4,
         start_time=start,
         readout_time=readout,
         columns=400,
@@ -111,14 +113,14 @@ def test_the_literal_reading_drifts_at_every_pair_of_equal_chips() -> None:
     assert not np.allclose(exact[:22], exact[22:])
 
 
-@given(share=st.floats(0.02, 1.0), code=st.integers(0, 1023), readout=st.floats(2e-6, 2e-5))
+@given(fraction=st.floats(0.02, 1.0), code=st.integers(0, 1023), readout=st.floats(2e-6, 2e-5))
 def test_the_drift_is_what_a_packet_of_the_model_is_shorter(
-    share: float, code: int, readout: float
+    fraction: float, code: int, readout: float
 ) -> None:
     scene = Scene().replace(
         code=code,
         switching_frequency=2e3,
-        exposure_time=share / 2e3,
+        exposure_time=fraction / 2e3,
         readout_time=readout,
         band_reading="literal",
     )

@@ -26,8 +26,8 @@ def unsharp(blur: float, **changes: float | str) -> Scene:
     ).replace(**changes)  # fmt: skip
 
 
-def panel_share(scene: Scene) -> np.ndarray:
-    """The share of the lit panel's own light in each pixel."""
+def panel_fraction(scene: Scene) -> np.ndarray:
+    """The fraction of the lit panel's own light in each pixel."""
     dark, bright = luminance_levels(scene)
     return (pictured_luminance(scene, Defocus()) - dark) / (bright - dark)
 
@@ -47,12 +47,12 @@ def test_the_rim_of_a_level_panel_is_the_error_function_in_light(blur: float, ga
     expected = np.outer(soft_step(ROWS, HEIGHT, blur), soft_step(COLUMNS, WIDTH, blur))
     # A kernel of pixels falls short of the curve between them, the more the narrower it is.
     largest = 0.02 / blur**2 if blur < 8.0 else 5e-3
-    np.testing.assert_allclose(panel_share(scene), expected, rtol=0, atol=largest)
+    np.testing.assert_allclose(panel_fraction(scene), expected, rtol=0, atol=largest)
 
 
 @pytest.mark.parametrize("blur", [0.3, 1.0, 5.0, 9.0])
 def test_light_is_conserved_where_the_panel_lies_well_inside(blur: float) -> None:
-    assert panel_share(unsharp(blur)).sum() == pytest.approx(WIDTH * HEIGHT, rel=1e-3)
+    assert panel_fraction(unsharp(blur)).sum() == pytest.approx(WIDTH * HEIGHT, rel=1e-3)
 
 
 @pytest.mark.parametrize(
@@ -91,7 +91,7 @@ def test_focus_is_sharp_and_both_blurs_add_their_variances() -> None:
 @pytest.mark.parametrize("blur", [0.7, 3.0, 12.0, 40.0])
 def test_a_panel_beyond_the_picture_is_not_darker_at_its_rim(blur: float) -> None:
     scene = unsharp(blur, distance=0.05)
-    np.testing.assert_allclose(panel_share(scene), 1.0, rtol=0, atol=2e-4)
+    np.testing.assert_allclose(panel_fraction(scene), 1.0, rtol=0, atol=2e-4)
 
 
 @pytest.mark.parametrize("averaging", ["pixel-value", "light"])
@@ -119,6 +119,6 @@ def test_stripes_keep_their_full_contrast(blur: float, averaging: str) -> None:
 def test_a_blur_far_wider_than_the_picture_is_pictured_at_once() -> None:
     scene = unsharp(1000.0, focus_distance=0.001, distance=1e4)
     assert blur_of(scene) > ROWS + COLUMNS
-    share = panel_share(scene)
-    assert 0.0 < share.max() < 0.01
-    assert np.ptp(share) < 0.002
+    fraction = panel_fraction(scene)
+    assert 0.0 < fraction.max() < 0.01
+    assert np.ptp(fraction) < 0.002

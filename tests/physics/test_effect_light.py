@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 import occ_model as occ
 from occ_model.camera.photometry import luminance_levels, pixel_value
 from occ_model.camera.projection import row_spans
-from occ_model.effects.light_effects import ambient_shares, edged_lit_fraction
+from occ_model.effects.light_effects import ambient_fractions, edged_lit_fraction
 from occ_model.scene.scene import Scene
 
 FREQUENCY = 8192.0
@@ -57,16 +57,16 @@ def test_the_crest_is_at_phase_0_and_the_trough_half_a_cycle_on() -> None:
     scene = flickering(
         flicker_frequency=128.0, readout_time=2.0**-12, exposure_time=1e-9, columns=32
     )
-    shares = ambient_shares(scene)
-    assert (shares.argmax(), shares.argmin()) == (0, 16)
-    assert shares.max() == pytest.approx(1.8)
-    assert shares.min() == pytest.approx(0.2)
+    fractions = ambient_fractions(scene)
+    assert (fractions.argmax(), fractions.argmin()) == (0, 16)
+    assert fractions.max() == pytest.approx(1.8)
+    assert fractions.min() == pytest.approx(0.2)
 
 
 def test_the_surroundings_flicker_as_the_dark_panel_does() -> None:
     scene = flickering(pattern="0")
     frame = occ.render(scene, force=ONLY_FLICKER)
-    dark = luminance_levels(scene)[0] * ambient_shares(scene)
+    dark = luminance_levels(scene)[0] * ambient_fractions(scene)
     expected = np.rint(pixel_value(dark, scene.camera))
     assert np.ptp(expected) > 25
     np.testing.assert_array_equal(frame.image, np.tile(expected, (90, 1)))
@@ -79,7 +79,7 @@ def test_the_surroundings_flicker_beside_a_panel_that_blinks(enhancement: str) -
     first, last = row_spans(frame.corners, 90, 400)
     row = 45
     outside = np.r_[0 : first[row], last[row] : 400]
-    dark = luminance_levels(scene)[0] * ambient_shares(scene)
+    dark = luminance_levels(scene)[0] * ambient_fractions(scene)
     expected = np.rint(pixel_value(dark, scene.camera))
     assert 50 < len(outside) < 350
     np.testing.assert_array_equal(frame.image[row, outside], expected[outside])
@@ -91,7 +91,7 @@ def test_the_panel_flickers_by_the_light_that_it_reflects(averaging: str) -> Non
     scene = flickering(averaging=averaging, code=0, illuminance=1000.0)
     profile = occ.render(scene, force=ONLY_FLICKER).profile
     dark, bright = luminance_levels(scene)
-    reflected = dark * ambient_shares(scene)
+    reflected = dark * ambient_fractions(scene)
     lit = occ.on_time(scene) / scene.camera.exposure_time
     emitted = bright - dark
     if averaging == "light":

@@ -26,7 +26,7 @@ def codes_read(decoder: str, **changes: Any) -> int:
 
 
 @pytest.mark.parametrize("columns", [1.0, 2.0, 2.5, 7.0, 8.5, 17.0, 62.5])
-def test_the_box_is_the_exposures_share_of_each_column(columns: float) -> None:
+def test_the_box_is_the_exposures_fraction_of_each_column(columns: float) -> None:
     taps = box(columns)
     assert len(taps) % 2 == 1
     assert taps.sum() == pytest.approx(1.0)

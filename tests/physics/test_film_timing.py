@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import occ_model as occ
-from occ_model.effects.light_effects import ambient_shares
+from occ_model.effects.light_effects import ambient_fractions
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.packet import sent_chips
 
@@ -72,7 +72,7 @@ def test_the_mains_keep_their_phase_however_long_the_film(index: int, mains: flo
         flicker_depth=0.5, flicker_frequency=mains, flicker_phase=1.0, illuminance=3000.0
     )
     film = occ.render_video(scene, recording=occ.Recording(frame_rate=29.97))
-    seen = ambient_shares(film.scene_of(index))[100]
+    seen = ambient_fractions(film.scene_of(index))[100]
     exposure = scene.camera.exposure_time
     middle = index / Fraction(29.97) + 100 * Fraction(1e-4) + Fraction(exposure) / 2
     with mpmath.workdps(50):

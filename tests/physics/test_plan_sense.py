@@ -120,7 +120,7 @@ def test_profile_and_image_paths_decode_alike_on_the_papers_grid(
 
 
 def few_rows(scene: Scene) -> dict[str, float | int]:
-    """Fewer rows, the same pixels of the panel across, and the same share of it upwards."""
+    """Fewer rows, the same pixels of the panel across, and the same fraction of it upwards."""
     camera, rows = scene.camera, 96
     diagonal = np.hypot(camera.rows, camera.columns) / np.hypot(rows, camera.columns)
     return {

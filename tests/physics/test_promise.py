@@ -87,9 +87,13 @@ def test_a_limit_is_seldom_below_the_truth(observable: Observable) -> None:
 
 @pytest.mark.parametrize("observable", OBSERVABLES)
 def test_what_is_left_out_changes_no_more_than_the_tolerance(observable: Observable) -> None:
-    shares = [share for number in range(SCENES) for share in changes(number, observable)[1]]
-    assert sum(share > 0.0 for share in shares) > SCENES / 4  # the promise was put to the test
-    assert max(shares) <= 1.0
+    fractions = [
+        fraction for number in range(SCENES) for fraction in changes(number, observable)[1]
+    ]
+    assert (
+        sum(fraction > 0.0 for fraction in fractions) > SCENES / 4
+    )  # the promise was put to the test
+    assert max(fractions) <= 1.0
 
 
 @pytest.mark.parametrize(

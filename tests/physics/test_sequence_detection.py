@@ -9,7 +9,7 @@ from physics.exposed_chips import manchester, noise_of, seen_by_rows
 
 import occ_model as occ
 from occ_model.receiver.sequence.exposures import Timing, gather, taps
-from occ_model.receiver.sequence.fit import lit_shares
+from occ_model.receiver.sequence.fit import lit_fractions
 from occ_model.receiver.sequence.search import Chips, beam_chips, best_chips, least_distances
 from occ_model.receiver.sequence.trellis import FREE_CHIPS, Word, trellis_of
 from occ_model.scene.scene import Scene
@@ -52,19 +52,19 @@ def test_4_chips_at_15_db_have_a_rate_near_6_in_10000() -> None:
     assert 3e-4 < wrong / bits < 9e-4
 
 
-def test_the_lit_share_of_a_row_is_that_of_the_chips_under_its_exposure() -> None:
+def test_the_lit_fraction_of_a_row_is_that_of_the_chips_under_its_exposure() -> None:
     values = np.array([1, 0, 0, 1, 1, 0], dtype=np.uint8)
     chips = Chips(0, values, np.ones(6))
     timing = Timing(1.5, 0.25, 0.0)
-    model, slope = lit_shares(chips, timing, 18)
+    model, slope = lit_fractions(chips, timing, 18)
     # Exactly, by a running integral of the light.
     lit = np.concatenate([[0.0], np.cumsum(values)])
     starts = 0.25 * np.arange(18)
     ends = np.interp(np.add.outer([1.5, 1.501], starts), np.arange(7), lit)
     begins = np.interp(np.add.outer([0.0, 0.001], starts), np.arange(7), lit)
-    shares = (ends - begins) / 1.5
-    np.testing.assert_allclose(model, shares[0], atol=1e-12)
-    np.testing.assert_allclose(slope, (shares[1] - shares[0]) / 0.001, atol=1e-9)
+    fractions = (ends - begins) / 1.5
+    np.testing.assert_allclose(model, fractions[0], atol=1e-12)
+    np.testing.assert_allclose(slope, (fractions[1] - fractions[0]) / 0.001, atol=1e-9)
 
 
 @pytest.mark.whole
@@ -135,7 +135,7 @@ def test_the_beam_finds_what_the_whole_trellis_finds(exposure: float) -> None:
 
 
 @pytest.mark.parametrize(
-    ("exposure", "start", "shares"),
+    ("exposure", "start", "fractions"),
     [
         (1.0, 0.25, [0.75, 0.25]),
         (1.5, 0.0, [2 / 3, 1 / 3]),
@@ -144,17 +144,17 @@ def test_the_beam_finds_what_the_whole_trellis_finds(exposure: float) -> None:
     ],
 )
 def test_taps_are_the_overlaps_of_exposure_and_chips(
-    exposure: float, start: float, shares: list[float]
+    exposure: float, start: float, fractions: list[float]
 ) -> None:
     last, found = taps(Timing(exposure, 0.1), np.array([start]))
     in_time = found[0, ::-1][-int(last[0]) - 1 :]
-    np.testing.assert_allclose(in_time[: len(shares)], shares, atol=1e-12)
+    np.testing.assert_allclose(in_time[: len(fractions)], fractions, atol=1e-12)
     assert found.sum() == pytest.approx(1.0)
 
 
 def test_stated_likelihoods_are_those_of_the_errors() -> None:
     # Near the margin of what is readable: of the bits said to be right with a probability of p,
-    # about a share p is right.
+    # about a fraction p is right.
     random = np.random.default_rng(4)
     exposure, decibels = 7.0, 14.0
     sent = manchester(random.integers(0, 2, 20_000))

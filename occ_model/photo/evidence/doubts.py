@@ -8,7 +8,7 @@ import numpy as np
 from occ_model.arrays import FloatArray
 from occ_model.photo.evidence.hypothesis import UNCLIPPED, Hypothesis
 from occ_model.photo.fit.chip_runs import chips_as_one, chips_if_longer, is_single_pulse, runs_of
-from occ_model.photo.stripes.period import unrepeated_share
+from occ_model.photo.stripes.period import unrepeated_fraction
 from occ_model.results.match import Stripes
 
 _LEAST_PERIODS = 1.5  # minimum periods in view of a long pattern that is given
@@ -145,7 +145,7 @@ def _doubts_by_residual(found: Hypothesis, stripes: Stripes) -> list[str]:
     )
     if line is None or line.above_noise < _LEAST_LINE_RATIO:
         return []
-    if line.amplitude < _MOST_AMPLITUDE or line.share < _LEAST_LINE_FRACTION:
+    if line.amplitude < _MOST_AMPLITUDE or line.fraction < _LEAST_LINE_FRACTION:
         return []
     return [
         f"What is left of the stripes repeats after {line.period:.3g} columns, by "
@@ -171,7 +171,7 @@ def _doubts_by_reading(found: Hypothesis, stripes: Stripes) -> list[str]:
     if stripes.period is None:
         return reasons
     left = 1.0 - max(found.fit.correlation, 0.0) ** 2
-    repeated = unrepeated_share(stripes.flattened, stripes.period)
+    repeated = unrepeated_fraction(stripes.flattened, stripes.period)
     most = max(_MOST_RATIO_TO_WAVE * repeated, _WELL_EXPLAINED)
     allowed = min(most, _MOST_UNEXPLAINED)
     if left > allowed:
@@ -197,7 +197,7 @@ class Repetition:
     # Half the difference of its crests and troughs, as a fraction of the stripes' swing.
     amplitude: float
     above_noise: float  # its power over that of the noise around it
-    share: float  # its fraction of the residual's power
+    fraction: float  # its fraction of the residual's power
 
 
 def strongest_line(
@@ -229,8 +229,8 @@ def strongest_line(
     noise = max(float(np.median(power[around])) / math.log(2.0), 1e-12)
     amplitude = 2.0 * float(np.sqrt(power[line])) / float(window.sum())
     own = float(power[max(0, line - _LINE_BINS) : line + _LINE_BINS + 1].sum())
-    share = own / max(float(power.sum()), 1e-300)
-    return Repetition(columns / line, amplitude, float(power[line] / noise), share)
+    fraction = own / max(float(power.sum()), 1e-300)
+    return Repetition(columns / line, amplitude, float(power[line] / noise), fraction)
 
 
 def _harmonics(power: FloatArray, first: float, own: int) -> list[tuple[int, float]]:

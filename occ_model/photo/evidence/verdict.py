@@ -103,11 +103,11 @@ class Judge:
             ]
         reasons = []
         if found.was_read and not self._blinks and is_single_pulse(found.chips):
-            share = 100.0 * float(found.chips.mean())
+            fraction = 100.0 * float(found.chips.mean())
             columns = len(found.chips) / found.fit.timing.step
             reasons += [
                 PLAIN_STRIPES,
-                f"They repeat after {columns:.1f} columns and are bright for {share:.0f} % of "
+                f"They repeat after {columns:.1f} columns and are bright for {fraction:.0f} % of "
                 "them, as those of any regular object are, such as a blind.",
             ]
         elif found.was_read and not self._blinks and likelihood < self._of_wave(found, independent):

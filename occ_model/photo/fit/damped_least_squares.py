@@ -21,7 +21,7 @@ def minimized(
     residual: Callable[[FloatArray], FloatArray],
     first: FloatArray,
     rounds: int,
-    share: float = 0.0,
+    fraction: float = 0.0,
     slopes: Callable[[FloatArray], FloatArray] | None = None,
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Minimize a sum of squares (Levenberg and Marquardt).
@@ -29,7 +29,7 @@ def minimized(
     It ends where a step gains next to nothing: after as many steps as are worth their time.
 
     ``residual`` is in standard deviations of the noise, over parameters scaled so that each changes
-    the sum by about 1 over 1. ``share``: where the noise is not known, the fraction of the sum of
+    the sum by about 1 over 1. ``fraction``: where the noise is not known, the part of the sum of
     squares whose decrease does not matter. ``slopes``: the residual's, shape (residuals,
     parameters); without it they are found by finite differences.
     """
@@ -52,7 +52,7 @@ def minimized(
         if gain <= 0.0:
             break
         steep = slopes(here) if slopes else _differences(residual, here, value)
-        if gain < (share * float(value @ value) if share else _LEAST_GAIN):
+        if gain < (fraction * float(value @ value) if fraction else _LEAST_GAIN):
             break
     return here, value, steep
 

@@ -91,8 +91,8 @@ class Possible:
         columns = float(values[1] / values[0])
         width = columns**2 / 12.0 + float(values[7]) ** 2
         return [
-            self.model.fit(_with_blur(values, math.sqrt(share * width)), rounds=4, shape=shape)
-            for share in _BLUR_FRACTIONS[shape]
+            self.model.fit(_with_blur(values, math.sqrt(fraction * width)), rounds=4, shape=shape)
+            for fraction in _BLUR_FRACTIONS[shape]
         ]
 
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from occ_model.arrays import FloatArray
 
-_LEAST_SHARE = 1e-9  # of the trace of a matrix, added to its diagonal
+_LEAST_FRACTION = 1e-9  # of the trace of a matrix, added to its diagonal
 _MOST_STEPS, _HALVINGS = 40, 10  # Newton's, and those that find the fraction of one of them
 
 
@@ -102,7 +102,7 @@ def solved(matrix: FloatArray, sums: FloatArray) -> FloatArray:
 
     What they leave undetermined is kept small.
     """
-    regular = _with_diagonal(matrix, _LEAST_SHARE * float(np.trace(matrix)))
+    regular = _with_diagonal(matrix, _LEAST_FRACTION * float(np.trace(matrix)))
     return np.asarray(np.linalg.solve(regular, sums.T).T)
 
 
@@ -128,14 +128,14 @@ def at_least_one(
     1. The equations in which those that are count as seen at 1, the levels, and which ones are.
     """
     most = float(np.trace(matrix) + weight * np.sum(columns**2))
-    matrix = _with_diagonal(matrix, _LEAST_SHARE * most)
+    matrix = _with_diagonal(matrix, _LEAST_FRACTION * most)
 
     def counted(below: NDArray[np.bool_]) -> tuple[FloatArray, FloatArray]:
         some = columns[:, below]
         together = matrix + weight * some @ some.T
         return together, np.linalg.solve(together, sums + weight * some.sum(axis=1))
 
-    def share(levels: FloatArray, change: FloatArray) -> float:
+    def fraction(levels: FloatArray, change: FloatArray) -> float:
         """Return the fraction of a change that leads to its least misfit."""
         light, by_change = levels @ columns, change @ columns
         slope, rise = change @ (matrix @ levels - sums), change @ matrix @ change
@@ -153,7 +153,7 @@ def at_least_one(
         if np.array_equal(wanted @ columns < 1.0, below):
             return together, wanted, below
         if levels is not wanted:
-            levels = levels + share(levels, wanted - levels) * (wanted - levels)
+            levels = levels + fraction(levels, wanted - levels) * (wanted - levels)
         below = levels @ columns < 1.0
         together, wanted = counted(below)
     return together, levels, below

@@ -133,9 +133,9 @@ def _envelope(turns: IndexArray, levels: FloatArray, is_high: np.ndarray) -> Flo
     place, high = turns[is_high].astype(np.float64), levels[is_high].copy()
     if len(high) > 2:
         # A line through its neighbours passes above a short chip.
-        share = (place[1:-1] - place[:-2]) / (place[2:] - place[:-2])
-        high[1:-1] = np.maximum(high[1:-1], levels[is_high][:-2] * (1.0 - share)
-                                + levels[is_high][2:] * share)  # fmt: skip
+        fraction = (place[1:-1] - place[:-2]) / (place[2:] - place[:-2])
+        high[1:-1] = np.maximum(high[1:-1], levels[is_high][:-2] * (1.0 - fraction)
+                                + levels[is_high][2:] * fraction)  # fmt: skip
     return np.asarray(np.interp(turns, place, high))
 
 

@@ -64,9 +64,9 @@ def find_lamps(photo: Photo, progress: Callable[[float], object] | None = None) 
     tuple of Lamp
         The brightest first, of equally bright ones the largest; also those that touch each other.
     """
-    report = progress or (lambda _share: None)
+    report = progress or (lambda _fraction: None)
     report(0.0)
-    means, bounds = strips_of(photo, lambda share: report(0.4 * share))
+    means, bounds = strips_of(photo, lambda fraction: report(0.4 * fraction))
     strips = []
     for number, profile in enumerate(means):
         strips.append(edges_of(profile))
@@ -178,9 +178,9 @@ def _counts_some(one: Blinking, means: FloatArray) -> bool:
 
     Light that an exposure longer than a chip has gathered never falls to that of the surroundings.
     """
-    share = one.dark / max(one.light + one.dark, 1e-9)
-    if not _BLURRED < share < _HARDLY_STRIPED:
-        return share >= _HARDLY_STRIPED
+    fraction = one.dark / max(one.light + one.dark, 1e-9)
+    if not _BLURRED < fraction < _HARDLY_STRIPED:
+        return fraction >= _HARDLY_STRIPED
     region, period = one.lamp.region, one.lamp.period
     quarter = len(means) // 4
     inner = means[quarter : len(means) - quarter, region.first_column : region.last_column]

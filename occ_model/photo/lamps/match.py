@@ -46,8 +46,8 @@ def match_lamps(
     ParameterError
         ``estimate``, ``sent`` or ``averaging`` is not one of its words.
     """
-    report = progress or (lambda _share: None)
-    lamps = find_lamps(photo, lambda share: report(_SEARCH * share))
+    report = progress or (lambda _fraction: None)
+    lamps = find_lamps(photo, lambda fraction: report(_SEARCH * fraction))
     matched: list[MatchedLamp] = []
     each = (1.0 - _SEARCH) / max(len(lamps), 1)
 
@@ -60,7 +60,7 @@ def match_lamps(
             averaging=averaging,
             fit_gamma=fit_gamma,
             region=lamp,
-            progress=lambda share: report(begin + each * share),
+            progress=lambda fraction: report(begin + each * fraction),
         )
 
     for number, lamp in enumerate(lamps):

@@ -54,7 +54,7 @@ def row_of(
     A sentence stands in the row where that fails.
     """
 
-    def report(_share: float) -> None:
+    def report(_fraction: float) -> None:
         heartbeat()
 
     own, given = settings.of(place), dict(settings.known).get(place)

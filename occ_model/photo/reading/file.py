@@ -142,14 +142,14 @@ def _check_file(path: Path, max_pixels: int) -> None:
 
 
 def _first_picture(
-    path: Path, file: WatchedFile, max_pixels: int, shares: tuple[float, float]
+    path: Path, file: WatchedFile, max_pixels: int, fractions: tuple[float, float]
 ) -> "ImageFile":
     """Open the file's first picture, and check its size before anything of it is decoded."""
     shown, size = one_line(str(path)), os.fstat(file.fileno()).st_size
     name, factory = format_and_factory(path, file)
     check_file_size(path, name, size)
     file.seek(0, os.SEEK_SET)
-    file.watch(size, *shares)
+    file.watch(size, *fractions)
     try:
         picture = factory(file)
     except SyntaxError as error:  # Pillow's error for an invalid header

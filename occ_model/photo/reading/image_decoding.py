@@ -223,7 +223,7 @@ def take_channel(picture: DecodedPicture, channel: str, report: Progress) -> tup
     take: _Take = lambda pixels: pixels  # noqa: E731 - a channel may be all there is
     name = "grey"
     if first.ndim == 3:
-        means, has_colours = _colours_of(picture, lambda share: report(0.5 * share))
+        means, has_colours = _colours_of(picture, lambda fraction: report(0.5 * fraction))
         take, name = _choice(means, has_colours, channel, _NEAR_TIE * white_of(first) / 255)
     samples = np.empty(picture.shape, first.dtype)
     rows = len(samples)

@@ -200,7 +200,7 @@ def _taken(
     try:
         notes, orientation = camera_notes(decoded.picture), orientation_of(decoded.picture)
         samples, taken = take_channel(
-            decoded, channel, lambda share: report(DECODED + (1.0 - DECODED) * share)
+            decoded, channel, lambda fraction: report(DECODED + (1.0 - DECODED) * fraction)
         )
     finally:
         decoded.close()

@@ -271,6 +271,6 @@ def _words(error: Exception) -> str:
 
 def _light_of(black: float, white: float) -> NDArray[np.uint16]:
     """Return the sample of every value that a photosite can have, shape (65536,)."""
-    share = np.clip((np.arange(65536) - black) / (white - black), 0.0, 1.0)
-    light: NDArray[np.uint16] = np.rint(share * WHITE_SAMPLE).astype(np.uint16)
+    fraction = np.clip((np.arange(65536) - black) / (white - black), 0.0, 1.0)
+    light: NDArray[np.uint16] = np.rint(fraction * WHITE_SAMPLE).astype(np.uint16)
     return light

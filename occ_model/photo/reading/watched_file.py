@@ -21,12 +21,12 @@ class Reporter:
         self._progress = progress
         self.ended_by: BaseException | None = None
 
-    def __call__(self, share: float) -> None:
+    def __call__(self, fraction: float) -> None:
         """Report the fraction of the work that is done, from 0 to 1."""
         if self._progress is None:
             return
         try:
-            self._progress(share)
+            self._progress(fraction)
         except BaseException as error:
             self.ended_by = error
             raise

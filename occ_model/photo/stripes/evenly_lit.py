@@ -103,9 +103,11 @@ class Cells:
         core = rows > steps[-1]
         if core.any():
             # The brighter a row is lit, the more of it is clipped.
-            share = self.clipped.mean(axis=1)
-            ranks = np.quantile(share[core], np.linspace(0.0, 1.0, _CLIPPED_GROUPS + 1))
-            groups += [core & (low <= share) & (share <= high) for low, high in pairwise(ranks)]
+            fraction = self.clipped.mean(axis=1)
+            ranks = np.quantile(fraction[core], np.linspace(0.0, 1.0, _CLIPPED_GROUPS + 1))
+            groups += [
+                core & (low <= fraction) & (fraction <= high) for low, high in pairwise(ranks)
+            ]
         return [group for group in groups if group.any()]
 
     def _profile(self, group: NDArray[np.bool_]) -> EvenProfile | None:
@@ -115,16 +117,16 @@ class Cells:
         seen = count >= max(1.0, _LEAST_CELLS * float(np.median(count[count > 0.0])))
         count = np.maximum(count, 1.0)
         values = np.where(group, self.means, 0.0).sum(axis=0, dtype=np.float64) / count
-        share = np.where(group, self.clipped, 0.0).sum(axis=0, dtype=np.float64) / count
+        fraction = np.where(group, self.clipped, 0.0).sum(axis=0, dtype=np.float64) / count
         near = cv2.dilate(
-            (share > _UNCLIPPED).astype(np.uint8)[None],
+            (fraction > _UNCLIPPED).astype(np.uint8)[None],
             np.ones((1, 2 * _BLURRED_COLUMNS + 1), np.uint8),
         )[0]
         kept = seen & (near == 0)
         if kept.sum() < _LEAST_COLUMNS:
             return None
         rows = self.rows_a_band * float(np.median(count[kept]))
-        return EvenProfile(values, kept, seen & (share > _ALL_CLIPPED), rows)
+        return EvenProfile(values, kept, seen & (fraction > _ALL_CLIPPED), rows)
 
 
 def _row_mean(rows: NDArray[np.uint8 | np.uint16]) -> FloatArray:

@@ -82,7 +82,7 @@ def _refined(flattened: FloatArray, period: float) -> tuple[float, float]:
     return best, float(np.sqrt(variance / max(float(slope @ slope), 1e-300)))
 
 
-def unrepeated_share(flattened: FloatArray, period: float) -> float:
+def unrepeated_fraction(flattened: FloatArray, period: float) -> float:
     """Return the fraction of a profile's variance that no repeated wave of a period explains."""
     residual = without_repetition(flattened, period)
     about = flattened - flattened.mean()

@@ -236,8 +236,8 @@ def _level_correlations(folded: FloatArray, models: FloatArray) -> FloatArray:
     between = np.add.reduceat(light.ravel(), starts) ** 2 / counts
     energy = float(light[0] @ light[0])
     # A signal that folds to one level correlates with nothing.
-    shares = np.bincount(starts // bins, between, minlength=rows) / (energy or np.inf)
-    return np.asarray(np.sqrt(np.clip(shares, 0.0, 1.0)))
+    fractions = np.bincount(starts // bins, between, minlength=rows) / (energy or np.inf)
+    return np.asarray(np.sqrt(np.clip(fractions, 0.0, 1.0)))
 
 
 def _unexplained(correlation: float) -> float:

@@ -51,10 +51,10 @@ def code_templates(bits: int, exposure: Fraction) -> CodeTemplates:
     response = chip_response(packet_length(bits), exposure)
     bins = np.arange(len(response))
     some = np.arange(0, 2**bits, max(1, 2**bits // _TONE_CODES))
-    shares = (bins + 0.5) / len(bins)
+    fractions = (bins + 0.5) / len(bins)
     # As numpy.quantile gives them, which finds each place apart and takes five times as long.
     values = np.sort(_profiles(some, bits, response), axis=None)
-    levels = np.interp(shares * (values.size - 1), np.arange(values.size), values)
+    levels = np.interp(fractions * (values.size - 1), np.arange(values.size), values)
     templates = CodeTemplates(bits, response, _energies(bits, response), levels)
     for array in (templates.response, templates.energy, templates.levels):
         array.flags.writeable = False  # it is cached and shared

@@ -136,7 +136,7 @@ def _improved(
 
 
 def _with_steps(result: DecodeResult, fit: Fit, light: Light) -> DecodeResult:
-    fraction = fit.brightness.lit_share(light.values)
+    fraction = fit.brightness.lit_fraction(light.values)
     count = len(fraction)
     places = fit.chips.first + np.arange(len(fit.chips.values)) - fit.timing.phase
     starts = np.asarray(places / fit.timing.step, dtype=np.float64)

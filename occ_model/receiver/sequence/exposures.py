@@ -74,9 +74,9 @@ def _pairs(count: int) -> tuple[IndexArray, IndexArray]:
 def _kinds(reach: int) -> tuple[IndexArray, IndexArray, IndexArray, IndexArray]:
     """Return how the chips of an exposure share their sums over rows.
 
-    Between its first chips and its last ones all have the same share. Returns a chip of each kind,
-    the pairs of kinds whose shares are multiplied, and which sum each feature is: first those of a
-    kind and the light, then those products.
+    Between its first chips and its last ones all have the same fraction. Returns a chip of each
+    kind, the pairs of kinds whose fractions are multiplied, and which sum each feature is: first
+    those of a kind and the light, then those products.
     """
     kind = np.clip(np.arange(reach), None, 1)
     kind[-2:] = np.arange(reach)[-2:] if reach < _KINDS else (2, 3)
@@ -92,10 +92,10 @@ def _kinds(reach: int) -> tuple[IndexArray, IndexArray, IndexArray, IndexArray]:
 
 def gather(light: FloatArray, timing: Timing) -> ChipStatistics:
     """Gather rows, each a fraction of full light, by the chip that each of them ends in."""
-    last, shares = taps(timing, timing.starts(len(light)))
-    first, reach = int(last[0]), shares.shape[1]
+    last, fractions = taps(timing, timing.starts(len(light)))
+    first, reach = int(last[0]), fractions.shape[1]
     chosen, one, other, sums = _kinds(reach)
-    of_kinds = np.ascontiguousarray(shares[:, chosen].T)
+    of_kinds = np.ascontiguousarray(fractions[:, chosen].T)
     # Differences of running sums: exact enough, as no sum exceeds the number of rows.
     running = np.zeros((len(chosen) + len(one) + 1, len(light) + 1))
     terms = running[:, 1:]

@@ -37,7 +37,7 @@ class Brightness:
     dark: FloatArray
     swing: FloatArray
 
-    def lit_share(self, light: FloatArray) -> FloatArray:
+    def lit_fraction(self, light: FloatArray) -> FloatArray:
         """Return the fraction of full light of each row."""
         return (light - self.dark) / self.swing
 
@@ -85,13 +85,13 @@ class Rows:
     expected: FloatArray
 
 
-def lit_shares(chips: Chips, timing: Timing, rows: int) -> tuple[FloatArray, FloatArray]:
+def lit_fractions(chips: Chips, timing: Timing, rows: int) -> tuple[FloatArray, FloatArray]:
     """Return the lit fraction of each row's exposure, and its derivative by the phase."""
     starts = timing.starts(rows)
-    last, shares = taps(timing, starts)
-    place = last[:, None] - np.arange(shares.shape[1]) - chips.first
+    last, fractions = taps(timing, starts)
+    place = last[:, None] - np.arange(fractions.shape[1]) - chips.first
     lit = chips.values[np.clip(place, 0, len(chips.values) - 1)].astype(np.float64)
-    model = np.einsum("ij,ij->i", shares, lit)
+    model = np.einsum("ij,ij->i", fractions, lit)
     # The exposure gains the chip that it ends in and loses the one that it starts in.
     first = np.clip(np.floor(starts).astype(np.int64) - chips.first, 0, len(chips.values) - 1)
     return model, (lit[:, 0] - chips.values[first]) / timing.exposure
@@ -119,7 +119,7 @@ def find_phase(
     count = min(len(rows.light), round((TRIED_CHIPS + timing.exposure) / timing.step))
     first = (len(rows.light) - count) // 2
     part = slice(first, first + count)
-    light = brightness.lit_share(rows.light)[part]
+    light = brightness.lit_fraction(rows.light)[part]
     tried = [
         replace(timing, phase=timing.step * first + place / _PHASES) for place in range(_PHASES)
     ]
@@ -128,16 +128,16 @@ def find_phase(
         distances = least_distances(trellis_of(words, timing.memory), seen)
     else:
         chips = [_likeliest(words, timing, one) for one in seen]
-        models = [lit_shares(c, t, count)[0] for c, t in zip(chips, tried, strict=True)]
+        models = [lit_fractions(c, t, count)[0] for c, t in zip(chips, tried, strict=True)]
         distances = np.array([float(np.sum((light - model) ** 2)) for model in models])
     best = tried[int(np.argmin(distances))]
     return replace(best, phase=best.phase - timing.step * first)
 
 
 def detect(rows: Rows, timing: Timing, brightness: Brightness, words: tuple[Word, ...]) -> Fit:
-    fraction = brightness.lit_share(rows.light)
+    fraction = brightness.lit_fraction(rows.light)
     chips = _likeliest(words, timing, gather(fraction, timing))
-    model, _ = lit_shares(chips, timing, len(fraction))
+    model, _ = lit_fractions(chips, timing, len(fraction))
     return Fit(chips, timing, brightness, model, fraction - model)
 
 
@@ -150,7 +150,7 @@ def _likeliest(words: tuple[Word, ...], timing: Timing, statistics: ChipStatisti
 def improve(rows: Rows, fit: Fit) -> tuple[Timing, Brightness]:
     """Improve the timing and the brightness by least squares, the chips being as detected."""
     count = len(rows.light)
-    model, slope = lit_shares(fit.chips, fit.timing, count)
+    model, slope = lit_fractions(fit.chips, fit.timing, count)
     # The light is linear in a and b, each a parabola over the picture, and nearly in the timing.
     powers = _powers(count)
     terms = np.concatenate([powers, powers * model, powers[:2] * (slope * fit.brightness.swing)])

@@ -61,7 +61,7 @@ def light_depth(scene: Scene, exposed: ExposedLight | None = None) -> Depth:
     Extremes and variances of the code's light and of the flicker add, as all phases combine.
     """
     exposed = exposed or exposed_light_of(scene)
-    of_lamp, of_flicker = light_shares(scene)
+    of_lamp, of_flicker = light_fractions(scene)
     low, high = exposed.extremes
     of_lamp /= float(exposure_in_chips(scene))
     of_flicker *= seen_depth(scene)
@@ -71,7 +71,7 @@ def light_depth(scene: Scene, exposed: ExposedLight | None = None) -> Depth:
     )
 
 
-def light_shares(scene: Scene) -> tuple[float, float]:
+def light_fractions(scene: Scene) -> tuple[float, float]:
     """Return the light of the lit lamp and of the surroundings, relative to the mean of both."""
     dark, bright = (float(each) for each in luminance_levels(scene))
     mean = dark + (bright - dark) * duty(scene)

@@ -48,8 +48,8 @@ class ExposedLight:
         place, weight = _gauss_legendre(nodes)
         place = 0.5 * (place + 1.0)
         first, slope, bend = (each[:, None] for each in self._coefficients())
-        shares = self.lengths / self.lengths.sum()
-        return first + place * (slope + place * bend), 0.5 * weight * shares[:, None]
+        fractions = self.lengths / self.lengths.sum()
+        return first + place * (slope + place * bend), 0.5 * weight * fractions[:, None]
 
     def _coefficients(self) -> tuple[FloatArray, FloatArray, FloatArray]:
         first, middle, last = self.values.T

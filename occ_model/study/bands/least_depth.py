@@ -10,7 +10,7 @@ from occ_model.arrays import FloatArray
 from occ_model.results.bands import DepthMap
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene, check_scene
-from occ_model.study.bands.depth import light_shares
+from occ_model.study.bands.depth import light_fractions
 from occ_model.transmitter.packet import sent_chips
 
 _MAX_NODES = 10_000  # maximum nodes evaluated in a range; beyond, bars are invisible
@@ -37,7 +37,7 @@ class DepthOver:
     def of(cls, scene: Scene) -> Self:
         """Return the depth for a scene's code and light."""
         check_scene(scene)
-        of_lamp, around = light_shares(scene)
+        of_lamp, around = light_fractions(scene)
         surroundings = scene.surroundings
         chips = sent_chips(scene.transmitter).tobytes()
         swing = 2.0 * surroundings.flicker_depth * around

@@ -35,7 +35,7 @@ fundamental = 2 / np.pi * np.abs(np.sinc(frequencies / 2 * exposure))
 axis.plot(frequencies / 1e3, fundamental, "--", label="(2/π) |sinc(f t / 2)|")
 for order in (1, 2):
     axis.axvline(order * 2 / exposure / 1e3, color="grey", linewidth=0.8)
-axis.set(xlabel="switching frequency in kHz", ylabel="half swing, share of full light")
+axis.set(xlabel="switching frequency in kHz", ylabel="half swing, fraction of full light")
 axis.legend()
 figure.tight_layout()
 plt.show()

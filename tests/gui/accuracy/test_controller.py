@@ -26,7 +26,7 @@ from occ_model.results.accuracy import (
     AccuracyPoint,
     Forecast,
     MeasuredCosts,
-    TimeShares,
+    TimeFractions,
 )
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
@@ -262,7 +262,7 @@ def test_costs_of_another_scene_or_observable_are_not_used(
     tiny: SimulationRequest, reports: list[object]
 ) -> None:
     costs = [r for r in reports if isinstance(r, SceneCosts)][-1]
-    times = TimeShares.of(occ.render(tiny.scene))
+    times = TimeFractions.of(occ.render(tiny.scene))
     assert costs.of(tiny, times).differences
     other = replace(tiny, scene=tiny.scene.replace(iso=200.0))
     assert costs.of(other, times) == MeasuredCosts(times)
@@ -271,14 +271,14 @@ def test_costs_of_another_scene_or_observable_are_not_used(
     assert not costs.of(profile, times).differences
     assert costs.of(profile, times).others
     made = tuple(
-        TimeShares(dict.fromkeys(names, 0.1), {"paint": 0.2}, {}, True)
+        TimeFractions(dict.fromkeys(names, 0.1), {"paint": 0.2}, {}, True)
         for names in ([], ["jpeg"], ["jpeg", "vignetting"])
     )
     costs = SceneCosts(tiny, made)
     for one in made:
         shown = replace(one, stages={"paint": 9.0})
         assert costs.of(tiny, shown).picture is one
-    unlike = TimeShares({"vignetting": 0.1}, {}, {}, True)
+    unlike = TimeFractions({"vignetting": 0.1}, {}, {}, True)
     assert costs.of(tiny, unlike).picture is unlike
 
 
@@ -287,16 +287,16 @@ def test_all_times_that_are_stated_of_a_scene_are_of_one_measurement(
 ) -> None:
     costs = [r for r in reports if isinstance(r, SceneCosts)][-1]
     frame = occ.render(tiny.scene, noise="reused")
-    stated = costs.of(tiny, TimeShares.of(frame))
+    stated = costs.of(tiny, TimeFractions.of(frame))
     assert stated.is_comparable
     assert stated.picture.included == set(frame.plan.included)
     points = [m.point for m in reports if isinstance(m, Measured) and m.point.part == "effects"]
     (now,) = [point for point in points if point.current]
     assert now.seconds == stated.picture.seconds
-    (bare,) = [shares for shares in stated.others if not shares.included]
+    (bare,) = [fractions for fractions in stated.others if not fractions.included]
     assert points[0].seconds == bare.seconds
     slower = replace(tiny, settings=replace(FIRST_SETTINGS, noise="exact"))
-    assert not costs.of(slower, TimeShares.of(frame)).is_comparable
+    assert not costs.of(slower, TimeFractions.of(frame)).is_comparable
 
 
 def test_a_forecast_is_made_at_every_change_of_the_settings(bench: Bench, qtbot: QtBot) -> None:

@@ -6,7 +6,7 @@ import pytest
 
 import occ_model as occ
 from occ_gui.accuracy.cost_sentences import ends_sentence, forecast_sentence, picture_sentence
-from occ_model.results.accuracy import Forecast, MeasuredCosts, TimeShares
+from occ_model.results.accuracy import Forecast, MeasuredCosts, TimeFractions
 from occ_model.results.frame import Frame
 
 
@@ -16,12 +16,12 @@ def frame() -> Frame:
     return occ.render(scene, noise="reused")
 
 
-def shares(milliseconds: float, *effects: str) -> TimeShares:
-    return TimeShares(dict.fromkeys(effects, 0.001), {"image": 1e-3 * milliseconds}, {}, True)
+def fractions(milliseconds: float, *effects: str) -> TimeFractions:
+    return TimeFractions(dict.fromkeys(effects, 0.001), {"image": 1e-3 * milliseconds}, {}, True)
 
 
 def test_an_error_is_called_measured_predicted_or_promised(frame: Frame) -> None:
-    costs = MeasuredCosts(shares(4.0))
+    costs = MeasuredCosts(fractions(4.0))
     plan = frame.plan
     assert picture_sentence(costs, 0.004, None) == "This picture: 4.0 ms."
     exact = occ.plan(frame.scene, 0.0)
@@ -38,7 +38,7 @@ def test_an_error_is_called_measured_predicted_or_promised(frame: Frame) -> None
 def test_no_promise_is_made_of_what_is_off_by_hand_or_without_limit(frame: Frame) -> None:
     for tolerance, force in ((math.inf, {}), (0.5, {"led-edges": False})):
         plan = occ.plan(frame.scene, tolerance, force=force)
-        costs = MeasuredCosts(shares(4.0))
+        costs = MeasuredCosts(fractions(4.0))
         sentence = picture_sentence(costs, 0.004, Forecast(plan, None, None, is_measured=False))
         assert sentence.endswith("error not measured yet.")
 
@@ -46,15 +46,15 @@ def test_no_promise_is_made_of_what_is_off_by_hand_or_without_limit(frame: Frame
 def test_a_forecast_names_what_is_switched_either_way(frame: Frame) -> None:
     after = occ.plan(frame.scene, force={"led-edges": False, "jpeg": True})
     found = Forecast(after, 0.01, 2.0, is_measured=False)
-    assert forecast_sentence(frame, shares(4.0), found) == (
+    assert forecast_sentence(frame, fractions(4.0), found) == (
         "Next: about 10.0 ms, now 4.0; error about 2 levels (predicted). "
         "Switches in: JPEG. Switches out: LED rise and fall."
     )
 
 
 def test_a_time_that_was_measured_again_is_stated_beside_that_of_the_picture_shown() -> None:
-    picture = shares(4.0, "jpeg")
-    again = MeasuredCosts(picture, (picture, shares(1.0)))
+    picture = fractions(4.0, "jpeg")
+    again = MeasuredCosts(picture, (picture, fractions(1.0)))
     assert picture_sentence(again, 0.187, None) == (
         "This picture: 5.0 ms, measured again (187 at first)."
     )
@@ -62,7 +62,11 @@ def test_a_time_that_was_measured_again_is_stated_beside_that_of_the_picture_sho
 
 
 def test_the_ends_of_the_slider_are_stated_once_all_are_measured_in_turn() -> None:
-    picture, bare, complete = shares(4.0, "jpeg"), shares(1.0), shares(8.0, "jpeg", "flicker")
+    picture, bare, complete = (
+        fractions(4.0, "jpeg"),
+        fractions(1.0),
+        fractions(8.0, "jpeg", "flicker"),
+    )
     errors = {frozenset[str](): 12.34}
     assert ends_sentence(MeasuredCosts(picture), "levels") == ""
     assert ends_sentence(MeasuredCosts(picture, (picture, complete, bare)), "levels") == ""
@@ -75,6 +79,6 @@ def test_the_ends_of_the_slider_are_stated_once_all_are_measured_in_turn() -> No
 
 
 def test_times_of_different_moments_are_not_compared() -> None:
-    others = (shares(205.0), shares(220.0, "jpeg"))
-    stale = MeasuredCosts(shares(90.0, "jpeg"), others, errors={frozenset(): 9.7})
+    others = (fractions(205.0), fractions(220.0, "jpeg"))
+    stale = MeasuredCosts(fractions(90.0, "jpeg"), others, errors={frozenset(): 9.7})
     assert ends_sentence(stale, "levels") == ""

@@ -28,7 +28,7 @@ from occ_model.results.accuracy import (
     EffectDifference,
     Forecast,
     MeasuredCosts,
-    TimeShares,
+    TimeFractions,
 )
 from occ_model.results.frame import Frame
 
@@ -45,7 +45,7 @@ def frame(snapshot_of: SnapshotOf) -> Frame:
 
 def costs_of(frame: Frame, **measured: EffectDifference) -> MeasuredCosts:
     differences = {name.replace("_", "-"): found for name, found in measured.items()}
-    return MeasuredCosts(TimeShares.of(frame), differences=differences)
+    return MeasuredCosts(TimeFractions.of(frame), differences=differences)
 
 
 def difference(effect: str, error: float) -> EffectDifference:
@@ -283,14 +283,14 @@ def test_times_that_are_measured_again_shuffle_no_rows(
 
 def test_of_some_runs_each_effect_takes_its_fastest() -> None:
     runs = [
-        TimeShares({"jpeg": jpeg, "defocus": defocus}, {"image": image}, {}, True)
+        TimeFractions({"jpeg": jpeg, "defocus": defocus}, {"image": image}, {}, True)
         for jpeg, defocus, image in ((4.0, 1.0, 3.0), (2.0, 9.0, 4.0), (2.5, 1.5, 8.0))
     ]
-    found = TimeShares.of_runs(runs)
+    found = TimeFractions.of_runs(runs)
     assert (found.effects, found.stages) == ({"jpeg": 2.0, "defocus": 1.0}, {"image": 3.0})
     assert found.scatter == {"jpeg": 0.5, "defocus": 0.5}
     assert found.seconds == 6.0
-    assert TimeShares.of_runs(runs[:1]).scatter == {"jpeg": 0.0, "defocus": 0.0}
+    assert TimeFractions.of_runs(runs[:1]).scatter == {"jpeg": 0.0, "defocus": 0.0}
 
 
 def test_the_name_of_the_effect_chosen_is_bold_and_the_tables_text_small(

@@ -173,7 +173,7 @@ def test_six_doors_give_the_same_number(
     lines = [line for line in table.read_text(encoding="utf-8").splitlines() if line[0] != "#"]
     (line,) = csv.DictReader(lines)
     assert float(line["success rate (%)"]) == wanted
-    assert 100.0 * rate.share == pytest.approx(wanted, abs=1e-9)
+    assert 100.0 * rate.fraction == pytest.approx(wanted, abs=1e-9)
     assert 100.0 * strip.right[0] / strip.sent == wanted
     assert 100.0 * of_map.right[0] / of_map.sent == wanted
     assert own.rate == wanted
@@ -259,12 +259,12 @@ def test_strip_and_banner_state_the_rate_of_the_study(
     (whole,) = right_and_whole(scene, RateSettings(20, ("threshold",), SEED))[1]
     assert own.rate is not None
     assert own.rate.whole == whole
-    assert {round(100.0 * s.present.share, 9) for s in strips.values() if s.present} == {rate}
+    assert {round(100.0 * s.present.fraction, 9) for s in strips.values() if s.present} == {rate}
     shown = {chip.key: chip.text for chip in application.story.verdict.chips.chips}
     assert shown["rate"] == f"of 20 pictures: {rate:.3g} % of bits"
     strip = strips["iso"]
     assert f"{rate:.3g} % of the bits of 20 pictures" in strip.toolTip()
-    strip.show_shares((0.0,) * 9)
+    strip.show_fractions((0.0,) * 9)
     wanted = to_colours(np.array([[rate]]), 0.0, 100.0, RATES)[0, 0, :3].tolist()
     seen = strip.grab().toImage().pixelColor(round(handle_middle(strip._slider) - strip.x() + 9), 3)
     assert [seen.red(), seen.green(), seen.blue()] == wanted

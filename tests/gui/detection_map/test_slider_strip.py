@@ -31,17 +31,17 @@ from occ_model.scene.scene import Scene
 
 POSITIONS = 9
 NAMES = ("switching_frequency", "iso")
-Shares = tuple[float | None, ...]
+Fractions = tuple[float | None, ...]
 
 
 class RecordingStrip:
     """A strip that keeps what it shows."""
 
-    shares: Shares = ()
+    fractions: Fractions = ()
     outdated = False
 
-    def show_shares(self, shares: Shares) -> None:
-        self.shares = shares
+    def show_fractions(self, fractions: Fractions) -> None:
+        self.fractions = fractions
 
     def show_outdated(self, outdated: bool) -> None:
         self.outdated = outdated
@@ -58,9 +58,9 @@ class Bench:
         self.scenes = store_of(scene)
         self.controller = SliderStripController(self.scenes, self.queue.channels[0], strips)
 
-    def wait_until_idle(self) -> dict[str, Shares]:
+    def wait_until_idle(self) -> dict[str, Fractions]:
         self._qtbot.waitUntil(lambda: self.controller.is_idle)
-        return {name: strip.shares for name, strip in self.strips.items()}
+        return {name: strip.fractions for name, strip in self.strips.items()}
 
     def outdated(self) -> dict[str, bool]:
         return {name: strip.outdated for name, strip in self.strips.items()}
@@ -85,14 +85,14 @@ def test_a_strip_is_the_success_rate_along_its_slider(bench: Bench, decoder: str
     store = bench.scenes.store
     store.put(replace(store.workspace, decoder=decoder))
     bench.controller.set_seen(True)
-    shares = bench.wait_until_idle()
+    fractions = bench.wait_until_idle()
     scene = bench.scenes.scene
     for name in NAMES:
         rates = [
             occ.success_rate(scene.replace(**{name: value}), IMAGES, decoder)
             for value in lattice(name, POSITIONS)
         ]
-        assert shares[name] == pytest.approx([rate / 100 for rate in rates])
+        assert fractions[name] == pytest.approx([rate / 100 for rate in rates])
 
 
 def test_nothing_is_measured_while_the_strips_are_not_seen(bench: Bench, qtbot: QtBot) -> None:
@@ -168,13 +168,13 @@ def test_a_strip_begins_and_ends_where_the_handle_does(strips: SliderStrips) -> 
 
 def test_a_strip_has_the_colours_of_the_map_and_says_what_it_is(strips: SliderStrips) -> None:
     strip = strips.strips["iso"]
-    strip.show_shares((0.0, 0.5, None, 1.0))
+    strip.show_fractions((0.0, 0.5, None, 1.0))
     strip.show_present(None)
     picture, (first, last) = strip.grab().toImage(), strip.span()
     wanted = to_colours(np.array([[0.0, 50.0, 100.0]]), 0.0, 100.0, RATES)[0, :, :3].tolist()
     seen = []
-    for share in (0.1, 0.35, 0.65, 0.9):
-        colour = picture.pixelColor(round(first + share * (last - first)), 3)
+    for fraction in (0.1, 0.35, 0.65, 0.9):
+        colour = picture.pixelColor(round(first + fraction * (last - first)), 3)
         seen.append([colour.red(), colour.green(), colour.blue()])
     unknown = seen.pop(2)
     assert seen == wanted
@@ -191,7 +191,7 @@ def test_an_outdated_strip_says_so_at_once_and_fades_later(qtbot: QtBot) -> None
     for widget in (row, strip):
         qtbot.addWidget(widget)
     strip.resize(200, 6)
-    strip.show_shares((1.0,) * 5)
+    strip.show_fractions((1.0,) * 5)
     shown = strip.grab().toImage()
     strip.show_outdated(True)
     assert strip.accessibleDescription() == "earlier scene: read at 5 of 5 positions"
@@ -221,7 +221,7 @@ def test_the_legend_shows_and_says_what_the_colours_mean_and_gives_way_to_the_sl
     assert {tuple(end) for end in ends.tolist()} <= seen
 
 
-def test_new_shares_are_painted_at_once(qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_new_fractions_are_painted_at_once(qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) -> None:
     slider = QSlider()
     strip = add_widget(qtbot, SliderStrip(slider, "Frequency"))
     qtbot.addWidget(slider)
@@ -233,7 +233,7 @@ def test_new_shares_are_painted_at_once(qtbot: QtBot, monkeypatch: pytest.Monkey
     strip.setToolTip("")
     QApplication.processEvents()
     assert not painted
-    strip.show_shares((0.0, 0.5, 1.0))
+    strip.show_fractions((0.0, 0.5, 1.0))
     QApplication.processEvents()
     assert painted
 

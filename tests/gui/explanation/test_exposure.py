@@ -37,9 +37,9 @@ def test_chips_window_and_time_on_are_drawn_in_microseconds(
     assert plot.lit.opts["x0"] == pytest.approx(parts[:, 0])
     assert plot.lit.opts["x1"] == pytest.approx(parts[:, 1])
     assert plot.lit.opts["brush"].style() == Qt.BrushStyle.BDiagPattern
-    share = 100 * window.on_time / 68e-6
+    fraction = 100 * window.on_time / 68e-6
     messages = (
-        f"Column 1003: 68 µs exposure, LED on for {window.on_time * 1e6:.4g} µs ({share:.0f} %)"
+        f"Column 1003: 68 µs exposure, LED on for {window.on_time * 1e6:.4g} µs ({fraction:.0f} %)"
     )
     assert plot.sentence.text() == f"{messages} → 42.2 grey levels"
     first, last = plot.plot.getViewBox().viewRange()[0]
@@ -125,7 +125,7 @@ def test_mouse_click_and_keys_over_the_profile_choose_a_column(seen: Bench, qtbo
     exposure, plot = seen.view, seen.plot
     viewport = plot.viewport()
     first, last = plot.getViewBox().viewRange()[0]
-    there, place = (round(first + share * (last - first)) for share in (0.3, 0.6))
+    there, place = (round(first + fraction * (last - first)) for fraction in (0.3, 0.6))
     move_to(plot, there)
     qtbot.waitUntil(lambda: abs(exposure.column.value() - there) <= 1)
     qtbot.mouseClick(viewport, Qt.MouseButton.LeftButton, pos=place_of(plot, place))

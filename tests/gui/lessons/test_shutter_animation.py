@@ -46,5 +46,5 @@ def test_no_exposure_is_drawn_over_the_one_before(widget: QWidget, shutter: Roll
 
 
 def test_a_stripe_is_the_brighter_the_more_light_it_has_gathered() -> None:
-    levels = [_grey(share).red() for share in (-0.1, 0.0, 0.5, 1.0, 1.1)]
+    levels = [_grey(fraction).red() for fraction in (-0.1, 0.0, 0.5, 1.0, 1.1)]
     assert levels[0] == levels[1] < levels[2] < levels[3] == levels[4] == 255

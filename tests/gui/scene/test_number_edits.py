@@ -128,7 +128,7 @@ def test_showing_a_value_emits_nothing_and_drops_typed_text_and_a_refusal_is_emi
     assert len(field.refused) == 1
 
 
-def test_arrow_keys_step_by_one_share_along_the_scale_from_what_was_typed(qtbot: QtBot) -> None:
+def test_arrow_keys_step_by_one_fraction_along_the_scale_from_what_was_typed(qtbot: QtBot) -> None:
     log, linear = Field("exposure_time", qtbot), Field("gamma", qtbot)
     log.edit.set_value(1e-4)
     linear.edit.set_value(2.0)

@@ -61,11 +61,11 @@ def test_no_name_stands_over_the_value_of_an_end(qtbot: QtBot) -> None:
     metrics = QFontMetricsF(scale._font())
     low, high = GAMMA.slider
     ends = [QRectF(0, 5, 40, 14), QRectF(260, 5, 40, 14)]
-    for share in (0.0, 0.02, 0.2, 0.5, 0.8, 0.98, 1.0):
-        scale.show_marks([MarkedValue(low + share * (high - low), "a long name", "")])
+    for fraction in (0.0, 0.02, 0.2, 0.5, 0.8, 0.98, 1.0):
+        scale.show_marks([MarkedValue(low + fraction * (high - low), "a long name", "")])
         for _, box in scale._names(metrics, ends):
             assert not any(box.intersects(end) for end in ends)
-        assert bool(scale._names(metrics, ends)) == (share in {0.2, 0.5, 0.8})
+        assert bool(scale._names(metrics, ends)) == (fraction in {0.2, 0.5, 0.8})
 
 
 def test_a_mark_is_named_wherever_it_stands_and_an_end_gives_way(qtbot: QtBot) -> None:
@@ -73,8 +73,8 @@ def test_a_mark_is_named_wherever_it_stands_and_an_end_gives_way(qtbot: QtBot) -
     metrics = QFontMetricsF(scale._font())
     low, high = GAMMA.slider
     kept = []
-    for share in np.linspace(0.0, 1.0, 41):
-        scale.show_marks([MarkedValue(float(low + share * (high - low)), "t = 1 chip", "")])
+    for fraction in np.linspace(0.0, 1.0, 41):
+        scale.show_marks([MarkedValue(float(low + fraction * (high - low)), "t = 1 chip", "")])
         ends, names = scale._texts(metrics)
         assert [name for name, _ in names] == ["t = 1 chip"]
         assert not any(box.intersects(names[0][1]) for _, box in ends)

@@ -50,13 +50,13 @@ def test_a_draft_that_is_ample_in_time_gets_its_rows_back() -> None:
 
 @pytest.mark.parametrize("share_of_rows", [1.0, 0.5, 0.0])
 @pytest.mark.parametrize("whole", [0.5, 0.99, 1.01, 1.9, 2.1, 3.9, 4.1, 50.0])
-def test_the_rows_settle(whole: float, share_of_rows: float) -> None:
+def test_the_rows_settle(whole: float, fraction_of_rows: float) -> None:
     """Whatever part of a draft's time goes with its rows, their number soon stays the same."""
     chosen, steps = DraftRows(), []
     for _ in range(30):
         steps.append(chosen.step(ROWS, 11.0))
         thinned = steps[-1] / 11
-        chosen.took(whole * LONGEST * (1.0 - share_of_rows + share_of_rows / thinned))
+        chosen.took(whole * LONGEST * (1.0 - fraction_of_rows + fraction_of_rows / thinned))
     assert len(set(steps[10:])) == 1
 
 

@@ -42,7 +42,7 @@ def test_a_straight_part_is_one_line(stairs: tuple[np.ndarray, np.ndarray]) -> N
     assert len(lines_of(xs, 0.3 * xs - 2.0)) == 1
 
 
-def test_dashes_cover_their_share_of_the_curve(stairs: tuple[np.ndarray, np.ndarray]) -> None:
+def test_dashes_cover_their_fraction_of_the_curve(stairs: tuple[np.ndarray, np.ndarray]) -> None:
     xs, ys = stairs
     solid, dashed = (
         sum(line.length() for line in lines) for lines in (lines_of(xs, ys), lines_of(xs, ys, DASH))

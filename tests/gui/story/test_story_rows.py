@@ -135,7 +135,7 @@ def test_the_values_at_the_crosshair_are_the_models(
         assert (values.column, values.time) == (column, time)
         exact = Fraction(scene.model.start_time) + column * Fraction(scene.camera.readout_time)
         assert values.light == chips[floor(exact * Fraction(frequency)) % len(chips)]
-        assert values.share == pytest.approx(lit[column], abs=1e-9)
+        assert values.fraction == pytest.approx(lit[column], abs=1e-9)
         assert values.level == frame.profile[column]
         words = in_words(values, scene)
         assert f"column {column}" in words

@@ -77,7 +77,7 @@ def test_states_are_told_apart_without_colour(qapp: object, width: int) -> None:
             assert np.mean(one != other) > 0.1
 
 
-def test_a_long_film_is_drawn_by_shares(timeline: Timeline) -> None:
+def test_a_long_film_is_drawn_by_fractions(timeline: Timeline) -> None:
     states = np.where(np.arange(20_000) < 10_000, 1, 3).astype(np.uint8)
     timeline.show_frames(frame_marks(np.arange(20_000) / 30.0, states, 1 / 30.0))
     image = timeline.grab().toImage()

@@ -57,7 +57,7 @@ def test_texts_never_overlap(line: StatusLine, width: int, points: int, works: b
         check_texts(line)
 
 
-def test_a_message_has_its_share_of_the_line(line: StatusLine) -> None:
+def test_a_message_has_its_fraction_of_the_line(line: StatusLine) -> None:
     line.resize(800, 24)
     line.showMessage(LONG)
     line.pointed.set_full_text(POINTED * 3)

@@ -44,7 +44,7 @@ class Door:
     what: str
     case: Case
     refusals: tuple[type[OccError], ...]
-    share: int
+    fraction: int
     patience: float = 3.0
     memory: int = 700
 

@@ -30,8 +30,8 @@ NOISE = (
 )
 
 
-def share_of(door: Door, cases: int) -> int:
-    return cases * door.share // sum(each.share for each in DOORS.values())
+def fraction_of(door: Door, cases: int) -> int:
+    return cases * door.fraction // sum(each.fraction for each in DOORS.values())
 
 
 def start(cases: Mapping[str, int]) -> subprocess.Popen[str]:
@@ -62,8 +62,8 @@ def check(process: subprocess.Popen[str], memory: int) -> dict[str, Outcomes]:
 
 
 def test_some_hostile_inputs_end_in_a_result_or_a_sentence() -> None:
-    shares = {name: share_of(door, EVERYDAY) for name, door in DOORS.items()}
-    cases = {name: share for name, share in shares.items() if share}
+    fractions = {name: fraction_of(door, EVERYDAY) for name, door in DOORS.items()}
+    cases = {name: fraction for name, fraction in fractions.items() if fraction}
     check(start(cases), max(door.memory for door in DOORS.values()))
 
 
@@ -71,6 +71,6 @@ def test_some_hostile_inputs_end_in_a_result_or_a_sentence() -> None:
 @pytest.mark.parametrize("name", DOORS)
 def test_hostile_inputs_end_in_a_result_or_a_sentence(name: str) -> None:
     door = DOORS[name]
-    found = check(start({name: share_of(door, WHOLE)}), door.memory)[name]
+    found = check(start({name: fraction_of(door, WHOLE)}), door.memory)[name]
     if name == "photos":  # damaged so that both come of them
         assert min(found.results, found.sentences) > found.cases / 10

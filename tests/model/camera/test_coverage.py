@@ -87,7 +87,7 @@ def test_rows_are_the_same_however_many_are_asked_for(blur: float) -> None:
 
 @pytest.mark.parametrize("left", [-0.4, 30.3, COLUMNS + 0.6])
 @pytest.mark.parametrize("blur", [0.0, 0.7, 3.0, 20.0])
-def test_what_has_one_share_is_covered_wholly_or_not_at_all(blur: float, left: float) -> None:
+def test_what_has_one_fraction_is_covered_wholly_or_not_at_all(blur: float, left: float) -> None:
     # Upright edges: all rows are alike, also in the blurred rims.
     square = np.array([[left, -900.0], [left + 50, -900], [left + 50, 900], [left, 900]])
     parts = Coverage(square, ROWS, COLUMNS, blur).parts(range(ROWS))

@@ -51,15 +51,15 @@ def test_stretch_maps_the_smallest_to_0_and_the_largest_to_255(profile: np.ndarr
 
 
 @given(profile=wide)
-def test_equalization_maps_each_level_to_its_share_of_columns(profile: np.ndarray) -> None:
+def test_equalization_maps_each_level_to_its_fraction_of_columns(profile: np.ndarray) -> None:
     rounded = np.rint(profile)
     at_most = np.array([(rounded <= value).sum() for value in rounded])
     darkest = at_most.min()
     if darkest == len(profile):  # one level after rounding: nothing to spread
         return
-    share = (at_most - darkest) / (len(profile) - darkest)
+    fraction = (at_most - darkest) / (len(profile) - darkest)
     enhanced = enhance(profile, "equalization")
-    assert np.abs(enhanced - 255 * share).max() <= 0.5 + 1e-4
+    assert np.abs(enhanced - 255 * fraction).max() <= 0.5 + 1e-4
     assert (enhanced.min(), enhanced.max()) == (0, 255)
 
 
@@ -116,9 +116,9 @@ def test_moments_of_a_noisy_pixel_are_those_of_its_levels(
     # The probability of each of the 256 levels, those beyond black and white at the ends.
     limits = np.concatenate([[-np.inf], np.arange(255) + 0.5, [np.inf]])
     below = np.array([0.5 * math.erfc((level - limit) / spread / math.sqrt(2)) for limit in limits])
-    share = np.diff(below)
+    fraction = np.diff(below)
     levels = curve.curve.astype(float)
-    mean, square = share @ levels, share @ levels**2
+    mean, square = fraction @ levels, fraction @ levels**2
     found, deviation = curve.moments(np.array([level]), np.array([spread]))
     assert abs(found[0] - mean) <= 1e-3 * 255
     assert abs(deviation[0] ** 2 - (square - mean**2)) <= 2e-3 * 255**2

@@ -16,7 +16,7 @@ ROWS, COLUMNS = 240, 720
 
 
 def stripes(period: float, phase: float = 0.0, duty: float = 0.5) -> np.ndarray:
-    """One row of stripes of an LED that is on for a share of each period, blurred a little."""
+    """One row of stripes of an LED that is on for a fraction of each period, blurred a little."""
     fine = (np.arange(8 * COLUMNS) / 8 + phase) / period % 1.0 < duty
     return np.convolve(fine.reshape(-1, 8).mean(axis=1), np.ones(3) / 3, mode="same")
 
@@ -171,21 +171,21 @@ def test_every_lamp_is_matched_by_itself() -> None:
 
 
 def test_a_search_goes_from_nothing_to_all_and_ends_by_what_progress_raises() -> None:
-    shares: list[float] = []
+    fractions: list[float] = []
 
-    def stop(share: float) -> None:
-        shares.append(share)
-        if share > 0.3:
+    def stop(fraction: float) -> None:
+        fractions.append(fraction)
+        if fraction > 0.3:
             raise InterruptedError
 
     image = picture(((20, 120, 100, 400), 200.0, 30.0, 3.0))
     with pytest.raises(InterruptedError):
         occ.find_lamps(photo_of(image), stop)
-    assert shares[-1] < 0.5
-    shares.clear()
-    occ.find_lamps(photo_of(image), shares.append)
-    assert shares == sorted(shares)
-    assert (shares[0], shares[-1]) == (0.0, 1.0)
+    assert fractions[-1] < 0.5
+    fractions.clear()
+    occ.find_lamps(photo_of(image), fractions.append)
+    assert fractions == sorted(fractions)
+    assert (fractions[0], fractions[-1]) == (0.0, 1.0)
 
 
 @pytest.mark.whole

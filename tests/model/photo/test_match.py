@@ -22,13 +22,13 @@ PHOTO = replace(take(SCENE), iso=640.0, f_number=1.8)
 KNOWN = SCENE.replace(readout_time=1e-6, exposure_time=1e-3, start_time=0.0)
 
 
-SHARES: list[float] = []
+FRACTIONS: list[float] = []
 
 
 @cache
 def matched() -> occ.Match:
     """Match the photo once for all who only look at what was found, or at the progress."""
-    return occ.match_photo(PHOTO, KNOWN, progress=SHARES.append)
+    return occ.match_photo(PHOTO, KNOWN, progress=FRACTIONS.append)
 
 
 def test_the_fitted_scene_shows_the_photo_pixel_on_pixel() -> None:
@@ -128,11 +128,11 @@ def test_the_averaging_that_explains_the_photo_is_found_or_given() -> None:
 
 def test_progress_rises_to_1_and_what_it_raises_ends_the_match() -> None:
     matched()
-    assert sorted(SHARES) == SHARES
-    assert (SHARES[0], SHARES[-1]) == (0.0, 1.0)
+    assert sorted(FRACTIONS) == FRACTIONS
+    assert (FRACTIONS[0], FRACTIONS[-1]) == (0.0, 1.0)
 
-    def stop(share: float) -> None:
-        if share > 0.1:
+    def stop(fraction: float) -> None:
+        if fraction > 0.1:
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):

@@ -230,11 +230,11 @@ def noise_in(ending: str) -> bytes:
 def test_progress_goes_from_nothing_to_all_and_never_back(tmp_path: Path, name: str) -> None:
     path = tmp_path / name
     path.write_bytes(noise_in(Path(name).suffix))
-    shares: list[float] = []
-    load_photo(path, progress=shares.append)
-    assert shares == sorted(shares)
-    assert (shares[0], shares[-1]) == (0.0, 1.0)
-    assert len(shares) > 3
+    fractions: list[float] = []
+    load_photo(path, progress=fractions.append)
+    assert fractions == sorted(fractions)
+    assert (fractions[0], fractions[-1]) == (0.0, 1.0)
+    assert len(fractions) > 3
 
 
 @pytest.mark.parametrize("after", [0.0, 0.1, 0.3, 0.9])
@@ -244,16 +244,16 @@ def test_what_progress_raises_ends_the_reading_unchanged(
 ) -> None:
     path = tmp_path / name
     path.write_bytes(noise_in(Path(name).suffix))
-    shares: list[float] = []
+    fractions: list[float] = []
 
-    def stop(share: float) -> None:
-        shares.append(share)
-        if share >= after:
+    def stop(fraction: float) -> None:
+        fractions.append(fraction)
+        if fraction >= after:
             raise Stopped
 
     with pytest.raises(Stopped):
         load_photo(path, progress=stop)
-    assert sum(share >= after for share in shares) == 1
+    assert sum(fraction >= after for fraction in fractions) == 1
 
 
 @pytest.mark.parametrize("name", ["a\nb.png", "a\x1b[31mb.png", "a\u202eb.png", "a\udcffb.png"])

@@ -126,13 +126,13 @@ def test_notes_are_those_of_the_files_tags(tmp_path: Path) -> None:
     assert (photo.f_number, photo.iso, photo.camera) == (2.8, 400.0, "Simulated Camera")
 
 
-@pytest.mark.parametrize("share", [0.02, 0.2, 0.5, 0.99])
+@pytest.mark.parametrize("fraction", [0.02, 0.2, 0.5, 0.99])
 def test_cut_files_are_refused_quietly(
-    tmp_path: Path, share: float, capfd: pytest.CaptureFixture[str]
+    tmp_path: Path, fraction: float, capfd: pytest.CaptureFixture[str]
 ) -> None:
     path = written(tmp_path / "x.dng", mosaic_of(light_of(scene_of()), COLUMNS))
     content = path.read_bytes()
-    path.write_bytes(content[: int(share * len(content))])
+    path.write_bytes(content[: int(fraction * len(content))])
     with pytest.raises(occ.PhotoError, match=r"x\.dng cannot be read: .*damaged"):
         occ.load_photo(path)
     assert capfd.readouterr() == ("", "")
@@ -196,8 +196,8 @@ def test_colours_that_were_interpolated_are_refused(tmp_path: Path) -> None:
 def test_reading_can_be_cancelled(tmp_path: Path) -> None:
     path = written(tmp_path / "x.dng", mosaic_of(light_of(scene_of()), COLUMNS))
 
-    def cancel(share: float) -> None:
-        if share > 0.1:
+    def cancel(fraction: float) -> None:
+        if fraction > 0.1:
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):

@@ -14,7 +14,7 @@ import occ_model as occ
 from occ_model.camera.projection import panel_corners
 from occ_model.errors import ParameterError
 from occ_model.photo.stripes.find import lamp_profile
-from occ_model.photo.stripes.period import autocorrelation, repeat_period, unrepeated_share
+from occ_model.photo.stripes.period import autocorrelation, repeat_period, unrepeated_fraction
 from occ_model.results.decoding import Region
 
 
@@ -106,7 +106,7 @@ def test_deep_pictures_give_the_same_stripes_as_shallow_ones() -> None:
     assert np.allclose(one.profile, other.profile, atol=1e-6)
 
 
-def test_the_share_of_white_pixels_is_shown() -> None:
+def test_the_fraction_of_white_pixels_is_shown() -> None:
     image = np.tile(np.repeat([20, 255, 20, 255, 255], 12).astype(np.uint8), (50, 8))
     assert occ.find_stripes(photo_of(image)).saturated == pytest.approx(0.6, abs=0.05)
 
@@ -171,9 +171,9 @@ def test_no_period_nearby_explains_more_than_the_one_found(seed: int) -> None:
     wave = wave + random.normal(0.0, random.uniform(0.01, 0.6), count)
     found = repeat_period(wave)
     period, uncertainty = found
-    share = unrepeated_share(wave, period)
+    fraction = unrepeated_fraction(wave, period)
     for off in (-1.0, -0.3, -0.2, 0.2, 0.3, 1.0):
-        assert share <= unrepeated_share(wave, period + off * uncertainty)
+        assert fraction <= unrepeated_fraction(wave, period + off * uncertainty)
 
 
 SCENE = random_scene(3)

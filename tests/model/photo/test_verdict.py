@@ -158,7 +158,7 @@ def test_bright_runs_that_white_lengthens_may_be_those_of_longer_chips() -> None
     runs = [(2, 1), (1, 3), (3, 2)]  # bright and dark, in chips of two, each a half too long
     chips = np.concatenate([[1] * (2 * on + 1) + [0] * (2 * off - 1) for on, off in runs])
     found: Any = SimpleNamespace(chips=chips.astype(np.uint8), read_again=False)
-    white, dark = (SimpleNamespace(saturated=share, period=None) for share in (0.5, 0.0))
+    white, dark = (SimpleNamespace(saturated=fraction, period=None) for fraction in (0.5, 0.0))
     (why,) = _doubts_by_reading(found, white)  # type: ignore[arg-type]
     assert "12 chips that last 2 times as long explain the same edges" in why
     assert _doubts_by_reading(found, dark) == []  # type: ignore[arg-type]

@@ -215,7 +215,7 @@ def test_a_panel_without_stripes_is_one_contour_without_growth() -> None:
     assert (found.contours, found.growth) == (1, 0)
 
 
-def test_pixels_that_are_exactly_the_bright_share_are_bright() -> None:
+def test_pixels_that_are_exactly_the_bright_fraction_are_bright() -> None:
     counts = np.zeros(256, dtype=np.int64)
     counts[[20, 200, 255]] = 90, 5, 5
     assert bright_level(counts, 0.05) == 255

@@ -10,7 +10,7 @@ import pytest
 from matches import match_with
 
 import occ_model as occ
-from occ_model.results.accuracy import TimeShares
+from occ_model.results.accuracy import TimeFractions
 from occ_model.results.bench import DECIBELS, EXPOSURES
 from occ_model.results.bit_errors import BitErrors
 from occ_model.results.match import Match
@@ -53,7 +53,7 @@ def test_rows_differ_where_an_effect_is_on_more_than_columns(effect: str, differ
     scene = Scene().replace(rows=40, columns=200, flicker_depth=0.5, vignetting_exponent=4.0)
     off = {d.effect: False for d in occ.plan(scene).decisions}
     frame = occ.render(scene, tolerance=math.inf, force=off | {effect: True})
-    assert TimeShares.of(frame).rows_differ is differ
+    assert TimeFractions.of(frame).rows_differ is differ
     assert effect in frame.plan
     assert "jpeg" not in frame.plan
 

@@ -117,7 +117,7 @@ def test_the_command_says_what_it_assumes(
 def test_a_focal_length_that_is_nearly_known_keeps_its_error() -> None:
     room = _room()
     image = occ.render_room(room).camera_image
-    for share in (1e-7, 1e-6):
-        located = occ.read_room(image, room, share).located
+    for fraction in (1e-7, 1e-6):
+        located = occ.read_room(image, room, fraction).located
         widened = max(1.0, np.sqrt(located.deviations / located.freedom))
-        assert located.focal_error == pytest.approx(0.026 * share * widened, rel=0.01)
+        assert located.focal_error == pytest.approx(0.026 * fraction * widened, rel=0.01)

@@ -73,8 +73,8 @@ def test_a_truncated_figure_is_refused_in_a_sentence(tmp_path: Path) -> None:
     for ending in ENDINGS:
         path = exported(tmp_path / f"figure{ending}")
         whole = path.read_bytes()
-        for share in (0.1, 0.5, 0.9):
-            path.write_bytes(whole[: int(share * len(whole))])
+        for fraction in (0.1, 0.5, 0.9):
+            path.write_bytes(whole[: int(fraction * len(whole))])
             try:
                 scene = scene_inside(path)
             except occ.OccError:

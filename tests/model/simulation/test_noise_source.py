@@ -128,9 +128,9 @@ def test_reused_pixels_are_uncorrelated_with_their_neighbours(
 def test_reused_noise_is_normal(scene: Scene) -> None:
     deviation = reused(scene, 6, 2000)
     scaled = deviation / deviation.std()
-    for limit, share in ((1.0, 0.317311), (2.0, 0.045500), (3.0, 0.002700)):
+    for limit, fraction in ((1.0, 0.317311), (2.0, 0.045500), (3.0, 0.002700)):
         found = (np.abs(scaled) > limit).mean()
-        assert found == pytest.approx(share, abs=5 * math.sqrt(share / scaled.size))
+        assert found == pytest.approx(fraction, abs=5 * math.sqrt(fraction / scaled.size))
 
 
 @pytest.mark.parametrize("source", ["exact", "reused"])

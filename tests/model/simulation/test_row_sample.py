@@ -68,8 +68,8 @@ def test_the_samples_column_means_are_those_of_the_picture(number: int) -> None:
     sampling_error = np.sqrt(np.mean(noise**2) / 2.0 / b.rows)
     off = np.sqrt(np.mean((by_sample - by_picture) ** 2))
     # A tilted panel's edge lies within the bands, up to a hundredth of its height beside them.
-    share = 0.02 if number % 2 else 0.005
-    assert off <= 2.0 * sampling_error + share * np.ptp(by_picture)
+    fraction = 0.02 if number % 2 else 0.005
+    assert off <= 2.0 * sampling_error + fraction * np.ptp(by_picture)
 
 
 def test_noise_spread_over_the_bands_leaves_their_mean() -> None:

@@ -98,12 +98,12 @@ def test_errors_and_success_rate_are_complements() -> None:
     assert 100.0 * (1.0 - wrong) == pytest.approx(np.mean(right), abs=8.0)
 
 
-@pytest.mark.parametrize(("length", "share"), [(1, 0.02), (10, 0.1), (10, 0.02), (64, 0.3)])
-def test_intervals_hold_where_bits_of_a_picture_fail_together(length: int, share: float) -> None:
+@pytest.mark.parametrize(("length", "fraction"), [(1, 0.02), (10, 0.1), (10, 0.02), (64, 0.3)])
+def test_intervals_hold_where_bits_of_a_picture_fail_together(length: int, fraction: float) -> None:
     random = np.random.default_rng(length)
-    rate, held, trials = share / 2.0, 0, 400
+    rate, held, trials = fraction / 2.0, 0, 400
     for _ in range(trials):
-        lost = random.random(200) < share
+        lost = random.random(200) < fraction
         wrong = np.where(lost, random.binomial(length, 0.5, 200), 0)
         low, high = error_interval(wrong.tolist(), length)
         held += low <= rate <= high

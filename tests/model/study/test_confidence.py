@@ -50,16 +50,18 @@ def test_numbers_of_other_types_are_numbers() -> None:
     assert [wilson_interval(*numbers) for numbers in others] == [expected, expected]
 
 
-@pytest.mark.parametrize("share", [0.02, 0.1, 0.37, 0.5, 0.8, 0.9, 0.95, 0.98])
-def test_the_interval_of_pictures_holds_where_bits_of_a_picture_fail_together(share: float) -> None:
+@pytest.mark.parametrize("fraction", [0.02, 0.1, 0.37, 0.5, 0.8, 0.9, 0.95, 0.98])
+def test_the_interval_of_pictures_holds_where_bits_of_a_picture_fail_together(
+    fraction: float,
+) -> None:
     random = np.random.default_rng(3)
     held = wide = 0
     for _ in range(800):
-        whole = int(random.binomial(20, share))
+        whole = int(random.binomial(20, fraction))
         low, high = interval_of_pictures(10 * whole, 200, 20)
-        held += low <= 100.0 * share <= high
+        held += low <= 100.0 * fraction <= high
         near, far = (100.0 * end for end in wilson_interval(10 * whole, 200))
-        wide += near <= 100.0 * share <= far
+        wide += near <= 100.0 * fraction <= far
     assert 0.90 <= held / 800 <= 0.995
     # Counted by bits it would not hold: the test's own power.
     assert wide / 800 < 0.9

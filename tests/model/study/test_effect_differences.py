@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import occ_model as occ
-from occ_model.results.accuracy import EffectDifference, MeasuredCosts, TimeShares
+from occ_model.results.accuracy import EffectDifference, MeasuredCosts, TimeFractions
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import OBSERVABLES, Observable, SimulationSettings
 from occ_model.study.effect_differences import (
@@ -79,19 +79,19 @@ def test_a_slow_change_is_shown_on_the_whole_panel() -> None:
 @pytest.mark.parametrize("tolerance", [0.0, 3.0, 30.0, np.inf])
 def test_the_times_of_a_picture_add_up_to_the_pictures_time(scene: Scene, tolerance: float) -> None:
     frame = occ.render(scene, tolerance=tolerance, noise="reused")
-    shares = TimeShares.of(frame)
-    assert shares.seconds == pytest.approx(sum(frame.timings.values()), rel=1e-12)
-    assert shares.everything_else >= 0.0
-    parts = (*shares.effects.values(), shares.everything_else)
-    assert sum(parts) == pytest.approx(shares.seconds, rel=1e-12)
-    included = set(shares.effects) | set(shares.together)
+    fractions = TimeFractions.of(frame)
+    assert fractions.seconds == pytest.approx(sum(frame.timings.values()), rel=1e-12)
+    assert fractions.everything_else >= 0.0
+    parts = (*fractions.effects.values(), fractions.everything_else)
+    assert sum(parts) == pytest.approx(fractions.seconds, rel=1e-12)
+    included = set(fractions.effects) | set(fractions.together)
     assert included == set(frame.plan.included)
-    assert set(shares.together.values()) <= set(shares.effects)
+    assert set(fractions.together.values()) <= set(fractions.effects)
 
 
 def test_a_forecast_of_the_measured_plan_is_its_own_time(scene: Scene) -> None:
     settings = SimulationSettings(3.0, noise="reused")
-    measured = TimeShares.of(occ.render(scene, tolerance=3.0, noise="reused"))
+    measured = TimeFractions.of(occ.render(scene, tolerance=3.0, noise="reused"))
     found = forecast(scene, settings, MeasuredCosts(measured))
     assert found.seconds == pytest.approx(measured.seconds, rel=1e-12)
 
@@ -99,8 +99,8 @@ def test_a_forecast_of_the_measured_plan_is_its_own_time(scene: Scene) -> None:
 def test_a_forecast_adds_what_is_switched_and_knows_what_it_does_not(
     scene: Scene, differences: dict[str, EffectDifference]
 ) -> None:
-    complete = TimeShares.of(occ.render(scene, tolerance=0.0, noise="reused"))
-    bare = TimeShares.of(occ.render(scene, tolerance=np.inf))
+    complete = TimeFractions.of(occ.render(scene, tolerance=0.0, noise="reused"))
+    bare = TimeFractions.of(occ.render(scene, tolerance=np.inf))
     off = SimulationSettings(0.0, force={"jpeg": False}, noise="reused")
     found = forecast(scene, off, MeasuredCosts(complete, (), differences))
     assert found.error == pytest.approx(differences["jpeg"].error)
@@ -114,12 +114,12 @@ def test_a_forecast_adds_what_is_switched_and_knows_what_it_does_not(
 
 
 def test_a_forecast_takes_an_error_that_was_measured_as_a_whole(scene: Scene) -> None:
-    shares = TimeShares.of(occ.render(scene, tolerance=0.0))
+    fractions = TimeFractions.of(occ.render(scene, tolerance=0.0))
     off = SimulationSettings(0.0, force={"jpeg": False, "flicker": False})
     included = frozenset(occ.plan(scene, 0.0, force=off.force).included)
-    found = forecast(scene, off, MeasuredCosts(shares, errors={included: 1.5}))
+    found = forecast(scene, off, MeasuredCosts(fractions, errors={included: 1.5}))
     assert (found.error, found.is_measured) == (1.5, True)
-    found = forecast(scene, SimulationSettings(0.0), MeasuredCosts(shares))
+    found = forecast(scene, SimulationSettings(0.0), MeasuredCosts(fractions))
     assert (found.error, found.is_measured) == (0.0, True)
 
 
@@ -129,8 +129,8 @@ def test_changes_that_do_not_influence_each_other_add_up(scene: Scene) -> None:
     left_out = ("led-edges", "flicker")
     differences = {name: complete.without(name) for name in left_out}
     settings = SimulationSettings(0.0, "profile", dict.fromkeys(left_out, False))
-    shares = TimeShares.of(occ.render(plain, tolerance=0.0))
-    predicted = forecast(plain, settings, MeasuredCosts(shares, (), differences)).error
+    fractions = TimeFractions.of(occ.render(plain, tolerance=0.0))
+    predicted = forecast(plain, settings, MeasuredCosts(fractions, (), differences)).error
     true = complete.error_of(set(complete.effects) - set(left_out))
     assert predicted == pytest.approx(true, rel=0.3)
 

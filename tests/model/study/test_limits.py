@@ -40,14 +40,14 @@ SCENE = Scene()
 
 
 Decoding = Callable[[Callable[[float, int, int], float]], "Counter[tuple[float, int]]"]
-"""Takes the share of bits that are right, by frequency, number of the image, and seed."""
+"""Takes the fraction of bits that are right, by frequency, number of the image, and seed."""
 
 
 @pytest.fixture
 def decoding(monkeypatch: pytest.MonkeyPatch) -> Decoding:
     """Stand in for all decoding, and count the images read, by frequency and seed."""
 
-    def reads(share: Callable[[float, int, int], float]) -> "Counter[tuple[float, int]]":
+    def reads(fraction: Callable[[float, int, int], float]) -> "Counter[tuple[float, int]]":
         read: Counter[tuple[float, int]] = Counter()
 
         def right_bits_of_images(
@@ -57,7 +57,7 @@ def decoding(monkeypatch: pytest.MonkeyPatch) -> Decoding:
             for image in range(settings.images):
                 heartbeat()
                 read[frequency, settings.seed] += 1
-                yield (int(share(frequency, image, settings.seed) * scene.transmitter.bits),)
+                yield (int(fraction(frequency, image, settings.seed) * scene.transmitter.bits),)
 
         monkeypatch.setattr(module, "right_bits_of_images", right_bits_of_images)
         return read
@@ -276,10 +276,10 @@ def test_where_no_processes_can_be_had_this_one_searches(
 def test_progress_rises_from_0_to_1_and_says_what_is_searched(decoding: Decoding) -> None:
     decoding(within((0.0, 20e3)))
     said: list[tuple[float, str]] = []
-    occ.limits(SCENE, images=20, progress=lambda share, what: said.append((share, what)))
-    shares = [share for share, _ in said]
-    assert shares == sorted(shares)
-    assert shares[-1] == 1.0
+    occ.limits(SCENE, images=20, progress=lambda fraction, what: said.append((fraction, what)))
+    fractions = [fraction for fraction, _ in said]
+    assert fractions == sorted(fractions)
+    assert fractions[-1] == 1.0
     assert len(said) > 60
     assert said[0][1] == "switching frequency, threshold decoder"
     searched = [what for _, what in said[:-1]]
@@ -337,7 +337,7 @@ CURVES: dict[str, Callable[[float], float]] = {
     "ever faster": lambda beyond: max(0.1 + 12.0 * beyond, 0.0) ** 2,
     "suddenly": lambda beyond: math.sqrt(max(1e-4 + 0.05 * beyond, 0.0)),
 }
-"""How the share of missed images grows with the logarithm of the frequency, 1 % at 10 kHz."""
+"""How the fraction of missed images grows with the logarithm of the frequency, 1 % at 10 kHz."""
 
 
 def falls(curve: str, lost: int) -> Callable[[float, int, int], float]:

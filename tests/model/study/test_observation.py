@@ -12,7 +12,7 @@ from occ_model.receiver.signal import locate
 from occ_model.results.decoding import Region
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
-from occ_model.study.drawn_region import BrightShares
+from occ_model.study.drawn_region import BrightFractions
 from occ_model.study.observation import read_profile
 
 SETTINGS = SimulationSettings(observable="signal")
@@ -114,11 +114,11 @@ def edges(region: Region) -> NDArray[np.float64]:
     [(1.0, 0.0), (0.5, 1e-4), (0.3, 0.003), (0.3, 0.01), (0.02, 0.02), (0.05, 0.0), (1e-3, 1e-6)],
 )
 def test_the_drawn_rectangle_is_the_one_found_among_pixels(panel: float, around: float) -> None:
-    shares = BrightShares(ROWS, SPAN, np.full(COLUMNS, panel), np.full(COLUMNS, around))
+    fractions = BrightFractions(ROWS, SPAN, np.full(COLUMNS, panel), np.full(COLUMNS, around))
     drawn, found = (
         np.array([edges(make(np.random.default_rng([start, trial]))) for trial in range(TRIALS)])
         for start, make in (
-            (1, shares.draw_region),
+            (1, fractions.draw_region),
             (2, lambda random: of_pixels(panel, around, random)),
         )
     )

@@ -28,7 +28,7 @@ def test_same_seed_same_rate_other_seed_other_images() -> None:
     assert len(set(found)) > 1
 
 
-def test_rate_is_the_share_of_right_bits_in_percent(
+def test_rate_is_the_fraction_of_right_bits_in_percent(
     scene: Scene, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     from occ_model.results.decoding import DecodeResult

@@ -28,9 +28,9 @@ def test_its_mean_over_an_exposure_is_the_time_on(changes: dict[str, Any]) -> No
     scene = scene_with(**changes)
     width = scene.camera.exposure_time / scene.camera.readout_time
     curve = light_over_columns(scene, -1.0, 400.0 + width, 10_000)
-    share = occ.on_time(scene) / scene.camera.exposure_time
+    fraction = occ.on_time(scene) / scene.camera.exposure_time
     found = [curve.mean(i + 0.0, i + width) for i in range(400)]
-    np.testing.assert_allclose(found, share, atol=1e-7)
+    np.testing.assert_allclose(found, fraction, atol=1e-7)
 
 
 @pytest.mark.parametrize("edge", [5e-6, 60e-6, 250e-6])

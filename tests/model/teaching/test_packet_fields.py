@@ -85,17 +85,17 @@ def test_a_result_without_chips_has_no_places() -> None:
 
 @pytest.mark.parametrize("exposure", [20e-6, 68e-6, 136e-6])
 @pytest.mark.parametrize(
-    ("decoder", "share"), [("threshold", 0.5), ("equalizer", 0.5), ("sequence", 0.0)]
+    ("decoder", "fraction"), [("threshold", 0.5), ("equalizer", 0.5), ("sequence", 0.0)]
 )
 def test_a_chip_received_lies_where_it_was_sent(
-    exposure: float, decoder: str, share: float
+    exposure: float, decoder: str, fraction: float
 ) -> None:
     """Or earlier by half an exposure: the columns with that chip in their middle show it."""
     frame, _ = read(exposure_time=exposure)
     result = occ.decode(frame.image, frame.scene, decoder=decoder)
     edges = received_edges(result)
     assert len(edges) == len(result.chips) + 1
-    late = share * exposure / frame.scene.camera.readout_time
+    late = fraction * exposure / frame.scene.camera.readout_time
     curve = light_over_columns(frame.scene, -50.0, len(frame.profile) + 2 * late, 10_000)
     middles = (edges[1:-2] + edges[2:-1]) / 2 + late
     sent = curve.lit[np.searchsorted(curve.edges, middles) - 1]

@@ -29,9 +29,11 @@ def _light(lattice: ChipLattice, columns: int, noise: float, seed: int) -> np.nd
     """Light of a panel that is brighter on one side, with noise."""
     random = np.random.default_rng(seed)
     place = np.linspace(-1.0, 1.0, columns)
-    share, _, _ = lattice.lit(columns)
+    fraction, _, _ = lattice.lit(columns)
     swing = 1.0 + 0.3 * place - 0.2 * place**2
-    return np.asarray(0.1 + 0.05 * place + swing * share + noise * random.standard_normal(columns))
+    return np.asarray(
+        0.1 + 0.05 * place + swing * fraction + noise * random.standard_normal(columns)
+    )
 
 
 def _lattice(exposure: float, seed: int, step: float = 0.0713) -> ChipLattice:
@@ -81,7 +83,7 @@ def test_stated_errors_of_phase_and_step_cover_68_percent() -> None:
         lattice, fitted = _fit(0.5, 0.05, seed)
         found.append((fitted.middle - _middle(lattice)) / fitted.middle_error)
         found.append((fitted.lattice.step - lattice.step) / fitted.step_error)
-    # Standard deviation of the share in 120 values: 4 %.
+    # Standard deviation of the fraction in 120 values: 4 %.
     assert np.mean(np.abs(found) < 1.0) == pytest.approx(0.68, abs=0.08)
 
 
@@ -91,9 +93,9 @@ def test_light_that_falls_off_as_a_lens_s_shifts_no_edges_of_all_frames_alike() 
     found = []
     for seed in range(amount(30, 60)):
         lattice = _lattice(0.5, seed)
-        share, _, _ = lattice.lit(1200)
+        fraction, _, _ = lattice.lit(1200)
         noise = 0.01 * np.random.default_rng(seed).standard_normal(1200)
-        fitted = fit_timing(fall * (0.1 + share) + noise, _rough(lattice, seed))
+        fitted = fit_timing(fall * (0.1 + fraction) + noise, _rough(lattice, seed))
         found.append((fitted.lattice.step - lattice.step) / fitted.step_error)
     # The mean of 30 deviates by 0.18 if their errors are only those of the noise.
     assert abs(np.mean(found)) < 0.4
@@ -127,8 +129,8 @@ def test_every_ratio_is_the_change_of_the_squared_distance_by_that_chip_alone() 
         for value in (0, 1):
             values = lattice.values.copy()
             values[chip] = value
-            share, _, _ = replace(lattice, values=values).lit(400)
-            residual = levels.residual + levels.swing * (here - share)
+            fraction, _, _ = replace(lattice, values=values).lit(400)
+            residual = levels.residual + levels.swing * (here - fraction)
             squares.append(float(residual @ residual))
         # Chips that are out of view repeat the outermost ones where the light is worked out.
         if 3 < chip < 80:

@@ -53,10 +53,10 @@ def test_the_stated_error_of_the_frequency_covers_68_percent() -> None:
         (fit,) = fit_clock(phases, 0.993 * frequency, 1.006 * frequency)
         middle = frequency + drift * (fit.middle - times.mean())
         deviations.append((fit.frequency - middle) / fit.frequency_error)
-    shares = [np.mean(np.abs(deviations) < bound) for bound in (1.0, 2.0)]
-    # Standard deviations of these shares in 150 trials: 3.8 and 1.8 %.
-    assert shares[0] == pytest.approx(0.68, abs=0.08)
-    assert shares[1] == pytest.approx(0.954, abs=0.04)
+    fractions = [np.mean(np.abs(deviations) < bound) for bound in (1.0, 2.0)]
+    # Standard deviations of these fractions in 150 trials: 3.8 and 1.8 %.
+    assert fractions[0] == pytest.approx(0.68, abs=0.08)
+    assert fractions[1] == pytest.approx(0.954, abs=0.04)
 
 
 @pytest.mark.parametrize("count", [6, 8])
@@ -67,9 +67,9 @@ def test_the_errors_of_a_few_frames_hold_also_far_out(count: int) -> None:
     for _ in range(200):
         (fit, *_) = fit_clock(_phases(8e3, times, 52.0, random, 1e-5), 7960.0, 8040.0)
         off.append([fit.drift / fit.drift_error, (fit.frequency - 8e3) / fit.frequency_error])
-    shares = np.mean(np.abs(off) < 2.0, axis=0)
-    # The standard deviation of a share in 200 trials is 1.5 %.
-    assert shares.tolist() == pytest.approx([0.954, 0.954], abs=0.045)
+    fractions = np.mean(np.abs(off) < 2.0, axis=0)
+    # The standard deviation of a fraction in 200 trials is 1.5 %.
+    assert fractions.tolist() == pytest.approx([0.954, 0.954], abs=0.045)
 
 
 def test_frames_that_agree_better_than_each_is_sure_make_the_clock_no_surer() -> None:
@@ -191,8 +191,8 @@ def test_the_mean_step_is_weighted_and_its_error_that_of_the_scatter() -> None:
     weights = 1.0 / np.square(errors)
     mean, deviation = mean_step(phases_of(steps, errors))
     assert mean == pytest.approx(np.average(steps, weights=weights))
-    share = weights / weights.sum()
-    scatter = math.sqrt(float(share**2 @ (np.array(steps) - mean) ** 2) * 5.0 / 4.0)
+    fraction = weights / weights.sum()
+    scatter = math.sqrt(float(fraction**2 @ (np.array(steps) - mean) ** 2) * 5.0 / 4.0)
     assert deviation == pytest.approx(scatter)
 
 

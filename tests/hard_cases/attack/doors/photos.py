@@ -79,10 +79,10 @@ def _raw(chance: Random, folder: Path) -> list[str]:
 
 PHOTOS = Door(
     "photos", "damaged photos of 26 kinds, odd ones of 13 kinds of pixels", _photo,
-    (occ.PhotoError,), share=180, memory=400,
+    (occ.PhotoError,), fraction=180, memory=400,
 )  # fmt: skip
 
-RAW = Door("RAW files", "damaged DNG files", _raw, (occ.PhotoError,), share=60, memory=400)
+RAW = Door("RAW files", "damaged DNG files", _raw, (occ.PhotoError,), fraction=60, memory=400)
 
 
 def _film(chance: Random, folder: Path) -> list[str]:
@@ -91,5 +91,5 @@ def _film(chance: Random, folder: Path) -> list[str]:
 
 
 FILMS = Door(
-    "films", "damaged films of 13 kinds", _film, (occ.VideoError,), share=30, patience=10.0
+    "films", "damaged films of 13 kinds", _film, (occ.VideoError,), fraction=30, patience=10.0
 )

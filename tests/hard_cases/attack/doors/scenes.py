@@ -179,12 +179,12 @@ _REFUSALS = (occ.SceneFileError, occ.ParameterError, occ.PresetError)
 
 SCENES = Door(
     "scenes", "scene files, presets and their folder, the notes of films", _toml, _REFUSALS,
-    share=130,
+    fraction=130,
 )  # fmt: skip
 
-LESSONS_FILES = Door("lessons", "lessons' files", _lesson, (occ.SceneFileError,), share=60)
+LESSONS_FILES = Door("lessons", "lessons' files", _lesson, (occ.SceneFileError,), fraction=60)
 
 CARRIERS = Door(
     "exported files", "SVG, PDF, PNG and CSV files with a scene inside", _carrier, _REFUSALS,
-    share=80,
+    fraction=80,
 )  # fmt: skip

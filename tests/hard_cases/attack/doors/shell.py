@@ -247,7 +247,7 @@ def _inputs(folder: Path) -> tuple[bytes, ...]:
     return tuple((folder / name).read_bytes() for name in ("in.toml", "in.png"))
 
 
-SHELL = Door("command lines", "words of 17 commands", _run, (), share=60, patience=10.0)
+SHELL = Door("command lines", "words of 17 commands", _run, (), fraction=60, patience=10.0)
 
 
 def _open(chance: Random, folder: Path) -> list[str]:
@@ -273,4 +273,4 @@ def _open(chance: Random, folder: Path) -> list[str]:
     return [] if "The window opens." in err else said
 
 
-WINDOW_SHELL = Door("window's command lines", "words of occ-gui", _open, (), share=60)
+WINDOW_SHELL = Door("window's command lines", "words of occ-gui", _open, (), fraction=60)

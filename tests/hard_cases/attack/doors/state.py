@@ -172,4 +172,4 @@ def _state(chance: Random, folder: Path) -> list[str]:
     return chance.choice((_session, _preferences))(chance, folder)
 
 
-STATE = Door("settings", "sessions, preferences", _state, (), share=60)
+STATE = Door("settings", "sessions, preferences", _state, (), fraction=60)

@@ -101,6 +101,6 @@ def _table(chance: Random, folder: Path) -> list[str]:
 
 TABLES = Door(
     "tables", "results that are gone on with, data sets, many photos", _table,
-    (occ.OutputError, occ.PhotoError, occ.SceneFileError, occ.ParameterError), share=40,
+    (occ.OutputError, occ.PhotoError, occ.SceneFileError, occ.ParameterError), fraction=40,
     patience=20.0,
 )  # fmt: skip

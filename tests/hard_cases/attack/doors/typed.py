@@ -143,5 +143,5 @@ def _typed(chance: Random, folder: Path) -> list[str]:
 
 TYPED = Door(
     "typed values", "quantities, settings, axes, answers; any value of Python", _typed,
-    (occ.ParameterError, occ.BandModelUndefined), share=300,
+    (occ.ParameterError, occ.BandModelUndefined), fraction=300,
 )  # fmt: skip

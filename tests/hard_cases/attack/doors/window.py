@@ -181,6 +181,6 @@ def _used(chance: Random, folder: Path) -> list[str]:
 
 
 WINDOW = Door(
-    "window", "a whole window: what it kept, what is dropped and typed", _used, (), share=4,
+    "window", "a whole window: what it kept, what is dropped and typed", _used, (), fraction=4,
     patience=40.0,
 )  # fmt: skip

@@ -90,8 +90,8 @@ def test_edges_that_do_not_alternate_on_a_lattice_have_no_chips() -> None:
 def test_the_surer_the_nearer_edges_lie_to_their_chips() -> None:
     random = np.random.default_rng(4)
     off = random.normal(size=len(edges_at().places))
-    sure = [certainty(edges_at(share * COLUMNS * off), lattice_at(edges_at(), 1.0 / COLUMNS))
-            for share in (0.0, 0.1, 0.2, 0.4)]  # fmt: skip
+    sure = [certainty(edges_at(fraction * COLUMNS * off), lattice_at(edges_at(), 1.0 / COLUMNS))
+            for fraction in (0.0, 0.1, 0.2, 0.4)]  # fmt: skip
     assert sure[0] > 0.98
     assert sure[0] >= sure[1] > sure[2] > sure[3]
     assert sure[3] < 0.5

@@ -96,7 +96,7 @@ def test_nine_of_ten_readings_that_are_nine_tenths_sure_are_right(seeds: range) 
     sure = confidence >= 0.9
     assert sure.sum() > 0.5 * len(seeds)
     assert right[sure].mean() >= 0.9
-    # A probability is right on average, within three deviations of a share of as many.
+    # A probability is right on average, within three deviations of a fraction of as many.
     scatter = np.sqrt(right.mean() * (1.0 - right.mean()) / len(right))
     assert confidence.mean() == pytest.approx(right.mean(), abs=3.0 * scatter)
 

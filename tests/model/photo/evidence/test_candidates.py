@@ -97,12 +97,12 @@ def test_nothing_is_read_where_the_chips_given_are_sure(
     assert (Reading(monkeypatch, 0.99).of(as_sent) == 0) == is_sure
 
 
-@pytest.mark.parametrize(("share", "is_clipped"), [(0.0, False), (0.01, False), (0.3, True)])
+@pytest.mark.parametrize(("fraction", "is_clipped"), [(0.0, False), (0.01, False), (0.3, True)])
 def test_white_pixels_are_told_to_who_reads(
-    monkeypatch: pytest.MonkeyPatch, share: float, is_clipped: bool
+    monkeypatch: pytest.MonkeyPatch, fraction: float, is_clipped: bool
 ) -> None:
     reading = Reading(monkeypatch, 0.99)
-    reading.of(None, share)
+    reading.of(None, fraction)
     assert reading.how["is_clipped"] == is_clipped
 
 

@@ -52,7 +52,7 @@ def test_a_line_in_noise_has_its_period_and_amplitude(amplitude: float) -> None:
     assert line.period == pytest.approx(12.5, rel=0.01)
     assert line.amplitude == pytest.approx(amplitude, rel=0.1)
     assert line.above_noise > 50.0
-    assert line.share > 0.15
+    assert line.fraction > 0.15
 
 
 def test_noise_has_no_line_and_a_patterns_own_are_left_out() -> None:
@@ -76,7 +76,7 @@ def test_sharp_edges_between_columns_leave_no_single_line(chip: float) -> None:
     noise = np.random.default_rng(6).standard_normal(columns)
     residual = 100.0 * (seen[1] - seen[0]) + noise
     line = strongest_line(residual, np.full(columns, 100.0), 10 * chip, 10)
-    assert line.share < 0.15
+    assert line.fraction < 0.15
 
 
 @pytest.mark.parametrize(

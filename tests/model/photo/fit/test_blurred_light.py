@@ -77,7 +77,7 @@ def test_about_normal_blur_has_its_deviation_and_its_excess_kurtosis(
 
 
 @pytest.mark.parametrize("blur", [0.1, 0.5, 1.0, 2.1])
-def test_a_box_gives_each_column_the_share_that_it_covers(blur: float) -> None:
+def test_a_box_gives_each_column_the_fraction_that_it_covers(blur: float) -> None:
     half = math.sqrt(3.0) * blur
     rims = np.arange(-8.5, 9.0)
     below = np.clip((rims + half) / (2.0 * half), 0.0, 1.0)

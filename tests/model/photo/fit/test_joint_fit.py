@@ -105,9 +105,9 @@ def test_starts_that_end_in_the_same_minimum_count_once() -> None:
 def test_explanations_of_pure_noise_are_weighted_by_their_likelihood() -> None:
     """Where the misfit is small, a difference of four is two standard deviations."""
     both = averaged([fit(0.5, 3.0, deviation=0.0), fit(0.6, 7.0, deviation=0.0)])
-    share = math.exp(-2.0) / (1.0 + math.exp(-2.0))
+    fraction = math.exp(-2.0) / (1.0 + math.exp(-2.0))
     assert both.exposure == 0.5
-    assert both.deviation == pytest.approx(0.1 * math.sqrt(share), rel=1e-6)
+    assert both.deviation == pytest.approx(0.1 * math.sqrt(fraction), rel=1e-6)
 
 
 def test_a_fit_that_ended_at_a_bound_of_gamma_does_not_widen_the_others() -> None:

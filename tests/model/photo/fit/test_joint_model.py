@@ -170,8 +170,10 @@ def test_a_blurred_picture_and_blurred_light_are_told_apart_by_the_model() -> No
 
 def test_edges_that_white_hides_are_not_seen() -> None:
     assert model_of(values_of()).edges_seen(TRUE) == 1.0
-    shares = [model_of(values_of(brightest=light)).edges_seen(TRUE) for light in (1.5, 4.0, 40.0)]
-    assert all(more > less for more, less in pairwise([1.0, *shares]))
+    fractions = [
+        model_of(values_of(brightest=light)).edges_seen(TRUE) for light in (1.5, 4.0, 40.0)
+    ]
+    assert all(more > less for more, less in pairwise([1.0, *fractions]))
 
 
 def test_noise_is_taken_from_another_model_of_the_same_profiles() -> None:

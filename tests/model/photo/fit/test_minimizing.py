@@ -19,14 +19,14 @@ def test_a_linear_problem_has_its_closed_form() -> None:
     assert slopes == pytest.approx(A, abs=1e-9)
 
 
-@pytest.mark.parametrize("share", [0.0, 1e-9])
-def test_a_curved_valley_is_followed_to_its_end(share: float) -> None:
+@pytest.mark.parametrize("fraction", [0.0, 1e-9])
+def test_a_curved_valley_is_followed_to_its_end(fraction: float) -> None:
     """Rosenbrock's function, scaled so that the last steps gain a noise's variance."""
 
     def valley(x: np.ndarray) -> np.ndarray:
         return np.array([100.0 * (x[1] - x[0] ** 2), 10.0 * (1.0 - x[0])])
 
-    found, residual, slopes = minimized(valley, np.array([-1.2, 1.0]), 100, share)
+    found, residual, slopes = minimized(valley, np.array([-1.2, 1.0]), 100, fraction)
     assert found == pytest.approx([1.0, 1.0], abs=0.05)
     assert residual @ residual < 0.1
     assert slopes[:, 1] == pytest.approx([100.0, 0.0])

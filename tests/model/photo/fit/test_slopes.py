@@ -30,13 +30,13 @@ def central(function: Vector, here: np.ndarray, change: float) -> np.ndarray:
     return np.stack(sides)
 
 
-def off(slopes: np.ndarray, differences: np.ndarray, share: float = 0.9) -> np.ndarray:
-    """Return the error, over the largest slope, of each parameter that a share of values is within.
+def off(slopes: np.ndarray, differences: np.ndarray, fraction: float = 0.9) -> np.ndarray:
+    """Return the error of each parameter within which a fraction lies, over its largest slope.
 
     A difference whose change crosses a corner is no limit there: few of them are.
     """
     largest = np.maximum(np.abs(differences).max(axis=1), 1e-12)
-    return np.asarray(np.quantile(np.abs(slopes - differences), share, axis=1) / largest)
+    return np.asarray(np.quantile(np.abs(slopes - differences), fraction, axis=1) / largest)
 
 
 def drawn(seed: int) -> np.ndarray:
@@ -192,7 +192,7 @@ def test_the_residuals_slopes_are_limits_of_differences(
 @pytest.mark.parametrize("brightest", [0.5, 1.5])
 @pytest.mark.parametrize("noise", [3.0, 10.0])
 @pytest.mark.parametrize("seed", [1, 2])
-def test_half_of_blurred_values_slopes_are_off_by_less_than_the_residuals_share(
+def test_half_of_blurred_values_slopes_are_off_by_less_than_the_residuals_fraction(
     brightest: float, noise: float, seed: int
 ) -> None:
     """What is left out of them has the residual as a factor: it is small beside the stripes."""

@@ -46,16 +46,20 @@ def test_beyond_its_ends_it_goes_on_straight() -> None:
     assert np.diff(under)[0] == pytest.approx(-255.0 * table.slope[0] * 0.001)
 
 
-SHARE = LEVELS / 255.0
-BENT = SHARE + 0.2 * SHARE * (1 - SHARE) - 0.3 * SHARE * (1 - SHARE) * (1 - 2 * SHARE)
+FRACTION = LEVELS / 255.0
+BENT = (
+    FRACTION
+    + 0.2 * FRACTION * (1 - FRACTION)
+    - 0.3 * FRACTION * (1 - FRACTION) * (1 - 2 * FRACTION)
+)
 
 
 @pytest.mark.parametrize(
     ("curve", "light"),
     [
-        (ToneCurve(2.2), SHARE**2.2),
+        (ToneCurve(2.2), FRACTION**2.2),
         # IEC 61966-2-1, the standard curve of screens: above 0.04045.
-        (ToneCurve(2.4, 0.055), ((SHARE + 0.055) / 1.055) ** 2.4),
+        (ToneCurve(2.4, 0.055), ((FRACTION + 0.055) / 1.055) ** 2.4),
         (ToneCurve(2.0, 0.03, 0.2, -0.3), ((BENT + 0.03) / 1.03) ** 2.0),
     ],
     ids=["power", "screens", "bent"],
@@ -65,9 +69,9 @@ def test_a_curve_above_its_toe_has_its_closed_form(curve: ToneCurve, light: np.n
 
 
 def test_its_toe_is_straight_and_has_the_curves_height_and_slope_where_it_begins() -> None:
-    share = np.array([-0.05, 0.0, 0.01, 0.02])
-    light = ToneCurve(2.2).table().light_of(255.0 * share)
-    tangent = 0.03**2.2 + 2.2 * 0.03**1.2 * (share - 0.03)
+    fraction = np.array([-0.05, 0.0, 0.01, 0.02])
+    light = ToneCurve(2.2).table().light_of(255.0 * fraction)
+    tangent = 0.03**2.2 + 2.2 * 0.03**1.2 * (fraction - 0.03)
     assert light == pytest.approx(tangent, abs=1e-6)
 
 
@@ -80,9 +84,9 @@ def test_a_table_of_equal_distances_gives_what_any_table_gives() -> None:
 
 def test_where_its_bends_would_make_it_fall_it_rises_by_a_twentieth() -> None:
     """A gamma of 1 leaves the bent curve as it is; the straight one rises by as much as it goes."""
-    share = np.linspace(-0.1, 1.0, 441)
+    fraction = np.linspace(-0.1, 1.0, 441)
     table = ToneCurve(1.0, 0.0, -0.7, -0.8).table()
-    bent = share + share * (1.0 - share) * (-0.7 - 0.8 * (1.0 - 2.0 * share))
-    rises = np.diff(bent) / np.diff(share)
+    bent = fraction + fraction * (1.0 - fraction) * (-0.7 - 0.8 * (1.0 - 2.0 * fraction))
+    rises = np.diff(bent) / np.diff(fraction)
     assert rises.min() < -0.5
-    assert np.diff(table.light) / np.diff(share) == pytest.approx(np.maximum(rises, 0.05))
+    assert np.diff(table.light) / np.diff(fraction) == pytest.approx(np.maximum(rises, 0.05))

@@ -69,7 +69,7 @@ def test_a_font_in_the_home_folder_counts(
     monkeypatch.setenv("HOME", str(tmp_path))
     monkeypatch.setattr(start, "Path", below_home)
     assert not start.has_font()
-    font = tmp_path / ".local" / "fraction" / "fonts" / "family" / "plain.ttf"
+    font = tmp_path / ".local" / "share" / "fonts" / "family" / "plain.ttf"
     font.parent.mkdir(parents=True)
     font.touch()
     assert start.has_font()

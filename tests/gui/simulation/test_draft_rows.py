@@ -48,7 +48,7 @@ def test_a_draft_that_is_ample_in_time_gets_its_rows_back() -> None:
     assert step_after(*4 * [late], *4 * [soon]) == 11
 
 
-@pytest.mark.parametrize("share_of_rows", [1.0, 0.5, 0.0])
+@pytest.mark.parametrize("fraction_of_rows", [1.0, 0.5, 0.0])
 @pytest.mark.parametrize("whole", [0.5, 0.99, 1.01, 1.9, 2.1, 3.9, 4.1, 50.0])
 def test_the_rows_settle(whole: float, fraction_of_rows: float) -> None:
     """Whatever part of a draft's time goes with its rows, their number soon stays the same."""

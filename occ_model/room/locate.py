@@ -57,7 +57,7 @@ class RoomReading:
         return self.located is not None and not self.reasons
 
 
-def read_room(image: NDArray[Any], room: Room, focal_fraction: float = 0.0) -> RoomReading:
+def read_room(image: NDArray[Any], room: Room, focal_share: float = 0.0) -> RoomReading:
     """Name the lamps in a picture of a room, and find where it was taken.
 
     The receiver knows the room but for the camera's place and angles: the lamps, and the camera's
@@ -82,8 +82,8 @@ def read_room(image: NDArray[Any], room: Room, focal_fraction: float = 0.0) -> R
         The fraction is not from 0 to below 1.
     """
     check_room(room)
-    if not 0.0 <= focal_fraction < 1.0:
-        raise ParameterError.of("focal_share", f"{focal_fraction:g}", "from 0 to below 1")
+    if not 0.0 <= focal_share < 1.0:
+        raise ParameterError.of("focal_share", f"{focal_share:g}", "from 0 to below 1")
     picture = check_picture(image, room)
     lamps = find_and_name(picture, room)
     by_name = {lamp.name: lamp for lamp in room.lamps}
@@ -97,9 +97,7 @@ def read_room(image: NDArray[Any], room: Room, focal_fraction: float = 0.0) -> R
         edges = finder.edges(lamp, corners)
         measured.append(_Measured(lamp, corners, edges, read.is_cut))
     whole = [(by_name[one.name], one) for one in lamps if one.name and not one.is_cut]
-    found, why = _located(
-        measured, room, len(lamps), _start_of_centres(whole, room), focal_fraction
-    )
+    found, why = _located(measured, room, len(lamps), _start_of_centres(whole, room), focal_share)
     return RoomReading(lamps, found[0] if found else None, tuple(found[1:]), why)
 
 
@@ -127,7 +125,7 @@ def _located(
     room: Room,
     found: int,
     more: Sequence[FloatArray],
-    focal_fraction: float = 0.0,
+    focal_share: float = 0.0,
 ) -> tuple[list[Located], tuple[str, ...]]:
     if not measured:
         what = "No lamp was found" if not found else "No rectangular lamp was named"
@@ -141,7 +139,7 @@ def _located(
             f"Only {edges} edges of named lamps are bright enough to be measured; "
             f"allowed: from {_MIN_EDGES}.",
         )
-    table = LampEdges.of([(one.lamp, one.edges) for one in measured], room, focal_fraction)
+    table = LampEdges.of([(one.lamp, one.edges) for one in measured], room, focal_share)
     tried = _explanations(table, [*more, *_starts_of(whole, room)])
     if not tried:
         return [], (

@@ -65,11 +65,11 @@ class LampEdges:
     # errors
     whitening: FloatArray
     camera: Camera
-    focal_fraction: float  # Standard error of the focal length, as a fraction of it
+    focal_share: float  # Standard error of the focal length, as a fraction of it
 
     @classmethod
     def of(
-        cls, measured: Sequence[tuple[RoomLamp, Sequence[Edge]]], room: Room, focal_fraction: float
+        cls, measured: Sequence[tuple[RoomLamp, Sequence[Edge]]], room: Room, focal_share: float
     ) -> Self:
         edges = [edge for _, own in measured for edge in own]
         return cls(
@@ -78,7 +78,7 @@ class LampEdges:
             np.array([edge.points for edge in edges]).reshape(-1, 2, 2),
             np.array([np.linalg.inv(np.linalg.cholesky(edge.covariance)) for edge in edges]),
             room.scene.camera,
-            focal_fraction,
+            focal_share,
         )
 
     def without(self, edge: int) -> "LampEdges":
@@ -89,7 +89,7 @@ class LampEdges:
 
     def fitted(self, start: FloatArray) -> tuple[Located, FloatArray] | None:
         """Return a place refined with each edge's squared deviation; None where there is none."""
-        numbers = np.append(start, 0.0) if self.focal_fraction else start
+        numbers = np.append(start, 0.0) if self.focal_share else start
         inverse = np.eye(len(numbers))
         for _ in range(_ROUNDS):
             sides = self._sides(numbers)
@@ -121,7 +121,7 @@ class LampEdges:
         wider = max(1.0, total / freedom) if freedom > 0 else 1.0
         covariance = inverse * wider
         focal, error = self.camera.equivalent_focal_length, 0.0
-        if self.focal_fraction:
+        if self.focal_share:
             error = focal * math.sqrt(covariance[6, 6])
             focal *= 1.0 + float(numbers[6])
         located = Located(place, covariance[:6, :6], total, freedom, focal, error)
@@ -155,9 +155,9 @@ class LampEdges:
         off = _off(outlines[:, self.lamp], self.points)
         own = off[:, np.arange(len(sides)), sides]
         whitened = np.einsum("eij,pej->pei", self.whitening, own).reshape(len(numbers), -1)
-        if not self.focal_fraction:
+        if not self.focal_share:
             return np.asarray(whitened)
-        return np.column_stack([whitened, numbers[:, 6] / self.focal_fraction])
+        return np.column_stack([whitened, numbers[:, 6] / self.focal_share])
 
 
 def _off(outlines: FloatArray, points: FloatArray) -> FloatArray:

@@ -14,6 +14,7 @@ from occ_model.effects.sampled_pixels import SampledPixels
 from occ_model.effects.signal_sampling import SURE_DEVIATIONS, SignalSampling
 from occ_model.effects.simulated_columns import Names
 from occ_model.effects.smoothed_curves import LEAST_SMOOTHING_NOISE, SmoothedCurves, add_unsampled
+from occ_model.effects.unsampled_rims import cut_blocks_of_means, unsampled
 
 _DOUBTED_RIM, _DOUBTED_RIM_OF_FEW = 0.5, 1.0
 """Part of the pixels of a rim that moves of which no sample shows whether they are enhanced: in
@@ -64,9 +65,9 @@ def observed_signal(pixels: SampledPixels) -> Observed:
     jump = contrast if pixels.scene.model.enhancement == "none" else WHITE
     few = len(sample.columns) >= region.columns
     part = _DOUBTED_RIM_OF_FEW if few else _DOUBTED_RIM
-    doubt = pixels.rims.unsampled(contrast**2 / (region.rows**2 * region.columns), pixels.file)
+    doubt = unsampled(pixels, contrast**2 / (region.rows**2 * region.columns))
     gain = min(contrast / pixels.view.swing, _MOST_GAIN)
-    doubt += pixels.rims.cut_blocks_of_means(pixels.file, pixels.contrast) * gain**2
+    doubt += cut_blocks_of_means(pixels) * gain**2
     for name in pixels.sample.outline:  # a pixel of a rim is enhanced or not
         own = pixels.rims.moved(name) * (part * jump / region.rows) ** 2
         found.doubt[name] = doubt + own + pixels.rims.crossed(name) * jump**2

@@ -1,7 +1,6 @@
-"""The panel's rims in a sample of the pixels: what effects move there, and what no sample shows."""
+"""The panel's rims in a sample of the pixels, and what effects move there."""
 
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -9,10 +8,6 @@ from occ_model.arrays import FloatArray
 from occ_model.effects.paper_view import PaperView
 from occ_model.effects.sample import Sample
 
-if TYPE_CHECKING:  # what a file makes of pixels depends on their rims in turn
-    from occ_model.effects.file_change import FileChange
-
-_UNSAMPLED_PIXELS = 1.0  # pixels of a rim that may change and that no sample shows
 _SEEN_FRACTION = 0.003  # change of a pixel's light from beyond a rim that can round it otherwise
 
 
@@ -21,7 +16,6 @@ class Rims:
 
     def __init__(self, view: PaperView, sample: Sample) -> None:
         self._region, self._camera = view.region, view.scene.camera
-        self._swing = view.swing
         self.is_level = view.sides is not None
         self._sample = sample
         self.rows = view.region.rows
@@ -86,38 +80,3 @@ class Rims:
             return 0.0
         spans = np.ptp(moved[:, self._sample.inner], axis=1)
         return float(spans**2 @ self._sample.weights) / 9.0
-
-    def unsampled(self, square: float, file: "FileChange | None") -> float:
-        """Return the mean square of a few pixels of a rim, of which a sample need not show any.
-
-        A file spreads them over their block.
-        """
-        if self._sample.is_covered:
-            return 0.0
-        found = _UNSAMPLED_PIXELS * square
-        if file is not None:
-            pixels = self._region.rows * self._region.columns
-            found += file.added_at_a_rim(min(64.0 / pixels, self.fraction), found)
-        return found
-
-    def cut_blocks(self, file: "FileChange | None") -> float:
-        """Return the mean square of what a file changes beside a rim that moves outwards.
-
-        Its blocks are observed in part.
-        """
-        return (
-            file.added_at_a_rim(self.fraction, self.fraction * self._swing**2 / 64.0)
-            if file
-            else 0.0
-        )
-
-    def cut_blocks_of_means(self, file: "FileChange | None", contrast: float) -> float:
-        """Return the same in the means of columns, if a column of upright blocks becomes bright.
-
-        Where noise spreads it over the file's steps, it differs from block to block.
-        """
-        if file is None:
-            return 0.0
-        added = file.added_at_a_rim(self.fractions[1], self.fractions[1] * contrast**2 / 8.0)
-        alike = file.undithered_fraction
-        return added * (alike + (1.0 - alike) / file.block_rows)

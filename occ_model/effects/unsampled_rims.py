@@ -1,0 +1,45 @@
+"""What no sample of the pixels shows of the panel's rims, and what a file makes of it."""
+
+from occ_model.effects.sampled_pixels import SampledPixels
+
+_UNSAMPLED_PIXELS = 1.0  # pixels of a rim that may change and that no sample shows
+
+
+def unsampled(pixels: SampledPixels, square: float) -> float:
+    """Return the mean square of a few pixels of a rim, of which a sample need not show any.
+
+    A file spreads them over their block.
+    """
+    if pixels.sample.is_covered:
+        return 0.0
+    found = _UNSAMPLED_PIXELS * square
+    if pixels.file is not None:
+        region = pixels.view.region
+        blocks = min(64.0 / (region.rows * region.columns), pixels.rims.fraction)
+        found += pixels.file.added_at_a_rim(blocks, found)
+    return found
+
+
+def cut_blocks(pixels: SampledPixels) -> float:
+    """Return the mean square of what a file changes beside a rim that moves outwards.
+
+    Its blocks are observed in part.
+    """
+    if pixels.file is None:
+        return 0.0
+    rims = pixels.rims.fraction
+    return pixels.file.added_at_a_rim(rims, rims * pixels.view.swing**2 / 64.0)
+
+
+def cut_blocks_of_means(pixels: SampledPixels) -> float:
+    """Return the same in the means of columns, if a column of upright blocks becomes bright.
+
+    Where noise spreads it over the file's steps, it differs from block to block.
+    """
+    file = pixels.file
+    if file is None:
+        return 0.0
+    upright = pixels.rims.fractions[1]
+    added = file.added_at_a_rim(upright, upright * pixels.contrast**2 / 8.0)
+    alike = file.undithered_fraction
+    return added * (alike + (1.0 - alike) / file.block_rows)

@@ -81,10 +81,12 @@ def add_option(
     **more: Any,
 ) -> None:
     """Add an option with a default, which its help ends with, and whose type is the option's."""
-    kind = {int: whole_number, float: number}.get(type(default), str)
+    kinds = {int: whole_number, float: number}
+    if type(default) in kinds:  # a text stays as it is: a window asks whether it is the default
+        more["type"] = kinds[type(default)]
     shown = "%(default)g" if isinstance(default, float) else "%(default)s"
     help_text = f"{what}; default: {shown}" if what else f"default: {shown}"
-    parser.add_argument(flag, type=kind, default=default, help=help_text, **more)
+    parser.add_argument(flag, default=default, help=help_text, **more)
 
 
 def add_scene_options(parser: argparse.ArgumentParser) -> None:

@@ -20,6 +20,7 @@ from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 from small_rooms import small_room
 
+from occ_gui.app import command_line
 from occ_gui.app.application import Application
 from occ_gui.app.start import Start
 from occ_gui.core.store import Store
@@ -228,6 +229,24 @@ def test_a_scene_that_is_asked_for_wins(tmp_path: Path, small_scene: Scene) -> N
     file.close()
     begun = restored(SessionFile(tmp_path), asked, is_scene_asked=True, are_settings_asked=False)
     assert begun.scene == asked.scene
+
+
+@pytest.mark.parametrize(
+    ("words", "asks"),
+    [([], False), (["--tolerance", "1"], False), (["--preset", "phone-136us"], True),
+     (["--set", "iso=200"], True)],
+)  # fmt: skip
+def test_only_a_command_line_that_names_a_scene_asks_for_one(
+    words: list[str], asks: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    begun: list[Start] = []
+    monkeypatch.setenv("OCC_STATE", str(tmp_path))
+    monkeypatch.setattr(command_line, "_run", lambda _options, begin: begun.append(begin) or 0)
+    command_line.read_command_line(words)()
+    file = begun[0].session_file
+    assert file is not None
+    file.close()
+    assert begun[0].is_scene_asked is asks
 
 
 def crash(folder: Path, scene: Scene) -> None:

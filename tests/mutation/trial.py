@@ -1,149 +1,168 @@
-"""Trying a mutant: tests that reach it are chosen and run in the copy; one should fail."""
+"""Trying a mutant: files of tests that reach it are chosen and run in the copy; one should fail.
 
+What each file of tests reaches is measured once, in a process of its own, so that it also reaches
+what is run at import or kept by a cache.
+"""
+
+import json
+import os
 import re
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
-from pathlib import PurePosixPath
+from collections.abc import Iterable
+from dataclasses import asdict, dataclass
+from hashlib import sha256
+from pathlib import Path, PurePosixPath
+from tempfile import TemporaryDirectory
 
-from mutation.copy_of_project import Copy
-from mutation.mutants import Mutant
-from mutation.reach import MeasuredTest, lines_naming
+from mutation.copied import ROOT, Copy
+from mutation.faults import Mutant
+
+CACHE = ROOT / ".mutation"
+KILLED, SURVIVED, UNREACHED, UNCLEAR = "killed", "survived", "unreached", "unclear"
 
 _MIRRORS = {"occ_model": "tests/model", "occ_gui": "tests/gui"}
-
-KILLED, SURVIVED, UNREACHED, UNCLEAR = "killed", "survived", "unreached", "unclear"
 _PATIENCE = 60.0
 _SLOWER = 5.0
+_PYTEST = ["pytest", "-q", "--tb=line", "-p", "no:cacheprovider"]
+_PASSED, _NO_TESTS = 0, 5
+_FAILED = re.compile(r"^(?:FAILED|ERROR) (.+?)(?: - .*)?$", re.MULTILINE)
+_COVERAGE = """\
+[run]
+source = occ_model, occ_gui
+parallel = true
+patch = subprocess
+concurrency = multiprocessing, thread
+disable_warnings = no-data-collected, module-not-imported, module-not-measured
+"""
 
-_PYTEST = [
-    "-x", "-q", "--tb=line", "-p", "no:cacheprovider",
-    # That plug-ins of pytest are imported already is known.
-    "-W", "ignore::pytest.PytestAssertRewriteWarning",
-]  # fmt: skip
-_PASSED, _NOT_FOUND, _NO_TESTS, _TIMED_OUT = 0, 4, 5, 124
+
+@dataclass(frozen=True)
+class MeasuredFile:
+    """A file of tests as it was measured."""
+
+    name: str
+    hash: str
+    seconds: float
+    """Of the processor: others that run beside it take none of it."""
+    failing: list[str]
+    """Tests that fail without any mutant, which are left out."""
+    lines: dict[str, list[int]]
+    """The lines that it runs of each source."""
+    sources: dict[str, str]
+    """The sources as they were measured, by their hashes."""
+
+
+def measured(name: str, copy: Copy) -> MeasuredFile:
+    """Return what a file of tests reaches, and measure it where it is new or has changed."""
+    kept = CACHE / "reach" / f"{name}.json"
+    if kept.exists():
+        found = MeasuredFile(**json.loads(kept.read_text(encoding="utf-8")))
+        if found.hash == _hash(copy.root / name):
+            return found
+    print(f"Measuring what {name} reaches ...", flush=True)
+    found = _measure(name, copy)
+    kept.parent.mkdir(parents=True, exist_ok=True)
+    kept.write_text(json.dumps(asdict(found)), encoding="utf-8")
+    return found
+
+
+def _measure(name: str, copy: Copy) -> MeasuredFile:
+    import coverage
+
+    with TemporaryDirectory(prefix="reach-") as folder:
+        settings = Path(folder, "coverage.ini")
+        settings.write_text(f"{_COVERAGE}data_file = {folder}/lines\n", encoding="utf-8")
+        begun = sum(os.times()[2:4])
+        _, printed = copy.run(
+            ["-m", "coverage", "run", f"--rcfile={settings}", "-m", *_PYTEST, name]
+        )
+        seconds = sum(os.times()[2:4]) - begun
+        measurement = coverage.Coverage(config_file=str(settings))
+        measurement.combine()
+        data = measurement.get_data()
+        lines = {
+            Path(file).relative_to(copy.root).as_posix(): sorted(data.lines(file) or ())
+            for file in data.measured_files()
+            if Path(file).is_relative_to(copy.root)
+        }
+    sources = {source: _hash(copy.root / source) for source in lines}
+    hash_of_file = _hash(copy.root / name)
+    return MeasuredFile(name, hash_of_file, seconds, _FAILED.findall(printed), lines, sources)
+
+
+def _hash(path: Path) -> str:
+    return sha256(path.read_bytes()).hexdigest()[:16]
+
+
+def nearness(tests: str, file: str) -> int:
+    """Order files of tests by their names and folders: 0 is nearest."""
+    test, source = PurePosixPath(tests), PurePosixPath(file)
+    package, *folders = source.parent.parts
+    mirror = (_MIRRORS.get(package, "tests"), *folders)
+    if test.stem == f"test_{source.stem}":
+        return 0
+    if test.parent == PurePosixPath(*mirror):
+        return 1
+    return 2 if test.is_relative_to(PurePosixPath(*mirror[:2])) else 3
 
 
 @dataclass(frozen=True)
 class Choice:
-    """The tests of a mutant, the most promising first."""
+    """The files of tests of a mutant, the most promising first."""
 
-    tests: tuple[MeasuredTest, ...]
+    files: list[MeasuredFile]
     left_out: int
     """How many more reach the line, for which there is no time."""
-    is_reached: bool
-    """Whether any test is known to run the line."""
-
-    @property
-    def seconds(self) -> float:
-        return sum(test.seconds for test in self.tests)
 
 
-def folder_of_tests(file: str) -> str:
-    """Return the folder of tests that repeats the folder of a source."""
-    package, *folders = PurePosixPath(file).parent.parts
-    return "/".join([_MIRRORS.get(package, "tests"), *folders])
+def choose(mutant: Mutant, files: Iterable[MeasuredFile], seconds: float, copy: Copy) -> Choice:
+    """Choose the files of tests that reach a mutant, up to some time.
 
-
-def nearness(test: MeasuredTest, file: str) -> int:
-    """Order tests by their names and folders: 0 is nearest."""
-    stem = PurePosixPath(file).stem
-    folder = folder_of_tests(file)
-    here = str(PurePosixPath(test.file).parent)
-    if PurePosixPath(test.file).stem == f"test_{stem}":
-        return 0
-    if here == folder:
-        return 1
-    return 2 if here.split("/")[:3] == folder.split("/")[:3] else 3
-
-
-def choose(
-    mutant: Mutant, tests: Iterable[MeasuredTest], sources: Mapping[str, str], seconds: float
-) -> Choice:
-    """Choose the tests that reach a mutant, up to some time.
-
-    A line that runs as its file is imported, or whose result is kept, is reached by every test that
-    runs a line with its names in it, or else by those near to it that run a line of its file. So is
-    one that no test is seen to run: it may run in a thread or process that is not measured.
+    Near ones come first, then those that run most of its file. Where none is seen to run the line,
+    which also may be one of a source that has changed, all are taken that run any line of the file.
     """
-    tests = list(tests)
-    lines = range(mutant.line, mutant.last_line + 1)
-    exact = [test for test in tests if test.runs(mutant.file, lines)]
-    named = _users(mutant, tests, sources) if mutant.at_import else []
-    near = [test for test in tests if mutant.file in test.lines and nearness(test, mutant.file) < 3]
-    ranked: dict[str, tuple[int, MeasuredTest]] = {}
-    for rank, some in enumerate((exact, named, near)):
-        for test in some:
-            ranked.setdefault(test.name, (rank, test))
-    ordered = sorted(
-        ranked.values(),
-        key=lambda pair: (pair[0] == 2, nearness(pair[1], mutant.file), pair[1].seconds),
+    users = sorted(
+        (one for one in files if one.lines.get(mutant.file)),
+        key=lambda one: (nearness(one.name, mutant.file), -len(one.lines[mutant.file])),
     )
-    chosen: list[MeasuredTest] = []
-    used = 0.0
-    left_out = 0
-    for rank, test in ordered:
-        if not chosen or used + test.seconds <= seconds:
-            chosen.append(test)
-            used += test.seconds
-        else:
-            left_out += rank < 2
-    return Choice(tuple(chosen), left_out, bool(exact or named))
-
-
-def _users(
-    mutant: Mutant, tests: Iterable[MeasuredTest], sources: Mapping[str, str]
-) -> list[MeasuredTest]:
-    """Return the tests that run a line with the names that a mutant's line makes."""
-    naming = {file: lines_naming(text, mutant.names) for file, text in sources.items()}
-    return [
-        test
-        for test in tests
-        if any(lines and test.runs(file, lines) for file, lines in naming.items())
+    source = _hash(copy.root / mutant.file)
+    reaching = [
+        one
+        for one in users
+        if one.sources[mutant.file] != source
+        or not set(mutant.lines).isdisjoint(one.lines[mutant.file])
     ]
+    chosen: list[MeasuredFile] = []
+    for one in reaching or users:
+        if not chosen or sum(other.seconds for other in chosen) + one.seconds <= seconds:
+            chosen.append(one)
+    return Choice(chosen, len(reaching or users) - len(chosen))
 
 
 @dataclass(frozen=True)
 class Outcome:
     result: str
-    by: str
+    by: str = ""
     """The first test that failed, or why the mutant counts as killed."""
-    tried: int
-    left_out: int
 
 
-def tried(mutant: Mutant, source: str, choice: Choice, copy: Copy) -> Outcome:
+def tried(mutant: Mutant, choice: Choice, copy: Copy) -> Outcome:
     """Put a mutant into the copy, run its tests, and take it out again."""
-    if not choice.tests:
-        return Outcome(UNREACHED, "no test is known to reach it", 0, 0)
-    names = [test.name for test in choice.tests]
-    timeout = _PATIENCE + _SLOWER * choice.seconds
+    if not choice.files:
+        return Outcome(UNREACHED)
+    failing = [name for one in choice.files for name in one.failing]
+    left_out = [f"--deselect={name}" for name in failing]
+    tests = ["-m", *_PYTEST, "-x", *left_out, *(one.name for one in choice.files)]
+    seconds = _PATIENCE + _SLOWER * sum(one.seconds for one in choice.files)
+    source = (copy.root / mutant.file).read_text(encoding="utf-8")
     copy.write(mutant.file, mutant.apply(source))
     try:
-        code, printed = copy.pytest([*_PYTEST, *_named(names, copy)], timeout)
-        if code == _NOT_FOUND:
-            # Names of tests have values in them that the mutant may have changed.
-            files = list(dict.fromkeys(test.file for test in choice.tests))
-            code, printed = copy.pytest([*_PYTEST, *files], timeout + 10.0 * _PATIENCE)
+        code, printed = copy.run(tests, seconds)
     finally:
         copy.write(mutant.file, source)
-    if code == _TIMED_OUT:
+    if code is None:
         # On a machine that is busy the tests may take as long without a mutant.
-        code, _ = copy.pytest([*_PYTEST, *_named(names, copy)], timeout)
-        result = UNCLEAR if code == _TIMED_OUT else KILLED
-        return Outcome(result, "time", len(names), choice.left_out)
+        code, _ = copy.run(tests, seconds)
+        return Outcome(UNCLEAR if code is None else KILLED, "time")
     if code in (_PASSED, _NO_TESTS):
-        return Outcome(SURVIVED, "", len(names), choice.left_out)
-    failed = re.findall(r"^(?:FAILED|ERROR) (.+?)(?: - .*)?$", printed, re.MULTILINE)
-    return Outcome(KILLED, failed[0] if failed else f"exit {code}", len(names), choice.left_out)
-
-
-def passes_unchanged(test: str, copy: Copy) -> bool:
-    """Tell whether a test that has killed a mutant passes without one."""
-    code, _ = copy.pytest([*_PYTEST, *_named([test], copy)], 10.0 * _PATIENCE)
-    return code == _PASSED
-
-
-def _named(names: list[str], copy: Copy) -> list[str]:
-    """Hand names over in a file: there may be more than a command line takes."""
-    (copy.root.parent / "tests.txt").write_text("\n".join(names), encoding="utf-8")
-    return [f"@{copy.root.parent / 'tests.txt'}"]
+        return Outcome(SURVIVED)
+    return Outcome(KILLED, next(iter(_FAILED.findall(printed)), f"exit {code}"))

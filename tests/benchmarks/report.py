@@ -127,6 +127,23 @@ def draft_cost() -> Row:
     )
 
 
+def planning_cost() -> Row:
+    """Compare both plans of a slider's movement with a noise-free picture."""
+    start = count()
+
+    def plans() -> None:
+        moved = _WITH_LENS.replace(start_time=1e-7 * next(start))
+        occ.plan(moved, observable="image")
+        occ.plan(moved, observable="signal")
+
+    a, b = side_by_side(plans, lambda: occ.render(_PAPER, tolerance=inf), rounds=21)
+    return Row(
+        "its plans for picture and signal, against a noise-free frame",
+        f"{a / b:.2f} ({a:.1f} ms)",
+        "",
+    )
+
+
 def complete_memory() -> Row:
     command = [sys.executable, str(MEMORY), "picture", "phone-136us-real"]
     frames = float(subprocess.run(command, check=True, capture_output=True).stdout)
@@ -239,6 +256,7 @@ _ALL = (
     reused_noise_cost,
     complete_cost,
     complete_memory,
+    planning_cost,
     draft_cost,
     decode_cost,
     profile_cost_with_reading,

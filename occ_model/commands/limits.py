@@ -1,7 +1,6 @@
 """The command ``occ-model limits``: find the frequencies and exposures that a decoder reads."""
 
 import argparse
-import sys
 from collections.abc import Sequence
 
 from occ_model.commands.options import (
@@ -70,27 +69,18 @@ def _run(options: argparse.Namespace) -> int:
     scene = scene_of(options)
     FRAME_RATE.check(options.fps)
     decoders = tuple(dict.fromkeys(options.decoder or DECODERS))
-    heading = _heading(scene, options)
     with progress_bar(total=100, unit="%", bar_format=_BAR, leave=False, delay=0.5) as bar:
 
-        def show_heading() -> None:
-            while heading:  # not before the search has begun: a refused one shows none
-                bar.write(heading.pop(0))
-
         def show(fraction: float, what: str) -> None:
-            show_heading()
             bar.set_description_str(what, refresh=False)
             bar.update(round(100.0 * fraction) - bar.n)
 
-        def show_row(found: Limits) -> None:
-            show_heading()
-            bar.write(row(found, options.fps))
-            sys.stdout.flush()
-
         settings = RateSettings(options.images, decoders, options.seed)
-        answers = limits_of(
-            scene, settings, options.rate, jobs=options.jobs, progress=show, found=show_row
-        )
+        answers = limits_of(scene, settings, options.rate, jobs=options.jobs, progress=show)
+    for line in _heading(scene, options):
+        print(line)
+    for each in answers:
+        print(row(each, options.fps))
     for line in sentences(answers, options.fps):
         print(line)
     reads = any(each.highest_frequency and each.longest_exposure for each in answers)

@@ -13,7 +13,7 @@ from occ_model.commands.options import (
     whole_number,
 )
 from occ_model.errors import one_line
-from occ_model.files.writing import check_replaceable, write_image
+from occ_model.files.writing import check_image_path, write_image
 from occ_model.results.frame import PICTURES
 from occ_model.scene.from_text import write_scene_file
 from occ_model.simulation.render import render_with
@@ -45,7 +45,7 @@ def add_to(commands: Commands) -> None:
 def _run(options: argparse.Namespace) -> int:
     scene = scene_of(options)
     settings = simulation_settings_of(options)
-    check_replaceable(options.out)  # before seconds of work are done
+    check_image_path(options.out)  # before seconds of work are done
     frame = render_with(scene, settings, options.rows_step)
     image, title = frame.picture(options.picture), frame.picture_title(options.picture)
     write_image(options.out, image, title)

@@ -20,7 +20,7 @@ from occ_model.commands.options import (
 )
 from occ_model.commands.sweep import add_work_options, add_worker_options, run_with_bar
 from occ_model.errors import one_line
-from occ_model.files.writing import check_replaceable, write_image
+from occ_model.files.writing import check_image_path, write_image
 from occ_model.photo.reading.load import load_photo
 from occ_model.program import EXIT_FAILURE, EXIT_INTERRUPTED
 from occ_model.room.locate import RoomReading, read_room
@@ -130,7 +130,7 @@ def _room_of(options: argparse.Namespace) -> Room:
 
 def _render(options: argparse.Namespace) -> int:
     room, settings = _room_of(options), simulation_settings_of(options)
-    check_replaceable(options.out)
+    check_image_path(options.out)
     frame = _rendered(room, settings)
     write_image(options.out, frame.camera_image, "Camera's picture")
     shown = [one.lamp.name + (" (cut)" if one.is_cut else "") for one in frame.lamps]

@@ -45,12 +45,27 @@ def write_image(path: Path, image: ByteArray, description: str = "") -> None:
     write_whole(path, _encoded(path, image, description))
 
 
+def check_image_path(path: Path) -> str:
+    """Return the image format of the path's ending; refuse a path that no image can be written to.
+
+    Known before the work whose result is to be written, not after it.
+    """
+    check_replaceable(path)
+    format_name = _FORMATS.get(path.suffix.lower())
+    if format_name is None:
+        *endings, last = PICTURE_ENDINGS
+        raise OutputError(
+            f"{one_line(path.name)} has no ending of an image format; "
+            f"use {', '.join(endings)} or {last}."
+        )
+    return format_name
+
+
 def check_replaceable(path: Path) -> int | None:
     """Refuse a path that no file can be written to; return the permissions of the file there."""
     try:
         mode = path.stat().st_mode
     except FileNotFoundError:
-        # Known before the work whose result is to be written, not after it.
         folder = path.resolve().parent
         if not folder.is_dir():
             raise OutputError(
@@ -118,13 +133,7 @@ def _replacement(path: Path, permissions: int | None) -> Iterator[Path]:
 
 
 def _encoded(path: Path, image: ByteArray, description: str) -> bytes:
-    format_name = _FORMATS.get(path.suffix.lower())
-    if format_name is None:
-        *endings, last = PICTURE_ENDINGS
-        raise OutputError(
-            f"{one_line(path.name)} has no ending of an image format; "
-            f"use {', '.join(endings)} or {last}."
-        )
+    format_name = check_image_path(path)
     longest = LONGEST_SIDE.get(format_name)
     if longest is not None and max(image.shape) > longest:
         raise OutputError(

@@ -17,7 +17,7 @@ from occ_model.errors import ParameterError, shown
 from occ_model.parallel.job import NO_PROCESSES, Heartbeat, Job, JobResult
 from occ_model.receiver.decoders import PAPER_DECODER
 from occ_model.results.advice import Advice, TheoryLimits
-from occ_model.results.limits import Limits, WorkingRange
+from occ_model.results.limits import Limits
 from occ_model.results.sweep_request import MOST_JOBS, RateSettings, SignalPath
 from occ_model.scene.argument_checks import check_count, is_number
 from occ_model.scene.parameters import PARAMETERS
@@ -97,12 +97,8 @@ def limits_of(
     jobs: int = 1,
     heartbeat: Heartbeat = lambda: None,
     progress: Callable[[float, str], object] = lambda _fraction, _what: None,
-    found: Callable[[Limits], object] = lambda _limits: None,
 ) -> tuple[Limits, ...]:
-    """Find the limits of several decoders, as :func:`limits` does for each of them.
-
-    ``found``: called with each decoder's limits at once, before it is known how surely.
-    """
+    """Find the limits of several decoders, as :func:`limits` does for each of them."""
     check_scene(scene)
     wanted = _checked(rate)
     check_count("jobs", jobs, 1, MOST_JOBS)
@@ -111,15 +107,10 @@ def limits_of(
         own = replace(settings, decoders=(decoder,))
         check_rate(scene, own)
         asked += [(scene, name, wanted, own) for name in SEARCHED]
-    answers = partial(_answers, scene, settings, wanted)
     usual = len(asked) * usual_images(settings.images, wanted)
     with ExitStack() as stack:
         ways = _Ways(stack, jobs, usual, heartbeat, progress)
-        searched: list[WorkingRange] = []
-        for each in ways.answers(working_range, asked, (1,) * len(SEARCHED)):
-            searched.append(each)
-            if len(searched) % len(SEARCHED) == 0:
-                found(answers(searched)[-1])
+        searched = list(ways.answers(working_range, asked, (1,) * len(SEARCHED)))
         pairs = [(one, pairs_of(each)) for one, each in zip(asked, searched, strict=True)]
         # The slowest decoder, which is the last, first: nothing else waits for it then.
         again = [(*one, pair) for one, several in pairs for pair in several][::-1]
@@ -129,7 +120,11 @@ def limits_of(
             for each, (_, several) in zip(searched, pairs, strict=True)
         ]
     progress(1.0, "")
-    return tuple(answers(ranges))
+    pairs_of_ranges = zip(settings.decoders, ranges[::2], ranges[1::2], strict=True)
+    return tuple(
+        Limits(scene, one, wanted, settings.images, settings.seed, *pair)
+        for one, *pair in pairs_of_ranges
+    )
 
 
 SEARCHED = ("switching_frequency", "exposure_time")  # the parameters whose limits are searched
@@ -140,14 +135,6 @@ _POLL_SECONDS = 0.1  # between two polls of other processes
 def usual_images(images: int, rate: float) -> int:
     """Return how many images a decoder's search along a parameter usually reads."""
     return expected_images(images) + images_about_an_end(rate)
-
-
-def _answers(
-    scene: Scene, settings: RateSettings, rate: float, ranges: Sequence[WorkingRange]
-) -> list[Limits]:
-    """Put the ranges together, those of one decoder after the other."""
-    pairs = zip(settings.decoders, ranges[::2], ranges[1::2], strict=False)
-    return [Limits(scene, one, rate, settings.images, settings.seed, *pair) for one, *pair in pairs]
 
 
 class _Ways:

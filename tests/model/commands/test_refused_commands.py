@@ -171,3 +171,17 @@ def test_a_refused_command_says_one_sentence_and_changes_no_file(
     assert said.count("\n") == 1
     assert said.endswith((".\n", "?\n"))
     assert contents(folder) == before
+
+
+@pytest.mark.parametrize(
+    ("line", "simulation"),
+    [
+        ("render -o out.xyz", "occ_model.commands.render.render_with"),
+        ("room render -o out.xyz", "occ_model.commands.room._rendered"),
+    ],
+)
+def test_a_picture_that_cannot_be_written_is_not_simulated(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, line: str, simulation: str
+) -> None:
+    monkeypatch.setattr(simulation, lambda *_: pytest.fail("simulated"))
+    assert main(line.split()) == 2

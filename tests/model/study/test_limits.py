@@ -450,6 +450,24 @@ def test_the_command_answers_with_one_table_of_all_decoders(
     assert lines[-1].endswith("; from 1.17 ms on, columns lit throughout are white.")
 
 
+def test_the_commands_table_and_its_sentences_state_the_same_ends(
+    decoding: Decoding, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Where reading is lost slowly, more images move an end that the search has found."""
+
+    def read_more_rarely(frequency: float, image: int, seed: int) -> float:
+        lost = (frequency / 40e3) ** 2
+        return float(np.random.default_rng([seed, image, int(frequency)]).random() > lost)
+
+    decoding(read_more_rarely)
+    command = ["limits", "--decoder", "threshold", "--images", "5", "--rate", "90", "--jobs", "1"]
+    assert main(command) == 0
+    lines = capsys.readouterr().out.splitlines()
+    highest = re.split(" {2,}", lines[2])[2]
+    last_interval = lines.index("The threshold decoder, exposure time:") - 1
+    assert lines[last_interval].startswith(f"  {highest}: ")
+
+
 def test_the_command_fails_where_nothing_is_read(capsys: pytest.CaptureFixture[str]) -> None:
     dark = ["--set", "luminance=0", "--set", "illuminance=0"]
     assert main(["limits", "--decoder", "matched", "--images", "1", *dark]) == 1

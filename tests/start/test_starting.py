@@ -94,36 +94,6 @@ def test_every_check_runs_and_any_failure_counts(
         assert f"words of {start.PROGRAMS / check.split()[0]}" in lines
 
 
-def test_other_checks_keep_their_output_until_the_tests_end(
-    start: ModuleType, capfd: pytest.CaptureFixture[str]
-) -> None:
-    for check in CHECKS:
-        program = check.split()[0]
-        put_program(start.PROGRAMS / program, f"echo {program} output; echo {program} error >&2")
-    assert start.run_checks([]) == 0
-    lines = [line for line in capfd.readouterr().out.splitlines() if line]
-    assert lines == [
-        "Check 1 of 5: pytest -n auto --dist worksteal", "pytest output",
-        "Check 2 of 5: ruff check .", "ruff output", "ruff error",
-        "Check 3 of 5: ruff format --check .", "ruff output", "ruff error",
-        "Check 4 of 5: mypy", "mypy output", "mypy error",
-        "Check 5 of 5: lint-imports", "lint-imports output", "lint-imports error",
-        "Every check passed.",
-    ]  # fmt: skip
-
-
-def test_the_checks_keep_what_python_compiles(
-    start: ModuleType, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.setenv("PYTHONDONTWRITEBYTECODE", "1")
-    monkeypatch.setenv("KEPT", "as it is")
-    for check in CHECKS:
-        body = 'echo "$KEPT, ${PYTHONDONTWRITEBYTECODE-compiled}"'
-        put_program(start.PROGRAMS / check.split()[0], body)
-    assert start.run_checks([]) == 0
-    assert capfd.readouterr().out.splitlines().count("as it is, compiled") == len(CHECKS)
-
-
 def test_the_tests_use_every_core_that_this_process_may_use(
     start: ModuleType, monkeypatch: pytest.MonkeyPatch
 ) -> None:

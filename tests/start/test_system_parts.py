@@ -5,8 +5,6 @@ import os
 import shutil
 import subprocess
 import sys
-from collections.abc import Sequence
-from pathlib import Path
 from types import ModuleType, SimpleNamespace
 
 import pytest
@@ -58,21 +56,6 @@ def test_a_font_is_asked_for_only_where_its_package_is_known(
     monkeypatch.setattr(system_libraries, "loads", lambda library: True)
     monkeypatch.setattr(start, "has_font", lambda: False)
     assert ("fonts-dejavu-core" in start.missing_parts("", False).values()) == asked_for
-
-
-def test_a_font_in_the_home_folder_counts(
-    start: ModuleType, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
-    def below_home(folder: str) -> Path:
-        return Path(folder) if folder.startswith(str(tmp_path)) else tmp_path / "none"
-
-    monkeypatch.setenv("HOME", str(tmp_path))
-    monkeypatch.setattr(start, "Path", below_home)
-    assert not start.has_font()
-    font = tmp_path / ".local" / "share" / "fonts" / "family" / "plain.ttf"
-    font.parent.mkdir(parents=True)
-    font.touch()
-    assert start.has_font()
 
 
 @pytest.mark.parametrize("making_venv", [True, False])
@@ -164,23 +147,6 @@ def test_without_apt_get_the_missing_libraries_are_named(
     assert visible == []
 
 
-def test_a_failed_update_of_the_list_still_installs(
-    start: ModuleType, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    on_path(monkeypatch, "apt-get")
-    monkeypatch.setattr(start, "root_prefix", list)
-    ran: list[str] = []
-
-    def only_install_works(command: Sequence[str]) -> bool:
-        ran.append(command[-1])
-        return "install" in command
-
-    monkeypatch.setattr(start, "run_visibly", only_install_works)
-    lacking(start, monkeypatch, {"libEGL.so.1": "libegl1"}, {})
-    start.provide_system_parts("offscreen", making_venv=False)
-    assert ran == ["update", "libegl1"]
-
-
 @pytest.mark.parametrize(
     ("installs", "words"), [(False, "apt-get could not install"), (True, "still lacks libEGL.so.1")]
 )
@@ -193,18 +159,6 @@ def test_an_installation_that_brings_nothing_is_an_error(
     lacking(start, monkeypatch, *[{"libEGL.so.1": "libegl1"}] * 2)
     with pytest.raises(start.SetUpError, match=words):
         start.provide_system_parts("offscreen", making_venv=False)
-
-
-def test_a_tool_of_the_tests_counts_as_there_where_program_and_header_are(
-    start: ModuleType, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
-    header = tmp_path / "sim_avr.h"
-    on_path(monkeypatch, "g++")
-    tools = {"avr-g++": "gcc-avr", "g++": "g++", str(header): "libsimavr-dev"}
-    monkeypatch.setattr(start, "TEST_TOOLS", tools)
-    assert start.missing_tools() == ["gcc-avr", "libsimavr-dev"]
-    header.touch()
-    assert start.missing_tools() == ["gcc-avr"]
 
 
 @pytest.mark.parametrize(
@@ -226,17 +180,6 @@ def test_the_tests_tools_are_installed_where_that_is_allowed(
     apt = "env DEBIAN_FRONTEND=noninteractive apt-get"
     install = f"{apt} install -y --no-install-recommends gcc-avr g++"
     assert visible == ([f"{apt} update", install] if asked else [])
-
-
-def test_tools_that_cannot_be_installed_stop_nothing(
-    start: ModuleType, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    on_path(monkeypatch, "apt-get")
-    monkeypatch.setattr(start, "missing_tools", lambda: ["gcc-avr"])
-    monkeypatch.setattr(start, "root_prefix", list)
-    monkeypatch.setattr(start, "run_visibly", lambda command: False)
-    start.offer_test_tools()
-    assert "the tests that need them are skipped" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

@@ -97,19 +97,6 @@ def test_a_failed_making_says_so_and_leaves_the_venv_marked(
     assert start.UNFINISHED.exists()
 
 
-def test_a_link_in_the_venvs_place_is_replaced_not_its_target(
-    start: ModuleType, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
-    kept = tmp_path / "target" / "kept"
-    kept.parent.mkdir()
-    kept.touch()
-    start.VENV.symlink_to(kept.parent)
-    monkeypatch.setattr(subprocess, "run", lambda command, **options: SimpleNamespace(returncode=0))
-    start.make_venv()
-    assert kept.exists()
-    assert not start.VENV.is_symlink()
-
-
 @pytest.fixture
 def ready_venv(start: ModuleType, monkeypatch: pytest.MonkeyPatch) -> None:
     """Let the system and the virtual environment be as they should."""
@@ -123,34 +110,6 @@ def test_pip_runs_only_for_extras_not_yet_there(start: ModuleType, visible: list
     for extras in (["gui"], ["gui"], ["gui", "test"], ["gui", "test"], ["gui"]):
         start.set_up("offscreen", extras)
     assert [line.split()[-1] for line in visible] == [".[gui]", ".[gui,test]"]
-
-
-@pytest.mark.usefixtures("ready_venv")
-@pytest.mark.parametrize(
-    ("extras", "kept", "option"),
-    [
-        (["gui"], True, "--no-compile "),
-        (["gui", "test"], True, "--no-compile "),
-        # An application that keeps none would compile the same modules at each of its starts.
-        (["gui"], False, ""),
-        (["gui", "test"], False, "--no-compile "),
-    ],
-)
-def test_pip_compiles_only_what_nobody_else_would_keep(
-    start: ModuleType,
-    visible: list[str],
-    monkeypatch: pytest.MonkeyPatch,
-    extras: list[str],
-    kept: bool,
-    option: str,
-) -> None:
-    monkeypatch.delenv(start.UNCOMPILED, raising=False)
-    if not kept:
-        monkeypatch.setenv(start.UNCOMPILED, "1")
-    start.set_up("offscreen", extras)
-    (line,) = visible
-    pip = f"PIP_DISABLE_PIP_VERSION_CHECK=1 {start.PYTHON} -m pip install"
-    assert line == f"{pip} {option}-e .[{','.join(extras)}]"
 
 
 @pytest.mark.usefixtures("ready_venv")

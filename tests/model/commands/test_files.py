@@ -9,29 +9,11 @@ from pathlib import Path
 import pytest
 from matches import match_with
 
-import occ_model as occ
 from occ_gui.app.command_line import read_command_line as read_window_command_line
 from occ_model.cli import main
 from occ_model.commands import files, match
 from occ_model.commands.command_line import read_command_line
 from occ_model.commands.files import INPUTS, OUTPUTS, is_same_file
-from occ_model.figures import paper
-from occ_model.files.writing import write_image
-
-SCENE = occ.load_preset("phone-68us").replace(rows=60)
-
-
-def test_a_file_that_the_command_does_not_name_is_replaced(tmp_path: Path) -> None:
-    path, scene = tmp_path / "q.png", tmp_path / "s.toml"
-    words = ["render", "--set", "rows=60", "-o", str(path), "--save-scene", str(scene)]
-    for _ in range(2):
-        assert main(words) == 0
-
-
-def test_the_file_of_a_sweep_is_continued(tmp_path: Path) -> None:
-    words = ["sweep", "--vary", "iso=100", "--images", "1", "--out", str(tmp_path / "r.csv")]
-    assert main(words) == 0
-    assert main(words) == 0
 
 
 def test_every_option_that_names_a_file_is_known() -> None:
@@ -106,13 +88,3 @@ def test_names_that_are_no_text_are_read_written_and_shown(
     run("sweep", "--vary", "iso=100", "--images", "1", "--out", table)
     run("plan", "--scene", table)
     assert sorted(tmp_path.iterdir()) == sorted((picture, scene, table))
-
-
-def test_a_photo_whose_name_is_no_text_stands_in_a_figure(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(paper, "save_figure", lambda *_: None)  # the table has the same notes
-    photo = tmp_path / os.fsdecode(b"caf\xe9.png")
-    write_image(photo, occ.render(SCENE).image)
-    paper.write_profile_figure(tmp_path, 3, "phone-68us", occ.load_photo(photo))
-    assert r"photo caf\udce9.png" in (tmp_path / "figure-3.csv").read_text("utf-8")

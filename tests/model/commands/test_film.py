@@ -1,5 +1,6 @@
 """The commands that simulate a film and that read one."""
 
+import math
 from pathlib import Path
 
 import pytest
@@ -90,23 +91,12 @@ def test_the_film_is_the_recording_of_the_scene(
         camera_drift=20e-6,
         transmitter_drift=-5e-6,
         exposure_times=(68e-6, 136e-6),
-        path=(occ.Waypoint(0.0), occ.Waypoint(0.1, offset_x=0.2, roll=film_roll())),
+        path=(occ.Waypoint(0.0), occ.Waypoint(0.1, offset_x=0.2, roll=math.radians(5.0))),
     )
     assert film.recording == recording
     assert film.scene is not None
     again = occ.render_video(film.scene, 4, recording, settings=occ.SimulationSettings(seed=4))
     assert all((a.image == b.image).all() for a, b in zip(film, again, strict=True))
-
-
-def film_roll() -> float:
-    """Five degrees, as they are read from a text."""
-    value = occ.Scene().value("roll")
-    assert value == 0.0
-    from occ_model.scene.units import RADIAN
-
-    read = RADIAN.parse("5deg")
-    assert read is not None
-    return read
 
 
 def test_a_lossy_film_says_what_it_lost(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -87,25 +87,6 @@ def test_no_sure_photo_is_a_failure(folder: Path, capsys: pytest.CaptureFixture[
     assert "No photo is sure" in capsys.readouterr().out
 
 
-def test_a_full_disk_leaves_the_old_table(
-    folder: Path,
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
-) -> None:
-    out = tmp_path / "readout.csv"
-    out.write_text("old")
-
-    def full(self: Path, data: bytes) -> int:
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr(Path, "write_bytes", full)
-    damaged = str(folder / "damaged.png")  # a table is written of it, too
-    assert main(["match", damaged, damaged, "--jobs", "1", "--out", str(out)]) == 2
-    assert "readout.csv cannot be written: No space left on device." in capsys.readouterr().err
-    assert (out.read_text(), [path.name for path in tmp_path.iterdir()]) == ("old", [out.name])
-
-
 @pytest.mark.parametrize(
     "delay", [0.0, *(pytest.param(late, marks=pytest.mark.whole) for late in (0.8, 1.6)), 3.0]
 )

@@ -134,13 +134,6 @@ def test_without_a_file_the_table_is_printed(capsys: pytest.CaptureFixture[str])
 
 @pytest.mark.whole
 @pytest.mark.filterwarnings("ignore::DeprecationWarning")
-def test_a_cluster_that_is_nowhere_is_named(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["sweep", "--vary", "distance=1", "--cluster", "nowhere"]) == 2
-    assert "No dask scheduler answers at 'nowhere" in capsys.readouterr().err
-
-
-@pytest.mark.whole
-@pytest.mark.filterwarnings("ignore::DeprecationWarning")
 def test_a_cluster_is_reached_with_dasks_certificates(monkeypatch: pytest.MonkeyPatch) -> None:
     def rpc(address: str, connection_args: object = None) -> None:
         raise ConnectionError(f"{address} by {connection_args}")
@@ -211,39 +204,6 @@ def test_a_study_that_is_stopped_says_how_far_its_own_progress_came(
 
 def table_of(**axes: object) -> occ.SweepTable:
     return occ.sweep(occ.load_preset("phone-136us"), axes, 1, ("threshold", "matched"))  # type: ignore[arg-type]
-
-
-@pytest.mark.parametrize(
-    "ending", ["svg", *(pytest.param(one, marks=pytest.mark.whole) for one in ("png", "pdf"))]
-)
-def test_a_figure_has_its_endings_format_and_its_provenance(tmp_path: Path, ending: str) -> None:
-    path = tmp_path / f"f.{ending}"
-    write_sweep_figure(path, table_of(switching_frequency=[4e3, 6e3, 15e3]))
-    content = path.read_bytes()
-    starts = {"png": b"\x89PNG", "pdf": b"%PDF", "svg": b"<?xml"}
-    assert content.startswith(starts[ending])
-    assert b"Success rate over switching_frequency" in content
-    if ending == "svg":
-        text = content.decode()
-        assert "switching_frequency: 4000.0, 6000.0, 15000.0" in text
-        assert "exposure_time = 0.000136" in text
-
-
-@pytest.mark.parametrize(
-    "axes",
-    [
-        {"enhancement": ["none", "equalization"]},
-        pytest.param({"distance": [0.1, 1.0], "yaw": [1.2, 0.0]}, marks=pytest.mark.whole),
-        {"averaging": ["light"], "bits": [4, 8]},
-        pytest.param({"distance": [1.0]}, marks=pytest.mark.whole),
-    ],
-)
-def test_any_axes_can_be_drawn(tmp_path: Path, axes: dict[str, object]) -> None:
-    path = tmp_path / "f.png"
-    write_sweep_figure(path, table_of(rows=[100], **axes) if len(axes) < 2 else table_of(**axes))
-    with Image.open(path) as picture:
-        assert min(picture.size) > 500
-        assert len(np.unique(np.asarray(picture.convert("L")))) > 10
 
 
 def test_what_the_model_refuses_is_grey_in_a_map(tmp_path: Path) -> None:

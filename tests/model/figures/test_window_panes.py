@@ -110,12 +110,6 @@ def test_a_decoding_that_failed_is_drawn_as_far_as_it_came(tmp_path: Path) -> No
         assert picture.width > 500
 
 
-def test_the_reason_stands_where_there_is_no_band_model(tmp_path: Path) -> None:
-    drawing = profile_drawing(FRAME, None, "The band model is undefined here.")
-    drawing.write(tmp_path / "profile.svg", provenance(drawing))
-    assert "band model (grey level)" not in drawing.header
-
-
 @pytest.mark.parametrize("enhanced", [False, True])
 def test_a_profile_has_the_threshold_of_its_decoder(enhanced: bool) -> None:
     found = READ
@@ -143,15 +137,3 @@ def test_an_unknown_ending_is_refused_before_any_writing(tmp_path: Path) -> None
     with pytest.raises(occ.OutputError, match=r"figure\.doc has no ending"):
         drawing.write(tmp_path / "figure.doc", provenance(drawing))
     assert not list(tmp_path.iterdir())
-
-
-def test_the_lit_chips_of_a_decoder_are_drawn_below_its_signal() -> None:
-    found = READ
-    with house_style():
-        figure = decode_drawing(SCENE, found).draw()
-    (bars,) = [
-        item for ax in figure.axes for item in ax.collections if item.get_label() == "chips: lit"
-    ]
-    paths = bars.get_paths()
-    assert len(paths) == int(found.chips.sum())
-    assert max(np.asarray(path.vertices)[:, 1].max() for path in paths) < found.signal.min()

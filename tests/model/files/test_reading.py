@@ -11,7 +11,6 @@ from occ_model.cli import main
 from occ_model.errors import SceneFileError
 from occ_model.files.reading import LARGEST_TEXT, read_bytes, read_start, read_text
 from occ_model.scene.from_text import read_scene_file
-from occ_model.scene.presets import USER_FOLDER, preset_named, presets, unreadable_presets
 from occ_model.scene.provenance import ENDINGS
 from occ_model.scene.scene import Scene
 from occ_model.teaching.lessons import read_lesson
@@ -130,20 +129,6 @@ def test_every_reader_of_scenes_refuses_what_is_no_regular_file(
         read_lesson(path)
     assert main(["plan", "--scene", str(path)]) == 2
     assert "device, pipe or socket" in capsys.readouterr().err
-
-
-@posix
-@limited
-def test_a_preset_that_is_no_regular_file_is_unreadable(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, make: Callable[[Path], None]
-) -> None:
-    monkeypatch.setenv(USER_FOLDER, str(tmp_path))
-    before = presets()
-    make(tmp_path / "odd.toml")
-    assert presets() == before
-    assert "device, pipe or socket" in unreadable_presets()["odd"]
-    with pytest.raises(SceneFileError, match="device, pipe or socket"):
-        preset_named("odd")
 
 
 def test_a_scene_beyond_the_limit_is_refused_before_it_is_read(tmp_path: Path) -> None:

@@ -17,7 +17,6 @@ from occ_model.files.writing import (
     make_folder,
     write_image,
     write_whole,
-    written_whole,
 )
 
 IMAGE = np.random.default_rng(7).integers(0, 256, (13, 21), dtype=np.uint8)
@@ -66,14 +65,6 @@ def test_a_file_holds_exactly_what_was_to_be_written(
     assert list(tmp_path.iterdir()) == [path]
 
 
-def test_a_name_alone_is_a_file_in_the_current_folder(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    write_whole(Path("file.bin"), b"here")
-    assert (tmp_path / "file.bin").read_bytes() == b"here"
-
-
 def test_a_full_disk_leaves_the_old_file_and_nothing_else(full: None, tmp_path: Path) -> None:
     path = tmp_path / "file.bin"
     path.write_text("old")
@@ -82,13 +73,6 @@ def test_a_full_disk_leaves_the_old_file_and_nothing_else(full: None, tmp_path: 
     assert str(refused.value) == f"{path} cannot be written: No space left on device."
     assert path.read_bytes() == b"old"
     assert list(tmp_path.iterdir()) == [path]
-
-
-@pytest.mark.parametrize("full", ["open", "write", "replace"], indirect=True)
-def test_a_full_disk_leaves_no_new_file(full: None, tmp_path: Path) -> None:
-    with pytest.raises(OutputError, match=r"No space left on device\.$"):
-        write_image(tmp_path / "picture.png", IMAGE)
-    assert list(tmp_path.iterdir()) == []
 
 
 def test_an_interruption_leaves_the_old_file_and_nothing_else(
@@ -217,25 +201,6 @@ def test_a_new_file_has_the_permissions_that_new_files_get(tmp_path: Path, mask:
     assert stat.S_IMODE((tmp_path / "file.bin").stat().st_mode) == 0o666 & ~mask
 
 
-@pytest.mark.parametrize("mode", [0o600, 0o640, 0o666, 0o755])
-def test_a_file_that_was_there_keeps_its_permissions(tmp_path: Path, mode: int) -> None:
-    path = tmp_path / "file.bin"
-    path.write_bytes(b"old")
-    path.chmod(mode)
-    write_whole(path, b"new")
-    assert path.read_bytes() == b"new"
-    assert stat.S_IMODE(path.stat().st_mode) == mode
-
-
-def test_the_mask_of_new_files_is_left_alone(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    # It belongs to the whole process: another thread's new file would be open to everybody.
-    monkeypatch.setattr(os, "umask", full_disk)
-    write_whole(tmp_path / "file.bin", b"x")
-    assert (tmp_path / "file.bin").read_bytes() == b"x"
-
-
 @pytest.mark.parametrize("mode", [None, 0o600, 0o640, 0o666])
 def test_a_file_that_is_being_written_is_private(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, mode: int | None
@@ -260,16 +225,6 @@ def test_a_file_that_is_being_written_is_private(
     assert seen == [(0o600, 0)]
     assert stat.S_IMODE(path.stat().st_mode) == wanted
     assert path.read_bytes() == b"secret"
-
-
-def test_the_name_of_a_temporary_file_cannot_be_foreseen(tmp_path: Path) -> None:
-    names = set()
-    for _ in range(20):
-        with written_whole(tmp_path / "film.mkv") as temporary:
-            names.add(temporary.name)
-            assert stat.S_IMODE(temporary.stat().st_mode) == 0o600
-            assert temporary.suffix == ".mkv"
-    assert len(names) == 20
 
 
 @pytest.mark.parametrize("name", [b"caf\xe9.png", b"\xff\xfe.png", b"name\nline.png"])

@@ -57,14 +57,6 @@ def test_jobs_in_flight_are_repeated_in_order_for_each_request(bench: Bench) -> 
     assert bench.results == ["m", "s", "t"]
 
 
-def test_jobs_of_two_stages_are_repeated_in_their_order(bench: Bench) -> None:
-    bench.ask(MAP, 1, stage(0, "a"), stage(0, "b", "c"))
-    bench.worker.die()
-    bench.settle()
-    bench.finish_all()
-    assert bench.sent == ["a", "b", "a", "b", "c"]
-
-
 def test_a_request_that_has_ended_hears_of_no_loss(bench: Bench) -> None:
     bench.ask(MAP, 1, stage(0, "a"))
     bench.finish_all()
@@ -226,15 +218,6 @@ def test_a_job_that_cannot_be_sent_fails_its_own_request_only() -> None:
     bench.finish_all()
     assert [(run, str(error)) for _, run, error in bench.errors] == [(1, "cannot be sent")]
     assert bench.results == ["s"]
-
-
-def test_a_futures_exception_that_is_no_loss_fails_the_request(bench: Bench) -> None:
-    bench.ask(MAP, 1, stage(0, "a"))
-    (_, future) = bench.worker.held.pop()
-    future.set_exception(TypeError("cannot be sent back"))
-    bench.settle()
-    assert [str(error) for *_, error in bench.errors] == ["cannot be sent back"]
-    assert bench.worker.renewed == 0
 
 
 def test_a_start_that_fails_by_a_mistake_fails_the_request_only() -> None:

@@ -1,7 +1,6 @@
 """Plug-ins that raise or give rubbish: each is named in a sentence, and the program lives."""
 
 from collections.abc import Iterator
-from importlib.metadata import EntryPoint
 from pathlib import Path
 
 import numpy as np
@@ -143,16 +142,6 @@ def test_a_decoder_that_is_none_is_refused_by_name(decoder: str, said: str) -> N
         decode(decoder)
     expected = f"The plug-in '{decoder}' of the package 'hostile' {said}"
     assert str(caught.value).startswith(expected)
-
-
-@pytest.mark.parametrize("name", ["a\x1b[31m", "", "x" * 61, "a\u202e"])
-def test_a_plug_in_that_cannot_be_listed_is_left_out(
-    monkeypatch: pytest.MonkeyPatch, name: str
-) -> None:
-    entries = [EntryPoint(each, "hostile:raises", plugins.DECODERS) for each in (name, "fine")]
-    monkeypatch.setattr("importlib.metadata.entry_points", lambda group: entries)
-    forget_plugins()
-    assert plugins.plugin_names(plugins.DECODERS) == ("fine",)
 
 
 def test_a_decoder_cannot_change_the_signal_of_others() -> None:

@@ -18,7 +18,6 @@ from model.plugins.installed_package import install
 import occ_model as occ
 from occ_model import plugins
 from occ_model.cli import main
-from occ_model.errors import ParameterError
 from occ_model.receiver.decoders import checked_result
 
 PAGE = text_of(FOLDER / "extending.md")
@@ -54,11 +53,6 @@ def run(python: Path, *words: str) -> str:
     assert done.stderr == ""
     assert done.returncode == 0
     return done.stdout
-
-
-def test_the_package_has_about_40_lines() -> None:
-    lines = "".join(blocks(PAGE, "toml")[1:] + blocks(PAGE, "python")).splitlines()
-    assert len([line for line in lines if line]) <= 45
 
 
 @pytest.mark.parametrize(
@@ -108,14 +102,6 @@ def _installed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None
 @pytest.mark.parametrize("group", GROUPS)
 def test_only_a_word_is_the_name_of_a_plug_in(group: str) -> None:
     assert plugins.plugin_names(group) == ("good-1_a",)
-
-
-@pytest.mark.usefixtures("_installed")
-@pytest.mark.parametrize("name", OTHERWISE)
-def test_a_plug_in_of_another_name_is_none(name: str) -> None:
-    scene = occ.Scene()
-    with pytest.raises(ParameterError, match=r"^decoder is "):
-        occ.decode(occ.column_profile(scene), scene, decoder=name)
 
 
 READ = occ.DecodeResult("own", code=1, bits=np.array([1]), chips=np.array([1, 0]))

@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from occ_model.errors import OccError, ParameterError
+from occ_model.errors import ParameterError
 from occ_model.scene.parameter_kinds import Count, Parameter, Quantity
-from occ_model.scene.parameters import PARAMETERS, open_choice, parameter_named
+from occ_model.scene.parameters import PARAMETERS, parameter_named
 from occ_model.scene.parameters.light import MAX_BITS
 
 every_parameter = pytest.mark.parametrize("parameter", PARAMETERS.values(), ids=lambda p: p.name)
@@ -133,18 +133,6 @@ def test_a_parameter_is_found_only_among_the_names_asked_for() -> None:
     assert parameter_named("iso", ("iso", "gamma")) is PARAMETERS["iso"]
     with pytest.raises(ParameterError, match=r"^There is no parameter 'iso'; known are gamma\.$"):
         parameter_named("iso", ("gamma",))
-
-
-def test_only_choices_that_plug_ins_extend_are_given_as_such() -> None:
-    assert open_choice("line_code").name == "line_code"
-    for name in ("distance", "averaging", "code"):
-        with pytest.raises(TypeError, match=f"^{name} .*OpenChoice$"):
-            open_choice(name)
-
-
-def test_a_refusal_is_a_value_error_and_an_occ_error() -> None:
-    assert issubclass(ParameterError, ValueError)
-    assert issubclass(ParameterError, OccError)
 
 
 @every_quantity

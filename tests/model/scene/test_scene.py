@@ -4,7 +4,6 @@ import copy
 import dataclasses
 import pickle
 
-import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -96,14 +95,6 @@ def test_a_group_s_name_is_not_a_parameter_s() -> None:
     for group in GROUPS:
         with pytest.raises(ParameterError, match=f"^There is no parameter '{group}'; "):
             Scene().replace(**{group: getattr(Scene(), group)})
-
-
-@pytest.mark.parametrize("number", [200, np.float32(200), np.int16(200), np.float64(200)], ids=repr)
-def test_a_scene_holds_plain_numbers_whatever_it_was_given(number: float) -> None:
-    scene = Scene().replace(iso=number, rows=int(number))
-    assert type(scene.value("iso")) is float
-    assert type(scene.value("rows")) is int
-    assert scene == Scene().replace(iso=200.0, rows=200)
 
 
 @given(frequency=st.floats(1.0, 1e9))

@@ -60,7 +60,7 @@ def few_rows(sheet: Lesson, place: int) -> Scene:
 
 
 def answered(sheet: Lesson, match: Match) -> list[AnsweredStep]:
-    given = CheckedAnswer("about 12.8 µs *exactly*", "right", "Right.")
+    given = CheckedAnswer("about 12.8 µs *exactly*", "right", "That is what it shows.")
     return [
         AnsweredStep(
             step, given, few_rows(sheet, place), match if step.own_photo else None, "mine.jpg"
@@ -98,6 +98,7 @@ def test_a_report_as_text_has_the_measurement_and_its_figures(match: Match, tmp_
     text = path.read_text(encoding="utf-8")
     assert "A. Student" in text
     assert "about 12.8 µs \\*exactly\\*" in text  # as typed, not as markup
+    assert "That is what it shows." in text
     for line in match_lines(match, "mine.jpg"):
         assert f"* {line}" in text
     assert re.search(r"readout time 12\.(79|8)\d* ± 0\.0", text)

@@ -45,13 +45,6 @@ def test_with_edges_it_is_the_mean_over_the_last_edge_time(edge: float) -> None:
         assert value == pytest.approx(sharp.mean(x - lag, x), abs=1e-9)
 
 
-@pytest.mark.parametrize("edge", [0.0, 60e-6])
-def test_the_light_is_given_from_the_first_chips_edge_to_the_last_ones(edge: float) -> None:
-    curve = light_over_columns(scene_with(edge_time=edge), 10.3, 380.2, 10_000, edged=edge > 0.0)
-    ends = curve.columns[[0, -1]].tolist()
-    assert ends == pytest.approx(curve.edges[[0, -1]].tolist(), abs=1e-9)
-
-
 def test_each_chip_is_the_one_sent_at_its_place() -> None:
     scene = scene_with()
     curve = light_over_columns(scene, 10.3, 380.2, 10_000)
@@ -77,15 +70,6 @@ def test_an_exposure_sees_parts_of_so_many_chips(chips: float) -> None:
         seen.add(int(np.ceil(start + chips) - np.floor(start)))
     assert seen <= {fewest, fewest + 1}
     assert fewest in seen
-
-
-@pytest.mark.parametrize(("exposure", "frequency", "fewest"),
-                         [(100e-6, 10e3, 1), (300e-6, 10e3, 3), (100.001e-6, 10e3, 2)])  # fmt: skip
-def test_whole_chips_are_whole_as_they_are_written(
-    exposure: float, frequency: float, fewest: int
-) -> None:
-    scene = scene_with(exposure_time=exposure, switching_frequency=frequency)
-    assert chips_in_exposure(scene) == fewest
 
 
 def test_the_band_model_ends_and_stripes_vanish_at_the_marks() -> None:

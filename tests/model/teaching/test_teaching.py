@@ -132,17 +132,6 @@ def test_the_time_lit_depends_on_the_parameters_that_its_term_names_and_no_other
         assert (name in term.parameters) == moved, name
 
 
-def test_the_notation_of_a_term_is_no_more_than_sub_and_sup() -> None:
-    for equation in equations(Scene()):
-        for text in (equation.meaning, *(t.text for t in equation.symbols + equation.numbers)):
-            tags = set(re.findall(r"<[^>]*>", text))
-            assert tags <= {"<sub>", "</sub>", "<sup>", "</sup>"}, text
-    assert (
-        "column by column; here light is averaged"
-        in by_meaning(Scene().replace(averaging="light"))["a column"].result
-    )
-
-
 @settings(max_examples=120)
 @given(scenes, st.integers(0, 499))
 def test_the_lit_parts_of_a_window_add_up_to_the_models_time_on(scene: Scene, column: int) -> None:
@@ -195,17 +184,6 @@ def test_the_light_within_each_exposure_is_its_lit_fraction(
         shown.starts, shown.edges, cumulated
     )
     np.testing.assert_allclose(gathered / exposure, shown.lit_fraction, atol=1e-6)
-
-
-def test_a_picture_of_two_columns_shows_both() -> None:
-    shown = rolling_shutter(occ.load_preset("phone-68us").replace(columns=2))
-    assert shown.columns.tolist() == [0, 1]
-
-
-def test_the_shown_columns_begin_within_four_chips() -> None:
-    scene = occ.load_preset("phone-68us").replace(switching_frequency=2e3)
-    shown = rolling_shutter(scene)
-    assert shown.starts[-1] == pytest.approx(4 * 500e-6, rel=0.01)
 
 
 @pytest.mark.parametrize("shown", [2, 7, 25])

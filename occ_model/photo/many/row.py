@@ -10,14 +10,13 @@ from occ_model.photo.reading.choices import CHANNELS, SCAN_AXES
 from occ_model.photo.reading.load import Photo, load_photo
 from occ_model.results.match import Match
 from occ_model.results.photo_table import REFUSED, UNREADABLE, PhotoRow, known_beside
+from occ_model.results.sweep import one_line
 from occ_model.scene.argument_checks import check_choice
 from occ_model.scene.scene import Scene
 
 
 @dataclass(frozen=True, slots=True)
 class MatchSettings:
-    """How each photo is read and matched."""
-
     scene: Scene
     # estimate, sent, averaging, fit_gamma: as for :func:`occ_model.match_photo`.
     estimate: str = ESTIMATES[0]
@@ -31,7 +30,6 @@ class MatchSettings:
     known: tuple[tuple[int, float], ...] = ()
 
     def of(self, place: int) -> "MatchSettings":
-        """Return the settings of the photo at a place."""
         own = dict(self.known).get(place)
         if own is None:
             return self
@@ -64,7 +62,7 @@ def row_of(
         try:
             photo = load_photo(source, own.scan_axis, channel=own.channel, progress=report)
         except PhotoError as error:
-            note = _one_paragraph(str(error))
+            note = one_line(str(error))
             return place, PhotoRow(source, UNREADABLE, note, given=given)
     try:
         match = match_photo(
@@ -88,7 +86,7 @@ def _row(photo: Photo, verdict: str, note: str, match: Match | None = None) -> P
     return PhotoRow(
         photo.path,
         verdict,
-        _one_paragraph(note),
+        one_line(note),
         match,
         noted_exposure=photo.exposure_time,
         lines=columns,
@@ -96,7 +94,3 @@ def _row(photo: Photo, verdict: str, note: str, match: Match | None = None) -> P
         scanned_along="lines" if photo.turned else "columns",
         camera=photo.camera,
     )
-
-
-def _one_paragraph(sentences: str) -> str:
-    return " ".join(sentences.split())

@@ -3,6 +3,7 @@
 import warnings
 from collections.abc import Callable, Generator, Iterable, Iterator
 from concurrent.futures import Executor, Future, wait
+from contextlib import closing
 from dataclasses import dataclass
 from itertools import chain, islice
 from typing import Any, Generic
@@ -13,17 +14,15 @@ from occ_model.parallel.job import (
     Heartbeat,
     Job,
     JobResult,
-    Stage,
     Workers,
     WorkersLostError,
     do_job_apart,
 )
-from occ_model.parallel.request import Run
-from occ_model.parallel.scheduler import Scheduler
+from occ_model.parallel.results import results_of
 from occ_model.study.sweep.results_file import Point
 
 _JOB_SECONDS = 0.1  # seconds of a job: long against sending it, short against anybody's patience
-_BEAT = 0.2  # seconds between two heartbeats while this process waits for workers
+_WAIT = 0.2  # seconds for the futures of an executor that breaks to end
 _UNKNOWN_WORKERS = 32  # assumed of an executor that does not say how many it has
 
 
@@ -74,7 +73,7 @@ class GivenExecutor:
     def renew(self) -> None:
         """Withdraw the jobs that have not begun."""
         # An executor that breaks ends its futures one by one; one withdrawn meanwhile confuses it.
-        wait(list(self._futures), timeout=_BEAT)
+        wait(list(self._futures), timeout=_WAIT)
         for future in list(self._futures):
             future.cancel()
         raise NotImplementedError("only the owner of an executor can replace its workers")
@@ -117,81 +116,28 @@ def measure_by(
     A bounded number of jobs is in flight. When workers die, their points are measured again, by new
     ones or here: a point depends on nothing but itself.
     """
-    progress = _Progress(work, indices)
-    scheduler = Scheduler(lambda: workers, progress)
-    scheduler.put(Run(0, 1, lambda: (Stage(0, progress.jobs()),)))
+    sent: dict[int, None] = {}
+    seconds_a_point = 0.0
+
+    def jobs() -> Iterator[Job]:
+        # One point a job until their time is known.
+        while chosen := tuple(
+            islice(indices, max(1, int(_JOB_SECONDS / seconds_a_point)) if seconds_a_point else 1)
+        ):
+            sent.update(dict.fromkeys(chosen))
+            yield work.job(chosen)
+
     try:
-        while not progress.is_ended:
-            heartbeat()
-            scheduler.step(_BEAT)
-            yield from progress.newly_measured()
-        if isinstance(progress.error, WorkersLostError):
-            reason = progress.error.reason
-            warnings.warn(
-                f"The {work.what}'s workers are gone ({reason}); this process finishes it alone.",
-                RuntimeWarning,
-                stacklevel=2,
-            )
-        elif progress.error is not None:
-            raise progress.error
-        yield from work.here(progress.left(), heartbeat)
-    finally:
-        scheduler.end_workers()
-
-
-class _Progress(Generic[Point]):
-    """The points of a study that are to be sent, that workers have, and that are measured."""
-
-    def __init__(self, work: Work[Point], indices: Iterator[int]) -> None:
-        self._work = work
-        self._unsent = indices
-        self._sent: dict[int, None] = {}
-        self._measured: list[Point] = []
-        self._seconds_a_point = 0.0
-        self.is_ended = False
-        self.error: Exception | None = None
-
-    def jobs(self) -> Iterator[Job]:
-        """Make jobs of the points, each only when it is needed."""
-        while chosen := tuple(islice(self._unsent, self._size())):
-            self._sent.update(dict.fromkeys(chosen))
-            yield self._work.job(chosen)
-
-    def _size(self) -> int:
-        """Return the number of points in a job: one until their time is known."""
-        each = self._seconds_a_point
-        return max(1, int(_JOB_SECONDS / each)) if each else 1
-
-    def newly_measured(self) -> list[Point]:
-        """Return the points that were measured since the last call."""
-        measured, self._measured = self._measured, []
-        return measured
-
-    def left(self) -> Iterable[int]:
-        """Return the points without a result."""
-        return chain(self._sent, self._unsent)
-
-    def results_ready(self, _channel: int, _run: int, results: list[Any]) -> None:
-        """Take the points of jobs that have come back."""
-        for result in results:
-            self._take(result)
-
-    def _take(self, result: Any) -> None:
-        self._seconds_a_point = result.seconds / len(result.points)
-        for point in result.points:
-            del self._sent[point.index]
-        self._measured += result.points
-
-    def finished(self, _channel: int, _run: int) -> None:
-        """Note that all points are measured."""
-        self.is_ended = True
-
-    def failed(self, _channel: int, _run: int, error: Exception) -> None:
-        """Note that workers measure no more, and why."""
-        self.is_ended, self.error = True, error
-
-    def workers_replaced(self, _channel: int, _run: int) -> None:
-        """Do nothing: the work goes on."""
-
-    def workers_missing(self, _channel: int, _run: int, _error: Exception) -> None:
-        """Do nothing: it does not happen without a fallback."""
+        with closing(results_of(jobs(), lambda: workers, heartbeat)) as results:
+            for result in results:
+                seconds_a_point = result.seconds / len(result.points)
+                for point in result.points:
+                    del sent[point.index]
+                yield from result.points
+    except WorkersLostError as error:
+        warnings.warn(
+            f"The {work.what}'s workers are gone ({error.reason}); this process finishes it alone.",
+            RuntimeWarning,
+            stacklevel=2,
+        )
+    yield from work.here(chain(sent, indices), heartbeat)

@@ -8,7 +8,6 @@ import math
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
-import cv2
 import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray
@@ -24,6 +23,9 @@ _PARTS = 64  # fewest parts that each edge of the panel is divided into
 _MOST_PARTS = 1024  # most parts of an edge
 _CURVE_TOLERANCE = 0.01  # largest distance of the straight parts from the curve, in pixels
 _DIRECTIONS = 64  # directions in which a fold of the lens's image is searched for
+
+_ITERATIONS = 40  # of the inverse distortion; each leaves a few percent of the error
+_MOST_OFF = 1e-6  # largest error of an inverse, in focal lengths
 
 _RADII = np.linspace(0.0, 4.0, 129)[1:]
 """Radii of that search, in multiples of the picture's corner and of the radius needed."""
@@ -68,14 +70,20 @@ def distorted(rays: FloatArray, lens: Lens) -> FloatArray:
 
 
 def undistorted(points: FloatArray, scene: Scene) -> FloatArray:
-    """Return points of the picture, (column, row), where a lens without distortion shows them."""
+    """Return points of the picture, (column, row), where a lens without distortion shows them.
+
+    Points without an inverse are returned unchanged. OpenCV's ``undistortPoints`` ends after five
+    iterations: with k1 = -0.25 it was off by up to 3.5 pixels.
+    """
     lens, camera = scene.lens, scene.camera
     if not lens.distorts:
         return points
-    rays = image_rays(points, camera)
-    bent = np.array([lens.radial_k1, lens.radial_k2, lens.tangential_p1, lens.tangential_p2])
-    flat = cv2.undistortPoints(rays[:, None, :], np.eye(3), bent)
-    return image_points(np.asarray(flat, dtype=np.float64)[:, 0], camera)
+    rays = straight = image_rays(points, camera)
+    for _ in range(_ITERATIONS):
+        straight = straight - (distorted(straight, lens) - rays)
+    off = np.abs(distorted(straight, lens) - rays)
+    found = np.isfinite(off) & (off < _MOST_OFF)
+    return image_points(np.where(found, straight, rays), camera)
 
 
 def _outlines(scene: Scene, corners: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -4,21 +4,20 @@ import math
 
 import numpy as np
 
-from occ_model.arrays import ByteArray, FloatArray
+from occ_model.arrays import ByteArray
 from occ_model.camera.photometry import luminance_of
 from occ_model.camera.projection import image_rays
-from occ_model.effects.distortion import distorted
+from occ_model.effects.distortion import undistorted
 from occ_model.errors import MatchError, ParameterError
 from occ_model.photo.fit.least_squares import StripeFit
 from occ_model.photo.reading.load import Photo
 from occ_model.results.decoding import Region
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.parameters import PARAMETERS
-from occ_model.scene.scene import Lens, Scene
+from occ_model.scene.scene import Scene
 from occ_model.transmitter.packet import code_of, sent_chips
 from occ_model.transmitter.scheme import scheme_of
 
-_ITERATIONS = 40  # of the inverse distortion; each leaves a few percent of the error
 _NOTED = ("iso", "f_number")  # taken from a photo's EXIF data; the exposure time is fitted
 
 
@@ -75,7 +74,7 @@ def at_the_photo(scene: Scene, photo: Photo, region: Region) -> Scene:
             [across, region.last_row - 0.5],
         ]
     )
-    rays = _straight(image_rays(rims, scene.camera), scene.lens) * scene.pose.distance
+    rays = image_rays(undistorted(rims, scene), scene.camera) * scene.pose.distance
     (left, _), (right, _), (_, top), (_, bottom) = rays.tolist()
     return with_allowed(
         scene,
@@ -84,17 +83,6 @@ def at_the_photo(scene: Scene, photo: Photo, region: Region) -> Scene:
         offset_x=0.5 * (left + right),
         offset_y=0.5 * (top + bottom),
     )
-
-
-def _straight(rays: FloatArray, lens: Lens) -> FloatArray:
-    """Invert a lens's distortion of rays; rays without an inverse stay unchanged."""
-    if not lens.distorts:
-        return rays
-    straight = rays
-    for _ in range(_ITERATIONS):
-        straight = straight - (distorted(straight, lens) - rays)
-    off = np.abs(distorted(straight, lens) - rays)
-    return np.where(np.isfinite(off) & (off < 1e-6), straight, rays)
 
 
 def with_levels(scene: Scene, fit: StripeFit) -> Scene:

@@ -1,7 +1,7 @@
-"""Every class of exception that the model defines, and why some reach no user of a program.
+"""Every class of exception that the model defines, and why some reach no user of the window.
 
-The tests of the shell and of the window have a case for each class that is not named here, and
-try the same wrong values of each parameter.
+The tests of the window have a case for each class that is not named here; those of the shell try
+the same wrong values of each parameter.
 """
 
 import inspect
@@ -11,8 +11,8 @@ from importlib import import_module
 
 import occ_model
 from occ_model.commands.sweep import ClusterError
-from occ_model.errors import BandModelUndefined, DecodeInputError, OccError
-from occ_model.parallel.job import Abandoned, WorkersLostError
+from occ_model.errors import DecodeInputError, OccError
+from occ_model.parallel.job import Abandoned
 from occ_model.scene.parameter_kinds import Choice, Count, OpenChoice, Parameter, Payload, Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.teaching.lessons import _MistakeError
@@ -20,24 +20,13 @@ from occ_model.video.file.decoder_process import DecoderStoppedError
 
 ErrorClass = type[BaseException]
 
-_INSIDE: dict[ErrorClass, str] = {
+NOT_IN_THE_WINDOW: dict[ErrorClass, str] = {
     OccError: "the base: the model raises only its subclasses",
     Abandoned: "ends a job whose result is no longer wanted; do_job catches it",
     DecoderStoppedError: "ends a sentence that load_video begins, as a VideoError",
     _MistakeError: "holds the key at fault until the lesson's reader names the line instead",
     DecodeInputError: "tells a caller in Python that an array is no picture; what the programs "
     "decode is their own picture, or a photo that was checked when it was read",
-}
-"""Classes that only callers in Python meet, or that the model itself catches."""
-
-NOT_IN_THE_SHELL: dict[ErrorClass, str] = {
-    **_INSIDE,
-    BandModelUndefined: "figures write it where the curve would be, animations leave the curve out",
-    WorkersLostError: "sweeps and matches warn of it and do the rest in their own process",
-}
-
-NOT_IN_THE_WINDOW: dict[ErrorClass, str] = {
-    **_INSIDE,
     ClusterError: "the window measures on this computer alone",
 }
 

@@ -52,20 +52,6 @@ class Beat:
         """Say what this fraction of the ticks was not later than, in milliseconds."""
         return sorted(self.late)[int(fraction * len(self.late))]
 
-    def waiting(self, fraction: float) -> float:
-        """Say what this fraction of events that come at any moment has to wait at most, in ms.
-
-        Unlike ticks, of which there are none while the window is held up.
-        """
-        gaps = sorted((late + _BEAT_MS for late in self.late), reverse=True)
-        most, beyond = (1.0 - fraction) * sum(gaps), 0.0
-        for count, gap in enumerate(gaps, 1):
-            beyond += gap
-            shorter = gaps[count] if count < len(gaps) else 0.0
-            if beyond - count * shorter >= most:
-                return (beyond - most) / count
-        return 0.0
-
 
 class _PaintedMaps:
     """Paints every map at once, and notes when: the time, whether coarse, and whether full."""

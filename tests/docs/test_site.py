@@ -1,16 +1,12 @@
-"""The manual as a site: it builds, its links lead somewhere, and its gallery was really run."""
+"""The manual as a site: it builds, and its gallery was really run."""
 
 import json
 import os
 import re
 import subprocess
 import sys
-from collections.abc import Iterator
-from functools import cache
 from html import unescape
-from html.parser import HTMLParser
 from pathlib import Path
-from urllib.parse import unquote, urlsplit
 
 import numpy as np
 import pytest
@@ -35,32 +31,6 @@ PRINTED = {
 """What an example prints when the model is right."""
 
 
-class Links(HTMLParser):
-    """Collects a page's links, what it loads, and the names that links can end in."""
-
-    def __init__(self, page: Path) -> None:
-        super().__init__()
-        self.followed: list[str] = []
-        self.loaded: list[str] = []
-        self.names: set[str] = set()
-        self.feed(page.read_text(encoding="utf-8"))
-
-    def handle_starttag(self, tag: str, attributes: list[tuple[str, str | None]]) -> None:
-        given = {name: value or "" for name, value in attributes}
-        self.names |= {given[name] for name in ("id", "name") if name in given}
-        if tag == "a" and "href" in given:
-            self.followed.append(given["href"])
-        if tag in ("script", "img", "iframe") and "src" in given:
-            self.loaded.append(given["src"])
-        if tag == "link" and given.get("rel") in ("stylesheet", "icon", "preconnect"):
-            self.loaded.append(given["href"])
-
-
-@cache
-def links_of(page: Path) -> Links:
-    return Links(page)
-
-
 @pytest.fixture(scope="module")
 def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Build the site strictly: a warning is an error."""
@@ -78,53 +48,12 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-def ours(page: Path, site: Path) -> Iterator[tuple[Path, str]]:
-    """Give file and name within it of every link of a page to a file of ours."""
-    for link in links_of(page).followed:
-        parts = urlsplit(link)
-        if not parts.scheme and link not in ("#", "."):
-            target = page.parent / unquote(parts.path) if parts.path else page
-            yield (target / "index.html" if target.is_dir() else target).resolve(), parts.fragment
-
-
-def html_pages(site: Path) -> list[Path]:
-    return [page for page in sorted(site.rglob("*.html")) if page.name != "404.html"]
-
-
 @pytest.mark.first
 @pytest.mark.whole
-def test_the_site_leads_everywhere(site: Path) -> None:
-    """One test for all that is asked of the site, which is built once for it."""
-    check_links(site)
-    check_clicks(site)
-    check_nothing_is_fetched(site)
+def test_the_site_has_its_gallery_and_its_reference(site: Path) -> None:
+    """One test for all that is asked of the site, whose build follows the links."""
     check_gallery(site)
     check_reference(site)
-
-
-def check_links(site: Path) -> None:
-    """Every link leads to a file, and to a name in it."""
-    names = {page.resolve(): links_of(page).names for page in html_pages(site)}
-    for page in html_pages(site):
-        for target, name in ours(page, site):
-            assert target.is_file(), (page, target)
-            assert not name or unquote(name) in names[target], (page, target, name)
-
-
-def check_clicks(site: Path) -> None:
-    """Two clicks from the first page lead to every other one."""
-    first = (site / "index.html").resolve()
-    near = {first} | {target for target, _ in ours(first, site)}
-    pages = {page.resolve() for page in html_pages(site)}
-    reached = near | {target for page in near & pages for target, _ in ours(page, site)}
-    assert pages <= reached
-    assert len(pages) >= len(PAGES) + len(EXAMPLES)
-
-
-def check_nothing_is_fetched(site: Path) -> None:
-    """No page loads anything from another host."""
-    for page in html_pages(site):
-        assert [link for link in links_of(page).loaded if urlsplit(link).scheme] == [], page
 
 
 def check_gallery(site: Path) -> None:
@@ -149,13 +78,18 @@ def check_gallery(site: Path) -> None:
         assert kinds == {"markdown", "code"}
 
 
+def names_in(page: Path) -> set[str]:
+    """Find the names of a page that links can end in."""
+    return set(re.findall(r'\bid="([^"]+)"', page.read_text(encoding="utf-8")))
+
+
 def check_reference(site: Path) -> None:
     """The reference has every public name and every command."""
-    python = links_of(site / "reference" / "python.html").names
+    python = names_in(site / "reference" / "python.html")
     for name in occ.__all__:
         if not name.startswith("_"):
             assert any(each.endswith(f".{name}") for each in python), name
-    commands = links_of(site / "reference" / "command-line.html").names
+    commands = names_in(site / "reference" / "command-line.html")
     assert {f"occ-model-{name}" for name in command_names()} <= commands
 
 

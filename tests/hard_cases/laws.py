@@ -1,5 +1,6 @@
 """How many cases a law is tried on, and how wrong it was found at worst."""
 
+import math
 import os
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -24,8 +25,8 @@ class Found:
 FOUND: dict[str, Found] = {}  # by the law
 
 
-def record(law: str, ranges: str, error: float) -> None:
-    """Note how wrong a law was found in one case.
+def record(law: str, ranges: str, error: float, most: float = math.inf) -> None:
+    """Note how wrong a law was found in one case, and fail where that is too much.
 
     Parameters
     ----------
@@ -35,10 +36,14 @@ def record(law: str, ranges: str, error: float) -> None:
         Of what it was tried.
     error
         Not negative; a number that is none counts as infinitely wrong.
+    most
+        The largest error allowed.
     """
     found = FOUND.setdefault(law, Found(ranges))
     found.cases += 1
-    found.worst = max(found.worst, error if error == error else float("inf"))
+    wrong = error if error == error else math.inf
+    found.worst = max(found.worst, wrong)
+    assert wrong <= most, f"{law}: {error:g} instead of at most {most:g}"
 
 
 Test = Callable[..., None]

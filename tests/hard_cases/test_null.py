@@ -93,8 +93,7 @@ def test_a_profile_of_less_than_one_level_gets_rounding_only(
     moved = float(np.abs(enhanced - profile).max()) - 0.5
     stripes = float(np.ptp(enhanced))
     if np.ptp(profile) < 1e-9:
-        record("stripes made of rounding, grey levels", "swing 0 to 1e-9 levels", stripes)
-        assert stripes == 0.0
+        record("stripes made of rounding, grey levels", "swing 0 to 1e-9 levels", stripes, 0.0)
     assert moved <= 1e-9
     assert stripes <= 1.0
 
@@ -111,8 +110,7 @@ def test_the_least_stripes_that_count_are_enhanced_in_order(
     enhanced = enhance(profile, method)
     ordered = enhanced[np.argsort(profile, kind="stable")].astype(int)
     against = float(max(-np.diff(ordered).min(), 0))
-    record("enhancement against the columns' order, levels", "swing 1 to 5 levels", against)
-    assert against == 0.0
+    record("enhancement against the columns' order, levels", "swing 1 to 5 levels", against, 0.0)
     levels = [round(value) for value in profile.tolist()]
     bottom, top = min(levels), max(levels)
     if method == "stretch" and np.ptp(profile) >= FLAT and top > bottom:

@@ -79,8 +79,7 @@ def test_any_profile_is_read_or_refused_with_a_sentence(
     profile: np.ndarray, scene: Scene, decoder: str
 ) -> None:
     error = tried(profile, scene, decoder, len(profile))
-    record("any profile: read, or a sentence", "1 to 1e5 columns, any receiver", error)
-    assert error == 0.0
+    record("any profile: read, or a sentence", "1 to 1e5 columns, any receiver", error, 0.0)
 
 
 def test_an_exposure_of_a_billionth_of_a_chip_is_read() -> None:
@@ -122,8 +121,9 @@ def test_any_image_is_read_or_refused_with_a_sentence(
     image: np.ndarray, scene: Scene, decoder: str
 ) -> None:
     error = tried(image, scene, decoder, image.shape[1])
-    record("any image: read, or a sentence", "any type, shape, stride; NaN and infinity", error)
-    assert error == 0.0
+    record(
+        "any image: read, or a sentence", "any type, shape, stride; NaN and infinity", error, 0.0
+    )
 
 
 @cases(

@@ -102,8 +102,7 @@ def test_any_scenes_picture_has_pixels_and_a_finite_profile(
     assert frame.profile.shape == (scene.camera.columns,)
     assert np.isfinite(frame.corners).all()
     beyond = max(0.0, -float(frame.profile.min()), float(frame.profile.max()) - 255.0)
-    record("profiles beyond 0 to 255, levels", "all parameters, all allowed", beyond)
-    assert beyond == 0.0
+    record("profiles beyond 0 to 255, levels", "all parameters, all allowed", beyond, 0.0)
 
 
 SCENES: dict[str, dict[str, float | int | str]] = {

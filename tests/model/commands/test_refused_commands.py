@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import occ_model as occ
@@ -59,6 +60,9 @@ READING = {
     "decode missing.png": "missing.png cannot be read: No such file or directory.",
     "decode folder.png": "folder.png is a folder, not a photo.",
     "decode text.txt": "text.txt is not an image that can be read.",
+    "decode --follow film.mp4": "film.mp4 ",
+    "match text.txt": "text.txt is not an image that can be read.",
+    "match grey.png": "No stripes",
     "bench --data no-such-table.csv": "no-such-table.csv cannot be read",
     **{
         f"decode p.png --follow --readout-tolerance={percent}": f"--readout-tolerance is {percent} "
@@ -143,7 +147,9 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
             write_image(Path(name), occ.render(scene).image)
         for name in ("s.toml", "w.csv", "figures/accuracy.csv", "mine.toml", "scene.toml"):
             Path(name).write_text(scene.to_toml())
-        Path("text.txt").write_text("no picture\n")
+        for name in ("text.txt", "film.mp4"):
+            Path(name).write_text("no picture\n")
+        write_image(Path("grey.png"), np.full((60, 90), 128, np.uint8))
         Path("link.toml").symlink_to("p.png")
         Path("hard.toml").hardlink_to("p.png")
         Path("dangling.toml").symlink_to("q.png")

@@ -59,14 +59,6 @@ def test_the_head_states_what_is_sent(board: str) -> None:
     assert f"{sent.board.clock_error:,.0f} ppm" in head
 
 
-@every_board
-def test_lines_are_short_enough_to_be_read(board: str) -> None:
-    scene = PAPER.replace(payload="text:" + "x" * 400, switching_frequency=14.7e3)
-    source = occ.transmitter_sketch(scene, board)
-    assert [line for line in source.splitlines() if len(line) > 100] == []
-    assert occ.transmitter_sketch(PAPER, board).isascii()
-
-
 def test_the_nano_blinks_as_the_uno() -> None:
     uno, nano = (occ.transmitter_sketch(PAPER, f"arduino-{name}") for name in ("uno", "nano"))
     assert nano == uno.replace("Arduino Uno", "Arduino Nano")

@@ -55,24 +55,6 @@ def test_the_frequency_that_is_sent_is_sent_again_as_it_is(board: Board, frequen
     assert again.sent_scene == first.sent_scene
 
 
-@pytest.mark.parametrize(
-    ("frequency", "prescaler", "count", "ppm"),
-    [
-        (1e3, 1, 16_000, 0.0),
-        (40e3, 1, 400, 0.0),
-        (14.7e3, 1, 1088, 1e6 * (16e6 / 1088 / 14.7e3 - 1)),
-        (1.0, 256, 62_500, 0.0),
-        (244.0, 8, 8197, 1e6 * (2e6 / 8197 / 244.0 - 1)),
-    ],
-)
-def test_the_unos_timer_is_set_as_by_hand(
-    frequency: float, prescaler: int, count: int, ppm: float
-) -> None:
-    timing = best_timing(UNO, frequency)
-    assert (timing.prescaler, timing.count) == (prescaler, count)
-    assert float(timing.error_ppm) == pytest.approx(ppm, abs=1e-6)
-
-
 @every_board
 def test_the_ends_of_the_range_are_allowed_and_what_is_beyond_is_not(board: Board) -> None:
     low, high = float(board.lowest_frequency), float(board.highest_frequency)
@@ -116,11 +98,6 @@ def test_the_lowest_frequency_is_that_of_the_shortest_repetition(
     assert sent.lowest_frequency == lowest
     assert float(sent.longest_run) == run
     assert sent.is_visible == visible
-
-
-def test_steady_light_has_no_lowest_frequency() -> None:
-    sent = transmission(PAPER.replace(pattern="111"), UNO)
-    assert (sent.lowest_frequency, sent.longest_run, sent.is_visible) == (None, None, False)
 
 
 @settings(max_examples=25)

@@ -10,7 +10,6 @@ from occ_model.boards.board import (
     LED_CURRENT,
     LED_VOLTS,
     Board,
-    next_resistor,
     wiring,
 )
 from occ_model.boards.pico import PICO
@@ -39,13 +38,6 @@ def test_the_gate_rises_as_an_rc_circuit_does(board: Board) -> None:
     assert values.rise_time == pytest.approx(high - low)
 
 
-@pytest.mark.parametrize(
-    ("ohms", "resistor"), [(10.0, 10), (10.1, 12), (82.1, 100), (250.0, 270), (275.0, 330)]
-)
-def test_the_next_resistor_of_the_series_is_taken(ohms: float, resistor: int) -> None:
-    assert next_resistor(ohms) == resistor
-
-
 def test_flicker_is_warned_of_where_it_may_be_seen_only() -> None:
     slow, fast, steady = (
         flicker_sentence(transmission(PAPER.replace(**changes), board_named("arduino-uno")))
@@ -72,21 +64,3 @@ def test_the_figure_says_pin_resistors_and_caution() -> None:
     text = " ".join(notes(sent))
     assert flicker_sentence(sent) in text
     assert "Do not look into a bright LED" in text
-
-
-def test_the_text_below_the_figure_stays_within_it() -> None:
-    from occ_model.figures.drawing import house_style
-    from occ_model.figures.transmitter_files import wiring_figure
-
-    longest = PAPER.replace(payload="text:" + "Photograph me. " * 30, switching_frequency=1.5e3)
-    with house_style():
-        figure = wiring_figure(transmission(longest, board_named("raspberry-pi-pico")))
-        figure.draw_without_rendering()
-        whole = figure.bbox
-        for axes in figure.axes:
-            for text in axes.texts:
-                box = text.get_window_extent()
-                assert whole.x0 <= box.x0
-                assert box.x1 <= whole.x1
-                assert whole.y0 <= box.y0
-                assert box.y1 <= whole.y1

@@ -103,14 +103,3 @@ def test_an_outline_beyond_the_rim_is_not_darker_at_the_rim(blur: float) -> None
     soft = covered(outline, blur)
     # As many rows of it are above and below each pixel at the rim as in the middle.
     np.testing.assert_allclose(soft, np.tile(soft[:, 60:61], COLUMNS), rtol=0, atol=1e-4)
-
-
-@pytest.mark.parametrize("blur", [5e-324, 1e-200, 1e-20, 1e-3])
-def test_a_blur_of_next_to_nothing_is_sharp(blur: float) -> None:
-    np.testing.assert_array_equal(covered(STAR, blur), covered(STAR))
-
-
-@pytest.mark.parametrize("blur", [0.0, 4.0, 40.0])
-def test_a_picture_of_one_pixel_is_covered(blur: float) -> None:
-    square = np.array([[-500.0, -500], [500, -500], [500, 500], [-500, 500]])
-    assert covered(square, blur, (1, 1))[0, 0] == pytest.approx(1.0, abs=1e-4)

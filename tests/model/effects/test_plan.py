@@ -142,11 +142,6 @@ def test_the_reason_is_the_comparison_that_decides(scene: Scene) -> None:
         assert "tolerance" not in decision.reason
 
 
-def test_a_plan_is_a_value(scene: Scene) -> None:
-    assert occ.plan(scene) == occ.plan(scene)
-    assert hash(occ.plan(scene)) == hash(occ.plan(scene))
-
-
 def test_what_only_the_signal_calls_for_is_named() -> None:
     scene = occ.load_preset("phone-136us").replace(switching_frequency=14.6e3)
     of_profile = occ.plan(scene, observable="profile")

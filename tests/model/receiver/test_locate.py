@@ -100,13 +100,6 @@ def test_stripes_of_several_brightnesses_are_one_panel() -> None:
     assert region_in(image, 0.5) == Region(40, 160, 50, 196)
 
 
-def test_a_stripe_of_one_column_is_no_speck() -> None:
-    image = dark(1200, 1600)
-    for first, last in ((200, 201), (300, 310), (400, 410), (500, 501)):
-        put(image, Region(100, 1000, first, last), 220)
-    assert region_in(image, FRACTION) == Region(100, 1000, 200, 501)
-
-
 @given(places=st.sets(st.tuples(st.integers(0, 74), st.integers(0, 124)), max_size=60))
 def test_isolated_hot_pixels_away_from_the_panel_do_not_widen_it(
     places: set[tuple[int, int]],
@@ -166,14 +159,6 @@ def test_a_region_holds_its_bright_pixels_and_fits_them_closely(
     check_any(image, fraction)
 
 
-@given(line=arrays.arrays(np.uint8, st.integers(1, 400)), fraction=st.floats(1e-4, 0.5))
-def test_the_same_holds_for_images_of_one_row_or_one_column(
-    line: np.ndarray, fraction: float
-) -> None:
-    check_any(line[None, :], fraction)
-    check_any(line[:, None], fraction)
-
-
 @given(image=images, fraction=st.floats(1e-4, 0.5))
 def test_a_mirrored_or_turned_image_has_its_region_so_too(
     image: np.ndarray, fraction: float
@@ -206,13 +191,6 @@ def test_stripes_grow_together_over_half_their_gaps() -> None:
     assert found.contours == 5
     # Gaps of 30 columns close when each side has grown by 15.
     assert found.growth == 15
-
-
-def test_a_panel_without_stripes_is_one_contour_without_growth() -> None:
-    image = np.zeros((120, 400), dtype=np.uint8)
-    image[30:90, 100:200] = 255
-    found = locate(image, FRACTION)
-    assert (found.contours, found.growth) == (1, 0)
 
 
 def test_pixels_that_are_exactly_the_bright_fraction_are_bright() -> None:

@@ -1,7 +1,6 @@
 """Numbers that a result works out of what it holds: rates, verdicts, means, packets."""
 
 import math
-from itertools import pairwise
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -11,9 +10,7 @@ from matches import match_with
 
 import occ_model as occ
 from occ_model.results.accuracy import TimeFractions
-from occ_model.results.bench import DECIBELS, EXPOSURES
 from occ_model.results.bit_errors import BitErrors
-from occ_model.results.match import Match
 from occ_model.results.photo_table import DOUBTFUL, SURE, CombinedEstimate, PhotoRow, PhotoTable
 from occ_model.results.sent_packets import FilmPart, PacketReading, SentPackets
 from occ_model.results.video_reading import VideoReading
@@ -26,17 +23,6 @@ def test_net_bits_a_second_lie_within_their_interval(frames_a_second: float) -> 
     low, high = errors.bits_a_second_interval(frames_a_second)
     assert low < errors.bits_a_second(frames_a_second) < high
     assert (low, high) == pytest.approx((8.2 * frames_a_second, 9.5 * frames_a_second))
-
-
-@pytest.mark.parametrize("values", [EXPOSURES, DECIBELS])
-def test_the_places_of_a_bench_rise(values: tuple[float, ...]) -> None:
-    assert all(before < after for before, after in pairwise(values))
-
-
-def test_the_root_mean_square_of_a_residual_is_in_its_levels() -> None:
-    residual = np.array([3.0, -3.0, 3.0, -3.0])
-    found = Match.rmse.fget(SimpleNamespace(residual=residual))  # type: ignore[attr-defined]
-    assert found == pytest.approx(3.0)
 
 
 def test_an_exposure_that_was_not_estimated_has_no_verdict() -> None:

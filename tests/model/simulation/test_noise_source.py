@@ -149,10 +149,3 @@ def test_reused_noise_is_scaled_to_all_noise_together(scene: Scene) -> None:
         values_of(noisy, ON, source) - values_of(noisy, OFF) for source in ("exact", "reused")
     )
     assert again.std() == pytest.approx(exact.std(), rel=0.03)
-
-
-def test_the_widest_picture_has_a_plane_many_times_its_row() -> None:
-    scene = Scene().replace(columns=600_000)
-    deviation = reused(scene, 1, 3)
-    correlation = np.corrcoef(deviation) - np.eye(3)
-    assert np.abs(correlation).max() < 6 / math.sqrt(600_000)

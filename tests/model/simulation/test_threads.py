@@ -9,17 +9,8 @@ import numpy as np
 import pytest
 
 import occ_model as occ
-from occ_model.camera.row_memory import LIMIT
-from occ_model.effects.effect import NoiseEffect
-from occ_model.effects.paper_view import paper_view_of
-from occ_model.effects.plan import plan_of
-from occ_model.effects.registry import planned
 from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.simulation import stage_timer
-from occ_model.simulation.columns import expose_columns
-from occ_model.simulation.noise import Drawn, ExactNoise
-from occ_model.simulation.pixels import PixelExposure
 from occ_model.simulation.stage_timer import StageTimer
 from occ_model.simulation.threads import each_in_threads, threads
 
@@ -107,13 +98,6 @@ def timer_at(monkeypatch: pytest.MonkeyPatch, *moments: float) -> StageTimer:
     return StageTimer()
 
 
-def test_the_stages_add_up_to_the_time_that_passed(monkeypatch: pytest.MonkeyPatch) -> None:
-    timer = timer_at(monkeypatch, 10.0, 11.0, 13.0, 13.5)
-    for stage in ("light", "noise", "light"):
-        timer.stage_ended(stage)
-    assert timer.timings == {"light": 1.5, "noise": 2.0}
-
-
 def test_stages_of_threads_share_the_time_that_passed(monkeypatch: pytest.MonkeyPatch) -> None:
     timer = timer_at(monkeypatch, 0.0)
     threads = [timer_at(monkeypatch, 0.0, 1.0, 4.0) for _ in range(2)]
@@ -126,29 +110,6 @@ def test_stages_of_threads_share_the_time_that_passed(monkeypatch: pytest.Monkey
     timer.parallel_stages_ended(threads)
     assert timer.timings == pytest.approx({"light": 1.5, "noise": 4.5})
     assert sum(timer.timings.values()) == pytest.approx(6.0)
-
-
-def test_drawing_noise_counts_to_the_last_kind_of_noise(monkeypatch: pytest.MonkeyPatch) -> None:
-    moment = [0.0]
-    monkeypatch.setattr(stage_timer, "perf_counter", lambda: moment[0])
-
-    class SlowNoise(ExactNoise):
-        def draw(self, rows: int) -> Drawn:
-            moment[0] += 1.0
-            return super().draw(rows)
-
-    scene = occ.load_preset("phone-136us-real").replace(rows=100, columns=200, gain_variation=0.02)
-    view, timer = paper_view_of(scene), StageTimer()
-    chosen = plan_of(view, SimulationSettings(tolerance=0.0))
-    assert [noise.name for noise in planned(chosen, NoiseEffect)] == [
-        "fixed-pattern",
-        "sensor-noise",
-    ]
-    columns = expose_columns(view, chosen, timer)
-    exposure = PixelExposure(view, chosen, columns, timer)
-    bands = list(exposure._drawn(1, SlowNoise))
-    assert bands
-    assert all(band.timer.timings == {"sensor-noise": 1.0} for band in bands)
 
 
 def test_stages_that_took_no_time_share_what_has_passed_alike(
@@ -190,15 +151,3 @@ def test_a_picture_takes_six_bytes_a_pixel_beside_itself(
     image = occ.render(scene.replace(**turn), tolerance=0.0, noise=noise).image  # type: ignore[arg-type]
     _, peak = tracemalloc.get_traced_memory()
     assert image.nbytes <= peak - before <= 7 * image.nbytes
-
-
-@pytest.mark.whole
-@pytest.mark.usefixtures("traced")
-def test_a_frame_that_is_gone_leaves_no_more_than_is_remembered(scene: Scene) -> None:
-    small = scene.replace(rows=1152, jpeg_quality=0)
-    held = []
-    for move in range(24):
-        # Without a limit, what is remembered would be half as much again after these.
-        occ.render(small.replace(distance=1.0 + 0.01 * move), tolerance=0.0, noise="reused")
-        held.append(tracemalloc.get_traced_memory()[0])
-    assert max(held) <= LIMIT + 2**21  # two megabytes for all that is small

@@ -10,7 +10,6 @@ from hypothesis import strategies as st
 import occ_model as occ
 from occ_model.scene.parameters.light import MAX_BITS
 from occ_model.scene.scene import Scene
-from occ_model.transmitter.framings.paper import HEADER
 from occ_model.transmitter.line_codes import differential_manchester
 from occ_model.transmitter.packet import bits_of, code_of, packet_length, sent_chips
 
@@ -40,11 +39,6 @@ def test_a_code_is_its_bits_with_the_most_significant_first(bits: int, data: st.
     assert "".join(map(str, written)) == f"{code:0{bits}b}"
     assert code_of(written) == code
     assert code_of(np.array(written, dtype=np.uint8)) == code
-
-
-def test_the_header_is_three_ones_and_a_zero() -> None:
-    assert HEADER == (1, 1, 1, 0)
-    assert all(sent(code)[:4] == [1, 1, 1, 0] for code in CODES)
 
 
 @pytest.mark.parametrize("bits", [2, 3, BITS, MAX_BITS])

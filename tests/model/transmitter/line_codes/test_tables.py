@@ -114,11 +114,6 @@ def test_no_data_contain_a_comma_or_a_run_of_six() -> None:
             assert not any(six in pair for six in ("000000", "111111"))
 
 
-def test_bits_are_read_into_bytes_most_significant_first() -> None:
-    bits = np.array([1, 0, 1, 1, 0, 1, 0, 1], dtype=np.uint8)  # 0xB5, D21.5
-    assert text(_8b10b.LINE_CODE.encode(bits, 0)) == "1010101010"
-
-
 @pytest.mark.parametrize("symbol", range(4))
 def test_a_symbol_of_fsk_is_one_frequency(symbol: int) -> None:
     bits = np.array([symbol >> 1, symbol & 1] * 20, dtype=np.uint8)
@@ -185,12 +180,6 @@ def test_the_convention_is_that_of_ieee_802_5(
     bits: list[int], level: int, chips: list[int]
 ) -> None:
     assert encode(bits, level).tolist() == chips
-
-
-@every_level
-def test_many_codes_are_turned_into_chips_as_each_by_itself(level: int) -> None:
-    many = list(product((0, 1), repeat=4))
-    np.testing.assert_array_equal(encode(many, level), [encode(bits, level) for bits in many])
 
 
 @given(bits=bit_strings, level=levels)

@@ -5,10 +5,9 @@ from itertools import pairwise
 
 import pytest
 from gui.kinds import show_widget
-from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from occ_gui.accuracy.accuracy_plot import _RING, COLOURS, SYMBOLS, AccuracyPlot
+from occ_gui.accuracy.accuracy_plot import COLOURS, SYMBOLS, AccuracyPlot
 from occ_gui.accuracy.ways_shown import ways_shown
 from occ_gui.widgets.axes import _NUMBER_LENGTH, LogAxis
 from occ_model.results.accuracy import LEAST_ERROR, AccuracyPoint
@@ -26,26 +25,6 @@ POINTS = (
     AccuracyPoint("noise", "reused plane", 2e-2, 0.01),
 )
 SHOWN = [point for point in POINTS if point.name != "+ Vignetting"]
-
-
-def crowd() -> list[AccuracyPoint]:
-    """Return as many points as a real scene has, some at the same place."""
-    samples = [
-        AccuracyPoint("integration", f"{2**n} samples", 1e-5 * 2**n, 60.0 / 2**n) for n in range(13)
-    ]
-    drafts = [AccuracyPoint("draft", f"draft 1/{n}", 0.6 / n, 1.0 + n / 60) for n in (4, 16, 64)]
-    return [
-        *samples,
-        AccuracyPoint("integration", "closed form", 1.2e-4, 1e-14),
-        AccuracyPoint("effects", "paper's model", 1e-2, 12.0),
-        AccuracyPoint("effects", "+ JPEG", 0.8, 0.0, effects=ALL),
-        AccuracyPoint("effects", "this plan", 0.8, 0.0, current=True, effects=ALL),
-        AccuracyPoint("path", "profile path", 1e-3, 3.0),
-        AccuracyPoint("path", "image path", 0.8, 0.0),
-        *drafts,
-        AccuracyPoint("noise", "drawn for each pixel", 0.3, 0.005),
-        AccuracyPoint("noise", "reused plane", 0.05, 0.01),
-    ]
 
 
 @pytest.fixture
@@ -83,15 +62,6 @@ def test_each_point_is_at_its_time_and_error_with_its_marker_and_the_present_one
     )
 
 
-def test_the_present_setting_is_one_point_also_where_it_is_an_end_of_the_ladder() -> None:
-    shown = [way.name for way in ways_shown(crowd()) if way.point.part == "effects"]
-    assert shown == ["now: picture, all effects", "picture, no effects"]
-    bare = AccuracyPoint("effects", "this plan", 1e-3, 15.0, current=True)
-    points = [*POINTS[:5], bare]
-    shown = [way.name for way in ways_shown(points) if way.point.part == "effects"]
-    assert shown == ["now: picture, no effects", "picture, all effects"]
-
-
 def test_all_points_are_in_view_and_progress_is_shown(plot: AccuracyPlot) -> None:
     measure(plot, POINTS[:3])
     assert plot.title.toolTip().endswith(f"measuring… 3 of {len(POINTS)}")
@@ -125,6 +95,13 @@ def test_the_last_complete_points_stay_faint_until_new_ones_come_and_are_called_
     assert plot.title.toolTip().endswith(": of the previous scene")
     plot.show_study_failed("The panel is behind the camera.")
     assert plot.title.toolTip().endswith("The panel is behind the camera.")
+
+
+def test_the_present_setting_is_one_point_also_where_it_is_an_end_of_the_ladder() -> None:
+    bare = AccuracyPoint("effects", "this plan", 1e-3, 15.0, current=True)
+    points = [*POINTS[:5], bare]
+    shown = [way.name for way in ways_shown(points) if way.point.part == "effects"]
+    assert shown == ["now: picture, no effects", "picture, all effects"]
 
 
 def test_a_view_that_the_user_moved_stays_until_asked_to_fit(plot: AccuracyPlot) -> None:
@@ -166,15 +143,3 @@ def test_a_logarithmic_axis_within_a_power_of_ten_is_numbered_at_round_values(
     assert axis.tickStrings(numbered, 1.0, 1.0) == texts
     pixels = [400.0 * (place - low) / (high - low) for place in numbered]
     assert min(after - before for before, after in pairwise(pixels)) >= _NUMBER_LENGTH["bottom"]
-
-
-@pytest.mark.parametrize("height", [70, 120, 240])
-def test_the_rings_at_the_top_and_at_the_bottom_are_whole(plot: AccuracyPlot, height: int) -> None:
-    plot.resize(500, height)
-    QApplication.processEvents()
-    measure(plot)
-    box = plot.plot.getViewBox()
-    (low, high), pixel = box.viewRange()[1], box.viewPixelSize()[1]
-    ys = [math.log10(max(point.error, LEAST_ERROR)) for point in POINTS]
-    assert (high - max(ys)) / pixel >= _RING - 0.01
-    assert (math.log10(LEAST_ERROR) - low) / pixel >= _RING - 0.01

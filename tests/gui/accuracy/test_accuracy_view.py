@@ -5,21 +5,18 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
-from gui.kinds import SnapshotOf, add_widget, collect
+from gui.kinds import collect
 from gui.pane_bench import PaneBench
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.accuracy import controller
-from occ_gui.accuracy.accuracy_view import AccuracyView
-from occ_gui.accuracy.cost_measurement import SceneCosts
 from occ_gui.accuracy.effect_rows import EffectRow
 from occ_gui.accuracy.feature import accuracy
 from occ_gui.accuracy.pane import AccuracyPane
 from occ_gui.accuracy.plan_changes import PlanNews
 from occ_model.effects.plan import plan_with
-from occ_model.results.accuracy import Forecast
 from occ_model.scene.scene import Scene
 
 
@@ -77,14 +74,9 @@ def test_what_a_change_switches_is_marked_with_its_cost_for_a_while(
     assert "Switched" not in bench.told
 
 
-@pytest.mark.parametrize("observable", ["image", "signal"])
-def test_each_mark_of_the_slider_has_a_plan_of_its_own(
-    qtbot: QtBot, bench: Bench, observable: str
-) -> None:
+def test_each_mark_of_the_slider_has_a_plan_of_its_own(qtbot: QtBot, bench: Bench) -> None:
     scene = occ.load_preset("phone-136us-real").replace(rows=300, columns=400)
     bench.scenes.put(scene, "scene")
-    while bench.settings.settings.observable != observable:
-        qtbot.keyClick(bench.view.observable, Qt.Key.Key_Down)
     bench.simulate()
     slider = bench.view.tolerance.slider
     qtbot.waitUntil(lambda: slider.maximum() in range(6, 190))
@@ -95,14 +87,17 @@ def test_each_mark_of_the_slider_has_a_plan_of_its_own(
     assert len(set(plans)) == len(plans)
 
 
-def test_a_switch_forces_its_effect(qtbot: QtBot, bench: Bench) -> None:
+def test_effect_observable_and_noise_are_chosen(qtbot: QtBot, bench: Bench) -> None:
     for _ in range(2):  # auto, on, off
         qtbot.keyClick(bench.view.table.switches["sensor-noise"], Qt.Key.Key_Down)
         bench.simulate()
     assert bench.settings.settings.force == {"sensor-noise": False}
     assert "by hand" in bench.row("sensor-noise").reason
     qtbot.keyClick(bench.view.table.switches["sensor-noise"], Qt.Key.Key_Home)
-    assert bench.settings.settings.force == {}
+    for control in (bench.view.observable, bench.view.noise):
+        qtbot.keyClick(control, Qt.Key.Key_Down)
+    settings = bench.settings.settings
+    assert (settings.force, settings.observable, settings.noise) == ({}, "profile", "exact")
 
 
 def test_both_ends_of_the_slider_are_the_bare_model_and_the_exact_one(bench: Bench) -> None:
@@ -143,58 +138,17 @@ def test_a_selected_effect_has_the_plans_reason_and_the_time_is_the_sum_of_the_r
     assert f"{time} ms" in bench.told
 
 
-def test_observable_and_noise_are_chosen(qtbot: QtBot, bench: Bench) -> None:
-    for control in (bench.view.observable, bench.view.noise):
-        qtbot.keyClick(control, Qt.Key.Key_Down)
-    settings = bench.settings.settings
-    assert (settings.observable, settings.noise) == ("profile", "exact")
-
-
-@pytest.mark.parametrize("text", ["-1", "little"])
-def test_a_wrong_tolerance_is_refused_and_the_field_restored(
-    qtbot: QtBot, bench: Bench, text: str
-) -> None:
+def test_a_wrong_tolerance_is_refused_and_the_field_restored(qtbot: QtBot, bench: Bench) -> None:
     field = bench.view.tolerance.field
     bench.view.refused.connect(bench.said.append)
     field.selectAll()
-    qtbot.keyClicks(field, text)
+    qtbot.keyClicks(field, "little")
     qtbot.keyClick(field, Qt.Key.Key_Return)
     (sentence,) = bench.said
     assert sentence.startswith("Tolerance cannot be ")
     assert "allowed: from 0 levels" in sentence
     assert field.value() == bench.settings.settings.tolerance == 0.5
     assert field.lineEdit().text() == "0.5 levels"
-
-
-def test_the_study_runs_in_front_and_ends_when_the_scene_changes_or_it_is_hidden(
-    qtbot: QtBot, bench: Bench, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(controller, "IDLE_MS", 1)
-    title, study = bench.view.plot.title, bench.pane.study
-    bench.simulate(iso=150.0)
-    qtbot.waitUntil(lambda: " of " in title.toolTip())
-    bench.scenes.change(iso=200.0)
-    assert title.toolTip().endswith("stopped")
-    assert study.runner.is_idle
-    qtbot.waitUntil(lambda: title.toolTip().endswith(": measured"))
-    qtbot.waitUntil(lambda: study.is_idle)
-    bench.see("accuracy", False)
-    bench.simulate(iso=250.0)
-    qtbot.wait(50)
-    assert study.is_idle
-    assert title.toolTip().endswith("of the previous scene")
-
-
-def test_nothing_is_drawn_of_a_pane_that_is_not_seen(qtbot: QtBot, snapshot_of: SnapshotOf) -> None:
-    view = add_widget(qtbot, AccuracyView())
-    snapshot = snapshot_of()
-    view.show_snapshot(snapshot)
-    view.show_costs(SceneCosts(snapshot.request))
-    view.show_forecast(snapshot.request, Forecast(snapshot.frame.plan, 0.1, 0.0, is_measured=True))
-    assert not view.summary._full
-    view.set_seen(True)
-    assert view.summary._full
-    assert view.table.model().rowCount() > 3
 
 
 def test_errors_of_a_decision_are_counted_in_margins(qtbot: QtBot, bench: Bench) -> None:

@@ -6,12 +6,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from gui.kinds import SnapshotOf, add_widget, collect
-from PySide6.QtCore import QPoint, QRect, Qt
-from PySide6.QtGui import QColor, QImage
+from PySide6.QtCore import QPoint, Qt
+from PySide6.QtGui import QColor
 from pytestqt.qtbot import QtBot
 
-from occ_gui.accuracy.effect_cells import _fitted, levels_at, place_of
-from occ_gui.accuracy.effect_detail import EffectDetail
+from occ_gui.accuracy.effect_cells import levels_at, place_of
 from occ_gui.accuracy.effect_rows import (
     EFFECT,
     ELSE,
@@ -22,7 +21,7 @@ from occ_gui.accuracy.effect_rows import (
     rows_of,
     slowest_of,
 )
-from occ_gui.accuracy.effect_table import HIGHEST_ROW, LOWEST_ROW, EffectTable
+from occ_gui.accuracy.effect_table import EffectTable
 from occ_model.results.accuracy import (
     EffectCrop,
     EffectDifference,
@@ -152,19 +151,6 @@ def test_what_would_be_switched_is_shown_before_it_is(
     assert cell(table, "sensor-noise", EFFECT) == "● Shot and read noise"
 
 
-def test_only_rows_that_differ_are_drawn_again(table: EffectTable, frame: Frame) -> None:
-    """All are given at each move of a slider."""
-    drawn: list[int] = []
-    table.effects.dataChanged.connect(lambda first, _: drawn.append(first.row()))
-    switches = dict(table.switches)
-    table.show_rows(rows_of(frame, costs_of(frame), new=()))
-    assert drawn == []
-    changed = replace(frame, timings={**frame.timings, "led-edges": 1e-3})
-    table.show_rows(rows_of(changed, costs_of(changed), new=()))
-    assert drawn == [0]
-    assert table.switches == switches
-
-
 def test_a_switch_tells_what_is_wanted_of_its_effect_and_shows_what_is_forced(
     table: EffectTable, qtbot: QtBot
 ) -> None:
@@ -182,40 +168,6 @@ def test_a_switch_tells_what_is_wanted_of_its_effect_and_shows_what_is_forced(
     table.show_force({})
     assert {switch.currentText() for switch in table.switches.values()} == {"plan"}
     assert received == []
-
-
-def test_a_selected_row_is_told_once(table: EffectTable) -> None:
-    received = collect(table.chosen)
-    table.choose("jpeg")
-    table.choose("jpeg")
-    assert received == ["jpeg"]
-
-
-def test_a_row_out_of_sight_is_brought_into_view(table: EffectTable) -> None:
-    table.setMinimumHeight(0)
-    table.resize(400, 80)
-    table.bring_into_view(["jpeg"])
-    place = [row.effect for row in table.effects.rows].index("jpeg")
-    shown = table.visualRect(table.effects.index(place, EFFECT))
-    assert table.viewport().rect().intersects(shown)
-
-
-def test_rows_are_low_where_all_fit_so_scroll_in_a_lower_pane_and_grow_to_a_limit(
-    table: EffectTable,
-) -> None:
-    # Each row is one line: half of a second one would be seen otherwise.
-    assert not table.wordWrap()
-    heights = {table.rowHeight(place) for place in range(table.model().rowCount())}
-    assert max(heights) < 2 * table.fontMetrics().height()
-    last = table.effects.index(table.effects.rowCount() - 1, EFFECT)
-    table.resize(table.width(), (2 + table.effects.rowCount()) * LOWEST_ROW)
-    assert table.viewport().rect().contains(table.visualRect(last))
-    table.resize(table.width(), table.minimumSizeHint().height())
-    assert table.verticalScrollBar().maximum() > 0
-    table.scrollTo(last)
-    assert table.viewport().rect().contains(table.visualRect(last))
-    table.resize(640, table.sizeHint().height())
-    assert table.verticalHeader().defaultSectionSize() == HIGHEST_ROW
 
 
 def test_the_effect_shown_first_is_the_slowest_in_the_picture_but_for_what_times_scatter(
@@ -291,64 +243,3 @@ def test_of_some_runs_each_effect_takes_its_fastest() -> None:
     assert found.scatter == {"jpeg": 0.5, "defocus": 0.5}
     assert found.seconds == 6.0
     assert TimeFractions.of_runs(runs[:1]).scatter == {"jpeg": 0.0, "defocus": 0.0}
-
-
-def test_the_name_of_the_effect_chosen_is_bold_and_the_tables_text_small(
-    qtbot: QtBot, table: EffectTable
-) -> None:
-    detail = add_widget(qtbot, EffectDetail())
-    assert detail.title.font().bold()
-    assert not detail.reason.font().bold()
-    assert table.font().pointSizeF() < detail.font().pointSizeF()
-
-
-@pytest.mark.parametrize("picture", [(10, 10), (400, 50), (50, 400), (90, 60)])
-@pytest.mark.parametrize("area", [(40, 30), (100, 100), (20, 90)])
-def test_a_picture_is_fitted_whole_in_the_middle_and_never_enlarged(
-    picture: tuple[int, int], area: tuple[int, int]
-) -> None:
-    within = QRect(7, 5, *area)
-    place = _fitted(within, QImage(*picture, QImage.Format.Format_RGB32))
-    assert within.contains(place)
-    assert (place.center() - within.center()).manhattanLength() <= 1
-    assert place.width() <= picture[0]
-    assert place.height() <= picture[1]
-    # It fills one side of the place, if it is not as large as it is.
-    full = place.width() == area[0] or place.height() == area[1]
-    assert full or (place.width(), place.height()) == picture
-    assert place.width() / place.height() == pytest.approx(picture[0] / picture[1], rel=0.35)
-
-
-@pytest.mark.parametrize("points", [9, 12, 16])
-def test_the_titles_of_the_columns_are_shown_whole_in_any_font(
-    qtbot: QtBot, frame: Frame, points: int
-) -> None:
-    table = add_widget(qtbot, EffectTable())
-    header = table.horizontalHeader()
-    for widget in (table, header):
-        font = widget.font()
-        font.setPointSize(points)
-        widget.setFont(font)
-    table.resize(1200, 260)
-    table.show_rows(rows_of(frame, costs_of(frame), new=()))
-    table.show()
-    for column in range(header.count()):
-        title = table.effects.headerData(column, Qt.Orientation.Horizontal)
-        width = header.fontMetrics().horizontalAdvance(title)
-        assert header.sectionSize(column) >= width + 4
-
-
-def test_pictures_are_as_high_as_they_need_in_any_width(qtbot: QtBot) -> None:
-    detail = add_widget(qtbot, EffectDetail())
-    grey = np.full((40, 80), 90, dtype=np.uint8)
-    detail.show_row(None, EffectCrop(grey, grey, grey, 4, False))
-    detail.resize(400, 600)
-    detail.show()
-    heights = []
-    for width in (400, 700):
-        detail.resize(width, 600)
-        heights.append(detail.pictures.maximumHeight())
-        room = detail.pictures.width()
-        low, high = (detail.pictures.height_in(room + off) for off in (-8, 8))
-        assert low <= heights[-1] <= high
-    assert heights[0] < heights[1]

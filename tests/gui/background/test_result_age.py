@@ -56,14 +56,6 @@ def test_no_result_and_a_forgotten_one_are_of_any_age(ages: ResultAges[str]) -> 
     assert ages.age("first") == math.inf
 
 
-def test_the_same_request_again_ends_nothing(ages: ResultAges[str], clock: Clock) -> None:
-    ages.begin("second")
-    clock.now += 2.0
-    ages.begin("second")
-    assert ages.age("second") == 0.0
-    assert ages.age("first") == 2.0
-
-
 def test_only_changes_in_quick_succession_are_a_movement(
     ages: ResultAges[str], clock: Clock
 ) -> None:

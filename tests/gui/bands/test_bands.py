@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from gui.kinds import show_widget
 from gui.pane_bench import PaneBench
-from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
@@ -94,22 +93,6 @@ def test_a_speed_that_is_taken_becomes_the_exposure_at_the_same_brightness(
     scenes.settings.set_tolerance(3.0)  # which the bars do not depend on
     qtbot.wait(round(1e3 * DELAY))
     assert view.outdated.isHidden()
-
-
-def test_the_table_shows_all_of_its_columns_in_a_narrow_pane(view: BandsView) -> None:
-    view.resize(760, 620)
-    view.show_bands(_shown(_LAMP))
-    QApplication.processEvents()
-    table = view.table
-    needed = table.sizeHintForColumn(3), table.horizontalHeader().sectionSizeHint(3)
-    assert table.columnWidth(3) >= max(needed)
-    assert table.horizontalScrollBar().maximum() == 0
-    assert view.width() == 760
-    assert view.map.width() > 260
-    view.resize(400, 900)
-    QApplication.processEvents()
-    assert view.map.width() > 360
-    assert table.horizontalScrollBar().maximum() == 0
 
 
 def test_the_chart_shows_each_sine_beside_the_lines(view: BandsView) -> None:

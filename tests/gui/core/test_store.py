@@ -7,7 +7,6 @@ from gui.kinds import collect
 
 from occ_gui.core.store import Store
 from occ_gui.core.workspace import Workspace
-from occ_model.receiver.decoders import PAPER_DECODER
 from occ_model.scene.scene import Scene
 
 
@@ -124,7 +123,3 @@ def test_a_listener_that_fails_keeps_nobody_from_hearing_later_changes(
     store.put(replace(store.workspace, frame_rate=25.0))
     assert heard == [24.0, 25.0]
     assert failing.value == 1.0
-
-
-def test_the_papers_decoder_is_shown_first() -> None:
-    assert Workspace(Scene()).decoder == PAPER_DECODER

@@ -8,7 +8,6 @@ from PySide6.QtWidgets import QLabel, QWidget
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
-from occ_gui.decoding import decode_steps
 from occ_gui.decoding.decode_steps import RunLengthPlot, SignalPlot
 from occ_gui.simulation.snapshot import Snapshot
 from occ_model.results.decoding import DecodeResult, RunHistogram
@@ -61,31 +60,10 @@ def test_the_signal_its_threshold_and_one_chips_under_columns_above_it_are_drawn
     assert decoded.threshold is not None
     assert drawn["y0"].max() + drawn["height"].max() <= decoded.signal.min()
     assert (drawn["x0"] + drawn["width"]).max() <= len(decoded.signal)
+    first, last = signal_plot.plot.getViewBox().viewRange()[0]
+    assert last - first == pytest.approx(2 * paper.packet_columns, rel=0.1)
     centres = (drawn["x0"] + drawn["width"] / 2).astype(int)
     assert (decoded.signal[centres] > decoded.threshold).mean() > 0.98
-
-
-@pytest.mark.parametrize("packets", [1, 2])
-def test_at_first_so_many_packets_are_in_view(
-    signal_plot: SignalPlot, paper: Snapshot, packets: int, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(decode_steps, "PACKETS_IN_VIEW", packets)
-    signal_plot.show_result(paper.decoded, paper.packet_columns)
-    first, last = signal_plot.plot.getViewBox().viewRange()[0]
-    assert last - first == pytest.approx(packets * paper.packet_columns, rel=0.1)
-
-
-def test_the_level_axis_has_no_numbers_where_only_the_chips_lie(signal_plot: SignalPlot) -> None:
-    signal = np.tile([1.0, 250.0], 200)
-    signal_plot.show_result(DecodeResult("threshold", signal=signal), 100.0)
-    axis = signal_plot.plot.getAxis("left")
-    low, high = signal_plot.plot.getViewBox().viewRange()[1]
-    texts: dict[float, str] = {}
-    for spacing, values in axis.tickValues(low, high, 200):
-        texts |= zip(values, axis.tickStrings(values, 1.0, spacing), strict=True)
-    assert min(texts) < 0
-    assert {text for value, text in texts.items() if value < 0} == {""}
-    assert all(float(text) == value for value, text in texts.items() if value >= 0)
 
 
 def test_a_folding_decoder_shows_the_folded_signal_and_its_model_which_go_with_it(

@@ -87,16 +87,6 @@ def test_measured_values_are_shown_with_their_units_and_no_old_ones(
     assert not any(text.endswith(units) for text in texts(view))
 
 
-def test_a_long_reason_is_shown_whole(view: DecodeView, snapshot_of: SnapshotOf) -> None:
-    decoded = DecodeResult("threshold", failure="So it happened that no code was read. " * 12)
-    view.resize(view.minimumSizeHint().width(), 700)
-    view.show_reading(replace(snapshot_of(), decoded=decoded))
-    layout = not_none(view.layout())
-    layout.activate()
-    for label in (view.verdict, view.reason):
-        assert label.height() >= label.heightForWidth(label.width())
-
-
 def test_each_decoders_tab_shows_whether_it_read_the_code(
     view: DecodeView, snapshot_of: SnapshotOf
 ) -> None:

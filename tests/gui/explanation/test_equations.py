@@ -91,16 +91,6 @@ def test_where_the_band_model_is_undefined_a_sentence_says_so(
     assert "= 200 µs / 8 µs\n= 25 columns" in view.toPlainText()
 
 
-def test_a_reader_stays_where_he_is_while_numbers_change(
-    view: EquationText, small_scene: Scene
-) -> None:
-    view.show_equations(equations(small_scene), NOTHING)
-    bar = view.verticalScrollBar()
-    bar.setValue(bar.maximum() // 2)
-    view.show_equations(equations(small_scene.replace(iso=200.0)), frozenset({"iso"}))
-    assert bar.value() == pytest.approx(bar.maximum() // 2, abs=20)
-
-
 def test_equations_follow_the_scene_only_while_they_are_seen(small_scene: Scene) -> None:
     store, shown = store_of(small_scene), list[object]()
     controller = EquationController(store, lambda *what: shown.append(what))

@@ -1,12 +1,10 @@
 """The exposure of the column that the mouse, a click, an arrow key or a number chooses."""
 
-import numpy as np
 import pytest
 from gui.kinds import not_none, show_widget
 from gui.mouse import move_mouse
 from gui.pane_bench import PaneBench
 from PySide6.QtCore import QPoint, QPointF, Qt
-from PySide6.QtWidgets import QSplitter, QWidget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.explanation.exposure_plot import ExposurePlot
@@ -44,37 +42,6 @@ def test_chips_window_and_time_on_are_drawn_in_microseconds(
     assert plot.sentence.text() == f"{messages} → 42.2 grey levels"
     first, last = plot.plot.getViewBox().viewRange()[0]
     assert first <= 0.0 < x[-1] <= last
-
-
-def test_plot_and_sentence_are_whole_in_a_narrow_pane(qtbot: QtBot, small_scene: Scene) -> None:
-    plot, panes = ExposurePlot(), QSplitter(Qt.Orientation.Vertical)
-    for part in (QWidget(), plot):
-        panes.addWidget(part)
-    show_widget(qtbot, panes, 900, 400)
-    plot.show_window(exposure_window(small_scene, 1003), 42.25)
-    wide = plot.minimumHeight()
-    panes.resize(190, 400)
-    panes.setSizes([1000, 0])
-    qtbot.wait(1)
-    assert plot.minimumHeight() > wide
-    assert plot.sentence.height() >= plot.sentence.heightForWidth(plot.sentence.width())
-    assert plot.rect().contains(plot.plot.geometry())
-
-
-def test_the_view_can_be_enlarged_and_moved_a_little_beyond(
-    plot: ExposurePlot, small_scene: Scene
-) -> None:
-    window = exposure_window(small_scene, 1003)
-    plot.show_window(window, 42.25)
-    last = float(window.edges[-1]) * 1e6
-    box = plot.plot.getViewBox()
-    for asked in ((0.4 * last, 0.5 * last), (0.0, 1e9 * last), (0.4 * last, 0.4 * last + 1e-9)):
-        box.setXRange(*asked, padding=0.0)
-        low, high = box.viewRange()[0]
-        assert 0.0 < high - low <= 5.0 * last
-        assert high - low >= 0.9e-6 * last
-    box.setXRange(0.4 * last, 0.5 * last, padding=0.0)
-    assert np.ptp(box.viewRange()[0]) == pytest.approx(0.1 * last)
 
 
 def test_a_column_in_the_dark_has_no_time_on_and_what_is_not_drawn_is_named(

@@ -10,12 +10,12 @@ import pytest
 from gui.kinds import add_widget, show_widget
 from gui.pane_bench import PaneBench
 from PySide6.QtCore import QObject, QPoint, Qt, QUrl, Slot
-from PySide6.QtGui import QColor, QDesktopServices, QImage, QPalette, QTextCursor, QTextDocument
-from PySide6.QtWidgets import QTextBrowser, QToolBar
+from PySide6.QtGui import QColor, QDesktopServices, QPalette, QTextCursor, QTextDocument
+from PySide6.QtWidgets import QTextBrowser
 from pytestqt.qtbot import QtBot
 
 from occ_gui.bands.feature import bands
-from occ_gui.help import help_browser, help_window
+from occ_gui.help import help_window
 from occ_gui.help.feature import manual as declaration
 from occ_gui.help.help_browser import HelpBrowser
 from occ_gui.help.help_window import HelpWindow
@@ -24,8 +24,6 @@ from occ_gui.spectrum.feature import spectrum
 from occ_model.scene.scene import Scene
 
 ROOT = Path(__file__).parents[3]
-
-RGB = QImage.Format.Format_RGB32
 
 IMAGE = int(QTextDocument.ResourceType.ImageResource.value)
 
@@ -72,31 +70,6 @@ def click(qtbot: QtBot, browser: QTextBrowser, text: str, target: str) -> None:
     browser.ensureCursorVisible()
     place = browser.cursorRect(cursor).center()
     qtbot.mouseClick(browser.viewport(), Qt.MouseButton.LeftButton, pos=place)
-
-
-@pytest.mark.whole
-def test_every_page_is_listed_and_shown_under_its_title(manual: HelpWindow) -> None:
-    for place, (title, name) in enumerate(pages(docs_folder())):
-        manual.page_list.itemClicked.emit(manual.page_list.item(place))
-        assert manual.browser.source().fileName() == name
-        assert manual.page_list.currentItem().text() == title
-        assert manual.windowTitle().endswith(title)
-        assert len(manual.browser.toPlainText()) > 300
-
-
-@pytest.mark.whole
-def test_every_page_is_laid_out_to_its_end_and_no_wider_than_its_window(
-    qtbot: QtBot, manual: HelpWindow
-) -> None:
-    manual.resize(900, 700)
-    for _, name in pages(docs_folder()):
-        manual.show_page(name)
-        qtbot.wait(50)  # Qt lays out long pages piece by piece
-        assert manual.browser.horizontalScrollBar().maximum() == 0, name
-        block = manual.browser.document().begin()
-        while block.isValid():
-            assert block.layout().lineCount() or not block.text(), (name, block.text())
-            block = block.next()
 
 
 def test_a_link_is_followed_to_its_heading_and_undone(manual: HelpWindow, qtbot: QtBot) -> None:
@@ -232,64 +205,6 @@ def test_pages_and_pictures_come_out_of_an_archive(tmp_path: Path) -> None:
 def run(program: str, folder: Path) -> str:
     command = [sys.executable, "-W", "error", "-c", program]
     return subprocess.run(command, cwd=folder, capture_output=True, text=True, check=True).stdout
-
-
-def test_code_stands_as_far_from_the_text_below_as_from_that_above(manual: HelpWindow) -> None:
-    block, tops, bottoms = manual.browser.document().begin(), [], []
-    while block.isValid():
-        if block.blockFormat().hasProperty(help_browser._CODE):
-            tops.append(block.blockFormat().topMargin())
-            bottoms.append(block.blockFormat().bottomMargin())
-        block = block.next()
-    assert 0.0 < max(tops) <= max(bottoms)
-
-
-def test_the_manual_is_read_in_larger_text_too(manual: HelpWindow) -> None:
-    before = manual.browser.document().size().height()
-    font = manual.font()
-    font.setPointSizeF(2.0 * font.pointSizeF())
-    manual.setFont(font)
-    assert manual.browser.document().defaultFont().pointSizeF() == font.pointSizeF()
-    assert manual.browser.document().size().height() > before
-
-
-def test_pictures_are_fitted_anew_where_the_width_changes_only(
-    manual: HelpWindow, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    browser, fitted = manual.browser, []
-    assert browser._pictures
-    monkeypatch.setattr(browser, "_fitted", lambda picture: fitted.append(picture) or picture)
-    width = browser.width()
-    browser.resize(width, browser.height() + 30)
-    assert not fitted
-    browser.resize(width + 30, browser.height())
-    assert len(fitted) == len(browser._pictures)
-
-
-def test_a_picture_has_all_points_of_a_fine_screen(
-    qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(HelpBrowser, "devicePixelRatioF", lambda _: 2.0)
-    browser = add_widget(qtbot, HelpBrowser())
-    browser.resize(400, 300)
-    large, small = QImage(2000, 100, RGB), QImage(60, 30, RGB)
-    room = browser.viewport().width()
-    fitted = browser._fitted(large)
-    assert room - 40 <= fitted.width() / 2 <= room
-    assert fitted.devicePixelRatio() == 2.0
-    assert browser._fitted(small).width() == 60
-
-
-def test_the_titles_of_the_pages_are_read_whole_every_part_has_a_name_and_the_bar_stays(
-    manual: HelpWindow,
-) -> None:
-    pages = manual.page_list
-    assert pages.viewport().width() >= pages.sizeHintForColumn(0)
-    for part in (pages, manual.browser, manual.search):
-        assert part.accessibleName()
-    bars = manual.findChildren(QToolBar)
-    assert bars
-    assert not any(bar.isMovable() for bar in bars)
 
 
 _PAGE = "# One\nLight.\n## Bars\nDark *stripes*\n```\n# no heading\n```\n## Flicker\nBars of light."

@@ -10,13 +10,13 @@ from gui.kinds import add_widget, not_none
 from gui.lessons.conftest import Lessons
 from PySide6.QtCore import QPoint, QRect, Qt
 from PySide6.QtGui import QDesktopServices
-from PySide6.QtWidgets import QFileDialog, QLabel
+from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
 
 from occ_gui.files.file_controller import sample_photos
 from occ_gui.lessons import answers
 from occ_gui.lessons.lesson_controller import changed_sentence
-from occ_gui.lessons.lesson_view import LessonList, LessonView
+from occ_gui.lessons.lesson_view import LessonView
 from occ_gui.lessons.step_page import StepPage
 from occ_model.results.teaching import CheckedAnswer
 from occ_model.teaching.answers import check_answer
@@ -126,43 +126,6 @@ def page(qtbot: QtBot) -> StepPage:
     page = add_widget(qtbot, StepPage())
     page.show_step(lessons().lessons[0], 0, None)
     return page
-
-
-def test_the_explanation_is_shown_to_its_end(page: StepPage, qtbot: QtBot) -> None:
-    page.show_explanation("A word and another. " * 12)
-    page.resize(320, 560)
-    page.show()
-    qtbot.waitExposed(page)
-    page.reveal.click()
-    view = page._scroll.viewport()
-    end = QPoint(0, page.equation.height() - 1)
-    qtbot.waitUntil(lambda: view.rect().contains(page.equation.mapTo(view, end)), timeout=5000)
-
-
-def is_laid_out(label: QLabel) -> bool:
-    """Whether a label that is seen has the height that its text needs."""
-    return not label.isVisible() or label.height() == label.heightForWidth(label.width())
-
-
-def test_the_answers_field_stays_where_it_is_whatever_the_check_says(
-    page: StepPage, qtbot: QtBot
-) -> None:
-    page.resize(300, 700)  # room for all, whatever the font
-    page.show()
-    qtbot.waitExposed(page)
-    given, places = page.answer_field, []
-    for sentence in ("", "Not yet: that is too low. Try again.", "Not yet, and here is why. " * 6):
-        if sentence:
-            given.show_checked(CheckedAnswer("40", "wrong", sentence))
-        qtbot.waitUntil(lambda: given.sentence.isVisible() == bool(sentence))  # noqa: B023
-        # A text of several lines is laid out in several passes.
-        qtbot.waitUntil(lambda: is_laid_out(given.sentence))
-        places.append(given.field.mapTo(page, QPoint()))
-        assert page.question.mapTo(page, QPoint()).y() >= 0
-    qtbot.keyClicks(given.field, "50")
-    qtbot.waitUntil(lambda: not given.sentence.isVisible())
-    places.append(given.field.mapTo(page, QPoint()))
-    assert len(set(places)) == 1
 
 
 def test_question_answer_and_check_stay_in_view_however_long_the_text(
@@ -364,26 +327,6 @@ def test_a_sample_that_was_open_before_a_lab_sheet_returns_with_the_users_choice
     bench.wait_until_idle()
     assert bench.photos.path == sample
     assert bench.photos.choice.form.sent == "square"
-
-
-@pytest.mark.parametrize("goal", ["", "Find the null."])
-def test_a_step_without_a_goal_leaves_no_gap_for_one(page: StepPage, goal: str) -> None:
-    lesson = lessons().lessons[0]
-    step = replace(lesson.steps[0], goal=goal)
-    page.show_step(replace(lesson, steps=(step, *lesson.steps[1:])), 0, None)
-    assert page.goal.isHidden() is not bool(goal)
-
-
-@pytest.mark.parametrize(
-    ("reached", "said"), [(None, "({} steps)"), (0, "(step 1 of {})"), (1, "(step 2 of {})")]
-)
-def test_the_list_says_at_which_step_a_lesson_goes_on(
-    qtbot: QtBot, reached: int | None, said: str
-) -> None:
-    shown = add_widget(qtbot, LessonList())
-    lesson = lessons().lessons[0]
-    shown._add(lesson, reached)
-    assert shown.choices[-1].text().endswith(said.format(len(lesson.steps)))
 
 
 def test_a_step_about_a_photo_does_not_mind_that_its_match_was_applied() -> None:

@@ -4,16 +4,13 @@ from dataclasses import replace
 
 import pytest
 from gui.detection_map.test_advice import BAD, GOOD, INSIDE, advice_on
-from gui.kinds import add_widget, not_none, show_widget
-from PySide6.QtCore import QSize
+from gui.kinds import add_widget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.detection_map import limit_cards
 from occ_gui.detection_map.advice_view import AdviceView
 from occ_gui.detection_map.limit_cards import LimitCards
-from occ_gui.detection_map.map_view import MapView
 from occ_gui.widgets.text_scale import TextSize
-from occ_model.receiver.decoders import DECODERS
 from occ_model.results.advice import Advice, written
 from occ_model.results.limits import RangeEnd
 from occ_model.scene.scene import Scene
@@ -119,30 +116,6 @@ def test_limits_are_asked_for_once_while_cards_are_seen_and_not_for_a_scene_that
     assert cards.is_waiting
 
 
-def test_cards_stand_above_a_map_that_leaves_space(qtbot: QtBot) -> None:
-    view = show_widget(qtbot, MapView(["threshold", "matched"]))
-    for height, shown in ((300, False), (600, True), (300, False)):
-        view.resize(QSize(700, height))
-        assert view.cards.isVisible() == shown
-
-
-def test_limits_that_are_found_do_not_widen_the_window(qtbot: QtBot, small_scene: Scene) -> None:
-    """A window of 1280 pixels has some 910 beside the sliders."""
-    cards = add_widget(qtbot, LimitCards(list(DECODERS)))
-    for decoder, card in cards.cards.items():
-        end = advice_on(small_scene).limits.frequency.highest
-        assert end is not None
-        works, inside = replace(end.works, value=58.82e3), replace(INSIDE, value=58.82e3)
-        card.show_limit(replace(end, works=works, fails=None, inside=inside, interval=None), "", 99)
-        assert card.value.text() == "at least 58.82 kHz"
-        assert card.go.text() == "Go to 58.82 kHz", decoder
-    assert cards.minimumSizeHint().width() <= 910
-    cards.resize(910, 80)
-    cards.show()
-    card.range.set_full_text("from 3.56 kHz; gap 14.07 kHz to 17.19 kHz and 12 gaps more")
-    assert card.range.text().startswith("from 3.56 kHz; gap 14.07")
-
-
 def test_a_search_without_a_limit_says_why(cards: LimitCards, small_scene: Scene) -> None:
     why = "A raw pattern holds no code; a success rate needs packets."
     cards.show_begun()
@@ -155,30 +128,6 @@ def test_a_search_without_a_limit_says_why(cards: LimitCards, small_scene: Scene
     cards.show_advice(advice_on(small_scene))
     card = cards.cards["threshold"]
     assert card.name.text() == "Threshold: up to"
-
-
-@pytest.mark.parametrize("width", [300, 420])
-def test_titles_are_seen_whole_however_narrow_the_cards_are(
-    cards: LimitCards, small_scene: Scene, width: int
-) -> None:
-    cards.show_advice(advice_on(small_scene))
-    cards.show_outdated(True)  # the longest title
-    cards.resize(width, 10)
-    cards.resize(width, cards.heightForWidth(width))
-    cards.show()
-    for card in cards.cards.values():
-        needed = card.name.heightForWidth(card.name.width())
-        assert card.name.height() >= needed
-        assert not card.name.geometry().intersects(card.go.geometry())
-
-
-def test_a_reason_does_not_share_its_line_with_the_button(cards: LimitCards) -> None:
-    cards.resize(600, 120)
-    cards.show()
-    cards.show_ended("A raw pattern holds no code; a success rate needs packets.")
-    for card in cards.cards.values():
-        not_none(card.layout()).activate()
-        assert card.go.y() > card.name.geometry().bottom()
 
 
 def test_a_search_that_has_found_nothing_yet_says_what_will_appear(

@@ -126,27 +126,16 @@ def test_nothing_is_measured_while_nobody_looks(
     assert len(bench.workers.jobs) == before
 
 
-@pytest.mark.parametrize("change", [{FREQUENCY: 7e3}, {DISTANCE: 2.0}, {"start_time": 1e-3}])
 def test_what_the_map_does_not_depend_on_measures_nothing_anew(
-    bench_of: Callable[..., Bench], change: dict[str, float]
+    bench_of: Callable[..., Bench],
 ) -> None:
     bench = bench_of()
     bench.look()
     before = len(bench.workers.jobs)
-    bench.scenes.change(-1, **change)
+    bench.scenes.change(switching_frequency=7e3, distance=2.0, start_time=1e-3)
     bench.wait_until_idle()
     assert len(bench.workers.jobs) == before
     assert bench.controller.is_full
-
-
-@pytest.mark.whole
-def test_a_change_of_the_scene_gives_the_map_of_the_new_one(bench_of: Callable[..., Bench]) -> None:
-    bench = bench_of()
-    before = bench.look()
-    bench.scenes.change(exposure_time=136e-6)
-    after = bench.wait_until_idle()
-    assert bench.controller.is_full
-    assert not np.array_equal(after.rates("threshold"), before.rates("threshold"))
 
 
 def test_the_point_at_the_mouse_has_the_interval_of_its_pictures(
@@ -220,16 +209,6 @@ def test_the_pane_follows_the_axes_what_is_shown_and_the_pictures_a_second(
     assert bench.pane.show_bits.call_args.args[0] == "bits"
     show(bench.scenes.store, frame_rate=12.0)
     assert bench.pane.show_bits.call_args.args == ("bits", 12.0)
-
-
-@pytest.mark.whole
-def test_the_map_of_other_parameters_is_theirs(bench_of: Callable[..., Bench]) -> None:
-    bench = bench_of()
-    bench.look()
-    bench.controller.choose_axes("exposure_time", "iso")
-    found = bench.wait_until_idle()
-    assert (found.x, found.y) == ("exposure_time", "iso")
-    assert bench.controller.is_full
 
 
 def test_the_limits_of_theory_change_sides_where_theory_says(

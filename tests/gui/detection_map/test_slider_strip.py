@@ -11,7 +11,7 @@ from gui.detection_map.conftest import RememberingWorkers
 from gui.kinds import add_widget
 from gui.pane_bench import ControlsBench, handle_middle
 from gui.stores import store_of
-from PySide6.QtWidgets import QApplication, QSlider
+from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
@@ -80,9 +80,8 @@ def bench(qtbot: QtBot, small_scene: Scene, monkeypatch: pytest.MonkeyPatch) -> 
     bench.queue.stop()
 
 
-@pytest.mark.parametrize("decoder", ["threshold", "matched"])
-def test_a_strip_is_the_success_rate_along_its_slider(bench: Bench, decoder: str) -> None:
-    store = bench.scenes.store
+def test_a_strip_is_the_success_rate_along_its_slider(bench: Bench) -> None:
+    store, decoder = bench.scenes.store, "matched"
     store.put(replace(store.workspace, decoder=decoder))
     bench.controller.set_seen(True)
     fractions = bench.wait_until_idle()
@@ -219,23 +218,6 @@ def test_the_legend_shows_and_says_what_the_colours_mean_and_gives_way_to_the_sl
     seen = {(colour.red(), colour.green(), colour.blue()) for colour in middle}
     ends = to_colours(np.array([[0.0], [1.0]]), 0.0, 1.0, RATES)[:, 0, :3]
     assert {tuple(end) for end in ends.tolist()} <= seen
-
-
-def test_new_fractions_are_painted_at_once(qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) -> None:
-    slider = QSlider()
-    strip = add_widget(qtbot, SliderStrip(slider, "Frequency"))
-    qtbot.addWidget(slider)
-    strip.resize(200, 12)
-    strip.show()
-    QApplication.processEvents()
-    painted: list[int] = []
-    monkeypatch.setattr(strip, "paintEvent", lambda _event: painted.append(1))
-    strip.setToolTip("")
-    QApplication.processEvents()
-    assert not painted
-    strip.show_fractions((0.0, 0.5, 1.0))
-    QApplication.processEvents()
-    assert painted
 
 
 def test_the_strips_begin_a_while_after_the_picture_has_come(

@@ -132,7 +132,7 @@ def _write_all(folder: Path, requests: Sequence[FigureRequest]) -> list[Path]:
         with folder_aside(folder) as aside:
             pairs = [(request.draw(), request) for request in requests]
             drawn = {id(drawing): (drawing, request) for drawing, request in pairs}
-            # Refused in a moment what takes seconds to draw; looked at again when it is drawn.
+            # Refused in a moment what takes seconds to draw.
             for drawing, _ in drawn.values():
                 for path in files_of(drawing, folder):
                     check_replaceable(path)
@@ -141,8 +141,6 @@ def _write_all(folder: Path, requests: Sequence[FigureRequest]) -> list[Path]:
                 [drawing for drawing, _ in drawn.values()],
                 lambda drawing: drawn[id(drawing)][1].provenance(drawing),
             )
-            for path in written:
-                check_replaceable(folder / path.name)
             return [path.replace(folder / path.name) for path in written]
     except OSError as error:
         raise OutputError(f"{folder} cannot be written to: {error.strerror or error}.") from None

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from gui.kinds import not_none
 from gui.pane_bench import PaneBench
-from model.figures.artists import cut_off
 from PIL import Image
 from PySide6.QtGui import QGuiApplication, QImage
 from PySide6.QtWidgets import QFileDialog
@@ -29,7 +28,6 @@ from occ_gui.photo.feature import photo
 from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.picture.feature import picture
 from occ_gui.profile.feature import profile
-from occ_gui.values.photo_choice import MODES
 from occ_model.figures import drawing
 from occ_model.results.accuracy import AccuracyPoint
 from occ_model.results.sweep_request import SweepPoint
@@ -272,26 +270,6 @@ def test_a_write_protected_figure_stops_the_export_of_all_before_any_is_drawn(
     assert begun == []
 
 
-def test_a_figure_that_is_write_protected_meanwhile_stops_the_export_of_all(
-    bench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    last = tmp_path / f"{max(FIGURES)}.svg"
-
-    def protect_and_write(aside: Path, *_asked: object) -> list[Path]:
-        last.write_bytes(b"kept")
-        last.chmod(0o444)
-        written = [aside / name for name in ("a.svg", last.name)]
-        for path in written:
-            path.write_bytes(b"new")
-        return written
-
-    monkeypatch.setattr(drawing, "write_all", protect_and_write)
-    bench.exporter.export_all(tmp_path)
-    bench.wait_until_idle()
-    assert f"{last.name} is write-protected" in bench.said[-1]
-    assert {file: file.read_bytes() for file in tmp_path.iterdir()} == {last: b"kept"}
-
-
 def test_an_error_while_drawing_is_a_sentence_and_exports_go_on(
     bench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -305,43 +283,26 @@ def test_an_error_while_drawing_is_a_sentence_and_exports_go_on(
     assert bench.export("profile", tmp_path / "a.png") == f"Exported a.png into {tmp_path}"
 
 
-@pytest.mark.parametrize(
-    ("chosen", "kind", "written"),
-    [
-        ("figure", "PDF document (*.pdf)", "figure.pdf"),
-        ("figure.svg", "PNG picture (*.png)", "figure.svg"),
-        ("figure", "", "figure.png"),
-    ],
-)
-def test_the_ending_comes_from_the_name_or_the_chosen_format(
-    bench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
-    chosen: str, kind: str, written: str,
-) -> None:  # fmt: skip
-    answer = (str(tmp_path / chosen), kind)
-    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: answer)
-    bench.exporter.ask("profile")
-    bench.wait_until_idle()
-    assert [path.name for path in tmp_path.iterdir()] == [written]
-    if written.endswith(".png"):
-        with Image.open(tmp_path / written) as image:
-            assert image.width > 150
-
-
-def test_the_dialog_begins_with_the_format_of_the_last_export(
+def test_the_ending_is_the_names_or_that_of_the_format_with_which_the_next_dialog_begins(
     bench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     bench.exporter.export("profile", tmp_path / "other.csv")  # not chosen there
     bench.wait_until_idle()
     begun: list[tuple[str, str]] = []
 
+    answers = iter([("figure", "PDF document (*.pdf)"), ("figure.csv", "PNG picture (*.png)")])
+
     def choose(_window: object, _title: str, path: str, _kinds: str, kind: str) -> tuple[str, str]:
         begun.append((Path(path).name, kind))
-        return str(tmp_path / "figure"), "PDF document (*.pdf)"
+        name, chosen = next(answers)
+        return str(tmp_path / name), chosen
 
     monkeypatch.setattr(QFileDialog, "getSaveFileName", choose)
     for _ in range(2):
         bench.exporter.ask("profile")
         bench.wait_until_idle()
+    written = {path.name for path in tmp_path.iterdir()}
+    assert written == {"other.csv", "figure.pdf", "figure.csv"}
     assert begun == [
         ("profile.png", "PNG picture (*.png)"),
         ("profile.pdf", "PDF document (*.pdf)"),
@@ -387,27 +348,3 @@ def test_the_picture_with_the_photo_has_an_entry_of_its_own(
     over, beside, over_again, blended = (np.asarray(Image.open(BytesIO(f))) for f in files)
     assert over.shape == over_again.shape == blended.shape != beside.shape
     bench.lay_over("beside")
-
-
-@pytest.mark.whole
-def test_no_text_of_an_exported_figure_is_cut_off_however_the_photo_is_shown(
-    bench: Bench, tmp_path: Path, photo_file: Path,
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:  # fmt: skip
-    cut: dict[str, list[str]] = {}
-    mode = ""
-    monkeypatch.setattr(
-        drawing, "fit_texts", lambda figure: cut.setdefault(mode, []).extend(cut_off(figure))
-    )
-    long = tmp_path / f"{'A photo of the lamp in our laboratory, '.ljust(50)}, taken by me.png"
-    long.write_bytes(photo_file.read_bytes())
-    bench.open(long)
-    for mode in MODES:
-        bench.lay_over(mode)
-        for name in ("picture", "overlay", "profile"):
-            said = bench.export(name, tmp_path / f"{name}.svg")
-            assert said.startswith("Exported"), said
-    mode = "decoding"
-    bench.export("decoding-threshold", tmp_path / "decoding.svg")
-    assert cut == {mode: [] for mode in (*MODES, "decoding")}
-    bench.lay_over(MODES[0])

@@ -7,7 +7,6 @@ from pathlib import Path
 
 from occ_gui.export.jobs import (
     ExportJob,
-    _holds_only_files,
     export,
     folder_aside,
     remove_left_behind,
@@ -69,10 +68,3 @@ def test_what_is_somebody_elses_stays(tmp_path: Path) -> None:
     before = sorted(tmp_path.rglob("*"))
     remove_left_behind(tmp_path)
     assert sorted(tmp_path.rglob("*")) == before
-
-
-def test_what_is_no_folder_of_files_alone_is_not_taken_for_one_of_an_export(tmp_path: Path) -> None:
-    (tmp_path / "figure.png").write_bytes(b"")
-    assert _holds_only_files(tmp_path)
-    (tmp_path / "deeper").mkdir()
-    assert not _holds_only_files(tmp_path)

@@ -4,7 +4,6 @@ import gc
 import logging
 import math
 import re
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -135,16 +134,6 @@ def test_the_sentence_goes_once_the_scene_has_a_picture_again_and_an_intermediat
     application.store.change(distance=1.0, yaw=0.0)
     user.wait_until_idle()
     assert user.message == ""
-
-
-def test_the_opened_file_is_named_until_after_its_picture(
-    application: Application, user: User, tmp_path: Path, small_scene: Scene
-) -> None:
-    path = tmp_path / "mine.toml"
-    path.write_text(small_scene.replace(iso=200.0).to_toml(), encoding="utf-8")
-    application.files.open_scene(path)
-    user.wait_until_idle()
-    assert user.message == "Opened mine.toml"
 
 
 def test_no_sentence_stands_in_the_status_line_beside_the_one_in_view(

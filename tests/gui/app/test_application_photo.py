@@ -200,24 +200,6 @@ def test_only_the_match_that_was_asked_for_with_a_photo_is_applied_by_itself(
     assert readout == pytest.approx(SENT["readout_time"], rel=5e-3)
 
 
-@pytest.mark.whole
-@pytest.mark.photos
-def test_the_readout_time_of_the_real_1_khz_photo_is_measured(
-    application: Application, user: User, photos: Path
-) -> None:
-    application.open_photo(photos / "led_1khz_frame.png")
-    user.wait_until_idle()
-    assert application.photos.choice.reading.scan_axis == "auto"
-    application.view("photo").form.sent.show_key("square")
-    user.choose("&Match photo")
-    found = not_none(application.shell.pane("photo").matching.match)
-    assert found.readout_time == pytest.approx(14.565e-6, rel=3e-3)
-    user.choose("&Apply to the scene")
-    assert application.shell.pane("photo").placement == Placement()
-    told = application.view("profile").residual.numbers.toolTip()
-    assert float(told.split("correlation ")[1].split()[0]) >= 0.99
-
-
 def test_the_mode_of_the_photo_says_first_what_holds_for_the_photo(
     matched: Application, user: User
 ) -> None:

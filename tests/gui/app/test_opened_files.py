@@ -6,7 +6,6 @@ from pathlib import Path
 import pytest
 from gui.user import User
 from PIL import Image
-from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QMenu
 from pytestqt.qtbot import QtBot
 
@@ -14,7 +13,6 @@ import occ_model as occ
 from occ_gui.app.application import Application
 from occ_gui.export.jobs import ExportJob
 from occ_gui.files import file_controller
-from occ_model.scene.provenance import scene_inside
 from occ_model.scene.scene import Scene
 
 
@@ -94,20 +92,6 @@ def test_photos_dropped_together_become_a_table_and_the_first_opens(
     assert application.view("photo").many.rows.paths == (photo_file, taken)
     qtbot.waitUntil(lambda: application.view("photo").many.isVisible())  # across the bottom
     assert application.window.actions_by_name["match_all"].isEnabled()
-    assert application.window.windowTitle().startswith("stripes.png")
-
-
-@pytest.mark.whole
-def test_a_table_whose_first_photo_is_damaged_is_shown(
-    application: Application, user: User, photo_file: Path, tmp_path: Path
-) -> None:
-    damaged = tmp_path / "damaged.png"
-    damaged.write_bytes(b"nothing")
-    application.window.dropped.emit([damaged, photo_file])
-    user.wait_until_idle()
-    assert application.view("photo").many.isVisible()
-    application.view("photo").many.photo_chosen.emit(photo_file)
-    user.wait_until_idle()
     assert application.window.windowTitle().startswith("stripes.png")
 
 
@@ -192,29 +176,20 @@ def test_a_full_disk_while_saving_keeps_the_old_file_and_says_so(
     assert path.read_bytes() != old
 
 
-@pytest.mark.parametrize("where", ["file", pytest.param("clipboard", marks=pytest.mark.whole)])
-def test_an_exported_figure_is_of_the_scene_just_chosen(
-    application: Application, user: User, tmp_path: Path, where: str
-) -> None:
-    export, path = application.shell.pane("export"), tmp_path / "profile.png"
-    application.store.change(distance=1.3)
-    export.export("profile", path) if where == "file" else export.copy("profile")
-    user.wait_until_idle()
-    if where == "clipboard":
-        QGuiApplication.clipboard().image().save(str(path))
-    assert scene_inside(path) == application.store.scene
-
-
-def test_all_figures_into_a_folder_are_of_the_scene_just_chosen(
+def test_exported_figures_are_of_the_scene_just_chosen(
     application: Application, user: User, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Drawing them all takes a minute: their scenes are looked at before."""
+    """Drawing them takes a minute: their scenes are looked at before."""
     export, jobs = application.shell.pane("export"), list[ExportJob]()
     monkeypatch.setattr(export, "_put", jobs.append)
     application.store.change(distance=1.3)
     export.export_all(tmp_path)
+    export.export("profile", tmp_path / "profile.png")
+    export.copy("profile")
     user.wait_until_idle()
-    (job,) = jobs
-    assert job.folder == tmp_path
-    assert len(job.requests) > 3
-    assert {request.scene for request in job.requests} == {application.store.scene}
+    every, one, copied = jobs
+    assert every.folder == tmp_path
+    assert len(every.requests) > 3
+    assert len(one.requests) == len(copied.requests) == 1
+    for job in jobs:
+        assert {request.scene for request in job.requests} == {application.store.scene}

@@ -52,24 +52,6 @@ def test_a_verdict_does_not_wait_for_the_picture(
     assert decode.origin.text() == "Read from the picture."
 
 
-def test_without_a_profile_path_a_verdict_is_soon_the_earlier_scenes(
-    application: Application, user: User, held: Event, qtbot: QtBot
-) -> None:
-    application.store.change(switching_frequency=500.0, jpeg_quality=60)
-    earlier = f"Earlier scene: {RIGHT}"
-    qtbot.waitUntil(lambda: application.view("decode").verdict.text() == earlier)
-    assert tabs(application) == ["…", "…"]
-    assert (
-        application.view("decode").strip.accessibleDescription().startswith("earlier scene: sent ")
-    )
-    assert not application.view("decode").strip.isEnabled()
-    held.set()
-    user.wait_until_idle()
-    assert application.view("decode").verdict.text() == "✗ No code read"
-    assert tabs(application) == ["✗", "✗"]
-    assert application.view("decode").strip.isEnabled()
-
-
 @pytest.mark.parametrize("jpeg", [0, 60])
 def test_each_pane_is_marked_while_its_result_is_outdated(
     application: Application, user: User, held: Event, qtbot: QtBot, jpeg: int

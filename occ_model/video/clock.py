@@ -43,14 +43,10 @@ def fit_clock(phases: Phases, low: float, high: float) -> tuple[ClockFit, ...]:
     """Return the frequencies, ``low`` to ``high`` Hz, that fit phases, the likeliest first."""
     step, _ = mean_step(phases)
     turned = np.mod(phases.places - step * phases.columns, phases.period)
-    fits = []
-    for frequency in _aliases(phases, turned, low, high):
-        fit = _followed(phases, turned, frequency)
-        if fit is not None and low <= fit.frequency <= high:
-            fits.append(fit)
+    followed = [_followed(phases, turned, one) for one in _aliases(phases, turned, low, high)]
+    fits = _distinct([fit for fit in followed if low <= fit.frequency <= high])
     if not fits:
         return ()
-    fits = _distinct(fits)
     best = fits[0]
     free = max(1, int(best.kept.sum()) - 3)
     # Jitter of the frame times is part of the scatter: the best fit says how much.
@@ -113,7 +109,7 @@ def _coherence(
     return coherent
 
 
-def _followed(phases: Phases, turned: FloatArray, frequency: float) -> ClockFit | None:
+def _followed(phases: Phases, turned: FloatArray, frequency: float) -> ClockFit:
     """Count the phase on over the film from a first frequency, and fit it."""
     count, total = min(len(turned), _FIRST_FRAMES), len(turned)
     times = phases.times - phases.times[0]
@@ -123,7 +119,7 @@ def _followed(phases: Phases, turned: FloatArray, frequency: float) -> ClockFit 
     while True:
         rounds = np.rint((foretold[:count] - turned[:count]) / phases.period)
         fit = fit_parabola(phases.first(count), turned[:count] + rounds * phases.period)
-        if fit is None or count == total:
+        if count == total:
             return fit
         count = min(total, max(count + 1, int(count * _PART_GROWTH)))
         foretold = fit.at_start(phases.times)

@@ -105,61 +105,27 @@ def mean_step(phases: Phases) -> tuple[float, float]:
     return mean, float(math.sqrt(squares * count / (count - 1)))
 
 
-def fit_parabola(phases: Phases, counted: FloatArray) -> ClockFit | None:
+def fit_parabola(phases: Phases, counted: FloatArray) -> ClockFit:
     kept = np.ones(len(counted), dtype=bool)
     jumps: list[int] = []
     solution = _solve(phases, counted, kept, jumps)
     for _ in range(_MAX_JUMPS + 3):
         spread = _local_spread(solution.residuals[kept], phases.errors[kept])
         jump = _largest_jump(solution.residuals, kept, spread, jumps)
-        outlying = kept & (
-            np.abs(solution.residuals) > _OUTLIER_DEVIATIONS * max(spread, _typical(solution))
-        )
+        off = np.abs(solution.residuals)
+        typical = _SIGMA_OF_MEDIAN * float(np.median(off))
+        outlying = kept & (off > _OUTLIER_DEVIATIONS * max(spread, typical))
         if jump is not None and len(jumps) < _MAX_JUMPS:
             jumps.append(jump)
         elif outlying.any() and (kept & ~outlying).sum() >= max(2, len(kept) // 2):
-            kept &= ~outlying
+            kept = kept & ~outlying
         else:
             break
         solution = _solve(phases, counted, kept, jumps)
-    return solution.as_fit(phases, kept, jumps)
+    return solution
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class _Solution:
-    found: FloatArray
-    covariance: FloatArray
-    middle: float
-    residuals: FloatArray
-    noise: float
-    has_drift: bool
-
-    def as_fit(self, phases: Phases, kept: BoolArray, jumps: list[int]) -> ClockFit:
-        step, step_error = mean_step(phases)
-        errors = np.sqrt(np.diag(self.covariance))
-        chi = self.residuals[kept] / np.maximum(phases.errors[kept], _MIN_DEVIATION)
-        heights = self.found[3:] if self.has_drift else self.found[2:]
-        return ClockFit(
-            frequency=float(self.found[1]),
-            frequency_error=float(errors[1]),
-            drift=float(self.found[2]) if self.has_drift else 0.0,
-            drift_error=float(errors[2]) if self.has_drift else 0.0,
-            step=step,
-            step_error=step_error,
-            middle=self.middle,
-            start=float(self.found[0]),
-            residuals=self.residuals,
-            kept=kept,
-            jumps=tuple(
-                PhaseJump(frame, float(phases.times[frame]), height)
-                for frame, height in zip(jumps, heights.tolist(), strict=True)
-            ),
-            chi_squared=float(chi @ chi),
-            noise=self.noise,
-        )
-
-
-def _solve(phases: Phases, counted: FloatArray, kept: BoolArray, jumps: list[int]) -> _Solution:
+def _solve(phases: Phases, counted: FloatArray, kept: BoolArray, jumps: list[int]) -> ClockFit:
     times = phases.times
     middle = float(times[kept].mean())
     later = times - middle
@@ -201,7 +167,27 @@ def _solve(phases: Phases, counted: FloatArray, kept: BoolArray, jumps: list[int
         # The phase in the middle is without what the bend's own mean takes off.
         found = found.copy()
         found[0] -= found[2] * float((0.5 * later[kept] ** 2).mean())
-    return _Solution(found, covariance, middle, residuals, noise, has_drift)
+    step, step_error = mean_step(phases)
+    deviations = np.sqrt(np.diag(covariance))
+    chi = residuals[kept] / errors[kept]
+    return ClockFit(
+        frequency=float(found[1]),
+        frequency_error=float(deviations[1]),
+        drift=float(found[2]) if has_drift else 0.0,
+        drift_error=float(deviations[2]) if has_drift else 0.0,
+        step=step,
+        step_error=step_error,
+        middle=middle,
+        start=float(found[0]),
+        residuals=residuals,
+        kept=kept,
+        jumps=tuple(
+            PhaseJump(frame, float(phases.times[frame]), height)
+            for frame, height in zip(jumps, found[2 + has_drift :].tolist(), strict=True)
+        ),
+        chi_squared=float(chi @ chi),
+        noise=noise,
+    )
 
 
 def _alike(residuals: FloatArray) -> float:
@@ -216,10 +202,6 @@ def _alike(residuals: FloatArray) -> float:
         if neighbours > _CORRELATED_DEVIATIONS / math.sqrt(count)
         else 1.0
     )
-
-
-def _typical(solution: _Solution) -> float:
-    return _SIGMA_OF_MEDIAN * float(np.median(np.abs(solution.residuals)))
 
 
 def _local_spread(residuals: FloatArray, errors: FloatArray) -> float:

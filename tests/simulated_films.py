@@ -12,7 +12,7 @@ from occ_model.results.video_reading import Measured
 from occ_model.scene.payload import bits_of_payload
 from occ_model.scene.recording import Recording, Waypoint
 from occ_model.study.observation import panel_span
-from occ_model.video.counting import ShutterTiming, chips_seen
+from occ_model.video.counting import ShutterTiming
 from occ_model.video.period import period_of
 from occ_model.video.render import SimulatedVideo, render_video
 
@@ -149,6 +149,9 @@ def judge(one: Film) -> Judged:
     start = time.process_time()
     reading = reader.reading()
     used += time.process_time() - start
-    counts = chips_seen(seen, period_of(one.scene).length)
+    counts = np.zeros(period_of(one.scene).length, dtype=np.int64)
+    for timing, begins in seen:
+        first, end = timing.whole_chips(begins)
+        np.add.at(counts, np.arange(first, end) % len(counts), 1)
     right = reading.bits.tolist() == list(bits_of_payload(one.scene.transmitter.payload))
     return Judged(one, reading, bool((counts > 0).all()), right, 1e3 * used / one.frames)

@@ -6,14 +6,10 @@ s + b t_r + t, with a and b the first and the last column of the panel. Nothing 
 what a receiver without errors could read.
 """
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 from math import ceil, floor
 
-import numpy as np
-
-from occ_model.arrays import IndexArray
 from occ_model.errors import ParameterError
 from occ_model.scene.scene import Scene
 
@@ -65,15 +61,6 @@ class ShutterTiming:
         """Return how many packets of some chips a frame shows whole."""
         first, end = self.whole_chips(start)
         return max(end // length - -(-first // length), 0)
-
-
-def chips_seen(timings: Iterable[tuple[ShutterTiming, Fraction]], period: int) -> IndexArray:
-    """Count how often frames show each chip of what is sent repeatedly, shape (period,)."""
-    counts = np.zeros(period, dtype=np.int64)
-    for timing, start in timings:
-        first, end = timing.whole_chips(start)
-        np.add.at(counts, np.arange(first, end) % period, 1)
-    return counts
 
 
 def packets_received_on_average(

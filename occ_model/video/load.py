@@ -89,7 +89,8 @@ class VideoFile(Video):
         self.time_step = self._container.time_step
         self._problem: str | None = None
         self._times: list[float] = []
-        self._stepping: _Stepping | None = None
+        # The decoder that stands behind the frame asked for last, and that frame.
+        self._stepping: tuple[DecoderProcess, VideoFrame] | None = None
         self._lock = threading.Lock()
         self._look(scan_axis)
         self._take_note()
@@ -126,33 +127,32 @@ class VideoFile(Video):
             return self._read_one(int(index))
 
     def _read_one(self, index: int) -> VideoFrame:
-        if self._stepping is not None and self._stepping.frame.index == index:
-            return self._stepping.frame
+        if self._stepping is not None and self._stepping[1].index == index:
+            return self._stepping[1]
         stored, decoder = self._at(index)
         if stored is None:
             put_back(decoder)
             raise ParameterError.of("index", f"{index}", "the number of a frame that is there")
         frame = self._frame(index, stored)
-        self._stepping = _Stepping(decoder, frame)
+        self._stepping = decoder, frame
         return frame
 
     def close(self) -> None:
         """Close the file; it is opened again when a frame is asked for."""
         if self._stepping is not None:
-            put_back(self._stepping.decoder)
+            put_back(self._stepping[0])
             self._stepping = None
 
     def _at(self, index: int) -> tuple[StoredFrame | None, DecoderProcess]:
         """Find one frame: the next after the one at hand, else by its time, else from the start."""
         stepping, self._stepping = self._stepping, None
         try:
-            if stepping is not None and 0 < index - stepping.frame.index <= _MAX_DECODED_AHEAD:
-                decoder = stepping.decoder
-                passed = index - stepping.frame.index - 1
-                if decoder.skip(passed) < passed:
-                    return None, decoder
-                return self._next(decoder, index), decoder
-            decoder = stepping.decoder if stepping is not None else self._opened()[0]
+            decoder = stepping[0] if stepping is not None else self._opened()[0]
+            passed = -1 if stepping is None else index - stepping[1].index - 1
+            if 0 <= passed < _MAX_DECODED_AHEAD:
+                return (
+                    self._next(decoder, index) if decoder.skip(passed) == passed else None
+                ), decoder
             found = self._sought(decoder, index)
             if found is not None:
                 return found, decoder
@@ -240,9 +240,7 @@ class VideoFile(Video):
                 scan_axis == "auto" and self._stripes_are_lines(first, decoder)
             )
         except (VideoError, DecoderStoppedError) as error:
-            put_back(decoder)
-            ending = str(error) if isinstance(error, VideoError) else f"{error}."
-            raise VideoError(f"{self._shown} cannot be read: {ending}") from None
+            raise self._refusal(decoder, error) from None
         lines, columns = first.pixels.shape
         self.shape = (columns, lines) if self.turned else (lines, columns)
         put_back(decoder)
@@ -287,14 +285,9 @@ class VideoFile(Video):
         try:
             return decoder.open(self.path, self._container.reader, self._channel)
         except (VideoError, DecoderStoppedError) as error:
-            put_back(decoder)
-            ending = str(error) if isinstance(error, VideoError) else f"{error}."
-            raise VideoError(f"{self._shown} cannot be read: {ending}") from None
+            raise self._refusal(decoder, error) from None
 
-
-class _Stepping:
-    """The frame that was asked for last, and the decoder that stands behind it."""
-
-    def __init__(self, decoder: DecoderProcess, frame: VideoFrame) -> None:
-        self.decoder = decoder
-        self.frame = frame
+    def _refusal(self, decoder: DecoderProcess, error: Exception) -> VideoError:
+        put_back(decoder)
+        ending = str(error) if isinstance(error, VideoError) else f"{error}."
+        return VideoError(f"{self._shown} cannot be read: {ending}")

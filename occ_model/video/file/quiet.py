@@ -13,7 +13,6 @@ _SILENT = 0  # OpenCV's level at which it prints nothing
 
 @contextmanager
 def quiet_opencv() -> Iterator[None]:
-    """Let OpenCV print nothing."""
     log: Any = cv2 if hasattr(cv2, "setLogLevel") else cv2.utils.logging  # OpenCV 4, and 5
     level = log.getLogLevel()
     stated = os.environ.get(_FFMPEG)

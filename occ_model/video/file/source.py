@@ -102,7 +102,9 @@ class OpenCvSource(FrameSource):
         found, pixels = self._capture.read()
         if not found or pixels is None:
             return None
-        return StoredFrame(self._time(), one_channel(np.asarray(pixels, np.uint8), self._channel))
+        time = self._capture.get(cv2.CAP_PROP_POS_MSEC) / _MILLISECONDS
+        channel = one_channel(np.asarray(pixels, np.uint8), self._channel)
+        return StoredFrame(time if math.isfinite(time) else 0.0, channel)
 
     def skip(self) -> bool:
         return bool(self._capture.grab())
@@ -117,10 +119,6 @@ class OpenCvSource(FrameSource):
 
     def close(self) -> None:
         self._capture.release()
-
-    def _time(self) -> float:
-        time = self._capture.get(cv2.CAP_PROP_POS_MSEC) / _MILLISECONDS
-        return time if math.isfinite(time) else 0.0
 
 
 class PillowSource(FrameSource):
@@ -149,8 +147,8 @@ class PillowSource(FrameSource):
     def read(self) -> StoredFrame | None:
         try:
             self._picture.seek(self._next)
-            shown = self._picture.convert("RGBA") if self._has_colours() else self._picture
-            pixels = np.asarray(shown.convert("L") if shown is self._picture else shown)
+            is_grey = self._picture.mode in ("1", "L")
+            pixels = np.asarray(self._picture.convert("L" if is_grey else "RGBA"))
         except Exception:  # noqa: BLE001 - Pillow raises anything on damaged files, EOFError at the end
             return None
         if pixels.ndim == 3:
@@ -170,9 +168,6 @@ class PillowSource(FrameSource):
 
     def close(self) -> None:
         self._picture.close()
-
-    def _has_colours(self) -> bool:
-        return self._picture.mode not in ("1", "L")
 
     def _passed(self) -> None:
         self._time += float(self._picture.info.get("duration", 0.0)) / _MILLISECONDS

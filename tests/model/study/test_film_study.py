@@ -18,7 +18,6 @@ from occ_model.study.film_study import (
 )
 from occ_model.video.counting import (
     ShutterTiming,
-    chips_seen,
     packets_received_on_average,
 )
 
@@ -63,12 +62,10 @@ def test_counting_every_start_gives_the_mean_over_the_time_of_the_start() -> Non
     )
 
 
-def test_chips_are_counted_by_the_frames_that_show_them_whole() -> None:
-    counts = chips_seen([(TIMING, Fraction(0)), (TIMING, Fraction(1, 30))], 300)
-    # The second frame starts with chip 266 2/3 and shows 267 to 465.
-    assert counts.tolist() == [
-        int(chip < 200) + int(chip >= 267) + int(chip < 466 - 300) for chip in range(300)
-    ]
+def test_a_frame_shows_whole_the_chips_that_are_not_cut_off() -> None:
+    assert TIMING.whole_chips(Fraction(0)) == (0, 200)
+    # The second frame starts with chip 266 2/3.
+    assert TIMING.whole_chips(Fraction(1, 30)) == (267, 466)
 
 
 def test_the_published_example_is_received_as_counting_says() -> None:

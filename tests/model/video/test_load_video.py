@@ -384,7 +384,7 @@ def test_films_that_nobody_holds_leave_one_process_for_the_next(tmp_path: Path) 
     films = [occ.load_video(path) for _ in range(3)]
     for film in films:
         film.frame(4)
-    processes = [film._stepping.decoder._process for film in films if film._stepping]
+    processes = [film._stepping[0]._process for film in films if film._stepping]
     assert [process.poll() for process in processes] == [None] * 3
     del film, films
     gc.collect()

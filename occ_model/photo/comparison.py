@@ -5,7 +5,7 @@ import numpy as np
 from occ_model.arrays import FloatArray
 from occ_model.camera.enhancement import enhance
 from occ_model.errors import MatchError, ParameterError
-from occ_model.photo.stripes.envelope import MEAN_SHAPES, trend_of
+from occ_model.photo.stripes.envelope import MEAN_SHAPES, trend_of, weighted_correlation
 from occ_model.results.match import Comparison
 
 _LEAST_DEVIATION = 1e-9  # standard deviation below which a profile is constant but for rounding
@@ -81,7 +81,7 @@ def compare(
     evened = (seen - own) / spread
     correlation = 0.0
     if min(seen.std(), under.std()) > _LEAST_DEVIATION:
-        correlation = _correlation(evened, (under - mean) / deviation, height)
+        correlation = weighted_correlation(evened, (under - mean) / deviation, height**2)
     return Comparison(first, mean + deviation * evened, under, correlation, height)
 
 
@@ -101,13 +101,5 @@ def enhance_comparison(comparison: Comparison, enhanced: FloatArray, method: str
     first = comparison.first_column
     photo = enhance(comparison.photo, method).astype(np.float64)
     under = enhanced[first : first + len(photo)]
-    return Comparison(first, photo, under, _correlation(photo, under, np.ones(len(photo))))
-
-
-def _correlation(one: FloatArray, other: FloatArray, height: FloatArray) -> float:
-    weights = height**2 / np.sum(height**2)
-    a, b = one - weights @ one, other - weights @ other
-    energy = float(np.sqrt(weights @ a**2)), float(np.sqrt(weights @ b**2))
-    if min(energy) < _LEAST_DEVIATION:
-        return 0.0
-    return float(weights @ (a * b)) / (energy[0] * energy[1])
+    correlation = weighted_correlation(photo, under, np.ones(len(photo)))
+    return Comparison(first, photo, under, correlation)

@@ -42,7 +42,6 @@ class Explanation:
 
     @property
     def correlation(self) -> float:
-        """The correlation of the best fit."""
         return max(fit.correlation for fit in self.fits)
 
     def nearest(self, exposure: Callable[[StripeFit], float], wanted: float | None) -> StripeFit:

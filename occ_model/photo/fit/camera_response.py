@@ -1,22 +1,15 @@
 """The camera's response: from a column's lit fraction to its value between two levels."""
 
-import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.camera.photometry import ColumnLight, level_values, panel_values
 from occ_model.photo.fit.least_squares import Tone
 from occ_model.scene.scene import Scene
 
-_BRIGHT = 1000.0  # luminance of the lit panel in cd/m2; only ratios to it matter
 _DARKEST = 0.5  # grey level below which dark columns are black
-
-_STEADY_LIGHT = np.ones(1)
-
 _RANK_RESOLUTION = 0.5  # change of the timing in columns that changes the columns' ranks noticeably
 
 AVERAGINGS = ("pixel-value", "light")
@@ -42,37 +35,30 @@ def camera_tones(
 ) -> list[CameraTone]:
     """Return the responses that a scene's camera can have, for stripes between two grey levels.
 
-    Where the scene equalizes histograms, the response of an equalized picture is returned too. With
-    gamma the levels give the luminance of the dark panel relative to the lit one. What ``check``
-    raises ends the fit that asks for a response.
+    Where the scene equalizes histograms, the response of an equalized picture is returned too. What
+    ``check`` raises ends the fit that asks for a response.
     """
     tones = []
     for averaging in averagings:
-        tone = _camera_tone(scene.replace(averaging=averaging), low, high, check)
+        tone = _camera_tone(averaging, low / high if low > _DARKEST else 0.0, check)
         tones.append(CameraTone(averaging, "none", tone))
         if scene.model.enhancement == "equalization":
             tones.append(CameraTone(averaging, "equalization", _equalized(tone), _RANK_RESOLUTION))
     return tones
 
 
-def _camera_tone(scene: Scene, low: float, high: float, check: Callable[[], object]) -> Tone:
-    @lru_cache(maxsize=4)  # a fit evaluates the same gamma many times
-    def levels(gamma: float) -> tuple[Scene, float, float]:
-        dark = (low / high) ** gamma if low > _DARKEST else 0.0
-        camera = scene.replace(
-            gamma=gamma,
-            reflectance=1.0,
-            illuminance=math.pi * _BRIGHT * dark,
-            luminance=_BRIGHT * (1.0 - dark),
-        )
-        black, white = level_values(camera).tolist()
-        return camera, black, white
+def _camera_tone(averaging: str, black: float, check: Callable[[], object]) -> Tone:
+    """Return the response of a panel whose dark pixel value is ``black`` relative to the lit one's.
+
+    By equations (1) to (3) of the paper: light is the pixel value to the power of gamma.
+    """
 
     def tone(lit: FloatArray, gamma: float) -> FloatArray:
         check()
-        camera, black, white = levels(gamma)
-        values = panel_values(camera, ColumnLight(lit, _STEADY_LIGHT))
-        return np.asarray((values - black) / (white - black))
+        if averaging == "pixel-value":
+            return lit
+        dark = black**gamma
+        return np.asarray(((dark + (1.0 - dark) * lit) ** (1.0 / gamma) - black) / (1.0 - black))
 
     return tone
 

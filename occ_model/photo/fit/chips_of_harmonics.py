@@ -38,8 +38,6 @@ _LEAST_GAIN = 1e-9  # increase of the likeness beyond rounding error
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ReadPattern:
-    """Chips read from stripes."""
-
     chips: ByteArray  # shape (chips,); one period
     explained: float  # correlation of their harmonics with those in the photo
     # exposure, phase: the exposure, and the place of the first chip, in chips, that explain the
@@ -73,9 +71,7 @@ def best_chips(lines: Harmonics, count: int) -> ReadPattern | None:
     turned = boxes_of(len(lines), count, exposures, phases)
     chips = rounded_chips(lines, turned, count)
     model = np.fft.fft(chips, axis=1)[:, order % count] * turned
-    energy = np.sqrt((np.abs(model) ** 2).sum(axis=1) * float((np.abs(lines) ** 2).sum()))
-    products = (lines * np.conj(model)).real.sum(axis=1)
-    explained = np.where(energy > 0.0, products / np.maximum(energy, 1e-300), -1.0)
+    explained = _likeness(lines, model)
     best = int(explained.argmax())
     if chips[best].min() == chips[best].max():
         return None
@@ -121,7 +117,7 @@ def refined(lines: Harmonics, found: ReadPattern, column: float | None = None) -
         exposure, phase, longer = values.tolist()
         box = np.sinc(np.arange(1, len(lines) + 1) * exposure / count)
         model = (rising - falling * np.exp(turn * longer)) * box * np.exp(turn * phase)
-        return -_likeness(lines, model)
+        return -float(_likeness(lines, model[None])[0])
 
     # A chip's own box is centred half a chip after its rising edge.
     start = [found.exposure, found.phase - 0.5, 0.0]
@@ -180,9 +176,11 @@ def _rounded(levels: FloatArray) -> ByteArray:
     return np.asarray(levels > split[:, None], dtype=np.uint8)
 
 
-def _likeness(a: Harmonics, b: Harmonics) -> float:
-    energy = float(np.sqrt((np.abs(a) ** 2).sum() * (np.abs(b) ** 2).sum()))
-    return float((a * np.conj(b)).real.sum()) / energy if energy > 0.0 else 0.0
+def _likeness(lines: Harmonics, models: Harmonics) -> FloatArray:
+    """Return the correlation of harmonics with each row of models; -1 with one that is 0."""
+    energy = np.sqrt((np.abs(models) ** 2).sum(axis=1) * float((np.abs(lines) ** 2).sum()))
+    products = (lines * np.conj(models)).real.sum(axis=1)
+    return np.where(energy > 0.0, products / np.maximum(energy, 1e-300), -1.0)
 
 
 def chips_by_descent(

@@ -33,8 +33,6 @@ _AT_ONCE = 2**19  # maximum number of array elements at once, which bounds the m
 
 @dataclass(frozen=True, slots=True)
 class Candidate:
-    """A timing to start a fit from, and its correlation."""
-
     timing: Timing
     correlation: float
 

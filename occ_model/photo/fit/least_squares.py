@@ -19,7 +19,7 @@ from occ_model.photo.fit.chip_runs import chips_as_one
 from occ_model.photo.fit.damped_least_squares import DIFFERENCE, minimized
 from occ_model.photo.fit.normal_equations import LitColumns, NormalEquations
 from occ_model.photo.fit.timing import SHORTEST, Timing
-from occ_model.photo.stripes.envelope import LEAST_SWING, smooth_shapes
+from occ_model.photo.stripes.envelope import LEAST_SWING, smooth_shapes, weighted_correlation
 from occ_model.photo.stripes.period import correlated_columns
 from occ_model.scene.parameters import quantity
 from occ_model.transmitter.waveform import Waveform
@@ -116,7 +116,6 @@ class StripeModel:
         with_gamma: bool = False,
         rounds: int = _MOST_ROUNDS,
     ) -> StripeFit:
-        """Fit the timing from a first guess."""
         columns = len(self._profile)
         gamma = quantity("gamma")
         low = np.array([0.5 * start.step, SHORTEST, -np.inf, gamma.low])
@@ -156,7 +155,8 @@ class StripeModel:
         possible = _can_be_levels(low, swing)
         # Bounded below, since flattening divides by it.
         swing = np.maximum(swing, LEAST_SWING * max(float(swing.max()), FLAT))
-        correlation = _flattened_correlation(self._profile, profile, low, swing)
+        data, model = (self._profile - low) / swing, (profile - low) / swing
+        correlation = weighted_correlation(data, model, swing**2)
         residual = self._profile - profile
         power = float(residual @ residual)
         return StripeFit(timing, covariance, low, swing, profile, correlation, power, possible)
@@ -188,14 +188,3 @@ def _covariance(slopes: FloatArray, residual: FloatArray) -> FloatArray:
     # A parameter on which no column depends gets a large variance instead of a division by zero.
     products[np.diag_indices_from(products)] += _REGULARIZATION * max(variance, 1e-12)
     return np.asarray(np.linalg.inv(products) * variance)
-
-
-def _flattened_correlation(
-    data: FloatArray, model: FloatArray, low: FloatArray, swing: FloatArray
-) -> float:
-    """Correlate data and model without their uneven light; columns are weighted by their swing."""
-    weight = swing**2 / float((swing**2).sum())
-    a, b = (data - low) / swing, (model - low) / swing
-    a, b = a - float(weight @ a), b - float(weight @ b)
-    energy = math.sqrt(float(weight @ a**2) * float(weight @ b**2))
-    return float(weight @ (a * b)) / energy if energy > 0.0 else 0.0

@@ -19,8 +19,6 @@ _MOST_STEPS, _HALVINGS = 40, 10  # Newton's, and those that find the fraction of
 
 @dataclass(frozen=True, eq=False, slots=True)
 class LitColumns:
-    """Some columns."""
-
     shapes: FloatArray  # shape (shapes, columns); the shapes of which either level is a combination
     lit: FloatArray
 

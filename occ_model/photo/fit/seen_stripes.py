@@ -178,8 +178,6 @@ class Seen:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class SeenSlopes:
-    """The slopes of what the columns see."""
-
     lit: FloatArray  # shape (light's parameters, columns); of the lit fractions, blurred
     tone: ToneSlopes  # of the tone curve, over its own parameters
     # Shape (light's parameters, columns and those beside that blur reaches); of the sharp lit
@@ -189,13 +187,10 @@ class SeenSlopes:
 
     @property
     def parameters(self) -> int:
-        """The number of all parameters."""
         return len(self.lit) + self.tone.parameters
 
 
 class SeenStripes:
-    """Lit fractions and a tone curve."""
-
     def __init__(
         self, chips: ByteArray, columns: int, gamma: float, *, values_blurred: bool
     ) -> None:

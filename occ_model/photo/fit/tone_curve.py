@@ -34,11 +34,10 @@ class ToneCurve:
     contrast: float = 0.0
 
     def table(self) -> "ToneTable":
-        """Tabulate the curve."""
         bent, _ = self._bent()
         toe = _TOE**self.gamma * (1.0 + self.gamma * (bent / _TOE - 1.0))
         light = np.where(bent > _TOE, np.maximum(bent, _TOE) ** self.gamma, toe)
-        return ToneTable(light, _STEP / _risen(light))
+        return ToneTable(light, 1.0 / np.gradient(light, _STEP))
 
     def slopes(self, table: "ToneTable") -> "ToneSlopes":
         """Tabulate the slopes of its table over gamma, offset, shoulder and contrast."""
@@ -65,15 +64,6 @@ def _summed(steps: FloatArray) -> FloatArray:
     return np.asarray(sums - sums[-1])
 
 
-def _risen(values: FloatArray) -> FloatArray:
-    """Return half the rise from the value before to the one after; at the ends the whole."""
-    risen = np.empty_like(values)
-    risen[..., 1:-1] = 0.5 * (values[..., 2:] - values[..., :-2])
-    risen[..., 0] = values[..., 1] - values[..., 0]
-    risen[..., -1] = values[..., -1] - values[..., -2]
-    return risen
-
-
 class EvenTable:
     """A function tabulated at equal distances: looked up far faster than at unequal ones.
 
@@ -88,7 +78,6 @@ class EvenTable:
         self._rise = np.diff(values, append=values[..., -1:])
 
     def at(self, places: FloatArray) -> FloatArray:
-        """Return the function at some places, by linear interpolation."""
         place = np.clip((places - self._first) * self._rate, 0.0, self._most)
         below = place.astype(np.intp)
         found = self._rise.take(below, axis=-1)
@@ -137,7 +126,7 @@ class ToneSlopes:
 
     def __init__(self, table: ToneTable, light: FloatArray = _NO_SLOPES) -> None:
         self.parameters = len(light)
-        slope = -(table.slope**2) * _risen(light) / _STEP
+        slope = -(table.slope**2) * np.gradient(light, _STEP, axis=-1)
         self._both = EvenTable(_GRID[0], _GRID[-1], np.concatenate([light, WHITE * slope]))
         self._steep = WHITE * _STEP / np.diff(table.light)
         self.of_steepness = WHITE * slope[:, -1]

@@ -1,5 +1,7 @@
 """Estimate the slowly varying dark and bright levels of stripes under uneven light."""
 
+import math
+
 import cv2
 import numpy as np
 
@@ -10,6 +12,8 @@ MEAN_SHAPES = 6
 
 LEAST_SWING = 0.05
 """Minimum of a local swing relative to the largest one, or of a power to its mean: it divides."""
+
+_LEAST_VARIANCE = 1e-18  # variance below which a profile is constant but for rounding
 
 
 def envelope(profile: FloatArray, width: int) -> tuple[FloatArray, FloatArray]:
@@ -52,6 +56,14 @@ def trend_of(profile: FloatArray, of_mean: int) -> tuple[FloatArray, FloatArray]
     square = (profile - mean) ** 2
     power = np.maximum(_smooth(square, -(-2 * of_mean // 3)), LEAST_SWING * float(np.mean(square)))
     return mean, np.sqrt(np.maximum(power, 1e-300))
+
+
+def weighted_correlation(one: FloatArray, other: FloatArray, weights: FloatArray) -> float:
+    """Return the correlation of two profiles, from -1 to 1; 0 where one of them is constant."""
+    weights = weights / weights.sum()
+    a, b = one - weights @ one, other - weights @ other
+    energy = math.sqrt(float(weights @ a**2) * float(weights @ b**2))
+    return float(weights @ (a * b)) / energy if energy > _LEAST_VARIANCE else 0.0
 
 
 def _smooth(values: FloatArray, freedom: int) -> FloatArray:

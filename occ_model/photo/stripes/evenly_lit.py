@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from occ_model.arrays import FloatArray
 from occ_model.camera.photometry import WHITE
-from occ_model.photo.reading.load import Photo
+from occ_model.photo.reading.load import Photo, means_along
 from occ_model.photo.stripes.find import BANDS
 from occ_model.results.decoding import Region
 
@@ -70,8 +70,8 @@ class Cells:
         full = (part >= _CLIPPED * photo.white).view(np.uint8)
         means, clipped = [], []
         for first, last in pairwise(starts.tolist()):
-            means.append(_row_mean(part[first:last]) * (WHITE / photo.white))
-            clipped.append(_row_mean(full[first:last]))
+            means.append(means_along(part[first:last], 0) * (WHITE / photo.white))
+            clipped.append(means_along(full[first:last], 0))
         return cls(
             np.array(means, dtype=np.float32),
             np.array(clipped, dtype=np.float32),
@@ -127,8 +127,3 @@ class Cells:
             return None
         rows = self.rows_a_band * float(np.median(count[kept]))
         return EvenProfile(values, kept, seen & (fraction > _ALL_CLIPPED), rows)
-
-
-def _row_mean(rows: NDArray[np.uint8 | np.uint16]) -> FloatArray:
-    mean = cv2.reduce(rows, 0, cv2.REDUCE_SUM, dtype=cv2.CV_64F)
-    return np.asarray(mean[0] / len(rows), dtype=np.float64)

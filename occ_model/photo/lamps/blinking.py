@@ -16,8 +16,6 @@ _LEAST_LIGHT_RATIO = 0.5  # minimum brightness of a part, and between parts, ove
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Blinking:
-    """A lamp with stripes, and how it blinks."""
-
     lamp: Lamp
     timing: LampTiming
     light: float

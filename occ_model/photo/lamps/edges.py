@@ -33,11 +33,9 @@ class Edges:
         return len(self.place)
 
     def part(self, first: int, last: int) -> "Edges":
-        """Return the edges from the first to before the last."""
         return self.where(slice(first, last))
 
     def where(self, chosen: slice | np.ndarray) -> "Edges":
-        """Return the edges that are chosen, in their order."""
         return Edges(self.place[chosen], self.rises[chosen], self.low[chosen], self.high[chosen])
 
 

@@ -196,25 +196,28 @@ def groups_of(segments: Sequence[Segment]) -> list[list[Segment]]:
 
     What stands in a single strip is texture or the border of two lamps, and is left out.
     """
-    parents = list(range(len(segments)))
-
-    def root(index: int) -> int:
-        while parents[index] != index:
-            parents[index] = parents[parents[index]]
-            index = parents[index]
-        return index
+    if not segments:
+        return []
+    # Imported only when lamps are searched: it is slow.
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
 
     by_strip: dict[int, list[int]] = {}
     for index, segment in enumerate(segments):
         by_strip.setdefault(segment.strip, []).append(index)
-    for index, segment in enumerate(segments):
-        for strip in range(segment.strip + 1, segment.strip + 1 + _MOST_DISTANCE):
-            for other in by_strip.get(strip, ()):
-                if _agree(segment, segments[other]):
-                    parents[root(other)] = root(index)
+    pairs = [
+        (index, other)
+        for index, segment in enumerate(segments)
+        for strip in range(segment.strip + 1, segment.strip + 1 + _MOST_DISTANCE)
+        for other in by_strip.get(strip, ())
+        if _agree(segment, segments[other])
+    ]
+    places = np.array(pairs, dtype=np.int64).reshape(-1, 2).T
+    graph = coo_array((np.ones(len(pairs)), tuple(places)), shape=(len(segments),) * 2)
+    labels = connected_components(graph, directed=False)[1].tolist()
     groups: dict[int, list[Segment]] = {}
-    for index, segment in enumerate(segments):
-        groups.setdefault(root(index), []).append(segment)
+    for segment, label in zip(segments, labels, strict=True):
+        groups.setdefault(label, []).append(segment)
     return [group for group in groups.values() if len({one.strip for one in group}) >= LEAST_STRIPS]
 
 

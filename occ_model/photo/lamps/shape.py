@@ -59,11 +59,9 @@ def _rectangles(
     shown = np.arange(min(spans), max(spans) + 1)
     known = np.array(sorted(spans))
     sides = np.array([spans[strip] for strip in known.tolist()])
-    smooth = np.array(
-        [np.median(sides[np.abs(known - strip) <= _SMOOTH], axis=0)
-         if np.any(np.abs(known - strip) <= _SMOOTH) else sides[np.argmin(np.abs(known - strip))]
-         for strip in shown.tolist()]
-    )  # fmt: skip
+    apart = np.abs(shown[:, None] - known)
+    near = apart <= np.maximum(_SMOOTH, apart.min(axis=1, keepdims=True))
+    smooth = np.array([np.median(sides[beside], axis=0) for beside in near])
     left = np.maximum(np.floor(smooth[:, 0]), 0).astype(np.int64)
     right = np.minimum(np.ceil(smooth[:, 1]) + 1, columns).astype(np.int64)
     return np.column_stack([bounds[shown], bounds[shown + 1], left, np.maximum(right, left + 1)])
@@ -122,7 +120,6 @@ def _is_rim(edges: Edges, at: int, beside: int, stripe: float) -> bool:
 
 
 def around(spans: IndexArray) -> Region:
-    """Return the smallest rectangle around a shape."""
     return Region(
         int(spans[:, 0].min()), int(spans[:, 1].max()),
         int(spans[:, 2].min()), int(spans[:, 3].max()),

@@ -8,7 +8,7 @@ import numpy as np
 from occ_model.arrays import FloatArray, IndexArray
 from occ_model.camera.photometry import WHITE
 from occ_model.photo.lamps.shape import around
-from occ_model.photo.reading.load import Photo
+from occ_model.photo.reading.load import Photo, column_means
 from occ_model.results.lamp import Lamp
 
 _MOST_STRIPS = 160
@@ -36,9 +36,7 @@ def strips_of(photo: Photo, report: Callable[[float], object]) -> tuple[FloatArr
     bounds = np.arange(count + 1, dtype=np.int64) * rows // count
     means = np.empty((count, columns))
     for strip in range(count):
-        part = photo.samples[bounds[strip] : bounds[strip + 1]]
-        sums = cv2.reduce(part, 0, cv2.REDUCE_SUM, dtype=cv2.CV_64F)
-        means[strip] = sums[0] * (WHITE / photo.white / len(part))
+        means[strip] = column_means(photo, int(bounds[strip]), int(bounds[strip + 1]))
         report((strip + 1) / count)
     if columns >= _FINE:
         smooth = cv2.blur(means, (_CELL, 1), borderType=cv2.BORDER_REPLICATE)

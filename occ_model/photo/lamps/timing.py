@@ -28,8 +28,6 @@ farther inside."""
 
 @dataclass(frozen=True, eq=False, slots=True)
 class LampTiming:
-    """How a lamp blinks."""
-
     spacing: float  # columns of a period of a pulse that repeats, or of a chip of a code
     uncertainty: float  # its standard deviation in columns
     rise: float  # rise, fall: column of a rising and of a falling edge, less whole spacings

@@ -7,6 +7,7 @@ import numpy as np
 
 from occ_model.arrays import BoolArray, ByteArray, FloatArray
 from occ_model.camera.enhancement import Enhancement
+from occ_model.photo.chips.edges import Edges, chip_numbers, coherence, lattice_at
 from occ_model.receiver.decode import decode
 from occ_model.receiver.decoders import PAPER_DECODER, decoder_named
 from occ_model.receiver.light import in_light
@@ -93,16 +94,16 @@ class FrameReader:
         tried = [_timing(result, column_means(frame.image, region), light, before, scene)]
         if result.failure is not None and self._enhanced.model.enhancement != "none":
             tried.append(self._of_enhanced(frame, result.region, region, light))
-        found = min(tried, key=lambda one: 1.0 if one.timing is None else one.timing.unexplained)
-        if found.timing is None:
-            return TimedFrame(replace(reading, failure=found.problem), problem=found.problem)
+        timing, problem = min(tried, key=lambda one: 1.0 if one[0] is None else one[0].unexplained)
+        if timing is None:
+            return TimedFrame(replace(reading, failure=problem), problem=problem)
         after = region.last_column - result.region.last_column
-        timed = _timed(reading, region, (before > 0, after > 0), found.timing)
-        return replace(timed, problem=found.problem)
+        timed = _timed(reading, region, (before > 0, after > 0), timing)
+        return replace(timed, problem=problem)
 
     def _of_enhanced(
         self, frame: VideoFrame, found: Region, region: Region, light: FloatArray
-    ) -> "_Tried":
+    ) -> tuple[ChipTiming | None, str | None]:
         """Read the chips of the enhanced picture, and fit their timing to the camera's light."""
         scene = self._of(self._enhanced, frame)
         signal = enhanced_picture(frame.image, region, scene.model.enhancement).mean(axis=0)
@@ -128,28 +129,19 @@ class FrameReader:
         return replace(region, first_column=earliest, last_column=latest)
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class _Tried:
-    """The timing of the chips that a decoder found, and why they give no payload by themselves."""
-
-    timing: ChipTiming | None
-    problem: str | None
-
-
 def _timing(
     result: DecodeResult, signal: FloatArray, light: FloatArray, before: int, scene: Scene
-) -> _Tried:
+) -> tuple[ChipTiming | None, str | None]:
+    """Fit the timing of the chips that a decoder found; say why they alone give no payload."""
     if result.signal is None or result.chip_starts is None:
-        return _Tried(
-            None, result.failure or "The decoder gives no chips, which joining frames needs."
-        )
+        return None, result.failure or "The decoder gives no chips, which joining frames needs."
     lattice = first_lattice(result, signal, before, scene)
     if lattice is None:
-        return _Tried(None, result.failure or "Too few stripes to see chips.")
+        return None, result.failure or "Too few stripes to see chips."
     timing = fit_timing(light, lattice)
     if timing is None or timing.unexplained > _MAX_UNEXPLAINED:
-        return _Tried(None, "The stripes do not follow the chips that were read.")
-    return _Tried(timing, result.failure)
+        return None, "The stripes do not follow the chips that were read."
+    return timing, result.failure
 
 
 def _timed(
@@ -205,8 +197,10 @@ def first_lattice(
     step, offsets = _regular(places, numbers, rising)
     if step <= 0.0 or np.abs(offsets).max() > _MAX_EDGE_ERROR:
         expected = scene.camera.readout_time * scene.transmitter.switching_frequency
-        step = _most_coherent(places, rising, expected)
-        numbers = _numbered(places, rising, step)
+        kinds = Edges(places[rising], places[~rising])
+        step = _most_coherent(kinds, expected)
+        numbers = np.rint(np.concatenate(chip_numbers(kinds, lattice_at(kinds, step))))
+        places = np.concatenate([kinds.rising, kinds.falling])
     # The middle of an exposure at a column is where its chip is read.
     middle = float(np.mean(numbers - places * step))
     phase = middle - 0.5 * exposure
@@ -227,25 +221,13 @@ def _regular(
     return float(1.0 / found[1]), np.asarray((places - parts @ found) / found[1])
 
 
-def _most_coherent(places: FloatArray, rising: BoolArray, expected: float) -> float:
+def _most_coherent(edges: Edges, expected: float) -> float:
     """Return the chips a column, near what is expected, on whose lattice edges lie best."""
-    extent = max(float(np.ptp(places)), 1.0)
+    extent = max(float(np.ptp(edges.places)), 1.0)
     reach = max(_SEARCHED_FRACTION * expected, 1.0 / extent)
     count = int(np.ceil(2.0 * reach * extent * _STEPS_A_TURN)) + 1
     steps = expected + np.linspace(-reach, reach, count)
-    turns = np.exp(2j * np.pi * np.outer(steps, places))
-    coherent = np.abs(turns[:, rising].sum(axis=1)) + np.abs(turns[:, ~rising].sum(axis=1))
-    return float(steps[int(np.argmax(coherent))])
-
-
-def _numbered(places: FloatArray, rising: BoolArray, step: float) -> FloatArray:
-    """Count the chips before each edge on a lattice."""
-    numbers = places * step
-    for kind in (rising, ~rising):
-        if kind.any():
-            turn = np.angle(np.exp(2j * np.pi * numbers[kind]).sum()) / (2.0 * np.pi)
-            numbers[kind] = np.rint(numbers[kind] - turn)
-    return np.asarray(numbers)
+    return float(steps[int(np.argmax(coherence(edges, steps)))])
 
 
 def _regular_chips(columns: int, step: float, phase: float, exposure: float) -> ChipLattice:

@@ -6,12 +6,13 @@ lattice of its own, of the same spacing.
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from occ_model.arrays import ByteArray, FloatArray
+from occ_model.arrays import BoolArray, ByteArray, FloatArray, IndexArray
 
 _HYSTERESIS = 0.15  # height beyond the middle, on both sides of an edge, that is not noise
 
@@ -36,16 +37,31 @@ class Edges:
 
     @property
     def count(self) -> int:
-        """Number of edges of either kind."""
         return len(self.rising) + len(self.falling)
+
+    @classmethod
+    def joined(cls, parts: Sequence["Edges"]) -> "Edges":
+        """Put edges together whose order in each kind is that of the parts."""
+        return cls(
+            np.concatenate([part.rising for part in parts]),
+            np.concatenate([part.falling for part in parts]),
+        )
 
     @property
     def places(self) -> FloatArray:
-        """All edges in order."""
         return np.sort(np.concatenate([self.rising, self.falling]))
 
+    @property
+    def order(self) -> IndexArray:
+        """What sorts the rising edges and the falling ones after them."""
+        return np.argsort(np.concatenate([self.rising, self.falling]))
+
+    @property
+    def rises(self) -> BoolArray:
+        """Whether each of the ``places`` is a rising edge."""
+        return np.asarray(self.order < len(self.rising))
+
     def within(self, first: float, last: float) -> "Edges":
-        """Keep the edges from one column to another."""
         kept = [kind[(kind >= first) & (kind <= last)] for kind in (self.rising, self.falling)]
         return Edges(*kept)
 
@@ -152,8 +168,7 @@ def without_rims(edges: Edges, lattice: Lattice) -> Edges:
 
     It is off the lattice, or lies by chance on the place in the lattice of the edge beside it.
     """
-    order = np.argsort(np.concatenate([edges.rising, edges.falling]))
-    numbers, places = np.concatenate(chip_numbers(edges, lattice))[order], edges.places
+    numbers, places = np.concatenate(chip_numbers(edges, lattice))[edges.order], edges.places
     nearest = np.rint(numbers)
     off, lengths = np.abs(numbers - nearest), np.diff(nearest)
     first = places[1] if off[0] > _RIM_DISTANCE or lengths[0] < 1 else places[0]
@@ -163,15 +178,11 @@ def without_rims(edges: Edges, lattice: Lattice) -> Edges:
 
 def chips_between(edges: Edges, lattice: Lattice) -> tuple[ByteArray, int] | None:
     """Return the chips between the outermost edges and the first's number; None if they collide."""
-    rising, falling = (np.rint(kind).astype(int) for kind in chip_numbers(edges, lattice))
-    numbers = np.concatenate([rising, falling])
-    kinds = np.concatenate([np.ones(len(rising), int), np.zeros(len(falling), int)])
-    order = np.argsort(np.concatenate([edges.rising, edges.falling]))
-    numbers, kinds = numbers[order], kinds[order]
+    numbers = np.rint(np.concatenate(chip_numbers(edges, lattice))[edges.order]).astype(np.int64)
     lengths = np.diff(numbers)
     if len(lengths) == 0 or lengths.min() < 1:
         return None
-    return np.repeat(kinds[:-1], lengths).astype(np.uint8), int(numbers[0])
+    return np.repeat(edges.rises[:-1], lengths).astype(np.uint8), int(numbers[0])
 
 
 def certainty(edges: Edges, lattice: Lattice) -> float:

@@ -107,9 +107,7 @@ def _unexplained(flattened: FloatArray, edges: Edges, frequency: float) -> float
     data = flattened[columns] - flattened[columns].mean()
     power = float(data @ data)
     # Bright between a rising edge and the next falling one, as an integral that is exact between.
-    kinds = np.concatenate([np.ones(len(edges.rising)), np.zeros(len(edges.falling))])
-    order = np.argsort(np.concatenate([edges.rising, edges.falling]))
-    lit = np.concatenate([[0.0], np.cumsum(np.diff(edges.places) * kinds[order][:-1])])
+    lit = np.concatenate([[0.0], np.cumsum(np.diff(edges.places) * edges.rises[:-1])])
     least = power
     for exposure in _EXPOSURES / frequency:
         ends = (np.interp(columns + side * exposure, edges.places, lit) for side in (0.5, -0.5))
@@ -140,10 +138,7 @@ def in_phase(edges: Edges) -> Edges | None:
     for one, turn in zip(bursts, turns, strict=True):
         off = (0.5 * (turn.rising + turn.falling) - first + 0.5) % 1.0 - 0.5
         moved.append(Edges(one.rising - off / frequency, one.falling - off / frequency))
-    joined = Edges(
-        np.concatenate([one.rising for one in moved]),
-        np.concatenate([one.falling for one in moved]),
-    )
+    joined = Edges.joined(moved)
     lattice = coarsest(joined)
     before = 0.0 if whole is None else whole.coherence
     if lattice is None or lattice.coherence < max(
@@ -167,11 +162,7 @@ def _bursts(edges: Edges) -> list[Edges]:
     for first, last in pairwise(bounds):
         part = edges.within(np.nextafter(first, np.inf), last)
         if found and (part.count < _LEAST_EDGES or found[-1].count < _LEAST_EDGES):
-            before = found.pop()  # too few edges for a phase
-            part = Edges(
-                np.concatenate([before.rising, part.rising]),
-                np.concatenate([before.falling, part.falling]),
-            )
+            part = Edges.joined([found.pop(), part])  # too few edges for a phase
         found.append(part)
     return found
 

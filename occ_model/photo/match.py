@@ -188,7 +188,6 @@ class _Progress:
         self._report, self._fraction, self._last = report, 0.0, 0.0
 
     def __call__(self, fraction: float) -> None:
-        """Report the fraction done."""
         self._fraction, self._last = fraction, time.monotonic()
         self._report(fraction)
 

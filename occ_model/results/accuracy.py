@@ -84,12 +84,10 @@ class TimeFractions:
 
     @property
     def everything_else(self) -> float:
-        """The seconds outside the effects."""
         return fsum(self.stages.values())
 
     @property
     def seconds(self) -> float:
-        """The seconds of the whole picture."""
         return fsum((*self.effects.values(), *self.stages.values()))
 
 

@@ -73,8 +73,6 @@ class BenchPoint:
 
 @dataclass(frozen=True, slots=True)
 class BenchBounds:
-    """Theoretical bounds of a bench."""
-
     # Exposures in symbols at which alternating chips leave no stripes
     nulls: tuple[float, ...]
     # By axis: the exposures or ratios, and the bits a picture that light of Gaussian levels can

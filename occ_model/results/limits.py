@@ -23,7 +23,6 @@ class Trial:
 
     @property
     def rate(self) -> float:
-        """Success rate in percent."""
         return 100.0 * self.right / self.sent
 
 

@@ -47,27 +47,22 @@ class PhotoRow:
 
     @property
     def readout_time(self) -> float | None:
-        """That of the match, in seconds; None without one."""
         return None if self.match is None else self.match.readout_time
 
     @property
     def switching_frequency(self) -> float | None:
-        """That of the match, in Hz; None without one."""
         return None if self.match is None else self.match.switching_frequency
 
     @property
     def exposure_time(self) -> float | None:
-        """That of the match, in seconds; None without one."""
         return None if self.match is None else self.match.exposure_time
 
     @property
     def correlation(self) -> float | None:
-        """That of the match; None without one."""
         return None if self.match is None else self.match.correlation
 
     @property
     def pattern(self) -> str:
-        """The chips sent; empty without a match."""
         return "" if self.match is None else self.match.pattern
 
     def uncertainty(self, name: str) -> float | None:

@@ -68,8 +68,6 @@ class _OwnLight:
 
 
 class EdgeFinder:
-    """Measures the edges of lamps in a picture."""
-
     def __init__(self, image: ByteArray, room: Room) -> None:
         self._scene = room.scene
         self._image = image
@@ -77,7 +75,6 @@ class EdgeFinder:
         self._dark = float(np.median(self._light[image[::16, ::16]]))
 
     def edges(self, lamp: RoomLamp, corners: FloatArray) -> list[Edge]:
-        """Measure the edges of a lamp that is expected between some corners."""
         lines = []
         own = self._own_light(corners, lamp)
         for side in range(4):

@@ -112,8 +112,6 @@ def quadrilateral(hull: FloatArray) -> FloatArray:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Measured:
-    """A named lamp, its rough corners and its edges in the picture."""
-
     lamp: RoomLamp
     corners: FloatArray
     edges: list[Edge]

@@ -1,7 +1,7 @@
 """Read the lamps of a room in a picture: find them, decode each, name it by its code."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import cv2
@@ -80,15 +80,11 @@ def find_and_name(image: ByteArray, room: Room) -> tuple[ReadLamp, ...]:
     lamps = [_read(image, region, hull, room) for region, hull in found]
     names = [lamp.name for lamp in lamps if lamp.name]
     return tuple(
-        _unnamed(lamp, f"{lamp.name} was read at {names.count(lamp.name)} places.")
+        replace(lamp, name=None, note=f"{lamp.name} was read at {names.count(lamp.name)} places.")
         if lamp.name and names.count(lamp.name) > 1
         else lamp
         for lamp in lamps
     )
-
-
-def _unnamed(lamp: ReadLamp, why: str) -> ReadLamp:
-    return ReadLamp(None, lamp.code, lamp.region, lamp.hull, lamp.is_cut, why)
 
 
 def _found(image: ByteArray, room: Room) -> Iterator[tuple[Region, FloatArray]]:

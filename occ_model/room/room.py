@@ -305,6 +305,5 @@ def _check_keys(table: Mapping[str, Any], known: tuple[str, ...], where: str) ->
 
 
 def check_room(value: object) -> None:
-    """Refuse a value that is not a room."""
     if not isinstance(value, Room):
         raise ParameterError.of("room", shown(value), "a Room, such as load_room('office') gives")

@@ -51,7 +51,6 @@ _LEAST_CYCLES = 6  # minimum number of periods in view; slower changes are uneve
 
 
 def doubts(found: Hypothesis, stripes: Stripes, rows_alike: float) -> list[str]:
-    """Say why a hypothesis is doubtful, in sentences."""
     return [
         *_doubts_by_extent(found),
         *_doubts_by_quality(found, stripes.saturated, rows_alike),

@@ -30,7 +30,6 @@ class Hypothesis:
 
     @property
     def chips(self) -> ByteArray:
-        """One period of the chips."""
         return self.explanation.chips
 
     @property
@@ -76,7 +75,6 @@ class Hypothesis:
         return same and (is_given or (known and is_single_pulse(self.chips)))
 
     def residual(self, profile: FloatArray) -> FloatArray:
-        """Return a profile less that of the fit."""
         return profile - self.fit.profile
 
 

@@ -35,8 +35,6 @@ _BANDS = 8  # number of bands of rows that are compared
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Verdict:
-    """How sure a hypothesis is."""
-
     reasons: tuple[str, ...]  # why it is doubtful, in sentences; none where it is sure
     exposure_reasons: tuple[str, ...]  # why its exposure alone is doubtful
     others: tuple[tuple[Hypothesis, float], ...]
@@ -51,7 +49,6 @@ class Judge:
         self._error = len(stripes.profile) * (_MODEL_ERROR * swing) ** 2
 
     def choose(self, hypotheses: Sequence[Hypothesis]) -> Hypothesis:
-        """Choose the likeliest hypothesis."""
         independent = self._independent(hypotheses)
         likelihoods = self._likelihoods(hypotheses, independent)
         order = sorted(range(len(likelihoods)), key=lambda i: -likelihoods[i])

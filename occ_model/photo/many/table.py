@@ -31,7 +31,6 @@ _LEAST_FOR_OUTLIERS = 3  # minimum number of estimates among which an outlier ca
 
 
 def table_of(settings: MatchSettings, rows: Sequence[PhotoRow]) -> PhotoTable:
-    """Make the table of photos that were matched."""
     sure = [place for place, row in enumerate(rows) if row.verdict == SURE]
     estimated = _combined(rows, sure, settings.estimate)
     outliers = () if estimated is None else estimated.outliers

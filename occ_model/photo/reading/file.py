@@ -20,9 +20,8 @@ from occ_model.photo.reading.limits import (
     check_decoder,
     check_file_size,
     check_memory,
-    check_pixels,
     check_scans,
-    check_sides,
+    check_size,
     check_transparency,
     count_of_pixels,
 )
@@ -156,8 +155,7 @@ def _first_picture(
         problem = _damaged(error, "the file is damaged or of an unusual kind")
         raise PhotoError(f"{shown} cannot be read: {problem}.") from None
     width, height = picture.size
-    check_pixels(path, width, height, max_pixels)
-    check_sides(path, width, height)
+    check_size(path, width, height, max_pixels)
     # A wrong size in the header would otherwise be decoded, in seconds, to black.
     if width * height > _PIXELS_A_BYTE.get(picture.format or "", math.inf) * size:
         raise PhotoError(

@@ -76,7 +76,6 @@ class DecodedPicture:
 
     @property
     def shape(self) -> tuple[int, int]:
-        """The rows and columns."""
         return self.picture.height, self.picture.width
 
     def boxes(self) -> Iterator[Box]:

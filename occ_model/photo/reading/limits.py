@@ -61,13 +61,19 @@ _BITS_PER_SAMPLE = 258
 _ORIENTATION, _ROWS_PER_STRIP, _TILE_WIDTH, _TILE_LENGTH = 274, 278, 322, 323
 
 
-def check_pixels(path: Path, width: int, height: int, max_pixels: int) -> None:
-    """Refuse a picture of more pixels than were asked for, before any of it is decoded."""
+def check_size(path: Path, width: int, height: int, max_pixels: int) -> None:
+    """Refuse a picture of more pixels than were asked for, or of a side longer than any camera's.
+
+    That is before any of it is decoded.
+    """
+    has = f"{one_line(str(path))} has {width:,} x {height:,} pixels"
     if width * height > max_pixels:
         raise PhotoError(
-            f"{one_line(str(path))} has {width:,} x {height:,} pixels, "
-            f"{count_of_pixels(width * height)}; allowed: at most {allowed_pixels(max_pixels)}"
+            f"{has}, {count_of_pixels(width * height)}; allowed: at most "
+            f"{allowed_pixels(max_pixels)}"
         )
+    if max(width, height) > _LONGEST_SIDE:
+        raise PhotoError(f"{has}; allowed: at most {_LONGEST_SIDE:,} along each side.")
 
 
 def allowed_pixels(max_pixels: int) -> str:
@@ -80,15 +86,6 @@ def count_of_pixels(pixels: int) -> str:
     if pixels >= 1_000_000 and pixels % 10_000 == 0:
         return f"{pixels / 1e6:,.10g} million"
     return f"{pixels:,}"
-
-
-def check_sides(path: Path, width: int, height: int) -> None:
-    """Refuse a picture with a side longer than any camera's, before any of it is decoded."""
-    if max(width, height) > _LONGEST_SIDE:
-        raise PhotoError(
-            f"{one_line(str(path))} has {width:,} x {height:,} pixels; "
-            f"allowed: at most {_LONGEST_SIDE:,} along each side."
-        )
 
 
 def check_bytes(path: Path, width: int, height: int, decoding: float, kept: int) -> None:

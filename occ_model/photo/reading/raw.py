@@ -29,7 +29,7 @@ from occ_model.photo.reading.exif import (
     notes_of,
 )
 from occ_model.photo.reading.image_decoding import DECODED, Samples, no_stderr
-from occ_model.photo.reading.limits import check_bytes, check_file_size, check_pixels, check_sides
+from occ_model.photo.reading.limits import check_bytes, check_file_size, check_size
 from occ_model.photo.reading.watched_file import Reporter, WatchedFile
 
 if TYPE_CHECKING:
@@ -181,8 +181,7 @@ def read_mosaic(
         with rawpy.RawPy() as raw, no_stderr():
             raw.open_buffer(file)
             width, height = raw.sizes.raw_width, raw.sizes.raw_height
-            check_pixels(path, width, height, max_pixels)
-            check_sides(path, width, height)
+            check_size(path, width, height, max_pixels)
             check_bytes(path, width, height, _BYTES_A_PIXEL * width * height, size)
             raw.unpack()
             report(DECODED)

@@ -33,8 +33,6 @@ class Reporter:
 
 
 class WatchedFile(io.BufferedReader):
-    """A file that reports the progress of its reading."""
-
     def __init__(self, path: Path, report: Reporter) -> None:
         super().__init__(path.open("rb", buffering=0))
         self._report = report
@@ -52,7 +50,6 @@ class WatchedFile(io.BufferedReader):
         self.total, self._next = 0, 0
 
     def read(self, size: int | None = -1, /) -> bytes:
-        """Read bytes, and report the progress."""
         content = super().read(size)
         self.last = len(content)
         self.total += self.last

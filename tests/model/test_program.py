@@ -204,17 +204,3 @@ sys.exit(run_program("x", prepare, is_process=True))
             check=True,
         )  # fmt: skip
         assert done.stdout == f"{wanted}\n"
-
-
-@pytest.mark.whole
-@pytest.mark.parametrize("most", [10, 15, 17, 19, 20, 22, 26])
-def test_a_sweep_with_few_open_files_is_done_without_a_traceback(most: int, tmp_path: Path) -> None:
-    words = "sweep --set rows=60 --vary distance=60cm:2m:70cm --images 1 --jobs 4 --out rates.csv"
-    limited = ("sh", "-c", f'ulimit -n {most}; exec "$@"', "sh")
-    done = subprocess.run(
-        [*limited, sys.executable, "-m", "occ_model", *words.split()],
-        capture_output=True, check=False, cwd=tmp_path, text=True,
-    )  # fmt: skip
-    assert (done.returncode, "Traceback" in done.stderr) == (0, False), done.stderr
-    assert "3 points" in done.stdout
-    assert len((tmp_path / "rates.csv").read_text().splitlines()) > 3

@@ -21,8 +21,6 @@ import occ_model as occ
 from occ_model.photo.many.row import MatchSettings
 from occ_model.results.bench import BenchRequest
 from occ_model.scene.payload import MAX_PAYLOAD_BITS
-from occ_model.scene.simulation_settings import SimulationSettings
-from occ_model.study.accuracy import accuracy
 from occ_model.study.bench.bench import bench
 from occ_model.study.bit_error_rate import check_frame_rate
 from occ_model.study.confidence import wilson_interval
@@ -89,11 +87,8 @@ ROWS: list[Row] = [
     ),
     *calls(
         in_scene(of=occ.render),
-        ({"tolerance": -0.1}, "tolerance", "-0.1 levels", LEVELS),
         ({"seed": -1}, "seed", "-1", WHOLE),
-        ({"seed": 1.5}, "seed", "1.5", WHOLE),
         ({"noise": "white"}, "noise", "'white'", "exact, reused"),
-        ({"observable": "pixel"}, "observable", "'pixel'", OBSERVABLES),
         *(
             ({"rows_step": step}, "rows_step", repr(step), "a whole number from 1 to 20")
             for step in (0, -1, 21, 1.5, True)
@@ -104,10 +99,8 @@ ROWS: list[Row] = [
         lambda **how: occ.load_photo("x.png", **how),
         ({"scan_axis": "rows"}, "scan_axis", "'rows'", AXES_OF_SCAN),
         ({"channel": "ir"}, "channel", "'ir'", CHANNELS),
-        ({"channel": ["red"]}, "channel", "['red']", CHANNELS),
         ({"max_pixels": 0}, "max_pixels", "0", "a whole number from 1"),
         ({"max_pixels": 1e6}, "max_pixels", "1000000.0", "a whole number from 1"),
-        ({"max_pixels": True}, "max_pixels", "True", "a whole number from 1"),
     ),
     *calls(
         lambda **how: occ.load_video("x.mp4", **how),
@@ -123,8 +116,6 @@ ROWS: list[Row] = [
     ),
     *calls(
         lambda **wrong: occ.match_photo(PHOTO, SCENE, **wrong),
-        ({"estimate": "gamma"}, "estimate", "'gamma'", "switching_frequency"),
-        ({"sent": "nothing"}, "sent", "'nothing'", "read"),
         ({"averaging": "median"}, "averaging", "'median'", "light"),
         *(
             ({"region": region}, "region", repr(region), "first row")
@@ -150,19 +141,13 @@ ROWS: list[Row] = [
     *calls(
         in_scene(of=occ.success_rate),
         ({"images": 0}, "images", "0", "a whole number from 1"),
-        ({"images": 2.5}, "images", "2.5", "a whole number from 1"),
-        ({"decoder": "psychic"}, "decoder", "'psychic'", DECODERS),
         ({"tolerance": -1.0}, "tolerance", "-1 levels", LEVELS),
-        ({"force": {"blur": True}}, "effect", "'blur'", EFFECTS),
-        ({"seed": -1}, "seed", "-1", WHOLE),
         ({"seed": None}, "seed", "None", WHOLE),
         ({"path": "guess"}, "path", "'guess'", "auto, profile, rows, image"),
     ),
     *calls(
         in_scene(of=occ.limits),
-        ({"rate": 0.0}, "rate", "0.0 %", "above 0 % to 100 %"),
         ({"rate": math.nan}, "rate", "nan %", "above 0 % to 100 %"),
-        ({"rate": "99"}, "rate", "'99' %", "above 0 % to 100 %"),
         ({"images": 0}, "images", "0", "a whole number from 1"),
         ({"seed": -1}, "seed", "-1", WHOLE),
     ),
@@ -184,27 +169,19 @@ ROWS: list[Row] = [
     *calls(
         swept,
         ({"axes": {}}, "axes", "{}", "one parameter or more"),
-        ({"axes": [1.0]}, "axes", "[1.0]", "one parameter or more"),
         ({"axes": {"distance": []}}, "distance", "no values to vary over", "one or more, 1 mm to"),
         ({"axes": {"distance": 1.0}}, "distance", "over 1.0", "a list of values"),
-        ({"axes": {"averaging": "light"}}, "averaging", "over 'light'", "a list of values"),
         ({"axes": {"distance": [1.0, -2.0]}}, "distance", "-2 m", "1 mm to 10 km"),
-        ({"axes": {"distance": [1.0, math.nan]}}, "distance", "nan", "1 mm to 10 km"),
         ({"axes": {"distance": [1, 2.0, 1.0]}}, "distance", "1 m twice", "values that differ"),
         ({"axes": {"columns": [10, 10.5]}}, "columns", "10.5", "a whole number"),
         (
             {"axes": {"iso": (100.0 + 1e-4 * place for place in count())}},
             "iso", "too many values", "at most 1,000,000",
         ),
-        ({"images": 0}, "images", "0", "a whole number from 1"),
         ({"decoder": []}, "decoder", "[]", "one of threshold"),
         ({"decoder": ["matched", "x"]}, "decoder", "'x'", DECODERS),
         ({"decoder": ["matched"] * 2}, "decoder 'matched'", "given twice", "each of threshold"),
-        ({"seed": -1}, "seed", "-1", WHOLE),
         ({"jobs": 0}, "jobs", "0", "a whole number from 1 to 1,024"),
-        ({"path": "guess"}, "path", "'guess'", "auto, profile, rows, image"),
-        ({"tolerance": -1.0}, "tolerance", "-1 levels", LEVELS),
-        ({"force": {"blur": True}}, "effect", "'blur'", EFFECTS),
         *(
             ({"frames_a_second": frames}, "frame_rate", f"{frames:g} Hz", "0.001 Hz to 100 kHz")
             for frames in (0.0, math.nan, -1.0)
@@ -214,18 +191,14 @@ ROWS: list[Row] = [
         lambda **interval: wilson_interval(**{"successes": 1, "trials": 5, **interval}),
         *(
             ({"trials": trials}, "trials", repr(trials), "a whole number from 1 to")
-            for trials in (0, -5, 2.0, True, 2**53 + 1, "9")
+            for trials in (0, 2.0, True, 2**53 + 1)
         ),
-        *(
-            ({"successes": successes}, "successes", repr(successes), "a whole number from 0 to 5")
-            for successes in (-1, 6, math.nan, 1.0)
-        ),
+        ({"successes": 6}, "successes", "6", "a whole number from 0 to 5"),
         *(
             ({"level": level}, "level", repr(level), A_NUMBER)
-            for level in (0.0, 1.0, 95.0, math.nan, -0.5, "0.95", True, 0.9j)
+            for level in (0.0, 95.0, math.nan, "0.95", True, 0.9j)
         ),
         ({"level": 1 - Fraction(1, 10**30)}, "level", "Fraction(9", A_NUMBER),
-        ({"level": Fraction(1, 10**400)}, "level", "Fraction(1, 1", A_NUMBER),
     ),
     *calls(
         lambda **request: bench(BenchRequest(**request)),
@@ -246,15 +219,10 @@ ROWS: list[Row] = [
         for limit in (0.0, -1.0, 2.0, math.nan)
     ),
     (lambda: FilmRequest(SCENE, (8e3,), (0.95,), (16,)), "gap", "95 % of a frame", "0 to 90 %"),
-    (lambda: check_frame_rate(SCENE, 37.0), "frames_a_second", "37.0", "above 0 to 36.17, where"),
     (lambda: check_frame_rate(SCENE, 0.0), "frames_a_second", "0.0", "above 0 to 36.17, where"),
     (
         lambda: occ.most_bits(SCENE, ("threshold",), frames_a_second=100.0),
         "frames_a_second", "100.0", "above 0 to 36.17, where",
-    ),
-    (
-        lambda: next(accuracy(SCENE, SimulationSettings(tolerance=-1.0))),
-        "tolerance", "-1 levels", LEVELS,
     ),
     (lambda: profile_spectrum(np.zeros(7), SCENE), "profile", "shape (7,)", "(8 or more,)"),
     (lambda: profile_spectrum(np.zeros((2, 9)), SCENE), "profile", "shape (2, 9)", "or more,)"),
@@ -332,8 +300,6 @@ ROWS: list[Row] = [
                 ("bits:" + "1" * 10**6, "a text of 1,000,005 characters"),
             )
         ),
-        ({"code": 1024}, "code", "1024", "0 to 1023"),
-        ({"bits": 9, "code": 718}, "code", "718", "0 to 511"),
         ({"line_code": "mine"}, "line_code", "'mine'", PLUGINS),
     ),
 ]  # fmt: skip

@@ -81,15 +81,6 @@ def test_no_settings_file_reaches_a_figure_and_the_backend_stays_that_of_the_env
     assert found == [draw(), "svg", "svg\n"]
 
 
-@pytest.mark.whole
-def test_no_unknown_backend_or_unwritable_folder_stops_a_figure(
-    tmp_path: Path, draw: Callable[[], str]
-) -> None:
-    # No user can create a folder under a file.
-    nowhere = str(taste(tmp_path / "file") / "folder")
-    assert drawn(tmp_path, MPLBACKEND="nonsense", MPLCONFIGDIR=nowhere)[0] == draw()
-
-
 def test_where_matplotlib_can_write_nowhere_a_sentence_says_so(tmp_path: Path) -> None:
     nowhere = str(taste(tmp_path / "file") / "folder")
     program = (

@@ -12,11 +12,8 @@ from PIL import Image
 import occ_model as occ
 from occ_model.cli import main
 from occ_model.figures import drawing, paper
-from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.scene import Scene
 from occ_model.study import paper_grid
-from occ_model.study.success_rate import right_and_whole
-from occ_model.study.sweep import points
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -29,27 +26,6 @@ def fewer_points() -> Iterator[None]:
         yield
 
 
-@pytest.fixture
-def only_rates(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Leave out the figures that show no rates: those of the folder are looked at."""
-    monkeypatch.setattr(paper, "write_process_figure", lambda *_: None)
-    monkeypatch.setattr(paper, "write_profile_figure", lambda *_: None)
-
-
-Counted = tuple[tuple[int, ...], tuple[int, ...]]
-
-
-_COUNTED: dict[tuple[Scene, str], Counted] = {}
-
-
-def counted_once(scene: Scene, settings: RateSettings) -> Counted:
-    """Count right bits, or recall them: those of a scene and its seed are always the same."""
-    asked = scene, repr(settings)
-    if asked not in _COUNTED:
-        _COUNTED[asked] = right_and_whole(scene, settings)
-    return _COUNTED[asked]
-
-
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """All figures, from one image a point."""
@@ -60,9 +36,6 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
             patch.setattr(
                 drawing, "_fitted_bytes", lambda *each: b"" if each[1] == "pdf" else written(*each)
             )
-        patch.setattr(
-            points, "right_and_whole", lambda scene, settings, _: counted_once(scene, settings)
-        )
         patch.setitem(drawing._STYLE, "savefig.dpi", amount(30, 200))
         assert main(["figures", "--out", str(out), "--images", "1", "--seed", "3"]) == 0
     return out
@@ -76,14 +49,6 @@ def comments(path: Path) -> str:
 def rows(path: Path) -> list[dict[str, str]]:
     lines = path.read_text(encoding="utf-8").splitlines()
     return list(csv.DictReader(line for line in lines if not line.startswith("#")))
-
-
-@pytest.mark.whole
-def test_every_figure_comes_as_pdf_png_and_csv(folder: Path) -> None:
-    expected = {f"figure-{n}.{end}" for n in range(2, 7) for end in ("pdf", "png", "csv")}
-    assert {path.name for path in folder.iterdir()} == expected
-    for path in folder.glob("*.pdf"):
-        assert path.read_bytes().startswith(b"%PDF")
 
 
 @pytest.mark.parametrize("number", range(2, 7))
@@ -137,37 +102,3 @@ def test_figure_2_holds_the_calculated_values_and_the_mask(folder: Path) -> None
     left, right = frame.corners[:, 0].min(), frame.corners[:, 0].max()
     assert covered == [left <= column <= right for column in range(len(table))]
     assert "corners: column 862.24" in comments(folder / "figure-2.csv")
-
-
-@pytest.mark.whole
-@pytest.mark.usefixtures("only_rates")
-def test_figures_that_were_interrupted_go_on_with_the_rates_kept(
-    tmp_path: Path, folder: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    command = ["figures", "--out", str(tmp_path), "--images", "1", "--seed", "3"]
-    measured: list[float] = []
-
-    def measured_by_hand(scene: Scene, settings: RateSettings, pulse: object) -> Counted:
-        if len(measured) == 10:
-            raise KeyboardInterrupt
-        measured.append(scene.pose.distance)
-        return counted_once(scene, settings)
-
-    with monkeypatch.context() as patch:
-        patch.setattr(points, "right_and_whole", measured_by_hand)
-        assert main(command) == 130
-    (kept,) = tmp_path.glob("rates-*.csv")
-    assert len(rows(kept)) == 10 * 2
-    again: list[float] = []
-
-    def counted(scene: Scene, settings: RateSettings, pulse: object) -> Counted:
-        again.append(scene.pose.distance)
-        return counted_once(scene, settings)
-
-    monkeypatch.setattr(points, "right_and_whole", counted)
-    assert main(command) == 0
-    assert len(again) == 4 * len(paper_grid.FREQUENCIES) * len(paper_grid.DISTANCES) - 10
-    written = {path.name for path in folder.iterdir() if path.stem in ("figure-5", "figure-6")}
-    assert {path.name for path in tmp_path.iterdir()} == written
-    table = "figure-5.csv"
-    assert (tmp_path / table).read_bytes() == (folder / table).read_bytes()

@@ -55,12 +55,6 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-@pytest.mark.whole
-def test_every_drawing_comes_in_every_format(folder: Path) -> None:
-    names = {"picture", "profile", "decoding-threshold", "decoding-matched"}
-    assert {p.name for p in folder.iterdir()} == {f"{n}{end}" for n in names for end in ENDINGS}
-
-
 def test_every_file_gives_the_scene_back(folder: Path) -> None:
     assert all(scene_inside(path) == SCENE for path in folder.iterdir())
 

@@ -89,17 +89,6 @@ def test_a_payload_of_4096_bits_comes_back(code: str, framing: str) -> None:
         np.testing.assert_array_equal(read.bits, payload)
 
 
-@pytest.mark.whole
-@every_pair
-def test_every_payload_of_10_bits_comes_back(code: str, framing: str) -> None:
-    one = scheme(code, framing, 10)
-    for number in range(1024):
-        payload = [number >> place & 1 for place in reversed(range(10))]
-        read = one.decode(seen(one.encode(payload), number % one.length, 2 * one.length + 8))
-        assert read.failure is not None or read.bits.tolist() == payload
-        assert read.failure is None or (code, framing) in AMBIGUOUS
-
-
 @every_pair
 def test_no_part_of_what_is_sent_gives_another_payload(code: str, framing: str) -> None:
     random = np.random.default_rng(3)

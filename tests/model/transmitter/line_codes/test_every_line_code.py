@@ -69,13 +69,6 @@ def test_long_payloads_are_read_as_they_were_sent(code: LineCode) -> None:
         check_round_trip(code, bits, 0)
 
 
-@pytest.mark.whole
-@every_code
-def test_all_payloads_of_ten_bits_are_read_as_they_were_sent(code: LineCode) -> None:
-    for bits in all_payloads(10):
-        check_round_trip(code, bits, 0)
-
-
 @every_code
 def test_every_block_is_read_behind_every_other(code: LineCode) -> None:
     # A block depends on itself and on what those before it leave: a level or a disparity.

@@ -3,16 +3,14 @@
 See test_panes for renewing them.
 """
 
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 import pytest
 from gui.kinds import SnapshotOf
-from gui.snapshots.drawing import show
+from gui.snapshots.gallery import Gallery
 from matches import match_with
 from PySide6.QtWidgets import QApplication, QVBoxLayout, QWidget
-from pytestqt.qtbot import QtBot
 
 from occ_gui.detection_map.limit_cards import LimitCards
 from occ_gui.photo.photo_verdict import PhotoVerdictBar
@@ -28,10 +26,8 @@ from occ_model.photo.reading.load import Photo
 from occ_model.results.limits import RangeEnd, ReadInterval, Trial, WorkingRange
 from occ_model.scene.scene import Scene
 
-Matches = Callable[[QWidget, str], None]
 
-
-@pytest.fixture(params=["light", "dark"])
+@pytest.fixture
 def theme(request: pytest.FixtureRequest) -> str:
     QApplication.setPalette(palette_of(request.param))
     return str(request.param)
@@ -42,34 +38,35 @@ def trial(frequency: float, right: int) -> Trial:
 
 
 @pytest.mark.parametrize(
-    ("name", "reasons"),
-    [("sure", ()), ("doubtful", ("Only 1.2 periods of 4 chips are in view; 3 are needed.",))],
+    ("name", "theme", "reasons"),
+    [
+        ("sure", "dark", ()),
+        ("doubtful", "light", ("Only 1.2 periods of 4 chips are in view; 3 are needed.",)),
+    ],
+    indirect=["theme"],
 )
 def test_the_verdict_on_a_photo_looks_as_stored(
-    qtbot: QtBot,
+    gallery: Gallery,
     small_scene: Scene,
     photo: Photo,
-    matches_its_picture: Matches,
     theme: str,
     name: str,
     reasons: tuple[str, ...],
 ) -> None:
-    bar = PhotoVerdictBar()
-    show(qtbot, bar, 820, 50)
+    bar = gallery.show(PhotoVerdictBar(), 820, 50)
     bar.show_photo(photo)
     bar.show_match(match_with(scene=small_scene, reasons=reasons))
     bar.show_applied(name == "sure")
     bar.show_simulation(State.BAD, "Simulation: no code: no header found")
     bar.resize(820, bar.sizeHint().height())  # as high as its lines, as a layout makes it
-    matches_its_picture(bar, f"photo-verdict-{name}-{theme}")
+    gallery.compare(bar, f"photo-verdict-{name}-{theme}")
 
 
-def test_the_cards_of_the_limits_look_as_stored(
-    qtbot: QtBot, matches_its_picture: Matches, theme: str
-) -> None:
+@pytest.mark.parametrize("theme", ["light", "dark"], indirect=True)
+def test_the_cards_of_the_limits_look_as_stored(gallery: Gallery, theme: str) -> None:
     cards = LimitCards(("threshold", "matched", "equalizer"))
     cards.setStyleSheet(style_sheet(palette_of(theme)))
-    show(qtbot, cards, 760, 84)
+    gallery.show(cards, 760, 84)
     read = RangeEnd(trial(14.2e3, 100), trial(14.3e3, 0), trial(14.1e3, 100))
     cards.cards["threshold"].show_limit(read, "It reads up to 14.2 kHz.", 99.0)
     ends = RangeEnd(trial(3.5e3, 100), None), RangeEnd(trial(14.2e3, 100), trial(14.3e3, 0))
@@ -80,27 +77,25 @@ def test_the_cards_of_the_limits_look_as_stored(
     )
     cards.cards["matched"].show_searching()
     cards.cards["equalizer"].show_limit(None, "It reads at no frequency.", 99.0)
-    matches_its_picture(cards, f"limit-cards-{theme}")
+    gallery.compare(cards, f"limit-cards-{theme}")
 
 
 MISREAD: dict[str, Any] = {"exposure_time": 136e-6, "switching_frequency": 16e3}
 
 
-@pytest.mark.parametrize(("name", "changes"), [("read", {}), ("misread", MISREAD)])
+@pytest.mark.parametrize(
+    ("name", "theme", "changes"),
+    [("read", "dark", {}), ("misread", "light", MISREAD)],
+    indirect=["theme"],
+)
 def test_the_story_looks_as_stored(
-    qtbot: QtBot,
-    snapshot_of: SnapshotOf,
-    matches_its_picture: Matches,
-    theme: str,
-    name: str,
-    changes: dict[str, Any],
+    gallery: Gallery, snapshot_of: SnapshotOf, theme: str, name: str, changes: dict[str, Any]
 ) -> None:
-    view = StoryView(QWidget(), ("threshold", "matched"))
-    show(qtbot, view, 820, 560)
+    view = gallery.show(StoryView(QWidget(), ("threshold", "matched")), 820, 560)
     snapshot = snapshot_of(**changes)
     view.show_picture(Picture.of(snapshot.frame, "camera", snapshot.request))
     view.show_reading(snapshot)
-    matches_its_picture(view, f"story-{name}-{theme}")
+    gallery.compare(view, f"story-{name}-{theme}")
 
 
 def frames() -> Marks:
@@ -115,16 +110,16 @@ def packets(count: int) -> Marks:
     return Marks(starts, starts + 0.7 / count, states)
 
 
-@pytest.mark.parametrize(("name", "count"), [("few", 20), ("many", 900)])
-def test_the_timeline_looks_as_stored(
-    qtbot: QtBot, matches_its_picture: Matches, theme: str, name: str, count: int
-) -> None:
+@pytest.mark.parametrize(
+    ("name", "theme", "count"), [("few", "light", 20), ("many", "dark", 900)], indirect=["theme"]
+)
+def test_the_timeline_looks_as_stored(gallery: Gallery, theme: str, name: str, count: int) -> None:
     pane, timeline = QWidget(), Timeline()
     layout = QVBoxLayout(pane)
     layout.addWidget(MarkLegend())
     layout.addWidget(timeline)
-    show(qtbot, pane, 640, 130)
+    gallery.show(pane, 640, 130)
     timeline.show_frames(frames())
     timeline.show_packets(packets(count))
     timeline.show_index(15)
-    matches_its_picture(pane, f"timeline-{name}-{theme}")
+    gallery.compare(pane, f"timeline-{name}-{theme}")

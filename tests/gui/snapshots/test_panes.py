@@ -6,18 +6,15 @@ only after both pictures were looked at. The new pictures are a commit of their 
 what looks different and why. It is wrong where a test fails for a reason that nobody knows.
 """
 
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 from accuracy_points import EACH_WAY
-from gui.kinds import SnapshotOf, show_widget
-from gui.snapshots.drawing import show
+from gui.kinds import SnapshotOf
+from gui.snapshots.gallery import Gallery
 from matches import match_with
 from PIL import Image
-from PySide6.QtWidgets import QWidget
-from pytestqt.qtbot import QtBot
 
 from occ_gui.accuracy.accuracy_view import AccuracyView
 from occ_gui.accuracy.cost_measurement import SceneCosts
@@ -47,44 +44,32 @@ from occ_model.study.effect_differences import CompleteSimulation
 from occ_model.teaching.equations import equations
 from occ_model.teaching.light_over_columns import exposure_window
 
-Matches = Callable[[QWidget, str], None]
 
-
-def test_the_picture_looks_as_stored(
-    qtbot: QtBot, snapshot_of: SnapshotOf, matches_its_picture: Matches
-) -> None:
-    view = ImageView()
-    show(qtbot, view, 480, 260)
+def test_the_picture_looks_as_stored(gallery: Gallery, snapshot_of: SnapshotOf) -> None:
+    view = gallery.show(ImageView(), 480, 260)
     view.show_snapshot(snapshot_of())
-    matches_its_picture(view, "picture")
+    gallery.compare(view, "picture")
 
 
-def test_the_profile_looks_as_stored(
-    qtbot: QtBot, snapshot_of: SnapshotOf, matches_its_picture: Matches
-) -> None:
-    view = ProfileView()
-    show(qtbot, view, 560, 260)
+def test_the_profile_looks_as_stored(gallery: Gallery, snapshot_of: SnapshotOf) -> None:
+    view = gallery.show(ProfileView(), 560, 260)
     view.show_reading(snapshot_of())
-    matches_its_picture(view, "profile")
+    gallery.compare(view, "profile")
 
 
 def test_the_steps_of_each_decoder_look_as_stored(
-    qtbot: QtBot, snapshot_of: SnapshotOf, matches_its_picture: Matches
+    gallery: Gallery, snapshot_of: SnapshotOf
 ) -> None:
-    view = DecodeView()
-    show(qtbot, view, 380, 560)
+    view = gallery.show(DecodeView(), 380, 560)
     snapshot = snapshot_of()
     view.show_reading(snapshot)
     for place, result in enumerate((snapshot.decoded, *snapshot.others)):
         view.decoders.setCurrentIndex(place)
-        matches_its_picture(view, f"decode-{result.decoder}")
+        gallery.compare(view, f"decode-{result.decoder}")
 
 
-def test_the_map_looks_as_stored(
-    qtbot: QtBot, small_scene: Scene, matches_its_picture: Matches
-) -> None:
-    view = MapView(("threshold", "matched"))
-    show(qtbot, view, 640, 280)
+def test_the_map_looks_as_stored(gallery: Gallery, small_scene: Scene) -> None:
+    view = gallery.show(MapView(("threshold", "matched")), 640, 280)
     x, y = lattice("switching_frequency", 13), lattice("distance", 7)
     rates = RateMap("switching_frequency", "distance", x, y, ("threshold", "matched"))
     points = [(column, row) for column in range(13) for row in range(7)]
@@ -107,18 +92,15 @@ def test_the_map_looks_as_stored(
     view.show_map(rates)
     view.show_scene(small_scene)
     view.show_progress(len(points), len(points), 1)
-    matches_its_picture(view, "map")
+    gallery.compare(view, "map")
 
 
-def test_the_accuracy_looks_as_stored(
-    qtbot: QtBot, snapshot_of: SnapshotOf, matches_its_picture: Matches
-) -> None:
+def test_the_accuracy_looks_as_stored(gallery: Gallery, snapshot_of: SnapshotOf) -> None:
     measured = snapshot_of(edge_time=5e-6, vignetting_exponent=2.0)
     # What a clock has measured is another each time.
     timings = {name: 1e-3 * place for place, name in enumerate(sorted(measured.frame.timings), 1)}
     snapshot = replace(measured, frame=replace(measured.frame, timings=timings))
-    view = AccuracyView()
-    show(qtbot, view, 1300, 280)
+    view = gallery.show(AccuracyView(), 1300, 280)
     view.show_settings(SimulationSettings())
     view.set_seen(True)
     view.show_snapshot(snapshot)
@@ -131,14 +113,11 @@ def test_the_accuracy_looks_as_stored(
     for number, point in enumerate(EACH_WAY, 1):
         view.plot.show_point(point, number, len(EACH_WAY))
     view.plot.show_study_finished()
-    matches_its_picture(view, "accuracy")
+    gallery.compare(view, "accuracy")
 
 
-def test_a_doubtful_match_looks_as_stored(
-    qtbot: QtBot, small_scene: Scene, matches_its_picture: Matches
-) -> None:
-    view = MatchResult()
-    show(qtbot, view, 360, 460)
+def test_a_doubtful_match_looks_as_stored(gallery: Gallery, small_scene: Scene) -> None:
+    view = gallery.show(MatchResult(), 360, 460)
     other = Alternative("the scene's chips", "1100", 0.95, -3.21, 7.2e-6, 2e3, 8e-5)
     match = match_with(
         scene=small_scene,
@@ -146,17 +125,14 @@ def test_a_doubtful_match_looks_as_stored(
         alternatives=(other,),
     )
     view.show_match(match, 7.9e-5)
-    matches_its_picture(view, "match-doubtful")
+    gallery.compare(view, "match-doubtful")
     view.show_outdated("of another part of the photo: match again", usable=False)
-    matches_its_picture(view, "match-outdated")
+    gallery.compare(view, "match-outdated")
 
 
-def test_the_bench_looks_as_stored(
-    qtbot: QtBot, small_scene: Scene, matches_its_picture: Matches
-) -> None:
+def test_the_bench_looks_as_stored(gallery: Gallery, small_scene: Scene) -> None:
     decoders = ("threshold", "sequence")
-    view = BenchView(decoders, decoders)
-    show(qtbot, view, 640, 420)
+    view = gallery.show(BenchView(decoders, decoders), 640, 420)
     view.show_begun(request_of(BenchChoice(PUBLISHED, decoders, 1000), small_scene))
     view.show_points(
         [
@@ -171,17 +147,14 @@ def test_the_bench_looks_as_stored(
         ]
     )  # fmt: skip
     view.show_ended("")
-    matches_its_picture(view, "bench")
+    gallery.compare(view, "bench")
 
 
-def test_the_bars_look_as_stored(
-    qtbot: QtBot, small_scene: Scene, matches_its_picture: Matches
-) -> None:
-    view = BandsView()
-    show(qtbot, view, 760, 620)
+def test_the_bars_look_as_stored(gallery: Gallery, small_scene: Scene) -> None:
+    view = gallery.show(BandsView(), 760, 620)
     lamp = small_scene.replace(pattern="1110", switching_frequency=800.0, exposure_time=2e-3)
     view.show_bands(shown_bands(lamp))
-    matches_its_picture(view, "bands")
+    gallery.compare(view, "bands")
 
 
 PAGE = """\
@@ -207,40 +180,31 @@ The last words.
 """
 
 
-def test_the_three_doors_look_as_stored(qtbot: QtBot, matches_its_picture: Matches) -> None:
-    dialog = show_widget(qtbot, WelcomeDialog())
-    matches_its_picture(dialog, "welcome")
+def test_the_three_doors_look_as_stored(gallery: Gallery) -> None:
+    dialog = gallery.show(WelcomeDialog())
+    gallery.compare(dialog, "welcome")
 
 
-def test_a_page_of_the_manual_looks_as_stored(
-    qtbot: QtBot, matches_its_picture: Matches, tmp_path: Path
-) -> None:
+def test_a_page_of_the_manual_looks_as_stored(gallery: Gallery, tmp_path: Path) -> None:
     (tmp_path / "index.md").write_text("* [A page](page.md): about it\n", encoding="utf-8")
     (tmp_path / "page.md").write_text(PAGE, encoding="utf-8")
     Image.new("RGB", (900, 60), (60, 120, 180)).save(tmp_path / "picture.png")
-    manual = HelpWindow(tmp_path)
-    show(qtbot, manual, 520, 470)
+    manual = gallery.show(HelpWindow(tmp_path), 520, 470)
     manual.show_page("page.md")
-    matches_its_picture(manual, "manual")
+    gallery.compare(manual, "manual")
 
 
-def test_the_explanation_looks_as_stored(
-    qtbot: QtBot, matches_its_picture: Matches, snapshot_of: SnapshotOf
-) -> None:
-    view = ExplanationView()
-    show(qtbot, view, 400, 360)
+def test_the_explanation_looks_as_stored(gallery: Gallery, snapshot_of: SnapshotOf) -> None:
+    view = gallery.show(ExplanationView(), 400, 360)
     scene = snapshot_of().frame.scene
     view.equations.show_equations(equations(scene), frozenset())
     view.exposure.show_column(100, scene.camera.columns, True)
     view.exposure.show_window(exposure_window(scene, 100), 42.25)
-    matches_its_picture(view, "explanation")
+    gallery.compare(view, "explanation")
 
 
-def test_the_pane_of_a_photo_looks_as_stored(
-    qtbot: QtBot, matches_its_picture: Matches, photo: Photo
-) -> None:
-    view = PhotoView()
-    show(qtbot, view, 400, 420)
+def test_the_pane_of_a_photo_looks_as_stored(gallery: Gallery, photo: Photo) -> None:
+    view = gallery.show(PhotoView(), 400, 420)
     view.show_scene(Scene())
     view.show_photo(photo)
-    matches_its_picture(view, "photo")
+    gallery.compare(view, "photo")

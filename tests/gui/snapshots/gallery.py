@@ -1,17 +1,22 @@
-"""Draws a widget, and tells how far two pictures of it differ for an eye.
+"""Draws widgets, and tells how far their pictures differ from the stored ones for an eye.
 
 Both are taken tile by tile, and the worst tile counts: in a mean over the whole picture a legend
 that has gone would drown in the white around it.
 """
 
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
+from gui.kinds import Widget, show_widget
 from numpy.typing import NDArray
+from PIL import Image
 from PySide6.QtGui import QImage
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 from skimage.metrics import structural_similarity
+
+PICTURES = Path(__file__).with_name("pictures")
 
 TILE = 24
 """The side of a tile in pixels: a line of text, or two ticks of an axis."""
@@ -67,13 +72,6 @@ def difference(found: Colours, expected: Colours) -> Difference:
 _ROUNDS = 50
 
 
-def show(qtbot: QtBot, widget: QWidget, width: int, height: int) -> None:
-    qtbot.addWidget(widget)
-    widget.resize(width, height)
-    widget.show()
-    QApplication.processEvents()
-
-
 def drawn(widget: QWidget) -> Colours:
     """Draw a widget with one pixel a pixel, shape (height, width, 3)."""
     image = QImage(widget.size(), QImage.Format.Format_RGB888)
@@ -91,3 +89,32 @@ def settled(widget: QWidget) -> Colours:
         if len(pictures) > 3 and all(np.array_equal(p, pictures[-1]) for p in pictures[-4:-1]):
             return pictures[-1]
     raise AssertionError("the widget never comes to rest")
+
+
+class Gallery:
+    """Shows widgets, and compares them with their stored pictures, or stores these anew."""
+
+    def __init__(self, qtbot: QtBot, folder: Path, *, is_renewed: bool) -> None:
+        self._qtbot, self._folder, self._is_renewed = qtbot, folder, is_renewed
+
+    def show(self, widget: Widget, width: int = 0, height: int = 0) -> Widget:
+        show_widget(self._qtbot, widget, width, height)
+        QApplication.processEvents()
+        return widget
+
+    def compare(self, widget: QWidget, name: str) -> None:
+        path, found = PICTURES / f"{name}.png", settled(widget)
+        if self._is_renewed:
+            # Refined by k-means: a rare colour would be lost among many greys otherwise.
+            Image.fromarray(found).quantize(256, kmeans=1).save(path, optimize=True)
+            return
+        assert path.exists(), f"{path} is missing: pytest --renew-snapshots stores it"
+        with Image.open(path) as picture:
+            seen = difference(found, np.asarray(picture.convert("RGB")))
+        new = self._folder / path.name
+        Image.fromarray(found).save(new)
+        assert seen.is_small, (
+            f"{new} differs from {path}: {seen}; allowed: a similarity from "
+            f"{LEAST_SIMILARITY} and a colour to {MOST_COLOUR}. Look at both; if the new one is "
+            "as it should be, pytest --renew-snapshots stores it."
+        )

@@ -58,6 +58,16 @@ def each_room_is_seen_and_read_once(
 
 
 @pytest.fixture
+def one_look(each_room_is_seen_and_read_once: None, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let every room look as the first: most of what a drag changes follows from no picture."""
+    remembered: Any = jobs
+    frame = remembered.render_room(ROOM, noise="reused")
+    reading = remembered.read_room(frame.camera_image, ROOM)
+    monkeypatch.setattr(jobs, "render_room", lambda *_, **__: frame)
+    monkeypatch.setattr(jobs, "read_room", lambda *_: reading)
+
+
+@pytest.fixture
 def bench(qtbot: QtBot, small_scene: Scene) -> PaneBench:
     bench = PaneBench(qtbot, small_scene)
     workspace = replace(bench.store.workspace, room=RoomChoice("mine", ROOM))
@@ -99,7 +109,7 @@ def drag(
 
 
 def test_a_drag_is_one_step_and_undo_looks_from_the_former_place(
-    bench: PaneBench, pane: RoomPane, qtbot: QtBot
+    one_look: None, bench: PaneBench, pane: RoomPane, qtbot: QtBot
 ) -> None:
     plan, stack = pane.view.plan, bench.store.undo_stack
     aside = ROOM.replace(camera=aimed_at(ROOM.camera, 0.2, 0.2, plan_of(ROOM).height))
@@ -124,7 +134,7 @@ def test_a_drag_is_one_step_and_undo_looks_from_the_former_place(
 
 
 def test_a_camera_that_looks_straight_up_is_moved_by_its_ring_and_turned_by_its_triangle(
-    pane: RoomPane, qtbot: QtBot
+    one_look: None, pane: RoomPane, qtbot: QtBot
 ) -> None:
     plan, before = pane.view.plan, pane.room.camera
     assert (plan.aim.pos().x(), plan.aim.pos().y()) == pytest.approx((before.x, before.y))
@@ -140,7 +150,7 @@ def test_a_camera_that_looks_straight_up_is_moved_by_its_ring_and_turned_by_its_
 
 
 def test_what_is_undone_while_the_pane_is_hidden_is_no_figure_any_more(
-    bench: PaneBench, pane: RoomPane, qtbot: QtBot
+    one_look: None, bench: PaneBench, pane: RoomPane, qtbot: QtBot
 ) -> None:
     pane.view.plan.camera.setPos(0.3, 0.5)
     qtbot.waitUntil(lambda: pane.shown is not None)
@@ -204,7 +214,7 @@ def test_a_dragged_camera_is_looked_from_and_the_old_place_goes(
     assert pane.room.camera.roll == 0.4
 
 
-@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("seed", range(2))
 def test_a_camera_is_aimed_at_a_point_by_turning_it(seed: int) -> None:
     random = np.random.default_rng([25, seed])
     place = Place(z=0.5, roll=float(random.uniform(-3, 3)))
@@ -217,7 +227,7 @@ def test_a_camera_is_aimed_at_a_point_by_turning_it(seed: int) -> None:
 
 
 def test_a_file_is_named_in_place_of_the_room_and_what_is_no_room_or_no_photo_is_told(
-    pane: RoomPane, tmp_path: Path, qtbot: QtBot
+    one_look: None, pane: RoomPane, tmp_path: Path, qtbot: QtBot
 ) -> None:
     rooms = pane.view.rooms
     rooms.textActivated.emit("corridor")
@@ -255,7 +265,7 @@ def test_the_figure_has_the_true_place_and_the_one_found(pane: RoomPane, qtbot: 
 
 
 def test_the_map_is_that_of_the_study_and_goes_with_the_turn_that_it_is_of(
-    pane: RoomPane, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+    one_look: None, pane: RoomPane, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(jobs, "SIDE", 1)
     view, aim = pane.view, pane.view.plan.aim

@@ -5,13 +5,12 @@ import pytest
 from gui.kinds import collect, show_widget
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QTextCursor
-from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.video.film_reading import FilmReading
 from occ_gui.video.recording_form import RecordingForm
-from occ_gui.video.video_view import DataView, VideoView
+from occ_gui.video.video_view import DataView
 from occ_model.results.fact import Fact
 from occ_model.scene.recording import DECLARED
 from occ_model.scene.scene import Scene
@@ -73,17 +72,6 @@ def test_figures_stand_in_their_order_above_what_is_not_sure(view: DataView, qtb
     assert view.sentences.text() == "One.\nTwo."
     view.show_reading(reading())
     assert not view.sentences.isVisible()
-
-
-def test_only_the_page_that_is_shown_takes_height_from_the_pictures(qtbot: QtBot) -> None:
-    view = show_widget(qtbot, VideoView(), 760, 560)
-    view.rows.rows.show()  # as with a frame
-    heights = []
-    for page in (0, 1, 0):
-        view.pages.setCurrentIndex(page)
-        QApplication.processEvents()
-        heights.append(view.pictures.height())
-    assert heights[1] + 100 < heights[0] == pytest.approx(heights[2], abs=2)
 
 
 @pytest.fixture

@@ -106,15 +106,6 @@ def test_no_film_is_no_trouble(qtbot: QtBot) -> None:
     assert timeline.index == 0
 
 
-@pytest.mark.parametrize("points", [8, 12, 20])
-def test_the_names_of_the_rows_fit_beside_them_in_any_font(timeline: Timeline, points: int) -> None:
-    font = timeline.font()
-    font.setPointSize(points)
-    timeline.setFont(font)
-    room = timeline.x_of(0.0)
-    assert room > timeline.fontMetrics().horizontalAdvance("packets")
-
-
 @given(st.lists(st.sampled_from(list(MarkState)), min_size=1, max_size=300), st.integers(1, 40))
 def test_bins_hold_each_mark_once(states: list[MarkState], bins: int) -> None:
     times = np.arange(len(states)) / 30.0

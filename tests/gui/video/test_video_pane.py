@@ -1,6 +1,5 @@
 """The mode Video: a film is opened, read, played and closed; a camera is read and released."""
 
-import json
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -13,7 +12,6 @@ from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
-from occ_gui.files.session import SessionFile
 from occ_gui.values.film_choice import FilmChoice
 from occ_gui.video.film_reading import MarkState
 from occ_gui.video.wiring import VideoWiring
@@ -67,7 +65,7 @@ def test_a_film_is_opened_read_and_seen_beside_the_simulation_along_either_axis(
     assert axis.key() == "lines"
 
 
-def test_the_menu_opens_and_closes_a_film(
+def test_the_menu_opens_and_closes_a_film_which_stays_open_where_the_next_is_none(
     application: Application, user: User, film_file: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(QFileDialog, "getOpenFileName", lambda *_: (str(film_file), ""))
@@ -76,6 +74,12 @@ def test_the_menu_opens_and_closes_a_film(
     user.choose("Open &film")
     user.wait_until_idle()
     assert close.isEnabled()
+    damaged = film_file.with_name("damaged.mp4")
+    damaged.write_bytes(b"no film")
+    application.files.open_film(damaged)
+    user.wait_until_idle()
+    assert "damaged.mp4 is not a film that can be read" in user.message
+    assert (application.video.path, close.isEnabled()) == (film_file, True)
     user.choose("C&lose film")
     assert not close.isEnabled()
     assert application.video.path is None
@@ -83,57 +87,15 @@ def test_the_menu_opens_and_closes_a_film(
 
 
 @pytest.mark.own_window
-def test_a_film_that_was_never_seen_can_be_closed(
+def test_a_film_of_the_last_session_can_be_closed_unseen_and_opens_when_the_mode_is_first_shown(
     application: Application, user: User, film_file: Path
 ) -> None:
-    """As one of the last session, whose pane is not in front."""
-    assert application.shell.made_pane("video") is None
     assert application.shell.is_idle
     store = application.store.store
-    store.put(replace(store.workspace, film=FilmChoice().opened(film_file)))
+    store.put(replace(store.workspace, film=FilmChoice(film_file)))
     user.choose("C&lose film")
     assert application.video.path is None
     assert not application.window.actions_by_name["close_film"].isEnabled()
-
-
-@pytest.mark.own_window
-def test_what_is_no_film_is_a_sentence_and_what_was_open_stays(
-    application: Application, user: User, film_file: Path, tmp_path: Path
-) -> None:
-    damaged = tmp_path / "damaged.mp4"
-    damaged.write_bytes(b"no film")
-    for before in (None, film_file):
-        if before is not None:
-            application.video.open(before)
-            user.wait_until_idle()
-        application.files.open_film(damaged)
-        user.wait_until_idle()
-        assert "damaged.mp4 is not a film that can be read" in user.message
-        assert application.video.path == before
-        close = application.window.actions_by_name["close_film"]
-        assert close.isEnabled() == (before is not None)
-
-
-def test_the_session_keeps_the_film(
-    application: Application, user: User, film_file: Path, tmp_path: Path
-) -> None:
-    file = SessionFile(tmp_path / "state")
-    application.session.begin(file, is_scene_asked=True)
-    application.video.open(film_file)
-    user.wait_until_idle()
-    application.session.write()
-    record = json.loads((tmp_path / "state" / "session-1.json").read_text())
-    assert record["film"]["path"] == str(film_file)
-    application.session.end()
-    last = not_none(SessionFile(tmp_path / "state").last)
-    assert last.workspace.film.path == film_file
-
-
-@pytest.mark.own_window
-def test_a_kept_film_is_opened_when_the_mode_is_first_shown(
-    application: Application, user: User, film_file: Path
-) -> None:
-    store = application.store.store
     store.put(replace(store.workspace, film=FilmChoice(film_file)))
     assert application.video.path == film_file
     assert application.shell.made_pane("video") is None

@@ -7,14 +7,12 @@ import pytest
 from gui.kinds import add_widget, collect
 from gui.stores import store_of
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QTextDocumentFragment
 from PySide6.QtWidgets import QAbstractSpinBox, QComboBox, QLabel, QLineEdit, QSlider, QWidget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.scene.control_panel import MAIN, ControlPanel
 from occ_gui.scene.parameter_panel import ParameterPanel
 from occ_gui.scene.parameter_rows import ChoiceRow, CountRow, PatternRow, QuantityRow
-from occ_gui.scene.refusal_notice import RefusalNotice
 from occ_gui.scene.scene_editor import SceneEditor
 from occ_gui.scene.scene_store import SceneStore
 from occ_model.scene.parameters import PARAMETERS
@@ -155,36 +153,6 @@ def form(qtbot: QtBot) -> ParameterPanel:
     return add_widget(qtbot, ParameterPanel(NAMES))
 
 
-def labels_of(form: ParameterPanel) -> list[QLabel]:
-    labels = form.findChildren(QLabel)
-    return [label for label in labels if not isinstance(label, RefusalNotice)]
-
-
-def test_rows_stand_in_the_order_asked_for_under_their_labels(form: ParameterPanel) -> None:
-    form.show()
-    labels = labels_of(form)
-    texts = [QTextDocumentFragment.fromHtml(label.text()).toPlainText() for label in labels]
-    assert texts == ["Distance d", "Bits", "Readout time tr"]
-    assert list(form.rows) == list(NAMES)
-    tops = [
-        widget.y()
-        for pair in zip(labels, form.rows.values(), strict=True)
-        for widget in pair
-    ]  # fmt: skip
-    assert tops == sorted(tops)
-
-
-def test_a_label_sets_the_symbol_in_italics_and_explains_as_its_control_does(
-    form: ParameterPanel,
-) -> None:
-    texts = [label.text() for label in labels_of(form)]
-    assert texts[0].endswith("<i>d</i>")
-    assert texts[2].endswith("<i>t</i><sub>r</sub>")
-    for label, row in zip(labels_of(form), form.rows.values(), strict=True):
-        assert isinstance(row, QuantityRow | CountRow)
-        assert label.toolTip() == row.field.toolTip()
-
-
 def test_a_row_that_was_moved_shows_the_scene_again(form: ParameterPanel) -> None:
     scene = Scene().replace(distance=0.7)
     form.show_scene(scene)
@@ -213,16 +181,3 @@ def test_a_row_does_not_receive_the_value_that_it_sent(
     assert received == []
     store.undo_stack.undo()
     assert received == ["distance"]
-
-
-def test_below_the_last_slider_is_room_for_the_foot_and_for_nothing_else(qtbot: QtBot) -> None:
-    """In a low window it is the foot, what the colours mean, that has to go."""
-    panel, foot = ParameterPanel(MAIN, with_scales=True), QLabel("foot")
-    qtbot.addWidget(panel)
-    panel.add_foot(foot)
-    panel.resize(400, panel.sizeHint().height())
-    panel.show()
-    last = panel.rows[MAIN[-1]].geometry()
-    assert foot.height() == foot.sizeHint().height()
-    assert panel.height() - foot.geometry().bottom() <= 4
-    assert foot.geometry().top() - last.bottom() <= 6

@@ -30,21 +30,16 @@ def test_each_forced_effect_is_named_in_the_order_of_light() -> None:
     assert everything.split(", ") == [f"{effect.label} on by hand" for effect in EFFECTS]
 
 
-def test_the_list_is_seen_while_effects_are_forced(application: Application, user: User) -> None:
-    listed = application.controls.forced
-    assert not listed.isVisible()
-    application.store.force("jpeg", False)
+def test_the_list_is_seen_while_effects_are_forced_and_a_click_gives_all_back_to_the_plan(
+    by_hand: Application, user: User
+) -> None:
+    listed = by_hand.controls.forced
     assert listed.isVisible()
-    assert listed.text.text() == "JPEG off by hand"
-    user.choose("&Undo")
-    assert not listed.isVisible()
-
-
-def test_a_click_gives_all_effects_back_to_the_plan(by_hand: Application, user: User) -> None:
-    by_hand.controls.forced.back.click()
+    assert listed.text.text() == "Vignetting on by hand, JPEG off by hand"
+    listed.back.click()
     user.wait_until_idle()
     assert forced(by_hand) == {}
-    assert not by_hand.controls.forced.isVisible()
+    assert not listed.isVisible()
     assert by_hand.view("accuracy").table._force == {}
     user.choose("&Undo")
     assert forced(by_hand) == {"jpeg": False, "vignetting": True}

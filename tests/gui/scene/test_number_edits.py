@@ -2,7 +2,6 @@
 
 import pytest
 from gui.kinds import add_widget, collect
-from gui.scene.told import QUANTITIES
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QAbstractSpinBox
 from pytestqt.qtbot import QtBot
@@ -43,10 +42,7 @@ class Field:
 @pytest.mark.parametrize(
     ("name", "text", "value", "shown"),
     [
-        ("switching_frequency", "10 kHz", 10e3, "10 kHz"),
-        ("exposure_time", "136us", 136e-6, "136 µs"),
         ("exposure_time", "1/8000 s", 1 / 8000, "125 µs"),
-        ("distance", "60 cm", 0.6, "0.6 m"),
         ("iso", " 400 ", 400.0, "400"),
     ],
 )
@@ -61,32 +57,15 @@ def test_what_people_write_is_read_to_the_exact_si_value(
     assert field.edit.text() == shown
 
 
-@pytest.mark.parametrize(
-    ("name", "before", "text", "value"),
-    [
-        ("switching_frequency", 10e3, "14", 14e3),
-        ("exposure_time", 2e-3, "1", 1e-3),
-        ("distance", 1.2, "2", 2.0),
-    ],
-)
-def test_a_plain_number_is_read_in_the_unit_that_is_shown(
-    qtbot: QtBot, name: str, before: float, text: str, value: float
-) -> None:
-    field = Field(name, qtbot)
-    field.edit.set_value(before)
-    field.enter(text)
-    assert field.edited == [value]
+def test_a_plain_number_is_read_in_the_unit_that_is_shown(qtbot: QtBot) -> None:
+    field = Field("exposure_time", qtbot)
+    field.edit.set_value(2e-3)
+    field.enter("1")
+    assert field.edited == [1e-3]
 
 
 @pytest.mark.parametrize(
-    ("name", "text"),
-    [
-        ("exposure_time", "soon"),
-        ("exposure_time", ""),
-        ("exposure_time", "10 kHz"),
-        ("distance", "1e999"),
-        ("reflectance", "1.5"),
-    ],
+    ("name", "text"), [("exposure_time", "soon"), ("exposure_time", ""), ("reflectance", "1.5")]
 )
 def test_an_impossible_value_is_refused_and_the_last_restored(
     qtbot: QtBot, name: str, text: str
@@ -101,12 +80,8 @@ def test_an_impossible_value_is_refused_and_the_last_restored(
     assert (field.edit.value(), field.edit.text()) == (before, shown)
 
 
-@pytest.mark.parametrize("declared", QUANTITIES, ids=lambda declared: declared.name)
-def test_leaving_an_untouched_field_emits_and_rounds_nothing(
-    qtbot: QtBot, declared: Quantity
-) -> None:
-    field = Field(declared.name, qtbot)
-    third = declared.slider[0] + (declared.slider[1] - declared.slider[0]) / 3
+def test_leaving_an_untouched_field_emits_and_rounds_nothing(qtbot: QtBot) -> None:
+    field, third = Field("distance", qtbot), 4 / 3
     field.edit.set_value(third)
     field.press(Qt.Key.Key_Return)
     field.edit.editingFinished.emit()
@@ -145,10 +120,9 @@ def test_arrow_keys_step_by_one_fraction_along_the_scale_from_what_was_typed(qtb
     assert linear.edit.value() == pytest.approx(3.03)
 
 
-@pytest.mark.parametrize("declared", QUANTITIES, ids=lambda declared: declared.name)
-def test_steps_end_where_the_slider_ends(qtbot: QtBot, declared: Quantity) -> None:
-    field = Field(declared.name, qtbot)
-    low, high = declared.slider
+def test_steps_end_where_the_slider_ends(qtbot: QtBot) -> None:
+    field = Field("distance", qtbot)
+    low, high = quantity("distance").slider
     flags = QAbstractSpinBox.StepEnabledFlag
     for end, key, enabled in (
         (high, Qt.Key.Key_Up, flags.StepDownEnabled),
@@ -161,23 +135,9 @@ def test_steps_end_where_the_slider_ends(qtbot: QtBot, declared: Quantity) -> No
     assert field.edited == []
 
 
-def test_the_field_is_wide_enough_for_every_value_a_slider_shows(qtbot: QtBot) -> None:
-    for declared in QUANTITIES:
-        field = Field(declared.name, qtbot).edit
-        field.resize(field.minimumSizeHint())
-        room = field.lineEdit().width() - field.lineEdit().textMargins().left() - 6
-        for step in range(0, 1001, 7):
-            text = declared.format(declared.at(step / 1000))
-            assert field.fontMetrics().horizontalAdvance(text) <= room, text
-
-
 @pytest.mark.parametrize(
     ("name", "value", "number"),
-    [
-        ("switching_frequency", 10.07e3, "10.07"),
-        ("yaw", -0.5235987755982988, "-30"),
-        ("iso", 1250.0, "1250"),
-    ],
+    [("switching_frequency", 10.07e3, "10.07"), ("yaw", -0.5235987755982988, "-30")],
 )
 def test_a_double_click_selects_the_whole_number_and_a_third_click_all(
     qtbot: QtBot, name: str, value: float, number: str
@@ -194,17 +154,6 @@ def test_a_double_click_selects_the_whole_number_and_a_third_click_all(
     assert line.selectedText() == line.text()
 
 
-def test_a_number_typed_over_a_double_clicked_one_replaces_its_decimals(qtbot: QtBot) -> None:
-    field = Field("switching_frequency", qtbot)
-    field.edit.set_value(14.07e3)
-    line = field.edit.lineEdit()
-    line.setCursorPosition(1)
-    qtbot.mouseDClick(line, Qt.MouseButton.LeftButton, pos=line.cursorRect().center())
-    qtbot.keyClicks(line, "20")
-    field.press(Qt.Key.Key_Return)
-    assert field.edit.value() == 20e3
-
-
 def test_a_bare_number_that_hardly_means_the_unit_shown_is_asked_for_its_unit(qtbot: QtBot) -> None:
     field = Field("switching_frequency", qtbot)
     field.enter("10 kHz")
@@ -219,18 +168,15 @@ def test_a_bare_number_that_hardly_means_the_unit_shown_is_asked_for_its_unit(qt
 
 
 @pytest.mark.parametrize(
-    ("text", "value"), [("1200", 1200), (" 7 ", 7), ("0x10", 16), ("0b101", 5), ("007", 7)]
+    ("text", "value"), [("0x10", 16), ("1.5", None), ("99999999", None), ("", None)]
 )
-def test_a_whole_number_is_read_in_any_notation(qtbot: QtBot, text: str, value: int) -> None:
-    assert typed(qtbot, text) == (value, [], [value])
-
-
-@pytest.mark.parametrize("text", ["1,5", "1.5", "1,000", "99999999", "0", "-3", "soon", ""])
-def test_what_is_no_allowed_count_is_refused_once(qtbot: QtBot, text: str) -> None:
-    value, refused, changes = typed(qtbot, text)
-    assert value == 640
-    assert len(refused) == 1
-    assert changes == []
+def test_a_whole_number_is_read_in_any_notation_or_refused_once(
+    qtbot: QtBot, text: str, value: int | None
+) -> None:
+    shown, refused, changes = typed(qtbot, text)
+    assert shown == (640 if value is None else value)
+    assert changes == ([] if value is None else [value])
+    assert len(refused) == (value is None)
 
 
 def typed(qtbot: QtBot, text: str) -> tuple[int, list[str], list[int]]:

@@ -1,12 +1,18 @@
 """A slider runs by itself, is undone as one change, and tells where the picture changes."""
 
+import numpy as np
 import pytest
+from gui.kinds import add_widget
 from gui.pane_bench import ControlsBench
-from PySide6.QtWidgets import QToolTip
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QFontMetricsF
+from PySide6.QtWidgets import QSlider, QToolTip, QWidget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
 from occ_gui.scene.slider_scale import SliderScale
+from occ_model.results.teaching import MarkedValue
+from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 
 NAME = "switching_frequency"
@@ -91,3 +97,24 @@ def test_the_marks_follow_the_scene(application: Application) -> None:
     application.store.change(exposure_time=15e-6)
     assert [mark.value for mark in scale.marks] == pytest.approx([1 / 15e-6])
     QToolTip.hideText()
+
+
+def test_a_mark_is_named_wherever_it_stands_and_an_end_gives_way(qtbot: QtBot) -> None:
+    whole, gamma = add_widget(qtbot, QWidget()), quantity("gamma")
+    slider = QSlider(Qt.Orientation.Horizontal, whole)
+    scale = SliderScale(slider, gamma, whole)
+    for part in (slider, scale):
+        part.setGeometry(0, 0, 170, 30)
+    metrics = QFontMetricsF(scale._font())
+    low, high = gamma.slider
+    kept = []
+    for fraction in np.linspace(0.0, 1.0, 41):
+        scale.show_marks([MarkedValue(float(low + fraction * (high - low)), "t = 1 chip", "")])
+        ends, names = scale._texts(metrics)
+        assert [name for name, _ in names] == ["t = 1 chip"]
+        assert not any(box.intersects(names[0][1]) for _, box in ends)
+        kept.append(len(ends))
+    assert set(kept) == {1, 2}
+    assert kept[20] == 2, "in the middle both ends keep their values"
+    scale.show_marks([])
+    assert len(scale._texts(metrics)[0]) == 2

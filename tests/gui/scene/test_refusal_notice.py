@@ -1,24 +1,17 @@
 """A refused value has its sentence at its field, until it is mended."""
 
-import pytest
-from gui.kinds import add_widget, not_none
-from gui.pane_bench import ControlsBench
 from gui.stores import store_of
 from gui.user import User
-from PySide6.QtCore import QPoint, QRect, Qt
-from PySide6.QtGui import QPalette
+from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QWidget
+from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
 from occ_gui.scene.number_edits import CountEdit
 from occ_gui.scene.parameter_rows import QuantityRow, row_for
 from occ_gui.scene.refusal_notice import RefusalNotice
-from occ_gui.widgets.colours import contrast
-from occ_gui.window.theme import palette_of
 from occ_model.scene.parameters import PARAMETERS, count
-from occ_model.scene.scene import Scene
 
 
 def reds(field: QWidget) -> int:
@@ -128,38 +121,3 @@ def test_a_refused_field_is_framed_red_and_described(qtbot: QtBot) -> None:
     notice.end()
     assert field.accessibleDescription() == ""
     assert reds(field) == before
-
-
-@pytest.mark.parametrize("theme", ["dark", "light"])
-def test_the_sentence_can_be_read_in_both_themes(
-    qtbot: QtBot, qapp: QApplication, theme: str
-) -> None:
-    before = qapp.palette()
-    field = add_widget(qtbot, CountEdit(count("columns")))
-    notice = RefusalNotice(field)
-    notice.show_problem("Columns cannot be 0.")
-    qapp.setPalette(palette_of(theme))
-    qapp.processEvents()
-    ink = notice.palette().color(notice.foregroundRole())
-    qapp.setPalette(before)
-    assert contrast(ink, palette_of(theme).color(QPalette.ColorRole.Window)) >= 4.5
-
-
-@pytest.mark.parametrize("name", ["exposure_time", "distance"])
-def test_a_sentence_moves_nothing_and_lies_beside_its_field_within_the_page(
-    qtbot: QtBot, small_scene: Scene, name: str
-) -> None:
-    bench = ControlsBench(qtbot, small_scene)
-    rows = bench.controls.panels["Main"].rows
-    before = [row.geometry() for row in rows.values()]
-    bench.enter(name, "0")
-    qtbot.wait(1)
-    assert [row.geometry() for row in rows.values()] == before
-    notice, edit = bench.row(name).notice, bench.row(name).field
-    page = not_none(notice.parentWidget())
-    field = QRect(edit.mapTo(page, QPoint()), edit.size())
-    assert page.rect().contains(notice.geometry())
-    assert not notice.geometry().intersects(field)
-    assert notice.height() >= notice.heightForWidth(notice.width())
-    qtbot.mouseClick(notice, Qt.MouseButton.LeftButton)
-    assert notice.isHidden()

@@ -268,14 +268,6 @@ def test_each_change_is_emitted_once_and_leaves_the_rest(heard: Told) -> None:
     assert len(heard.changes) == 6
 
 
-def test_settings_once_emitted_never_change(heard: Told) -> None:
-    force = {"jpeg": True}
-    heard.switch(force)
-    before = heard.changes[0]
-    force["jpeg"] = False
-    assert before.force == {"jpeg": True}
-
-
 @pytest.mark.parametrize("tolerance", [-1.0, float("nan")])
 def test_a_tolerance_that_cannot_be_is_refused_with_a_sentence(
     heard: Told, tolerance: float

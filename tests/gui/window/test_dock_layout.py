@@ -31,10 +31,8 @@ from occ_gui.app.application import Application
 from occ_gui.core.workspace import Workspace
 from occ_gui.detection_map.rate_map import RateMap, lattice
 from occ_gui.values.photo_choice import MODES
-from occ_gui.window.modes import MODES as WINDOW_MODES
 from occ_model.results.sweep_request import SweepPoint
 from occ_model.scene.scene import Scene
-from occ_model.teaching.lessons import lessons
 
 CONTROLS = (QLabel, QPushButton, QLineEdit, QAbstractSpinBox, QComboBox, QCheckBox, QSlider)
 LEAST, LARGE = QSize(1000, 700), QSize(1920, 1080)
@@ -121,11 +119,6 @@ def axis_labels_cut_off(window: QWidget) -> list[str]:
         for axis in axes
         if axis.label.boundingRect().width() > max(axis.width(), axis.height())
     ]
-
-
-def plots_cut_off(window: QWidget) -> list[str]:
-    plots = [plot for plot in window.findChildren(pg.PlotWidget) if plot.isVisible()]
-    return [describe(plot) for plot in plots if not behind(plot) and cut_off(plot.viewport())]
 
 
 def assert_faultless(qtbot: QtBot, window: QWidget, what: object) -> None:
@@ -227,107 +220,6 @@ def test_the_map_is_whole_and_readable_at_every_size(
     assert application.window.size() == size
 
 
-@pytest.mark.whole
-@pytest.mark.own_window
-@pytest.mark.parametrize("size", SIZES, ids=lambda size: f"{size.width()}x{size.height()}")
-def test_explaining_and_comparing_panes_are_whole_at_any_size(
-    qtbot: QtBot, application: Application, user: User, size: QSize
-) -> None:
-    window, pins = application.window, application.pins
-    window.resize(size)
-    for changes in STATES[:2]:
-        pins.pin("A")
-        window.bring_to_front("equations")
-        window.bring_to_front("compare")
-        application.store.change(**changes)
-        user.wait_until_idle()
-        pins.pin("B")
-        application.view("picture").before.chosen.setChecked(True)
-        assert_faultless(qtbot, window, changes)
-        assert axis_labels_cut_off(window) == []
-        assert plots_cut_off(window) == []
-    window.bring_to_front("lessons")
-    assert_faultless(qtbot, window, "list of lessons")
-    for place in (0, 2):
-        application.shell.pane("lessons").view.list.choices[place].click()
-        application.shell.pane("lessons").view.step.reveal.click()
-        user.wait_until_idle()
-        assert_faultless(qtbot, window, "answer")
-        application.shell.pane("lessons").view.step.all.click()
-    assert window.size() == size
-
-
-@pytest.mark.whole
-@pytest.mark.own_window
-def test_no_mode_and_no_step_of_a_lesson_needs_a_larger_window_than_the_least_screen_has(
-    application: Application, user: User, qtbot: QtBot
-) -> None:
-    window, least = application.window, QSize(1000, 700)
-    window.resize(least)
-    for mode in WINDOW_MODES:
-        window.modes.switch(mode)
-        QApplication.processEvents()
-        needed = window.minimumSizeHint()
-        assert needed.boundedTo(least) == needed, mode
-    user.choose("&Lessons")
-    guide, found = application.shell.pane("lessons").view, lessons().lessons
-    qtbot.waitUntil(lambda: bool(guide.list.choices))
-    for place, lesson in enumerate(found):
-        guide.list.choices[place].click()
-        for step in lesson.steps:
-            if step.pane == "accuracy":
-                user.wait_until_idle()  # its table is filled
-            QApplication.processEvents()
-            needed = window.minimumSizeHint()
-            assert needed.boundedTo(least) == needed, (lesson.title, step.goal)
-            guide.step.next.click()
-        guide.end.all.click()
-    assert window.size() == least  # nor was it widened while panes changed
-
-
-@pytest.mark.whole
-def test_a_lesson_has_the_height_of_the_window_beside_what_it_shows_below(
-    application: Application, user: User, qtbot: QtBot
-) -> None:
-    window = application.window
-    window.resize(1280, 800)
-    user.choose("&Lessons")
-    guide, docks = application.shell.pane("lessons").view, window.docks
-    qtbot.waitUntil(lambda: bool(guide.list.choices))
-    (place,) = (i for i, each in enumerate(lessons().lessons) if each.steps[0].pane == "accuracy")
-    guide.list.choices[place].click()
-    qtbot.waitUntil(lambda: not docks["accuracy"].visibleRegion().isEmpty())
-    user.wait_until_idle()
-    qtbot.waitUntil(lambda: docks["lessons"].height() > 600)
-    assert docks["accuracy"].geometry().right() < docks["lessons"].geometry().left()
-    guide.step.all.click()
-    assert docks["accuracy"].isHidden()
-
-
-@pytest.mark.parametrize("size", SIZES, ids=lambda size: f"{size.width()}x{size.height()}")
-def test_every_axis_label_fits_its_axis(application: Application, user: User, size: QSize) -> None:
-    application.window.resize(size)
-    application.store.change(**MISREAD)
-    user.wait_until_idle()
-    QApplication.processEvents()
-    for decoder in range(application.view("decode").decoders.count()):
-        application.view("decode").decoders.setCurrentIndex(decoder)
-        QApplication.processEvents()
-        assert axis_labels_cut_off(application.window) == []
-
-
-def test_every_effect_is_in_view_at_the_windows_first_size(application: Application) -> None:
-    application.window.bring_to_front("accuracy")
-    QApplication.processEvents()
-    table = application.view("accuracy").table
-    assert table.model().rowCount() * table.rowHeight(0) <= table.viewport().height()
-
-
-@pytest.mark.own_window
-def test_the_window_opens_at_1280_by_800(application: Application) -> None:
-    assert application.window.size() == QSize(1280, 800)
-
-
 @pytest.mark.parametrize(
     "changes",
     [STATES[0], *(pytest.param(each, marks=pytest.mark.whole) for each in STATES[1:])],
@@ -337,6 +229,7 @@ def test_the_window_opens_at_the_requested_size_for_any_scene(
     qtbot: QtBot, small_scene: Scene, changes: dict[str, float]
 ) -> None:
     fresh = Application(Workspace(small_scene.replace(**changes)))
+    assert fresh.window.size() == QSize(1280, 800)
     fresh.window.resize(LEAST)
     fresh.window.show()
     qtbot.waitUntil(lambda: fresh.is_idle)
@@ -345,13 +238,3 @@ def test_the_window_opens_at_the_requested_size_for_any_scene(
     fresh.window.close()
     fresh.window.deleteLater()
     assert size == LEAST
-
-
-def test_both_steps_of_the_decoder_share_the_height(application: Application, user: User) -> None:
-    application.window.resize(LARGE)
-    application.store.change(**MISREAD)
-    user.wait_until_idle()
-    QApplication.processEvents()
-    pane = application.view("decode")
-    heights = [plot.height() for plot in (pane.signal, pane.run_lengths)]
-    assert min(heights) >= 0.5 * max(heights)

@@ -2,39 +2,30 @@
 
 import re
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 import pytest
 from gui.user import User
 from PySide6.QtCore import QObject, Qt
-from PySide6.QtGui import QAction, QGuiApplication
+from PySide6.QtGui import QAction
 from PySide6.QtWidgets import (
     QAbstractButton,
     QAbstractSlider,
     QAbstractSpinBox,
-    QApplication,
     QComboBox,
-    QDialog,
-    QFileDialog,
-    QInputDialog,
     QLineEdit,
     QMenu,
     QMenuBar,
-    QMessageBox,
     QScrollBar,
     QTabBar,
-    QTextBrowser,
     QWidget,
 )
 from pytestqt.qtbot import QtBot
-from shiboken6 import isValid
 
 from occ_gui.app.application import Application
-from occ_gui.widgets.plain_text import plain
 from occ_gui.window.command_lists import entries
 
 READ_LATER = ("Fit gamma too",)
@@ -160,107 +151,6 @@ def test_no_two_entries_share_keys_nor_two_of_a_menu_a_letter_that_each_has_or_i
         lists = ("Open recent", "Open sample photo", "View", "Animation of a slider")
         by_name = path.endswith(lists) or any(text.startswith(name) for name in names)
         assert "&" in text or by_name, (path, text)
-
-
-class Dialogs:
-    """Notes every dialog that would have opened, and leaves it."""
-
-    def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
-        self.opened: list[str] = []
-        self.photos: list[object] = []
-        for kind, name, answer in (
-            (QFileDialog, "getOpenFileName", ("", "")),
-            (QFileDialog, "getOpenFileNames", ([], "")),
-            (QFileDialog, "getSaveFileName", ("", "")),
-            (QFileDialog, "getExistingDirectory", ""),
-            (QInputDialog, "getText", ("", False)),
-            (QInputDialog, "getItem", ("", False)),
-            (QMessageBox, "about", None),
-            (QDialog, "exec", 0),
-        ):
-            monkeypatch.setattr(kind, name, self._answer(name, answer))
-
-    def _answer(self, name: str, answer: Any) -> Callable[..., Any]:
-        def note(*_arguments: Any, **_named: Any) -> Any:
-            self.opened.append(name)
-            return answer
-
-        return note
-
-
-@pytest.fixture
-def dialogs(monkeypatch: pytest.MonkeyPatch) -> Dialogs:
-    return Dialogs(monkeypatch)
-
-
-def looks(application: Application, dialogs: Dialogs) -> list[Any]:
-    """Return all that an entry could change."""
-    window = application.window
-    image = application.view("picture")
-    return [
-        application.store.scene,
-        application.settings.settings,
-        window.statusBar().currentMessage(),
-        list(dialogs.opened),
-        [dock.isHidden() for dock in window.docks.values()],
-        [(action.isChecked(), action.isEnabled()) for _, action in all_entries(application)],
-        [dock.visibleRegion().isEmpty() for dock in window.docks.values()],
-        [button.isEnabled() for button in window.findChildren(QAbstractButton)],
-        len(dialogs.photos),
-        image.mode.key(),
-        window.modes.mode,
-        image.simulation.box.viewRange(),
-        application.photos.choice.reading,
-        application.options.theme.theme,
-        not application.shell.pane("photo").matching.work.task.is_idle,
-        window.windowTitle(),
-        window.saveState().toBase64().data(),
-        QGuiApplication.clipboard().image().size(),
-        [widget.isVisible() for widget in image.findChildren(QWidget)],
-        [browser.source() for browser in window.findChildren(QTextBrowser)],
-    ]
-
-
-@pytest.mark.whole
-@pytest.mark.own_window
-def test_each_entry_of_the_menus_does_something(
-    with_photo: Application, user: User, dialogs: Dialogs
-) -> None:
-    application = with_photo
-    closed: list[bool] = []
-    application.window.actions_by_name["quit"].triggered.disconnect()
-    application.window.actions_by_name["quit"].triggered.connect(lambda: closed.append(True))
-    application.store.change(iso=200.0)
-    application.store.change(iso=300.0)
-    application.photos.opened.connect(dialogs.photos.append)
-    found = all_entries(application)
-    idle = set()
-    for place, (path, action) in enumerate([*found, *found]):
-        if not isValid(action):  # of a list that has been made anew meanwhile
-            continue
-        if plain(action.text()) == "Quit" or not action.isEnabled():
-            continue
-        if action.actionGroup() is not None and action.isChecked():
-            continue  # it holds already
-        name = f"{path} > {plain(action.text())}"
-        if place >= len(found) and name not in idle:
-            continue  # what does nothing only where it holds already has another try
-        if place >= len(found):
-            application.store.change(iso=100.0 + place)
-            application.window.bring_to_front("decode")
-            user.wait_until_idle()
-        application.view("picture").simulation.box.setRange(xRange=(3, 9), yRange=(3, 9))
-        application.window.statusBar().clearMessage()
-        before = looks(application, dialogs)
-        action.trigger()
-        user.wait_until_idle()
-        QApplication.processEvents()
-        if looks(application, dialogs) == before:
-            idle.add(name)
-        else:
-            idle.discard(name)
-    assert not idle, "\n".join(idle)
-    application.options.theme.choose("system")
 
 
 def test_each_entry_is_connected(application: Application) -> None:

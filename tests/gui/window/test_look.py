@@ -8,15 +8,7 @@ from gui.kinds import add_widget
 from gui.user import User
 from PySide6.QtCore import QPoint, QRect
 from PySide6.QtGui import QFont, QImage, QPainter, QPalette
-from PySide6.QtWidgets import (
-    QApplication,
-    QComboBox,
-    QLabel,
-    QMainWindow,
-    QPushButton,
-    QStyle,
-    QStyleOptionButton,
-)
+from PySide6.QtWidgets import QApplication, QLabel, QPushButton, QStyle, QStyleOptionButton
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
@@ -91,31 +83,6 @@ def test_a_button_can_be_read_in_every_state(
     painter.end()
     text = ROLE.HighlightedText if checked else ROLE.ButtonText
     assert contrast(palette.color(text), image.pixelColor(40, 12)) >= 4.5
-
-
-@pytest.mark.qt_log_ignore("This plugin does not support")
-@pytest.mark.parametrize("count", [2, 4])
-def test_a_list_shows_all_its_entries(qtbot: QtBot, count: int) -> None:
-    window = add_widget(qtbot, QMainWindow())
-    window.setStyleSheet(style_sheet(palette_of("light")))
-    box = QComboBox()
-    box.addItems([f"Decoder: number {place}" for place in range(count)])
-    window.setCentralWidget(box)
-    window.show()
-    QApplication.processEvents()
-    box.showPopup()
-    QApplication.processEvents()
-    view = box.view()
-    last = view.visualRect(box.model().index(count - 1, 0))
-    assert last.height() >= 20
-    assert view.viewport().rect().bottom() >= last.bottom()
-    box.hidePopup()
-
-
-def test_plots_are_white_or_nearly_black() -> None:
-    light, dark = (palette_of(theme).color(ROLE.Base) for theme in THEMES)
-    assert light.name() == "#ffffff"
-    assert dark.lightness() < 30
 
 
 def test_the_sheet_has_the_colours_of_the_palette_only() -> None:
@@ -215,22 +182,3 @@ def test_the_size_is_kept_for_the_next_start(resized: Application, user: User) -
     kept = resized.preferences.recall("view/text_percent")
     assert kept == str(SIZES[1])
     assert user.message == f"Text at {SIZES[1]} %"
-
-
-@pytest.mark.parametrize(
-    "percent", [SIZES[-1], *(pytest.param(s, marks=pytest.mark.whole) for s in SIZES[:-1])]
-)
-def test_larger_text_is_not_cut_in_bars_and_buttons(
-    resized: Application, user: User, qtbot: QtBot, percent: int
-) -> None:
-    window = resized.window
-    window.resize(1280, 800)
-    resized.options.text_size.choose(percent)
-    user.wait_until_idle()
-    story, bar = resized.story, resized.story.verdict
-    legend, buttons = story.rows.legend, [story.whole, *story.rows.ranges.values()]
-    qtbot.waitUntil(lambda: bar.title.text() == bar.heading)
-    qtbot.waitUntil(lambda: all(b.width() >= b.minimumSizeHint().width() for b in buttons))
-    qtbot.waitUntil(lambda: all(b.height() >= b.minimumSizeHint().height() for b in buttons))
-    qtbot.waitUntil(lambda: legend.height() >= legend.heightForWidth(legend.width()))
-    assert (window.size().width(), window.size().height()) == (1280, 800)

@@ -1,21 +1,13 @@
 """Menus and docks: every entry does something, every pane can be hidden and shown again."""
 
 from collections.abc import Iterator
-from functools import partial
 from pathlib import Path
 
 import pytest
 from gui.kinds import collect, show_widget
 from PySide6.QtCore import QMimeData, Qt, QUrl
 from PySide6.QtGui import QAction, QDragEnterEvent, QDropEvent
-from PySide6.QtWidgets import (
-    QApplication,
-    QGraphicsView,
-    QMainWindow,
-    QMenu,
-    QTabBar,
-    QWidget,
-)
+from PySide6.QtWidgets import QApplication, QGraphicsView, QMainWindow, QMenu, QWidget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
@@ -35,18 +27,6 @@ def menus(menu: QWidget) -> Iterator[QMenu]:
 
 def entries(menu: QMenu) -> list[QAction]:
     return [a for a in menu.actions() if not a.isSeparator() and a.menu() is None]
-
-
-def test_nothing_is_deleted_beside_quit_and_presets_are_deleted_where_they_are_saved(
-    application: Application,
-) -> None:
-    actions = application.window.actions_by_name
-    (file,) = [menu for menu in menus(application.window.menuBar()) if menu.title() == "&File"]
-    assert actions["quit"] in file.actions()
-    assert actions["delete_preset"] not in file.actions()
-    found = [entries(menu) for menu in menus(application.window.menuBar())]
-    (photo,) = [each for each in found if actions["delete_preset"] in each]
-    assert photo.index(actions["delete_preset"]) == photo.index(actions["save_match"]) + 1
 
 
 def test_every_dock_can_be_hidden_and_shown_again(application: Application) -> None:
@@ -95,27 +75,6 @@ def test_one_entry_of_a_choice_is_marked_at_a_time(
         assert application.view("picture").mode.key() == entries[1].data()
 
 
-def test_there_are_as_many_bars_of_tabs_as_groups_of_panes(
-    application: Application, qtbot: QtBot
-) -> None:
-    window = application.window
-
-    def tabs() -> list[list[str]]:
-        found = [bar for bar in window.findChildren(QTabBar) if bar.parent() is window]
-        return [
-            [bar.tabText(place) for place in range(bar.count())] for bar in found if bar.isVisible()
-        ]
-
-    def is_shown(wanted: list[list[str]]) -> bool:
-        return sorted(tabs()) == wanted
-
-    for mode in ("photo", "explore", "limits", "photo"):
-        window.modes.switch(mode)
-        of_photo = [["Column profile", "Photos"], ["Photo", "Scene"]]
-        wanted = of_photo if mode == "photo" else []
-        qtbot.waitUntil(partial(is_shown, wanted))
-
-
 def test_the_window_alone_takes_drops_of_files_and_reports_them(
     application: Application, tmp_path: Path
 ) -> None:
@@ -135,36 +94,6 @@ def test_the_window_alone_takes_drops_of_files_and_reports_them(
     assert reported == [[tmp_path / "a.png"]]
     takers = [w for w in application.window.findChildren(QWidget) if w.acceptDrops()]
     assert takers == []
-
-
-@pytest.mark.parametrize("height", [800, pytest.param(1080, marks=pytest.mark.whole)])
-@pytest.mark.own_window
-def test_a_pane_that_opens_below_the_middle_is_high_enough(
-    application: Application, qtbot: QtBot, height: int
-) -> None:
-    window = application.window
-    window.resize(1280, height)
-    window.bring_to_front("compare")
-    compare = window.docks["compare"]
-    qtbot.waitUntil(lambda: compare.height() > 0.25 * height)
-    # The height that the user gives it stays, also when it is brought to the front again.
-    window.resizeDocks([compare], [180], Qt.Orientation.Vertical)
-    qtbot.waitUntil(lambda: compare.height() < 0.25 * height)
-    given = compare.height()
-    window.bring_to_front("compare")
-    qtbot.wait(50)
-    assert compare.height() == given
-
-
-@pytest.mark.parametrize(("name", "side"), [("compare", "height"), ("equations", "width")])
-def test_a_pane_that_the_menu_opens_is_large_enough(
-    application: Application, qtbot: QtBot, name: str, side: str
-) -> None:
-    window = application.window
-    window.resize(1280, 800)
-    dock = window.docks[name]
-    dock.toggleViewAction().trigger()
-    qtbot.waitUntil(lambda: getattr(dock, side)() >= 0.25 * getattr(window, side)())
 
 
 @pytest.fixture

@@ -100,26 +100,6 @@ def test_a_hidden_pane_is_shown_in_the_mode_about_it(
         assert window.modes.mode == home
 
 
-@pytest.mark.parametrize(("width", "with_icons"), [(1000, False), (1120, True)])
-def test_the_narrowest_usual_window_shows_every_mode_beside_the_tools_and_a_wider_one_its_icon(
-    application: Application, qtbot: QtBot, width: int, with_icons: bool
-) -> None:
-    window, tabs = application.window, bar(application)
-    window.resize(width, 700)
-    widths = set()
-
-    def is_arranged(place: int) -> bool:
-        has_icon = not tabs.tabIcon(place).isNull()
-        return has_icon >= with_icons and tabs.tabRect(len(NAMES) - 1).right() < tabs.width()
-
-    for place, mode in enumerate(NAMES):
-        window.modes.switch(mode)
-        qtbot.waitUntil(partial(is_arranged, place))
-        widths.add(tabs.sizeHint().width())
-    assert len(widths) == 1, "the tabs move when another one is chosen"
-    assert all(b.isVisible() for b in window.toolbar.buttons.values())
-
-
 @pytest.mark.parametrize("mode", ["limits", "effects"])
 def test_the_pane_of_a_mode_has_most_of_the_window(
     application: Application, qtbot: QtBot, mode: str
@@ -136,18 +116,6 @@ def test_the_pane_of_a_mode_has_most_of_the_window(
 
         qtbot.waitUntil(check)
         assert window.size() == size
-
-
-def test_a_mode_that_was_left_in_a_wider_window_does_not_widen_it(application: Application) -> None:
-    window = application.window
-    window.resize(1920, 1000)
-    QApplication.processEvents()
-    window.modes.switch("effects")
-    window.resize(1000, 700)
-    QApplication.processEvents()
-    window.modes.switch("explore")
-    QApplication.processEvents()
-    assert window.size() == QSize(1000, 700)
 
 
 class Widths(QObject):

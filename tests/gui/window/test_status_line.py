@@ -2,13 +2,10 @@
 
 import pytest
 from gui.kinds import show_widget
-from gui.user import User
 from PySide6.QtCore import QRect
-from PySide6.QtGui import QImage
-from PySide6.QtWidgets import QApplication, QLabel, QStatusBar, QWidget
+from PySide6.QtWidgets import QApplication, QLabel, QStatusBar
 from pytestqt.qtbot import QtBot
 
-from occ_gui.app.application import Application
 from occ_gui.window.status_line import StatusLine
 
 LONG = "Switching frequency is '1,000 Hz', which means 1 Hz or 1 kHz, " * 6
@@ -38,9 +35,9 @@ def line(qtbot: QtBot) -> StatusLine:
     return show_widget(qtbot, StatusLine())
 
 
-@pytest.mark.parametrize("width", [300, 800, 1280])
-@pytest.mark.parametrize("points", [9, 16, 24])
-@pytest.mark.parametrize("works", [False, True])
+@pytest.mark.parametrize(
+    ("width", "points", "works"), [(300, 24, True), (800, 9, False), (1280, 16, True)]
+)
 def test_texts_never_overlap(line: StatusLine, width: int, points: int, works: bool) -> None:
     font = line.font()
     font.setPointSize(points)
@@ -55,17 +52,6 @@ def test_texts_never_overlap(line: StatusLine, width: int, points: int, works: b
         QApplication.processEvents()
         assert len(texts_of(line)) >= (3 if width > 300 else 0)
         check_texts(line)
-
-
-def test_a_message_has_its_fraction_of_the_line(line: StatusLine) -> None:
-    line.resize(800, 24)
-    line.showMessage(LONG)
-    line.pointed.set_full_text(POINTED * 3)
-    line.show_timing(1e6, 1e6)
-    line.reading.show()
-    QApplication.processEvents()
-    (message,) = [place for label, place in texts_of(line) if LONG.startswith(label.text()[:20])]
-    assert message.width() >= 0.3 * 800
 
 
 def test_a_long_message_ends_in_dots_and_is_whole_in_the_tip(line: StatusLine) -> None:
@@ -114,31 +100,3 @@ def test_times_are_shown_in_milliseconds(line: StatusLine) -> None:
     QApplication.processEvents()
     texts = [label.text() for label in line.findChildren(QLabel)]
     assert "simulated in 12.3 ms, read in 2500.0 ms" in texts
-
-
-def test_nothing_is_painted_outside_the_labels(line: StatusLine) -> None:
-    line.resize(800, 24)
-    QApplication.processEvents()
-    bare = picture_of(line)
-    line.showMessage(LONG)
-    for widget in line.findChildren(QLabel):
-        widget.setStyleSheet("color: transparent")
-    QApplication.processEvents()
-    assert picture_of(line) == bare
-
-
-def picture_of(widget: QWidget) -> QImage:
-    return widget.grab().toImage()
-
-
-def test_the_narrowest_window_keeps_its_texts_apart(application: Application, user: User) -> None:
-    window = application.window
-    window.resize(1600, 700)
-    QApplication.processEvents()
-    window.resize(800, 600)  # or as narrow as its panes can be
-    window.pointed.set_full_text(POINTED)
-    user.enter("switching_frequency", "1,000 Hz")
-    QApplication.processEvents()
-    assert window.width() < 1000
-    assert len(texts_of(window.statusBar())) == 3
-    check_texts(window.statusBar())

@@ -175,25 +175,6 @@ def test_a_refused_known_value_says_why_at_its_field_until_mended(
     assert len(refused) == 4
 
 
-def test_a_field_that_is_no_longer_asked_for_has_no_sentence(view: LiveView, qtbot: QtBot) -> None:
-    view.show_scene(occ.Scene())
-    field = view.form.known["switching_frequency"]
-
-    def refuse() -> None:
-        field.selectAll()
-        qtbot.keyClicks(field, "soon")
-        qtbot.keyClick(field, Qt.Key.Key_Return)
-        assert view.form.notices[field].text()
-
-    refuse()
-    choose(qtbot, view.form.estimate, "switching_frequency")
-    assert view.form.notices[field].text() == ""
-    choose(qtbot, view.form.estimate, "readout_time")
-    refuse()
-    view.show_scene(occ.Scene().replace(iso=200.0))
-    assert view.form.notices[field].text() == ""
-
-
 @pytest.mark.parametrize("how", ["another photo", "several photos"])
 def test_what_was_certain_of_one_photo_is_said_to_be_assumed_of_the_next(
     view: LiveView, photo: Photo, qtbot: QtBot, how: str

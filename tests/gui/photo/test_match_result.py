@@ -109,14 +109,9 @@ def test_what_was_not_estimated_is_not_shown(view: LiveView, match: Match) -> No
     ("value", "spread", "text"),
     [
         (14.5777e-6, 2.7e-10, "14.57770 ± 0.00027 µs"),
-        (14.5777e-6, 3e-6, "14.6 ± 3.0 µs"),
-        (14.5777e-6, 40e-6, "15 ± 40 µs"),
-        (0.0, 1e-7, "0 ± 100 ns"),
         (8e-6, None, "8 µs"),
         (8e-6, float("nan"), "8 µs"),
-        (8e-6, float("inf"), "8 µs"),
         (8e-6, 0.0, "8 µs"),
-        (8e-6, 1e-30, "8 µs"),
     ],
 )
 def test_a_value_has_the_digits_that_its_uncertainty_allows(

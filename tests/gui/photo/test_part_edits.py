@@ -10,18 +10,22 @@ import pytest
 from gui.kinds import not_none, show_widget
 from gui.mouse import drag_mouse
 from gui.photo.photo_bench import PhotoBench
+from matches import match_with
 from PySide6.QtCore import QPointF
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.files.session_record import kept_in
+from occ_gui.photo.many.rows_model import VERDICT
 from occ_gui.photo.pane import PhotoPane
 from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.picture.image_view import ImageView
-from occ_gui.values.photo_choice import PhotoChoice
+from occ_gui.values.photo_choice import PhotoChoice, PhotoReading
+from occ_gui.values.photo_results import FoundMatch, ListedRows
 from occ_model.photo.reading.load import Photo
 from occ_model.results.decoding import Region
 from occ_model.results.lamp import Lamp
+from occ_model.results.photo_table import PhotoRow
 from occ_model.scene.scene import Scene
 
 
@@ -108,16 +112,6 @@ def test_a_click_within_a_lamp_chooses_it_and_its_outline_alone_is_thick(bench: 
     assert bench.parts.part is None
 
 
-def test_the_table_of_many_lamps_is_no_higher_than_of_some(bench: Bench) -> None:
-    heights = []
-    for number in (1, 2, 6, 7, 40):
-        bench.form.show_lamps(LAMPS[:1] * number, None)
-        heights.append(bench.form.table.height())
-    one, two, six, seven, forty = heights
-    assert two - one == (six - two) / 4 > 0
-    assert six == seven == forty
-
-
 def test_a_rectangle_is_clipped_to_the_photo(bench: Bench, photo: Photo) -> None:
     _rows, columns = photo.image.shape
     bench.outlines.drawn.emit(Region(-20, 30, 40, columns + 500))
@@ -146,6 +140,10 @@ def test_the_rectangle_dragged_is_the_one_matched(bench: Bench) -> None:
     rectangle.setPos((9.5, 4.5), finish=False)
     rectangle.setSize((30, 20))
     assert bench.parts.part == Region(5, 25, 10, 40)
+    bench.parts.draw(Region(6, 26, 11, 41))
+    corner, size = rectangle.pos(), rectangle.size()
+    # A pixel's centre has a whole number.
+    assert (corner.x(), corner.y(), size.x(), size.y()) == (10.5, 5.5, 30.0, 20.0)
     bench.form.whole.click()
     assert bench.parts.part is None
     assert not bench.form.by_hand.isChecked()
@@ -173,19 +171,14 @@ def test_a_drag_with_the_tool_on_draws_the_rectangle(
     assert corners == pytest.approx((5, 25, 10, 40), abs=1)
 
 
-def test_a_region_stays_when_the_channel_is_changed(bench: Bench, photo: Photo) -> None:
-    bench.parts.draw(Region(5, 25, 10, 40))
-    bench.show_photo(replace(photo, channel="red"))
-    assert bench.parts.part == Region(5, 25, 10, 40)
-    bench.show_photo(replace(photo, path=Path("other.png")))
-    assert bench.parts.part is None
-
-
-def test_a_region_comes_back_with_its_photo(bench: Bench, photo: Photo) -> None:
+def test_a_region_stays_with_another_channel_and_comes_back_with_its_photo(
+    bench: Bench, photo: Photo
+) -> None:
     """Going through the rows of the table of photos opens one after the other."""
     drawn, other = Region(5, 25, 10, 40), replace(photo, path=Path("other.png"))
     bench.parts.draw(drawn)
-    for shown, region in ((other, None), (photo, drawn), (other, None)):
+    red = replace(photo, channel="red")
+    for shown, region in ((red, drawn), (other, None), (photo, drawn), (other, None)):
         bench.show_photo(shown)
         assert bench.parts.part == region
     bench.parts.draw(Region(30, 50, 60, 90))
@@ -209,17 +202,15 @@ def photo_in(record: Mapping[str, object]) -> PhotoChoice:
     return kept.workspace.photo
 
 
-@pytest.mark.parametrize("damaged", ["x", {"first_row": 1}, [1, 2, 3, 4], 7])
 @pytest.mark.parametrize("form", ["former", "present"])
-def test_a_damaged_region_is_left_out(damaged: object, form: str, photo: Photo) -> None:
-    def read(region: object) -> PhotoChoice:
-        path = str(photo.path)
-        former = {"photo": path, "region": region}
-        return photo_in(former if form == "former" else {"photo": {"path": path, "region": region}})
-
-    found = read(damaged)
-    assert (found.path, found.rectangle) == (photo.path, None)
-    assert read(asdict(Region(1, 2, 3, 4))).rectangle == Region(1, 2, 3, 4)
+def test_a_damaged_region_is_left_out(form: str, photo: Photo) -> None:
+    for kept, region in (
+        ("x", None), ({"first_row": 1}, None), (asdict(Region(1, 2, 3, 4)), Region(1, 2, 3, 4)),
+    ):  # fmt: skip
+        record = {"path": str(photo.path), "region": kept}
+        former = {"photo": str(photo.path), "region": kept}
+        found = photo_in(former if form == "former" else {"photo": record})
+        assert (found.path, found.rectangle) == (photo.path, region)
 
 
 def test_a_rectangle_by_hand_begins_with_the_chosen_lamp_or_in_the_middle(
@@ -239,17 +230,6 @@ def test_a_rectangle_by_hand_begins_with_the_chosen_lamp_or_in_the_middle(
     assert bench.parts.part == LAMPS[2].region
 
 
-def test_a_rectangle_lies_around_its_pixels_and_each_corner_moves_by_itself(bench: Bench) -> None:
-    bench.parts.draw(Region(5, 25, 10, 40))
-    rectangle = bench.outlines.rectangle
-    corner, size = rectangle.pos(), rectangle.size()
-    # A pixel's centre has a whole number.
-    assert (corner.x(), corner.y(), size.x(), size.y()) == (9.5, 4.5, 30.0, 20.0)
-    for handle in rectangle.handles:
-        assert handle["pos"] + handle["center"] == pg.Point(1.0, 1.0)
-    assert bench.parts.part == Region(5, 25, 10, 40)
-
-
 def test_lamps_are_searched_when_the_button_is_pressed(
     bench: Bench, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -259,3 +239,16 @@ def test_lamps_are_searched_when_the_button_is_pressed(
     assert not bench.pane.is_idle
     qtbot.waitUntil(bench.form.search.isEnabled)
     assert bench.form.table.rowCount() == len(LAMPS)
+
+
+def test_a_row_of_the_table_says_that_its_photo_was_matched_by_itself_since(
+    bench: Bench, photo: Photo
+) -> None:
+    row, many = PhotoRow(photo.path, "sure", "", match_with()), bench.pane.view.many
+    many.show_files((photo.path,))
+    many.show_row(0, row, 1)
+    listed = replace(bench.board.results, listed=ListedRows((row,), PhotoReading(), 1e4))
+    own = replace(listed, match=FoundMatch(photo, None, match_with(), 1e4))
+    for results, is_earlier in ((listed, False), (own, True), (listed, False)):
+        bench.board.put(results)
+        assert ("earlier match" in many.rows.text(0, VERDICT)) == is_earlier

@@ -1,7 +1,6 @@
 """Pane of the photo: its steps, its facts, a failed match, and its placement."""
 
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 
 import pytest
@@ -9,7 +8,7 @@ from gui.combo_box import choose
 from gui.kinds import add_widget, collect
 from gui.photo.photo_bench import LiveView, spoken
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QApplication, QCommonStyle, QPushButton, QWidget
+from PySide6.QtWidgets import QPushButton, QWidget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.photo.photo_verdict import STEPS, PhotoSteps
@@ -55,17 +54,6 @@ def test_what_is_known_of_a_photo_is_shown_with_its_units(
     assert facts.notes.toolTip() == "125 µs, ISO 12800, f/1.8"
     with qtbot.waitSignal(facts.settings_asked):
         qtbot.mouseClick(facts.use_settings, Qt.MouseButton.LeftButton)
-
-
-def test_another_photo_is_shown_from_its_name_on(view: LiveView, photo: Photo) -> None:
-    view.resize(380, 300)
-    bar = view._scroll.verticalScrollBar()
-    QApplication.processEvents()
-    for path, place in ((photo.path, bar.maximum()), (photo.path.with_name("b.png"), 0)):
-        bar.setValue(bar.maximum())
-        view.open(replace(photo, path=path))
-        assert bar.value() == place
-    assert bar.maximum() > 0
 
 
 def test_every_channel_and_scan_axis_of_the_model_can_be_chosen(
@@ -147,16 +135,6 @@ def test_the_placement_reads_a_decimal_comma_and_refuses_the_rest(
     assert placed[-1].column == 13.0
 
 
-def test_nothing_of_the_page_is_cut_off_at_the_panes_least_width(
-    view: LiveView, match: Match
-) -> None:
-    view.show_matched(match)
-    view.resize(view.minimumSizeHint().width(), 700)
-    QApplication.processEvents()
-    assert view.width() == view.minimumSizeHint().width()
-    assert view._scroll.horizontalScrollBar().maximum() == 0
-
-
 @pytest.fixture
 def steps(qtbot: QtBot) -> PhotoSteps:
     return add_widget(qtbot, PhotoSteps())
@@ -197,32 +175,6 @@ def test_a_scene_that_differs_by_rounding_is_the_matched_one(
         assert spoken(view.steps)[3] == f"Apply: {word}"
         told = {chip.text for chip in view.verdict.chips.chips}
         assert ("not applied" in told) == (word != "done")
-
-
-def test_steps_are_styled_anew_only_where_they_change(
-    steps: PhotoSteps, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """At each move of a slider they are told of the scene."""
-    styled: list[str] = []
-
-    def note(name: str) -> QCommonStyle:
-        styled.append(name)
-        return QCommonStyle()
-
-    for name, button in steps.buttons.items():
-        monkeypatch.setattr(button, "style", partial(note, name))
-    steps.show_state(has_photo=False, match="", is_applied=False)
-    assert not styled
-    steps.show_state(has_photo=True, match="", is_applied=False)
-    assert set(styled) == set(STEPS)
-
-
-def test_a_click_goes_to_its_step(steps: PhotoSteps) -> None:
-    told = collect(steps.chosen)
-    steps.show_state(has_photo=True, match="sure", is_applied=False)
-    for button in steps.buttons.values():
-        button.click()
-    assert told == list(STEPS)
 
 
 def test_the_pane_leads_from_step_to_step(view: LiveView, qtbot: QtBot, photo: Photo) -> None:

@@ -208,33 +208,6 @@ def test_a_line_is_pasted_nowhere_while_its_frequency_is_only_assumed(view: Many
     assert view.work.progress.text() == "1 of 6"
 
 
-def test_the_table_has_room_for_some_rows_and_a_long_reason_leaves_the_times_in_view(
-    view: ManyPhotosView,
-) -> None:
-    view.show()
-    reason = "The stripes are smooth: a curve without any code explains them as well. " * 9
-    rows = (*ROWS[:3], replace(ROWS[3], note=reason), *ROWS[4:])
-    view.show_table(table_of(MatchSettings(occ.Scene()), rows))
-    assert view.table.columnWidth(NOTE) <= 280
-    bar = view.table.horizontalScrollBar()
-    bar.setValue(bar.maximum())
-    view.show_begun("readout_time", occ.Scene())
-    assert bar.value() == 0
-    room = view.table.minimumHeight() - view.table.horizontalHeader().sizeHint().height()
-    assert room >= 5 * view.table.verticalHeader().defaultSectionSize()
-
-
-def test_a_line_to_paste_is_seen_to_its_end(view: ManyPhotosView, qtbot: QtBot) -> None:
-    view.show_certain(CERTAIN)
-    view.resize(300, 700)
-    view.show()
-    view.show_table(table())
-    qtbot.waitUntil(lambda: view.paste.height() > 0)
-    for field in view.paste.lines.values():
-        assert field.wordWrap()
-        assert field.heightForWidth(field.width()) <= field.height()
-
-
 def marked(view: ManyPhotosView) -> list[str]:
     """Name the photos whose rows have the colours of a selection."""
     role = Qt.ItemDataRole.BackgroundRole

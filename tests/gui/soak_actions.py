@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 from film_source import FilmSource
+from gui.kinds import not_none
 from gui.mouse import turn_wheel, views_of
-from gui.soak_errands import Errands
 from PIL import Image
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QGuiApplication
@@ -28,6 +28,7 @@ from occ_gui.values.photo_choice import MODES
 from occ_gui.video.wiring import VideoWiring
 from occ_gui.window.theme import THEMES
 from occ_model.effects.registry import NAMES
+from occ_model.results.decoding import Region
 from occ_model.results.teaching import LessonList
 from occ_model.results.video import VideoFrame
 from occ_model.scene.parameter_kinds import Choice, Quantity
@@ -44,10 +45,13 @@ _PATIENCE_MS = 600_000
 
 
 _FIRST_SIZE = (1280, 800)
-_MANY = 60
 
 _NOTCHES = 100
 """Of the wheel, from one end to the other and farther."""
+
+_PHOTOS = 3
+_MOST_STEPS = 20
+"""More than any lesson has."""
 
 
 def smaller(scene: Scene) -> Scene:
@@ -95,10 +99,7 @@ class Monkey:
         self._dialogs, self._folder = dialogs, folder
         self._random = random.Random(seed)
         self._gesture = new_gesture()
-        scene = smaller(occ.load_preset("phone-68us"))
-        self._errands = Errands(
-            application, qtbot, dialogs.lay_ready, folder, scene, self._random
-        )  # fmt: skip
+        self._scene = smaller(occ.load_preset("phone-68us"))
         at, chance = application, self._random
         # In an order in which each finds at the first time what it needs.
         self._deeds: dict[Callable[[], object], int] = {
@@ -146,7 +147,15 @@ class Monkey:
             self.record_otherwise: 10,
             self.film_live: 6,
             self.close_the_film: 10,
-            **self._errands.deeds,
+            self.turn_the_wheel: 40,
+            self.choose_a_decoder: 20,
+            self.match_the_photo: 3,
+            self.find_the_lamps: 6,
+            self.choose_what_is_matched: 12,
+            self.match_several: 2,
+            self.keep_the_film: 3,
+            self.write_a_report: 2,
+            self.write_for_a_board: 3,
         }
         self._never_done = list(self._deeds)
 
@@ -176,7 +185,9 @@ class Monkey:
         self._films.live.stop_filming()
         self._films.films.player.pause()
         self._films.films.close()
-        self._errands.come_home()
+        self._application.view("photo").many.close_table.click()
+        self._application.view("decode").decoders.setCurrentIndex(0)
+        self._close_the_board()
         self._trigger("clear_pins")
         self.leave_the_lesson()
         self._application.options.theme.choose(THEMES[0])
@@ -253,7 +264,7 @@ class Monkey:
         if not path.exists():
             pictures = [Image.fromarray(frame.image) for frame in short_film()]
             pictures[0].save(path, save_all=True, append_images=pictures[1:], duration=40)
-        self._dialogs.path = path
+        self._dialogs.lay_ready(path)
         self._trigger("open_film")
 
     def close_the_film(self) -> None:
@@ -319,7 +330,7 @@ class Monkey:
         name = self._random.choice([*self._application.controls.main_rows()])
         # Not opened: the platform that draws no window warns that it cannot grab the keyboard.
         for menu in (story_menu(self._application), player.menu_of(name)):
-            self._dialogs.path = self._folder / "from-a-menu.png"
+            self._dialogs.lay_ready(self._folder / "from-a-menu.png")
             entries = [entry for entry in menu.actions() if entry.isEnabled() and entry.text()]
             self._random.choice(entries[:-1]).trigger()
             menu.deleteLater()
@@ -352,16 +363,16 @@ class Monkey:
         self._guide().step.all.click()
 
     def save_the_scene(self) -> None:
-        self._dialogs.path = self._folder / "scene.toml"
+        self._dialogs.lay_ready(self._folder / "scene.toml")
         self._trigger(self._random.choice(["save_scene", "save_scene_as"]))
 
     def open_the_saved_scene(self) -> None:
-        self._dialogs.path = self._folder / "scene.toml"
+        self._dialogs.lay_ready(self._folder / "scene.toml")
         self._trigger("open_scene")
 
     def export_a_figure(self) -> None:
         name = self._random.choice(list(self._application.shell.figures))
-        self._dialogs.path = self._folder / f"{name}{self._random.choice(ENDINGS)}"
+        self._dialogs.lay_ready(self._folder / f"{name}{self._random.choice(ENDINGS)}")
         self._trigger(f"export_{name}")
 
     def copy_a_figure(self) -> None:
@@ -372,24 +383,113 @@ class Monkey:
             self._application.shell.pane("export").copy(self._random.choice(list(titles)))
 
     def export_all(self) -> None:
-        self._dialogs.path = self._folder / "all"
+        self._dialogs.lay_ready(self._folder / "all")
         self._trigger("export_all")
-
-    def export_many(self) -> None:
-        """Export more figures in a row than a soak ever will.
-
-        Those that are drawn are collected only from time to time, and the heap stays as large as
-        they have made it.
-        """
-        for _ in range(_MANY):
-            self.export_a_figure()
-        self.wait()
 
     def open_an_exported_figure(self) -> None:
         self.wait()
         path = self._random.choice(sorted((self._folder / "all").iterdir()))
         if self._random.random() < 0.5:
-            self._dialogs.path = path
+            self._dialogs.lay_ready(path)
             self._trigger("open_scene")
         else:
             self._application.window.dropped.emit([path])
+
+    def _photos(self) -> list[Path]:
+        paths = [self._folder / f"photo {number}.png" for number in range(_PHOTOS)]
+        if not paths[-1].exists():
+            for number, path in enumerate(paths):
+                seen = self._scene.replace(start_time=number * 1e-4)
+                Image.fromarray(occ.render(seen).image).save(path)
+        return paths
+
+    def _open_a_photo(self) -> None:
+        self._application.window.dropped.emit([self._random.choice(self._photos())])
+        self.wait()
+
+    def turn_the_wheel(self) -> None:
+        seen = [view for view in views_of(self._application.window) if view.isVisible()]
+        if seen:  # some tasks show none
+            turn_wheel(self._random.choice(seen), self._random.choice([-9, -3, -1, 1, 3, 9]))
+
+    def choose_a_decoder(self) -> None:
+        tabs = self._application.view("decode").decoders
+        tabs.setCurrentIndex(self._random.randrange(tabs.count()))
+
+    def match_the_photo(self) -> None:
+        self._open_a_photo()
+        self._trigger("match")
+        if self._random.random() < 0.7:
+            self.wait()
+        self._trigger("apply_match")
+
+    def find_the_lamps(self) -> None:
+        self._open_a_photo()
+        self._application.view("photo").lamps.search.click()
+        if self._random.random() < 0.7:
+            self.wait()
+
+    def choose_what_is_matched(self) -> None:
+        form = self._application.view("photo").lamps
+        outlines = self._application.shell.pane("photo").outlines
+        if rows := form.table.rowCount():
+            form.table.selectRow(self._random.randrange(rows))
+        elif self._random.random() < 0.5:
+            form.by_hand.click()
+        else:
+            top, left = self._random.randrange(90), self._random.randrange(900)
+            outlines.drawn.emit(Region(top, top + 60, left, left + 300))
+        if self._random.random() < 0.3:
+            form.whole.click()
+
+    def match_several(self) -> None:
+        view = self._application.view("photo").many
+        self._application.window.dropped.emit(self._photos())
+        self.wait()
+        view.start.click()
+        if self._random.random() < 0.3:
+            self._qtbot.wait(300)
+            view.work.cancel.click()
+            return
+        self.wait()
+        self._dialogs.lay_ready(self._folder / "photos.csv")
+        self._random.choice([view.save, view.copy]).click()
+        view.table.clicked.emit(view.rows.index(self._random.randrange(_PHOTOS), 0))
+
+    def keep_the_film(self) -> None:
+        form = self._application.video.wiring.view.form
+        form.count.setValue(3)
+        self._dialogs.lay_ready(self._folder / "kept.mkv")
+        form.save.click()
+        if self._random.random() < 0.3:
+            form.saving.cancel.click()
+
+    def write_a_report(self) -> None:
+        self.choose_a_lesson()
+        guide = self._guide()
+        for _ in range(_MOST_STEPS):
+            if guide.step.isVisibleTo(guide):
+                guide.step.next.click()
+        self._dialogs.lay_ready(
+            self._folder / f"report.{self._random.choice(['pdf', 'md', 'png'])}"
+        )
+        guide.end.report.click()
+        self.wait()
+
+    def write_for_a_board(self) -> None:
+        self._trigger("transmitter")
+        transmitter = not_none(self._application.shell.made_pane("transmitter"))
+        dialog = not_none(transmitter.dialog)
+        dialog.board.setCurrentIndex(self._random.randrange(dialog.board.count()))
+        dialog.board.chosen.emit(dialog.board.key())
+        boards = self._folder / "boards" / str(self._random.random())
+        boards.mkdir(parents=True)
+        self._dialogs.lay_ready(boards)
+        dialog.save.click()
+        self.wait()
+        self._close_the_board()
+
+    def _close_the_board(self) -> None:
+        transmitter = self._application.shell.made_pane("transmitter")
+        if transmitter is not None and transmitter.dialog is not None:
+            transmitter.dialog.reject()

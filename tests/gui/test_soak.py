@@ -10,20 +10,20 @@ import logging
 import os
 import sys
 from collections.abc import Iterator
-from contextlib import suppress
 from functools import _lru_cache_wrapper
 from pathlib import Path
 from typing import Any, ClassVar
 
 import pytest
 from gui.soak_actions import FileDialogs, Monkey, smaller, smaller_lessons
-from gui.soak_errands import install_plugins
+from model.plugins.installed_package import forget_plugins, install
 from PySide6.QtGui import QGuiApplication
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
 from occ_gui.app.garbage_collection import GarbageCollector, give_memory_back
 from occ_gui.lessons import lesson_controller as lessons_room
+from occ_model import plugins
 
 ACTIONS = int(os.environ.get("OCC_SOAK", 120))
 _WINDOW = 5_000
@@ -37,31 +37,6 @@ use, up and down, and 1.355 to 1.359 million blocks.
 """
 
 
-_TRIM_THRESHOLD, _MMAP_THRESHOLD = -1, -3
-"""Numbers of the parameters of mallopt."""
-
-_AT_ONCE = 128 * 1024
-"""Bytes from which memory is given back as soon as it is free."""
-
-
-def keep_nothing_free() -> None:
-    """Let the process give back what it has freed.
-
-    By itself glibc comes to keep some 30 MB at the end of each thread's heap, which no
-    ``malloc_trim`` reaches, and now and then gives them back: more than what is looked for here.
-    """
-    with suppress(OSError, AttributeError):
-        libc = ctypes.CDLL("libc.so.6")
-        libc.mallopt(_TRIM_THRESHOLD, _AT_ONCE)
-        libc.mallopt(_MMAP_THRESHOLD, _AT_ONCE)
-
-
-def memory(line: str) -> float:
-    """Return a number of bytes that the system reports of this process."""
-    text = Path("/proc/self/status").read_text(encoding="ascii")
-    return 1024.0 * int(text.split(f"{line}:")[1].split()[0])
-
-
 def empty_bounded_caches() -> None:
     """Forget what caches of a stated size hold: more for some scenes than for others.
 
@@ -70,11 +45,6 @@ def empty_bounded_caches() -> None:
     for each in gc.get_objects():
         if isinstance(each, _lru_cache_wrapper) and each.cache_parameters()["maxsize"]:
             each.cache_clear()
-
-
-def forget_ignored_messages(log: Any) -> None:
-    """Forget the messages of Qt that pytest-qt keeps and does not look at."""
-    log._records[:] = [each for each in log._records if not each.ignored]
 
 
 class Allocated(ctypes.Structure):
@@ -97,86 +67,76 @@ def used_memory() -> tuple[float, int]:
     empty_bounded_caches()
     gc.collect()
     give_memory_back()
-    try:
-        report = ctypes.CDLL("libc.so.6").mallinfo2
-    except (OSError, AttributeError):
-        return memory("VmRSS"), sys.getallocatedblocks()
+    report = ctypes.CDLL("libc.so.6").mallinfo2
     report.restype = Allocated
     found = report()
     return float(found.uordblks + found.hblkhd), sys.getallocatedblocks()
 
 
-class Growth:
-    """What is used at the end of each window of actions, and what was at most within it."""
+PLUGINS = """
+import occ_model as occ
 
-    def __init__(self) -> None:
-        self.used: list[tuple[float, int]] = []
-        self._forget_the_peak()
+def read(signal, scene):
+    bits = scene.transmitter.payload_bits
+    return occ.read_payload(occ.DecodeResult("reads", signal=signal, chips=bits), scene)
 
-    def look(self, number: int) -> None:
-        """Look now, after so many actions, and print it."""
-        peak, left = memory("VmHWM"), memory("VmRSS")
-        self.used.append(used_memory())
-        (used, blocks), there = self.used[-1], memory("VmRSS")
-        each = [f"{value / 1e6:.1f}" for value in (peak, left, there, used)]
-        print(  # noqa: T201
-            number, "actions, MB at most, at rest, without caches, and in use:", *each,
-            "and blocks of Python:", blocks, flush=True,
-        )  # fmt: skip
-        self._forget_the_peak()
+def fail(signal, scene):
+    raise ValueError("not today")
 
-    @staticmethod
-    def _forget_the_peak() -> None:
-        Path("/proc/self/clear_refs").write_text("5", encoding="ascii")
+reads = occ.Decoder("reads", "Reads", read)
+fails = occ.Decoder("fails", "Fails", fail)
+"""
 
 
 @pytest.fixture
-def some_plugins(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
-    """Let the window find plug-ins when it starts."""
-    with pytest.MonkeyPatch.context() as patch:
-        yield from install_plugins(tmp_path_factory.mktemp("plug-ins"), patch)
+def some_plugins(
+    tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch
+) -> Iterator[None]:
+    """Let there be a decoder of another package that works, and one that fails."""
+    folder = tmp_path_factory.mktemp("plug-ins")
+    offered = {name: f"soaked:{name}" for name in ("reads", "fails")}
+    install(folder, "soaked", {plugins.DECODERS: offered}, PLUGINS)
+    monkeypatch.syspath_prepend(folder)
+    forget_plugins()
+    yield
+    forget_plugins()
 
 
-@pytest.fixture(params=[1])
+@pytest.fixture
 def monkey(
-    request: pytest.FixtureRequest,
-    some_plugins: None,
-    application: Application,
-    qtbot: QtBot,
-    monkeypatch: pytest.MonkeyPatch,
-    tmp_path: Path,
-) -> Iterator[Monkey]:
+    some_plugins: None, application: Application, qtbot: QtBot,
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path,
+) -> Iterator[Monkey]:  # fmt: skip
     """Let a monkey at the application, and leave the other tests their theme and clipboard."""
     monkeypatch.setattr(lessons_room, "lessons", smaller_lessons)
     GarbageCollector(application.window)  # as a program that runs has one: figures are in cycles
-    yield Monkey(application, qtbot, FileDialogs(monkeypatch), tmp_path, request.param)
+    yield Monkey(application, qtbot, FileDialogs(monkeypatch), tmp_path, seed=1)
     application.options.theme.choose("system")
     QGuiApplication.clipboard().clear()
 
 
 @pytest.mark.whole
 def test_random_actions_cause_no_exception_warning_or_leak(
-    monkey: Monkey, application: Application, caplog: pytest.LogCaptureFixture, qtlog: object
+    monkey: Monkey, application: Application, caplog: pytest.LogCaptureFixture, qtlog: Any
 ) -> None:
-    if ACTIONS >= _WINDOW:
-        keep_nothing_free()
-        monkey.export_many()
     home = smaller(application.store.scene)
     application.store.put(home, "smaller")
-    growth = Growth()
+    used: list[tuple[float, int]] = []
     for number in range(1, ACTIONS + 1):
         monkey.act()
         if number % 5 == 0:
             monkey.wait()
         if number % _WINDOW == 0:
             monkey.come_home(home)
-            forget_ignored_messages(qtlog)
-            growth.look(number)
+            # pytest-qt keeps messages of Qt that it does not look at.
+            qtlog._records[:] = [each for each in qtlog._records if not each.ignored]
+            used.append(used_memory())
+            print(number, "actions, bytes in use and blocks of Python:", used[-1])  # noqa: T201
     monkey.come_home(home)
     assert application.simulation.runner.is_idle
     # A mistake of ours on another thread becomes a sentence on the screen, and a line here.
     assert [each.message for each in caplog.records if each.levelno >= logging.WARNING] == []
-    if growth.used:
-        (first, blocks), (last, more) = growth.used[0], growth.used[-1]
+    if used:
+        (first, blocks), (last, more) = used[0], used[-1]
         assert last - first < _MOST_GROWTH
         assert more - blocks < _MOST_BLOCKS

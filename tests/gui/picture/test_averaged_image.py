@@ -56,8 +56,7 @@ def inner(picture: Grey) -> NDArray[np.int64]:
     return picture[2:-2, 2:-2].astype(np.int64)
 
 
-@pytest.mark.parametrize("shift", [0.0, 0.3, 1.7])
-@pytest.mark.parametrize("width", [1000, 999, 740, 370, 101])
+@pytest.mark.parametrize(("width", "shift"), [(1000, 0.0), (999, 0.3), (370, 1.7), (101, 0.0)])
 def test_fine_stripes_shown_small_are_grey_and_no_coarse_stripes(
     screen: Screen, fine_stripes: Grey, width: int, shift: float
 ) -> None:

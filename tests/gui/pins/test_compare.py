@@ -7,7 +7,7 @@ import pytest
 from gui.kinds import SnapshotOf, collect, show_widget
 from gui.pane_bench import PaneBench
 from gui.stores import store_of
-from PySide6.QtWidgets import QLabel, QTableWidget
+from PySide6.QtWidgets import QTableWidget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.pins.compare_view import CompareView
@@ -178,47 +178,6 @@ def test_the_plot_shows_the_first_packets_of_both_up_to_their_brightest_columns(
     brightest = max(float(pin.profile.max()) for pin in both)
     assert low <= 0.0
     assert brightest <= high <= 1.2 * max(brightest, 20.0)
-
-
-@pytest.mark.parametrize("columns", [(600, 900), (900, 600)])
-def test_the_plot_ends_with_the_longer_profile_where_no_packet_does(
-    view: CompareView, pins: PinController, bare_snapshot_of: SnapshotOf, columns: tuple[int, int]
-) -> None:
-    # At 1 kHz a packet is far longer than the picture.
-    a, b = (bare_snapshot_of(switching_frequency=1e3, columns=count) for count in columns)
-    pin_two(pins, a, b)
-    view.show_pinned(pins.pinned)
-    first, last = view.plot.getViewBox().viewRange()[0]
-    margin = (last - first) * 0.01 / 1.02
-    assert last - margin == pytest.approx(max(columns) - 1, abs=0.1)
-
-
-@pytest.mark.parametrize("kept", ["A", "B"])
-def test_one_state_alone_is_named_and_the_other_asked_for(
-    view: CompareView, pins: PinController, bare_snapshot_of: SnapshotOf, kept: str
-) -> None:
-    missing = "B" if kept == "A" else "A"
-    pins.show_snapshot(bare_snapshot_of())
-    pins.pin(kept)
-    view.show_pinned(pins.pinned)
-    assert view.hint.text().startswith(f"{kept} is kept.")
-    assert f"press Pin {missing}" in view.hint.text()
-    entries = view.legend.findChildren(QLabel)
-    assert [entry.text() for entry in entries if entry.isVisible()] == [kept]
-    view.show_pinned(Pinned())
-    assert view.hint.text().startswith("Compare two scenes")
-
-
-def test_a_row_tells_its_meaning_a_cell_its_whole_text_and_both_states_are_as_wide(
-    view: CompareView, pins: PinController, bare_snapshot_of: SnapshotOf
-) -> None:
-    pin_two(pins, bare_snapshot_of(), bare_snapshot_of(iso=200.0))
-    view.show_pinned(pins.pinned)
-    tips = [view.table.item(1, column) for column in range(3)]
-    what, a, b = (item.toolTip() if item is not None else "" for item in tips)
-    assert "Allowed" in what
-    assert (a, b) == ("100", "200")
-    assert view.table.columnWidth(1) == pytest.approx(view.table.columnWidth(2), abs=1)
 
 
 def test_a_view_that_is_not_seen_draws_nothing_until_it_is(

@@ -6,18 +6,16 @@ from dataclasses import replace
 import numpy as np
 import pyqtgraph as pg
 import pytest
-from gui.kinds import SnapshotOf, add_widget, collect, not_none, show_widget
+from gui.kinds import SnapshotOf, collect, not_none, show_widget
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QFont, QFontMetrics, QGuiApplication
+from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QApplication, QLabel, QPushButton
 from pytestqt.qtbot import QtBot
 
-from occ_gui.profile import profile_view
 from occ_gui.profile.profile_view import ProfileView
 from occ_gui.simulation.controller import simulate
 from occ_gui.simulation.snapshot import Snapshot, Source
 from occ_gui.values.photo_results import PhotoProfile
-from occ_gui.widgets import columns as over_columns
 from occ_model.camera.enhancement import enhance
 from occ_model.photo.reading.load import Photo
 from occ_model.results.decoding import DecodeResult, Region
@@ -233,18 +231,6 @@ def test_whatever_is_drawn_lies_within_the_levels_in_view_up_to_the_next_step_ab
         assert max(values) <= step <= high <= 1.1 * step
 
 
-def test_the_packets_that_the_button_names_are_those_in_view(
-    qtbot: QtBot, monkeypatch: pytest.MonkeyPatch, snapshot: Snapshot
-) -> None:
-    for module in (profile_view, over_columns):
-        monkeypatch.setattr(module, "PACKETS_IN_VIEW", 1)
-    view = add_widget(qtbot, ProfileView())
-    view.show_reading(snapshot)
-    assert button(view, "1 packets").isChecked()
-    first, last = columns_in_view(view)
-    assert last - first == pytest.approx(snapshot.packet_columns, rel=0.05)
-
-
 def test_two_packets_are_in_view_until_the_panel_is_chosen_or_the_plot_is_moved(
     view: ProfileView, qtbot: QtBot, snapshot: Snapshot, snapshot_of: SnapshotOf
 ) -> None:
@@ -306,19 +292,6 @@ def test_the_columns_that_are_not_read_are_shaded_where_there_is_a_region(
     assert after.getRegion()[1] >= len(snapshot.frame.profile)
     view.show_reading(replace(snapshot, decoded=DecodeResult("threshold", failure="None.")))
     assert (before.isVisible(), after.isVisible()) == (False, False)
-
-
-@pytest.mark.parametrize("points", [9.0, 12.0, 16.0])
-def test_the_axes_hold_the_longest_level_in_any_font(qtbot: QtBot, points: float) -> None:
-    font = QFont()
-    font.setPointSizeF(points)
-    view = add_widget(qtbot, ProfileView())
-    axes = [plot.getAxis("left") for plot in (view.plot, view.residual.plot)]
-    view.setFont(font)
-    metrics = QFontMetrics(font)
-    needed = metrics.height() + metrics.horizontalAdvance("-200")
-    assert [axis.minimumWidth() > needed for axis in axes] == [True, True]
-    assert view.chips.copy.minimumWidth() == axes[0].minimumWidth(), "its chips lie under the plot"
 
 
 CHIPS = np.array([1, 0, 1, 1, 0], np.uint8)

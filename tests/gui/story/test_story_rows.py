@@ -8,22 +8,17 @@ from unittest.mock import Mock
 
 import numpy as np
 import pytest
-from gui.kinds import Grey, GreyPicture, SnapshotOf, not_none
+from gui.kinds import GreyPicture, SnapshotOf, not_none
 from gui.mouse import turn_wheel_at
 from PySide6.QtCore import QPoint, QPointF, QRectF, Qt
-from PySide6.QtGui import QFont, QFontMetrics, QImage, QPainter, QPalette
-from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.simulation.snapshot import Picture, Snapshot
-from occ_gui.story import code_row, stripes_row
-from occ_gui.story.bit_cells import draw_field, have_room_for_bits, have_room_for_marks
 from occ_gui.story.column_axis import GUTTER, Crosshair
 from occ_gui.story.column_values import ColumnValues, in_words
 from occ_gui.story.story_row import StoryRow
 from occ_gui.story.story_rows import StoryRows
-from occ_gui.story.stripes_row import resampled
 from occ_gui.widgets.state_look import State
 
 
@@ -334,47 +329,6 @@ def test_extreme_scenes_are_drawn(
     assert in_words(values, snapshot.frame.scene)
 
 
-def test_the_chips_drawn_are_those_in_view(
-    rows: StoryRows, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    drawn: list[int] = []
-    monkeypatch.setattr(
-        code_row, "draw_chips", lambda _painter, cells, *_, **__: drawn.append(len(list(cells)))
-    )
-    assert rows.code.edges is not None
-    for zoom in (1.0, 0.1):
-        rows.axis.zoom(zoom, 1400.0)
-        rows.code.redraw()
-        rows.code.grab()
-        left, right = rows.code.edges[:-1], rows.code.edges[1:]
-        seen = (right > rows.axis.first) & (left < rows.axis.last)
-        assert drawn[-1] == pytest.approx(int(seen.sum()), abs=1)
-        assert drawn[-1] > 1
-
-
-def test_more_bits_than_were_sent_have_their_place_in_the_row(
-    rows: StoryRows, snapshot: Snapshot, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    cells: list[QRectF] = []
-    monkeypatch.setattr(code_row, "draw_field", lambda _painter, cell, *_, **__: cells.append(cell))
-    many = replace(snapshot.decoded, bits=np.ones(400, dtype=np.uint8))
-    place = QRectF(100.0, 0.0, 700.0, 20.0)
-    painter = Mock()
-    painter.fontMetrics.return_value.horizontalAdvance.return_value = 50
-    monkeypatch.setattr(rows.code, "_write", Mock())
-    rows.code._list_bits(painter, place, many)
-    assert len(cells) == 400
-    assert all(place.contains(cell) for cell in cells)
-
-
-@pytest.mark.parametrize(("widths", "marked"), [((24.0, 25.0), False), ((24.0, 26.0), False),
-                                                ((26.0, 26.4), True)])  # fmt: skip
-def test_all_bits_of_a_row_have_their_mark_or_none(widths: tuple[float, ...], marked: bool) -> None:
-    metrics = Mock()
-    metrics.horizontalAdvance.side_effect = {"0 ✓": 22, "1 ✓": 20, "0 ✗": 21, "1 ✗": 20}.get
-    assert have_room_for_marks(metrics, widths) is marked
-
-
 def test_before_any_reading_the_profile_is_empty_and_no_column_beyond_the_picture_pointed_at(
     qtbot: QtBot,
 ) -> None:
@@ -388,57 +342,6 @@ def test_before_any_reading_the_profile_is_empty_and_no_column_beyond_the_pictur
     assert crosshair.pointed == 90
     crosshair.set_columns(50, 10)
     assert crosshair.pointed is None
-
-
-@pytest.mark.parametrize("ratio", [1.0, 2.0])
-def test_the_stripes_have_the_screens_own_pixels(
-    rows: StoryRows, monkeypatch: pytest.MonkeyPatch, ratio: float
-) -> None:
-    asked: list[tuple[int, int]] = []
-
-    def noting(part: Grey, edges: Any, height: int) -> Any:
-        asked.append((len(edges) - 1, height))
-        return resampled(part, edges, height)
-
-    monkeypatch.setattr(stripes_row, "resampled", noting)
-    monkeypatch.setattr(rows.stripes, "devicePixelRatioF", lambda: ratio)
-    area = rows.stripes.plot_area()
-    rows.stripes.draw(Mock(), area)
-    ((width, height),) = asked
-    assert height == round(area.height() * ratio)
-    assert width <= np.ceil(area.width() * ratio) + 1
-
-
-@pytest.mark.parametrize("points", [9.0, 12.0, 15.6, 24.0])
-def test_the_names_of_rows_do_not_touch_what_stands_beside_them(
-    rows: StoryRows, points: float
-) -> None:
-    font = QFont()
-    font.setPointSizeF(points)
-    for row in all_rows(rows):
-        row.setFont(font)
-        found = row._gutter_font()
-        assert found.pointSizeF() <= points
-        beside = QFontMetrics(found).horizontalAdvance("chips")
-        found.setBold(True)
-        assert QFontMetrics(found).horizontalAdvance(row.name) + beside < GUTTER - 10
-
-
-@pytest.mark.parametrize("points", [9.0, 12.0, 15.6])
-def test_larger_text_has_the_room_that_it_needs(rows: StoryRows, points: float) -> None:
-    font = QFont()
-    font.setPointSizeF(points)
-    rows.setFont(font)
-    for row in all_rows(rows):
-        assert row._gutter_font().pointSizeF() == points
-        assert row.plot_area().left() == rows.axis.gutter >= GUTTER
-    height = QFontMetrics(font).height()
-    assert rows.time.sizeHint().height() >= height
-    assert rows.code.minimumSizeHint().height() > 2 * height
-    chips, _, bits = rows.code._lines()
-    assert min(bottom - top for top, bottom in (chips, bits)) >= height
-    assert min(rows.light._strip_height(), rows.light._label_height()) >= height
-    assert rows._line_of_legend.contentsMargins().left() == rows.axis.gutter
 
 
 def test_a_chosen_column_that_the_panel_leaves_is_chosen_anew(
@@ -464,24 +367,3 @@ def test_a_chosen_column_that_the_panel_leaves_is_chosen_anew(
         rows.crosshair.choose(outside)  # on purpose
         rows.show_reading(snapshot_of(distance=2.1))
         assert rows.crosshair.column == round(outside)
-
-
-@pytest.mark.parametrize("narrow", [0.0, 0.6, 2.0])
-def test_a_row_of_bits_tells_all_digits_or_none(qapp: QApplication, narrow: float) -> None:
-    """One cell is just as wide as a digit, or a little narrower than that."""
-    told: list[str] = []
-
-    class Listening(QPainter):
-        def drawText(self, *what: Any) -> None:  # type: ignore[override]  # noqa: N802 - Qt's name
-            told.append(what[-1])
-
-    picture = QImage(400, 40, QImage.Format.Format_RGB32)
-    painter = Listening(picture)
-    digit = max(map(painter.fontMetrics().horizontalAdvance, "01"))
-    widths = [digit + 8.0, digit + 1.0 - narrow, digit + 8.0]
-    is_told = have_room_for_bits(painter.fontMetrics(), widths)
-    for place, width in enumerate(widths):
-        cell = QRectF(30.0 * place, 0.0, width, 20.0)
-        draw_field(painter, cell, ("1",), QPalette(), is_told=is_told)
-    painter.end()
-    assert told == (["1"] * 3 if narrow < 1.0 else [])

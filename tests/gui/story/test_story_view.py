@@ -1,7 +1,7 @@
 """The pane of the story: its pages, ranges, scales and cursors, and the space that it needs."""
 
 import pytest
-from gui.kinds import GreyPicture, SnapshotOf, not_none, show_widget
+from gui.kinds import SnapshotOf, not_none, show_widget
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
@@ -26,27 +26,6 @@ def view(qtbot: QtBot, snapshot: Snapshot) -> StoryView:
 
 def checked(view: StoryView) -> list[str]:
     return [name for name, button in view.rows.ranges.items() if button.isChecked()]
-
-
-def test_only_the_page_that_is_shown_needs_space(view: StoryView) -> None:
-    rows = view.minimumSizeHint().height()
-    view.show_whole_picture(True)
-    QApplication.processEvents()
-    assert view.minimumSizeHint().height() < rows - view.rows.code.height()
-    view.show_whole_picture(False)
-    QApplication.processEvents()
-    assert view.minimumSizeHint().height() == rows
-
-
-def test_it_fits_beside_other_panes_of_a_small_window(view: StoryView) -> None:
-    least = view.minimumSizeHint()
-    assert least.width() <= 460
-    assert least.height() <= 400
-    view.resize(least)
-    QApplication.processEvents()
-    assert view.width() == least.width()
-    assert view.height() <= 400  # the legend may need lines of its own
-    assert not view.grab().isNull()
 
 
 def test_a_range_is_marked_until_the_columns_are_moved(view: StoryView) -> None:
@@ -123,19 +102,6 @@ def test_each_time_is_that_of_its_column(rows: StoryRows, bare_snapshot_of: Snap
         assert [float(text) for _, text in rows.columns.ticks()] == [
             int(column) for column, _ in rows.columns.ticks()
         ]
-
-
-@pytest.mark.parametrize("zoom", [1.0, 0.1, 3.0])
-def test_a_tick_is_drawn_where_the_rows_have_its_column(
-    rows: StoryRows, grey_picture: GreyPicture, zoom: float
-) -> None:
-    rows.axis.zoom(zoom, 1500.0)
-    for scale, line in ((rows.columns, 2), (rows.time, -3)):
-        drawn = grey_picture(scale)[line].astype(int)
-        for column, _ in scale.ticks():
-            x = round(rows.profile.x_of(column))
-            around = drawn[[x - 2, x + 2]] if x + 2 < len(drawn) else drawn[[x - 2]]
-            assert abs(drawn[x] - int(around.max())) > 60
 
 
 @pytest.mark.parametrize(

@@ -4,19 +4,15 @@ from collections.abc import Iterator
 
 import numpy as np
 import pytest
-from gui.kinds import add_widget, show_widget
-from PySide6.QtCore import QRectF, QSize
-from PySide6.QtGui import QColor, QImage, QPainter, QPalette
+from gui.kinds import show_widget
+from PySide6.QtCore import QSize
 from PySide6.QtWidgets import QApplication, QLabel, QTabWidget, QVBoxLayout, QWidget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.widgets.axes import LogAxis
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.plain_text import in_tool_tip
-from occ_gui.widgets.plot import marker
 from occ_gui.widgets.scroll_pane import ScrollPane, bring_into_view
-from occ_gui.widgets.state_bar import StateBar
-from occ_gui.widgets.state_look import _BADGES, State
 from occ_gui.widgets.text_scale import emboldened
 from occ_gui.widgets.unchanged import are_same
 
@@ -127,36 +123,6 @@ def test_a_widget_is_brought_into_view_from_a_page_that_was_never_in_front(qtbot
     bring_into_view(last)
     assert pages.currentIndex() == 1
     assert not last.visibleRegion().isEmpty()
-
-
-@pytest.mark.parametrize("state", _BADGES)
-def test_the_outline_of_an_icon_is_the_same_on_both_sides(state: State) -> None:
-    points = _BADGES[state].toList()
-    corners = {(point.x(), point.y()) for point in points}
-    assert corners == {(-x, y) for x, y in corners}
-    assert len(corners) == len(points)
-
-
-@pytest.mark.parametrize("fill", [None, QColor("red")])
-def test_a_legends_point_is_a_ring_or_filled(qtbot: QtBot, fill: QColor | None) -> None:
-    image = QImage(40, 40, QImage.Format.Format_Grayscale8)
-    image.fill(0)
-    palette = QPalette()
-    palette.setColor(QPalette.ColorRole.Text, QColor("white"))
-    painter = QPainter(image)
-    marker("o", 20.0, fill)(painter, QRectF(0, 0, 40, 40), palette)
-    painter.end()
-    grey = np.frombuffer(image.constBits(), dtype=np.uint8).reshape(40, -1)[:, :40]
-    assert (grey[20] > 0).any()
-    assert bool(grey[20, 20]) == (fill is not None)
-
-
-def test_the_bar_of_a_state_holds_its_title_and_its_sentence(qtbot: QtBot) -> None:
-    bar = add_widget(qtbot, StateBar())
-    bar.resize(400, bar.minimumSizeHint().height())
-    bar.show()
-    for part in (bar.title, bar.sentence):
-        assert bar.rect().adjusted(0, 1, 0, -1).contains(part.geometry())
 
 
 def test_a_logarithmic_axis_has_ticks_at_both_its_ends(qtbot: QtBot) -> None:

@@ -98,28 +98,16 @@ def test_an_unreadable_photo_says_why_and_the_last_stays(
     bench: Bench, photo_file: Path, tmp_path: Path
 ) -> None:
     bench.open(photo_file)
+    bench.controller.edit(lambda choice: choice.with_certain("switching_frequency", 2e3))
     damaged = tmp_path / "damaged.png"
     damaged.write_bytes(photo_file.read_bytes()[:60])
     for path in (damaged, tmp_path / "missing.png", tmp_path):
         bench.open(path)
         assert str(path) in bench.failures[-1]
         assert bench.failures[-1].endswith(".")
+        assert bench.controller.choice.certain == {"switching_frequency": 2e3}
     assert len(bench.failures) == 3
     assert len(bench.shown) == 1
-
-
-@pytest.mark.parametrize("is_closed", [True, False])
-def test_closing_or_opening_another_while_a_photo_is_read_is_not_overtaken_by_it(
-    bench: Bench, photo_file: Path, other_file: Path, is_closed: bool
-) -> None:
-    bench.open_and_hold(photo_file)
-    if is_closed:
-        bench.controller.close()
-    else:
-        bench.controller.open(other_file)
-    bench.wait_until_idle()
-    shown = [photo.path for photo in bench.shown if photo]
-    assert shown == ([] if is_closed else [other_file])
 
 
 def test_a_cancelled_reading_ends_and_the_last_photo_stays(
@@ -161,15 +149,6 @@ def test_the_scan_axis_holds_for_the_open_photo_and_the_next_and_opens_none(
     bench.controller.close()
     scan_along("lines")
     assert bench.shown[-1] is None
-
-
-def test_the_scan_axis_chosen_while_a_photo_is_read_holds_for_it(
-    bench: Bench, photo_file: Path, stripes: Grey
-) -> None:
-    bench.open_and_hold(photo_file)
-    bench.controller.scan_along("lines")
-    bench.wait_until_idle()
-    assert np.array_equal(bench.image, stripes.T)
 
 
 def test_another_channel_applies_to_this_photo_and_the_next(

@@ -107,23 +107,6 @@ def test_an_open_photo_has_the_verdict_of_its_row_until_it_is_matched_by_itself(
     assert bar.heading == "Photo: no match yet"
 
 
-def test_a_refusal_is_read_to_its_end_where_the_window_is_narrow(
-    view: LiveView, bar: PhotoVerdictBar, photo: Photo, qtbot: QtBot
-) -> None:
-    bar.setParent(None)
-    qtbot.addWidget(bar)
-    bar.resize(400, 60)
-    bar.show()
-    view.open(photo)
-    last = "They repeat after 40.0 columns."
-    view.verdict.show_ended([PLAIN_STRIPES, last])
-    assert bar.wrapped.toolTip() == f"{PLAIN_STRIPES} {last}"  # beside the button it is shortened
-    bar.resize(500, 60)
-    assert not bar.wrapped.toolTip()
-    assert bar.wrapped.text().endswith(f"{PLAIN_STRIPES} {last}")
-    assert bar.wrapped.heightForWidth(bar.wrapped.width()) <= bar.wrapped.height() + 2
-
-
 def test_a_refusal_of_plain_stripes_has_the_button_that_says_what_they_are(
     view: LiveView, bar: PhotoVerdictBar, photo: Photo, qtbot: QtBot
 ) -> None:

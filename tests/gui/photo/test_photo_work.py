@@ -268,29 +268,6 @@ def chips_shown(bench: Bench) -> list[ChipReading | None]:
     return shown
 
 
-def test_chips_of_each_photo_are_shown_and_none_of_one_that_was_closed(
-    photo: Photo, monkeypatch: pytest.MonkeyPatch, bench: Bench, qtbot: QtBot
-) -> None:
-    monkeypatch.setattr(occ, "read_chips", lambda _photo, _region: READING)
-    shown = chips_shown(bench)
-    bench.show_photo(photo)
-    assert shown == []
-    bench.wait()
-    assert shown == [READING]
-    bench.show_photo(replace(photo))
-    assert shown[-1] is None
-    bench.wait()
-    assert shown[-1] is READING
-    bench.show_photo(None)
-    assert shown[-1] is None
-    count = len(shown)
-    bench.show_photo(photo)
-    bench.show_photo(None)
-    bench.wait()
-    qtbot.wait(20)
-    assert len(shown) == count
-
-
 def test_chips_are_those_of_the_part_that_is_matched_and_there_may_be_none(
     photo: Photo, monkeypatch: pytest.MonkeyPatch, bench: Bench
 ) -> None:

@@ -236,13 +236,6 @@ def test_a_cell_holds_the_exact_mean_of_what_lies_under_it(
     assert means == pytest.approx(by_hand(image, grid, (rows, columns)), abs=1e-6)
 
 
-def test_where_the_image_lies_counts_and_not_only_the_grid() -> None:
-    image = noise(20, 20)
-    plain = cell_means(image, QRectF(0, 0, 20, 20), QRectF(2, 3, 10, 8), (4, 5))
-    scaled = cell_means(image, QRectF(100, -50, 60, 60), QRectF(106, -41, 30, 24), (4, 5))
-    assert scaled == pytest.approx(plain)
-
-
 @pytest.mark.parametrize(("cells", "shift"), [(37, 1.7), (101, 0.3), (250, 0.0), (999, 0.3)])
 def test_fine_stripes_in_coarse_cells_are_grey_without_aliasing(cells: int, shift: float) -> None:
     period, columns = 4, 4000

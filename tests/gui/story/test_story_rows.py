@@ -34,8 +34,7 @@ def read_out(rows: StoryRows) -> ColumnValues:
     return not_none(rows.values())
 
 
-@pytest.mark.parametrize("width", [520, 900, 1573])
-@pytest.mark.parametrize("zoom", [1.0, 0.13, 4.0])
+@pytest.mark.parametrize(("width", "zoom"), [(520, 4.0), (900, 1.0), (1573, 0.13)])
 def test_a_column_lies_at_the_same_pixel_in_every_row(
     rows: StoryRows, width: int, zoom: float
 ) -> None:
@@ -95,8 +94,9 @@ def test_a_draft_shows_the_stripes_at_the_same_place(
     assert rows.stripes.thumbnail._view.height() == pytest.approx(view.height(), abs=14)
 
 
-@pytest.mark.parametrize("step", [1, 2, 7, 11, 22])
-@pytest.mark.parametrize("changes", [{}, {"distance": 0.4}, {"pitch": 0.2}])
+@pytest.mark.parametrize(
+    ("changes", "step"), [({}, 1), ({"distance": 0.4}, 7), ({"pitch": 0.2}, 22)]
+)
 def test_of_a_draft_the_rows_that_show_the_panel_are_seen(
     rows: StoryRows, bare_snapshot_of: SnapshotOf, step: int, changes: dict[str, Any]
 ) -> None:

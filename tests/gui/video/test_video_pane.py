@@ -20,9 +20,10 @@ from occ_model.scene.scene import Scene
 
 
 @pytest.fixture
-def small_scene(film_scene: Scene) -> Scene:
-    """Give the application the scene of the films."""
-    return film_scene
+def application(application: Application, film_scene: Scene) -> Application:
+    """Give the window the scene of the films."""
+    application.store.put(film_scene, "scene of the films")
+    return application
 
 
 @pytest.fixture

@@ -1,8 +1,10 @@
 """Functions that tests let other processes call, and workers that need no processes."""
 
 import os
+import pickle
 import time
 from concurrent.futures import BrokenExecutor, CancelledError, Future
+from pathlib import Path
 from typing import Any, NoReturn
 
 from occ_model.parallel.job import Heartbeat, Job, JobResult, do_job
@@ -80,3 +82,26 @@ class HeldWorker:
 
     def close(self) -> None:
         self.closed += 1
+
+
+class PickledJobs(HeldWorker):
+    """Workers that do each job at once, sent to and fro as between processes; some files end them.
+
+    ``deadly``: the files, as the second argument of a job.
+    """
+
+    count = 2
+    deadly: tuple[Path, ...] = ()
+
+    def __init__(self, count: int, preload: str) -> None:
+        super().__init__()
+
+    def submit(self, job: Job, channel: int, run: int) -> "Future[JobResult]":
+        future = super().submit(job, channel, run)
+        if job.arguments[1] in self.deadly:
+            self.die()
+        else:
+            self.held.clear()
+            done = do_job(pickle.loads(pickle.dumps(job)), lambda: None)
+            future.set_result(pickle.loads(pickle.dumps(done)))
+        return future

@@ -4,8 +4,7 @@
 * ``film FILE``: how many frames of a film were read, up to 60, the last of which is from the film's
   end, and the bytes after a few of them and after all;
 * ``growth``: the ratio of the bytes after 10,000 frames of a film to those after 1,000, simulated
-  and decoded;
-* ``damaged N``: how many of N damaged films said why, and the bytes.
+  and decoded.
 
 The bytes are those of this process and of the ones that it started: the decoder of films is one.
 """
@@ -77,17 +76,8 @@ def _growth(frames: Iterable[object]) -> float:
     return most_bytes() / early
 
 
-def of_damaged_films(count: str) -> None:
-    sys.path.append(str(Path(__file__).parents[1]))
-    from films import what_damaged_films_say
-
-    with TemporaryDirectory() as folder:
-        sentences = what_damaged_films_say(range(int(count)), Path(folder))
-        print(len(sentences), most_bytes())
-
-
 if __name__ == "__main__":
     what: dict[str, Callable[..., None]] = {
-        "picture": of_picture, "film": of_film, "growth": of_growth, "damaged": of_damaged_films
+        "picture": of_picture, "film": of_film, "growth": of_growth
     }  # fmt: skip
     what[sys.argv[1]](*sys.argv[2:])

@@ -8,12 +8,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from photo_world.photograph import photograph, random_world
-from photo_world.trials import told
 from simulated_photos import photo_of, random_scene, take
 
 import occ_model as occ
 from occ_model.cli import main
+from occ_model.commands import match as match_command
 from occ_model.files.writing import write_image
 from occ_model.program import EXIT_MISUSE
 
@@ -31,6 +30,23 @@ def matched() -> occ.Match:
     return occ.match_photo(PHOTO, KNOWN, progress=FRACTIONS.append)
 
 
+def test_a_clear_photo_of_the_scene_is_sure_and_gives_no_reason() -> None:
+    match = matched()
+    assert (match.verdict, match.reasons) == ("sure", ())
+    assert match.alternatives
+    for other in match.alternatives:
+        assert other.evidence < 0.0
+        assert other.correlation <= match.correlation
+
+
+def test_the_start_time_is_that_of_the_photo_not_of_the_region() -> None:
+    inner = matched().region
+    part = (0, PHOTO.samples.shape[0], inner.first_column + 130, inner.last_column)
+    late = occ.match_photo(PHOTO, KNOWN, region=part).start_time - matched().start_time
+    period = 24.0 / SCENE.transmitter.switching_frequency
+    assert abs((late + period / 2) % period - period / 2) < 0.01 * period
+
+
 def test_the_fitted_scene_shows_the_photo_pixel_on_pixel() -> None:
     match = matched()
     frame = occ.render(match.scene, tolerance=math.inf)
@@ -45,9 +61,8 @@ def test_the_fitted_scene_shows_the_photo_pixel_on_pixel() -> None:
     assert np.median(frame.profile[seen]) == pytest.approx(np.median(match.profile), rel=0.2)
 
 
-@pytest.mark.parametrize("k1", [pytest.param(-0.15, marks=pytest.mark.whole), 0.15])
-def test_the_fitted_scene_lies_on_the_photo_through_a_bent_lens(k1: float) -> None:
-    scene = SCENE.replace(radial_k1=k1, tangential_p1=0.01)
+def test_the_fitted_scene_lies_on_the_photo_through_a_bent_lens() -> None:
+    scene = SCENE.replace(radial_k1=0.15, tangential_p1=0.01)
     match = occ.match_photo(take(scene), scene.replace(readout_time=1e-6))
     again = occ.find_stripes(photo_of(occ.render(match.scene, tolerance=0.0).image)).region
     for name in ("first_row", "last_row", "first_column", "last_column"):
@@ -97,14 +112,6 @@ def test_what_never_changes_is_no_explanation() -> None:
 
 
 @pytest.mark.whole
-def test_an_estimated_gamma_is_one_that_a_scene_may_have() -> None:
-    """Also where the likeliest one is below 1, as for this lamp with a halo."""
-    world = random_world(50000)
-    match = occ.match_photo(photo_of(photograph(world)), told(world), sent="scene", fit_gamma=True)
-    assert 1.0 <= match.gamma <= 4.0
-
-
-@pytest.mark.whole
 def test_gamma_is_estimated_with_an_uncertainty_on_request() -> None:
     # Of more columns, which tell gamma more exactly.
     scene = random_scene(5).replace(averaging="light", gamma=1.8, illuminance=0.0)
@@ -140,14 +147,11 @@ def test_progress_rises_to_1_and_what_it_raises_ends_the_match() -> None:
 
 
 def test_stripes_that_no_parameter_explains_are_refused() -> None:
-    slow = KNOWN.replace(switching_frequency=1.0)  # a readout of many milliseconds a column
-    match = occ.match_photo(PHOTO, slow)
-    assert match.readout_time > 1e-3
     with pytest.raises(occ.MatchError, match="not allowed: readout_time is"):
         occ.match_photo(PHOTO, KNOWN.replace(switching_frequency=1e9))
 
 
-@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize("seed", range(8))
 def test_no_picture_crashes_a_match(seed: int) -> None:
     random = np.random.default_rng(seed)
     shape = tuple(random.integers(1, 200, 2).tolist())
@@ -173,9 +177,10 @@ class TestCommand:
         return path
 
     @pytest.fixture
-    def known(self, tmp_path: Path) -> Path:
+    def known(self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
         path = tmp_path / "scene.toml"
         path.write_text(KNOWN.to_toml(), encoding="utf-8")
+        monkeypatch.setattr(match_command, "match_photo", lambda *_, **__: matched())
         return path
 
     def test_it_prints_what_was_found_with_uncertainties(

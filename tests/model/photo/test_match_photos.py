@@ -9,8 +9,10 @@ import pytest
 from matches import match_with
 from PIL import Image
 from simulated_photos import photo_of
+from worker_calls import PickledJobs
 
 import occ_model as occ
+from occ_model.parallel import process_pool
 from occ_model.photo.many import match_photos as module
 from occ_model.photo.many.other_programs import frame_readout_time, lines_to_paste
 from occ_model.photo.many.row import MatchSettings
@@ -88,22 +90,16 @@ def test_every_photo_has_a_row_in_the_order_given(table: PhotoTable, folder: Pat
     assert all(bool(one.note) == (one.verdict != "sure") for one in table.rows)
 
 
-@pytest.mark.whole
-def test_a_row_says_what_the_match_of_its_photo_says(table: PhotoTable, folder: Path) -> None:
-    for one in table.rows[:2]:
-        match = occ.match_photo(occ.load_photo(one.path), SCENE, sent="scene")
-        assert (one.readout_time, one.exposure_time) == (match.readout_time, match.exposure_time)
-        for name, deviation in match.uncertainties.items():
-            assert one.uncertainty(name) == deviation
-
-
 def test_the_mean_is_the_truth_within_its_error(table: PhotoTable) -> None:
     assert table.estimated.count == 2
     assert abs(table.estimated.value - 9e-6) < 4.0 * table.estimated.uncertainty
     assert abs(table.exposure_time.value - 120e-6) < 4.0 * table.exposure_time.uncertainty
 
 
-def test_processes_give_the_same_table(table: PhotoTable, folder: Path) -> None:
+def test_processes_give_the_same_table(
+    table: PhotoTable, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(process_pool, "ProcessPool", PickledJobs)
     reports: list[tuple[int, int]] = []
     parallel = occ.match_photos(
         sorted(folder.iterdir()),
@@ -117,14 +113,6 @@ def test_processes_give_the_same_table(table: PhotoTable, folder: Path) -> None:
     assert parallel.estimated == table.estimated
     assert reports[0] == (0, 4)
     assert reports[-1] == (4, 4)
-
-
-@pytest.mark.whole
-def test_photos_that_were_read_give_the_same_rows(folder: Path, table: PhotoTable) -> None:
-    photos = [occ.load_photo(folder / f"{seed}.png") for seed in range(2)]
-    again = occ.match_photos(photos, SCENE, sent="scene").rows
-    assert again == table.rows[:2]
-    assert [one.readout_time for one in again] == [one.readout_time for one in table.rows[:2]]
 
 
 def test_doubtful_photos_never_change_the_mean() -> None:

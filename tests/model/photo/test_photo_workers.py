@@ -1,13 +1,12 @@
 """Processes that match photos, where some of them end."""
 
-from concurrent.futures import BrokenExecutor, CancelledError, Future
 from pathlib import Path
 
 import pytest
+from worker_calls import PickledJobs
 
 import occ_model as occ
 from occ_model.parallel import process_pool
-from occ_model.parallel.job import Job, JobResult, do_job
 from occ_model.photo.many.match_photos import rows_by_workers
 from occ_model.photo.many.row import MatchSettings
 from occ_model.results.photo_table import PhotoRow
@@ -15,40 +14,9 @@ from occ_model.results.photo_table import PhotoRow
 FILES = [(place, Path(name)) for place, name in enumerate(["a.png", "b.png", "c.png", "d.png"])]
 
 
-class DyingPool:
-    """Workers in this process that end where they are given certain files."""
-
-    count = 2
-    lost_by: tuple[type[Exception], ...] = (BrokenExecutor, CancelledError)
-    deadly: tuple[Path, ...] = ()
-
-    def __init__(self, count: int, preload: str) -> None:
-        pass
-
-    def submit(self, job: Job, channel: int, run: int) -> "Future[JobResult]":
-        future: Future[JobResult] = Future()
-        if job.arguments[1] in self.deadly:
-            future.set_exception(BrokenExecutor("It was killed."))
-        else:
-            future.set_result(do_job(job, lambda: None))
-        return future
-
-    def abandon(self, channel: int, run: int) -> None:
-        pass
-
-    def counted(self, counter: int) -> int:
-        return 0
-
-    def renew(self) -> None:
-        pass
-
-    def close(self) -> None:
-        pass
-
-
 def rows(monkeypatch: pytest.MonkeyPatch, *deadly: Path) -> dict[int, PhotoRow]:
-    monkeypatch.setattr(process_pool, "ProcessPool", DyingPool)
-    monkeypatch.setattr(DyingPool, "deadly", deadly)
+    monkeypatch.setattr(process_pool, "ProcessPool", PickledJobs)
+    monkeypatch.setattr(PickledJobs, "deadly", deadly)
     return dict(rows_by_workers(FILES, MatchSettings(occ.Scene()), 2, lambda: None))
 
 

@@ -100,19 +100,10 @@ def test_black_level_is_zero_and_white_level_is_saturated(tmp_path: Path) -> Non
     assert not photo.samples[:, 40:].any()
 
 
-@pytest.mark.parametrize(
-    "pattern",
-    [
-        pytest.param(pattern, marks=pytest.mark.whole if place else ())
-        for place, pattern in enumerate(PATTERNS)
-    ],
-)
-def test_match_gives_the_readout_time_of_a_sensor_line(tmp_path: Path, pattern: str) -> None:
+def test_match_gives_the_readout_time_of_a_sensor_line(tmp_path: Path) -> None:
     scene = scene_of(code=345)
-    mosaic = mosaic_of(
-        light_of(scene), COLUMNS, pattern, bits=14, black=512, noise=0.02, seed=len(pattern)
-    )
-    photo = occ.load_photo(written(tmp_path / "x.dng", mosaic, pattern, bits=14, black=512))
+    mosaic = mosaic_of(light_of(scene), COLUMNS, bits=14, black=512, noise=0.02, seed=4)
+    photo = occ.load_photo(written(tmp_path / "x.dng", mosaic, bits=14, black=512))
     match = occ.match_photo(photo, scene.replace(readout_time=5e-6, gamma=2.22))
     assert match.readout_time == pytest.approx(9e-6, rel=2e-3)
     assert match.exposure_time == pytest.approx(120e-6, rel=0.02)
@@ -136,21 +127,6 @@ def test_cut_files_are_refused_quietly(
     with pytest.raises(occ.PhotoError, match=r"x\.dng cannot be read: .*damaged"):
         occ.load_photo(path)
     assert capfd.readouterr() == ("", "")
-
-
-def test_files_with_wrong_bytes_are_read_or_refused(tmp_path: Path) -> None:
-    path = written(tmp_path / "x.dng", mosaic_of(light_of(scene_of()), 24))
-    content, random = path.read_bytes(), np.random.default_rng(3)
-    refused = 0
-    for _ in range(25):
-        wrong = bytearray(content)
-        wrong[int(random.integers(0, 600))] = int(random.integers(0, 256))
-        path.write_bytes(wrong)
-        try:
-            occ.load_photo(path)
-        except occ.PhotoError:
-            refused += 1
-    assert 0 < refused < 25
 
 
 def test_black_level_of_white_is_damage(tmp_path: Path) -> None:

@@ -9,9 +9,8 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from photo_trials import said_of_negative, said_of_other_code, said_of_unknown_chips
-from photo_world.trials import hot_trial_of
-from simulated_photos import photo_of, random_scene, take
+from photo_trials import said_of_negative, said_of_other_code
+from simulated_photos import photo_of, take
 
 import occ_model as occ
 from occ_model.photo.evidence.doubts import _doubts_by_reading
@@ -26,56 +25,16 @@ from occ_model.results.match import PLAIN_STRIPES
 from occ_model.transmitter.waveform import Waveform
 
 
-# Of tests/benchmarks/matching.py's 400 some of which most were once said to be explained.
-@pytest.mark.parametrize(
-    "seed",
-    [41, 103, *(pytest.param(seed, marks=pytest.mark.whole) for seed in (18, 88, 448, 481))],
-)
+# tests/benchmarks/matching.py tries 400: these two were once said to be explained.
+@pytest.mark.parametrize("seed", [41, 103])
 def test_pictures_without_an_led_are_refused(seed: int) -> None:
     assert said_of_negative(seed).verdict == "refused"
 
 
-@pytest.mark.parametrize(
-    "seeds",
-    [range(1, 2), pytest.param(range(2, 5), marks=pytest.mark.whole)],
-    ids=["sample", "whole"],
-)
-def test_the_scenes_code_is_never_taken_for_another(seeds: range) -> None:
-    found = [said_of_other_code(seed) for seed in seeds]
-    assert [one for one in found if one.scene_s] == []
-    assert sum(one.right for one in found) > len(found) // 2
-
-
-def test_a_clear_photo_of_the_scene_is_sure_and_gives_no_reason() -> None:
-    match = occ.match_photo(take(random_scene(3)), random_scene(3))
-    assert (match.verdict, match.reasons) == ("sure", ())
-    assert match.alternatives
-    for other in match.alternatives:
-        assert other.evidence < 0.0
-        assert other.correlation <= match.correlation
-
-
-def test_less_than_one_and_a_half_periods_are_never_sure() -> None:
-    scene = random_scene(3).replace(start_time=0.0)
-    period = 24.0 / scene.transmitter.switching_frequency
-    columns = int(1.3 * period / scene.camera.readout_time)
-    photo = take(scene)
-    part = photo_of(np.ascontiguousarray(photo.samples[:, 600 : 600 + columns]))
-    try:
-        match = occ.match_photo(part, scene, sent="scene")
-    except occ.MatchError:
-        return
-    assert match.verdict == "doubtful"
-    assert any("periods of 24 chips are in view" in why for why in match.reasons)
-
-
-def test_an_exposure_of_many_chips_is_never_sure() -> None:
-    scene = random_scene(229)
-    long = 3.6 / scene.transmitter.switching_frequency
-    scene = scene.replace(exposure_time=long, enhancement="none")
-    match = occ.match_photo(take(scene), scene, sent="scene")
-    assert match.verdict == "doubtful"
-    assert any("times as long as a chip" in why for why in match.reasons)
+def test_the_scenes_code_is_never_taken_for_another() -> None:
+    found = said_of_other_code(2)
+    assert found.right
+    assert not found.scene_s
 
 
 @pytest.mark.whole
@@ -107,50 +66,35 @@ def dimmed(percent: int, exposed: float, noted: float | None) -> tuple[occ.Photo
     return replace(photo, exposure_time=noted and noted / CYCLES), told
 
 
-@pytest.mark.whole
-@pytest.mark.parametrize("percent", [20, 60])
-def test_the_duty_of_a_dimmed_lamp_comes_out(percent: int) -> None:
-    match = occ.match_photo(*dimmed(percent, 0.12, None))
-    assert match.duty == pytest.approx(percent / 100.0, abs=0.03)
-    assert match.readout_time == pytest.approx(10e-6, rel=1e-3)
-    assert match.exposure_time == pytest.approx(80e-6, rel=0.05)
-
-
-@pytest.mark.parametrize("percent", [13, pytest.param(28, marks=pytest.mark.whole)])
-def test_a_short_pulse_exposed_for_half_a_period_is_no_square_wave_if_that_is_noted(
-    percent: int,
-) -> None:
-    photo, told = dimmed(percent, 0.5, noted=0.5)
+def test_a_short_pulse_exposed_for_half_a_period_is_no_square_wave_if_that_is_noted() -> None:
+    photo, told = dimmed(13, 0.5, noted=0.5)
     match = occ.match_photo(photo, told)
     assert match.verdict == match.exposure_verdict == "sure"
-    assert abs(match.duty - percent / 100.0) < 2.0 * match.uncertainties["duty"]
+    assert match.readout_time == pytest.approx(10e-6, rel=1e-3)
+    assert abs(match.duty - 0.13) < 2.0 * match.uncertainties["duty"]
     error = match.exposure_time - 0.5 / CYCLES
     assert abs(error) < 3.0 * match.uncertainties["exposure_time"]
 
 
-@pytest.mark.parametrize("percent", [13, pytest.param(28, marks=pytest.mark.whole)])
-def test_a_pulse_and_its_exposure_are_exchangeable_where_none_is_noted(percent: int) -> None:
+def test_a_pulse_and_its_exposure_are_exchangeable_where_none_is_noted() -> None:
     """A square wave exposed for 0.13 of its period has the stripes of this pulse to the last."""
-    photo, told = dimmed(percent, 0.5, noted=None)
+    photo, told = dimmed(13, 0.5, noted=None)
     match = occ.match_photo(photo, told)
     assert (match.verdict, match.exposure_verdict) == ("sure", "doubtful")
     times = np.array([match.exposure_time, *match.other_exposures]) * CYCLES
     assert np.abs(times - 0.5).min() < 0.03
-    assert np.abs(times - percent / 100.0).min() < 0.03
+    assert np.abs(times - 0.13).min() < 0.03
     assert "doubtful" in next(str(one) for one in match_facts(match) if one.key == "exposure_time")
     assert "given" not in next(str(one) for one in match_facts(match) if one.key == "duty")
 
 
-@pytest.mark.whole
-def test_two_pulses_read_of_a_hot_lamp_are_never_sure() -> None:
-    """They gave a readout time twice too long."""
-    assert not hot_trial_of(9104).is_sure
-
-
 def test_chips_that_are_read_in_place_of_a_given_pulse_are_never_sure() -> None:
-    scene = random_scene(3)
+    scene = occ.load_preset("phone-68us").replace(
+        rows=60, columns=400, readout_time=10e-6, pattern="11010", switching_frequency=10e3,
+        averaging="light", enhancement="none", panel_width=3.0,
+    )  # fmt: skip
     match = occ.match_photo(take(scene), scene.replace(pattern="10"))
-    assert len(match.pattern) == 24
+    assert len(match.pattern) == 5
     assert any("as is given" in why for why in match.reasons)
 
 
@@ -162,14 +106,6 @@ def test_bright_runs_that_white_lengthens_may_be_those_of_longer_chips() -> None
     (why,) = _doubts_by_reading(found, white)  # type: ignore[arg-type]
     assert "12 chips that last 2 times as long explain the same edges" in why
     assert _doubts_by_reading(found, dark) == []  # type: ignore[arg-type]
-
-
-@pytest.mark.whole
-def test_chips_are_never_surely_taken_for_half_chips_where_white_lengthens_them() -> None:
-    """Half of the picture is white, and every bright run is longer by half a chip."""
-    said = said_of_unknown_chips(996029)
-    assert said.verdict == "doubtful"
-    assert "24 chips that last 2 times as long explain the same edges" in said.why
 
 
 @pytest.mark.whole

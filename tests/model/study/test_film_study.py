@@ -5,16 +5,13 @@ from pathlib import Path
 
 import pytest
 
-import occ_model as occ
 from occ_model.cli import main
 from occ_model.study.film_study import (
     FRAME_PERIOD,
     PACKET_CHIPS,
-    FilmRequest,
     example_request,
     film_study,
     published_rule,
-    scene_of_films,
 )
 from occ_model.video.counting import (
     ShutterTiming,
@@ -86,17 +83,6 @@ def test_the_rule_of_the_published_simulator_is_within_two_points_of_counting() 
     assert published_rule() == Fraction(205, 333) * Fraction(99, 100)
     by_hand = (Fraction(8, 10) * FRAME_PERIOD - Fraction(PACKET_CHIPS, 8000)) / FRAME_PERIOD
     assert abs(float(published_rule() - by_hand)) < 0.02
-
-
-@pytest.mark.whole
-@pytest.mark.parametrize(("bits", "gap"), [(16, 0.4), (40, 0.2), (90, 0.05), (90, 0.4)])
-def test_films_carry_what_counting_says(bits: int, gap: float) -> None:
-    scene = scene_of_films(occ.load_preset("phone-68us")).replace(
-        line_code="manchester", framing="preamble", exposure_time=40e-6
-    )
-    (point,) = film_study(FilmRequest(scene, (8e3,), (gap,), (bits,), frames=90))
-    assert point.is_right
-    assert point.reception == pytest.approx(point.counted_reception, abs=0.02)
 
 
 def test_the_command_writes_the_numbers_that_it_prints(

@@ -2,10 +2,6 @@
 
 import dataclasses
 import math
-import signal
-import subprocess
-import sys
-import time
 from dataclasses import replace
 from pathlib import Path
 
@@ -93,32 +89,6 @@ def test_a_map_that_was_killed_goes_on_and_is_the_same(tmp_path: Path) -> None:
     path.write_bytes(text.replace(b"seed 1", b"seed 2"))
     with pytest.raises(occ.OutputError, match="another map of a room"):
         room_map(request, results=path)
-
-
-@pytest.mark.whole
-def test_what_kill_9_leaves_is_continued_and_ends_alike(tmp_path: Path) -> None:
-    room, path, whole = (tmp_path / name for name in ("room.toml", "map.csv", "whole.csv"))
-    room.write_text(small_room(4).to_toml(), encoding="utf-8")
-    words = ("room", "map", "--room", str(room), "--side", "3", "--out")
-    program = "import sys; from occ_model.cli import main; sys.exit(main())"
-    victim = subprocess.Popen([sys.executable, "-c", program, *words, str(path)])
-    try:
-        deadline = time.monotonic() + 120.0
-        while not path.exists() or _rows(path) < 2:
-            assert time.monotonic() < deadline
-            time.sleep(0.01)
-        victim.send_signal(signal.SIGKILL)
-        assert victim.wait(30) == -signal.SIGKILL
-    finally:
-        victim.kill()
-    assert 2 <= _rows(path) < 9
-    assert main([*words, str(path)]) == 0
-    assert main([*words, str(whole)]) == 0
-    assert path.read_bytes() == whole.read_bytes()
-
-
-def _rows(path: Path) -> int:
-    return sum(line[:1].isdigit() for line in path.read_text(encoding="utf-8").splitlines())
 
 
 def test_the_command_measures_a_room_file_with_other_settings(

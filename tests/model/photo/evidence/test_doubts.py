@@ -1,47 +1,71 @@
 """A residual that still repeats makes a match doubtful; numbers beyond limits are told apart."""
 
 import re
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
-from simulated_photos import photo_of
 
-import occ_model as occ
-from occ_model.photo.evidence.doubts import strongest_line, told_apart
+from occ_model.arrays import FloatArray
+from occ_model.photo.evidence.doubts import doubts, strongest_line, told_apart
+from occ_model.photo.fit.timing import Timing
 
-READOUT, LAMP, MAINS = 63.1e-6, 1920.0, 120.0
-COLUMNS = 3000
-
-
-def dimmed_lamp_on_the_mains() -> occ.Photo:
-    """Draw a lamp dimmed at 1920 Hz whose brightness follows the mains, exposed for four cycles.
-
-    The exposure averages the cycles nearly away, and the mains' ripple is left: 132 columns long,
-    it looks like the square wave of a lamp photographed at 3.9 us a line.
-    """
-    random = np.random.default_rng(5)
-    exposure, moment = 2.05e-3, 2e-6
-    times = np.arange(0.0, COLUMNS * READOUT + exposure, moment)
-    light = (1.0 + 0.4 * np.sin(2.0 * np.pi * MAINS * times)) * ((times * LAMP) % 1.0 < 0.5)
-    integral = np.concatenate([[0.0], np.cumsum(light)])
-    begin = np.arange(COLUMNS) * READOUT
-    ends = np.arange(len(integral)) * moment
-    lit = np.interp(begin + exposure, ends, integral) - np.interp(begin, ends, integral)
-    rows = np.repeat(0.6 * (lit / lit.max())[None], 120, axis=0)
-    rows = random.poisson(3000.0 * rows) / 3000.0
-    return photo_of(np.rint(255.0 * rows ** (1.0 / 2.22)).astype(np.uint8))
+PLACE, HEIGHT = np.arange(1500), np.full(1500, 100.0)
+NOISE = np.random.default_rng(5).standard_normal(1500)
 
 
-@pytest.mark.whole
-def test_mains_ripple_taken_for_the_lamp_is_doubted() -> None:
-    told = occ.load_preset("phone-68us").replace(
-        pattern="10", switching_frequency=2.0 * LAMP, readout_time=1e-6
-    )
-    match = occ.match_photo(dimmed_lamp_on_the_mains(), told, sent="scene")
-    assert match.readout_time < 0.1 * READOUT, "the ripple was not taken for the lamp"
-    assert match.verdict == "doubtful"
-    named = re.search(r"repeats after ([\d.]+) columns", " ".join(match.reasons))
-    assert float(named[1]) == pytest.approx(1.0 / (LAMP * READOUT), rel=0.01)
+def explained(
+    left: FloatArray = NOISE, was_read: bool = False, saturated: float = 0.0, **other: float
+) -> list[str]:
+    """Give the doubts of chips that are explained well but for what is left, or some figure."""
+    known = {"periods": 9.0, "exposure": 0.5, "correlation": 0.99, "information": 900.0, **other}
+    timing = Timing(0.1, known["exposure"], 0.0, 2.2)
+    found: Any = SimpleNamespace(
+        chips=np.array([1, 1, 1, 0, 1, 0, 0, 1, 0, 0], dtype=np.uint8), rate=1.0,
+        was_read=was_read, read_again=False, periods=known["periods"],
+        information=known["information"], residual=lambda profile: profile - HEIGHT,
+        fit=SimpleNamespace(swing=HEIGHT, timing=timing, correlation=known["correlation"]),
+    )  # fmt: skip
+    stripes: Any = SimpleNamespace(profile=HEIGHT + left, saturated=saturated, period=None)
+    return doubts(found, stripes, known.get("rows_alike", 1.0))
+
+
+@pytest.mark.parametrize(
+    ("name", "sure", "doubtful", "said", "was_read"),
+    [
+        ("periods", 1.5, 1.49, "Only 1.5 periods of 10 chips are in view; at least 1.5", False),
+        ("periods", 3.0, 2.96, "Only 3 periods of 10 chips are in view; at least 3", True),
+        ("exposure", 3.2, 3.3, "The exposure is 3.3 times as long as a chip; above 3.2", False),
+        ("correlation", 0.9, 0.89, "The correlation is 0.89; below 0.9", False),
+        ("information", 40.0, 39.0, "by chance by 39 bits only; at least 40", False),
+        ("information", 100.0, 99.0, "by chance by 99 bits only; at least 100", True),
+        ("rows_alike", 0.85, 0.84, "only with a correlation of 0.84; at least 0.85", False),
+        ("saturated", 0.5, 0.51, "51.0 % of the pixels are white", True),
+    ],
+)
+def test_each_figure_has_a_limit_from_which_a_match_is_doubtful(
+    name: str, sure: float, doubtful: float, said: str, was_read: bool
+) -> None:
+    assert explained(was_read=was_read, **{name: sure}) == []
+    (why,) = explained(was_read=was_read, **{name: doubtful})
+    assert said in why
+
+
+@pytest.mark.parametrize(
+    ("height", "noise", "is_doubted"), [(0.05, 0.1, True), (0.015, 0.1, False), (0.05, 8.0, False)]
+)
+def test_a_residual_that_repeats_makes_a_match_doubtful(
+    height: float, noise: float, is_doubted: bool
+) -> None:
+    """As the cycles of a dimmed lamp do where the ripple of the mains was taken for its stripes."""
+    wave = 100.0 * height * np.sin(2.0 * np.pi * PLACE / 8.7)
+    said = explained(wave + noise * NOISE)
+    assert len(said) == is_doubted
+    for why in said:
+        period, percent = re.search(r"repeats after (.+) columns, by (.+) % of their", why).groups()
+        assert float(period) == pytest.approx(8.7, rel=0.01)
+        assert float(percent) == pytest.approx(5.0, rel=0.1)
 
 
 @pytest.mark.parametrize("amplitude", [0.03, 0.1])

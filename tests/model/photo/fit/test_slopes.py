@@ -164,15 +164,14 @@ def model_of(
 @pytest.mark.parametrize(("brightest", "late"), [(0.5, 0.0), (1.5, 0.0), (1.5, 0.4)])
 @pytest.mark.parametrize(("gamma", "wide"), [(2.2, False), (2.2, True), (1.0, False)])
 @pytest.mark.parametrize("shape", SHAPES)
-@pytest.mark.parametrize("seed", [1, pytest.param(2, marks=pytest.mark.whole)])
 def test_the_residuals_slopes_are_limits_of_differences(
-    brightest: float, late: float, gamma: float, wide: bool, shape: BlurShape, seed: int
+    brightest: float, late: float, gamma: float, wide: bool, shape: BlurShape
 ) -> None:
     """Also off the best fit, with some columns clipped, and some of these dark by the model."""
-    true = drawn(seed)
+    true = drawn(1)
     model = model_of(true, 2.0, brightest, gamma=gamma, wide=wide)
     model.estimate_noise(true)
-    here = true + 0.02 * (drawn(seed + 10) - drawn(seed + 20))
+    here = true + 0.02 * (drawn(11) - drawn(21))
     here[2] += late
     slopes = (model._slopes(here, shape) * model._scale).T
 

@@ -225,11 +225,8 @@ def _scene(random: np.random.Generator) -> Scene:
     )  # fmt: skip
 
 
-@pytest.mark.parametrize(
-    "seed", [0, *(pytest.param(seed, marks=pytest.mark.whole) for seed in (1, 2))]
-)
-def test_the_depth_with_slow_edges_is_exact_to_1e_13_of_the_mean(seed: int) -> None:
-    random = np.random.default_rng([24, seed])
+def test_the_depth_with_slow_edges_is_exact_to_1e_13_of_the_mean() -> None:
+    random = np.random.default_rng([24, 0])
     worst = 0.0
     for _ in range(amount(6, 20)):
         scene = _scene(random)

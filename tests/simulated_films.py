@@ -1,6 +1,5 @@
 """Films that differ in all that a reader of films meets, and their readings beside the truth."""
 
-import math
 import time
 from dataclasses import dataclass
 from fractions import Fraction
@@ -72,11 +71,10 @@ class Judged:
         return measured.value - self.film.truth[name], measured.error
 
 
-def film(number: int, seconds: float = 5.0, most_frames: float = math.inf) -> Film:
+def film(number: int, seconds: float = 5.0) -> Film:
     """Return one of the films; its number is the seed of all that differs."""
     random = np.random.default_rng(2100 + number)
     rate = _RATES[number % len(_RATES)]
-    seconds = min(seconds, most_frames / rate)
     gap = float(random.uniform(0.02, 0.4))
     columns = int(random.choice([720, 1080, 1920]))
     readout = round((1.0 - gap) / rate / columns, 9)

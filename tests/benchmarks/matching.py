@@ -10,9 +10,6 @@ unknown chips, 1.5 to 20 periods in view, half of them saturated.
 95, of 4 to 30 columns a chip and exposures of a tenth of a chip to three. ``lamps``: how many lamps
 are found in 200 pictures of one to eight (seeds below 1000 were looked at while the search was
 made); ``hot-lamps``: of lamps with hot spots, halos and slopes, at exposures of 0.05 to 8 chips.
-``bounds``: the Cramer-Rao bound of 40 photographs' readout and exposure time beside that of the
-means of their columns: with independent noise, with JPEG's rounding alike in all rows, and without
-the columns beside clipped ones, which a match leaves out.
 ``--plot FILE`` draws the errors of ``coverage`` beside their Cramer-Rao bounds.
 """
 
@@ -39,11 +36,9 @@ from photo_trials import (
     said_of_other_code,
     said_of_unknown_chips,
 )
-from photo_world.bounds import bound_of_picture, bound_of_profile
 from photo_world.hot_lamps import hot_lamp_scene
 from photo_world.lamp_scenes import LampScene, lamp_scene
 from photo_world.lamp_scores import score_of
-from photo_world.photograph import random_world
 from photo_world.trials import SATURATION_THIRDS, WORLDS, Trial
 
 HEAD = (
@@ -55,14 +50,6 @@ _SMALL = 9.95e-5
 
 _WRONG = 0.01
 """Relative error of a readout time from which it is wrong."""
-
-_LEFT_OUT = 3  # columns beside a clipped one, as a match leaves them out
-_BOUNDS: dict[str, dict[str, Any]] = {
-    "means of columns": {},
-    "and JPEG alike in all rows": {"jpeg_alike": True},
-    "and columns beside clipped ones left out": {"beside_clipped": _LEFT_OUT},
-    "and both": {"jpeg_alike": True, "beside_clipped": _LEFT_OUT},
-}
 
 
 def row(name: str, found: list[Trial], what: str) -> str:
@@ -208,20 +195,6 @@ def tally(said: list[Said]) -> list[str]:
     return lines + [f"  {one.what} {one.seed}: {one.verdict}. {one.why}" for one in quoted]
 
 
-def bounds_of(seeds: Sequence[int]) -> Iterable[np.ndarray]:
-    """Return each bound of photographs over that of all their pixels, of readout and exposure."""
-    for seed in seeds:
-        world = random_world(seed)
-        found = [bound_of_profile(world, **kind) for kind in _BOUNDS.values()]
-        yield np.array(found) / np.array(bound_of_picture(world))
-
-
-def bounds_table(found: list[np.ndarray]) -> list[str]:
-    rows = zip(_BOUNDS, np.median(found, axis=0), strict=True)
-    lines = [f"| {name} | {readout:.2f} | {exposure:.2f} |" for name, (readout, exposure) in rows]
-    return ["| bound by | readout | exposure |\n|---|---|---|", *lines]
-
-
 def lamps_of(draw: Callable[[int], LampScene], seeds: Sequence[int]) -> list[str]:
     return score_of(seeds, draw).lines()
 
@@ -234,7 +207,6 @@ WHAT: dict[str, tuple[int, Callable[[Sequence[int]], Iterable[Any]], Callable[..
     "known": (500, round_trips, report),
     "lamps": (200, partial(lamps_of, lamp_scene), list),
     "hot-lamps": (200, partial(lamps_of, hot_lamp_scene), list),
-    "bounds": (40, bounds_of, bounds_table),
 }
 """The full number of photographs, how they are matched, and how the result is written."""
 

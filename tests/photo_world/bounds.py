@@ -7,7 +7,7 @@ import numpy as np
 from occ_model.photo.fit.joint_model import USUAL
 from occ_model.photo.stripes.envelope import smooth_shapes
 from photo_world.photograph import World, blurred, falloff, lit_fraction, scale
-from photo_world.pixel_noise import cosines_of_eight, jpeg_noise, jpeg_steps, square_of, whitened
+from photo_world.pixel_noise import jpeg_noise, whitened
 
 _ROWS = 8
 """Rows that count as equally bright: those of a block of JPEG."""
@@ -17,9 +17,6 @@ _LEVELS = 3
 
 _CHANGE = 1e-3
 """Columns by which a time is changed for finite differences, over all of them."""
-
-_EVENLY = 0.6
-"""Fraction of the brightest row's light from which rows count as lit well, as in a match."""
 
 _OF_BLUR = 0.02
 _REACH = 25
@@ -85,55 +82,6 @@ def bound_of_picture(world: World, *, camera_known: bool = False) -> tuple[float
     camera = slice(3 + 2 * _LEVELS, None)
     prior = 1e12 if camera_known else 1.0 / np.array([sd for _, sd in USUAL.values()]) ** 2
     information[camera, camera] += np.diag(np.broadcast_to(prior, len(USUAL)))
-    return _of_times(information)
-
-
-def bound_of_profile(
-    world: World, *, jpeg_alike: bool = False, beside_clipped: int = 0
-) -> tuple[float, float]:
-    """Return the bound by the mean of each column over the rows that are lit well.
-
-    The unknowns are those of :func:`bound_of_picture`. The covariance of the mean over R rows is
-    C/R, for noise that is independent from row to row.
-
-    ``world``: the photograph's truth. ``jpeg_alike``: whether JPEG's rounding is alike in all rows
-    as far as light is: a coefficient with a normal noise of deviation s that is rounded to
-    multiples of q is off, on average over the noise, by (q/pi) exp(-2 (pi s/q)^2) sin(2 pi m/q) for
-    a mean m, and by the sine's higher harmonics, which are smaller. Of that error's variance
-    nothing is averaged out. ``beside_clipped``: columns beside a clipped one that are left out,
-    too.
-    """
-    lamp, dark = _lights(world)
-    brightness = lamp.max(axis=1)
-    rows = brightness > _EVENLY * brightness.max()
-    b, a, count = lamp[rows].mean(axis=0), dark[rows].mean(axis=0), int(rows.sum())
-    lit, shapes = lit_fraction(world), smooth_shapes(world.columns, _LEVELS).T
-    of_light = [
-        *(b * slope for slope in _slopes_of_times(world)), *(b * lit * shapes), *(a * shapes)
-    ]  # fmt: skip
-    light = b * lit + a
-    row = _row(world, light, of_light, b * _slope_of_longer(world))
-    clipped = np.convolve(light >= 1.0, np.ones(2 * beside_clipped + 1), "same") > 0.0
-    noise = _of_light(world, row)
-    bands = noise / count
-    bands[0] += 2.0 / 12.0 / count
-    bands[:8] += jpeg_noise(world) / count
-    if jpeg_alike:
-        cosines, steps = cosines_of_eight(), jpeg_steps(world)
-        starts = np.arange(0, world.columns - 7, 8)
-        for start in starts.tolist():
-            block = square_of(noise[:8, start : start + 8])
-            spread = np.einsum("ij,jk,ik->i", cosines, block, cosines)
-            common = steps**2 / (2.0 * np.pi**2) * np.exp(-4.0 * np.pi**2 * spread / steps**2)
-            # Rows of a block are alike: their coefficient is larger by the root of their number.
-            both = cosines.T @ np.diag(common / 8.0) @ cosines
-            for apart in range(8):
-                bands[apart, start : start + 8 - apart] += np.diag(both, -apart)
-    bands[0, clipped] += 1e12
-    slopes = whitened(bands, row.slopes)
-    information = np.asarray(slopes @ slopes.T)
-    camera = slice(3 + 2 * _LEVELS, None)
-    information[camera, camera] += np.diag(1.0 / np.array([sd for _, sd in USUAL.values()]) ** 2)
     return _of_times(information)
 
 

@@ -9,15 +9,6 @@ _TABLE = np.array([16, 11, 10, 16, 24, 40, 51, 61])
 """Steps of the coefficients without change along a column at quality 50 (ITU-T T.81, table K.1)."""
 
 
-def square_of(bands: np.ndarray) -> np.ndarray:
-    """Return a block of eight columns of a covariance from its diagonals."""
-    block = np.zeros((8, 8))
-    for apart in range(8):
-        values = bands[apart, : 8 - apart]
-        block += np.diag(values, -apart) + (np.diag(values, apart) if apart else 0.0)
-    return block
-
-
 def jpeg_steps(world: World) -> np.ndarray:
     """Return the steps to which JPEG rounds the coefficients of eight columns."""
     quality = world.quality

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from photo_world.bounds import bound_of_light, bound_of_picture, bound_of_profile
+from photo_world.bounds import bound_of_light, bound_of_picture
 from photo_world.photograph import World, photograph, random_world
 from photo_world.tone_curves import power
 from photo_world.trials import Trial, told, trial
@@ -183,23 +183,3 @@ def test_columns_kept_for_the_fit_hold_no_clipped_pixel() -> None:
     assert profiles
     assert all(profile.values[profile.kept].max() < 250.0 for profile in profiles)
     assert any(profile.clipped.any() for profile in profiles)
-
-
-def test_less_of_a_photograph_tells_less() -> None:
-    """Means of columns, JPEG that is alike in all rows, columns left out: each widens the bound."""
-    world = small_world(2, blur=0.8, saturated=0.25, quality=70)
-    means = bound_of_profile(world)
-    alike = bound_of_profile(world, jpeg_alike=True)
-    fewer = bound_of_profile(world, beside_clipped=3)
-    both = bound_of_profile(world, jpeg_alike=True, beside_clipped=3)
-    for one in (alike, fewer):
-        assert all(wide > narrow for wide, narrow in zip(one, means, strict=True))
-        assert all(wide >= narrow for wide, narrow in zip(both, one, strict=True))
-
-
-def test_of_rows_all_alike_the_mean_of_each_column_tells_everything() -> None:
-    """The mean of independent equal noise is sufficient: nothing is lost by it."""
-    world = small_world(2, blur=0.8, vignetting=0.0)
-    lamp = replace(world.lamp, darkening=0.0, halo=0.0, half_height=200.0, rim=1.0)
-    world = replace(world, lamp=lamp)
-    np.testing.assert_allclose(bound_of_profile(world), bound_of_picture(world), rtol=0.02)

@@ -1,16 +1,21 @@
 """Several lamps in one photo: each is found, with its frequency, and matched by itself."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
+from matches import match_with
 from photo_world.hot_lamps import hot_lamp_scene
 from photo_world.lamp_scores import score_of
 from simulated_photos import photo_of
 
 import occ_model as occ
 from occ_model.arrays import ByteArray
+from occ_model.cli import main
+from occ_model.commands import match
 from occ_model.files.writing import write_image
+from occ_model.photo.lamps import match as lamps_match
 
 ROWS, COLUMNS = 240, 720
 
@@ -146,20 +151,6 @@ def test_a_round_lamps_columns_are_alike_bright() -> None:
     assert not lamp.covers(20, 200)
 
 
-@pytest.mark.whole
-def test_every_lamp_is_matched_by_itself() -> None:
-    image = picture(
-        ((20, 120, 100, 400), 200.0, 30.0, 3.0), ((120, 220, 100, 400), 150.0, 41.0, 11.0)
-    )
-    scene = occ.Scene().replace(pattern="10", switching_frequency=2e3)
-    times = [
-        match.readout_time
-        for _, match in occ.match_lamps(photo_of(image), scene)
-        if isinstance(match, occ.Match)
-    ]
-    assert times == pytest.approx([1 / (15.0 * 2e3), 1 / (20.5 * 2e3)], rel=0.01)
-
-
 def test_a_search_goes_from_nothing_to_all_and_ends_by_what_progress_raises() -> None:
     fractions: list[float] = []
 
@@ -178,26 +169,40 @@ def test_a_search_goes_from_nothing_to_all_and_ends_by_what_progress_raises() ->
     assert (fractions[0], fractions[-1]) == (0.0, 1.0)
 
 
-@pytest.mark.whole
-def test_the_shell_lists_the_lamps(tmp_path: object, capsys: pytest.CaptureFixture[str]) -> None:
-    from pathlib import Path
+def test_every_lamp_is_matched_by_itself_and_listed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    asked: list[occ.Region | occ.Lamp] = []
 
-    from occ_model.cli import main
+    def matched(*_: object, region: occ.Region | occ.Lamp, **__: object) -> occ.Match:
+        asked.append(region)
+        if len(asked) == 2:
+            raise occ.MatchError("It is not explained.")
+        return match_with()
 
-    path = Path(str(tmp_path)) / "lamps.png"
+    monkeypatch.setattr(lamps_match, "match_photo", matched)
+    monkeypatch.setattr(match, "match_photo", matched)
+    path = tmp_path / "lamps.png"
     write_image(
         path,
-        picture(((20, 120, 100, 400), 200.0, 30.0, 3.0), ((150, 220, 60, 160), 230.0, 0.0, 0.0)),
-    )
-    assert main(["match", str(path), "--lamps", "--led-frequency", "1kHz"]) == 0
+        picture(
+            ((20, 120, 100, 400), 200.0, 30.0, 3.0), ((120, 220, 100, 400), 150.0, 41.0, 11.0),
+            ((150, 220, 460, 560), 230.0, 0.0, 0.0),
+        ),
+    )  # fmt: skip
+    command = ["match", str(path), "--led-frequency", "1kHz"]
+    assert main([*command, "--lamps"]) == 0
     said = capsys.readouterr().out
-    assert "lamp 1: " in said
-    assert "lamp 2: " in said
+    assert [f"lamp {number}: " in said for number in (1, 2, 3, 4)] == [True] * 3 + [False]
+    assert "readout_time" in said
+    assert "It is not explained." in said
     assert "no stripes" in said
-    assert main(["match", str(path), "--region", "20:120", "--led-frequency", "1kHz"]) != 0
+    found = occ.find_lamps(occ.load_photo(path, "columns"))
+    assert [where.region for where in asked] == [lamp.region for lamp in found if lamp.modulated]
+    assert main([*command, "--region", "20:120"]) != 0
     assert "R0:R1,C0:C1" in capsys.readouterr().err
-    assert main(["match", str(path), "--region", "20:120,100:400", "--led-frequency", "1kHz"]) == 0
-    assert "rows 20 to 119" in capsys.readouterr().out
+    assert main([*command, "--region", "20:120,100:400"]) == 0
+    assert asked[-1] == occ.Region(20, 120, 100, 400)
 
 
 @pytest.mark.parametrize(("error", "doubtful"), [(0.0033, False), (0.0034, True)])

@@ -1,6 +1,7 @@
 """A photo of a room is read as a picture of it, with what its file says of the camera."""
 
 import dataclasses
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -16,9 +17,15 @@ from occ_model.room.photo import RoomPhoto, read_room_photo
 from occ_model.room.room import Place, Room
 
 
+@cache
 def _room(focal_length: float = 0.026) -> Room:
     camera = Place(x=0.5, y=0.7, z=-0.2, yaw=0.1, pitch=-0.1, roll=0.4)
     return small_room(apart=1.1, camera=camera, rows=1024, equivalent_focal_length=focal_length)
+
+
+@cache
+def _picture() -> np.ndarray:
+    return occ.render_room(_room()).camera_image
 
 
 def _saved(path: Path, image: np.ndarray, **tags: Any) -> Path:
@@ -63,7 +70,7 @@ def test_a_rounded_focal_length_is_part_of_the_stated_errors(tmp_path: Path) -> 
 @pytest.mark.parametrize("quarters", [1, 2])
 def test_a_photo_is_read_however_it_lies(tmp_path: Path, quarters: int) -> None:
     room = _room()
-    image = np.rot90(occ.render_room(room).camera_image, quarters)
+    image = np.rot90(_picture(), quarters)
     found = read_room_photo(occ.load_photo(_saved(tmp_path / "room.jpg", image)), room)
     assert (_off(found, room.camera) < 4.0 * found.reading.located.errors).all()
     assert ("turned" in found.assumed[-1]) == bool(quarters)
@@ -71,9 +78,7 @@ def test_a_photo_is_read_however_it_lies(tmp_path: Path, quarters: int) -> None:
 
 def test_a_photo_of_half_the_size_has_twice_the_readout_time_a_column(tmp_path: Path) -> None:
     room = _room()
-    image = Image.fromarray(occ.render_room(room).camera_image).resize(
-        (384, 512), Image.Resampling.BOX
-    )
+    image = Image.fromarray(_picture()).resize((384, 512), Image.Resampling.BOX)
     found = read_room_photo(occ.load_photo(_saved(tmp_path / "room.jpg", np.asarray(image))), room)
     assert found.room.scene.camera.readout_time == pytest.approx(72e-6)
     assert "for a picture of 384 columns in place of 768" in found.assumed[1]
@@ -83,7 +88,7 @@ def test_a_photo_of_half_the_size_has_twice_the_readout_time_a_column(tmp_path: 
 
 def test_a_mirrored_photo_has_no_place(tmp_path: Path) -> None:
     room = _room()
-    image = occ.render_room(room).camera_image[::-1]
+    image = _picture()[::-1]
     found = read_room_photo(occ.load_photo(_saved(tmp_path / "room.jpg", image)), room)
     assert any(lamp.name for lamp in found.reading.lamps)
     assert found.reading.located is None
@@ -94,7 +99,7 @@ def test_the_command_says_what_it_assumes(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     room = _room()
-    path = _saved(tmp_path / "room.jpg", occ.render_room(room).camera_image, focal_length=26)
+    path = _saved(tmp_path / "room.jpg", _picture(), focal_length=26)
     file = tmp_path / "room.toml"
     file.write_text(room.to_toml(), encoding="utf-8")
     words = ["room", "locate", str(path), "--room", str(file)]
@@ -110,7 +115,7 @@ def test_the_command_says_what_it_assumes(
 
 def test_a_focal_length_that_is_nearly_known_keeps_its_error() -> None:
     room = _room()
-    image = occ.render_room(room).camera_image
+    image = _picture()
     for fraction in (1e-7, 1e-6):
         located = occ.read_room(image, room, fraction).located
         widened = max(1.0, np.sqrt(located.deviations / located.freedom))

@@ -1,5 +1,6 @@
 """Laws of the success rate, and of the two ways to measure it."""
 
+import itertools
 import math
 from typing import Any
 
@@ -9,8 +10,10 @@ import pytest
 import occ_model as occ
 from occ_model.effects.paper_view import paper_view_of
 from occ_model.receiver.signal import locate
+from occ_model.results.decoding import DecodeResult
 from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.scene import Scene
+from occ_model.study import success_rate as module
 from occ_model.study.observation import observe_profile, panel_span
 
 
@@ -28,44 +31,24 @@ def test_same_seed_same_rate_other_seed_other_images() -> None:
     assert len(set(found)) > 1
 
 
-def test_rate_is_the_fraction_of_right_bits_in_percent(
+def test_rate_is_the_fraction_of_right_bits_and_only_accepted_payloads_are_whole(
     scene: Scene, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from occ_model.results.decoding import DecodeResult
-    from occ_model.study import success_rate as module
-
     sent = np.array([1, 0, 1, 1, 0, 0, 1, 1, 1, 0], dtype=np.uint8)
     three_wrong = sent.copy()
     three_wrong[:3] ^= 1
-    results = iter(
-        [
-            DecodeResult("x", bits=sent, code=718),
-            DecodeResult("x", bits=three_wrong, code=1),
-            DecodeResult("x", failure="Nothing."),
-            DecodeResult("x", bits=sent[:4]),
-        ]
-    )
-    monkeypatch.setattr(module, "_read", lambda *_: [next(results)])
-    assert occ.success_rate(scene.replace(code=718), images=4) == pytest.approx(100 * 17 / 40)
-
-
-def test_a_payload_that_the_decoder_does_not_accept_is_not_read(
-    scene: Scene, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    from occ_model.results.decoding import DecodeResult
-    from occ_model.study import success_rate as module
-
-    sent = np.array([1, 0, 1, 1, 0, 0, 1, 1, 1, 0], dtype=np.uint8)
-    results = iter(
-        [
-            DecodeResult("x", bits=sent, code=718),
-            DecodeResult("x", bits=sent, failure="The chips are not certain enough."),
-        ]
-    )
-    monkeypatch.setattr(module, "_read", lambda *_: [next(results)])
-    right, whole = module.right_and_whole(scene.replace(code=718), RateSettings(2, ("x",)))
-    assert right == (10,)
-    assert whole == (1,)
+    results = [
+        DecodeResult("x", bits=sent, code=718),
+        DecodeResult("x", bits=three_wrong, code=1),
+        DecodeResult("x", failure="Nothing."),
+        DecodeResult("x", bits=sent[:4]),
+        DecodeResult("x", bits=sent, failure="The chips are not certain enough."),
+    ]
+    given = itertools.cycle(results)
+    monkeypatch.setattr(module, "_read", lambda *_: [next(given)])
+    asked = scene.replace(code=718)
+    assert module.right_and_whole(asked, RateSettings(5, ("x",))) == ((17,), (1,))
+    assert occ.success_rate(asked, images=5) == pytest.approx(100 * 17 / 50)
 
 
 @pytest.mark.parametrize("decoder", ["threshold", "matched"])
@@ -156,7 +139,6 @@ def test_another_decoder_reads_the_same_pictures_without_simulating_them_again(
     scene: Scene, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     from occ_model.study import observation
-    from occ_model.study import success_rate as module
 
     simulated: list[object] = []
 

@@ -8,7 +8,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from simulated_films import FILMS, Film, Judged, film, judge
+from simulated_films import Judged, film, judge
 
 import occ_model as occ
 from occ_model.arrays import FloatArray
@@ -17,12 +17,6 @@ from occ_model.scene.recording import Recording
 from occ_model.video.read_frame import FrameReader, TimedFrame, read_by_itself
 
 _VALUES = ("switching_frequency", "readout_time", "gap")
-_WHOLE = range(0, 24, 6)
-"""Some of each frame rate, framing and line code; tests/benchmarks/film_reading.py reads all."""
-
-_FRAMES = 100
-"""Most frames of a film here: what many frames a second show sooner is as exact."""
-
 SCENE = occ.load_preset("phone-68us").replace(
     rows=32,
     columns=720,
@@ -112,24 +106,6 @@ def assert_as_demanded(judged: Judged) -> None:
 
 def test_a_film_gives_its_clock_and_the_payload() -> None:
     assert_as_demanded(judge(film(2, seconds=1.5)))
-
-
-@pytest.mark.whole
-def test_films_give_their_clocks_and_payloads_with_errors_that_hold() -> None:
-    judged = [judge(film(number, most_frames=_FRAMES)) for number in _WHOLE]
-    read = [one for one in judged if one.reading.clock is not None]
-    for one in read:
-        assert_as_demanded(one)
-    # Of packets of more than 2,000 chips hardly any frame shows the header: that is said.
-    unread = [one for one in judged if one.reading.clock is None]
-    assert len(unread) <= 1
-    for one in unread:
-        assert one.film.scene.transmitter.payload_length == 1024
-        assert one.reading.failure is not None
-        assert not one.reading.bits.size
-    ratios = [off / error for one in read for off, error in map(one.error, _VALUES)]
-    inside = float(np.mean(np.abs(ratios) < 1.0))
-    assert inside == pytest.approx(0.68, abs=2.5 * math.sqrt(0.68 * 0.32 / len(ratios)))
 
 
 def test_packets_longer_than_a_frame_are_joined_chip_by_chip() -> None:
@@ -384,15 +360,3 @@ def test_a_film_that_is_not_read_fails_with_the_words_of_a_single_picture() -> N
 def test_too_short_a_film_says_how_much_was_not_in_view() -> None:
     reading = reading_of(film_of_scene()[:2], SCENE)
     assert "of 134 chips were in no frame" in reading.failure or "header" in reading.failure
-
-
-def test_the_films_differ_as_demanded() -> None:
-    films: list[Film] = [film(number) for number in range(FILMS)]
-    gaps = [one.recording.gap_ratio(one.scene) for one in films]
-    assert min(gaps) < 0.05
-    assert max(gaps) > 0.35
-    assert {one.recording.frame_rate for one in films} >= {24.0, 240.0}
-    assert max(one.recording.frame_jitter for one in films) >= 1e-4
-    assert max(abs(one.recording.camera_drift) for one in films) > 9e-5
-    assert {one.scene.transmitter.payload_length for one in films} >= {32, 1024}
-    assert any(one.recording.path for one in films)

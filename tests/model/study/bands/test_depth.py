@@ -30,20 +30,6 @@ def _pulses(chips: int, lit: int, frequency: float, exposure: float, **others: f
     )
 
 
-@pytest.mark.parametrize("whole", range(1, 9))
-def test_a_square_wave_has_no_bars_at_whole_periods_and_most_between(whole: int) -> None:
-    # 1 kHz and powers of two: exposures that are whole periods to the last bit.
-    frequency = 1024.0
-    assert light_depth(_pulses(2, 1, frequency, whole / frequency)) == Depth(0.0, 0.0)
-    half = light_depth(_pulses(2, 1, frequency, (whole + 0.5) / frequency)).peak_to_peak
-    assert half == pytest.approx(1.0 / (whole + 0.5), rel=1e-12)
-    places = np.linspace(whole + 0.01, whole + 0.99, 99)
-    depths = [light_depth(_pulses(2, 1, frequency, at / frequency)).peak_to_peak for at in places]
-    numerators = np.array(depths) * places
-    assert numerators.argmax() == 49
-    assert max(depths) <= 1.0 / whole
-
-
 @given(
     pattern=st.text("01", min_size=2, max_size=30).filter(lambda chips: len(set(chips)) == 2),
     exposure=st.floats(1e-6, 1e-2),

@@ -14,72 +14,44 @@ from contextlib import suppress
 from pathlib import Path
 
 import pytest
-from interruption import MOMENTS, interrupted
+from interruption import MOMENTS, interrupted, is_alive
 
 from occ_model.results.sweep import SweepTable
 
 SLOW = """
 import sys
 import occ_model as occ
-from concurrent.futures import ProcessPoolExecutor
-from multiprocessing import get_context
 
-def slow(path, kind="alone"):
+def slow(path, jobs=2):
     scene = occ.load_preset("phone-136us").replace(rows=400, panel_height=0.05)
     axes = {"switching_frequency": [3e3, 14e3], "iso": list(range(100, 110))}
-    executor = ProcessPoolExecutor(2, get_context("fork")) if kind == "forked" else None
-    return occ.sweep(scene, axes, 2, path="image", results=path, executor=executor,
-                     jobs=2 if kind == "own" else 1)
+    return occ.sweep(scene, axes, 2, path="image", results=path, jobs=jobs)
 
 if __name__ == "__main__":
-    slow(*sys.argv[1:])
+    slow(sys.argv[1])
 """
 
 
-@pytest.fixture(scope="module")
-def slow() -> Callable[[Path], SweepTable]:
-    program: dict[str, Callable[[Path], SweepTable]] = {}
-    exec(SLOW, program)
-    return program["slow"]
-
-
-@pytest.fixture(scope="module")
-def slow_whole(slow: Callable[[Path], SweepTable], tmp_path_factory: pytest.TempPathFactory) -> str:
-    path = tmp_path_factory.mktemp("whole") / "whole.csv"
-    slow(path)
-    return path.read_text()
-
-
 @pytest.mark.whole
-@pytest.mark.parametrize("kind", ["alone", "own", "forked"])
-def test_what_kill_9_leaves_is_continued_at_once_and_ends_alike(
-    tmp_path: Path, kind: str, slow: Callable[[Path], SweepTable], slow_whole: str
-) -> None:
-    program, path = tmp_path / "sweep.py", tmp_path / "r.csv"
+def test_what_kill_9_leaves_is_continued_at_once_and_ends_alike(tmp_path: Path) -> None:
+    program, path, whole = (tmp_path / name for name in ("sweep.py", "r.csv", "whole.csv"))
     program.write_text(SLOW)
-    command = [sys.executable, "-W", "ignore", str(program), str(path), kind]
+    own: dict[str, Callable[[Path, int], SweepTable]] = {}
+    exec(SLOW, own)
+    own["slow"](whole, 1)
+    command = [sys.executable, "-W", "ignore", str(program), str(path)]
     victim = subprocess.Popen(command, start_new_session=True)
     try:
         wait_for(lambda: path.exists() and path.read_bytes().count(b",threshold,") >= 4)
         victim.send_signal(signal.SIGKILL)
         victim.wait(30)
         assert 4 <= path.read_bytes().count(b",threshold,") < 20
-        slow(path)  # while a given executor's forked workers may live on
-        assert path.read_text() == slow_whole
-        if kind == "own":
-            wait_for(lambda: not is_alive(victim.pid))
+        own["slow"](path, 1)
+        assert path.read_text() == whole.read_text()
+        wait_for(lambda: not is_alive(victim.pid))
     finally:
         with suppress(ProcessLookupError):
             os.killpg(victim.pid, signal.SIGKILL)
-
-
-def is_alive(group: int) -> bool:
-    """Say whether any process of a group is there."""
-    try:
-        os.killpg(group, 0)
-    except ProcessLookupError:
-        return False
-    return True
 
 
 def wait_for(happened: Callable[[], bool]) -> None:
@@ -96,7 +68,6 @@ MODULE = "occ_model.cli"
 
 COMMANDS = {
     "render": "render -o {folder}/x.png",
-    "sweep": "sweep --vary iso=100:4000:1 --out {folder}/r.csv",
     "workers": "sweep --vary iso=100:4000:1 --jobs 2 --out {folder}/r.csv",
 }
 

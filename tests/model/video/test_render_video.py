@@ -143,22 +143,6 @@ def test_the_memory_does_not_grow_with_the_film(monkeypatch: pytest.MonkeyPatch)
     assert peaks[1] < 1.1 * peaks[0]
 
 
-def test_frames_are_simulated_only_as_they_are_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
-    rendered: list[float] = []
-    from occ_model.simulation.render import render_with as usual
-
-    def noting(scene: Scene, *arguments: object) -> object:
-        rendered.append(scene.model.start_time)
-        return usual(scene, *arguments)  # type: ignore[arg-type]
-
-    monkeypatch.setattr("occ_model.video.render.render_with", noting)
-    frames = iter(occ.render_video(SCENE, 100))
-    assert not rendered
-    first, second = next(frames), next(frames)
-    assert len(rendered) == 2
-    assert first.time < second.time
-
-
 def test_times_and_starts_agree_on_every_frame_but_for_the_clock() -> None:
     film = occ.render_video(SCENE, 5, occ.Recording(camera_drift=-5e-5, frame_jitter=1e-4))
     frames = list(film)

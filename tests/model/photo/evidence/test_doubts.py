@@ -1,4 +1,4 @@
-"""A residual that still repeats makes a match doubtful; numbers beyond limits are told apart."""
+"""Each figure of a match has a limit; what repeats in its residual is named; numbers are told apart."""
 
 import re
 from types import SimpleNamespace
@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from occ_model.arrays import FloatArray
 from occ_model.photo.evidence.doubts import doubts, strongest_line, told_apart
 from occ_model.photo.fit.timing import Timing
 
@@ -16,7 +15,7 @@ NOISE = np.random.default_rng(5).standard_normal(1500)
 
 
 def explained(
-    left: FloatArray = NOISE, was_read: bool = False, saturated: float = 0.0, **other: float
+    left: Any = NOISE, was_read: bool = False, saturated: float = 0.0, **other: float
 ) -> list[str]:
     """Give the doubts of chips that are explained well but for what is left, or some figure."""
     known = {"periods": 9.0, "exposure": 0.5, "correlation": 0.99, "information": 900.0, **other}

@@ -1,4 +1,4 @@
-"""Each figure of a match has a limit; what repeats in its residual is named; numbers are told apart."""
+"""Figures of a match have limits; what repeats in its residual is named."""
 
 import re
 from types import SimpleNamespace

@@ -91,31 +91,20 @@ class Mosaic:
 
         Shape (lines, columns).
         """
-        picture = np.empty(self.photosites.shape, np.uint16)
-        if along_lines:
-            self._fill(picture, self.photosites, self.is_green, self.levels)
-        else:
-            levels = self.levels.transpose(0, 2, 1)
-            self._fill(picture.T, self.photosites.T, self.is_green.T, levels)
-        return picture
-
-    def _fill(
-        self,
-        picture: NDArray[np.uint16],
-        photosites: NDArray[np.uint16],
-        is_green: NDArray[np.bool_],
-        levels: NDArray[np.float64],
-    ) -> None:
-        for row in range(2):
-            for column in range(2):
-                to = picture[row::2, column::2]
-                taken = column if is_green[row, column] else 1 - column
-                light = _light_of(*levels[:, row, taken].tolist())
-                found = light[photosites[row::2, taken::2]]
-                width = min(to.shape[1], found.shape[1])
-                to[:, :width] = found[:, :width]
-                # The last of an odd number has its green neighbour on the other side.
-                to[:, width:] = found[:, -1:]
+        photosites, is_green, levels = self.photosites, self.is_green, self.levels
+        if not along_lines:
+            photosites, is_green, levels = photosites.T, is_green.T, levels.transpose(0, 2, 1)
+        picture = np.empty(photosites.shape, np.uint16, order="C" if along_lines else "F")
+        for row, column in np.ndindex(2, 2):
+            to = picture[row::2, column::2]
+            taken = column if is_green[row, column] else 1 - column
+            light = _light_of(*levels[:, row, taken].tolist())
+            found = light[photosites[row::2, taken::2]]
+            width = min(to.shape[1], found.shape[1])
+            to[:, :width] = found[:, :width]
+            # The last of an odd number has its green neighbour on the other side.
+            to[:, width:] = found[:, -1:]
+        return picture if along_lines else picture.T
 
 
 def is_raw(file: IO[bytes]) -> bool:

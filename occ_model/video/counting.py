@@ -10,7 +10,6 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import ceil, floor
 
-from occ_model.errors import ParameterError
 from occ_model.scene.scene import Scene
 
 
@@ -27,15 +26,9 @@ class ShutterTiming:
     last: int
 
     @classmethod
-    def of(cls, scene: Scene, columns: tuple[int, int] | None = None) -> "ShutterTiming":
+    def of(cls, scene: Scene, columns: tuple[int, int]) -> "ShutterTiming":
         """Return the timing of a scene for columns from the panel's first to before its last."""
-        first, end = columns or (0, scene.camera.columns)
-        if not 0 <= first < end:
-            raise ParameterError.of(
-                "columns",
-                f"{first} to {end}",
-                "the first column that shows the panel, and the one after the last",
-            )
+        first, end = columns
         return cls(
             Fraction(scene.transmitter.switching_frequency),
             Fraction(scene.camera.exposure_time),

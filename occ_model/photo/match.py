@@ -232,7 +232,9 @@ def _hypotheses(
         best = min([as_sent, *agreed], key=lambda one: one.fit.residual)
         found = [best, *(one for one in found if not is_turned(one, as_sent))]
     if not found:
-        raise MatchError(*_why_unexplained(candidates.stripes, sent))
+        chips = sent_chips(candidates.scene.transmitter)
+        varies = bool(chips.min() < chips.max())
+        raise MatchError(*_why_unexplained(candidates.stripes, sent, varies=varies))
     return found
 
 
@@ -306,10 +308,15 @@ def _alternative(other: Hypothesis, evidence: float, scene: Scene, estimate: str
     )
 
 
-def _why_unexplained(stripes: Stripes, sent: str) -> list[str]:
+def _why_unexplained(stripes: Stripes, sent: str, *, varies: bool = True) -> list[str]:
     sentences = []
     if sent != "read":
-        sentences.append("What the scene sends never changes: it makes no stripes.")
+        sentences.append(
+            "What the scene sends explains the stripes at no timing: lit columns would be darker "
+            "than dark ones, or dark ones darker than black."
+            if varies
+            else "What the scene sends never changes: it makes no stripes."
+        )
     if sent != "scene":
         sentences.append(
             "The stripes do not repeat within the panel's image, so that what is sent cannot be "

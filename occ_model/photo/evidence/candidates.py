@@ -53,7 +53,7 @@ class Candidates:
         return exposure_time(fit, at_rate(self.scene, rate), self.estimate)
 
     def as_sent(self) -> Hypothesis | None:
-        """Suppose what the scene sends; None where that never changes."""
+        """Suppose what the scene sends; None where that never changes, or has no possible fit."""
         chips = sent_chips(self.scene.transmitter)
         period = self.stripes.period
         near = [] if period is None else [self._near(len(canonical(chips)) / period)]

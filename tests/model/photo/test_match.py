@@ -14,6 +14,7 @@ import occ_model as occ
 from occ_model.cli import main
 from occ_model.commands import match as match_command
 from occ_model.files.writing import write_image
+from occ_model.photo.evidence.candidates import Candidates
 from occ_model.program import EXIT_MISUSE
 
 SCENE = random_scene(3)
@@ -109,6 +110,14 @@ def test_only_what_the_scene_sends_is_tried_where_that_is_asked() -> None:
 def test_what_never_changes_is_no_explanation() -> None:
     with pytest.raises(occ.MatchError, match="never changes"):
         occ.match_photo(PHOTO, KNOWN.replace(pattern="1111"), sent="scene")
+
+
+def test_chips_without_a_possible_fit_are_not_said_never_to_change(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(Candidates, "as_sent", lambda _: None)
+    with pytest.raises(occ.MatchError, match="explains the stripes at no timing"):
+        occ.match_photo(PHOTO, KNOWN, sent="scene")
 
 
 @pytest.mark.whole

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from occ_model.errors import MatchError, ParameterError
-from occ_model.photo.evidence.doubts import told_apart
+from occ_model.photo.evidence.doubts import distinct_texts
 from occ_model.photo.fit.best_timing import Explanation
 from occ_model.photo.fit.chip_runs import is_single_pulse, runs_of
 from occ_model.photo.fit.joint_estimate import refined
@@ -135,7 +135,7 @@ def _doubts_by_fraction(name: str, fraction: float, limit: float) -> list[str]:
     """Say that a relative standard deviation is beyond its limit."""
     if fraction <= limit:
         return []
-    shown, most = told_apart(100.0 * fraction, 100.0 * limit)
+    shown, most = distinct_texts(100.0 * fraction, 100.0 * limit)
     what = PARAMETERS[name].label.lower()
     return [f"The {what} is known only to {shown} %; at most {most} % are allowed."]
 

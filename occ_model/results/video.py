@@ -67,7 +67,7 @@ class Video(ABC):
         from its length until all of it has been read.
     time_step
         The times of the frames are whole multiples of this, in seconds, as far as their container's
-        kind tells; None where they are not known to be rounded.
+        kind states; None where they are not known to be rounded.
     path
         The file, None where the film is simulated.
     scene, recording

@@ -155,7 +155,7 @@ class VideoReading:
     ----------
     packets
         The packets that were sent from the first frame's start to the last one's end; empty where
-        the frames' times do not tell how many were sent between frames. Where those jump, so that
+        the frames' times do not show how many were sent between frames. Where those jump, so that
         what lies between cannot be counted, it is left out of this and of all rates.
     clock
         What the film says of the clock; None where too few frames show it.

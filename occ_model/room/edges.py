@@ -180,12 +180,12 @@ def _counts(
     dark = light[:, :_LEVEL_PIXELS].mean(axis=0)
     outside = float(dark.mean())
     inner = full[:, -_LEVEL_PIXELS:].mean(axis=0)
-    is_told = inner > max(bright, 0.0)
-    places = np.arange(_EDGE_REACH + 1, _EDGE_REACH + _LEVEL_PIXELS + 1, dtype=np.float64)[is_told]
+    shows = inner > max(bright, 0.0)
+    places = np.arange(_EDGE_REACH + 1, _EDGE_REACH + _LEVEL_PIXELS + 1, dtype=np.float64)[shows]
     none = np.zeros(len(light), dtype=np.bool_)
     if len(places) < _MIN_LEVEL_PIXELS:
         return np.zeros(len(light)), 0.0, none
-    level = ((light[:, -_LEVEL_PIXELS:] - outside).mean(axis=0) / np.maximum(inner, 1e-12))[is_told]
+    level = ((light[:, -_LEVEL_PIXELS:] - outside).mean(axis=0) / np.maximum(inner, 1e-12))[shows]
     # The light falls towards the rim: the level is taken where the lit pixels are.
     apart = places - places.mean()
     slope, gain = np.polyfit(apart, level, 1)

@@ -14,7 +14,7 @@ _MAX_NAMED_FRAMES = 3  # maximum number of frames that a sentence names
 
 BREAK = 16.0
 """Periods between two frames from which the film goes on as another part: what a camera that is
-stopped, or a file that is damaged, states for them tells nothing of the frames before."""
+stopped, or a file that is damaged, states for them says nothing of the frames before."""
 
 _MIN_FRAMES_PER_PART = 4.0  # mean number of frames per part from which the times are meaningful
 _MIN_INTERVAL = 1e-9  # seconds below which two frames have the same time
@@ -74,7 +74,7 @@ def frame_times(times: FloatArray, rounded_to: float = 0.0) -> FrameTimes | None
     sizes = np.diff(np.append(firsts, len(times)))
     counted = np.concatenate([[0], np.cumsum(counts)])
     numbers = counted - np.repeat(counted[firsts], sizes)
-    # A part begins when it will: only steps within one tell the period.
+    # A part begins when it will: only steps within one show the period.
     steps, later = (
         values - np.repeat(np.add.reduceat(values, firsts) / sizes, sizes)
         for values in (numbers.astype(np.float64), times)

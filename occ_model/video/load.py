@@ -44,7 +44,7 @@ def load_video(path: str | Path, scan_axis: str = "auto", *, channel: str = "lum
     Parameters
     ----------
     path
-        A file of one of the kinds in :mod:`occ_model.files.film_kinds`, told by its content.
+        A file of one of the kinds in :mod:`occ_model.files.film_kinds`, recognized by its content.
         Frames are turned upright, and their levels are 0 to 255 whatever range the file keeps.
     scan_axis
         ``"columns"`` or ``"lines"`` of the film, or ``"auto"``: found on the first frames, and used

@@ -64,8 +64,8 @@ def _of_blocks(chips: ByteArray, known: BoolArray, period: SentPeriod) -> IndexA
     of_block &= np.concatenate([[known[start - 1]], of_block[:-1]])
     of_bits = np.repeat(of_block, code.block_bits)[: len(read.bits)]
     skipped = length_bits(scheme.bits) if scheme.framing.name == RAW.name else 0
-    told = read.bits[: len(of_bits)].astype(np.int64)
-    values = np.where(of_bits, told, -1)[skipped : skipped + scheme.bits]
+    own = read.bits[: len(of_bits)].astype(np.int64)
+    values = np.where(of_bits, own, -1)[skipped : skipped + scheme.bits]
     bits[: len(values)] = values
     return bits
 

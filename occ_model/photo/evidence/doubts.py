@@ -74,7 +74,7 @@ def exposure_doubts(found: Hypothesis, stripes: Stripes) -> list[str]:
 
 
 def _too_white(saturated: float, most: float) -> str:
-    shown, limit = told_apart(100.0 * saturated, 100.0 * most)
+    shown, limit = distinct_texts(100.0 * saturated, 100.0 * most)
     return (
         f"{shown} % of the pixels are white, which hides how bright they were; at most {limit} % "
         "are allowed."
@@ -174,7 +174,7 @@ def _doubts_by_reading(found: Hypothesis, stripes: Stripes) -> list[str]:
     most = max(_MOST_RATIO_TO_WAVE * repeated, _WELL_EXPLAINED)
     allowed = min(most, _MOST_UNEXPLAINED)
     if left > allowed:
-        shown, limit = told_apart(100.0 * left, 100.0 * allowed)
+        shown, limit = distinct_texts(100.0 * left, 100.0 * allowed)
         reasons.append(
             f"What was read from the stripes leaves {shown} % of them unexplained; at most "
             f"{limit} % are allowed."
@@ -182,7 +182,7 @@ def _doubts_by_reading(found: Hypothesis, stripes: Stripes) -> list[str]:
     return reasons
 
 
-def told_apart(value: float, limit: float) -> tuple[str, str]:
+def distinct_texts(value: float, limit: float) -> tuple[str, str]:
     """Write two numbers with one decimal, or as many as show a difference."""
     texts = ((f"{value:.{digits}f}", f"{limit:.{digits}f}") for digits in range(1, 18))
     return next((pair for pair in texts if pair[0] != pair[1]), (str(value), str(limit)))

@@ -46,7 +46,7 @@ class FrameSource(ABC):
 
     @abstractmethod
     def skip(self) -> bool:
-        """Pass over the next frame; tell whether there was one."""
+        """Pass over the next frame; return whether there was one."""
 
     def seek(self, index: int, time: float, within: float) -> StoredFrame | None:  # noqa: ARG002
         """Return a frame anywhere in the film, None where this source cannot find it surely."""

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from occ_model.photo.evidence.doubts import doubts, strongest_line, told_apart
+from occ_model.photo.evidence.doubts import distinct_texts, doubts, strongest_line
 from occ_model.photo.fit.timing import Timing
 
 PLACE, HEIGHT = np.arange(1500), np.full(1500, 100.0)
@@ -113,4 +113,4 @@ def test_sharp_edges_between_columns_leave_no_single_line(chip: float) -> None:
 def test_a_number_and_its_limit_are_written_apart(
     value: float, limit: float, texts: tuple[str, str]
 ) -> None:
-    assert told_apart(value, limit) == texts
+    assert distinct_texts(value, limit) == texts

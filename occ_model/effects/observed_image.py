@@ -12,7 +12,7 @@ from occ_model.effects.observed import Observed
 from occ_model.effects.sampled_pixels import SampledPixels
 from occ_model.effects.simulated_columns import Names
 from occ_model.effects.smoothed_curves import add_unsampled
-from occ_model.effects.unsampled_rims import cut_blocks, cut_blocks_of_means, unsampled
+from occ_model.effects.unsampled_rims import cut_blocks_of_means, unsampled
 
 _SHARP_NOISE = 1e-9  # deviation in grey levels that none is taken for
 
@@ -33,7 +33,6 @@ def observed_image(pixels: SampledPixels) -> Observed:
     region = pixels.view.region
     if pixels.sample.outline:
         doubt = unsampled(pixels, pixels.contrast**2 / (region.rows * region.columns))
-        doubt += cut_blocks(pixels)
         square = 3.0 * pixels.contrast**2
         found.doubt.update(
             {n: doubt + square * pixels.rims.crossed(n) for n in pixels.sample.outline}

@@ -20,21 +20,11 @@ def unsampled(pixels: SampledPixels, square: float) -> float:
     return found
 
 
-def cut_blocks(pixels: SampledPixels) -> float:
-    """Return the mean square of what a file changes beside a rim that moves outwards.
-
-    Its blocks are observed in part.
-    """
-    if pixels.file is None:
-        return 0.0
-    rims = pixels.rims.fraction
-    return pixels.file.added_at_a_rim(rims, rims * pixels.view.swing**2 / 64.0)
-
-
 def cut_blocks_of_means(pixels: SampledPixels) -> float:
-    """Return the same in the means of columns, if a column of upright blocks becomes bright.
+    """Return the mean square of what a file changes in the means of columns beside an upright rim.
 
-    Where noise spreads it over the file's steps, it differs from block to block.
+    Its blocks are observed in part where the rim moves outwards. Where noise spreads the change
+    over the file's steps, it differs from block to block.
     """
     file = pixels.file
     if file is None:

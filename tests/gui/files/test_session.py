@@ -1,10 +1,6 @@
 """The session is restored at the next start: after a normal end, a crash or damage."""
 
-import json
 import os
-import signal
-import subprocess
-import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -13,7 +9,6 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from gui.starts import PROJECT, Starts
 from gui.user import User
 from PySide6.QtCore import QEvent, QSettings, Qt
 from PySide6.QtWidgets import QApplication
@@ -24,7 +19,7 @@ from occ_gui.app import command_line
 from occ_gui.app.application import Application
 from occ_gui.app.start import Start
 from occ_gui.core.store import Store
-from occ_gui.core.workspace import FIRST_SETTINGS, Workspace
+from occ_gui.core.workspace import Workspace
 from occ_gui.files import session as session_module
 from occ_gui.files.session import Session, SessionFile, restored
 from occ_gui.files.session_record import Kept
@@ -190,26 +185,6 @@ def test_a_maximized_window_opens_maximized(start: Starting) -> None:
             assert application.window.isMaximized() == maximized
 
 
-RUBBISH = ("", "rubbish", "\x00", "{}", "[1, 2]", "ä" * 5000)
-
-
-@pytest.mark.whole
-def test_rubbish_in_what_was_kept_is_left_out(
-    start: Starting, kept: QSettings, tmp_path: Path, small_scene: Scene
-) -> None:
-    with start() as application:
-        application.store.change(iso=321.0)
-    for rubbish in RUBBISH:
-        for key in kept.allKeys():
-            kept.setValue(key, rubbish)
-        (tmp_path / "state" / "session-1.json").write_text(rubbish, encoding="utf-8")
-        with start() as application:
-            assert application.store.scene == small_scene, rubbish
-            assert application.settings.settings == FIRST_SETTINGS, rubbish
-            assert application.options.theme.theme == "system", rubbish
-            application.store.change(iso=321.0)
-
-
 def test_a_settings_file_that_is_none_is_left_out_and_one_of_the_older_form_alone(
     tmp_path: Path, small_scene: Scene
 ) -> None:
@@ -273,13 +248,12 @@ def test_the_scene_of_a_crash_is_restored_as_a_step(
     assert SessionFile(tmp_path / "state").crashed is None
 
 
-@pytest.mark.parametrize("fresh", [False, pytest.param(True, marks=pytest.mark.whole)])
 def test_undo_restores_the_crashs_scene_behind_a_requested_one(
-    start: Starting, tmp_path: Path, small_scene: Scene, fresh: bool
+    start: Starting, tmp_path: Path, small_scene: Scene
 ) -> None:
     lost, asked = small_scene.replace(iso=777.0), small_scene.replace(iso=99.0)
     crash(tmp_path / "state", lost)
-    with start(asked=asked, fresh=fresh) as application:
+    with start(asked=asked, fresh=True) as application:
         assert application.store.scene == asked
         application.store.undo_stack.undo()
         assert application.store.scene == lost
@@ -371,61 +345,3 @@ def test_nothing_of_a_killed_window_is_lost(
         assert application.settings.settings.force == {}
         stack.undo()
         assert application.controls.preset.currentData() == "tablet-61us"
-
-
-def kept_scene(path: Path) -> Scene:
-    return Scene.from_toml(json.loads(path.read_text(encoding="utf-8"))["scene"])
-
-
-RUN = """
-import sys
-from PySide6.QtCore import QTimer
-import occ_gui.app.command_line as app
-
-begin = app.start
-def start(*arguments):
-    qt, application = begin(*arguments)
-    QTimer.singleShot(0, lambda: application.store.change(iso=float(sys.argv[1])))
-    return qt, application
-app.start = start
-sys.exit(app.main(["--set", "rows=100"]))
-"""
-
-LOOK = """
-import sys
-from PySide6.QtCore import QTimer
-import occ_gui.app.command_line as app
-
-begin = app.start
-def start(*arguments):
-    qt, application = begin(*arguments)
-    def look():
-        print(application.store.scene.camera.iso, application.store.scene.camera.rows)
-        print(application.window.statusBar().currentMessage(), flush=True)
-        application.window.close()
-    QTimer.singleShot(300, look)
-    return qt, application
-app.start = start
-sys.exit(app.main([]))
-"""
-
-
-@pytest.mark.whole
-def test_the_work_of_a_killed_window_is_there_at_the_next_start(
-    tmp_path: Path, starts: Starts
-) -> None:
-    state = {"OCC_STATE": str(tmp_path / "state")}
-    environment = {**os.environ, "QT_QPA_PLATFORM": "offscreen", **state}
-    running = subprocess.Popen([sys.executable, "-c", RUN, "777"], cwd=PROJECT, env=environment)
-    kept = tmp_path / "state" / "session-1.json"
-    deadline = time.monotonic() + 60
-    while not kept.exists() and time.monotonic() < deadline:
-        time.sleep(0.05)
-    running.send_signal(signal.SIGKILL)
-    running.wait()
-    assert kept_scene(kept).camera.iso == 777.0
-    again = starts.run(program=LOOK, **state)
-    assert (again.returncode, again.stderr) == (0, "")
-    assert again.stdout.splitlines()[0] == "777.0 100"
-    assert "is restored" in again.stdout
-    assert json.loads(kept.read_text(encoding="utf-8"))["in_use"] is False

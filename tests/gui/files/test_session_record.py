@@ -131,10 +131,8 @@ DEEP = 1500
 
 DAMAGED_SCENES = {
     "a number of 4,000 digits": f"format = 1\n[camera]\niso = {LONG_NUMBER}\n",
-    "a format of 4,000 digits": f"format = {LONG_NUMBER}\n",
     "a longer number": f"format = 1\n[camera]\niso = {LONG_NUMBER * 2}\n",
     "a deep key": f"format = 1\n{'a.' * DEEP}a = 1\n",
-    "a deep list": f"format = 1\na = {'[' * DEEP}{']' * DEEP}\n",
     "a very deep list": f"format = 1\na = {'[' * 100_000}\n",
     "a deep parameter": f"format = 1\n[camera]\niso = {'{a=' * DEEP}1{'}' * DEEP}\n",
     "much": "format = 1\n#" + LARGEST * "x",
@@ -142,12 +140,9 @@ DAMAGED_SCENES = {
 }
 
 DAMAGED_SETTINGS = {
-    "a seed below zero of 4,000 digits": '"seed": -' + LONG_NUMBER,
     "a tolerance below zero of 4,000 digits": '"tolerance": -' + LONG_NUMBER,
     "a longer number": '"seed": ' + LONG_NUMBER * 2,
-    "a deep list": '"observable": ' + "[" * DEEP + "]" * DEEP,
     "a very deep list": '"observable": ' + "[" * 100_000,
-    "a switch that is no switch": '"force": {"vignetting": 1}',
     "a deep switch": '"force": ' + '{"vignetting": ' * DEEP + "1" + "}" * DEEP,
 }
 

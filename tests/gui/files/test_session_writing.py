@@ -8,10 +8,10 @@ from pathlib import Path
 
 import pytest
 from gui.kinds import collect, not_none
+from gui.stores import store_of
 from PySide6.QtCore import QTimer
 from pytestqt.qtbot import QtBot
 
-from occ_gui.app.application import Application
 from occ_gui.core.workspace import Workspace
 from occ_gui.files import session as session_module
 from occ_gui.files.session import Session, SessionFile
@@ -23,11 +23,16 @@ Begin = Callable[[Path], Session]
 
 
 @pytest.fixture
-def begin(application: Application) -> Begin:
+def scenes(qapp: object, small_scene: Scene) -> SceneStore:
+    return store_of(small_scene)
+
+
+@pytest.fixture
+def begin(scenes: SceneStore) -> Begin:
     """Write the session of a window into a folder from now on."""
 
     def resume(folder: Path) -> Session:
-        store = application.store.store
+        store = scenes.store
         session = Session(store, lambda: store.workspace)
         session.begin(SessionFile(folder), is_scene_asked=True)
         return session
@@ -85,17 +90,17 @@ def test_a_full_disk_is_reported_once_each_time_it_fills_and_a_folder_that_canno
 
 
 def test_the_scene_is_written_a_moment_after_it_was_changed_in_the_file_of_the_settings(
-    begin: Begin, application: Application, tmp_path: Path, qtbot: QtBot
+    begin: Begin, scenes: SceneStore, tmp_path: Path, qtbot: QtBot
 ) -> None:
-    session, store = begin(tmp_path), application.store
+    session, store = begin(tmp_path), scenes
     store.change(iso=321.0)
     store.change(iso=322.0)
     assert scenes_in(tmp_path) == []
     qtbot.waitUntil(lambda: scenes_in(tmp_path) == [store.scene])
-    application.settings.set_tolerance(3.5)
+    scenes.settings.set_tolerance(3.5)
     session.end()
     last = not_none(SessionFile(tmp_path).last)
-    assert last.workspace == application.store.store.workspace
+    assert last.workspace == scenes.store.workspace
     assert [path.name for path in tmp_path.glob("*.json")] == ["session-1.json"]
 
 
@@ -113,7 +118,7 @@ def scene_in_motion(store: SceneStore) -> Iterator[None]:
 
 def test_a_scene_that_never_rests_is_written_all_the_same(
     begin: Begin,
-    application: Application,
+    scenes: SceneStore,
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
     qtbot: QtBot,
@@ -126,6 +131,6 @@ def test_a_scene_that_never_rests_is_written_all_the_same(
         written.update(scene.camera.iso for scene in scenes_in(tmp_path))
         return len(written) == 2
 
-    with scene_in_motion(application.store):
+    with scene_in_motion(scenes):
         qtbot.waitUntil(is_written_twice)
     session.end()

@@ -111,11 +111,12 @@ def test_a_photo_of_the_users_own_is_out_of_sight_while_a_lesson_needs_none(
     assert bench.photos.path == photo_file
 
 
+@pytest.mark.parametrize("error", [SceneFileError("a <song>."), RecursionError("too <song>")])
 def test_lessons_that_cannot_be_read_give_a_sentence(
-    qtbot: QtBot, small_scene: Scene, monkeypatch: pytest.MonkeyPatch
+    qtbot: QtBot, small_scene: Scene, monkeypatch: pytest.MonkeyPatch, error: Exception
 ) -> None:
     def fail() -> None:
-        raise SceneFileError("1.toml is not a lesson: it is a <song>.")
+        raise error
 
     monkeypatch.setattr(lesson_controller, "lessons", fail)
     bench = Lessons(qtbot, small_scene)

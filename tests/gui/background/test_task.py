@@ -1,9 +1,11 @@
 """The newest request wins, and every finished result of patient work is shown."""
 
 import threading
+import time
 from collections.abc import Callable, Iterator
 
 import pytest
+from gui.kinds import collect
 from PySide6.QtCore import QObject, Qt, QTimer, Signal, Slot
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
@@ -165,6 +167,34 @@ def test_cancelled_work_goes_on_unseen_and_the_next_begins_after_it(
     finish()
     assert bench.worked_on == [1, 3]
     assert bench.results == ["result of 3"]
+
+
+def test_reports_arrive_in_order_and_of_a_run_that_is_replaced_none_that_is_on_its_way(
+    qtbot: QtBot,
+) -> None:
+    allowed, made = threading.Semaphore(0), list[str]()
+
+    def work(request: str, report: Reporter) -> None:
+        for number in range(3):
+            assert allowed.acquire(timeout=PATIENCE_S)
+            report(f"{request} {number}")
+            made.append(request)
+
+    task: Task[str, None] = Task(work, "test of the reports", impatient=True)
+    items, ends = collect(task.reported), collect(task.finished)
+    task.ask("a")
+    allowed.release()
+    qtbot.waitUntil(lambda: items == ["a 0"])
+    allowed.release()
+    while len(made) < 2:  # without letting the window receive anything
+        time.sleep(0.001)
+    task.ask("b")
+    with qtbot.waitSignal(task.idle):
+        allowed.release(4)
+    task.stop()
+    assert items == ["a 0", "b 0", "b 1", "b 2"]
+    assert made == ["a", "a", "b", "b", "b"]
+    assert ends == [None]
 
 
 def test_work_waits_until_what_it_has_reported_is_painted(qtbot: QtBot) -> None:

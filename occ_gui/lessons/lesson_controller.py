@@ -215,10 +215,6 @@ class LessonController(QObject):
         sample = present if present.path == wanted else users.opened(wanted)
         return sample.shown_by(step.scene.transmitter.switching_frequency)
 
-    @property
-    def lesson_under_way(self) -> Lesson | None:
-        return self._current
-
     def _step(self) -> Step | None:
         lesson = self._current
         return None if lesson is None else lesson.steps[self._places[lesson.name]]

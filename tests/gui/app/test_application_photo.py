@@ -10,7 +10,7 @@ import pytest
 from gui.kinds import not_none
 from gui.user import User
 from PIL import Image
-from PySide6.QtWidgets import QApplication, QLabel
+from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
@@ -130,28 +130,6 @@ def test_a_match_finds_the_readout_time_one_step_applies_it_and_it_lies_on_the_p
     assert columns[0] == 200 + found.region.first_column + RIM
     matched.view("photo").placement.reset.click()
     assert matched.shell.pane("photo").placement == before
-
-
-def test_a_photo_without_stripes_gives_a_sentence_everywhere(
-    application: Application, user: User, tmp_path: Path
-) -> None:
-    path = tmp_path / "flat.png"
-    Image.fromarray(np.full((60, 100), 90, dtype=np.uint8)).save(path)
-    application.open_photo(path)
-    user.wait_until_idle()
-    sentence = application.view("profile").residual.numbers.toolTip()
-    assert sentence.endswith(".")
-    user.choose("&Match photo")
-    banner = application.view("photo").verdict
-    assert banner.isVisible()
-    assert user.message in (banner.sentence.text(), banner.wrapped.text())
-    seen = [
-        each.text() for each in application.view("photo").findChildren(QLabel) if each.isVisible()
-    ]
-    assert seen
-    assert user.message not in seen  # the banner says it
-    application.photos.close()
-    assert user.message == ""
 
 
 def test_match_actions_are_enabled_with_a_photo_or_a_match(

@@ -38,7 +38,8 @@ def test_files_that_were_opened_are_listed_and_opened_again(
     recent = application.window.menus.recent
     assert not recent.isEnabled()
     scene = tmp_path / "a&b.toml"
-    scene.write_text(Scene().to_toml(), encoding="utf-8")
+    saved = application.store.scene.replace(iso=99.0)
+    scene.write_text(saved.to_toml(), encoding="utf-8")
     for path in (taken, photo_file):
         application.open_photo(path)
         user.wait_until_idle()
@@ -50,7 +51,7 @@ def test_files_that_were_opened_are_listed_and_opened_again(
         assert entries(recent)[place] == text
         recent.actions()[place].trigger()
         user.wait_until_idle()
-    assert application.store.scene == Scene()
+    assert application.store.scene == saved
     assert application.window.windowTitle().startswith("taken.png")
     user.choose("&Clear this list")
     assert not recent.isEnabled()
@@ -75,12 +76,13 @@ def test_a_dropped_photo_and_scene_are_opened_and_what_is_not_shown_is_reported(
     application: Application, user: User, photo_file: Path, tmp_path: Path
 ) -> None:
     scenes = [tmp_path / "one.toml", tmp_path / "other.toml"]
+    saved = application.store.scene.replace(iso=99.0)
     for scene in scenes:
-        scene.write_text(Scene().to_toml(), encoding="utf-8")
+        scene.write_text(saved.to_toml(), encoding="utf-8")
     application.window.dropped.emit([photo_file, *scenes])
     assert "only one.toml and stripes.png" in user.message
     user.wait_until_idle()
-    assert application.store.scene == Scene()
+    assert application.store.scene == saved
     assert application.window.windowTitle().startswith("stripes.png")
 
 

@@ -5,14 +5,13 @@ from pathlib import Path
 
 import pytest
 from gui.user import User
-from model.plugins.installed_package import install
+from model.plugins.installed_package import forget_plugins, install
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
 from occ_gui.scene.parameter_rows import CountRow, OpenChoiceRow, ParameterRow, PatternRow
 from occ_model import plugins
-from occ_model.receiver import decoders
 from occ_model.scene.from_text import with_settings
 
 
@@ -128,11 +127,9 @@ def plugins_of_decoders(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iter
     names = {"nothing": "reads_nothing:DECODER", "gone": "reads_nothing:GONE"}
     install(tmp_path, "reads-nothing", {plugins.DECODERS: names}, module)
     monkeypatch.syspath_prepend(tmp_path)
-    for cache in (plugins._found, decoders._plugin):
-        cache.cache_clear()
+    forget_plugins()
     yield
-    for cache in (plugins._found, decoders._plugin):
-        cache.cache_clear()
+    forget_plugins()
 
 
 @pytest.mark.usefixtures("plugins_of_decoders")

@@ -43,7 +43,7 @@ def test_what_the_program_is_for_stands_on_the_first_screen(
 
 @pytest.mark.parametrize(
     "changes",
-    [{}, {"switching_frequency": 500.0}, {"exposure_time": 136e-6, "switching_frequency": 16e3}],
+    [{"switching_frequency": 500.0}, {"exposure_time": 136e-6, "switching_frequency": 16e3}],
 )
 def test_the_bar_and_the_decoding_pane_say_the_same(
     application: Application, user: User, changes: dict[str, Any]

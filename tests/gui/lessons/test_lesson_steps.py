@@ -80,7 +80,7 @@ def test_check_formula_explanation_and_report_are_of_the_scene_that_is_shown(
     assert "18.2 columns" in guide.step.equation.toPlainText()
     assert "own scene (Readout time: 8 µs): One state lasts" in guide.step.answer.text()
     learning = bench.pane
-    lesson = not_none(learning.controller.lesson_under_way)
+    lesson = not_none(learning.controller._current)
     (first, *others) = learning.answers.all_of(lesson)
     assert first.scene == bench.scenes.scene
     assert [each.scene for each in others] == [each.step.asked for each in others]

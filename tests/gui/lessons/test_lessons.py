@@ -1,5 +1,6 @@
 """Lessons: a list, steps that set their scene, and questions answered on demand."""
 
+import shutil
 from pathlib import Path
 
 import pytest
@@ -90,7 +91,7 @@ def test_a_sample_photo_is_open_only_while_steps_need_it(bench: Lessons, guide: 
     assert opened == ["led-1khz", "packets-6khz", ""]
 
 
-def test_a_photo_of_the_users_own_is_out_of_sight_while_a_lesson_needs_none(
+def test_a_photo_of_the_users_own_is_in_sight_where_a_lesson_is_about_it_or_it_was_opened_then(
     bench: Lessons, guide: LessonView, photo_file: Path
 ) -> None:
     bench.photos.open(photo_file)
@@ -109,6 +110,18 @@ def test_a_photo_of_the_users_own_is_out_of_sight_while_a_lesson_needs_none(
     guide.step.all.click()
     bench.wait_until_idle()
     assert bench.photos.path == photo_file
+    (sheet,) = [choice for choice in guide.list.choices if "readout" in choice.text()]
+    sheet.click()
+    for _ in range(3):
+        guide.step.next.click()
+    bench.wait_until_idle()
+    assert bench.photos.path == photo_file, "a lab sheet is about it"
+    other = Path(shutil.copy(photo_file, photo_file.with_name("other.png")))
+    bench.photos.open(other)  # during a lesson
+    bench.wait_until_idle()
+    guide.step.all.click()
+    bench.wait_until_idle()
+    assert bench.photos.path == other
 
 
 @pytest.mark.parametrize("error", [SceneFileError("a <song>."), RecursionError("too <song>")])
@@ -194,14 +207,3 @@ def test_a_lesson_has_a_state_of_its_own_and_returns_the_users(
     bench.wait_until_idle()
     assert (bench.scenes.scene, bench.settings.settings) == (small_scene, mine)
     assert bench.scenes.undo_stack.undoText() == "end of the lesson"
-
-
-def test_a_photo_opened_during_a_lesson_stays_open(
-    bench: Lessons, guide: LessonView, photo_file: Path
-) -> None:
-    guide.list.choices[1].click()
-    bench.photos.open(photo_file)
-    bench.wait_until_idle()
-    guide.step.all.click()
-    bench.wait_until_idle()
-    assert bench.photos.path == photo_file

@@ -161,7 +161,6 @@ def test_no_sentence_stands_in_the_status_line_beside_the_one_in_view(
     assert not window.statusBar().currentMessage()
 
 
-@pytest.mark.own_window
 def test_an_exception_in_a_slot_is_a_sentence_and_in_the_log_and_the_window_works_on(
     application: Application, user: User, qtbot: QtBot, caplog: pytest.LogCaptureFixture
 ) -> None:
@@ -181,7 +180,6 @@ def test_an_exception_in_a_slot_is_a_sentence_and_in_the_log_and_the_window_work
     assert (application.store.scene.camera.iso, user.message) == (456.0, "")
 
 
-@pytest.mark.own_window
 def test_the_status_line_says_what_the_plan_switches_and_what_its_pane_refuses(
     application: Application, user: User, qtbot: QtBot
 ) -> None:
@@ -192,8 +190,7 @@ def test_the_status_line_says_what_the_plan_switches_and_what_its_pane_refuses(
     user.enter("edge_time", "5 us")
     assert any(tip.startswith("Switched in: LED rise and fall") for tip in tips())
     news = application.scene._news._forgetting
-    news.setInterval(0)
-    news.start()
+    news.timeout.emit()
     qtbot.waitUntil(lambda: not tips())
     view = application.view("accuracy")
     assert view.table.effects.rows == ()  # nothing is drawn that nobody sees

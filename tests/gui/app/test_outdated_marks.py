@@ -91,13 +91,16 @@ def test_after_a_refusal_the_last_picture_is_marked_as_older(
     assert application.view("picture")._frame is shown
     assert application.story.verdict.title.text() == "No picture of this scene"
     earlier = f"Earlier scene: {RIGHT}"
+    strip = application.view("decode").strip
     qtbot.waitUntil(lambda: application.view("decode").verdict.text() == earlier)
+    assert strip.accessibleDescription().startswith("earlier scene: sent ")
     text = "of an earlier scene: this one has no picture"
     assert {mark.accessibleName() for mark in marks(application)} == {text}
     application.store.undo_stack.undo()
     assert application.store.scene == small_scene
     user.wait_until_idle()
     assert application.view("decode").verdict.text() == RIGHT
+    assert strip.accessibleDescription().startswith("sent ")
     assert application.story.verdict.title.text() in RIGHT
     assert all(mark.isHidden() for mark in marks(application))
 

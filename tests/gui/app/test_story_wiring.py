@@ -133,7 +133,6 @@ def test_the_mouse_reads_all_rows_out(application: Application, qtbot: QtBot) ->
     assert application.story.readout.toolTip().startswith(f"column {pointed}  ·  ")
 
 
-@pytest.mark.own_window
 def test_an_open_photo_is_drawn_in_the_story(
     application: Application, user: User, photo_file: Path
 ) -> None:

@@ -87,16 +87,6 @@ def test_measured_values_are_shown_with_their_units_and_no_old_ones(
     assert not any(text.endswith(units) for text in texts(view))
 
 
-def test_each_decoders_tab_shows_whether_it_read_the_code(
-    view: DecodeView, snapshot_of: SnapshotOf
-) -> None:
-    snapshot = snapshot_of(exposure_time=136e-6, switching_frequency=20e3)
-    assert snapshot.decoded.failure
-    view.show_reading(snapshot)
-    shown = [view.decoders.tabText(place) for place in range(view.decoders.count())]
-    assert shown == ["threshold ✗", "matched ✓"]
-
-
 def test_a_slow_decoder_is_asked_for_when_its_tab_is_chosen(
     qtbot: QtBot, snapshot_of: SnapshotOf
 ) -> None:

@@ -260,20 +260,20 @@ def test_undo_restores_the_crashs_scene_behind_a_requested_one(
 
 
 def test_the_session_written_last_is_restored_though_the_clock_was_put_back(
-    start: Starting, tmp_path: Path, small_scene: Scene
+    tmp_path: Path, small_scene: Scene
 ) -> None:
-    folder = tmp_path / "state"
-    first, second = SessionFile(folder), SessionFile(folder)
+    first, second = SessionFile(tmp_path), SessionFile(tmp_path)
     for file, iso in ((first, 99.0), (second, 101.0), (first, 103.0)):
         file.write(Kept(Workspace(small_scene.replace(iso=iso))), in_use=False)
     for file in (first, second):
         file.close()
     in_a_year = time.time() + 365 * 86400
-    os.utime(folder / "session-2.json", (in_a_year, in_a_year))
+    os.utime(tmp_path / "session-2.json", (in_a_year, in_a_year))
     for iso in (103.0, 104.0):
-        with start() as application:
-            assert application.store.scene.camera.iso == iso
-            application.store.change(iso=iso + 1.0)
+        file = SessionFile(tmp_path)
+        assert file.last == Kept(Workspace(small_scene.replace(iso=iso)))
+        file.write(Kept(Workspace(small_scene.replace(iso=iso + 1.0))), in_use=False)
+        file.close()
 
 
 def kill(

@@ -6,8 +6,6 @@ where one place is far likelier than all others. What is sent repeats, so the lo
 of a chip that several frames show add up.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from occ_model.arrays import BoolArray, FloatArray
@@ -24,14 +22,6 @@ _MIN_LOG_ODDS = 7.0  # minimum log-odds of the best place against all others tog
 
 _CONTRADICTING_LOG_LIKELIHOOD = -12.0  # below which a place contradicts the known chips
 _MIN_DEVIATION = 0.15  # minimum standard deviation of a place predicted by the clock, in chips
-
-
-@dataclass(frozen=True, slots=True)
-class Place:
-    """The place of a frame's first chip in the period."""
-
-    chip: int  # From 0 to below the period's length
-    is_confirmed: bool  # Whether a header or the chips show it; else the clock alone does
 
 
 class Joined:
@@ -65,7 +55,7 @@ class Joined:
         foretold: float | None = None,
         deviation: float = 0.0,
         part_unknown: bool = False,
-    ) -> Place | None:
+    ) -> int | None:
         """Find the place of a frame's first chip; None where none is far likelier than others.
 
         ``foretold`` and ``deviation``: the place by the clock and its standard deviation, in chips.
@@ -86,7 +76,7 @@ class Joined:
             places = (places[0] + parts) % length
         if len(places) == 1:
             place = int(places[0])
-            return Place(place, True) if by_chips[place] > _CONTRADICTING_LOG_LIKELIHOOD else None
+            return place if by_chips[place] > _CONTRADICTING_LOG_LIKELIHOOD else None
         if len(places):
             elsewhere = np.full(length, -np.inf)
             elsewhere[places] = likelihood[places]
@@ -97,8 +87,7 @@ class Joined:
             or _odds(likelihood, best) < _MIN_LOG_ODDS
         ):
             return None
-        # A preamble shows the place in a part exactly; the clock only says which part it is.
-        return Place(best, is_confirmed=len(places) > 0 or _odds(by_chips, best) > _MIN_LOG_ODDS)
+        return best
 
     def add(self, frame: FrameReading, place: int) -> None:
         length = self._period.length

@@ -10,10 +10,11 @@ from itertools import pairwise
 
 import numpy as np
 
+from occ_model.arrays import FloatArray, IndexArray
 from occ_model.results.video_reading import Clock, FrameReading
 from occ_model.video.clock import fits_of, state
 from occ_model.video.frame_times import FrameTimes, Part, frame_times
-from occ_model.video.joining import Joined, Place
+from occ_model.video.joining import Joined
 from occ_model.video.packets import CountedPart, PlacedFrame, counted_on
 from occ_model.video.period import SentPeriod
 from occ_model.video.phase_fit import ClockFit, Phases
@@ -37,7 +38,7 @@ class PlacedFrames:
         self.placed = 0
         self._period = period
         self._readout_time, self._tolerance = readout_time, tolerance
-        self._places: list[Place | None] = []
+        self._places: list[int | None] = []
         self._fits: tuple[ClockFit, ...] = ()
         self._next_fit, self._next_try = FIRST_FIT, _MIN_PREDICTING_FRAMES
         self._part_unknown = False
@@ -75,7 +76,7 @@ class PlacedFrames:
     def reading(self, number: int) -> FrameReading:
         reading, place = self.frames[number].reading, self._places[number]
         if place is not None:
-            return replace(reading, place=place.chip)
+            return replace(reading, place=place)
         if reading.failure is not None:
             return reading
         return replace(
@@ -99,35 +100,25 @@ class PlacedFrames:
         """Count the chips of a part by the clock: from its own frames, if it is not the clock's."""
         length = self._period.length
         both = [
-            (self.frames[number], place.chip)
+            (self.frames[number], place)
             for number in range(part.first, part.end)
             if (place := self._places[number]) is not None
         ]
+        begins, inside, places = _shown(fit, both)
         if part.first <= self._clock_from < part.end:
-            firsts = self._counted(fit, both, length)
+            starts = fit.at_start(begins)
             start, end = fit.at_start(np.array([part.start, part.start + part.duration])).tolist()
         else:
-            since = np.array([timed.reading.time - part.start for timed, _ in both])
-            inside = np.array([fit.step * timed.column - timed.middle for timed, _ in both])
-            places = np.array([place for _, place in both], dtype=np.int64)
-            foretold = fit.frequency * since + inside
-            turns = np.exp(2j * np.pi * (places - foretold) / length).sum()
-            start = float(np.angle(turns)) / (2.0 * np.pi) * length if both else 0.0
-            end = start + fit.frequency * part.duration
-            firsts = [int(first) for first in counted_on(places, foretold + start, length)]
+            starts = fit.frequency * (begins - part.start)
+            turns = np.exp(2j * np.pi * (places - starts - inside) / length).sum()
+            start = float(np.angle(turns)) / (2.0 * np.pi) * length
+            starts, end = starts + start, start + fit.frequency * part.duration
+        firsts = counted_on(places, starts + inside, length).tolist()
         frames = [
             PlacedFrame(timed.reading, first)
             for (timed, _), first in zip(both, firsts, strict=True)
         ]
         return CountedPart(frames, part.start, part.duration, (start, end))
-
-    def _counted(
-        self, fit: ClockFit, both: Sequence[tuple[TimedFrame, int]], period: int
-    ) -> list[int]:
-        start = fit.at_start(np.array([timed.reading.time for timed, _ in both]))
-        inside = np.array([fit.step * timed.column - timed.middle for timed, _ in both])
-        places = np.array([place for _, place in both], dtype=np.int64)
-        return [int(first) for first in counted_on(places, start + inside, period)]
 
     def _place(self, number: int) -> bool:
         timed = self.frames[number]
@@ -160,10 +151,10 @@ class PlacedFrames:
         since = [timed.reading.time for timed in self.frames[known : number + 1]]
         return not any(times.is_jump(after - before) for before, after in pairwise(since))
 
-    def _enter(self, number: int, place: Place) -> None:
+    def _enter(self, number: int, place: int) -> None:
         self._places[number] = place
         self.placed += 1
-        self.joined.add(self.frames[number].reading, place.chip)
+        self.joined.add(self.frames[number].reading, place)
         if self._part_unknown:
             self._find_part()
 
@@ -201,10 +192,11 @@ class PlacedFrames:
         if len(fits) != 1:
             return
         self._part_unknown = True
-        firsts = self._counted(fits[0], both, length)
+        begins, inside, within = _shown(fits[0], both)
+        firsts = counted_on(within, fits[0].at_start(begins) + inside, length).tolist()
         for (number, _), first, kept in zip(shown, firsts, fits[0].kept, strict=True):
             if kept:
-                self._enter(number, Place(first % self._period.length, is_confirmed=True))
+                self._enter(number, first % self._period.length)
 
     def _find_part(self) -> None:
         """Find which sub-packet is which, once all chips of one are known."""
@@ -217,10 +209,9 @@ class PlacedFrames:
                 shift = (found[0] - part) * length
                 self.joined.rotate(shift)
                 self._places = [
-                    None if place is None
-                    else replace(place, chip=(place.chip + shift) % self._period.length)
+                    None if place is None else (place + shift) % self._period.length
                     for place in self._places
-                ]  # fmt: skip
+                ]
                 self._fit()
                 return
 
@@ -228,13 +219,9 @@ class PlacedFrames:
         self._fits, self.clock, times = (), None, self.times()
         if times is None or not times.follow:
             return
-        sure = [
-            (number, place.chip)
-            for number, place in enumerate(self._places)
-            if place is not None and place.is_confirmed
-        ]
-        part = _fullest(times, (number for number, _ in sure))
-        both = [(self.frames[n], chip) for n, chip in sure if part.first <= n < part.end]
+        placed = [(n, place) for n, place in enumerate(self._places) if place is not None]
+        part = _fullest(times, (number for number, _ in placed))
+        both = [(self.frames[n], chip) for n, chip in placed if part.first <= n < part.end]
         if len(both) < FIRST_FIT:
             return
         phases, period = _phases(both, self._period.length), times.period.value
@@ -255,15 +242,29 @@ def _later(count: int) -> int:
     return int(np.ceil(count * _REFIT_GROWTH)) + 1
 
 
+def _shown(
+    fit: ClockFit, both: Sequence[tuple[TimedFrame, int]]
+) -> tuple[FloatArray, FloatArray, IndexArray]:
+    """Return when frames begin, the chips from there to their first one, and its place."""
+    return (
+        np.array([timed.reading.time for timed, _ in both]),
+        np.array([fit.step * timed.column - timed.middle for timed, _ in both]),
+        np.array([place for _, place in both], dtype=np.int64),
+    )
+
+
 def _phases(both: Sequence[tuple[TimedFrame, int]], period: int) -> Phases:
     """Return the phases of frames whose first chip's place is known within a period."""
-    frames = [timed for timed, _ in both]
-    return Phases(
-        times=np.array([timed.reading.time for timed in frames]),
-        columns=np.array([timed.column for timed in frames]),
-        places=np.mod([place + timed.middle for timed, place in both], period),
-        errors=np.array([timed.middle_error for timed in frames]),
-        steps=np.array([timed.step for timed in frames]),
-        step_errors=np.array([timed.step_error for timed in frames]),
-        period=float(period),
-    )
+    rows = [
+        (
+            timed.reading.time,
+            timed.column,
+            (place + timed.middle) % period,
+            timed.middle_error,
+            timed.step,
+            timed.step_error,
+        )
+        for timed, place in both
+    ]
+    times, columns, places, errors, steps, step_errors = np.array(rows).T
+    return Phases(times, columns, places, errors, steps, step_errors, float(period))

@@ -1,4 +1,4 @@
-"""What films and a photo's match cost, beside a single picture: rows of ``report.py``."""
+"""What films, a match, rooms and sweeps cost, beside a single picture: rows of ``report.py``."""
 
 import subprocess
 import sys
@@ -15,7 +15,10 @@ import cv2
 
 import occ_model as occ
 from occ_model.files.writing import write_image
+from occ_model.results.sweep_request import SignalPath
+from occ_model.room.room import Place, Room, RoomLamp
 from occ_model.scene.scene import Scene
+from occ_model.study.paper_grid import DISTANCES, FREQUENCIES, IMAGES
 
 MEMORY = Path(__file__).with_name("memory.py")
 
@@ -143,4 +146,52 @@ def reading_cost() -> Row:
         "the same with another code in the scene, so that its chips are read, against known chips",
         f"{a / b:.1f} ({a:.0f} ms)",
         "under 1 s",
+    )
+
+
+def many_lamps_cost() -> Row:
+    """Compare a picture of sixteen lamps with one of a single lamp of the same lit pixels."""
+
+    def room(side: int) -> Room:
+        size, gap = 0.8 / side, 0.08
+        scene = occ.load_preset("phone-136us")
+        sent = scene.transmitter.replaced({"panel_width": size, "panel_height": size})
+        lamps = tuple(
+            RoomLamp(
+                name=f"L{n}", z=1.5, start_time=1e-4 * n, transmitter=sent.replaced({"code": n}),
+                x=(size + gap) * (n % side - (side - 1) / 2),
+                y=(size + gap) * (n // side - (side - 1) / 2),
+            )
+            for n in range(side * side)
+        )  # fmt: skip
+        return Room(lamps=lamps, scene=scene)
+
+    one, many, moved = room(1), room(4), count()
+    # The camera a little elsewhere each time, so that nothing is remembered.
+    a, b = side_by_side(
+        lambda: occ.render_room(many.replace(camera=Place(x=1e-3 * next(moved)))),
+        lambda: occ.render_room(one.replace(camera=Place(x=1e-3 * next(moved)))),
+        rounds=5,
+    )
+    return Row(
+        "a picture of sixteen lamps against one lamp of the same area",
+        f"{a / b:.2f} ({a:.0f} ms)",
+        "",
+    )
+
+
+def sweep_cost() -> Row:
+    """Compare points of the paper's Fig. 5 by whole pictures with the same by profiles."""
+    scene, seeds = occ.load_preset("phone-136us"), count()
+    axes = {"switching_frequency": FREQUENCIES[4:5], "distance": DISTANCES[::4]}
+
+    def swept(path: SignalPath) -> occ.SweepTable:
+        # With other seeds each time, so that nothing is remembered.
+        return occ.sweep(scene, axes, IMAGES, ("threshold", "matched"), next(seeds), path=path)
+
+    a, b = side_by_side(lambda: swept("image"), lambda: swept("profile"), rounds=3)
+    return Row(
+        "two points of Fig. 5's grid by whole pictures against the same by profiles",
+        f"{a / b:.0f} ({a:.0f} ms, {b:.0f} ms)",
+        "",
     )

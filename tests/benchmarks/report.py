@@ -21,9 +21,11 @@ from costs import (
     film_decoding_cost,
     film_frame_cost,
     film_memory,
+    many_lamps_cost,
     match_cost,
     reading_cost,
     side_by_side,
+    sweep_cost,
 )
 
 import occ_model as occ
@@ -269,6 +271,8 @@ _ALL = (
     film_frame_cost,
     film_decoding_cost,
     film_memory,
+    many_lamps_cost,
+    sweep_cost,
     cold_start,
 )
 

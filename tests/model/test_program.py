@@ -57,16 +57,6 @@ def test_a_full_output_is_a_sentence(line: str) -> None:
     assert (done.returncode, done.stderr.decode()) == (1, FULL_DISK)
 
 
-@pytest.mark.parametrize("redirect", ["2>&-", "2>/dev/full"])
-@pytest.mark.parametrize(
-    ("line", "code"), [pytest.param("presets", 0, marks=pytest.mark.whole), ("presets nobody", 2)]
-)
-def test_errors_that_nobody_can_read_leave_the_exit_code(
-    redirect: str, line: str, code: int
-) -> None:
-    assert run(*line.split(), redirect=redirect).returncode == code
-
-
 @cache
 def printed(line: str) -> str:
     """Print it once where every letter is there."""
@@ -173,11 +163,6 @@ def test_an_interruption_ends_preparation_at_once_and_lets_work_clear_up() -> No
     assert own_program("nothing") == (0, "done\n", "")
     assert own_program("prepares") == (130, "", "own: interrupted.\n")
     assert own_program("works") == (130, "cleared\n", "own: interrupted.\n")
-
-
-def test_what_a_program_prints_last_is_written_or_told() -> None:
-    code, _, said = own_program("nothing", FULL)
-    assert (code, said) == (1, FULL_DISK.replace("occ-model", "own"))
 
 
 def test_errors_go_nowhere_else_where_their_stream_is_closed() -> None:

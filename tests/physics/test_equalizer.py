@@ -65,7 +65,7 @@ def error(light: FloatArray, found: FloatArray) -> float:
     return float(np.sqrt(np.mean((light - found)[200:-200] ** 2)))
 
 
-@pytest.mark.parametrize("exposure", [9.0, 17.0, 40.0])
+@pytest.mark.parametrize("exposure", [9.0, 40.0])
 def test_an_exposure_without_noise_is_undone(exposure: float) -> None:
     light = chips_in_columns(200, 12)
     seen = exposed(light, exposure)

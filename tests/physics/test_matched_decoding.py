@@ -25,7 +25,7 @@ from occ_model.transmitter.packet import packet_length, packets
 HIGH_CONFIDENCE = 0.5
 
 
-@pytest.mark.parametrize("frequency", range(4000, 40001, 2000))
+@pytest.mark.parametrize("frequency", range(4000, 40001, amount(4000, 2000)))
 def test_every_noisy_code_is_read_at_136_us_from_4_to_40_khz(frequency: int) -> None:
     scene = occ.load_preset("phone-136us").replace(switching_frequency=frequency, distance=1.0)
     rng = np.random.default_rng(frequency)

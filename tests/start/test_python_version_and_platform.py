@@ -2,11 +2,10 @@
 
 import ast
 import re
-import subprocess
 import sys
 import tomllib
 from pathlib import Path
-from types import ModuleType, SimpleNamespace
+from types import ModuleType
 
 import pytest
 from start.conftest import run_captured
@@ -15,13 +14,6 @@ pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="checks the set-
 
 
 # The Python that runs the script
-
-
-@pytest.mark.parametrize("version", [(2, 7), (3, 6), (3, 10)])
-def test_an_unsupported_python_is_named_in_the_sentence(
-    start: ModuleType, version: tuple[int, int]
-) -> None:
-    assert "this is Python {}.{}.".format(*version) in start.version_problem(*version)
 
 
 def test_the_supported_pythons_are_those_of_the_project(
@@ -35,21 +27,6 @@ def test_the_supported_pythons_are_those_of_the_project(
     assert named == tried
     assert {start.version_problem(major, minor) for minor in range(oldest, newest + 9)} == {""}
     assert f"{major}.{oldest}" in start.version_problem(2, 7)
-
-
-@pytest.mark.parametrize(("newer", "sentences"), [(0, 0), (1, 1)])
-def test_a_python_newer_than_was_tried_is_named_once_and_used(
-    start: ModuleType,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
-    newer: int,
-    sentences: int,
-) -> None:
-    monkeypatch.setattr(start, "NEWEST_TRIED", (3, sys.version_info[1] - newer))
-    monkeypatch.setattr(subprocess, "run", lambda command, **options: SimpleNamespace(returncode=0))
-    start.make_venv()
-    said = capsys.readouterr().err
-    assert said.count("the newest that was tried; going on.") == sentences == said.count("\n")
 
 
 def test_an_unsupported_python_stops_with_one_sentence(script: Path) -> None:

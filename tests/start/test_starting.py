@@ -94,16 +94,6 @@ def test_every_check_runs_and_any_failure_counts(
         assert f"words of {start.PROGRAMS / check.split()[0]}" in lines
 
 
-def test_the_tests_use_every_core_that_this_process_may_use(
-    start: ModuleType, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.delenv("PYTEST_XDIST_AUTO_NUM_WORKERS", raising=False)
-    monkeypatch.setattr(os, "sched_getaffinity", lambda process: {0, 2, 5})
-    monkeypatch.setattr(start, "run_check", lambda check, quietly: (True, ""))
-    assert start.run_checks([]) == 0
-    assert os.environ["PYTEST_XDIST_AUTO_NUM_WORKERS"] == "3"
-
-
 @pytest.mark.parametrize(("given", "used"), [(None, "offscreen"), ("minimal", "minimal")])
 def test_the_checks_run_without_a_display_by_default(
     start: ModuleType, monkeypatch: pytest.MonkeyPatch, given: str | None, used: str

@@ -48,16 +48,6 @@ def test_a_library_counts_as_there_when_the_linker_loads_it() -> None:
     assert not system_libraries.loads("libnothing-of-this-name.so.1")
 
 
-@pytest.mark.parametrize(("programs", "asked_for"), [(["apt-get"], True), ([], False)])
-def test_a_font_is_asked_for_only_where_its_package_is_known(
-    start: ModuleType, monkeypatch: pytest.MonkeyPatch, programs: list[str], asked_for: bool
-) -> None:
-    on_path(monkeypatch, *programs)
-    monkeypatch.setattr(system_libraries, "loads", lambda library: True)
-    monkeypatch.setattr(start, "has_font", lambda: False)
-    assert ("fonts-dejavu-core" in start.missing_parts("", False).values()) == asked_for
-
-
 @pytest.mark.parametrize("making_venv", [True, False])
 def test_only_making_a_venv_needs_pythons_venv_package(
     start: ModuleType, monkeypatch: pytest.MonkeyPatch, making_venv: bool
@@ -159,40 +149,3 @@ def test_an_installation_that_brings_nothing_is_an_error(
     lacking(start, monkeypatch, *[{"libEGL.so.1": "libegl1"}] * 2)
     with pytest.raises(start.SetUpError, match=words):
         start.provide_system_parts("offscreen", making_venv=False)
-
-
-@pytest.mark.parametrize(
-    ("programs", "prefix", "asked"),
-    [(["apt-get"], [], True), ([], [], False), (["apt-get"], None, False)],
-)
-def test_the_tests_tools_are_installed_where_that_is_allowed(
-    start: ModuleType,
-    monkeypatch: pytest.MonkeyPatch,
-    visible: list[str],
-    programs: list[str],
-    prefix: list[str] | None,
-    asked: bool,
-) -> None:
-    on_path(monkeypatch, *programs)
-    monkeypatch.setattr(start, "missing_tools", lambda: ["gcc-avr", "g++"])
-    monkeypatch.setattr(start, "root_prefix", lambda: prefix)
-    start.offer_test_tools()
-    apt = "env DEBIAN_FRONTEND=noninteractive apt-get"
-    install = f"{apt} install -y --no-install-recommends gcc-avr g++"
-    assert visible == ([f"{apt} update", install] if asked else [])
-
-
-@pytest.mark.parametrize(
-    ("extras", "ci", "offered"), [(["test"], "1", 1), (["test"], "", 0), ([], "1", 0)]
-)
-def test_the_tests_tools_are_for_tests_in_ci_only(
-    start: ModuleType, monkeypatch: pytest.MonkeyPatch, extras: list[str], ci: str, offered: int
-) -> None:
-    calls: list[None] = []
-    monkeypatch.setenv("CI", ci)
-    monkeypatch.setattr(start, "venv_version", lambda: start.RUNNING)
-    monkeypatch.setattr(start, "provide_system_parts", lambda platform, making_venv: None)
-    monkeypatch.setattr(start, "serves", lambda stamp, wanted: True)
-    monkeypatch.setattr(start, "offer_test_tools", lambda: calls.append(None))
-    start.set_up("offscreen", extras)
-    assert len(calls) == offered

@@ -38,8 +38,15 @@ def signal(scene: occ.Scene, start: float) -> np.ndarray:
     return occ.column_profile(scene.replace(start_time=start))
 
 
-@pytest.mark.parametrize(("code", "framing"), SCHEMES)
-@pytest.mark.parametrize("decoder", DECODERS)
+@pytest.mark.parametrize(
+    ("decoder", "code", "framing"),
+    [
+        # Every day each scheme with two of the four decoders, and each decoder with half of them.
+        pytest.param(decoder, *scheme, marks=pytest.mark.whole if (place + number) % 2 else ())
+        for place, decoder in enumerate(DECODERS)
+        for number, scheme in enumerate(SCHEMES)
+    ],
+)
 def test_every_scheme_is_read_or_refused_with_a_sentence(
     code: str, framing: str, decoder: str
 ) -> None:
@@ -128,7 +135,7 @@ def test_the_threshold_gives_no_wrong_payload_of_long_exposures(
 @pytest.mark.parametrize(("code", "framing"), SCHEMES)
 def test_a_payload_is_refused_or_right_at_any_exposure(code: str, framing: str) -> None:
     random = np.random.default_rng(7)
-    for chips in np.linspace(0.5, 3.0, amount(3, 12)):
+    for chips in np.linspace(0.5, 3.0, amount(2, 12)):
         scene = SCENE.replace(
             line_code=code, framing=framing, code=int(random.integers(256)), enhancement="none",
             exposure_time=136e-6, switching_frequency=float(chips) / 136e-6,

@@ -80,18 +80,6 @@ def test_a_long_text_is_refused_in_a_short_line(declaration: Parameter) -> None:
         assert "\n" not in str(refused.value)
 
 
-@pytest.mark.parametrize("declaration", [*QUANTITIES, *COUNTS], ids=lambda p: p.name)
-def test_a_text_too_long_for_a_number_is_refused_by_its_length(
-    declaration: Quantity | Count,
-) -> None:
-    with pytest.raises(ParameterError) as refused:
-        declaration.parse("1" + " " * 31998 + "x")
-    assert str(refused.value) == (
-        f"{declaration.name} is a text of 32,000 characters; allowed: {declaration.allowed}, "
-        "written in up to 200 characters."
-    )
-
-
 @every_declaration
 def test_a_number_too_large_for_a_float_is_refused(declaration: Parameter) -> None:
     for large in (10**400, 10**5000):  # beyond what a float holds, and what Python prints

@@ -9,7 +9,7 @@ from occ_model.cli import main
 from occ_model.errors import ParameterError, PresetError, SceneFileError
 from occ_model.files import resources
 from occ_model.scene.parameters import PARAMETERS
-from occ_model.scene.presets import USER_FOLDER, load_preset, preset_named, presets
+from occ_model.scene.presets import load_preset, preset_named, presets
 from occ_model.scene.scene import Scene
 
 PAPER = ("phone-136us", "phone-68us", "tablet-122us", "tablet-61us")
@@ -141,22 +141,6 @@ def test_a_changed_values_note_replaces_the_one_before(folder: Path) -> None:
     )
     assert child.scene == Scene().replace(iso=400, gamma=1.0)
     assert preset_named("own-base").sources == {"iso": "a book"}
-
-
-def test_a_preset_without_a_title_keeps_its_notes(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setenv(USER_FOLDER, str(tmp_path))
-    (tmp_path / "untitled.toml").write_text(
-        "format = 1\n[camera]\niso = 200\ngamma = 2.0\n"
-        '[sources]\niso = "a book"\n[assumed]\ngamma = "a guess"\n'
-    )
-    preset = preset_named("untitled")
-    assert (preset.title, preset.sources, preset.assumed) == (
-        "untitled",
-        {"iso": "a book"},
-        {"gamma": "a guess"},
-    )
 
 
 def test_a_note_on_what_is_no_parameter_is_refused(folder: Path) -> None:

@@ -4,6 +4,7 @@ from statistics import NormalDist
 
 import numpy as np
 import pytest
+from amount import amount
 
 import occ_model as occ
 from occ_model.effects.paper_view import paper_view_of
@@ -36,7 +37,7 @@ def real_scene(number: int) -> Scene:
     return scene
 
 
-@pytest.mark.parametrize("number", range(4))
+@pytest.mark.parametrize("number", range(amount(2, 4)))
 def test_sampled_rows_are_rows_of_the_picture(number: int) -> None:
     scene = real_scene(number)
     view = paper_view_of(scene)
@@ -51,7 +52,7 @@ def test_sampled_rows_are_rows_of_the_picture(number: int) -> None:
     assert len({band.tobytes() for band in sampled}) > BANDS / 2
 
 
-@pytest.mark.parametrize("number", range(8))
+@pytest.mark.parametrize("number", range(amount(4, 8)))
 def test_the_samples_column_means_are_those_of_the_picture(number: int) -> None:
     scene = real_scene(number)
     view, plan = paper_view_of(scene), occ.plan(scene, 0.0, "signal")

@@ -64,8 +64,6 @@ def read_chips(photo: Photo, region: Corners | Lamp | None = None) -> ChipReadin
     stripes = find_stripes(photo, region)
     seen = edges_of(stripes.flattened)
     edges = in_phase(seen)
-    if edges is None:
-        edges = seen
     lattice = coarsest(edges)
     if lattice is not None:
         kept = without_rims(edges, lattice)
@@ -119,18 +117,18 @@ def _unexplained(flattened: FloatArray, edges: Edges, frequency: float) -> float
     return least / max(power, 1e-12)
 
 
-def in_phase(edges: Edges) -> Edges | None:
-    """Move bursts until all lie on one lattice; None where one lattice explains edges as well.
+def in_phase(edges: Edges) -> Edges:
+    """Move bursts until all lie on one lattice, unless one lattice explains edges as well already.
 
     A pause that is not a whole number of chips is lengthened or shortened by up to half a chip.
     """
     bursts = _bursts(edges)
     if len(bursts) < 2:
-        return None
+        return edges
     longest = max(bursts, key=lambda one: one.count)
     whole, own = coarsest(edges), coarsest(longest)
     if own is None:
-        return None
+        return edges
     frequency = own.frequency
     turns = [lattice_at(one, frequency) for one in bursts]
     first = 0.5 * (turns[0].rising + turns[0].falling)
@@ -141,11 +139,8 @@ def in_phase(edges: Edges) -> Edges | None:
     joined = Edges.joined(moved)
     lattice = coarsest(joined)
     before = 0.0 if whole is None else whole.coherence
-    if lattice is None or lattice.coherence < max(
-        _LEAST_COHERENCE, 1.0 - _MOST_INCOHERENCE_RATIO * (1.0 - before)
-    ):
-        return None
-    return joined
+    least = max(_LEAST_COHERENCE, 1.0 - _MOST_INCOHERENCE_RATIO * (1.0 - before))
+    return edges if lattice is None or lattice.coherence < least else joined
 
 
 def _bursts(edges: Edges) -> list[Edges]:

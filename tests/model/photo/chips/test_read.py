@@ -116,7 +116,7 @@ def edges_of_bursts(pause: float) -> Edges:
 def test_a_pause_that_is_no_whole_number_of_chips_is_the_nearest_one(pause: float) -> None:
     edges = edges_of_bursts(pause)
     moved = in_phase(edges)
-    assert moved is not None
+    assert moved is not edges
     lattice = coarsest(moved)
     assert 1.0 / lattice.frequency == pytest.approx(CHIP, rel=0.01)
     found = chips_between(moved, lattice)
@@ -126,7 +126,8 @@ def test_a_pause_that_is_no_whole_number_of_chips_is_the_nearest_one(pause: floa
 
 
 def test_bursts_that_are_whole_chips_apart_stay_where_they_are() -> None:
-    assert in_phase(edges_of_bursts(4.0)) is None
+    edges = edges_of_bursts(4.0)
+    assert in_phase(edges) is edges
 
 
 def test_messages_with_pauses_are_read_rightly_where_they_are_sure() -> None:

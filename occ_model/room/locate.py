@@ -24,6 +24,7 @@ _MIN_EDGES = 4
 Each gives two numbers; what three give, many places explain exactly."""
 
 _MAX_MEAN_SQUARE = 4.0  # in standard errors squared; above it a place does not explain the edges
+_MAX_ANCHORS = 3  # maximum number of lamps whose corners give starting values
 _MAX_EXCLUDED_EDGES = 3  # maximum edges left out, one after the other, where no place explains all
 _ONE_LAMP = "Only one lamp determines the place: it can be farther off than the stated errors."
 
@@ -138,7 +139,8 @@ def _located(
             f"allowed: from {_MIN_EDGES}.",
         )
     table = LampEdges.of([(one.lamp, one.edges) for one in measured], room, focal_share)
-    tried = _explanations(table, [*more, *_starts_of(whole, room)])
+    starts = [start for anchor in whole[:_MAX_ANCHORS] for start in _starts(anchor, room)]
+    tried = _explanations(table, [*more, *starts])
     if not tried:
         return [], (
             "No place of the camera follows from the edges of the named lamps: those that are "
@@ -197,10 +199,6 @@ def _start_of_centres(whole: Sequence[tuple[RoomLamp, ReadLamp]], room: Room) ->
     camera = np.asarray(cv2.Rodrigues(vector)[0], dtype=np.float64).T
     place = -camera @ np.asarray(move, dtype=np.float64).ravel()
     return [np.concatenate([place, angles_of(camera)])]
-
-
-def _starts_of(whole: Sequence[_Measured], room: Room) -> list[FloatArray]:
-    return [start for anchor in whole[:3] for start in _starts(anchor, room)]
 
 
 def _starts(anchor: _Measured, room: Room) -> list[FloatArray]:

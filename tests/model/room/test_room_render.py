@@ -133,9 +133,8 @@ def test_a_turned_camera_sees_a_lamp_where_an_independent_projection_puts_it() -
     np.testing.assert_allclose(made.lamps[0].outline, expected, atol=1e-9)
 
 
-@pytest.mark.parametrize("seed", range(3))
-def test_the_plan_of_a_picture_includes_what_any_of_its_lamps_calls_for(seed: int) -> None:
-    random = np.random.default_rng([2512, seed])
+def test_the_plan_of_a_picture_includes_what_any_of_its_lamps_calls_for() -> None:
+    random = np.random.default_rng([2512, 0])
     scene = occ.load_preset("phone-136us-real").replace(
         rows=300, columns=400, focus_distance=float(random.uniform(0.5, 3.0))
     )

@@ -148,7 +148,7 @@ def test_rate_bound_is_the_integral_of_the_water_filling(decibels: float, exposu
     def integral(of: np.ndarray) -> float:
         return float(integrate.simpson(of, x=grid))
 
-    grid = np.linspace(0.0, half, 400_001)
+    grid = np.linspace(0.0, half, 40_001)
     level = optimize.brentq(
         lambda mu: integral(np.maximum(mu - noise(grid), 0.0)) - power, 1e-9, 1e3 * power + 1.0
     )

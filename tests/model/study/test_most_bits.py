@@ -1,14 +1,10 @@
 """The scheme that carries most is read, and what carries more is not."""
 
-import dataclasses
-
 import numpy as np
 import pytest
 
 import occ_model as occ
 from occ_model.cli import main
-from occ_model.commands.most_bits import _sentence
-from occ_model.results.bit_errors import MostBits
 from occ_model.results.decoding import DecodeResult
 from occ_model.scene.scene import Scene
 from occ_model.study import success_rate
@@ -76,9 +72,3 @@ def test_the_command_says_what_carries_most(capsys: pytest.CaptureFixture[str]) 
     assert "30 pictures a second" in head
     assert "bits a second" in found
     assert "29.41 kHz" in theory
-
-
-def test_where_the_first_combination_is_read_none_is_said_to_carry_more() -> None:
-    found = MostBits("sequence", FAR, 10, 300.0, 30.0, 0)
-    assert _sentence(found).endswith("was read, and no combination carries more.")
-    assert "none of 7 combinations" in _sentence(dataclasses.replace(found, tried=7))

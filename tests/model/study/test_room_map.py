@@ -75,7 +75,7 @@ def test_a_code_that_no_lamp_there_sends_is_counted_as_misread(
 
 
 def test_a_map_that_was_killed_goes_on_and_is_the_same(tmp_path: Path) -> None:
-    request = RoomMapRequest(small_room(2), (0.0, 0.6), (0.0, 0.3))
+    request = RoomMapRequest(small_room(1), (0.0, 0.6), (0.0, 0.3))
     path = tmp_path / "map.csv"
     whole = room_map(request, results=path)
     text = path.read_bytes()

@@ -7,12 +7,9 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from amount import amount
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 import occ_model as occ
 from occ_model.camera.photometry import luminance_of
-from occ_model.effects.light_effects import edged_lit_fraction
 from occ_model.results.bands import Depth
 from occ_model.scene.scene import Scene
 from occ_model.study.bands.depth import light_depth
@@ -28,33 +25,6 @@ def _pulses(chips: int, lit: int, frequency: float, exposure: float, **others: f
         exposure_time=exposure,
         **{"illuminance": 0.0, **others},
     )
-
-
-@given(
-    pattern=st.text("01", min_size=2, max_size=30).filter(lambda chips: len(set(chips)) == 2),
-    exposure=st.floats(1e-6, 1e-2),
-    edge=st.floats(1e-7, 1e-3),
-    depth=st.floats(0.0, 1.0),
-)
-@settings(deadline=None)
-def test_the_depth_is_that_of_columns_that_start_everywhere(
-    pattern: str, exposure: float, edge: float, depth: float
-) -> None:
-    # So many columns that every start of code and flicker comes up, one after the other.
-    period = len(pattern) / 10e3
-    scene = _PHONE.replace(
-        pattern=pattern, exposure_time=exposure, edge_time=edge, illuminance=0.0,
-        columns=20_000, readout_time=period / 20_000, flicker_depth=depth,
-    )  # fmt: skip
-    lit = edged_lit_fraction(scene)
-    found = light_depth(scene)
-    mean = float(np.mean([chip == "1" for chip in pattern]))
-    assert found.peak_to_peak == pytest.approx(float(np.ptp(lit)) / mean, rel=1e-3, abs=1e-9)
-    assert found.rms == pytest.approx(float(lit.std()) / mean, rel=1e-3, abs=1e-9)
-    # Edges are a further average: they can only make bars weaker.
-    sharp = light_depth(scene.replace(edge_time=0.0))
-    assert found.peak_to_peak <= sharp.peak_to_peak * (1.0 + 1e-9) + 1e-12
-    assert found.rms <= sharp.rms * (1.0 + 1e-9) + 1e-12
 
 
 @pytest.mark.parametrize(("frequency", "periods"), [(100.0, 0.3), (100.0, 1.0), (120.0, 2.4)])

@@ -1,6 +1,6 @@
 """Cramer-Rao bounds of the times measured in a photograph of a known world."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -127,29 +127,10 @@ def _slope_of_longer(world: World) -> np.ndarray:
     return np.asarray(0.5 * count / world.exposure_in_chips)
 
 
-@dataclass(frozen=True)
-class _Row:
-    """A row of pixels: how its values change with the unknowns, and what its noise is made of."""
-
-    slopes: np.ndarray  # shape (unknowns, columns)
-    noise: np.ndarray  # shape (columns,); variance of what is blurred
-    kernel: np.ndarray  # kernel, after: the blur, and what multiplies it
-    after: np.ndarray
-
-
 def _of_row(
     world: World, light: np.ndarray, of_light: list[np.ndarray], longer: np.ndarray
 ) -> np.ndarray:
     """Return the Fisher information of a row of pixels."""
-    row = _row(world, light, of_light, longer)
-    bands = _of_light(world, row)
-    bands[0] += 2.0 / 12.0
-    bands[:8] += jpeg_noise(world)
-    slopes = whitened(bands, row.slopes)
-    return np.asarray(slopes @ slopes.T)
-
-
-def _row(world: World, light: np.ndarray, of_light: list[np.ndarray], longer: np.ndarray) -> _Row:
     seen = light < 1.0
     noise = np.where(seen, (light * world.full_well + world.read_noise**2), 0.0)
     noise = noise / world.full_well**2
@@ -184,7 +165,11 @@ def _row(world: World, light: np.ndarray, of_light: list[np.ndarray], longer: np
         -u * np.log(np.maximum(u, 1e-3)), 1.0 - u, u * (1.0 - u), u * (1.0 - u) * (1.0 - 2.0 * u)
     ]  # fmt: skip
     slopes = np.stack([*timing[:-1], *(255.0 * bend for bend in bends), of_blur, timing[-1]])
-    return _Row(slopes, noise * before**2, kernel, after)
+    bands = _of_light(noise * before**2, kernel, after)
+    bands[0] += 2.0 / 12.0
+    bands[:8] += jpeg_noise(world)
+    white = whitened(bands, slopes)
+    return np.asarray(white @ white.T)
 
 
 def _blurred(world: World, row: np.ndarray, blur: float) -> np.ndarray:
@@ -192,17 +177,20 @@ def _blurred(world: World, row: np.ndarray, blur: float) -> np.ndarray:
     return np.asarray(blurred(np.tile(row, (3, 1)), blur, world.blur_shape)[1])
 
 
-def _of_light(world: World, row: _Row) -> np.ndarray:
-    """Return the covariance of a row's light, as its diagonals from the main one downwards."""
-    columns, kernel = world.columns, row.kernel
+def _of_light(noise: np.ndarray, kernel: np.ndarray, after: np.ndarray) -> np.ndarray:
+    """Return the covariance of a row's light, as its diagonals from the main one downwards.
+
+    ``noise``: its variance before it is blurred by a kernel. ``after``: what then multiplies it.
+    """
+    columns = len(noise)
     bands = np.zeros((_REACH, columns))
-    padded = np.pad(row.noise, _REACH, mode="reflect")
+    padded = np.pad(noise, _REACH, mode="reflect")
     for apart in range(_REACH):
         both = kernel[: len(kernel) - apart] * kernel[apart:]
         # The covariance of pixels i and i + apart: sum over j of k(i-j) k(i+apart-j) noise(j).
         spread = np.convolve(padded, np.pad(both, (0, apart)), "same")
-        bands[apart] = spread[_REACH : _REACH + columns] * row.after
-        bands[apart, : columns - apart] *= row.after[apart:]
+        bands[apart] = spread[_REACH : _REACH + columns] * after
+        bands[apart, : columns - apart] *= after[apart:]
         bands[apart, columns - apart :] = 0.0
     return bands
 

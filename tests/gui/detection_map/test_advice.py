@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from gui.conftest import InlineWorkers
 from gui.detection_map.conftest import MapBench
-from gui.kinds import add_widget, show_widget
+from gui.kinds import show_widget
 from PySide6.QtCore import QPoint, QTimer
 from PySide6.QtWidgets import QApplication, QLabel
 from pytestqt.qtbot import QtBot
@@ -106,16 +106,6 @@ def test_the_sentences_hold_value_bits_interval_limit_and_theory(small_scene: Sc
     assert "ends at 7.353 kHz and an alternating pattern at 14.71 kHz" in lines[4]
     assert "ends at 100 µs and an alternating pattern at 200 µs" in lines[7]
     assert "from 1.17 ms on, columns lit throughout are white" in lines[7]
-
-
-def test_cards_and_page_count_bits_at_the_same_frame_rate(qtbot: QtBot, small_scene: Scene) -> None:
-    view = add_widget(qtbot, AdviceView(["threshold"]))
-    qtbot.addWidget(view.cards)
-    view.use_frame_rate(12.0)
-    view.show_advice(advice_on(small_scene))
-    said = next(line for line in view.sentences() if "bits a second" in line)
-    assert "120 bits a second" in said
-    assert said in view.cards.cards["threshold"].value.toolTip()
 
 
 def test_an_end_with_errors_all_round_leads_nowhere(small_scene: Scene) -> None:

@@ -126,9 +126,11 @@ def test_an_unreadable_preset_is_replaced_on_request_only(
 def test_a_saved_match_is_listed_last_and_can_be_loaded(
     matched: Application, user: User, answer: Answer
 ) -> None:
+    shown = user.choose_next_preset()
     answer("my phone", False)
     *before, unreadable = names(matched)
     matched.view("photo").result.save.click()
+    assert matched.controls.preset.currentData() == shown
     assert names(matched) == [*before, "my phone", unreadable]
     assert user.message == "Saved the preset my phone"
     assert preset_named("my phone").title == "Measured from stripes.png"
@@ -139,26 +141,7 @@ def test_a_saved_match_is_listed_last_and_can_be_loaded(
     assert matched.controls.preset.currentText() == "my phone"
 
 
-def test_the_shown_preset_stays_shown_when_another_is_saved(
-    matched: Application, user: User, answer: Answer
-) -> None:
-    shown = user.choose_next_preset()
-    answer("mine", False)
-    matched.view("photo").result.save.click()
-    assert matched.controls.preset.currentData() == shown
-
-
-def test_a_preset_is_replaced_only_if_the_user_says_so(
-    matched: Application, answer: Answer
-) -> None:
-    save_preset("mine", Scene())
-    for replace in (False, True):
-        answer("mine", replace)
-        matched.view("photo").result.save.click()
-        assert (preset_named("mine").scene != Scene()) == replace
-
-
-def test_a_name_that_cannot_be_is_answered_by_a_sentence_and_a_cancelled_dialog_does_nothing(
+def test_a_preset_is_replaced_on_request_a_name_refused_and_a_cancelled_dialog_does_nothing(
     matched: Application, user: User, answer: Answer
 ) -> None:
     answer("phone-136us", False)
@@ -170,6 +153,10 @@ def test_a_name_that_cannot_be_is_answered_by_a_sentence_and_a_cancelled_dialog_
     matched.view("photo").result.save.click()
     user.choose("D&elete preset")
     assert user_presets() == ("mine",)
+    for replace in (False, True):
+        answer("mine", replace)
+        matched.view("photo").result.save.click()
+        assert (preset_named("mine").scene != Scene()) == replace
 
 
 def test_a_deleted_preset_is_listed_no_more_and_a_missing_one_gives_a_sentence(

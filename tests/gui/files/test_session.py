@@ -128,7 +128,8 @@ def test_scene_settings_photo_and_options_are_there_again(
         application.options.theme.choose("system")
 
 
-def test_the_layout_is_there_again_and_can_be_reset(start: Starting, qtbot: QtBot) -> None:
+def test_mode_and_layouts_are_there_again_and_can_be_reset(start: Starting, qtbot: QtBot) -> None:
+    first_mode = next(iter(MODES))
     with start() as application:
         window = application.window
         first = window.saveState()
@@ -136,8 +137,20 @@ def test_the_layout_is_there_again_and_can_be_reset(start: Starting, qtbot: QtBo
         window.docks["controls"].hide()
         window.addDockWidget(LEFT, window.docks["decode"])
         QApplication.processEvents()
+        window.modes.switch("photo")
+        window.docks["controls"].hide()
+        window.modes.switch("limits")
     with start() as application:
-        window = application.window
+        window, modes = application.window, application.window.modes
+        assert modes.mode == "limits"
+        assert window.toolbar.modes.currentIndex() == [*MODES].index("limits")
+        for mode, panes in (
+            ("limits", {*MODES["limits"].panes}),
+            ("photo", {"photo", "profile", "photos"}),
+        ):
+            modes.switch(mode)
+            assert {name for name, dock in window.docks.items() if not dock.isHidden()} == panes
+        modes.switch(first_mode)
         assert window.docks["controls"].isHidden()
         assert window.dockWidgetArea(window.docks["decode"]) == LEFT
         assert abs(window.height() - 777) < 9
@@ -156,23 +169,6 @@ def test_a_layout_of_other_panes_is_left_alone(start: Starting, kept: QSettings)
         application.window.modes.version += 1
     with start() as application:
         assert not application.window.docks["controls"].isHidden()
-
-
-def test_mode_and_layouts_are_there_at_the_next_start(start: Starting) -> None:
-    with start() as application:
-        application.window.modes.switch("photo")
-        application.window.docks["controls"].hide()
-        application.window.modes.switch("limits")
-    with start() as application:
-        modes, docks = application.window.modes, application.window.docks
-        assert modes.mode == "limits"
-        assert application.window.toolbar.modes.currentIndex() == [*MODES].index("limits")
-        for mode, panes in (
-            ("limits", {*MODES["limits"].panes}),
-            ("photo", {"photo", "profile", "photos"}),
-        ):
-            modes.switch(mode)
-            assert {name for name, dock in docks.items() if not dock.isHidden()} == panes
 
 
 @pytest.mark.whole

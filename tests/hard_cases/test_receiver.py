@@ -187,7 +187,12 @@ SIGNALS: dict[str, np.ndarray] = {
 @pytest.mark.parametrize("name", SIGNALS)
 def test_a_hard_signal_is_read_or_refused_with_a_reason(name: str, decoder: str) -> None:
     signal = SIGNALS[name]
-    scenes = ({}, {"bits": 2, "code": 0}, {"pattern": "01"}, {"readout_time": 10.0})
+    scenes: tuple[dict[str, Any], ...] = (
+        {},
+        {"bits": 2, "code": 0},
+        {"pattern": "01"},
+        {"readout_time": 10.0},
+    )
     for changes in scenes[: amount(2, 4)]:
         result = occ.decode(signal, Scene().replace(**changes), decoder)
         check(result, len(signal))

@@ -138,7 +138,7 @@ def _of_row(
     changes = np.where(seen, np.stack([*of_light, longer]), 0.0)
 
     def tone(values: np.ndarray) -> np.ndarray:
-        return np.asarray(255.0 * world.curve.apply(np.clip(values, 0.0, 1.0)))
+        return np.asarray(255.0 * world.curve(np.clip(values, 0.0, 1.0)))
 
     def slope(values: np.ndarray) -> np.ndarray:
         # Where there is less light than its noise, noise makes the curve straight.

@@ -206,5 +206,5 @@ def _photographed(random: np.random.Generator, light: np.ndarray) -> np.ndarray:
     electrons = random.poisson(np.minimum(light, 3.0) * full_well)
     seen = np.clip(electrons / full_well, 0.0, 1.0)
     seen = np.clip(blurred(seen, random.uniform(0.0, 1.5), "normal"), 0.0, 1.0)
-    values = np.rint(255.0 * unknown_curve(random).apply(seen)).astype(np.uint8)
+    values = np.rint(255.0 * unknown_curve(random)(seen)).astype(np.uint8)
     return compressed(values, int(random.integers(60, 96)))

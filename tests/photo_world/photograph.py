@@ -11,7 +11,7 @@ import cv2
 import numpy as np
 
 from photo_world.lamps import Lamp, random_lamp
-from photo_world.tone_curves import ToneCurve, power, unknown_curve
+from photo_world.tone_curves import Curve, power, unknown_curve
 
 KNOWN_GAMMA = 2.22
 
@@ -37,7 +37,7 @@ class World:
     rows: int
     columns: int
     lamp: Lamp
-    curve: ToneCurve
+    curve: Curve
     # Fraction of the lamp's pixels that shall be white; a lamp that is mostly dark has fewer.
     saturated: float
     ambient: float  # light of the surroundings, as a fraction of the lamp's
@@ -150,11 +150,6 @@ def falloff(world: World) -> np.ndarray:
     return np.asarray(1.0 - world.vignetting * 2.0 * (down**2 + across**2))
 
 
-def expected_light(world: World) -> np.ndarray:
-    """Return the light on each pixel without noise; 1 makes white. Shape (rows, columns)."""
-    return np.asarray(_light(world) * scale(world))
-
-
 def scale(world: World) -> float:
     """Return what makes a lamp of light 1 white, or as bright as the world's is."""
     light = _light(world)
@@ -174,13 +169,13 @@ def _light(world: World) -> np.ndarray:
 def photograph(world: World) -> np.ndarray:
     """Take the photograph, shape (rows, columns), uint8."""
     random = np.random.default_rng([1933, world.seed])
-    light = expected_light(world)
+    light = _light(world) * scale(world)
     electrons = random.poisson(light * world.full_well).astype(np.float64)
     electrons += world.read_noise * random.standard_normal(electrons.shape)
     light = np.clip(electrons / world.full_well, 0.0, 1.0)
     if not world.blur_of_values:
         light = blurred(light, world.blur, world.blur_shape)
-    values = 255.0 * world.curve.apply(light)
+    values = 255.0 * world.curve(light)
     if world.blur_of_values:
         values = blurred(values, world.blur, world.blur_shape)
     return compressed(np.rint(values).astype(np.uint8), world.quality)

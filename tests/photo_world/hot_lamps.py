@@ -51,7 +51,6 @@ class HotLamps:
 
     image: np.ndarray
     lamps: tuple[Thing, ...]
-    reflections: tuple[Thing, ...]
     sent: tuple[Sent, ...]
     exposure: float
 
@@ -62,7 +61,7 @@ class HotLamps:
         blinks = [np.ptp(one.lit_fraction(columns, self.exposure)) > _SEEN for one in self.sent]
         both = list(zip(self.lamps, blinks, strict=True))
         seen, hidden = (tuple(one for one, is_ in both if is_ == yes) for yes in (True, False))
-        return LampScene(self.image, seen, hidden, (), self.reflections)
+        return LampScene(self.image, seen, hidden)
 
 
 def hot_lamps(seed: int, most: int = 1) -> HotLamps:
@@ -84,16 +83,13 @@ def hot_lamps(seed: int, most: int = 1) -> HotLamps:
         return hot_lamps(seed + 1_000_000, most)
     exposure = min(wave.chip for wave in sent) * _over_decades(random, 0.05, 8.0)
     light = np.full(shape, _over_decades(random, 2e-4, 0.05))
-    mirrored = []
     for thing, wave in zip(things, sent, strict=True):
         lit = wave.lit_fraction(shape[1], exposure)
         light += thing.radiance * _surface(random, thing, shape) * lit
         if random.random() < 0.3:
-            mirrored.append(_mirrored(random, thing, shape))
-            light += mirrored[-1].radiance * _surface(random, mirrored[-1], shape) * lit
-    return HotLamps(
-        _photographed(random, light), tuple(things), tuple(mirrored), tuple(sent), exposure
-    )
+            mirrored = _mirrored(random, thing, shape)
+            light += mirrored.radiance * _surface(random, mirrored, shape) * lit
+    return HotLamps(_photographed(random, light), tuple(things), tuple(sent), exposure)
 
 
 def hot_lamp_scene(seed: int) -> LampScene:

@@ -60,13 +60,11 @@ class Thing:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class LampScene:
-    """A simulated photograph, and what is in it."""
+    """A simulated photograph, and the lamps in it."""
 
     image: NDArray[np.uint8]
     lamps: tuple[Thing, ...]
     constant: tuple[Thing, ...]
-    panes: tuple[Thing, ...]
-    reflections: tuple[Thing, ...]
 
 
 def lamp_scene(seed: int) -> LampScene:
@@ -85,7 +83,7 @@ def lamp_scene(seed: int) -> LampScene:
     light = _background(random, rows, columns)
     for thing in (*lamps, *constant, *panes, *reflections):
         _add_light(light, random, thing, exposure)
-    return LampScene(_photographed(random, light), lamps, constant, panes, reflections)
+    return LampScene(_photographed(random, light), lamps, constant)
 
 
 def _lamps(

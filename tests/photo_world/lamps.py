@@ -27,12 +27,7 @@ class Lamp:
         Optical scattering moves light between places of the picture and not between times: the halo
         in a column blinks as the column's exposure sees it.
         """
-        down = (np.arange(rows)[:, None] - self.middle_row) / self.half_height
-        across = (np.arange(columns)[None, :] - self.middle_column) / self.half_width
-        if self.shape == "round":
-            off = np.hypot(down, across)
-        else:
-            off = np.maximum(np.abs(down), np.abs(across))
+        off = self._off(rows, columns)
         inside = np.clip(
             (1.0 - off) * min(self.half_height, self.half_width) / self.rim + 0.5, 0.0, 1.0
         )
@@ -42,11 +37,15 @@ class Lamp:
 
     def covers(self, rows: int, columns: int) -> np.ndarray:
         """Say which pixels show the lamp itself, shape (rows, columns)."""
+        return self._off(rows, columns) < 1.0
+
+    def _off(self, rows: int, columns: int) -> np.ndarray:
+        """Return how far each pixel is from its middle: 1 at its edge."""
         down = (np.arange(rows)[:, None] - self.middle_row) / self.half_height
         across = (np.arange(columns)[None, :] - self.middle_column) / self.half_width
         if self.shape == "round":
-            return np.asarray(np.hypot(down, across) < 1.0)
-        return np.asarray(np.maximum(np.abs(down), np.abs(across)) < 1.0)
+            return np.asarray(np.hypot(down, across))
+        return np.asarray(np.maximum(np.abs(down), np.abs(across)))
 
 
 def random_lamp(random: np.random.Generator, rows: int, columns: int) -> Lamp:

@@ -100,33 +100,18 @@ def hot_trial_of(seed: int) -> Trial:
     chips = "10" if is_pulse else sent.chips
     chip = len(sent.chips) * sent.chip / len(chips)
     duty = sent.chips.count("1") / len(sent.chips) if is_pulse else np.nan
-    return _trial_by_columns(
-        seed, drawn.image, saturated, chips, chip, drawn.exposure, "auto", duty
-    )
+    scene = _told(chips, 1.0 / (chip * READOUT))
+    exposure = drawn.exposure * READOUT
+    return _matched(seed, saturated, drawn.image, scene, "auto", READOUT, exposure, duty)
 
 
 def foreign_trial_of(seed: int) -> Trial:
     """Match the photograph by another camera; what was sent is known."""
     drawn = foreign(seed)
     saturated = float(np.mean(drawn.image >= 254))
-    return _trial_by_columns(
-        seed, drawn.image, saturated, drawn.chips, drawn.chip, drawn.exposure, "scene"
-    )
-
-
-def _trial_by_columns(
-    seed: int,
-    image: np.ndarray,
-    saturated: float,
-    chips: str,
-    chip: float,
-    exposure: float,
-    sent: str,
-    duty: float = np.nan,
-) -> Trial:
-    """Match a photograph whose chip and exposure are counted in columns."""
-    scene = _told(chips, 1.0 / (chip * READOUT))
-    return _matched(seed, saturated, image, scene, sent, READOUT, exposure * READOUT, duty)
+    scene = _told(drawn.chips, 1.0 / (drawn.chip * READOUT))
+    exposure = drawn.exposure * READOUT
+    return _matched(seed, saturated, drawn.image, scene, "scene", READOUT, exposure)
 
 
 def _matched(

@@ -220,8 +220,6 @@ def _load_own(name: str) -> Preset:
     text = read_text(path)
     try:
         return preset_from(name, text)
-    except Exception as error:  # noqa: BLE001 - one bad file must not hide the others
+    except OccError as error:
         kind = type(error) if isinstance(error, SceneFileError | ParameterError) else SceneFileError
-        problem = error if isinstance(error, OccError) else shown(error)
-        where = one_line(str(path))
-        raise kind(f"The preset file {where} cannot be used: {problem}") from None
+        raise kind(f"The preset file {one_line(str(path))} cannot be used: {error}") from None

@@ -1,4 +1,4 @@
-"""Kill -9 in the middle of writing a film, a sketch, a report or a table: whole files, or none."""
+"""Kill -9 in the middle of writing a film or a sketch: whole files, or none."""
 
 import signal
 import subprocess
@@ -14,10 +14,7 @@ from pathlib import Path
 import occ_model as occ
 from occ_model.boards.sketch import DEFAULT_BOARD, board_named
 from occ_model.boards.transmission import transmission
-from occ_model.figures.lesson_report import write_lesson_report
 from occ_model.figures.transmitter_files import write_transmitter_files
-from occ_model.files.writing import write_whole
-from occ_model.results.teaching import AnsweredStep, Lesson, Step
 
 SCENE = occ.load_preset("phone-68us").replace(rows=40, columns=400)
 
@@ -26,14 +23,6 @@ def film(folder):
 
 def sketch(folder):
     write_transmitter_files(folder, transmission(SCENE, board_named(DEFAULT_BOARD)))
-
-def report(folder):
-    step = Step(goal="a", text="b", question="c", answer="d", scene=SCENE)
-    write_lesson_report(folder / "report.md", Lesson("a", "b", "c", (step,)),
-                        [AnsweredStep(step, None, SCENE)])
-
-def table(folder):
-    write_whole(folder / "table.csv", b"whole" * 10_000_000)
 
 def main():
     kind, folder, last = sys.argv[1], Path(sys.argv[2]), int(sys.argv[3])
@@ -67,8 +56,6 @@ def shown(folder: Path) -> dict[str, bytes]:
     ("kind", "last"),
     [
         ("film", 1),
-        pytest.param("table", 1, marks=pytest.mark.whole),
-        pytest.param("report", 2, marks=pytest.mark.whole),
         pytest.param("sketch", 3, marks=pytest.mark.whole),
     ],
 )

@@ -1,13 +1,11 @@
 """The user's own presets: saved, listed and deleted, and what may stand among them."""
 
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from occ_model.cli import main
 from occ_model.errors import OutputError, ParameterError, PresetError, SceneFileError
-from occ_model.scene import toml_format
 from occ_model.scene.presets import (
     USER_FOLDER,
     all_presets,
@@ -155,23 +153,6 @@ def test_a_file_of_the_user_s_is_not_a_preset_of_the_program(own: Path) -> None:
     (own / "a folder.toml").mkdir()
     assert presets() == before
     assert load_preset("phone-136us").camera.exposure_time == 136e-6
-
-
-def test_an_internal_error_over_one_file_hides_no_other(
-    own: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    save_preset("good", MINE)
-    save_preset("bad", MINE, title="bad")
-    read = toml_format.from_toml
-
-    def mistaken(text: str) -> dict[str, Any]:
-        if "bad" in text:
-            raise ZeroDivisionError("of ours")
-        return read(text)
-
-    monkeypatch.setattr(toml_format, "from_toml", mistaken)
-    assert user_presets() == ("good",)
-    assert "ZeroDivisionError" in unreadable_presets()["bad"]
 
 
 ODD_NAMES = {

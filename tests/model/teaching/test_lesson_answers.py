@@ -121,7 +121,7 @@ def test_at_a_tolerance_of_10_levels_the_named_effects_are_out() -> None:
     assert {"sensor-noise", "vignetting", "flicker", "led-edges"} == set(plan.included)
     assert round(sizes["sensor-noise"]) == 11
     first = occ.plan(asked.scene, tolerance=0.5, observable="image")
-    assert set(first.included) == set(sizes)
+    assert set(first.included) == set(sizes) - {"defocus"}  # less than half a level
 
 
 def test_the_papers_scene_needs_noise_and_4096_samples_are_off() -> None:

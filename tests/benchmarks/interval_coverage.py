@@ -1,15 +1,12 @@
 """Print how many of the studies' 95 % intervals hold the truth.
 
 python tests/benchmarks/interval_coverage.py --studies 40 --images 20 --seed 0
-python tests/benchmarks/interval_coverage.py --ends 30
 
-The first asks of the true rate, at ten edges of working ranges. Each study reads pictures of its
-own; the true rate is that of as many others as there are in all studies of an edge, twice. The
-second asks of the ends of working ranges, where the rate of 4,000 other pictures passes 99 %.
+The true rate is asked for at ten edges of working ranges. Each study reads pictures of its own; the
+true rate is that of as many others as there are in all studies of an edge, twice.
 """
 
 import argparse
-import math
 from concurrent.futures import ProcessPoolExecutor
 
 import numpy as np
@@ -18,8 +15,6 @@ import occ_model as occ
 from occ_model.results.sweep_request import RateSettings
 from occ_model.study.confidence import interval_of_pictures
 from occ_model.study.success_rate import right_bits_of_images
-from occ_model.study.sure_ends import pairs_of, sure_end
-from occ_model.study.working_range import working_range
 
 EDGES: tuple[tuple[str, str, float], ...] = (
     ("phone-136us", "threshold", 3.3e3),
@@ -42,52 +37,6 @@ def right_of_each(edge: int, images: int, seed: int) -> np.ndarray:
     scene = occ.load_preset(preset).replace(switching_frequency=frequency)
     settings = RateSettings(images, (decoder,), seed)
     return np.array([right for (right,) in right_bits_of_images(scene, settings)])
-
-
-RANGES = (("phone-136us", "threshold"), ("tablet-61us", "matched"))
-"""Presets and decoders whose frequencies are searched."""
-
-RATE, PICTURES, CLOSE = 99.0, 4000, 1.0006
-
-
-def ends_of(preset: str, decoder: str, seed: int) -> list[tuple[float, float] | None]:
-    """Search for both ends of a range of frequencies, and give their intervals."""
-    scene, settings = occ.load_preset(preset), RateSettings(20, (decoder,), seed)
-    found = working_range(scene, "switching_frequency", RATE, settings)
-    pairs = pairs_of(found)
-    ends = [
-        sure_end(scene, found.parameter, RATE, settings, pair, lambda: None)
-        for pair in (*pairs[:1], *pairs[-1:])
-    ]
-    return [end.interval for end in ends if end.fails]
-
-
-def true_end(preset: str, decoder: str, within: tuple[float, float], falls: bool) -> float:
-    """Bisect to where the rate of many pictures passes the one asked for."""
-    low, high = within
-    scene = occ.load_preset(preset)
-    while high / low > CLOSE:
-        middle = math.sqrt(low * high)
-        at = scene.replace(switching_frequency=middle)
-        reads = occ.success_rate(at, PICTURES, decoder, seed=987) >= RATE
-        low, high = (middle, high) if reads == falls else (low, middle)
-    return math.sqrt(low * high)
-
-
-def count_ends(searches: int, seed: int, processes: ProcessPoolExecutor) -> None:
-    print("| preset | decoder | true end | intervals that hold it | median width |")
-    print("|---|---|---|---|---|")
-    jobs = [[processes.submit(ends_of, *one, seed + place) for place in range(searches)]
-            for one in RANGES]  # fmt: skip
-    for one, searched in zip(RANGES, jobs, strict=True):
-        for place, found in enumerate(zip(*(job.result() for job in searched), strict=True)):
-            known = [each for each in found if each is not None]
-            within = (min(low for low, _ in known) / 1.01, max(end for _, end in known) * 1.01)
-            end = true_end(*one, within, falls=place == 1)
-            held = sum(low <= end <= high for low, high in known)
-            width = np.median([high - low for low, high in known])
-            cells = (*one, f"{end / 1e3:.4g} kHz", f"{held} of {len(found)}", f"{width:.0f} Hz")
-            print(f"| {' | '.join(cells)} |", flush=True)
 
 
 def count_rates(studies: int, images: int, seed: int, processes: ProcessPoolExecutor) -> None:
@@ -118,15 +67,11 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--studies", type=int, default=40)
     parser.add_argument("--images", type=int, default=20)
-    parser.add_argument("--ends", type=int, default=0)
     parser.add_argument("--seed", type=int, default=0, help="of the first; others follow")
     parser.add_argument("--jobs", type=int, default=2)
     asked = parser.parse_args()
     with ProcessPoolExecutor(asked.jobs) as processes:
-        if asked.ends:
-            count_ends(asked.ends, asked.seed, processes)
-        else:
-            count_rates(asked.studies, asked.images, asked.seed, processes)
+        count_rates(asked.studies, asked.images, asked.seed, processes)
 
 
 if __name__ == "__main__":

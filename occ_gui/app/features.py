@@ -2,26 +2,10 @@
 
 from typing import Any
 
-from occ_gui.accuracy.feature import accuracy
+from occ_gui.app import panes
 from occ_gui.app.parts import Parts
 from occ_gui.app.photo_in_window import PhotoInWindow
-from occ_gui.bands.feature import bands
-from occ_gui.bench.feature import bench
-from occ_gui.decoding.feature import decoding
-from occ_gui.detection_map.feature import detection_map
-from occ_gui.explanation.feature import equations
-from occ_gui.export.feature import animation, export
-from occ_gui.help.feature import manual
-from occ_gui.lessons.feature import lessons
-from occ_gui.photo.feature import photo, photos
-from occ_gui.pins.feature import compare
-from occ_gui.profile.feature import profile
-from occ_gui.room.feature import room
 from occ_gui.shell.feature import Feature
-from occ_gui.spectrum.feature import spectrum
-from occ_gui.transmitter.feature import transmitter
-from occ_gui.video.feature import video
-from occ_gui.welcome.feature import welcome
 from occ_model.scene.from_text import DEFAULT_PRESET
 from occ_model.scene.presets import load_preset
 from occ_model.version import __version__
@@ -29,37 +13,34 @@ from occ_model.version import __version__
 
 def features(parts: Parts, of_photo: PhotoInWindow) -> tuple[Feature[Any], ...]:
     """Declare what stands in docks, and what the menus offer besides."""
-    store, shell, window = parts.store, parts.shell, parts.window
-    preferences, workspace = parts.preferences, parts.store.store
-
-    # A method: a function that a signal holds would hold the shell beyond the window's end.
-    choose_decoder = shell.pane("story").choose_decoder
+    scenes, shell, window = parts.store, parts.shell, parts.window
+    preferences, store = parts.preferences, parts.store.store
 
     def current_pane() -> str:
         return parts.current_pane.name
 
     return (
-        decoding(workspace),
-        photo(store, parts.photos, lambda: shell.pane("picture").view, parts.board),
-        profile(workspace, parts.board, parts.about_photo),
-        photos(lambda: shell.pane("photo")),
-        accuracy(store, parts.simulation),
-        detection_map(store, parts.measuring, choose_decoder),
-        bands(store),
-        equations(store, lambda: shell.pane("profile").view.plot),
-        spectrum(),
-        compare(parts.pins),
-        lessons(store, parts.board, parts.controls, preferences),
-        video(store, parts.board),
-        room(workspace),
-        bench(store, lambda: parts.measuring.channel("bench"), window.say),
-        export(window, shell, parts.present, preferences, current_pane, store),
-        animation(window, store, preferences, window.filming),
-        transmitter(window, store, preferences),
-        manual(window, shell, current_pane),
-        welcome(window, shell, preferences, parts.files),
+        panes.decoding(store),
+        panes.photo(scenes, parts.photos, lambda: shell.pane("picture").view, parts.board),
+        panes.profile(store, parts.board, parts.about_photo),
+        panes.photos(lambda: shell.pane("photo")),
+        panes.accuracy(scenes, parts.simulation),
+        panes.detection_map(scenes, parts.measuring),
+        panes.bands(scenes),
+        panes.equations(scenes, lambda: shell.pane("profile").view.plot),
+        panes.spectrum(),
+        panes.compare(parts.pins),
+        panes.lessons(scenes, parts.board, parts.controls, preferences),
+        panes.video(scenes, parts.board),
+        panes.room(store),
+        panes.bench(scenes, parts.measuring),
+        panes.export(window, shell, parts.present, preferences, current_pane, store),
+        panes.animation(window, scenes, preferences, window.filming),
+        panes.transmitter(window, scenes, preferences),
+        panes.manual(window, shell, current_pane),
+        panes.welcome(window, shell, preferences, parts.files),
         _entries(parts, of_photo),
-    )  # fmt: skip
+    )
 
 
 def _entries(parts: Parts, photos: PhotoInWindow) -> Feature[None]:

@@ -5,6 +5,7 @@ from typing import Any
 from PySide6.QtCore import QObject, QSettings
 from PySide6.QtWidgets import QWidget
 
+from occ_gui.app import panes
 from occ_gui.app.error_reports import ErrorReports
 from occ_gui.app.lessons_in_window import LessonsInWindow
 from occ_gui.app.status_messages import StatusMessages
@@ -19,7 +20,6 @@ from occ_gui.files.file_controller import FileController
 from occ_gui.files.preferences import Preferences
 from occ_gui.files.preset_controller import PresetController
 from occ_gui.photo.photo_controller import PhotoController
-from occ_gui.picture.feature import picture
 from occ_gui.pins.pin_controller import PinController
 from occ_gui.scene.control_panel import ControlPanel
 from occ_gui.scene.scene_editor import SceneEditor
@@ -83,7 +83,7 @@ class Parts(QObject):
 
     def _middle(self) -> QWidget:
         """Give the story its place, with one for the whole picture in it."""
-        whole = self.shell.embed(picture(self.store.store, self.about_photo))
+        whole = self.shell.embed(panes.picture(self.store.store, self.about_photo))
         return self.shell.embed(story(self.store, self.simulation, whole, [*DECODERS]))
 
     def about_photo(self) -> str:

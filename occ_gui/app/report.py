@@ -11,13 +11,13 @@ from PySide6.QtGui import QFontDatabase, QGuiApplication
 from PySide6.QtWidgets import (
     QDialog,
     QDialogButtonBox,
-    QLabel,
     QPlainTextEdit,
     QVBoxLayout,
     QWidget,
 )
 
 import occ_model as occ
+from occ_gui.widgets.building import filled, named, paragraph
 from occ_gui.widgets.plain_text import copy_text
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
@@ -66,20 +66,16 @@ def show_report(window: QWidget, text: str) -> None:
     dialog = QDialog(window)
     dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
     dialog.setWindowTitle("Report")
-    shown = QPlainTextEdit(text, readOnly=True)
+    shown = named(QPlainTextEdit(text, readOnly=True), "Text of the report")
     shown.setFont(QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont))
-    shown.setAccessibleName("Text of the report")
     buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
     copy = buttons.addButton("&Copy", QDialogButtonBox.ButtonRole.ActionRole)
     buttons.rejected.connect(dialog.reject)
-    layout = QVBoxLayout(dialog)
-    advice = QLabel(
+    advice = paragraph(
         "Copy this into a report of a mistake. Read it first: a message may name a file."
     )
-    advice.setWordWrap(True)
     # The status line is behind the dialog.
     copy.clicked.connect(lambda: advice.setText(copy_text(text)))
-    for widget in (advice, shown, buttons):
-        layout.addWidget(widget)
+    filled(QVBoxLayout(dialog), advice, shown, buttons)
     dialog.resize(*_SIZE)
     dialog.open()

@@ -163,6 +163,7 @@ class BenchPane(Pane[None]):
         self.controller = BenchController(scenes, channel, view)
         self.controller.choose(view.choice())
         view.choice_changed.connect(self.controller.choose)
+        view.frame_rate.refused.connect(self.status_message)
         view.asked.connect(self.controller.start)
         view.cancelled.connect(self.controller.cancel)
         store = scenes.store

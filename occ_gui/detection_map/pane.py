@@ -2,8 +2,6 @@
 
 from dataclasses import replace
 
-from PySide6.QtCore import Signal
-
 from occ_gui.detection_map.map_controller import DetectionMapController
 from occ_gui.detection_map.map_view import MapView
 from occ_gui.detection_map.search_controller import AdvisorController, MostBitsController
@@ -15,8 +13,6 @@ from occ_model.receiver.decoders import DECODERS, QUICK_DECODERS
 
 class MapPane(Pane[None]):
     """The map and the searches beside it, which go on while the pane is hidden."""
-
-    went = Signal(str)  # the user has gone to a limit of this decoder
 
     def __init__(self, scenes: SceneStore, measuring: Measuring) -> None:
         view = MapView(QUICK_DECODERS, tuple(DECODERS))
@@ -48,8 +44,6 @@ class MapPane(Pane[None]):
         view.most_bits.asked.connect(self.most_bits.start)
         view.most_bits.cancelled.connect(self.most_bits.cancel)
         view.most_bits.chosen.connect(self.most_bits.go)
-        for searcher in (self.most_bits, self.advisor):
-            searcher.went.connect(self.went)
 
     def set_seen(self, seen: bool) -> None:
         self.map.set_seen(seen)

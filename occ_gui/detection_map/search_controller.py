@@ -1,11 +1,11 @@
 """Controllers of the searches that the user asks for: limits of a scene, and what carries most."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
-from PySide6.QtCore import QObject, QTimer, Signal
+from PySide6.QtCore import QObject, QTimer
 
 from occ_gui.background.signals import JobChannel, WorkQueue
 from occ_gui.core.store import NO_GESTURE
@@ -17,6 +17,7 @@ from occ_gui.scene.scene_store import SceneStore
 from occ_model.parallel.job import Job, Stage, Stages
 from occ_model.receiver.decoders import DECODERS
 from occ_model.results.bit_errors import MostBits
+from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
@@ -47,8 +48,6 @@ class SearchController(QObject):
     A subclass says in :meth:`_request` what would be searched for now.
     """
 
-    went = Signal(str)  # the scene has become what was found; the decoder that reads it
-
     _cancelled = _changed = ""  # why a search has ended, as the pane says it
 
     def __init__(
@@ -77,6 +76,12 @@ class SearchController(QObject):
         self._asked, self._done, self._counted = request, 0, self._count()
         self.channel.put(request, stages)
         self._look.start()
+
+    def _take_there(self, decoder: str, changes: Mapping[str, ParameterValue]) -> None:
+        """Set the scene to what was found, in one step, and show what its decoder reads."""
+        self._scenes.change(NO_GESTURE, **changes)
+        store = self._scenes.store
+        store.put(replace(store.workspace, decoder=decoder))
 
     def cancel(self) -> None:
         """Stop the search; what was found so far stays."""
@@ -174,9 +179,7 @@ class AdvisorController(SearchController):
         self.start(IN_TURN)
 
     def take_there(self, name: str, value: float, decoder: str) -> None:
-        """Set the scene to a limit, in one step, and show what the decoder of the limit reads."""
-        self._scenes.change(NO_GESTURE, **{name: value})
-        self.went.emit(decoder)
+        self._take_there(decoder, {name: value})
 
     def _show_tried(self, pictures: int) -> None:
         self._pane.show_advice_progress(min(pictures / (_USUAL * len(DECODERS)), 0.99))
@@ -228,8 +231,7 @@ class MostBitsController(SearchController):
         scene = most_bits.example_of(found)
         if scene is not None:
             changes = {name: scene.value(name) for name in most_bits.VARIED}
-            self._scenes.change(NO_GESTURE, **changes)
-            self.went.emit(found.decoder)
+            self._take_there(found.decoder, changes)
 
     def _show_tried(self, pictures: int) -> None:
         if self._done < len(most_bits.DECODERS):

@@ -10,6 +10,7 @@ from PySide6.QtGui import QGuiApplication, QImage
 from PySide6.QtWidgets import QFileDialog, QWidget
 
 from occ_gui.background.task import Task
+from occ_gui.core.store import Store
 from occ_gui.export.jobs import Exported, ExportJob, FigureRequest, export
 from occ_gui.files.preferences import Preferences
 from occ_gui.shell.feature import NothingToDraw, Service
@@ -39,7 +40,7 @@ class ExportController(Service):
         present: PresentResults,
         preferences: Preferences,
         current_pane: Callable[[], str],
-        shown_decoder: Callable[[], str],
+        store: Store,
     ) -> None:
         super().__init__()
         self._window = window
@@ -47,7 +48,7 @@ class ExportController(Service):
         self._present = present
         self._preferences = preferences
         self._current_pane = current_pane
-        self._shown_decoder = shown_decoder
+        self._store = store
         self._waiting: deque[ExportJob] = deque()
         self._left_out = ""
         # A function that looks export up at each call: tests replace it.
@@ -125,7 +126,7 @@ class ExportController(Service):
     def copy_current(self) -> None:
         pane = self._current_pane()
         if pane == "decode":
-            self.copy(f"decoding-{self._shown_decoder()}")
+            self.copy(f"decoding-{self._store.workspace.decoder}")
             return
         self.copy(pane if pane in _WITH_FIGURE else PICTURE)
 

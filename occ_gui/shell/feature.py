@@ -1,5 +1,6 @@
 """Feature: all that the window has to know of a pane."""
 
+import pkgutil
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
@@ -20,6 +21,15 @@ if TYPE_CHECKING:
 
 Draw: TypeAlias = "Callable[[], Drawing]"
 """Makes a drawing, on another thread than the window's: it touches no widget."""
+
+
+def later(name: str, *arguments: Any, **named: Any) -> Callable[..., Any]:
+    """Return a call of a function or class, written ``module:name``, which is imported then."""
+
+    def call(*more: Any) -> Any:
+        return pkgutil.resolve_name(name)(*arguments, *more, **named)
+
+    return call
 
 
 class NothingToDraw(OccError):  # noqa: N818 - not an error: the data are not complete yet

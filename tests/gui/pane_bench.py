@@ -13,11 +13,11 @@ from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QDockWidget, QMainWindow, QSlider, QStyle, QStyleOptionSlider, QWidget
 from pytestqt.qtbot import QtBot
 
+from occ_gui.app.panes import export
 from occ_gui.background.task import Task
 from occ_gui.detection_map.slider_strip import SliderStrips
 from occ_gui.detection_map.wiring import Measuring
 from occ_gui.export.export_controller import ExportController
-from occ_gui.export.feature import export
 from occ_gui.files.preferences import Preferences
 from occ_gui.scene.control_panel import ControlPanel
 from occ_gui.scene.parameter_rows import QuantityRow
@@ -126,7 +126,7 @@ class PaneBench:
         present: Any = Present(self.board)
         current = CurrentPane(self.window, self.window.docks)
         feature = export(
-            self.window, self.shell, present, Preferences(None), lambda: current.name, self.scenes
+            self.window, self.shell, present, Preferences(None), lambda: current.name, self.store
         )
         exporter: ExportController = self.add(feature)
         return exporter

@@ -13,9 +13,9 @@ from pytestqt.qtbot import QtBot
 import occ_model as occ
 from occ_gui.accuracy import controller
 from occ_gui.accuracy.effect_rows import EffectRow
-from occ_gui.accuracy.feature import accuracy
 from occ_gui.accuracy.pane import AccuracyPane
 from occ_gui.accuracy.plan_changes import PlanNews
+from occ_gui.app.panes import accuracy
 from occ_model.effects.plan import plan_with
 from occ_model.scene.scene import Scene
 

@@ -18,9 +18,9 @@ from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.app.error_reports import HARMLESS, ErrorReports, log_qt_messages
+from occ_gui.app.panes import picture
 from occ_gui.app.report import report_text, show_report
 from occ_gui.picture.averaged_image import AveragedImage
-from occ_gui.picture.feature import picture
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 

@@ -10,9 +10,9 @@ from gui.pane_bench import PaneBench
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
+from occ_gui.app.panes import bands
 from occ_gui.bands import pane
 from occ_gui.bands.bands_view import BandsView
-from occ_gui.bands.feature import bands
 from occ_gui.bands.jobs import ShownBands, shown_bands
 from occ_gui.widgets.outdated_mark import DELAY
 from occ_model.scene.scene import Scene

@@ -5,6 +5,8 @@ from collections.abc import Callable
 from concurrent.futures import Future
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -15,11 +17,11 @@ from gui.stores import show, store_of
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
+from occ_gui.app.panes import bench
 from occ_gui.background.signals import WorkQueue
 from occ_gui.bench import bench_results
 from occ_gui.bench.bench_results import BITS, RATES, cell_text, drawn
 from occ_gui.bench.bench_view import OF_SCENE, PUBLISHED, BenchChoice, BenchView
-from occ_gui.bench.feature import bench
 from occ_gui.bench.pane import BenchController, request_of
 from occ_gui.detection_map.slider_strip_controller import RANKS
 from occ_model.errors import ParameterError
@@ -178,8 +180,9 @@ def test_the_bench_is_exported_with_its_own_setting(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:  # fmt: skip
     panes, queue = PaneBench(qtbot, small_scene), WorkQueue(1, lambda: inline_workers)
-    say, path = panes.said.append, tmp_path / "bench.csv"
-    panes.shell.add(bench(panes.scenes, lambda: queue.channels[0], say), panes.window)
+    measuring: Any = SimpleNamespace(channel=lambda _name: queue.channels[0])
+    path = tmp_path / "bench.csv"
+    panes.shell.add(bench(panes.scenes, measuring), panes.window)
     panes.simulate()
     assert "not complete" in panes.export("bench", path)
     panes.see("bench")

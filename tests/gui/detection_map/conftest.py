@@ -10,8 +10,8 @@ from gui.conftest import InlineWorkers, LazyWorkers
 from gui.pane_bench import PaneBench
 from pytestqt.qtbot import QtBot
 
+from occ_gui.app.panes import detection_map
 from occ_gui.detection_map import wiring
-from occ_gui.detection_map.feature import detection_map
 from occ_gui.detection_map.map_view import MapView
 from occ_gui.detection_map.pane import MapPane
 from occ_model.parallel.job import Job, JobResult
@@ -37,7 +37,7 @@ class MapBench(PaneBench):
         super().__init__(qtbot, scene)
         self.workers: Any = LazyWorkers()
         monkeypatch.setattr(wiring, "new_workers", lambda: self.workers)
-        feature = detection_map(self.scenes, self.measuring, self.choose_decoder)
+        feature = detection_map(self.scenes, self.measuring)
         self.shell.add(feature, self.window)
 
     @property

@@ -10,11 +10,11 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QFont
 from pytestqt.qtbot import QtBot
 
+from occ_gui.app.panes import equations as equations_pane
+from occ_gui.app.panes import profile
 from occ_gui.explanation import equation_text
 from occ_gui.explanation.equation_controller import EquationController
 from occ_gui.explanation.equation_text import EquationText
-from occ_gui.explanation.feature import equations as equations_pane
-from occ_gui.profile.feature import profile
 from occ_model.scene.scene import Scene
 from occ_model.teaching.equations import equations
 

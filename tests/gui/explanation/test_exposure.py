@@ -7,10 +7,9 @@ from gui.pane_bench import PaneBench
 from PySide6.QtCore import QPoint, QPointF, Qt
 from pytestqt.qtbot import QtBot
 
+from occ_gui.app.panes import equations, profile
 from occ_gui.explanation.exposure_plot import ExposurePlot
-from occ_gui.explanation.feature import equations
 from occ_gui.explanation.pane import ExplanationPane
-from occ_gui.profile.feature import profile
 from occ_gui.widgets.plot import Plot
 from occ_model.scene.scene import Scene
 from occ_model.teaching.light_over_columns import exposure_window

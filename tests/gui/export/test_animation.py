@@ -8,8 +8,8 @@ from PIL import Image
 from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
 
+from occ_gui.app.panes import animation
 from occ_gui.export.animation import AnimationExport
-from occ_gui.export.feature import animation
 from occ_gui.files.preferences import Preferences
 from occ_gui.widgets.work_bar import WorkBar
 from occ_model.scene.scene import Scene

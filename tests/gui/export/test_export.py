@@ -13,19 +13,13 @@ from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
-from occ_gui.accuracy.feature import accuracy
-from occ_gui.bands.feature import bands
-from occ_gui.decoding.feature import decoding
-from occ_gui.detection_map.feature import detection_map
+from occ_gui.app.panes import accuracy, bands, decoding, detection_map, photo, picture, profile
 from occ_gui.detection_map.map_schedule import SHAPE, MapRequest
 from occ_gui.detection_map.rate_map import RateMap, lattice
 from occ_gui.export import jobs
 from occ_gui.files.file_controller import FileController
 from occ_gui.files.preferences import Preferences
-from occ_gui.photo.feature import photo
 from occ_gui.photo.photo_controller import PhotoController
-from occ_gui.picture.feature import picture
-from occ_gui.profile.feature import profile
 from occ_model.figures import drawing
 from occ_model.results.accuracy import AccuracyPoint
 from occ_model.results.sweep_request import SweepPoint
@@ -58,7 +52,7 @@ class Bench(PaneBench):
         self.profile = self.add(profile(store, board, str)).view
         for feature in (
             decoding(store), accuracy(scenes, self.simulation), bands(scenes),
-            detection_map(scenes, self.measuring, self.said.append),
+            detection_map(scenes, self.measuring),
             photo(scenes, self.photos, lambda: image, board),
         ):  # fmt: skip
             self.shell.add(feature, self.window)

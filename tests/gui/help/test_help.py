@@ -14,13 +14,11 @@ from PySide6.QtGui import QColor, QDesktopServices, QPalette, QTextCursor, QText
 from PySide6.QtWidgets import QTextBrowser
 from pytestqt.qtbot import QtBot
 
-from occ_gui.bands.feature import bands
+from occ_gui.app.panes import manual as declaration
 from occ_gui.help import help_window
-from occ_gui.help.feature import manual as declaration
 from occ_gui.help.help_browser import HelpBrowser
 from occ_gui.help.help_window import HelpWindow
 from occ_gui.help.pages import CONTENTS, GUIDE, Section, docs_folder, pages, search, sections
-from occ_gui.spectrum.feature import spectrum
 from occ_model.scene.scene import Scene
 
 ROOT = Path(__file__).parents[3]

@@ -6,8 +6,8 @@ import pytest
 from gui.pane_bench import ControlsBench
 from pytestqt.qtbot import QtBot
 
+from occ_gui.app.panes import lessons
 from occ_gui.files.preferences import Preferences
-from occ_gui.lessons.feature import lessons
 from occ_gui.lessons.lesson_view import LessonView
 from occ_gui.lessons.pane import LessonPane
 from occ_gui.photo.photo_controller import PhotoController

@@ -12,11 +12,11 @@ from PySide6.QtGui import QImage
 from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
 
+from occ_gui.app.panes import picture as picture_pane
+from occ_gui.app.panes import profile
 from occ_gui.picture.before_controller import BeforeController
 from occ_gui.picture.before_wipe import BeforeWipe
-from occ_gui.picture.feature import picture as picture_pane
 from occ_gui.picture.picture_pane import PicturePane
-from occ_gui.profile.feature import profile
 from occ_gui.profile.profile_view import ProfileView
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.simulation.snapshot import Snapshot

@@ -15,11 +15,10 @@ from pytestqt.qtbot import QtBot
 from shiboken6 import delete
 
 import occ_model as occ
+from occ_gui.app.panes import picture, profile
 from occ_gui.picture.averaged_image import AveragedImage
-from occ_gui.picture.feature import picture
 from occ_gui.picture.image_view import ImageView
 from occ_gui.picture.picture_pane import PicturePane
-from occ_gui.profile.feature import profile
 from occ_gui.profile.profile_view import ProfileView
 from occ_gui.simulation.snapshot import Picture
 from occ_gui.values.photo_choice import MODES, Placement

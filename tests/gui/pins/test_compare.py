@@ -10,8 +10,8 @@ from gui.stores import store_of
 from PySide6.QtWidgets import QTableWidget
 from pytestqt.qtbot import QtBot
 
+from occ_gui.app.panes import compare
 from occ_gui.pins.compare_view import CompareView
-from occ_gui.pins.feature import compare
 from occ_gui.pins.pin_controller import PinController, Pinned
 from occ_gui.simulation.jobs import snapshot_of as snapshot_of_frame
 from occ_gui.simulation.snapshot import Snapshot

@@ -18,8 +18,8 @@ from pytestqt.qtbot import QtBot
 from small_rooms import small_room
 
 import occ_model as occ
+from occ_gui.app.panes import room
 from occ_gui.room import jobs
-from occ_gui.room.feature import room
 from occ_gui.room.jobs import ShownRoom, map_room, plan_of
 from occ_gui.room.pane import RoomPane
 from occ_gui.values.room_choice import FIRST_ROOM, RoomChoice

@@ -6,8 +6,8 @@ from gui.kinds import SnapshotOf, show_widget
 from gui.pane_bench import PaneBench
 from pytestqt.qtbot import QtBot
 
+from occ_gui.app.panes import spectrum
 from occ_gui.simulation.snapshot import Snapshot
-from occ_gui.spectrum.feature import spectrum
 from occ_gui.spectrum.pane import SpectrumPane
 from occ_gui.spectrum.spectrum_view import SpectrumView
 from occ_model.scene.scene import Scene

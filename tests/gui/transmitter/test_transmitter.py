@@ -13,10 +13,10 @@ from PySide6.QtWidgets import QFileDialog, QWidget
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
+from occ_gui.app.panes import transmitter as declared
 from occ_gui.files.preferences import Preferences
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.transmitter import transmitter_controller
-from occ_gui.transmitter.feature import transmitter as declared
 from occ_gui.transmitter.transmitter_controller import Drawn, TransmitterController, new_folder
 from occ_gui.transmitter.transmitter_dialog import TransmitterDialog
 from occ_model.boards.transmission import Transmission

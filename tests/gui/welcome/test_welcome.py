@@ -7,12 +7,12 @@ import pytest
 from gui.pane_bench import PaneBench
 from pytestqt.qtbot import QtBot
 
+from occ_gui.app.panes import welcome
 from occ_gui.app.start import Start
 from occ_gui.core.workspace import Workspace
 from occ_gui.files.preferences import Preferences
 from occ_gui.files.session import SessionFile
 from occ_gui.files.session_record import Kept
-from occ_gui.welcome.feature import welcome
 from occ_gui.welcome.welcome import Welcome
 from occ_model.scene.scene import Scene
 

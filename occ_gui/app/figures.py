@@ -1,0 +1,194 @@
+"""Figures of the panes, declared: of what each is drawn, which is found out before it is."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from occ_gui.core.store import Store
+from occ_gui.shell.feature import Draw, Figure, NothingToDraw, later
+from occ_gui.shell.results import Board
+from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.values.photo_choice import MODES, Placement
+from occ_model.receiver.decoders import QUICK_DECODERS
+
+if TYPE_CHECKING:
+    from occ_gui.accuracy.pane import AccuracyPane
+    from occ_gui.bench.pane import BenchPane
+    from occ_gui.detection_map.pane import MapPane
+    from occ_gui.picture.image_view import ImageView, PicturesPane
+    from occ_gui.profile.pane import ProfilePane
+    from occ_gui.room.pane import RoomPane
+    from occ_model.figures.drawing import Drawing
+    from occ_model.photo.reading.load import Photo
+
+_BESIDE, _BLENDED, _SPLIT, _DIFFERENCE = MODES
+
+_OVERLAY_FILE = "picture-with-photo"
+
+
+def picture_figures(store: Store, about_photo: Callable[[], str]) -> tuple[Figure, Figure]:
+    """Declare the figures; ``about_photo`` gives what stands under a picture of the photo."""
+
+    def picture(pane: "PicturesPane | None", shown: Snapshot) -> Draw:
+        workspace, photo = store.workspace, _photo(pane)
+        if pane is None or photo is None:
+            return later(
+                "occ_model.figures.window_panes:picture_drawing",
+                shown.frame, shown.decoded.region, None, workspace.whose, None, "",
+            )  # fmt: skip
+        return _with_photo(pane.view, photo, shown, workspace.overlay, about_photo())
+
+    def overlay(pane: "PicturesPane | None", shown: Snapshot) -> Draw:
+        photo = _photo(pane)
+        if pane is None or photo is None:
+            raise NothingToDraw("No photo is open: open one to lay it over the picture.")
+        mode = store.workspace.overlay
+        laid = _BLENDED if mode == _BESIDE else mode
+        over = _with_photo(pane.view, photo, shown, laid, about_photo())
+        return lambda: replace(over(), name=_OVERLAY_FILE)
+
+    def is_beside(pane: "PicturesPane | None") -> bool:
+        return _photo(pane) is not None and store.workspace.overlay == _BESIDE
+
+    title = "Overlay of photo and picture"
+    return (
+        Figure(name="picture", title="Picture", draw=picture),
+        Figure(name="overlay", title=title, draw=overlay, is_another=is_beside),
+    )
+
+
+def _photo(pane: "PicturesPane | None") -> "Photo | None":
+    return None if pane is None else pane.view.shown_photo
+
+
+def _with_photo(view: "ImageView", opened: "Photo", shown: Snapshot, mode: str, about: str) -> Draw:
+    frame, region = shown.frame, shown.decoded.region
+    photo, whose, over = opened.image, view.whose, view.overlay
+    place = over.placement
+    opacities = {_BLENDED: (over.opacity, None), _SPLIT: (1.0, over.split_row)}
+    laid, times = opacities.get(mode), over.times
+
+    def draw() -> "Drawing":
+        from occ_gui.picture.photo_overlay import difference_cells, rect_of
+        from occ_model.figures.overlay import Difference, PhotoLayer
+        from occ_model.figures.window_panes import MOST_CELLS, picture_drawing
+
+        layer: PhotoLayer | Difference | None = None
+        if laid is not None:
+            layer = PhotoLayer(place.column, place.row, place.scale, *laid)
+        elif mode == _DIFFERENCE:
+            image = frame.picture(whose)
+            layers = (image, rect_of(image, Placement())), (photo, rect_of(photo, place))
+            found = difference_cells(*layers, MOST_CELLS)
+            if found is None:
+                raise NothingToDraw("Photo and simulation do not overlap: there is no difference.")
+            levels, grid = found
+            edges = (grid.left(), grid.right(), grid.bottom(), grid.top())
+            layer = Difference(levels, edges, times)
+        return picture_drawing(frame, region, photo, whose, layer, about)
+
+    return draw
+
+
+def profile_figure(store: Store, board: Board, about_photo: Callable[[], str]) -> Figure:
+    """Declare the figure; ``about_photo`` gives what stands under the profile of the photo."""
+
+    def ask(pane: "ProfilePane | None", shown: Snapshot) -> Draw:
+        workspace, photo = store.workspace, board.results.photo_profile
+        comparison = None if photo is None else photo.comparison
+        whole, enhanced = (0, len(shown.profile)), workspace.is_enhanced
+        return later(
+            "occ_model.figures.window_panes:profile_drawing",
+            shown.frame,
+            shown.band_levels(enhanced=enhanced),
+            shown.band_undefined,
+            comparison,
+            slice(*(whole if pane is None else pane.view.columns_in_view())),
+            enhanced=enhanced,
+            decoded=shown.result_of(workspace.decoder),
+            about="" if comparison is None else about_photo(),
+        )
+
+    return Figure(name="profile", title="Column profile", draw=ask)
+
+
+def decoding_figures() -> tuple[Figure, ...]:
+    return tuple(
+        Figure(name=f"decoding-{name}", title=f"Decoding, {name}", draw=partial(_steps, name))
+        for name in QUICK_DECODERS
+    )
+
+
+def _steps(decoder: str, _pane: object, shown: Snapshot) -> Draw:
+    result = shown.result_of(decoder)
+    if result is None:
+        raise NothingToDraw(f"The {decoder} decoder has not read the picture.")
+    return later("occ_model.figures.decoding:decode_drawing", shown.frame.scene, result)
+
+
+def accuracy_figure() -> Figure:
+    def ask(pane: "AccuracyPane | None", _shown: Snapshot) -> Draw:
+        points = () if pane is None else pane.view.plot.measured
+        if not points:
+            raise NothingToDraw(
+                "What accuracy costs is not measured yet: open its pane and wait a moment."
+            )
+        return later("occ_model.figures.accuracy:accuracy_drawing", points)
+
+    return Figure(name="accuracy", title="Accuracy and time", draw=ask)
+
+
+def map_figure(store: Store) -> Figure:
+    def ask(pane: "MapPane | None", _shown: Snapshot) -> Draw:
+        there = None if pane is None else pane.map.full
+        if there is None:
+            raise NothingToDraw(
+                "The detection map is not complete yet: open its pane and wait a moment."
+            )
+        from occ_gui.detection_map.map_schedule import table_of
+
+        table = table_of(*there, store.workspace.frame_rate)
+        return later("occ_model.figures.sweep:sweep_drawing", table, store.workspace.shown)
+
+    return Figure(name="map", title="Detection map", draw=ask)
+
+
+def bench_figure(store: Store) -> Figure:
+    def ask(pane: "BenchPane | None", _shown: Snapshot) -> Draw:
+        there = None if pane is None else pane.controller.full
+        if there is None:
+            raise NothingToDraw(
+                "The bench is not complete: open its pane, measure and wait a moment."
+            )
+        rate = store.workspace.frame_rate
+        return later("occ_model.figures.bench:bench_drawing", *there, rate)
+
+    return Figure(name="bench", title="Bench", draw=ask)
+
+
+def bands_figures() -> tuple[Figure, ...]:
+    def drawn(name: str) -> Callable[[Any, Snapshot], Draw]:
+        return lambda _, shown: later(f"occ_model.figures.bands:{name}", shown.frame.scene)
+
+    return (
+        Figure(name="bands", title="Bars", draw=drawn("bands_drawing")),
+        Figure(name="flicker", title="Flicker for the eye", draw=drawn("flicker_drawing")),
+    )
+
+
+def room_figure() -> Figure:
+    """Declare the figure, which there is once the picture of the present place is read."""
+
+    def ask(pane: "RoomPane | None", _shown: Snapshot) -> Draw:
+        shown = None if pane is None else pane.shown
+        if shown is None or shown.reading is None:
+            raise NothingToDraw(
+                "The room's picture is not read yet: open its pane and wait a moment."
+            )
+        return later(
+            "occ_model.figures.room:room_drawing",
+            shown.room, shown.image, shown.reading, is_photo=shown.look.photo is not None,
+        )  # fmt: skip
+
+    return Figure(name="room", title="Room", draw=ask)

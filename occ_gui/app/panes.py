@@ -1,0 +1,310 @@
+"""The panes of the window and its services, each declared; what is heavy is imported when made."""
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from PySide6.QtWidgets import QMainWindow, QWidget
+
+from occ_gui.app.figures import (
+    accuracy_figure,
+    bands_figures,
+    bench_figure,
+    decoding_figures,
+    map_figure,
+    picture_figures,
+    profile_figure,
+    room_figure,
+)
+from occ_gui.core.store import Store
+from occ_gui.core.workspace import Workspace
+from occ_gui.detection_map.wiring import Measuring
+from occ_gui.files.file_controller import FileController
+from occ_gui.files.preferences import Preferences
+from occ_gui.photo.photo_controller import PhotoController
+from occ_gui.pins.pin_controller import PinController
+from occ_gui.scene.control_panel import ControlPanel
+from occ_gui.scene.scene_store import SceneStore
+from occ_gui.shell.feature import Feature, Pane, later
+from occ_gui.shell.results import Board, Results
+from occ_gui.shell.shell import Shell
+from occ_gui.simulation.controller import SimulationController
+from occ_gui.simulation.present_results import PresentResults
+from occ_gui.widgets.work_bar import WorkBar
+from occ_gui.window.main_window import MainWindow
+
+if TYPE_CHECKING:
+    from occ_gui.photo.pane import PhotoPane
+    from occ_gui.picture.image_view import ImageView
+    from occ_gui.widgets.plot import Plot
+
+
+def picture(store: Store, about_photo: Callable[[], str]) -> Feature[Any]:
+    """Declare the pane, which stands in the story in place of its rows.
+
+    ``about_photo`` gives what stands under a figure with the photo.
+    """
+
+    def part(workspace: Workspace, results: Results) -> tuple[object, ...]:
+        there = (results.picture, results.snapshot, results.reading, results.before)
+        return (*there, workspace.whose, workspace.overlay)
+
+    return Feature(
+        name="picture",
+        title="Picture",
+        help="guide.md#look-at-the-picture",
+        make=later("occ_gui.picture.image_view:PicturesPane", store),
+        part=part,
+        goes_on_hidden=True,
+        figures=picture_figures(store, about_photo),
+    )
+
+
+def decoding(store: Store) -> Feature[Any]:
+    return Feature(
+        name="decode",
+        title="Decoding",
+        help="decoders.md",
+        make=later("occ_gui.decoding.pane:DecodePane", store),
+        part=lambda workspace, results: (results.reading, workspace.decoder),
+        goes_on_hidden=True,
+        figures=decoding_figures(),
+    )
+
+
+def photo(
+    scenes: SceneStore, photos: PhotoController, image: "Callable[[], ImageView]", board: Board
+) -> Feature[Any]:
+    """Declare the pane: a photo is shown with the picture, which ``image`` gives."""
+
+    def make() -> "PhotoPane":
+        from occ_gui.photo.pane import PhotoPane
+
+        return PhotoPane(scenes, photos, image(), board)
+
+    return Feature(
+        name="photo",
+        title="Photo",
+        help="photos.md",
+        make=make,
+        part=later("occ_gui.photo.photo_part:PhotoPart.of"),
+        goes_on_hidden=True,
+        commands={  # they are enabled once there is a photo
+            "match_all": lambda pane: pane.match_all(),
+            "find_lamps": lambda pane: pane.parts.find(),
+            "region_by_hand": lambda pane: pane.view.lamps.by_hand.toggle(),
+            "whole_photo": lambda pane: pane.parts.match_whole(),
+            "apply_match": lambda pane: pane.matching.apply(),
+            "use_settings": lambda pane: pane.matching.use_notes(),
+        },
+    )
+
+
+def photos(pane: "Callable[[], PhotoPane]") -> Feature[Any]:
+    """Declare the pane of several photos, whose table is that of the pane of one."""
+    return Feature(
+        name="photos",
+        title="Photos",
+        help="photos.md#many-photos-one-answer",
+        make=lambda: Pane[None](pane().view.many),
+    )
+
+
+def profile(store: Store, board: Board, about_photo: Callable[[], str]) -> Feature[Any]:
+    """Declare the pane: the comparison and the equations look at what it shows.
+
+    ``about_photo`` gives what stands under a figure with the photo.
+    """
+
+    def part(workspace: Workspace, results: Results) -> tuple[object, ...]:
+        photo = (results.photo_profile, results.chips)
+        return results.reading, results.before, *photo, workspace.is_enhanced
+
+    return Feature(
+        name="profile",
+        title="Column profile",
+        help="guide.md#compare-column-profiles",
+        make=later("occ_gui.profile.pane:ProfilePane", store),
+        part=part,
+        goes_on_hidden=True,
+        figures=(profile_figure(store, board, about_photo),),
+    )
+
+
+def accuracy(scenes: SceneStore, simulation: SimulationController) -> Feature[Any]:
+    """Declare the pane: it measures while it is seen, beside no simulation."""
+    return Feature(
+        name="accuracy",
+        title="Accuracy and time",
+        help="effects.md#accuracy-against-time",
+        make=later("occ_gui.accuracy.pane:AccuracyPane", scenes, simulation),
+        part=lambda workspace, results: (workspace.settings, results.switched, results.snapshot),
+        goes_on_hidden=True,
+        figures=(accuracy_figure(),),
+    )
+
+
+def detection_map(scenes: SceneStore, measuring: Measuring) -> Feature[Any]:
+    return Feature(
+        name="map",
+        title="Detection map",
+        help="sweeps.md#the-detection-map",
+        make=later("occ_gui.detection_map.pane:MapPane", scenes, measuring),
+        figures=(map_figure(scenes.store),),
+    )
+
+
+def bands(scenes: SceneStore) -> Feature[Any]:
+    """Declare the pane: it shows the bars of the present scene, and changes its exposure."""
+    return Feature(
+        name="bands",
+        title="Bars",
+        help="bands.md",
+        make=later("occ_gui.bands.pane:BandsPane", scenes),
+        part=lambda workspace, _: workspace.scene,
+        figures=bands_figures(),
+    )
+
+
+def equations(scenes: SceneStore, plot: "Callable[[], Plot]") -> Feature[Any]:
+    """Declare the pane; in the plot of the profile the user picks the column that it explains."""
+    return Feature(
+        name="equations",
+        title="Equations",
+        help="model.md",
+        make=lambda: later("occ_gui.explanation.pane:ExplanationPane")(scenes, plot()),
+        part=lambda _, results: results.snapshot,
+    )
+
+
+def spectrum() -> Feature[Any]:
+    pane, view = "occ_gui.spectrum.pane:SpectrumPane", "occ_gui.spectrum.spectrum_view:SpectrumView"
+    return Feature(
+        name="spectrum",
+        title="Spectrum and levels",
+        help="guide.md#measure",
+        make=lambda: later(pane)(later(view)()),
+        part=lambda _, results: results.snapshot,
+    )
+
+
+def compare(pins: PinController) -> Feature[Any]:
+    return Feature(
+        name="compare",
+        title="Compare",
+        help="guide.md#compare-two-states",
+        make=later("occ_gui.pins.compare_view:ComparePane", pins),
+        actions={
+            "pin_a": lambda: pins.pin("A"),
+            "pin_b": lambda: pins.pin("B"),
+            "go_to_a": lambda: pins.go_to("A"),
+            "go_to_b": lambda: pins.go_to("B"),
+            "clear_pins": pins.clear,
+        },
+    )
+
+
+def lessons(
+    scenes: SceneStore, board: Board, controls: ControlPanel, preferences: Preferences
+) -> Feature[Any]:
+    """Declare the pane: it changes the scene, opens photos, and marks one of the controls."""
+    return Feature(
+        name="lessons",
+        title="Lessons",
+        help="lessons.md#follow-a-lesson",
+        make=later("occ_gui.lessons.pane:LessonPane", scenes, board, controls, preferences),
+    )
+
+
+def video(scenes: SceneStore, board: Board) -> Feature[Any]:
+    return Feature(
+        name="video",
+        title="Video",
+        help="guide.md#watch-a-film",
+        make=later("occ_gui.video.wiring:VideoWiring", scenes, board),
+        part=lambda workspace, _: workspace.film,
+    )
+
+
+def room(store: Store) -> Feature[Any]:
+    return Feature(
+        name="room",
+        title="Room",
+        help="room.md",
+        make=later("occ_gui.room.pane:RoomPane", store),
+        part=lambda workspace, _: workspace.room,
+        goes_on_hidden=True,  # its figure can be exported, and undo does not ask what is seen
+        figures=(room_figure(),),
+    )
+
+
+def bench(scenes: SceneStore, measuring: Measuring) -> Feature[Any]:
+    return Feature(
+        name="bench",
+        title="Bench",
+        help="sweeps.md#the-bench",
+        make=lambda: later("occ_gui.bench.pane:BenchPane")(scenes, measuring.channel("bench")),
+        figures=(bench_figure(scenes.store),),
+    )
+
+
+def export(
+    window: QWidget,
+    shell: Shell,
+    present: PresentResults,
+    preferences: Preferences,
+    current_pane: Callable[[], str],
+    store: Store,
+) -> Feature[Any]:
+    return Feature(
+        name="export",
+        make=later(
+            "occ_gui.export.export_controller:ExportController",
+            window, shell, present, preferences, current_pane, store,
+        ),
+        commands={
+            "export_all": lambda export: export.ask_for_folder(),
+            "copy_figure": lambda export: export.copy_current(),
+        },
+    )  # fmt: skip
+
+
+def animation(
+    window: QWidget, scenes: SceneStore, preferences: Preferences, bar: WorkBar
+) -> Feature[Any]:
+    """Declare the export of a slider's run, with a bar that shows how far it is."""
+    export = "occ_gui.export.animation:AnimationExport"
+    return Feature(name="animation", make=later(export, window, scenes, preferences, bar))
+
+
+def transmitter(window: QWidget, scenes: SceneStore, preferences: Preferences) -> Feature[Any]:
+    """Declare what a board needs to blink the scene: a dialog, which follows the scene."""
+    sender = "occ_gui.transmitter.transmitter_controller:TransmitterController"
+    return Feature(
+        name="transmitter",
+        make=later(sender, window, scenes, preferences),
+        commands={"transmitter": lambda sender: sender.show()},
+    )
+
+
+def manual(window: QMainWindow, shell: Shell, current_pane: Callable[[], str]) -> Feature[Any]:
+    return Feature(
+        name="help",
+        make=lambda: later("occ_gui.help.help_window:Manual")(
+            window, current_pane, {"controls": "guide.md#set-up-a-scene", **shell.help_pages}
+        ),
+        commands={
+            "guide": lambda manual: manual.show_page(),
+            "about_pane": lambda manual: manual.show_pane(),
+        },
+    )
+
+
+def welcome(
+    window: MainWindow, shell: Shell, preferences: Preferences, files: FileController
+) -> Feature[Any]:
+    """Declare the page, whose doors lead to lessons, photo and exploring."""
+    return Feature(
+        name="welcome",
+        make=later("occ_gui.welcome.welcome:Welcome", window, shell, preferences, files),
+        commands={"welcome": lambda page: page.show()},
+    )

@@ -71,7 +71,6 @@ class CropPictures(QWidget):
             painter.drawImage(QRect(left, 0, shown.width(), shown.height()), image)
             below = QRect(left, shown.height() + 2, max(shown.width(), width), line)
             painter.drawText(below, Qt.AlignmentFlag.AlignLeft, caption)
-        painter.end()
 
 
 class EffectDetail(QWidget):

@@ -4,11 +4,11 @@ import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QColor
-from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from occ_gui.bands.jobs import ShownBands
 from occ_gui.widgets.axes import LogAxis
-from occ_gui.widgets.building import filled
+from occ_gui.widgets.building import filled, paragraph
 from occ_gui.widgets.colours import BAND, SIMULATION, seen_on, thin
 from occ_gui.widgets.plot import LineLegend, marker, new_plot
 from occ_model.scene.parameters import quantity
@@ -51,12 +51,11 @@ class DepthPlot(QWidget):
         self.setting = self.plot.plot(
             [], [], pen=None, symbol="o", symbolSize=10, symbolBrush="w", symbolPen="k"
         )
-        self.legend = QLabel(
+        self.legend = paragraph(
             "Dark: a small change within the cell shows no bars (0.1 % or less); yellow: 100 % "
             "or more. White lines: whole numbers of the "
             "lamp's periods. A click takes an exposure."
         )
-        self.legend.setWordWrap(True)
         filled(QVBoxLayout(self), (self.plot, 1), self.legend, margins=0)
         self.plot.scene().sigMouseClicked.connect(self._on_click)
 
@@ -125,15 +124,11 @@ class RiskPlot(QWidget):
         lines.add_line("none", thin(BAND, _DASHES), "below: no effect")
         points.add_sample("whole", marker("o", _SIZES[1], None), _SAMPLE, "the lamp as a whole")
         points.add_sample("sines", marker("o", _SIZES[0], SIMULATION), _SAMPLE, "its sines")
-        self.source = QLabel(
+        self.source = paragraph(
             "Lines of IEEE 1789-2015 as lighting makers quote them: its text was not checked."
         )
-        self.source.setWordWrap(True)
-        layout = filled(QVBoxLayout(self), margins=0, spacing=2)
-        for legend in (lines, points):
-            layout.addWidget(legend, alignment=Qt.AlignmentFlag.AlignLeft)
-        layout.addWidget(self.plot, 1)
-        layout.addWidget(self.source)
+        legends = ((legend, 0, Qt.AlignmentFlag.AlignLeft) for legend in (lines, points))
+        filled(QVBoxLayout(self), *legends, (self.plot, 1), self.source, margins=0, spacing=2)
 
     def show_flicker(self, found: ShownBands) -> None:
         eye = found.eye

@@ -14,7 +14,7 @@ from PySide6.QtWidgets import (
 
 from occ_gui.bands.bands_plots import DepthPlot, RiskPlot
 from occ_gui.bands.jobs import ShownBands
-from occ_gui.widgets.building import filled, paragraph
+from occ_gui.widgets.building import filled, paragraph, read_only
 from occ_gui.widgets.outdated_mark import OutdatedMark
 from occ_gui.widgets.text_scale import TextSize, scaled
 from occ_model.results.bands import SpeedDepth, percent
@@ -58,16 +58,13 @@ class BandsView(QWidget):
         self._row.setDirection(direction.TopToBottom if is_narrow else direction.LeftToRight)
 
     def _make_table(self) -> None:
-        self.table = QTableWidget(0, 4)
-        self.table.setHorizontalHeaderLabels(["Shutter", "as written", "power of two", "Bars"])
-        self.table.setAccessibleName("Depth of the bars at usual shutter speeds")
-        self.table.setToolTip(
+        self.table = read_only(
+            QTableWidget(0, 4),
+            "Depth of the bars at usual shutter speeds",
             "Many cameras keep a power of two for what is written: 1/64 s for 1/60 s. "
-            "A double click, or Enter, sets a speed; ISO speed and aperture follow."
+            "A double click, or Enter, sets a speed; ISO speed and aperture follow.",
         )
-        self.table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
-        self.table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
-        self.table.verticalHeader().hide()
+        self.table.setHorizontalHeaderLabels(["Shutter", "as written", "power of two", "Bars"])
         self.table.verticalHeader().setDefaultSectionSize(self.fontMetrics().height() + _ROOM)
         header = self.table.horizontalHeader()
         header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)

@@ -10,7 +10,6 @@ import pyqtgraph as pg
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QPalette
 from PySide6.QtWidgets import (
-    QAbstractItemView,
     QHBoxLayout,
     QHeaderView,
     QTableWidget,
@@ -19,6 +18,7 @@ from PySide6.QtWidgets import (
 )
 
 from occ_gui.widgets.axes import LogAxis
+from occ_gui.widgets.building import filled, read_only
 from occ_gui.widgets.colours import BAND, NOISE, PHOTO, REGION, SIMULATION, seen_on, thin
 from occ_gui.widgets.plot import Plot, new_plot
 from occ_model.results.bench import BenchBounds, BenchPoint, BenchRequest
@@ -89,8 +89,7 @@ class BenchPlots(QWidget):
         self._curves: dict[str, list[_Curve]] = {axis: [] for axis in AXES}
         self._bounds: dict[str, pg.PlotCurveItem] = {}
         self._nulls: list[pg.InfiniteLine] = []
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
+        row = filled(QHBoxLayout(self), margins=0)
         for axis, (name, bottom) in names.items():
             plot = new_plot(
                 f"{left} {name}", bottom, left, self.palette(), left=LogAxis("left", _FLOOR[what])
@@ -208,10 +207,7 @@ class BenchTable(QTableWidget):
         super().__init__()
         self._places: dict[tuple[str, float, float], int] = {}
         self._decoders: tuple[str, ...] = ()
-        self.setAccessibleName("Table of the bench")
-        self.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
-        self.setAlternatingRowColors(True)
-        self.verticalHeader().hide()
+        read_only(self, "Table of the bench").setAlternatingRowColors(True)
 
     def show_begun(self, request: BenchRequest) -> None:
         self.clear()

@@ -192,7 +192,6 @@ class StripLegend(QWidget):
             place = QRectF(left, 0, width + 1, self.height())
             painter.drawText(place, Qt.AlignmentFlag.AlignVCenter, text)
             left += width + _GAP
-        painter.end()
 
 
 class SliderStrips(QObject):

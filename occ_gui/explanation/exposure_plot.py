@@ -6,7 +6,6 @@ from pyqtgraph.GraphicsScene.mouseEvents import MouseClickEvent
 from PySide6.QtCore import QEvent, QObject, QPointF, QSignalBlocker, Qt, Signal
 from PySide6.QtGui import QBrush, QColor, QKeyEvent, QPalette, QResizeEvent
 from PySide6.QtWidgets import (
-    QCheckBox,
     QHBoxLayout,
     QLabel,
     QSizePolicy,
@@ -15,7 +14,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from occ_gui.widgets.building import filled, named, paragraph
+from occ_gui.widgets.building import check_box, filled, named, paragraph
 from occ_gui.widgets.colours import BAND, REGION, SIMULATION, pen_on, thin
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
 from occ_gui.widgets.plot import Plot, new_plot
@@ -164,9 +163,8 @@ class ExposurePlot(QWidget):
         self.column.setKeyboardTracking(False)
         keep_wheel_for_scrolling(self.column)
         self.column.valueChanged.connect(self.column_chosen)
-        self.hold = QCheckBox("Hold")
-        self.hold.setToolTip(
-            "Keep this column wherever the mouse is, as a click on the profile does."
+        self.hold = check_box(
+            "Hold", "Keep this column wherever the mouse is, as a click on the profile does."
         )
         self.hold.clicked.connect(self.hold_chosen)
 

@@ -18,7 +18,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from occ_gui.widgets.building import filled, named, push_button
+from occ_gui.widgets.building import filled, named, push_button, read_only
 from occ_gui.widgets.colours import PHOTO, REGION
 from occ_gui.widgets.guarded_paint import guarded
 from occ_model.results.decoding import Region
@@ -69,19 +69,15 @@ class LampForm(QWidget):
         self.show_region(None)
 
     def _make_table(self) -> None:
-        self.table = named(
+        self.table = read_only(
             QTableWidget(0, 4),
             "Lamps in the photo",
             "The lamps, the brightest first: the columns that each covers, the columns of a chip "
             "with their standard deviation, and the periods in view. A doubtful lamp says why.",
         )
         self.table.setHorizontalHeaderLabels(["Lamp", "Columns", "Chip (px)", "Periods"])
-        self.table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
-        self.table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
         self.table.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
-        self.table.verticalHeader().hide()
         self.table.verticalHeader().setDefaultSectionSize(_ROW_HEIGHT)
-        self.table.setTabKeyNavigation(False)  # so that the keyboard can leave it
         header = self.table.horizontalHeader()
         header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
         header.setStretchLastSection(True)

@@ -4,7 +4,6 @@ from collections.abc import Mapping
 
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import (
-    QCheckBox,
     QGridLayout,
     QHBoxLayout,
     QLabel,
@@ -19,7 +18,7 @@ from occ_gui.scene.parameter_rows import explain
 from occ_gui.scene.refusal_notice import RefusalNotice
 from occ_gui.scene.scene_store import new_gesture
 from occ_gui.values.photo_choice import KNOWN, MatchChoice
-from occ_gui.widgets.building import filled, named, paragraph, push_button
+from occ_gui.widgets.building import check_box, filled, named, paragraph, push_button
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
@@ -75,9 +74,9 @@ class MatchForm(QWidget):
             },
         )
         self._make_known()
-        self.gamma = QCheckBox("Fit gamma too")
-        self.gamma.setToolTip(
-            "Estimate the camera's gamma from the shape of the stripes' edges as well."
+        self.gamma = check_box(
+            "Fit gamma too",
+            "Estimate the camera's gamma from the shape of the stripes' edges as well.",
         )
         self._make_run()
         self._lay_out()
@@ -101,11 +100,11 @@ class MatchForm(QWidget):
             field.edited.connect(lambda value, name=name: self._edit(name, value))
             self.known[name] = field
         self.hint = paragraph()
-        self.certain = QCheckBox("certain")
-        self.certain.setToolTip(
+        self.certain = check_box(
+            "certain",
             "Whether this value is known of this photo. What is found with a value that is "
             "only assumed is stated with the assumption. A value that you enter here is "
-            "certain."
+            "certain.",
         )
         self.certain.clicked.connect(self._click_certain)
         self.notices: dict[QuantityEdit, RefusalNotice] = {}

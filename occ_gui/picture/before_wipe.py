@@ -2,11 +2,11 @@
 
 import pyqtgraph as pg
 from PySide6.QtCore import QObject, QSignalBlocker, Qt
-from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QSlider, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QSlider, QWidget
 
 from occ_gui.picture.averaged_image import AveragedImage
 from occ_gui.simulation.snapshot import Snapshot
-from occ_gui.widgets.building import filled
+from occ_gui.widgets.building import check_box, filled
 from occ_gui.widgets.colours import BEFORE
 from occ_model.arrays import ByteArray
 from occ_model.results.frame import PICTURES, Frame
@@ -43,12 +43,12 @@ class BeforeWipe(QObject):
         self._make_controls()
 
     def _make_controls(self) -> None:
-        self.chosen = QCheckBox("Before")
-        self.chosen.setToolTip(
+        self.chosen = check_box(
+            "Before",
             "Show, to the left of a line that can be dragged, the picture before the latest "
-            "change, and to the right of it the one now."
+            "change, and to the right of it the one now.",
+            self._arrange,
         )
-        self.chosen.toggled.connect(self._arrange)
         self.slider = QSlider(Qt.Orientation.Horizontal)
         self.slider.setRange(0, _SLIDER_STEPS)
         self.slider.setValue(round(self._fraction * _SLIDER_STEPS))

@@ -15,7 +15,7 @@ from PySide6.QtWidgets import (
 
 from occ_gui.pins.pin_controller import ComparedRow, Pin, PinController, Pinned
 from occ_gui.shell.feature import Pane
-from occ_gui.widgets.building import filled, paragraph, push_button
+from occ_gui.widgets.building import filled, paragraph, push_button, read_only
 from occ_gui.widgets.colours import BAND, SIMULATION, thin
 from occ_gui.widgets.columns import PACKETS_IN_VIEW
 from occ_gui.widgets.plain_text import in_tool_tip
@@ -64,17 +64,12 @@ class CompareView(QWidget):
         self._redraw()
 
     def _make_table(self) -> None:
-        self.table = QTableWidget(0, 3)
+        tip = "Inputs that differ between A and B, then outputs."
+        self.table = read_only(QTableWidget(0, 3), "Differences between A and B", tip)
         self.table.setHorizontalHeaderLabels(["Difference", "A", "B"])
-        self.table.setAccessibleName("Differences between A and B")
-        self.table.setToolTip("Inputs that differ between A and B, then outputs.")
-        self.table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
-        self.table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
         # A row with a long sentence can be higher than the table.
         self.table.setVerticalScrollMode(QAbstractItemView.ScrollMode.ScrollPerPixel)
-        self.table.verticalHeader().hide()
         self.table.setMinimumWidth(_LEAST_TABLE)
-        self.table.setTabKeyNavigation(False)  # so that the keyboard can leave it
         header = self.table.horizontalHeader()
         header.setSectionResizeMode(0, QHeaderView.ResizeMode.ResizeToContents)
         for column in (1, 2):
@@ -102,13 +97,8 @@ class CompareView(QWidget):
         self.curves = {name: self.plot.add_curve(pen) for name, pen in pens.items()}
 
     def _lay_out(self) -> None:
-        row = QHBoxLayout()
-        for name in ("A", "B"):
-            row.addWidget(self.pins[name])
-            row.addWidget(self.returns[name])
-        row.addWidget(self.clear)
-        row.addStretch(1)
-        row.addWidget(self.legend)
+        buttons = (each[name] for name in ("A", "B") for each in (self.pins, self.returns))
+        row = filled(QHBoxLayout(), *buttons, self.clear, (None, 1), self.legend)
         panes = self._panes = QSplitter(Qt.Orientation.Horizontal)
         panes.addWidget(self.table)
         panes.addWidget(self.plot)

@@ -7,7 +7,6 @@ import pyqtgraph as pg
 from PySide6.QtCore import QEvent, Qt, Signal
 from PySide6.QtGui import QPalette, QShowEvent
 from PySide6.QtWidgets import (
-    QCheckBox,
     QHBoxLayout,
     QPushButton,
     QSizePolicy,
@@ -19,7 +18,7 @@ from occ_gui.profile.below_profile import ChipStrip, ResidualPlot
 from occ_gui.simulation.band_drift import drift_sentence
 from occ_gui.simulation.snapshot import Reading, Snapshot
 from occ_gui.values.photo_results import PhotoProfile
-from occ_gui.widgets.building import filled, paragraph
+from occ_gui.widgets.building import check_box, filled, paragraph, push_button
 from occ_gui.widgets.colours import BAND, BEFORE, PHOTO, SIMULATION, THRESHOLD, thin
 from occ_gui.widgets.columns import PACKETS_IN_VIEW, first_periods
 from occ_gui.widgets.plot import LineLegend, new_plot
@@ -102,12 +101,12 @@ class ProfileView(QWidget):
             item.setBrush(shade)
 
     def _make_controls(self) -> None:
-        self.enhanced = QCheckBox("Enhanced")
-        self.enhanced.setToolTip(
+        self.enhanced = check_box(
+            "Enhanced",
             "Show every curve after the receiver's contrast enhancement: the simulation's as "
-            "the decoders read it, the others each by its own histogram."
+            "the decoders read it, the others each by its own histogram.",
+            self._draw_before,
         )
-        self.enhanced.toggled.connect(self._draw_before)
         self.enhanced.toggled.connect(self._redraw)
         self.enhanced.toggled.connect(self.enhanced_chosen)
         self._packets = self._range_button(*first_periods(True))
@@ -115,10 +114,8 @@ class ProfileView(QWidget):
         self._packets.setChecked(True)
 
     def _range_button(self, text: str, tip: str) -> QPushButton:
-        button = QPushButton(text)
+        button = push_button(text, tip, lambda: self._follow(button))
         button.setCheckable(True)
-        button.setToolTip(tip)
-        button.clicked.connect(lambda: self._follow(button))
         return button
 
     def _lay_out(self) -> None:

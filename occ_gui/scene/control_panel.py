@@ -13,6 +13,7 @@ from occ_gui.scene.parameter_panel import ParameterPage, ParameterPanel
 from occ_gui.scene.parameter_rows import CountRow, ParameterRow, QuantityRow
 from occ_gui.scene.player import Player
 from occ_gui.scene.scene_editor import SceneEditor
+from occ_gui.widgets.building import filled
 from occ_gui.widgets.plain_text import LONGEST, in_tool_tip
 from occ_model.errors import one_line
 from occ_model.results.teaching import MarkedValue
@@ -106,16 +107,11 @@ class ControlPanel(QWidget):
         _connect(self._fields().values(), editor)
 
     def _lay_out(self) -> None:
-        layout = QVBoxLayout(self)
-        layout.addWidget(QLabel("Preset"))
-        layout.addWidget(self.preset)
-        layout.addWidget(self.forced)
-        layout.addWidget(self.code.title)
-        layout.addWidget(self.code)
         pages = QTabWidget()
         for title, page in self._pages.items():
             pages.addTab(page, title)
-        layout.addWidget(pages, 1)
+        above = (QLabel("Preset"), self.preset, self.forced, self.code.title, self.code)
+        filled(QVBoxLayout(self), *above, (pages, 1))
 
     def list_presets(
         self,

@@ -3,9 +3,9 @@
 from collections.abc import Mapping
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QHBoxLayout, QPushButton, QSizePolicy, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QWidget
 
-from occ_gui.widgets.building import filled, paragraph
+from occ_gui.widgets.building import filled, paragraph, push_button
 
 
 def switch_text(effect: str, included: bool | None, labels: Mapping[str, str]) -> str:
@@ -32,11 +32,11 @@ class ForcedEffects(QWidget):
         super().__init__()
         self.text = paragraph(name="Effects switched by hand")
         self.text.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Minimum)
-        self.back = QPushButton("Back to the plan")
-        self.back.setToolTip(
-            "Let the plan decide on these effects again, as one step that can be undone."
+        self.back = push_button(
+            "Back to the plan",
+            "Let the plan decide on these effects again, as one step that can be undone.",
+            self.released,
         )
-        self.back.clicked.connect(self.released)
         filled(
             QHBoxLayout(self), (self.text, 1), (self.back, 0, Qt.AlignmentFlag.AlignTop), margins=0
         )

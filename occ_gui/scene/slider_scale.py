@@ -93,7 +93,6 @@ class SliderScale(QWidget):
             painter.drawLine(QPointF(x, 0.0), QPointF(x, _TICK))
         for text, box in names:
             painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)
-        painter.end()
 
     def _texts(self, metrics: QFontMetricsF) -> tuple[list[_Text], list[_Text]]:
         """Return the end values and the marks' names, each with its place.

@@ -11,6 +11,7 @@ from occ_gui.core.store import Store
 from occ_gui.shell.feature import Draw, Feature, Figure, Pane, Service
 from occ_gui.shell.results import Board
 from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.widgets.building import filled
 from occ_gui.widgets.event_filters import leave_drops_to_window
 
 
@@ -132,8 +133,7 @@ class _Place(QWidget):
         self._is_seen = False
         self._shown: Any = None
         self.pane: Pane[Any] | None = None
-        self._content = QVBoxLayout(self)
-        self._content.setContentsMargins(0, 0, 0, 0)
+        self._content = filled(QVBoxLayout(self), margins=0)
 
     def made(self) -> Pane[Any]:
         if self.pane is None:

@@ -255,4 +255,3 @@ class Scale(QWidget):
             left = min(max(x + 4, self.axis.gutter), self.width() - width)
             painter.drawText(QRectF(left, 0, width + 2, self.height()),
                              Qt.AlignmentFlag.AlignVCenter, number)  # fmt: skip
-        painter.end()

@@ -119,7 +119,6 @@ class CurveLegend(QWidget):
                 place.setLeft(left + _SAMPLE + _GAP)
             painter.setPen(text)
             painter.drawText(place, Qt.AlignmentFlag.AlignVCenter, name)
-        painter.end()
 
 
 class LegendLine(QWidget):
@@ -129,11 +128,8 @@ class LegendLine(QWidget):
         super().__init__()
         self._legend = legend
         self.controls = filled(QHBoxLayout(), (None, 0), spacing=_SPACING)
-        self._layout = QBoxLayout(QBoxLayout.Direction.LeftToRight, self)
-        self._layout.setContentsMargins(0, 0, 0, 0)
-        self._layout.setSpacing(_SPACING)
-        self._layout.addWidget(legend, 1)
-        self._layout.addLayout(self.controls)
+        row = QBoxLayout(QBoxLayout.Direction.LeftToRight, self)
+        self._layout = filled(row, (legend, 1), self.controls, margins=0, spacing=_SPACING)
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         super().resizeEvent(event)

@@ -129,7 +129,6 @@ class StoryRow(QWidget):
             painter.setPen(QPen(self.colour(QPalette.ColorRole.Highlight), 2))
             painter.setBrush(Qt.BrushStyle.NoBrush)
             painter.drawRect(area.adjusted(1, 1, -1, -1))
-        painter.end()
 
     def _picture(self, ratio: float) -> QPixmap:
         size, picture = self.size() * ratio, self._drawn

@@ -168,7 +168,6 @@ class FrameThumbnail(QAbstractButton):
         role = QPalette.ColorRole.Highlight if marked else QPalette.ColorRole.Mid
         painter.setPen(QPen(self.palette().color(role), 2 if marked else 1))
         painter.drawRect(place)
-        painter.end()
 
 
 def resampled(pixels: ByteArray, edges: FloatArray, rows: int) -> ByteArray:

@@ -4,17 +4,15 @@ from collections.abc import Sequence
 
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import (
-    QCheckBox,
     QHBoxLayout,
     QMenu,
-    QPushButton,
     QSizePolicy,
     QVBoxLayout,
     QWidget,
 )
 
 from occ_gui.video.camera import AXES, CameraDevice
-from occ_gui.widgets.building import filled, named, push_button
+from occ_gui.widgets.building import check_box, filled, named, push_button
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.icons import IconButton
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
@@ -35,9 +33,8 @@ class FilmBar(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self.open = QPushButton("Open fil&m…")
-        self.open.setToolTip("Choose a film of a rolling-shutter camera.")
-        self.open.clicked.connect(self.open_asked)
+        tip = "Choose a film of a rolling-shutter camera."
+        self.open = push_button("Open fil&m…", tip, self.open_asked)
         self.camera = push_button("Camera", "Read what a camera of this computer sees, live.")
         self.cameras = QMenu(self.camera)
         self.camera.setMenu(self.cameras)
@@ -50,17 +47,12 @@ class FilmBar(QWidget):
             dict(zip(AXES, ("line by line", "column by column"), strict=True)),
             is_fixed=True,
         )
-        self.lock = QCheckBox("Hold exposure")
-        self.lock.setToolTip("Keep the camera's exposure as it is now.")
+        self.lock = check_box("Hold exposure", "Keep the camera's exposure as it is now.")
         self.read = push_button("", do=self.read_asked)
         self.title = named(ElidedLabel(), "Film")
         self.title.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
-        buttons = QHBoxLayout()
-        buttons.setContentsMargins(0, 0, 0, 0)
-        for part in (self.open, self.camera, self.axis, self.lock, self.close_film):
-            buttons.addWidget(part)
-        buttons.addStretch()
-        buttons.addWidget(self.read)
+        left = (self.open, self.camera, self.axis, self.lock, self.close_film)
+        buttons = filled(QHBoxLayout(), *left, None, self.read, margins=0)
         filled(QVBoxLayout(self), buttons, self.title, margins=0, spacing=4)
         self.show_film("", is_film=False, is_live=False)
         self.show_reading(False)
@@ -119,16 +111,10 @@ class Transport(QWidget):
         self.back = TransportButton("step-back", "Step back", "Show the frame before (Left).")
         self.play = TransportButton("play", "", "")
         self.on = TransportButton("step-on", "Step on", "Show the next frame (Right).")
-        self.place = ElidedLabel()
-        self.place.setAccessibleName("Frame and time shown")
+        self.place = named(ElidedLabel(), "Frame and time shown")
         self.place.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        layout = QHBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(2)
-        for button in (self.back, self.play, self.on):
-            layout.addWidget(button)
-        layout.addSpacing(6)
-        layout.addWidget(self.place, 1)
+        parts = (self.back, self.play, self.on, 6, (self.place, 1))
+        filled(QHBoxLayout(self), *parts, margins=0, spacing=2)
         self.back.clicked.connect(lambda: self.step_asked.emit(-1))
         self.on.clicked.connect(lambda: self.step_asked.emit(1))
         self.play.clicked.connect(self.play_asked)

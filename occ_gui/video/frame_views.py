@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtWidgets import (
     QHBoxLayout,
-    QLabel,
     QSizePolicy,
     QSplitter,
     QStackedWidget,
@@ -16,7 +15,7 @@ from PySide6.QtWidgets import (
 from occ_gui.picture.picture_pane import PicturePane
 from occ_gui.simulation.snapshot import ColumnView, PictureView
 from occ_gui.story.story_rows import StoryRows
-from occ_gui.widgets.building import filled
+from occ_gui.widgets.building import filled, named, paragraph
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_model.arrays import ByteArray
 from occ_model.results.decoding import Region
@@ -41,12 +40,9 @@ class _Side(QStackedWidget):
     def __init__(self, name: str) -> None:
         super().__init__()
         self.pane = PicturePane(name)
-        self.instead = QLabel()
-        self.instead.setWordWrap(True)
+        self.instead = paragraph(name=name)
         self.instead.setAlignment(Qt.AlignmentFlag.AlignCenter)
-        self.instead.setTextFormat(Qt.TextFormat.PlainText)
         self.instead.setMargin(12)
-        self.instead.setAccessibleName(name)
         self.addWidget(self.instead)
         self.addWidget(self.pane)
         self.setMinimumSize(_LEAST)
@@ -112,12 +108,10 @@ class FrameRows(QWidget):
         super().__init__()
         self.rows = StoryRows()
         self.rows.stripes.thumbnail.clicked.connect(self.picture_asked)
-        self.title = ElidedLabel()
-        self.title.setAccessibleName("What the rows show")
+        self.title = named(ElidedLabel(), "What the rows show")
         self.title.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
-        line = filled(QHBoxLayout(), (self.title, 1), margins=(4, 0, 4, 0))
-        for button in self.rows.ranges.values():
-            line.addWidget(button)
+        ranges = self.rows.ranges.values()
+        line = filled(QHBoxLayout(), (self.title, 1), *ranges, margins=(4, 0, 4, 0))
         filled(QVBoxLayout(self), line, (self.rows, 1), margins=(0, 4, 0, 0), spacing=2)
         self.show_story(None)
 

@@ -1,13 +1,13 @@
 """Form of the recording: how the film of the scene is simulated."""
 
 from PySide6.QtCore import QSignalBlocker, Signal
-from PySide6.QtWidgets import QFormLayout, QHBoxLayout, QPushButton, QSizePolicy, QWidget
+from PySide6.QtWidgets import QFormLayout, QHBoxLayout, QSizePolicy, QWidget
 
 from occ_gui.scene.number_edits import CountEdit, QuantityEdit
 from occ_gui.scene.parameter_rows import explain
 from occ_gui.values.film_choice import FIRST_FRAMES
 from occ_gui.values.film_choice import FRAMES as COUNTS
-from occ_gui.widgets.building import filled, paragraph
+from occ_gui.widgets.building import filled, named, paragraph, push_button
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
 from occ_gui.widgets.work_bar import WorkBar
 from occ_model.errors import OccError
@@ -33,10 +33,8 @@ class RecordingForm(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self.recording = Recording()
-        self.count = CountEdit(FRAMES)
+        self.count = named(CountEdit(FRAMES), FRAMES.label, FRAMES.meaning)
         self.count.setValue(FRAMES.default)
-        self.count.setAccessibleName(FRAMES.label)
-        self.count.setToolTip(FRAMES.meaning)
         keep_wheel_for_scrolling(self.count)
         self.count.valueChanged.connect(lambda _: self.changed.emit())
         self.count.refused.connect(self.refused)
@@ -47,9 +45,8 @@ class RecordingForm(QWidget):
         form.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.FieldsStayAtSizeHint)
         form.addRow(FRAMES.label, self.count)
         for declared in DECLARED:
-            field = self.fields[declared.name] = QuantityEdit(declared)
-            field.setAccessibleName(declared.label)
-            field.setToolTip(explain(declared))
+            field = named(QuantityEdit(declared), declared.label, explain(declared))
+            self.fields[declared.name] = field
             keep_wheel_for_scrolling(field)
             field.edited.connect(lambda value, name=declared.name: self._take(name, value))
             field.refused.connect(self.refused)
@@ -57,11 +54,11 @@ class RecordingForm(QWidget):
         self.gap = paragraph(name="Gap between two frames")
         self.gap.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
         form.addRow(self.gap)
-        self.save = QPushButton("Sa&ve the simulated film…")
-        self.save.setToolTip(
-            "MKV, GIF and PNG keep every grey level, MP4 does not. The scene is inside."
+        self.save = push_button(
+            "Sa&ve the simulated film…",
+            "MKV, GIF and PNG keep every grey level, MP4 does not. The scene is inside.",
+            self.save_asked,
         )
-        self.save.clicked.connect(self.save_asked)
         self.saving = WorkBar("How much of the film has been written")
         line = filled(QHBoxLayout(), self.save, self.saving, None)
         form.addRow(line)

@@ -135,7 +135,6 @@ class Timeline(QWidget):
             painter.setPen(QPen(self.palette().color(QPalette.ColorRole.Highlight), 2))
             painter.setBrush(Qt.BrushStyle.NoBrush)
             painter.drawRect(QRectF(self.rect()).adjusted(1, 1, -1, -1))
-        painter.end()
 
     def _picture(self, ratio: float) -> QPixmap:
         picture = QPixmap(self.size() * ratio)

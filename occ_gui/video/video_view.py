@@ -20,7 +20,7 @@ from occ_gui.video.frame_views import FilmPictures, FrameRows
 from occ_gui.video.mark_look import MarkLegend
 from occ_gui.video.recording_form import RecordingForm
 from occ_gui.video.timeline import Timeline
-from occ_gui.widgets.building import filled, paragraph
+from occ_gui.widgets.building import filled, named, paragraph
 from occ_gui.widgets.outdated_mark import OutdatedMark
 from occ_gui.widgets.plain_text import in_tool_tip
 from occ_gui.widgets.scroll_pane import ScrollPane
@@ -41,12 +41,10 @@ class DataView(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self.text = QPlainTextEdit()
-        self.text.setReadOnly(True)
+        hint = "What is read of the film appears here."
+        field = QPlainTextEdit(readOnly=True, placeholderText=hint, tabChangesFocus=True)
+        self.text = named(field, "What was read")
         self.text.setMinimumHeight(_LEAST_HEIGHT)
-        self.text.setAccessibleName("What was read")
-        self.text.setPlaceholderText("What is read of the film appears here.")
-        self.text.setTabChangesFocus(True)
         self.sentences = paragraph(name="What is not sure")
         self.sentences.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
         self.rows: list[tuple[QLabel, QLabel]] = []
@@ -125,14 +123,10 @@ class VideoView(QWidget):
         self.split.setStretchFactor(0, 5)
         self.split.setStretchFactor(1, 4)
         line = filled(QHBoxLayout(), (self.transport, 1), self.legend, margins=0)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(6, 4, 6, 4)
-        layout.setSpacing(4)
-        layout.addWidget(self.bar)
-        layout.addWidget(self.message)
-        layout.addWidget(self.split, 1)
-        layout.addLayout(line)
-        layout.addWidget(self.timeline)
+        filled(
+            QVBoxLayout(self), self.bar, self.message, (self.split, 1), line, self.timeline,
+            margins=(6, 4, 6, 4), spacing=4,
+        )  # fmt: skip
         self.rows.picture_asked.connect(self.show_large)
         self._outdated = [OutdatedMark(part) for part in (self.data, self.timeline)]
 

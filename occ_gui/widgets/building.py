@@ -4,7 +4,16 @@ from collections.abc import Callable
 from typing import Any, TypeAlias, TypeVar
 
 from PySide6.QtCore import Qt, SignalInstance
-from PySide6.QtWidgets import QBoxLayout, QLabel, QLayout, QPushButton, QWidget
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QBoxLayout,
+    QCheckBox,
+    QLabel,
+    QLayout,
+    QPushButton,
+    QTableView,
+    QWidget,
+)
 
 Box = TypeVar("Box", bound=QBoxLayout)
 Part: TypeAlias = QWidget | QLayout | int | tuple[Any, ...] | None
@@ -37,6 +46,7 @@ def filled(
 
 
 Widget = TypeVar("Widget", bound=QWidget)
+Table = TypeVar("Table", bound=QTableView)
 
 
 def named(widget: Widget, name: str, tip: str = "") -> Widget:
@@ -58,6 +68,26 @@ def push_button(
     if do is not None:
         made.clicked.connect(do)
     return made
+
+
+def check_box(
+    text: str, tip: str = "", do: Callable[..., object] | SignalInstance | None = None
+) -> QCheckBox:
+    """Make a box whose switching, by the user or not, is told."""
+    made = QCheckBox(text)
+    made.setToolTip(tip)
+    if do is not None:
+        made.toggled.connect(do)
+    return made
+
+
+def read_only(table: Table, name: str, tip: str = "") -> Table:
+    """Let a table only be read: by whole rows, without their numbers; the Tab key leaves it."""
+    table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
+    table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
+    table.verticalHeader().hide()
+    table.setTabKeyNavigation(False)
+    return named(table, name, tip)
 
 
 def paragraph(text: str = "", *, name: str = "", is_selectable: bool = False) -> QLabel:

@@ -78,7 +78,6 @@ class ChipLabel(QWidget):
         painter.setPen(colours.ink)
         height = self._text.size().height()
         painter.drawStaticText(QPointF(self._left, (place.height() - height) / 2), self._text)
-        painter.end()
 
 
 class ChipRow(QWidget):

@@ -10,6 +10,7 @@ from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPalette, QPen, QResize
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QWidget
 
 from occ_gui.widgets.axes import Axis
+from occ_gui.widgets.building import filled
 from occ_gui.widgets.colours import pen_on, seen_on
 from occ_gui.widgets.guarded_paint import guarded
 
@@ -22,8 +23,7 @@ Drawing: TypeAlias = Callable[[QPainter, QRectF, QPalette], None]
 class LineLegend(QWidget):
     def __init__(self) -> None:
         super().__init__()
-        self._row = QHBoxLayout(self)
-        self._row.setContentsMargins(0, 0, 0, 0)
+        self._row = filled(QHBoxLayout(self), margins=0)
         self._entries: dict[str, QWidget] = {}
 
     def add_line(self, key: str, pen: QPen, text: str) -> None:
@@ -44,10 +44,8 @@ class LineLegend(QWidget):
         self, key: str, draw: Drawing, size: QSize, text: str, meaning: str = ""
     ) -> None:
         entry = QWidget(toolTip=meaning)
-        layout = QHBoxLayout(entry)
-        layout.setContentsMargins(0, 0, 6, 0)
-        layout.addWidget(Sample(draw, size), 0, Qt.AlignmentFlag.AlignVCenter)
-        layout.addWidget(QLabel(text))
+        sample = (Sample(draw, size), 0, Qt.AlignmentFlag.AlignVCenter)
+        filled(QHBoxLayout(entry), sample, QLabel(text), margins=(0, 0, 6, 0))
         self._row.addWidget(entry)
         self._entries[key] = entry
 
@@ -68,7 +66,6 @@ class Sample(QWidget):
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         self._draw(painter, QRectF(self.rect()), self.palette())
-        painter.end()
 
 
 CURVE_WIDTH = 2.0

@@ -5,8 +5,9 @@ from collections.abc import Sequence
 
 from PySide6.QtCore import QEvent, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QPainter, QPaintEvent, QPalette, QResizeEvent
-from PySide6.QtWidgets import QLabel, QPushButton, QSizePolicy, QWidget
+from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
 
+from occ_gui.widgets.building import push_button
 from occ_gui.widgets.chip_row import Chip, ChipRow
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.guarded_paint import guarded
@@ -39,10 +40,8 @@ class StateBar(QWidget):
         )
         self._lines = 1
         self.chips = ChipRow()
-        self.step = QPushButton()
-        self.step.setAccessibleName("A step that helps")
-        self.step.setToolTip("Changes the scene or the decoder in one step.")
-        self.step.clicked.connect(self.step_taken)
+        tip = "Changes the scene or the decoder in one step."
+        self.step = push_button("", tip, self.step_taken, name="A step that helps")
         self.step.hide()
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         for part in (
@@ -178,4 +177,3 @@ class StateBar(QWidget):
         painter.setBrush(colours.paper)
         place = QRectF(self.rect()).adjusted(0.5, 0.5, -0.5, -0.5)
         painter.drawRoundedRect(place, _RADIUS, _RADIUS)
-        painter.end()

@@ -133,4 +133,3 @@ class StateIcon(QWidget):
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
         painter = QPainter(self)
         draw_state(painter, QRectF(self.rect()), self.state, colours_of(self.state, self.palette()))
-        painter.end()

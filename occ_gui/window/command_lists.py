@@ -23,6 +23,7 @@ from PySide6.QtWidgets import (
 
 from occ_gui.scene.control_panel import ControlPanel
 from occ_gui.scene.parameter_rows import ParameterRow
+from occ_gui.widgets.building import filled, named, paragraph, read_only
 from occ_gui.widgets.plain_text import plain
 from occ_gui.widgets.scroll_pane import bring_into_view
 from occ_gui.window.menus import search_words
@@ -58,20 +59,17 @@ class CommandPalette(QDialog):
         self._commands = commands
         self._matching: list[Command] = []
         self.chosen: Command | None = None
-        self.line = QLineEdit(placeholderText="A few letters of a command or parameter")
-        self.line.setAccessibleName("Words to look for")
-        self.line.setToolTip("Up and down choose, Enter does it, Escape leaves.")
+        field = QLineEdit(placeholderText="A few letters of a command or parameter")
+        tip = "Up and down choose, Enter does it, Escape leaves."
+        self.line = named(field, "Words to look for", tip)
         self.line.textChanged.connect(self._filter)
         self.line.installEventFilter(self)
-        self.list = QListWidget()
-        self.list.setAccessibleName("Commands found")
+        self.list = named(QListWidget(), "Commands found")
         self.list.setUniformItemSizes(True)
         self.list.itemActivated.connect(self._accept_chosen)
         self.list.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self._nothing = QLabel("Nothing by these words.")
-        layout = QVBoxLayout(self)
-        for widget in (self.line, self.list, self._nothing):
-            layout.addWidget(widget)
+        filled(QVBoxLayout(self), self.line, self.list, self._nothing)
         self.resize(_WIDTH, _HEIGHT)
         self._filter("")
 
@@ -169,30 +167,21 @@ class ShortcutSheet(QDialog):
         super().__init__(parent)
         self.setWindowTitle("Keyboard shortcuts")
         shown = list(rows)
-        self.table = QTableWidget(len(shown), 3)
-        self.table.setAccessibleName("Keyboard shortcuts")
+        self.table = read_only(QTableWidget(len(shown), 3), "Keyboard shortcuts")
         self.table.setHorizontalHeaderLabels(["Menu", "Does", "Keys"])
-        self.table.verticalHeader().hide()
         self.table.setShowGrid(False)
         self.table.setAlternatingRowColors(True)
-        self.table.setTabKeyNavigation(False)
-        self.table.setSelectionBehavior(QTableWidget.SelectionBehavior.SelectRows)
         for line, texts in enumerate(shown):
             for column, text in enumerate(texts):
-                item = QTableWidgetItem(text)
-                item.setFlags(Qt.ItemFlag.ItemIsEnabled | Qt.ItemFlag.ItemIsSelectable)
-                self.table.setItem(line, column, item)
+                self.table.setItem(line, column, QTableWidgetItem(text))
         header = self.table.horizontalHeader()
         header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
         header.setSectionResizeMode(1, QHeaderView.ResizeMode.Stretch)
-        hint = QLabel(
+        hint = paragraph(
             "Sliders: arrows and Page Up/Down. Fields: type a number with its unit, such as "
             "68us or 1/8000 s; Enter takes it. Alt and an underlined letter opens a menu."
         )
-        hint.setWordWrap(True)
         buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
         buttons.rejected.connect(self.reject)
-        layout = QVBoxLayout(self)
-        for widget in (self.table, hint, buttons):
-            layout.addWidget(widget)
+        filled(QVBoxLayout(self), self.table, hint, buttons)
         self.resize(_WIDTH, _HEIGHT)

@@ -7,16 +7,13 @@ from PySide6.QtCore import QObject
 from occ_gui.core.store import Store
 from occ_gui.files.preferences import Preferences
 from occ_gui.scene.scene_editor import HoldBrightness
-from occ_gui.values.photo_choice import MODES
 from occ_gui.window.docks import DockLayout
 from occ_gui.window.main_window import MainWindow
 from occ_gui.window.text_size import TextSize
 from occ_gui.window.theme import ThemeController
-from occ_model.results.frame import PICTURES
 
 _THEME, _TEXT = "view/theme", "view/text_percent"
 _HOLD, _YES = "edit/hold_brightness", "yes"
-_OVERLAY, _PICTURE = "view/overlay", "view/picture"
 
 
 class ViewOptions(QObject):
@@ -47,14 +44,6 @@ class ViewOptions(QObject):
         self.theme.choose(recall(_THEME))
         if (percent := recall(_TEXT)).isdecimal():
             self.text_size.choose(int(percent))
-        store = self._store
-        # They stood here before they stood in the session; for one release.
-        if (overlay := recall(_OVERLAY)) in MODES:
-            store.put(replace(store.workspace, overlay=overlay))
-        if (whose := recall(_PICTURE)) in PICTURES:
-            store.put(replace(store.workspace, whose=whose))
-        for key in (_OVERLAY, _PICTURE):
-            self._preferences.keep(key, "")
         self.brightness.switch(recall(_HOLD) == _YES)
 
     def keep(self) -> None:
@@ -62,7 +51,7 @@ class ViewOptions(QObject):
         self.layout.keep()
 
     def choose_overlay(self, mode: str) -> None:
-        """Show the photo beside the simulated picture or over it, by one of MODES."""
+        """Show the photo beside the simulated picture or over it, by a mode of the overlay."""
         self._store.put(replace(self._store.workspace, overlay=mode))
 
     def _show_overlay(self, mode: str) -> None:

@@ -9,16 +9,14 @@ from PySide6.QtGui import (
     QPainter,
     QPaintEvent,
     QPalette,
-    QPen,
 )
 from PySide6.QtWidgets import QAbstractScrollArea, QApplication, QDockWidget, QLabel, QWidget
 
 from occ_gui.widgets.colours import seen_on
+from occ_gui.widgets.frame_over import FrameOver
 from occ_gui.widgets.guarded_paint import guarded
 
 _RED = QColor("#b3261e")
-
-_FRAME_WIDTH = 2
 
 _PADDING, _MARGIN, _GAP = 6, 4, 2
 """Pixels round the sentence, beside it, and between it and the field."""
@@ -36,7 +34,8 @@ class RefusalNotice(QLabel):
     def __init__(self, field: QWidget) -> None:
         super().__init__(field)
         self._field = field
-        self._frame = _Frame(field)
+        self._frame = FrameOver(field, field, field.rect, lambda colours: seen_on(colours, _RED))
+        self._frame.hide()
         self.setWordWrap(True)
         self.setTextFormat(Qt.TextFormat.PlainText)
         self.setContentsMargins(_PADDING, _PADDING, _PADDING, _PADDING)
@@ -130,26 +129,3 @@ def _page_of(field: QWidget) -> QWidget:
             return page if page is not field else around
         page = around
     return page
-
-
-class _Frame(QWidget):
-    """A frame drawn over the edge of a field, whatever the style of the field."""
-
-    def __init__(self, field: QWidget) -> None:
-        super().__init__(field)
-        self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
-        self.hide()
-        field.installEventFilter(self)
-        self.setGeometry(field.rect())
-
-    def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
-        if event.type() == QEvent.Type.Resize and isinstance(watched, QWidget):
-            self.setGeometry(watched.rect())
-        return False
-
-    @guarded
-    def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
-        painter = QPainter(self)
-        painter.setPen(QPen(seen_on(self.palette(), _RED), _FRAME_WIDTH))
-        half = _FRAME_WIDTH // 2
-        painter.drawRect(self.rect().adjusted(half, half, -half, -half))

@@ -1,17 +1,17 @@
 """Spotlight: one control is marked and scrolled into view, others are dimmed and take nothing."""
 
-from PySide6.QtCore import QEvent, QObject, Qt
-from PySide6.QtGui import QPainter, QPaintEvent, QPalette, QPen
+from PySide6.QtCore import QMargins, QObject, Qt
+from PySide6.QtGui import QPalette
 from PySide6.QtWidgets import QGraphicsOpacityEffect, QWidget
 
 from occ_gui.scene.control_panel import ControlPanel
 from occ_gui.scene.parameter_panel import ParameterPanel
-from occ_gui.widgets.guarded_paint import guarded
+from occ_gui.widgets.frame_over import FrameOver
 from occ_gui.widgets.scroll_pane import bring_into_view
 from occ_model.scene.parameters import PARAMETERS
 
 _DIMMED = 0.75
-_MARGIN = 4
+_AROUND = QMargins(4, 4, 4, 4)
 
 
 class Spotlight(QObject):
@@ -21,7 +21,7 @@ class Spotlight(QObject):
         self._dimmed: list[QWidget] = []
         self._disabled: list[QWidget] = []
         self._tool_tips: list[tuple[QWidget, str]] = []
-        self._frame: _Frame | None = None
+        self._frame: FrameOver | None = None
 
     @property
     def is_on(self) -> bool:
@@ -51,7 +51,7 @@ class Spotlight(QObject):
 
     def _mark(self, panel: ParameterPanel, name: str) -> None:
         row, label = panel.rows[name], panel.labels[name]
-        bring_into_view(row, 4 * _MARGIN)
+        bring_into_view(row, 4 * _AROUND.top())
         children = panel.findChildren(QWidget, options=Qt.FindChildOption.FindDirectChildrenOnly)
         marked = (row, label, panel.play_buttons.get(name))
         why = (
@@ -61,7 +61,12 @@ class Spotlight(QObject):
         for widget in children:
             if widget not in marked:
                 self._dim(widget, why)
-        self._frame = _Frame(panel, label, row)
+        self._frame = FrameOver(
+            panel, row, lambda: label.geometry().united(row.geometry()).marginsAdded(_AROUND),
+            lambda colours: colours.color(QPalette.ColorRole.Highlight), radius=4,
+        )  # fmt: skip
+        self._frame.raise_()
+        self._frame.show()
 
     def _dim(self, widget: QWidget, why: str) -> None:
         """Dim a widget, let it take nothing, and say why in its tool tips."""
@@ -75,32 +80,3 @@ class Spotlight(QObject):
             if part.toolTip():
                 self._tool_tips.append((part, part.toolTip()))
                 part.setToolTip(f"{why}\n\n{part.toolTip()}")
-
-
-class _Frame(QWidget):
-    """A frame around a label and its row, which lets the mouse through."""
-
-    def __init__(self, panel: QWidget, label: QWidget, row: QWidget) -> None:
-        super().__init__(panel)
-        self._label, self._row = label, row
-        self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
-        row.installEventFilter(self)
-        self._follow()
-        self.show()
-
-    def _follow(self) -> None:
-        both = self._label.geometry().united(self._row.geometry())
-        self.setGeometry(both.adjusted(-_MARGIN, -_MARGIN, _MARGIN, _MARGIN))
-        self.raise_()
-
-    def eventFilter(self, _watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
-        if event.type() in (QEvent.Type.Move, QEvent.Type.Resize):
-            self._follow()
-        return False
-
-    @guarded
-    def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
-        painter = QPainter(self)
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        painter.setPen(QPen(self.palette().color(QPalette.ColorRole.Highlight), 2))
-        painter.drawRoundedRect(self.rect().adjusted(1, 1, -1, -1), 4, 4)

@@ -10,6 +10,7 @@ from PySide6.QtGui import QImage, QPainter
 from PySide6.QtWidgets import QStyleOptionGraphicsItem, QWidget
 
 from occ_gui.picture.averaged_image import AveragedImage
+from occ_gui.simulation.snapshot import halved
 from occ_gui.values.photo_choice import MODES, Placement
 from occ_gui.widgets.colours import PHOTO, REGION
 from occ_gui.widgets.guarded_paint import guarded
@@ -139,10 +140,9 @@ def _halved(
 ) -> tuple[ByteArray, FloatArray, FloatArray]:
     """Halve an image, which is fast, as long as a cell spans at least two of its pixels."""
     while min(_span(x), _span(y)) >= 4.0 and min(pixels.shape) >= 2:
-        half = (pixels.shape[1] // 2, pixels.shape[0] // 2)
-        even = pixels[: 2 * half[1], : 2 * half[0]]
-        pixels = np.asarray(cv2.resize(even, half, interpolation=cv2.INTER_AREA), dtype=np.uint8)
-        x, y = np.minimum(x / 2, half[0]), np.minimum(y / 2, half[1])
+        pixels = halved(pixels)
+        rows, columns = pixels.shape
+        x, y = np.minimum(x / 2, columns), np.minimum(y / 2, rows)
     return pixels, x, y
 
 

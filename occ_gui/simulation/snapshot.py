@@ -156,12 +156,16 @@ class Picture:
         reading: Reading | None = None,
     ) -> Self:
         """Compute the smaller copies; to be called on a background thread."""
-        halves = []
-        pixels = frame.picture(whose)
-        while min(pixels.shape) >= 2 * _MIN_COPY_SIDE:
-            pixels = halved(pixels)
-            halves.append(pixels)
-        return cls(frame, whose, tuple(halves), request, reading)
+        return cls(frame, whose, halves_of(frame.picture(whose)), request, reading)
+
+
+def halves_of(pixels: ByteArray) -> tuple[ByteArray, ...]:
+    """Return smaller copies of a picture, each of half the size of the one before."""
+    halves = []
+    while min(pixels.shape) >= 2 * _MIN_COPY_SIDE:
+        pixels = halved(pixels)
+        halves.append(pixels)
+    return tuple(halves)
 
 
 def halved(pixels: ByteArray) -> ByteArray:

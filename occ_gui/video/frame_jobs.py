@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 import occ_model as occ
-from occ_gui.simulation.snapshot import ColumnView, PictureView, halved
+from occ_gui.simulation.snapshot import ColumnView, PictureView, halves_of
 from occ_gui.video.frame_views import FrameStory, ShownPicture
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.errors import OccError
@@ -17,7 +17,6 @@ from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.video.read_frame import read_by_itself
 
-_SMALLEST = 256  # pixels of a side; smaller pictures are drawn fast enough without smaller copies
 _MOST_DRAFT_PIXELS = 1_000_000  # pixels of a picture up to which it is simulated as soon as a draft
 
 
@@ -115,13 +114,9 @@ def _simulated(request: FrameRequest, start: float | None) -> VideoFrame:
 
 
 def _shown(image: ByteArray, story: FrameStory, caption: str) -> ShownPicture:
-    halves, pixels = [], image
-    while min(pixels.shape) >= 2 * _SMALLEST:
-        pixels = halved(pixels)
-        halves.append(pixels)
     step = story.picture.rows.step
     region = story.reading.decoded.region
-    return ShownPicture(image, tuple(halves), region, caption, step)
+    return ShownPicture(image, halves_of(image), region, caption, step)
 
 
 def _story(frame: VideoFrame, scene: Scene, request: FrameRequest | None, whose: str) -> FrameStory:

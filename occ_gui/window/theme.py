@@ -14,23 +14,18 @@ _STYLE = "fusion"  # the style that draws any palette, on every system
 
 _ROLE = QPalette.ColorRole
 
-_DARK = {
-    _ROLE.Window: "#1f2226", _ROLE.WindowText: "#eceef0", _ROLE.Base: "#141619",
-    _ROLE.AlternateBase: "#1a1d20", _ROLE.Text: "#eceef0", _ROLE.Button: "#2c3036",
-    _ROLE.ButtonText: "#f4f5f6", _ROLE.BrightText: "#ffffff", _ROLE.Highlight: "#2b76c9",
-    _ROLE.HighlightedText: "#ffffff", _ROLE.ToolTipBase: "#32363d", _ROLE.ToolTipText: "#eceef0",
-    _ROLE.Link: "#7ab8f5", _ROLE.LinkVisited: "#c0a6f2", _ROLE.PlaceholderText: "#9aa0a8",
-    _ROLE.Light: "#3a3f47", _ROLE.Midlight: "#353a41", _ROLE.Mid: "#7e858f",
-    _ROLE.Dark: "#3a3f47", _ROLE.Shadow: "#000000", _ROLE.Accent: "#4a94e0",
-}  # fmt: skip
-_LIGHT = {
-    _ROLE.Window: "#f3f4f6", _ROLE.WindowText: "#1a1c1f", _ROLE.Base: "#ffffff",
-    _ROLE.AlternateBase: "#f7f8f9", _ROLE.Text: "#1a1c1f", _ROLE.Button: "#ffffff",
-    _ROLE.ButtonText: "#1a1c1f", _ROLE.BrightText: "#ffffff", _ROLE.Highlight: "#0f62ad",
-    _ROLE.HighlightedText: "#ffffff", _ROLE.ToolTipBase: "#ffffff", _ROLE.ToolTipText: "#1a1c1f",
-    _ROLE.Link: "#0b57a0", _ROLE.LinkVisited: "#6b2fa0", _ROLE.PlaceholderText: "#666b73",
-    _ROLE.Light: "#ffffff", _ROLE.Midlight: "#dfe2e6", _ROLE.Mid: "#80858e",
-    _ROLE.Dark: "#b9bdc4", _ROLE.Shadow: "#767676", _ROLE.Accent: "#0f62ad",
+_COLOURS = {  # of a role in the light theme, and in the dark one
+    _ROLE.Window: ("#f3f4f6", "#1f2226"), _ROLE.WindowText: ("#1a1c1f", "#eceef0"),
+    _ROLE.Base: ("#ffffff", "#141619"), _ROLE.AlternateBase: ("#f7f8f9", "#1a1d20"),
+    _ROLE.Text: ("#1a1c1f", "#eceef0"), _ROLE.Button: ("#ffffff", "#2c3036"),
+    _ROLE.ButtonText: ("#1a1c1f", "#f4f5f6"), _ROLE.BrightText: ("#ffffff", "#ffffff"),
+    _ROLE.Highlight: ("#0f62ad", "#2b76c9"), _ROLE.HighlightedText: ("#ffffff", "#ffffff"),
+    _ROLE.ToolTipBase: ("#ffffff", "#32363d"), _ROLE.ToolTipText: ("#1a1c1f", "#eceef0"),
+    _ROLE.Link: ("#0b57a0", "#7ab8f5"), _ROLE.LinkVisited: ("#6b2fa0", "#c0a6f2"),
+    _ROLE.PlaceholderText: ("#666b73", "#9aa0a8"), _ROLE.Light: ("#ffffff", "#3a3f47"),
+    _ROLE.Midlight: ("#dfe2e6", "#353a41"), _ROLE.Mid: ("#80858e", "#7e858f"),
+    _ROLE.Dark: ("#b9bdc4", "#3a3f47"), _ROLE.Shadow: ("#767676", "#000000"),
+    _ROLE.Accent: ("#0f62ad", "#4a94e0"),
 }  # fmt: skip
 _DISABLED = {"dark": "#7d838b", "light": "#8f949b"}
 _FADED = (_ROLE.WindowText, _ROLE.Text, _ROLE.ButtonText)
@@ -38,8 +33,8 @@ _FADED = (_ROLE.WindowText, _ROLE.Text, _ROLE.ButtonText)
 
 def palette_of(theme: str) -> QPalette:
     palette = QPalette()
-    for role, colour in (_DARK if theme == "dark" else _LIGHT).items():
-        palette.setColor(role, QColor(colour))
+    for role, colours in _COLOURS.items():
+        palette.setColor(role, QColor(colours[theme == "dark"]))
     for role in _FADED:
         palette.setColor(QPalette.ColorGroup.Disabled, role, QColor(_DISABLED[theme]))
     return palette

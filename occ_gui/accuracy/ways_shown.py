@@ -44,10 +44,7 @@ def _pictures(points: Sequence[AccuracyPoint]) -> list[Way]:
         (key for key, end in ends.items() if set(end.effects) == set(current.effects)), None
     )
     now = "now: picture" if same is None else f"now: {words[same]}"
-    return [
-        Way(current, now),
-        *(Way(end, words[key]) for key, end in ends.items() if key != same),
-    ]
+    return [Way(current, now), *(Way(end, words[key]) for key, end in ends.items() if key != same)]
 
 
 def _samplings(points: Sequence[AccuracyPoint]) -> list[Way]:

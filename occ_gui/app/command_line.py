@@ -225,9 +225,7 @@ def _close_on_interrupt(application: "Application") -> None:
 
 
 def start(
-    workspace: Workspace,
-    arguments: list[str],
-    preferences: "QSettings | None" = None,
+    workspace: Workspace, arguments: list[str], preferences: "QSettings | None" = None
 ) -> "tuple[QApplication, Application]":
     """Create the application, with its window not shown yet.
 

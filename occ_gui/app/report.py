@@ -8,13 +8,7 @@ from pathlib import Path
 
 from PySide6.QtCore import QSysInfo, Qt
 from PySide6.QtGui import QFontDatabase, QGuiApplication
-from PySide6.QtWidgets import (
-    QDialog,
-    QDialogButtonBox,
-    QPlainTextEdit,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QDialog, QDialogButtonBox, QPlainTextEdit, QVBoxLayout, QWidget
 
 import occ_model as occ
 from occ_gui.widgets.building import filled, named, paragraph

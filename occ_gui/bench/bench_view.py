@@ -5,23 +5,9 @@ from dataclasses import dataclass
 
 from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QPalette, QResizeEvent
-from PySide6.QtWidgets import (
-    QCheckBox,
-    QHBoxLayout,
-    QLabel,
-    QStackedWidget,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QStackedWidget, QVBoxLayout, QWidget
 
-from occ_gui.bench.bench_results import (
-    BITS,
-    COLOURS,
-    RATES,
-    SYMBOLS,
-    BenchPlots,
-    BenchTable,
-)
+from occ_gui.bench.bench_results import BITS, COLOURS, RATES, SYMBOLS, BenchPlots, BenchTable
 from occ_gui.scene.number_edits import QuantityEdit
 from occ_gui.widgets.building import filled, named, push_button
 from occ_gui.widgets.colours import thin
@@ -98,10 +84,7 @@ class BenchView(QWidget):
             "Code that is measured",
             "Manchester, 256 bits, 5 rows a symbol; or the scheme, the number of bits, the "
             "frequency and the readout time of the scene. Only exposure and noise are as below.",
-            {
-                PUBLISHED: "the published benchmark's code",
-                OF_SCENE: "the scene's code and timing",
-            },
+            {PUBLISHED: "the published benchmark's code", OF_SCENE: "the scene's code and timing"},
         )
         self.effort = KeyedComboBox(
             "Bits at each point",

@@ -57,10 +57,7 @@ class MapRequest:
         return SweepRequest(self.scene, axes, measured)
 
     def stages(
-        self,
-        images: IndexArray,
-        with_theory: bool,
-        found_slow: Callable[[], object] = lambda: None,
+        self, images: IndexArray, with_theory: bool, found_slow: Callable[[], object] = lambda: None
     ) -> Iterator[Stage]:
         """Return the stages of the work that is left; say if even the first points take long."""
         slow = self.with_image_effects and bool(left_out(self.scene, self.settings))

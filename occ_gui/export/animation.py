@@ -46,11 +46,7 @@ class AnimationExport(Service):
 
     def ask(self, name: str) -> None:
         """Let the user choose a file, and write the run of a parameter's slider into it."""
-        kinds = (
-            "GIF animation (*.gif)",
-            "MP4 film (*.mp4)",
-            "Animated PNG (*.png)",
-        )
+        kinds = ("GIF animation (*.gif)", "MP4 film (*.mp4)", "Animated PNG (*.png)")
         start = Path(self._preferences.export_folder, f"{name}.gif")
         chosen, kind = QFileDialog.getSaveFileName(
             self._window, "Save as animation", str(start), ";;".join(kinds)

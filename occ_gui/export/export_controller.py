@@ -96,9 +96,7 @@ class ExportController(Service):
     def ask_for_folder(self) -> None:
         """Let the user choose the folder that all figures are written to."""
         folder = QFileDialog.getExistingDirectory(
-            self._window,
-            "Export all figures into a folder",
-            self._preferences.export_folder,
+            self._window, "Export all figures into a folder", self._preferences.export_folder
         )
         if folder:
             self.export_all(Path(folder))

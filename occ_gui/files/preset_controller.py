@@ -112,9 +112,7 @@ class PresetController(QObject):
         if name not in user_presets() and name not in self._unreadable:
             return True
         answer = QMessageBox.question(
-            self._window,
-            "Save as preset",
-            f"There is a preset {name} already. Replace it?",
+            self._window, "Save as preset", f"There is a preset {name} already. Replace it?"
         )
         return answer == QMessageBox.StandardButton.Yes
 

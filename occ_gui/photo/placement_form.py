@@ -31,9 +31,7 @@ COLUMN = _shift(
 )
 
 ROW = _shift(
-    "photo_row",
-    "Row of the photo",
-    "Row of the simulation under the photo's first row, in pixels.",
+    "photo_row", "Row of the photo", "Row of the simulation under the photo's first row, in pixels."
 )
 
 SCALE = Quantity(

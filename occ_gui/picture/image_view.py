@@ -5,14 +5,7 @@ from typing import TypeAlias
 
 import numpy as np
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import (
-    QComboBox,
-    QHBoxLayout,
-    QSlider,
-    QSplitter,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QComboBox, QHBoxLayout, QSlider, QSplitter, QVBoxLayout, QWidget
 
 from occ_gui.core.store import Store
 from occ_gui.picture.before_wipe import BeforeWipe

@@ -67,10 +67,7 @@ class DifferenceImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has
 
     @guarded
     def paint(
-        self,
-        painter: QPainter,
-        _option: QStyleOptionGraphicsItem,
-        _widget: QWidget | None = None,
+        self, painter: QPainter, _option: QStyleOptionGraphicsItem, _widget: QWidget | None = None
     ) -> None:
         view = self.viewRect()
         grid = QRectF() if view is None else view.intersected(self.boundingRect())

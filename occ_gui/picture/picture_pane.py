@@ -85,10 +85,7 @@ class PicturePane(QWidget):
         if region is not None:
             self._region.setRect(
                 QRectF(
-                    region.first_column - 0.5,
-                    region.first_row - 0.5,
-                    region.columns,
-                    region.rows,
+                    region.first_column - 0.5, region.first_row - 0.5, region.columns, region.rows
                 )
             )
 

@@ -75,9 +75,7 @@ class PinController(QObject):
     both_pinned = Signal()  # there are two states to compare, as the user has just asked for
 
     def __init__(
-        self,
-        scenes: SceneStore,
-        is_present: Callable[[Snapshot], bool] = lambda _snapshot: True,
+        self, scenes: SceneStore, is_present: Callable[[Snapshot], bool] = lambda _snapshot: True
     ) -> None:
         super().__init__()
         self._is_present = is_present

@@ -1,14 +1,7 @@
 """Parameter rows: the controls of one parameter, a class for each kind of declaration."""
 
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
-from PySide6.QtWidgets import (
-    QComboBox,
-    QGridLayout,
-    QLineEdit,
-    QSlider,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QComboBox, QGridLayout, QLineEdit, QSlider, QVBoxLayout, QWidget
 
 from occ_gui.scene.number_edits import CountEdit, QuantityEdit
 from occ_gui.scene.refusal_notice import RefusalNotice

@@ -9,12 +9,7 @@ from PySide6.QtWidgets import QSizePolicy
 
 from occ_gui.simulation.snapshot import ColumnView
 from occ_gui.simulation.verdict import received_in_words, wrong_places
-from occ_gui.story.bit_cells import (
-    HEADER,
-    draw_field,
-    have_room_for_bits,
-    have_room_for_marks,
-)
+from occ_gui.story.bit_cells import HEADER, draw_field, have_room_for_bits, have_room_for_marks
 from occ_gui.story.column_axis import LEFT, RIGHT, ColumnAxis, Crosshair, line_height
 from occ_gui.story.column_facts import PacketField, received_edges, received_fields
 from occ_gui.story.story_row import StoryRow

@@ -54,11 +54,7 @@ def values_at(
 
 
 def in_words(values: ColumnValues, scene: Scene) -> str:
-    parts = [
-        f"column {values.column}",
-        f"{values.time * _MICRO:.1f} µs",
-        _light(values.light),
-    ]
+    parts = [f"column {values.column}", f"{values.time * _MICRO:.1f} µs", _light(values.light)]
     if values.fraction is not None:
         exposure = scene.camera.exposure_time
         lit, whole = SECOND.format(values.fraction * exposure, 3), SECOND.format(exposure, 4)
@@ -101,10 +97,7 @@ def measure(cursors: MeasureCursors, scene: Scene, profile: FloatArray | None) -
 
 
 def difference_in_words(measured: Measured) -> str:
-    parts = [
-        f"1 to 2: {measured.columns:.1f} columns",
-        SECOND.format(measured.time, 4),
-    ]
+    parts = [f"1 to 2: {measured.columns:.1f} columns", SECOND.format(measured.time, 4)]
     if measured.levels is not None:
         parts.append(f"{measured.levels:+.1f} levels")
     parts.append(f"{measured.chips:.2f} chips")

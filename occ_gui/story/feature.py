@@ -90,10 +90,7 @@ class StoryPane(Pane[StoryPart]):
 
 
 def story(
-    scenes: SceneStore,
-    simulation: SimulationController,
-    picture: QWidget,
-    decoders: Sequence[str],
+    scenes: SceneStore, simulation: SimulationController, picture: QWidget, decoders: Sequence[str]
 ) -> Feature[StoryPart]:
     """Declare the pane; it has a place for the whole picture."""
 

@@ -170,10 +170,7 @@ class LiveController(QObject):
     _answered = Signal(bool, bool)
 
     def __init__(
-        self,
-        films: FilmController,
-        readings: ReadingController,
-        scene: Callable[[], Scene],
+        self, films: FilmController, readings: ReadingController, scene: Callable[[], Scene]
     ) -> None:
         super().__init__()
         self._films, self._readings, self._scene = films, readings, scene

@@ -3,13 +3,7 @@
 from pathlib import Path
 
 from PySide6.QtCore import QEvent, QSize, Qt, QTimer, Signal
-from PySide6.QtGui import (
-    QCloseEvent,
-    QDragEnterEvent,
-    QDropEvent,
-    QShowEvent,
-    QUndoStack,
-)
+from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QShowEvent, QUndoStack
 from PySide6.QtWidgets import QApplication, QLabel, QMainWindow, QWidget
 
 from occ_gui.scene.control_panel import ControlPanel
@@ -44,12 +38,7 @@ class MainWindow(QMainWindow):
     """The paths of the files that were dropped on the window; empty if none is a file."""
 
     def __init__(
-        self,
-        controls: ControlPanel,
-        centre: QWidget,
-        story: StoryView,
-        *,
-        undo_stack: QUndoStack,
+        self, controls: ControlPanel, centre: QWidget, story: StoryView, *, undo_stack: QUndoStack
     ) -> None:
         super().__init__()
         self.setWindowTitle("Optical Camera Communication")

@@ -37,10 +37,7 @@ class Mode:
 MODES: Mapping[str, Mode] = MappingProxyType(
     {
         "explore": Mode(
-            centre=STORY,
-            main=PICTURE,
-            left=(("controls",),),
-            widths={"controls": 340},
+            centre=STORY, main=PICTURE, left=(("controls",),), widths={"controls": 340}
         ),
         "photo": Mode(
             centre=PICTURE,
@@ -129,10 +126,7 @@ def arrange(window: QMainWindow, docks: Mapping[str, QDockWidget], mode: Mode) -
 
 
 def _place(
-    window: QMainWindow,
-    docks: Mapping[str, QDockWidget],
-    area: Qt.DockWidgetArea,
-    groups: Groups,
+    window: QMainWindow, docks: Mapping[str, QDockWidget], area: Qt.DockWidgetArea, groups: Groups
 ) -> None:
     for group in groups:
         front, *others = (docks[name] for name in group)

@@ -45,8 +45,8 @@ def picture(store: Store, about_photo: Callable[[], str]) -> Feature[Any]:
     """
 
     def part(workspace: Workspace, results: Results) -> tuple[object, ...]:
-        there = (results.picture, results.snapshot, results.reading, results.before)
-        return (*there, workspace.whose, workspace.overlay)
+        there = (results.before, results.picture, results.snapshot, results.reading)
+        return (workspace.whose, workspace.overlay, *there)
 
     return Feature(
         name="picture",
@@ -117,7 +117,7 @@ def profile(store: Store, board: Board, about_photo: Callable[[], str]) -> Featu
 
     def part(workspace: Workspace, results: Results) -> tuple[object, ...]:
         photo = (results.photo_profile, results.chips)
-        return results.reading, results.before, *photo, workspace.is_enhanced
+        return workspace.is_enhanced, results.before, results.reading, *photo
 
     return Feature(
         name="profile",

@@ -111,6 +111,21 @@ class Pane(Service, Generic[Part]):
         """Take note whether the pane is seen; parts are shown only while it is."""
 
 
+class PiecesPane(Pane[tuple[Any, ...]]):
+    """A pane whose part has several pieces, each of which is shown where it is another."""
+
+    def __init__(self, widget: QWidget, *shows: Callable[[Any], object]) -> None:
+        super().__init__(widget)
+        self._shows = shows
+        self._shown: tuple[Any, ...] = (None,) * len(shows)
+
+    def show_part(self, part: tuple[Any, ...]) -> None:
+        shown, self._shown = self._shown, part
+        for show, piece, last in zip(self._shows, part, shown, strict=True):
+            if piece is not last:
+                show(piece)
+
+
 @dataclass(frozen=True, kw_only=True)
 class Feature(Generic[Part]):
     """A pane of the window, or a service without one.

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TypeAlias
+from typing import Any
 
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtWidgets import QWidget
@@ -10,23 +10,17 @@ from PySide6.QtWidgets import QWidget
 from occ_gui.core.store import NO_GESTURE
 from occ_gui.core.workspace import Workspace
 from occ_gui.scene.scene_store import SceneStore
-from occ_gui.shell.feature import Feature, Pane
+from occ_gui.shell.feature import Feature, PiecesPane
 from occ_gui.shell.results import Results, of_picture, of_reading
 from occ_gui.simulation.controller import SimulationController
-from occ_gui.simulation.snapshot import Picture, Reading
 from occ_gui.story.column_facts import Step
 from occ_gui.story.story_view import StoryView
-from occ_gui.values.photo_results import PhotoProfile
 from occ_model.receiver.decoders import decoders
-
-StoryPart: TypeAlias = tuple[Reading | None, Picture | None, PhotoProfile | None, str, str]
-"""Reading, picture and profile of a photo, whose result is shown, and whose picture."""
-
 
 _REST_MS = 250  # milliseconds from the first picture to the look for further decoders
 
 
-class StoryPane(Pane[StoryPart]):
+class StoryPane(PiecesPane):
     def __init__(
         self,
         scenes: SceneStore,
@@ -35,7 +29,10 @@ class StoryPane(Pane[StoryPart]):
         built_in: Sequence[str],
     ) -> None:
         self.view = view = StoryView(picture, built_in)
-        super().__init__(view)
+        super().__init__(
+            view, view.choose_decoder, view.choose_picture, view.show_reading, view.show_picture,
+            view.rows.show_photo_profile,
+        )  # fmt: skip
         # The stripes' picture comes later than the reading.
         self.made_of = {view.rows: of_reading, view.rows.stripes: of_picture}
         self.verdicts = (view.verdict,)
@@ -44,8 +41,6 @@ class StoryPane(Pane[StoryPart]):
         self._plugins = QTimer(self, singleShot=True)
         self._plugins.setInterval(_REST_MS)
         self._plugins.timeout.connect(self._offer)
-        shown = scenes.store.workspace
-        self._shown: StoryPart = (None, None, None, shown.decoder, shown.whose)
         view.whose.chosen.connect(self._choose_picture)
         view.decoder.chosen.connect(self.choose_decoder)
         view.verdict.step_chosen.connect(self._take)
@@ -53,20 +48,6 @@ class StoryPane(Pane[StoryPart]):
         simulation.snapshot_shown.connect(self._plugins.start, once)
         simulation.failed.connect(view.verdict.show_failure)
         simulation.submitted.connect(view.verdict.end_failure)
-
-    def show_part(self, part: StoryPart) -> None:
-        view, shown, self._shown = self.view, self._shown, part
-        reading, picture, photo, decoder, whose = part
-        if decoder != shown[3]:
-            view.choose_decoder(decoder)
-        if whose != shown[4]:
-            view.choose_picture(whose)
-        if reading is not None and reading is not shown[0]:
-            view.show_reading(reading)
-        if picture is not None and picture is not shown[1]:
-            view.show_picture(picture)
-        if photo is not shown[2]:
-            view.rows.show_photo_profile(photo)
 
     def stop(self) -> None:
         self._plugins.stop()
@@ -91,14 +72,14 @@ class StoryPane(Pane[StoryPart]):
 
 def story(
     scenes: SceneStore, simulation: SimulationController, picture: QWidget, decoders: Sequence[str]
-) -> Feature[StoryPart]:
+) -> Feature[Any]:
     """Declare the pane; it has a place for the whole picture."""
 
-    def part(workspace: Workspace, results: Results) -> StoryPart:
+    def part(workspace: Workspace, results: Results) -> tuple[object, ...]:
         # A photo's profile is drawn where both are enhanced, or neither is.
         agree = workspace.is_enhanced == (workspace.whose == "receiver")
         photo = results.photo_profile if agree else None
-        return results.reading, results.picture, photo, workspace.decoder, workspace.whose
+        return workspace.decoder, workspace.whose, results.reading, results.picture, photo
 
     return Feature(
         name="story",

@@ -166,7 +166,9 @@ def _run(options: argparse.Namespace, begin: Start) -> int:
         _take_screenshot(application, options.screenshot)
         return 0
     _close_on_interrupt(application)
-    _draw_icon(application)
+    from occ_gui.widgets.icons import program_icon
+
+    application.window.setWindowIcon(program_icon())
     if begin.is_new and not (options.files or options.photo or options.mode or options.dock):
         application.shell.pane("welcome").show_once()
     code = qt.exec()
@@ -201,15 +203,6 @@ def _prepare(options: argparse.Namespace) -> None:
         # A photo that cannot be read must fail here, not show as an empty pane in the picture.
         if options.photo:
             occ.load_photo(options.photo)
-
-
-def _draw_icon(application: "Application") -> None:
-    from PySide6.QtCore import QTimer
-
-    from occ_gui.widgets.icons import program_icon
-
-    window = application.window
-    QTimer.singleShot(0, window, lambda: window.setWindowIcon(program_icon()))
 
 
 def _close_on_interrupt(application: "Application") -> None:

@@ -5,6 +5,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -65,6 +66,8 @@ def one_look(each_room_is_seen_and_read_once: None, monkeypatch: pytest.MonkeyPa
     reading = remembered.read_room(frame.camera_image, ROOM)
     monkeypatch.setattr(jobs, "render_room", lambda *_, **__: frame)
     monkeypatch.setattr(jobs, "read_room", lambda *_: reading)
+    found = SimpleNamespace(reading=reading, room=ROOM, image=frame.camera_image, assumed=())
+    monkeypatch.setattr(jobs, "read_room_photo", lambda *_: found)
 
 
 @pytest.fixture
@@ -161,7 +164,7 @@ def test_what_is_undone_while_the_pane_is_hidden_is_no_figure_any_more(
 
 
 def test_rooms_files_and_photos_are_steps(
-    bench: PaneBench, pane: RoomPane, qtbot: QtBot, tmp_path: Path
+    one_look: None, bench: PaneBench, pane: RoomPane, qtbot: QtBot, tmp_path: Path
 ) -> None:
     path = tmp_path / "other.toml"
     path.write_text(ROOM.with_sent(code=900).to_toml(), encoding="utf-8")

@@ -1,12 +1,17 @@
 """Effects switched by hand are listed where they are seen, and one click ends them all."""
 
+from dataclasses import replace
+
 import pytest
 from gui.user import User
 
-import occ_model as occ
+from occ_gui.app import features
 from occ_gui.app.application import Application
+from occ_gui.files import preset_controller
 from occ_gui.scene.forced_effects import forced_text
 from occ_model.effects.registry import EFFECTS
+from occ_model.scene.presets import Preset, load_preset, preset_named
+from occ_model.scene.scene import Scene
 
 
 def forced(application: Application) -> dict[str, bool]:
@@ -46,14 +51,25 @@ def test_the_list_is_seen_while_effects_are_forced_and_a_click_gives_all_back_to
 
 
 def test_another_preset_and_a_reset_end_the_forced_effects_in_one_step(
-    by_hand: Application, user: User
+    by_hand: Application, user: User, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    chosen: list[str] = []
+
+    def small(name: str) -> Scene:
+        return load_preset(name).replace(rows=200)
+
+    def small_preset(name: str) -> Preset:
+        chosen.append(name)
+        return replace(preset_named(name), scene=small(name))
+
+    monkeypatch.setattr(preset_controller, "preset_named", small_preset)
+    monkeypatch.setattr(features, "load_preset", small)
     simulated: list[dict[str, bool]] = []
     by_hand.simulation.snapshot_shown.connect(
         lambda snapshot: simulated.append(dict(snapshot.request.settings.force))
     )
-    name = user.choose_next_preset()
-    assert by_hand.store.scene == occ.load_preset(name)
+    user.choose_next_preset()
+    assert by_hand.store.scene == small(chosen[-1])
     assert simulated == [{}]
     user.choose("&Undo")
     assert forced(by_hand) == {"jpeg": False, "vignetting": True}

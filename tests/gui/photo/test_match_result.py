@@ -3,20 +3,15 @@
 from dataclasses import replace
 
 import pytest
-from gui.kinds import add_widget
 from gui.photo.photo_bench import LiveView, spoken
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QPalette
 from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
 
-from occ_gui.photo.match_result import SIGNS, VerdictView
-from occ_gui.widgets.colours import contrast
 from occ_gui.widgets.state_look import State
 from occ_model.photo.match_facts import estimate_text
 from occ_model.photo.reading.load import Photo
 from occ_model.results.match import Alternative, Match
-from occ_model.results.photo_table import DOUBTFUL, SURE, VERDICTS
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.units import SECOND
@@ -167,31 +162,10 @@ def test_what_rests_on_an_assumed_value_says_so_until_it_is_confirmed(
     assert view.result.condition.text() == "What follows holds if t_r = 14.5777 µs."
 
 
-READABLE = 4.5
 ONLY = "Only the exposure time, and with it the start time, is doubtful."
 REASONS = ("Only 1.2 periods of 21 chips are in view.", "The correlation is 0.85.")
 PLAIN = Alternative("a smooth curve", "", 0.91, 12.34)
 READ = Alternative("chips that were read", "1100", 0.95, -3.21, 7.2e-6, 2e3, 8e-5)
-
-
-@pytest.fixture
-def verdict(qtbot: QtBot) -> VerdictView:
-    return add_widget(qtbot, VerdictView())
-
-
-@pytest.mark.parametrize("word", [SURE, DOUBTFUL])
-def test_a_verdict_is_a_word_with_a_sign_on_a_readable_plate(
-    verdict: VerdictView, word: str
-) -> None:
-    assert len(set(SIGNS.values())) == len(SIGNS) == len(VERDICTS)
-    verdict.show_verdict(word, REASONS)
-    assert verdict.word.text() == f"{SIGNS[word]} {word}"
-    assert verdict.reasons.text().splitlines() == [f"• {reason}" for reason in REASONS]
-    palette = verdict.word.palette()
-    plate = palette.color(QPalette.ColorRole.Window)
-    ink = palette.color(QPalette.ColorRole.WindowText)
-    assert verdict.word.autoFillBackground()
-    assert contrast(plate, ink) > READABLE
 
 
 def test_a_doubtful_exposure_is_said_beside_what_is_sure(view: LiveView, match: Match) -> None:

@@ -140,10 +140,8 @@ def said(whole: VideoReading) -> dict[str, str]:
     ("whole", "packets", "bits"),
     [
         (reading(6, 0, 11), "65 % of 17 packets", "0 % of 60 bits"),
-        (reading(374, 0, 458), "55 % of 832 packets", "0 % of 3740 bits"),
         (reading(996, 0, 0, wrong=4), "0.4 % of 1000 packets", "0.04 % of 10000 bits"),
         (reading(0, 3, 2), "100 % of 5 packets", None),
-        (reading(999, 0, 1), "0.10 % of 1000 packets", "0 % of 9990 bits"),
         (reading(1, 0, 999), "99.90 % of 1000 packets", "0 % of 10 bits"),
     ],
 )
@@ -160,7 +158,6 @@ def test_rates_name_what_they_count_and_have_no_digit_that_chance_has_made(
     [
         (0, 10, "0 to 28 %"),
         (10, 10, "72 to 100 %"),
-        (9, 10, "60 to 98.2 %"),
         (999, 1000, "99.44 to 99.982 %"),
         (1, 1_000_000, "0.000018 to 0.00057 %"),
     ],

@@ -2,8 +2,7 @@
 
 from functools import partial
 
-import pytest
-from PySide6.QtCore import QEvent, QObject, QSize, Qt
+from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtGui import QAccessible, QResizeEvent
 from PySide6.QtWidgets import QApplication, QTabBar, QWidget
 from pytestqt.qtbot import QtBot
@@ -98,24 +97,6 @@ def test_a_hidden_pane_is_shown_in_the_mode_about_it(
         window.bring_to_front(pane)
         qtbot.waitUntil(partial(in_front, application, pane))
         assert window.modes.mode == home
-
-
-@pytest.mark.parametrize("mode", ["limits", "effects"])
-def test_the_pane_of_a_mode_has_most_of_the_window(
-    application: Application, qtbot: QtBot, mode: str
-) -> None:
-    window = application.window
-    window.modes.switch(mode)
-    for size in (QSize(1920, 1080), QSize(1000, 700)):
-        window.resize(size)
-
-        def check(size: QSize = size) -> None:
-            pane = window.docks[MODES[mode].main]
-            assert pane.width() >= 0.6 * size.width()
-            assert pane.height() >= 0.7 * size.height()
-
-        qtbot.waitUntil(check)
-        assert window.size() == size
 
 
 class Widths(QObject):

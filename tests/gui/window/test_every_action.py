@@ -22,7 +22,9 @@ from PySide6.QtWidgets import (
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
+from occ_gui.app.command_line import PANES
 from occ_gui.window.command_lists import entries
+from occ_gui.window.modes import MODES
 
 READ_LATER = ("Fit gamma too",)
 """Boxes that are looked at when a button is pressed, and tell of nothing before."""
@@ -88,10 +90,21 @@ def missing_of(widget: QWidget) -> list[str]:
     return [what for what, is_there in needed.items() if not is_there]
 
 
-def test_each_control_is_named_explained_connected_and_reached_by_the_keys(
+def test_each_pane_can_be_hidden_and_shown_and_its_controls_are_named_explained_and_connected(
     application: Application, qtbot: QtBot
 ) -> None:
     window = application.window
+    assert set(window.docks) == set(PANES)
+    for name, dock in window.docks.items():
+        assert dock.objectName() == name  # as a saved arrangement names it
+        assert dock.windowTitle()
+        toggle = dock.toggleViewAction()
+        if name not in MODES["explore"].panes:
+            assert not dock.isVisible()
+            toggle.trigger()
+        for is_seen in (True, False, True):
+            assert dock.isVisible() == toggle.isChecked() == dock.widget().isVisible() == is_seen
+            toggle.trigger()
     for name, dock in window.docks.items():
         window.bring_to_front(name)
         qtbot.waitUntil(partial(is_visible, dock))

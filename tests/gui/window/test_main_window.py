@@ -11,10 +11,8 @@ from PySide6.QtWidgets import QApplication, QGraphicsView, QMainWindow, QMenu, Q
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
-from occ_gui.app.command_line import PANES
 from occ_gui.values.photo_choice import MODES as OVERLAYS
 from occ_gui.window.menus import FullScreen
-from occ_gui.window.modes import MODES
 
 
 def menus(menu: QWidget) -> Iterator[QMenu]:
@@ -27,22 +25,6 @@ def menus(menu: QWidget) -> Iterator[QMenu]:
 
 def entries(menu: QMenu) -> list[QAction]:
     return [a for a in menu.actions() if not a.isSeparator() and a.menu() is None]
-
-
-def test_every_dock_can_be_hidden_and_shown_again(application: Application) -> None:
-    docks = application.window.docks
-    assert set(docks) == set(PANES)
-    for name, dock in docks.items():
-        # A saved arrangement names it so.
-        assert dock.objectName() == name
-        assert dock.windowTitle()
-        toggle = dock.toggleViewAction()
-        if name not in MODES["explore"].panes:
-            assert not dock.isVisible()
-            toggle.trigger()
-        for is_seen in (True, False, True):
-            assert dock.isVisible() == toggle.isChecked() == dock.widget().isVisible() == is_seen
-            toggle.trigger()
 
 
 def test_what_cannot_be_done_is_not_offered_and_every_picture_and_plot_has_a_name(

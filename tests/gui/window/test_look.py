@@ -100,14 +100,6 @@ def test_each_icon_of_the_sheet_is_a_file() -> None:
     assert named == set(resource_names("icons/style", ".svg"))
 
 
-def test_another_theme_has_a_sheet_of_its_colours(application: Application) -> None:
-    themes, window = application.options.theme, application.window
-    for theme in ("dark", "light"):
-        themes.choose(theme)
-        assert window.styleSheet() == style_sheet(palette_of(theme))
-    themes.choose("system")
-
-
 def test_sizes_of_text_follow_the_font() -> None:
     font = QFont("DejaVu Sans")
     font.setPixelSize(13)
@@ -161,9 +153,13 @@ def sizes(application: Application) -> list[float]:
     return [widget.font().pointSizeF() for widget in shown]
 
 
-def test_every_text_grows_alike_and_comes_back(resized: Application, user: User) -> None:
+def test_every_text_grows_alike_which_is_kept_for_the_next_start_and_comes_back(
+    resized: Application, user: User
+) -> None:
     before, system = sizes(resized), QApplication.font().pointSizeF()
     user.choose("Lar&ger text")
+    assert resized.preferences.recall("view/text_percent") == str(SIZES[1])
+    assert user.message == f"Text at {SIZES[1]} %"
     user.choose("Lar&ger text")
     factor = SIZES[-1] / SIZES[0]
     assert QApplication.font().pointSizeF() == pytest.approx(factor * system)
@@ -175,10 +171,3 @@ def test_every_text_grows_alike_and_comes_back(resized: Application, user: User)
     user.choose("Smaller te&xt")
     user.choose("&Normal text size")
     assert sizes(resized) == pytest.approx(before)
-
-
-def test_the_size_is_kept_for_the_next_start(resized: Application, user: User) -> None:
-    user.choose("Lar&ger text")
-    kept = resized.preferences.recall("view/text_percent")
-    assert kept == str(SIZES[1])
-    assert user.message == f"Text at {SIZES[1]} %"

@@ -1,4 +1,4 @@
-"""Menus and docks: every entry does something, every pane can be hidden and shown again."""
+"""Menus, files that are dropped, and the full screen."""
 
 from collections.abc import Iterator
 from pathlib import Path

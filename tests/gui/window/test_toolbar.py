@@ -10,6 +10,8 @@ from occ_gui.app.application import Application
 from occ_gui.widgets.icons import pixmap
 from occ_gui.window.command_lists import entries
 from occ_gui.window.modes import MODES
+from occ_gui.window.style_sheet import style_sheet
+from occ_gui.window.theme import palette_of
 from occ_gui.window.toolbar import TOOLS, ToolButton
 
 
@@ -53,11 +55,14 @@ def test_every_icon_is_drawn_in_one_colour_and_in_the_pixels_of_the_screen(qapp:
         assert {colour.name() for colour in colours if colour.alpha() == 255} == {"#336699"}, name
 
 
-def test_another_theme_draws_the_icons_anew(application: Application, qtbot: QtBot) -> None:
+def test_another_theme_draws_the_icons_anew_and_has_a_sheet_of_its_colours(
+    application: Application, qtbot: QtBot
+) -> None:
     button = application.window.toolbar.buttons["theme"]
     qtbot.waitUntil(lambda: not button.icon().isNull())
     for theme, is_light in (("dark", True), ("light", False)):
         application.options.theme.choose(theme)
+        assert application.window.styleSheet() == style_sheet(palette_of(theme))
 
         def check(is_light: bool = is_light) -> None:
             colour = button.icon().pixmap(20).toImage().pixelColor(14, 10)

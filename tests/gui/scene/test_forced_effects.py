@@ -10,7 +10,8 @@ from occ_gui.app.application import Application
 from occ_gui.files import preset_controller
 from occ_gui.scene.forced_effects import forced_text
 from occ_model.effects.registry import EFFECTS
-from occ_model.scene.presets import Preset, load_preset, preset_named
+from occ_model.scene.preset_file import Preset
+from occ_model.scene.presets import load_preset, preset_named
 from occ_model.scene.scene import Scene
 
 

@@ -20,7 +20,7 @@ from occ_gui.photo.many.rows_model import VERDICT
 from occ_gui.photo.pane import PhotoPane
 from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.picture.image_view import ImageView
-from occ_gui.values.photo_choice import PhotoChoice, PhotoReading
+from occ_gui.values.photo_choice import PhotoChoice, PhotoReading, Placed, Placement
 from occ_gui.values.photo_results import FoundMatch, ListedRows
 from occ_model.photo.reading.load import Photo
 from occ_model.results.decoding import Region
@@ -131,6 +131,13 @@ def test_a_chosen_lamp_is_kept_as_its_rectangle(bench: Bench, photo: Photo) -> N
     assert bench.parts.part == LAMPS[2].region
     bench.parts.match_whole()
     assert bench.choice.rectangle is None
+
+
+def test_the_photo_lies_on_the_picture_where_it_is_placed(bench: Bench) -> None:
+    source = not_none(bench.board.results.opened).source
+    bench.choose(placed=Placed(source, Placement(3.0, 4.0)))
+    assert bench.picture.overlay.placement == Placement(3.0, 4.0)
+    assert bench.pane.view.placement.column.value() == 3.0
 
 
 def test_the_rectangle_dragged_is_the_one_matched(bench: Bench) -> None:

@@ -76,12 +76,6 @@ def test_a_focal_length_and_the_sensor_s_size_give_the_equivalent_one(
     assert notes.focal_length_step == pytest.approx(0.01e-3 * times, rel=1e-4)
 
 
-@pytest.mark.parametrize("missing", [FOCAL, *SENSOR.keys() - {0xA210}])
-def test_without_the_sensor_s_size_no_equivalent_focal_length_is_known(missing: int) -> None:
-    tags = {n: v for n, v in (SENSOR | {FOCAL: 4.25}).items() if n != missing}
-    assert notes_of(tags).equivalent_focal_length is None
-
-
 NONSENSE = [
     0,
     -1,

@@ -6,9 +6,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 from amount import amount
-from PIL import Image
 
 import occ_model as occ
+from occ_model.figures import drawing as drawing_module
 from occ_model.figures.decoding import decode_drawing
 from occ_model.figures.drawing import ENDINGS, Drawing, house_style, write_all
 from occ_model.figures.window_panes import picture_drawing, profile_drawing
@@ -48,7 +48,9 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Write all drawings; every day the first as figures, and of the others the tables alone."""
     folder = tmp_path_factory.mktemp("report") / "deep"
     count = amount(1, len(drawings()))
-    written = write_all(folder, drawings()[:count], provenance)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setitem(drawing_module._STYLE, "savefig.dpi", amount(30, 200))
+        written = write_all(folder, drawings()[:count], provenance)
     assert sorted(written) == sorted(folder.iterdir())
     for drawing in drawings()[count:]:
         drawing.write(folder / f"{drawing.name}.csv", provenance(drawing))
@@ -93,15 +95,14 @@ def test_the_same_drawing_is_the_same_file(tmp_path: Path, ending: str) -> None:
     assert len(texts) == 1
 
 
-def test_a_decoding_that_failed_is_drawn_as_far_as_it_came(tmp_path: Path) -> None:
+def test_a_decoding_that_failed_is_drawn_as_far_as_it_came() -> None:
     dark = SCENE.replace(luminance=0.0)
     result = occ.decode(occ.render(dark).image, dark)
     assert result.failure is not None
     drawing = decode_drawing(dark, result)
     assert result.failure in drawing.title
-    drawing.write(tmp_path / "failed.png", provenance(drawing))
-    with Image.open(tmp_path / "failed.png") as picture:
-        assert picture.width > 500
+    with house_style():
+        assert drawing.draw().axes
 
 
 @pytest.mark.parametrize("enhanced", [False, True])

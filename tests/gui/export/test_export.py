@@ -262,6 +262,19 @@ def test_a_write_protected_figure_stops_the_export_of_all_before_any_is_drawn(
     assert begun == []
 
 
+def test_all_figures_are_moved_into_the_folder_and_nothing_temporary_stays(
+    bench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def write(aside: Path, *_asked: object) -> list[Path]:
+        (path := aside / "a.svg").write_bytes(b"whole")
+        return [path]
+
+    monkeypatch.setattr(drawing, "write_all", write)
+    bench.exporter.export_all(tmp_path)
+    bench.wait_until_idle()
+    assert {file.name: file.read_bytes() for file in tmp_path.iterdir()} == {"a.svg": b"whole"}
+
+
 def test_an_error_while_drawing_is_a_sentence_and_exports_go_on(
     bench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

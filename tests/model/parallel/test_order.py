@@ -79,16 +79,48 @@ def test_jobs_are_sent_in_order(bench: Bench, law: str) -> None:
     assert bench.results[-1] == bench.sent[-1]
 
 
-def test_a_stage_begins_while_the_previous_ones_last_jobs_run(bench: Bench) -> None:
-    bench.ask(MAP, 1, stage(8, "a"), stage(1, "b"))
-    assert bench.sent == ["a", "b"]
+# By law: the requests, and the jobs sent after so many were done.
+STEPS: dict[str, tuple[list[Any], dict[int, str]]] = {
+    "a stage begins while the previous one's last jobs run": (
+        [(MAP, 1, stage(8, "a"), stage(1, "b"))], {0: "a, b"},
+    ),
+    "a worker has one job more than it does": (
+        [(MAP, 1, stage(0, *"abcde"))], {0: "a, b", 1: "a, b, c"},
+    ),
+    "awaited work is not delayed by work that fills a gap": (
+        [(MAP, 1, stage(0, *"ab", whole=True)), (STRIPS, 1, stage(3, "s"))],
+        {1: "a, b", 2: "a, b, s"},
+    ),
+    "an interruptible stage lets others fill the gap": (
+        [(MAP, 1, stage(0, *"ab")), (STRIPS, 1, stage(3, "s"))], {1: "a, b, s"},
+    ),
+    "a gap is filled by what is as urgent": (
+        [(MAP, 1, stage(2, *"ab", whole=True)), (STRIPS, 1, stage(2, "s"))], {1: "a, b, s"},
+    ),
+    "a gap is filled by what is more urgent": (
+        [(MAP, 1, stage(2, *"ab", whole=True)), (STRIPS, 1, stage(1, "s"))], {1: "a, b, s"},
+    ),
+    "a later stage of the same request does not delay it": (
+        [(MAP, 1, stage(0, "a", whole=True), stage(2, "fine"))], {0: "a", 1: "a, fine"},
+    ),
+    "a request waits only for its own channel's stages": (
+        [(MAP, 1, stage(0, *"abc", whole=True)), (MAP, 2, stage(0, "x")),
+         (STRIPS, 1, stage(0, "s")), (STRIPS, 2, stage(0, "t"))],
+        {2: "a, b, c, t", 4: "a, b, c, t, x"},
+    ),
+}  # fmt: skip
 
 
-def test_a_worker_has_one_job_more_than_it_does(bench: Bench) -> None:
-    bench.ask(MAP, 1, stage(0, *"abcde"))
-    assert bench.sent == ["a", "b"]
-    bench.finish()
-    assert bench.sent == ["a", "b", "c"]
+@pytest.mark.parametrize("law", STEPS)
+def test_so_many_jobs_are_sent_after_some_are_done(bench: Bench, law: str) -> None:
+    requests, sent = STEPS[law]
+    for request in requests:
+        bench.ask(*request)
+    done = 0
+    for count, expected in sent.items():
+        bench.finish(count - done)
+        assert bench.sent == expected.split(", ")
+        done = count
 
 
 def test_jobs_are_made_only_when_they_are_needed(bench: Bench) -> None:
@@ -103,37 +135,6 @@ def test_jobs_are_made_only_when_they_are_needed(bench: Bench) -> None:
     assert len(made) == 2 + 1  # two in flight, and one that waits
     bench.finish(10)
     assert len(made) == 13
-
-
-def test_awaited_work_is_not_delayed_by_work_that_fills_a_gap(bench: Bench) -> None:
-    bench.ask(MAP, 1, stage(0, "coarse 1", "coarse 2", whole=True))
-    bench.ask(STRIPS, 1, stage(3, "strip"))
-    bench.finish()
-    assert bench.sent == ["coarse 1", "coarse 2"]
-    bench.finish()
-    assert bench.sent == ["coarse 1", "coarse 2", "strip"]
-
-
-def test_an_interruptible_stage_lets_others_fill_the_gap(bench: Bench) -> None:
-    bench.ask(MAP, 1, stage(0, "fine 1", "fine 2"))
-    bench.ask(STRIPS, 1, stage(3, "strip"))
-    bench.finish()
-    assert bench.sent == ["fine 1", "fine 2", "strip"]
-
-
-@pytest.mark.parametrize("rank", [2, 1])
-def test_a_gap_is_filled_by_what_is_as_urgent_or_more_so(bench: Bench, rank: int) -> None:
-    bench.ask(MAP, 1, stage(2, "coarse 1", "coarse 2", whole=True))
-    bench.ask(STRIPS, 1, stage(rank, "strip"))
-    bench.finish()
-    assert bench.sent == ["coarse 1", "coarse 2", "strip"]
-
-
-def test_a_later_stage_of_the_same_request_does_not_delay_it(bench: Bench) -> None:
-    bench.ask(MAP, 1, stage(0, "coarse", whole=True), stage(2, "fine"))
-    assert bench.sent == ["coarse"]
-    bench.finish()
-    assert bench.sent == ["coarse", "fine"]
 
 
 def test_an_abandoned_stage_delays_nothing(bench: Bench) -> None:
@@ -155,17 +156,6 @@ def test_only_an_old_requests_uninterruptible_stage_goes_on(bench: Bench) -> Non
     assert bench.sent == ["a", "b"]
     bench.finish_all()
     assert bench.sent == ["a", "b", "x"]
-
-
-def test_a_request_waits_only_for_its_own_channels_stages(bench: Bench) -> None:
-    bench.ask(MAP, 1, stage(0, "a", "b", "c", whole=True))
-    bench.ask(MAP, 2, stage(0, "x"))
-    bench.ask(STRIPS, 1, stage(0, "s"))
-    bench.ask(STRIPS, 2, stage(0, "t"))
-    bench.finish(2)
-    assert bench.sent == ["a", "b", "c", "t"]
-    bench.finish_all()
-    assert bench.sent == ["a", "b", "c", "t", "x"]
 
 
 def test_a_newer_request_replaces_a_running_one_at_once(bench: Bench) -> None:

@@ -11,7 +11,7 @@ from gui.kinds import not_none, show_widget
 from gui.mouse import drag_mouse
 from gui.photo.photo_bench import PhotoBench
 from matches import match_with
-from PySide6.QtCore import QPointF
+from PySide6.QtCore import QPointF, Qt
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
@@ -254,6 +254,8 @@ def test_a_row_of_the_table_says_that_its_photo_was_matched_by_itself_since(
     row, many = PhotoRow(photo.path, "sure", "", match_with()), bench.pane.view.many
     many.show_files((photo.path,))
     many.show_row(0, row, 1)
+    is_marked = many.rows.data(many.rows.index(0, 0), Qt.ItemDataRole.BackgroundRole) is not None
+    assert is_marked, "it is the photo that is open"
     listed = replace(bench.board.results, listed=ListedRows((row,), PhotoReading(), 1e4))
     own = replace(listed, match=FoundMatch(photo, None, match_with(), 1e4))
     for results, is_earlier in ((listed, False), (own, True), (listed, False)):

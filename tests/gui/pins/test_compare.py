@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from gui.kinds import SnapshotOf, collect, show_widget
+from gui.kinds import SnapshotOf, collect, not_none, show_widget
 from gui.pane_bench import PaneBench
 from gui.stores import store_of
 from PySide6.QtWidgets import QTableWidget
@@ -155,6 +155,7 @@ def test_the_view_requests_what_is_missing_then_lists_and_draws(
     listed = texts(view.table)
     assert listed[:2] == [["Inputs"], ["ISO speed", "100", "200"]]
     assert ["Outputs"] in listed
+    assert "Allowed" in not_none(view.table.item(1, 0)).toolTip()
     for name, pin in (("A", pins.pinned.a), ("B", pins.pinned.b)):
         assert pin is not None
         assert np.array_equal(view.curves[name].getOriginalDataset()[1], pin.profile)

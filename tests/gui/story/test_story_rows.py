@@ -268,6 +268,11 @@ def test_wrong_bits_are_marked_bits_without_columns_listed_and_refused_ones_not_
     rows.code.show_reading(snapshot, replace(decoded, failure="Too noisy.", code=None))
     assert rows.code.list_label() == "not accepted:"
     assert {rows.code.state_of(bit) for bit in range(decoded.bits.size)} == {State.NEUTRAL}
+    for received in (4, 400):  # fewer than were sent, and more
+        bits = np.ones(received, dtype=np.uint8)
+        rows.code.show_reading(snapshot, replace(decoded, bits=bits))
+        assert rows.code.state_of(min(received, 10)) is State.NEUTRAL
+        assert not rows.code.grab().isNull()
 
 
 def test_a_decoder_without_chips_lists_its_bits(rows: StoryRows) -> None:

@@ -50,13 +50,6 @@ class Thing:
         down, across = self.height / 2, self.width / 2
         return self.row - down, self.row + down, self.column - across, self.column + across
 
-    def covers(self, row: float, column: float) -> bool:
-        """Whether a point lies within the thing."""
-        down, across = abs(row - self.row) / self.height, abs(column - self.column) / self.width
-        if self.shape == "round":
-            return down**2 + across**2 <= 0.25
-        return max(down, across) <= 0.5
-
 
 @dataclass(frozen=True, eq=False, slots=True)
 class LampScene:

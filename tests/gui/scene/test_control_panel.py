@@ -54,6 +54,11 @@ def test_every_row_names_its_parameter_and_its_allowed_range(panel: ControlPanel
             for control in controls:
                 assert control.accessibleName() == PARAMETERS[name].label
                 assert f"Allowed: {PARAMETERS[name].allowed}" in control.toolTip()
+    symbols = {
+        name: label.text() for page in panel.panels.values() for name, label in page.labels.items()
+    }
+    assert symbols["readout_time"].endswith("<i>t</i><sub>r</sub>")
+    assert symbols["distance"].endswith("<i>d</i>")
 
 
 def test_all_pages_show_the_scene_and_tell_nothing(panel: ControlPanel) -> None:

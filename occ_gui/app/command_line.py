@@ -26,7 +26,7 @@ from occ_model.commands.options import (
     simulation_settings_of,
 )
 from occ_model.errors import one_line, shown
-from occ_model.files.writing import write_whole
+from occ_model.files.writing import check_replaceable, write_whole
 from occ_model.plugins import all_at_work
 from occ_model.program import EXIT_MISUSE, run_program, say
 from occ_model.scene.from_text import DEFAULT_PRESET
@@ -199,6 +199,7 @@ def _prepare(options: argparse.Namespace) -> None:
         from occ_model.commands.files import check_files
 
         check_files(options)
+        check_replaceable(options.screenshot)  # before a window is drawn
         os.environ["QT_QPA_PLATFORM"] = "offscreen"
         # A photo that cannot be read must fail here, not show as an empty pane in the picture.
         if options.photo:

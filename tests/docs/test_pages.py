@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from documents import FOLDER, PAGES, README, ROOT, blocks, links, text_of, without_code
 
+import occ_model as occ
 from occ_gui.app.command_line import read_command_line as read_gui_line
 from occ_gui.help.pages import CONTENTS, heading_id, pages
 from occ_model.commands.command_line import read_command_line
@@ -107,6 +108,17 @@ def test_the_table_of_effects_is_that_of_the_registry() -> None:
     (table,) = re.findall(r"^\| effect \|.*?\n\n", page_named("effects"), re.MULTILINE | re.DOTALL)
     named = re.findall(r"^\| ([^|]+) \|", table, re.MULTILINE)
     assert named[1:] == [effect.label for effect in EFFECTS]
+
+
+def test_the_table_of_what_tolerances_call_for_is_that_of_the_plans() -> None:
+    """Its times are measured where nothing else runs; its numbers of effects are the plans' own."""
+    tolerances = (0.0, 1.0, 2.0, 5.0, 10.0)
+    rows = re.findall(r"^\| (\S+-real) \(\d+ ms\) \| (.+) \|$", page_named("effects"), re.MULTILINE)
+    assert len(rows) == 4
+    for name, cells in rows:
+        counts = [int(cell.partition(",")[0]) for cell in cells.split("|")]
+        scene = occ.load_preset(name)
+        assert counts == [len(occ.plan(scene, each).included) for each in tolerances], name
 
 
 def calls(folder: str, name: str) -> list[ast.Call]:

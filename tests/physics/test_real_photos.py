@@ -1,8 +1,10 @@
 """What is known of the two real photographs is found in them."""
 
+import re
 from pathlib import Path
 
 import pytest
+from documents import FOLDER, text_of
 
 import occ_model as occ
 
@@ -12,6 +14,21 @@ NOTED = 79e-6  # the exposure time that the iPhone noted, in seconds
 
 STRIPES = "01010" + "0010110001001000"
 """The pattern that VLCDetector's transmitter sends over and over."""
+
+
+def assert_manual_states(match: occ.Match, row: str) -> None:
+    """Compare what a row of the manual's table says was found, to its last digits."""
+    (found,) = [
+        line.split(" | ")[-1]
+        for line in text_of(FOLDER / "photos.md").splitlines()
+        if line.startswith(f"| {row}")
+    ]
+    stated = re.findall(r"([\d.]+) µs ± ([\d.]+)", found.replace(" a line", ""))
+    for name, numbers in zip(("readout_time", "exposure_time"), stated, strict=True):
+        values = getattr(match, name), match.uncertainties[name]
+        for text, value in zip(numbers, values, strict=True):
+            last_digit = 10.0 ** -len(text.partition(".")[2])
+            assert 1e6 * value == pytest.approx(float(text), abs=last_digit), (row, name)
 
 
 @pytest.fixture(scope="module")
@@ -46,6 +63,10 @@ def test_the_exposure_is_what_the_camera_was_set_to(square_wave: occ.Match) -> N
     stated = square_wave.uncertainties["exposure_time"]
     assert abs(square_wave.exposure_time - 62.5e-6) < 2.0 * stated
     assert stated < 0.5 * square_wave.exposure_time
+
+
+def test_the_manual_states_what_is_found(square_wave: occ.Match) -> None:
+    assert_manual_states(square_wave, "an LED of 1 kHz (Gyroflow")
 
 
 def test_the_square_wave_explains_the_photo(square_wave: occ.Match) -> None:
@@ -117,3 +138,5 @@ def test_two_photos_of_one_camera_agree_and_know_what_hides_an_exposure(photos: 
     assert white.readout_time == pytest.approx(seen.readout_time, rel=5e-4)
     assert any("White hides" in why for why in white.all_reasons)
     assert seen.verdict == seen.exposure_verdict == "sure"
+    assert_manual_states(white, "an LED of 1 kHz by an iPhone")
+    assert_manual_states(seen, "the same camera, not saturated")

@@ -65,7 +65,8 @@ def code_lengths(
     """Compare lengths of codes, by default the shortest for so many lamps, and 2 and 4 bits more.
 
     The lamps' codes are drawn at random among all of a length, those of the room among them; its
-    lamps are read in pictures over its floor. Raises ParameterError: a length has fewer codes than
+    lamps are read in pictures over its floor. A packet's chips, columns and distance are those of
+    the first lamp's line code and framing. Raises ParameterError: a length has fewer codes than
     there are lamps, or an argument is out of range.
     """
     room = request.room

@@ -23,7 +23,8 @@ from occ_model.commands.options import (
 from occ_model.commands.progress_bar import print_above_bar, progress_bar
 from occ_model.commands.vary import SYNTAX, axes_of
 from occ_model.effects.registry import NAMES
-from occ_model.errors import OccError, OutputError, ParameterError, one_line, shown
+from occ_model.errors import OccError, ParameterError, one_line, shown
+from occ_model.files.writing import check_replaceable
 from occ_model.program import EXIT_INTERRUPTED
 from occ_model.receiver.decoders import DECODERS, PAPER_DECODER, QUICK_DECODERS
 from occ_model.results.bit_errors import FRAMES_A_SECOND
@@ -166,10 +167,7 @@ def _check_plot(path: Path, axes: int) -> None:
         raise ParameterError(
             f"--plot draws one axis or two, not {axes}; leave it out, or vary less."
         )
-    if path.is_dir() or not path.resolve().parent.is_dir():
-        raise OutputError(
-            f"{one_line(str(path))} cannot be written: name a file in a folder that is there."
-        )
+    check_replaceable(path)
 
 
 def run_with_bar(

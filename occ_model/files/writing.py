@@ -45,12 +45,13 @@ def write_image(path: Path, image: ByteArray, description: str = "") -> None:
     write_whole(path, _encoded(path, image, description))
 
 
-def check_image_path(path: Path) -> str:
-    """Return the image format of the path's ending; refuse a path that no image can be written to.
-
-    Known before the work whose result is to be written, not after it.
-    """
+def check_image_path(path: Path) -> None:
+    """Refuse a path that no image can be written to, before the work whose result it is for."""
     check_replaceable(path)
+    _format_of(path)
+
+
+def _format_of(path: Path) -> str:
     format_name = _FORMATS.get(path.suffix.lower())
     if format_name is None:
         *endings, last = PICTURE_ENDINGS
@@ -133,7 +134,7 @@ def _replacement(path: Path, permissions: int | None) -> Iterator[Path]:
 
 
 def _encoded(path: Path, image: ByteArray, description: str) -> bytes:
-    format_name = check_image_path(path)
+    format_name = _format_of(path)
     longest = LONGEST_SIDE.get(format_name)
     if longest is not None and max(image.shape) > longest:
         raise OutputError(

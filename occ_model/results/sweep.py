@@ -273,7 +273,7 @@ class PointReader:
             return None
 
 
-def one_line(sentence: str) -> str:
+def joined_lines(sentence: str) -> str:
     """Write a sentence in one line: tables are read line by line."""
     return " ".join(sentence.split())
 

@@ -10,7 +10,7 @@ from occ_model.photo.reading.choices import CHANNELS, SCAN_AXES
 from occ_model.photo.reading.load import Photo, load_photo
 from occ_model.results.match import Match
 from occ_model.results.photo_table import REFUSED, UNREADABLE, PhotoRow, known_beside
-from occ_model.results.sweep import one_line
+from occ_model.results.sweep import joined_lines
 from occ_model.scene.argument_checks import check_choice
 from occ_model.scene.scene import Scene
 
@@ -62,7 +62,7 @@ def row_of(
         try:
             photo = load_photo(source, own.scan_axis, channel=own.channel, progress=report)
         except PhotoError as error:
-            note = one_line(str(error))
+            note = joined_lines(str(error))
             return place, PhotoRow(source, UNREADABLE, note, given=given)
     try:
         match = match_photo(
@@ -86,7 +86,7 @@ def _row(photo: Photo, verdict: str, note: str, match: Match | None = None) -> P
     return PhotoRow(
         photo.path,
         verdict,
-        one_line(note),
+        joined_lines(note),
         match,
         noted_exposure=photo.exposure_time,
         lines=columns,

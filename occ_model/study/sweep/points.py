@@ -9,7 +9,7 @@ import numpy as np
 
 from occ_model.errors import OccError
 from occ_model.parallel.job import Heartbeat
-from occ_model.results.sweep import SweepTable, one_line
+from occ_model.results.sweep import SweepTable, joined_lines
 from occ_model.results.sweep_request import RateSettings, SweepPoint, SweepRequest
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.scene import Scene
@@ -42,7 +42,7 @@ def measure_point(
         right, whole = right_and_whole(at, settings, heartbeat)
     except OccError as refusal:
         none = (0,) * len(settings.decoders)
-        return SweepPoint(index, 0, none, one_line(str(refusal)), none)
+        return SweepPoint(index, 0, none, joined_lines(str(refusal)), none)
     return SweepPoint(index, settings.images * at.transmitter.payload_length, right, "", whole)
 
 

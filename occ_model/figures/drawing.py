@@ -33,7 +33,7 @@ _STYLE: dict[Any, Any] = {
     "axes.spines.top": False,
     "axes.spines.right": False,
     "figure.constrained_layout.use": True,
-    "savefig.dpi": 200,
+    "figure.dpi": 200,
     "pdf.fonttype": 42,
     "svg.hashsalt": "occ_model",  # the same figure is the same file
 }
@@ -78,10 +78,16 @@ def _fitted_bytes(figure: Figure, format_name: str, provenance: Provenance) -> b
     return buffer.getvalue()
 
 
-def save_figure(figure: Figure, folder: Path, name: str, provenance: Provenance) -> None:
-    """Write a figure drawn in this :func:`house_style` as PDF and as PNG."""
+def save_figure(
+    figure: Figure,
+    folder: Path,
+    name: str,
+    provenance: Provenance,
+    formats: Sequence[str] = ("pdf", "png"),
+) -> None:
+    """Write a figure drawn in this :func:`house_style` in several formats."""
     fit_texts(figure)
-    for ending in ("pdf", "png"):
+    for ending in formats:
         write_whole(folder / f"{name}.{ending}", _fitted_bytes(figure, ending, provenance))
 
 
@@ -118,11 +124,13 @@ def write_all(
     folder: Path, drawings: Iterable[Drawing], provenance: Callable[[Drawing], Provenance]
 ) -> list[Path]:
     make_folder(folder)
-    written = []
+    written: list[Path] = []
     for drawing in drawings:
-        for path in files_of(drawing, folder):
-            drawing.write(path, provenance(drawing))
-            written.append(path)
+        origin = provenance(drawing)
+        with house_style():
+            save_figure(drawing.draw(), folder, drawing.name, origin, FORMATS)
+        write_table(folder / f"{drawing.name}.csv", drawing.header, drawing.rows(), origin)
+        written += files_of(drawing, folder)
     return written
 
 

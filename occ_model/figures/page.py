@@ -62,6 +62,10 @@ def fit_texts(figure: Figure) -> None:
         if not above + below:
             break
         figure.set_figheight(figure.get_figheight() + above + below)
+    else:
+        figure.draw_without_rendering()
+    # The places that were found hold for the files of all formats.
+    figure.set_layout_engine("none")
 
 
 def _over_the_edge(figure: Figure) -> tuple[float, float]:

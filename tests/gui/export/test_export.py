@@ -79,7 +79,7 @@ class Bench(PaneBench):
 
 @pytest.fixture
 def bench(qtbot: QtBot, small_scene: Scene, monkeypatch: pytest.MonkeyPatch) -> Bench:
-    monkeypatch.setitem(drawing._STYLE, "savefig.dpi", 60)  # a tenth of the pixels
+    monkeypatch.setitem(drawing._STYLE, "figure.dpi", 60)  # a tenth of the pixels
     return Bench(qtbot, small_scene)
 
 

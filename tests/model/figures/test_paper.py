@@ -36,7 +36,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
             patch.setattr(
                 drawing, "_fitted_bytes", lambda *each: b"" if each[1] == "pdf" else written(*each)
             )
-        patch.setitem(drawing._STYLE, "savefig.dpi", amount(30, 200))
+        patch.setitem(drawing._STYLE, "figure.dpi", amount(30, 200))
         assert main(["figures", "--out", str(out), "--images", "1", "--seed", "3"]) == 0
     return out
 

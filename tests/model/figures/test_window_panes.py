@@ -10,7 +10,7 @@ from amount import amount
 import occ_model as occ
 from occ_model.figures import drawing as drawing_module
 from occ_model.figures.decoding import decode_drawing
-from occ_model.figures.drawing import ENDINGS, Drawing, house_style, write_all
+from occ_model.figures.drawing import Drawing, house_style, write_all
 from occ_model.figures.window_panes import picture_drawing, profile_drawing
 from occ_model.scene.provenance import Provenance, scene_inside
 
@@ -19,10 +19,6 @@ FRAME = occ.render(SCENE)
 READ, MATCHED = occ.decode(FRAME.image, SCENE), occ.decode(FRAME.image, SCENE, "matched")
 BAND = occ.band_profile(SCENE)
 PHOTO = occ.compare(FRAME.profile[800:2000] * 0.7 + 3.0, FRAME.profile, 800.0)
-
-
-DEAR = (".png", ".pdf")
-"""Endings of files that take longer to write."""
 
 
 def drawings() -> list[Drawing]:
@@ -49,7 +45,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("report") / "deep"
     count = amount(1, len(drawings()))
     with pytest.MonkeyPatch.context() as patch:
-        patch.setitem(drawing_module._STYLE, "savefig.dpi", amount(30, 200))
+        patch.setitem(drawing_module._STYLE, "figure.dpi", amount(30, 200))
         written = write_all(folder, drawings()[:count], provenance)
     assert sorted(written) == sorted(folder.iterdir())
     for drawing in drawings()[count:]:
@@ -83,16 +79,15 @@ def test_the_tables_hold_what_is_drawn(folder: Path) -> None:
     assert len(first) == 1 + FRAME.image.shape[1] // 4
 
 
-@pytest.mark.parametrize(
-    "ending", [pytest.param(one, marks=pytest.mark.whole if one in DEAR else ()) for one in ENDINGS]
-)
-def test_the_same_drawing_is_the_same_file(tmp_path: Path, ending: str) -> None:
-    path = tmp_path / f"a{ending}"
-    texts = set()
-    for drawing in (decode_drawing(SCENE, READ), decode_drawing(SCENE, READ)):
-        drawing.write(path, provenance(drawing))
-        texts.add(path.read_bytes())
-    assert len(texts) == 1
+def test_a_file_is_the_same_alone_and_among_others(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(drawing_module._STYLE, "figure.dpi", 30)
+    for path in write_all(tmp_path, drawings()[:1], provenance):
+        alone = path.with_stem("alone")
+        drawing = drawings()[0]
+        drawing.write(alone, provenance(drawing))
+        assert alone.read_bytes() == path.read_bytes()
 
 
 def test_a_decoding_that_failed_is_drawn_as_far_as_it_came() -> None:

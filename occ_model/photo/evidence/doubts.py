@@ -205,7 +205,7 @@ def strongest_line(
     """Find the strongest line of a residual beside the explained pattern's own harmonics.
 
     The swing is the height of the stripes, the pattern's period is in columns. There is no line
-    where there are too few columns.
+    where there are too few columns, or where nothing is left.
 
     The periodogram of white noise has an exponential distribution (Schuster, Terrestrial Magnetism
     3:13, 1898), whose median is ln 2 times its mean: from it the noise around a line is known. A
@@ -221,7 +221,7 @@ def strongest_line(
     for place, beside in _harmonics(power, columns / pattern_period, _OWN_HARMONICS * chips):
         around = slice(max(0, place - _LINE_BINS), place + _LINE_BINS + 1)
         possible[around] &= power[around] > beside
-    if not possible.any():
+    if not power[possible].any():
         return None
     line = int(np.where(possible, power, 0.0).argmax())
     around = slice(max(1, line // 2), 2 * line + 2 * _LEAST_CYCLES)

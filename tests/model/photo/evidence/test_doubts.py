@@ -86,6 +86,7 @@ def test_noise_has_no_line_and_a_patterns_own_are_left_out() -> None:
     of_three_harmonics = strongest_line(noise, swing, 6.0, 2)
     for line in (only_noise, own, of_three_harmonics):
         assert line.above_noise < 50.0
+    assert strongest_line(np.zeros(1500), swing, 97.0, 10) is None
 
 
 @pytest.mark.parametrize("chip", [3.87, 3.98, 4.26])

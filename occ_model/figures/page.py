@@ -58,19 +58,25 @@ def fit_texts(figure: Figure) -> None:
     for legend in _all(figure, Legend):
         _narrow(legend, figure)
     for _ in range(_MAX_ROUNDS):
+        _place_axes(figure)
         above, below = _over_the_edge(figure)
         if not above + below:
             break
         figure.set_figheight(figure.get_figheight() + above + below)
     else:
-        figure.draw_without_rendering()
+        _place_axes(figure)
     # The places that were found hold for the files of all formats.
     figure.set_layout_engine("none")
 
 
+def _place_axes(figure: Figure) -> None:
+    layout = figure.get_layout_engine()
+    if layout is not None and figure.axes:
+        layout.execute(figure)
+
+
 def _over_the_edge(figure: Figure) -> tuple[float, float]:
     """Return the inches by which what is drawn reaches over the upper and the lower edge."""
-    figure.draw_without_rendering()
     drawn = figure.get_tightbbox()
     return max(drawn.y1 - figure.get_figheight(), 0.0), max(-drawn.y0, 0.0)
 
@@ -109,7 +115,7 @@ def _rooms(figure: Figure) -> Iterator[_Room]:
         for text, _ in headings:
             text.set_visible(is_shown)
         if not is_shown:
-            figure.draw_without_rendering()
+            _place_axes(figure)
     for text, across in headings:
         yield _Room(text, min(_to_the_edge(text, figure), page / across))
 

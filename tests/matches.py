@@ -1,12 +1,10 @@
 """Matches for tests of what is shown of one."""
 
-from functools import cache
 from typing import Any
 
 import numpy as np
 
 import occ_model as occ
-from occ_model.files.resources import resource_path
 from occ_model.results.decoding import Region
 from occ_model.results.match import Match, Stripes
 
@@ -23,9 +21,3 @@ def match_with(**changes: Any) -> Match:
         "correlation": 0.99123,
     }  # fmt: skip
     return Match(**{**values, **changes})
-
-
-@cache
-def match_of_sample(name: str, scene: occ.Scene) -> Match:
-    """Match a sample photo to a scene, once for all tests."""
-    return occ.match_photo(occ.load_photo(resource_path("photos", f"{name}.jpg")), scene)

@@ -46,30 +46,6 @@ def test_a_sample_says_that_it_is_simulated_and_how_it_was_taken(name: str) -> N
     assert photo.f_number == pytest.approx(camera.f_number, rel=1e-3)
 
 
-@pytest.mark.parametrize("name", NAMES)
-def test_a_sample_is_matched_by_its_scene(name: str) -> None:
-    camera = SCENES[name].camera
-    match = occ.match_photo(
-        occ.load_photo(FOLDER / f"{name}.jpg"), SCENES[name].replace(readout_time=1e-6)
-    )
-    assert match.readout_time == pytest.approx(camera.readout_time, rel=1e-3)
-    # Not nearer: exposures of 5 and 15 columns are partly alike to the blur of a lens, which the
-    # match does not know. What it states holds that, and it must stay within it.
-    off = abs(match.exposure_time - camera.exposure_time)
-    assert off < 3.0 * match.uncertainties["exposure_time"]
-    if camera.exposure_time > 12.0 * camera.readout_time:
-        assert off < 0.05 * camera.exposure_time
-    assert match.correlation > 0.98
-
-
-def test_the_code_of_a_sample_is_read_without_being_given() -> None:
-    match = occ.match_photo(
-        occ.load_photo(FOLDER / "packets-6khz.jpg"),
-        occ.load_preset("phone-136us").replace(switching_frequency=6e3),
-    )
-    assert match.scene.transmitter.code == SCENES["packets-6khz"].transmitter.code
-
-
 @pytest.mark.parametrize("seed", [91000, 91001, 91007])
 def test_a_photographs_stripes_repeat_after_the_chips_that_are_told(seed: int) -> None:
     """Where the truth is told wrongly, a period off by half a column no longer fits."""

@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from matches import match_of_sample
 
 import occ_model as occ
+from occ_model.files.resources import resource_path
 from occ_model.results.teaching import Step
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
@@ -145,13 +145,19 @@ def test_the_photos_give_what_the_answers_say(
     monkeypatch: pytest.MonkeyPatch, number: int, readout: float, text: str
 ) -> None:
     asked = step(6, number)
-    found = match_of_sample(asked.photo, asked.scene)
+    photo = occ.load_photo(resource_path("photos", f"{asked.photo}.jpg"))
+    found = occ.match_photo(photo, asked.scene)
     # The check matches the same photo once more.
     monkeypatch.setattr("occ_model.photo.match.match_photo", lambda *_: found)
     assert check_answer(asked, text).outcome == "right"
     assert f"{readout * 1e6:g} µs a column" in asked.answer
     assert found.readout_time == pytest.approx(readout, abs=0.01e-6)
     assert found.uncertainties["readout_time"] < 0.02e-6
+    # Not nearer: exposures of 5 and 15 columns are partly alike to the blur of a lens, which the
+    # match does not know. What it states holds that, and it must stay within it.
+    off = abs(found.exposure_time - photo.exposure_time)
+    assert off < 3.0 * found.uncertainties["exposure_time"]
+    assert found.correlation > 0.98
     if number == 2:
         assert "Code 345" in asked.answer
         assert found.pattern_was_read
@@ -162,7 +168,7 @@ def test_the_photos_give_what_the_answers_say(
         assert found.exposure_time == pytest.approx(135.9e-6, abs=0.05e-6)
         assert found.uncertainties["exposure_time"] == pytest.approx(0.3e-6, abs=0.05e-6)
         assert "it was 136 µs" in asked.answer
-        assert abs(found.exposure_time - 136e-6) < 3 * found.uncertainties["exposure_time"]
+        assert photo.exposure_time == pytest.approx(136e-6)
 
 
 @pytest.mark.parametrize(

@@ -123,7 +123,7 @@ def test_the_search_finds_the_codes_that_an_exhaustive_one_finds(bits: int) -> N
             )
 
 
-@pytest.mark.parametrize("exposure", _exposures(16))
+@pytest.mark.parametrize("exposure", _exposures(16)[:: amount(2, 1)])
 def test_no_16_bit_code_that_correlates_better_is_missed(exposure: Fraction) -> None:
     rng = np.random.default_rng(16)
     templates = code_templates(16, exposure)
@@ -173,7 +173,7 @@ def test_codes_of_sixteen_bits_take_little_memory() -> None:
 
 
 def test_confidence_is_near_1_when_clear_and_near_0_for_noise() -> None:
-    scene = occ.load_preset("phone-136us")
+    scene = occ.load_preset("phone-136us").replace(rows=400)
     clear = occ.decode(occ.render(scene).image, scene, "matched")
     assert clear.confidence > 0.9
     rng = np.random.default_rng(5)

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from amount import amount
 from physics.paths import compared, significance
 
 import occ_model as occ
@@ -66,7 +67,7 @@ def test_a_sample_of_the_rows_reads_what_whole_pictures_do(frequency: float) -> 
         path: np.array(
             [
                 right_bits(scene, RateSettings(1, ("threshold",), seed, path=path))
-                for seed in range(12)
+                for seed in range(amount(6, 12))
             ]
         )
         / scene.transmitter.bits

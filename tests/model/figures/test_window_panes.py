@@ -14,7 +14,7 @@ from occ_model.figures.drawing import Drawing, house_style, write_all
 from occ_model.figures.window_panes import picture_drawing, profile_drawing
 from occ_model.scene.provenance import Provenance, scene_inside
 
-SCENE = occ.load_preset("phone-68us").replace(rows=400, panel_height=2.0)
+SCENE = occ.load_preset("phone-68us").replace(rows=60, panel_height=2.0)
 FRAME = occ.render(SCENE)
 READ, MATCHED = occ.decode(FRAME.image, SCENE), occ.decode(FRAME.image, SCENE, "matched")
 BAND = occ.band_profile(SCENE)

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from amount import amount
 from numpy.typing import NDArray
 
 import occ_model as occ
@@ -91,7 +92,7 @@ def test_a_picture_too_large_to_be_made_is_not_read_by_its_profile() -> None:
 
 ROWS, COLUMNS = 400, 1100
 SPAN = Region(60, 320, 303, 800)
-TRIALS = 25
+TRIALS = amount(12, 25)
 
 
 def of_pixels(panel: float, around: float, random: np.random.Generator) -> Region:

@@ -5,10 +5,12 @@ import os
 import subprocess
 import sys
 from collections.abc import Mapping
-from functools import cache
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
+
+from occ_model.cli import main
 
 ENCODINGS = (
     "ascii",
@@ -57,12 +59,6 @@ def test_a_full_output_is_a_sentence(line: str) -> None:
     assert (done.returncode, done.stderr.decode()) == (1, FULL_DISK)
 
 
-@cache
-def printed(line: str) -> str:
-    """Print it once where every letter is there."""
-    return run(*line.split()).stdout.decode()
-
-
 @pytest.mark.parametrize(
     ("line", "encoding"),
     [
@@ -73,11 +69,19 @@ def printed(line: str) -> str:
         pytest.param("presets phone-68us", "cp932", marks=pytest.mark.whole),
     ],
 )
-def test_letters_that_the_terminal_lacks_are_replaced(encoding: str, line: str) -> None:
+def test_letters_that_the_terminal_lacks_are_replaced(
+    encoding: str,
+    line: str,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.setenv("COLUMNS", "80")  # of lines of help
+    with suppress(SystemExit):  # with which help ends
+        main(line.split())
     done = run(*line.split(), environment={"PYTHONIOENCODING": encoding})
     assert (done.returncode, done.stderr) == (0, b"")
     # Pairwise, the lines differ at most where the encoding has no letter.
-    wanted = printed(line).splitlines()
+    wanted = capsys.readouterr().out.splitlines()
     found = done.stdout.decode(encoding).splitlines()
     replaced = [text.encode(encoding, "replace").decode(encoding) for text in wanted]
     assert [text.split() for text in found] == [text.split() for text in replaced]

@@ -96,18 +96,21 @@ def test_the_square_wave_is_read_where_it_is_not_given(
     assert match.exposure_time == pytest.approx(square_wave.exposure_time, rel=0.05)
 
 
-def test_all_chips_are_read_without_being_given(stripes: occ.Match) -> None:
+def test_all_chips_are_read_without_being_given(photos: Path) -> None:
+    read = occ.read_chips(occ.load_photo(photos / "vlcdetector_stripes.png"))
+    assert len(read.text) > 3 * len(STRIPES)
+    assert read.text in 5 * STRIPES
+    assert read.confidence > 0.99
+    assert read.columns_per_chip == pytest.approx(13.9, rel=0.01)
+
+
+@pytest.mark.whole
+def test_chips_that_are_read_explain_the_profile_in_spite_of_saturation(stripes: occ.Match) -> None:
     assert stripes.pattern_was_read
     assert len(stripes.pattern) == len(STRIPES) == 21
     assert stripes.pattern in STRIPES + STRIPES
-
-
-def test_a_chip_has_its_length_in_columns(stripes: occ.Match) -> None:
     columns = 1.0 / (stripes.readout_time * stripes.switching_frequency)
     assert columns == pytest.approx(13.9, rel=0.01)
-
-
-def test_the_profile_is_explained_in_spite_of_saturation(stripes: occ.Match) -> None:
     assert stripes.correlation >= 0.97
     assert stripes.stripes.saturated > 0.1
 

@@ -7,6 +7,7 @@ import sys
 import time
 from argparse import Namespace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -142,12 +143,31 @@ def test_a_cluster_is_reached_with_dasks_certificates(monkeypatch: pytest.Monkey
         pass
 
 
+@pytest.mark.whole  # the import of dask alone takes two seconds
 def test_an_unreachable_cluster_gives_a_sentence_in_time(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(cluster, "_SECONDS", 0.2)
     assert main(["sweep", "--vary", "distance=1", "--cluster", "tcp://127.0.0.1:9"]) == 2
     assert "127.0.0.1:9': no answer within 0.2 s. Allowed: " in capsys.readouterr().err
+
+
+def test_a_cluster_that_refuses_is_named_in_a_sentence(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(address: str, connection_args: object) -> None:
+        raise ConnectionError(f"{address} is closed to {connection_args}.")
+
+    keys = SimpleNamespace(get_connection_args=lambda role: f"a {role}")
+    monkeypatch.setitem(sys.modules, "distributed", SimpleNamespace(Client=None))
+    monkeypatch.setitem(sys.modules, "distributed.core", SimpleNamespace(rpc=refuse))
+    security = SimpleNamespace(Security=lambda: keys)
+    monkeypatch.setitem(sys.modules, "distributed.security", security)
+    assert main(["sweep", "--vary", "distance=1", "--cluster", "tcp://there:9"]) == 2
+    assert capsys.readouterr().err == (
+        "occ-model: No dask scheduler answers at 'tcp://there:9': tcp://there:9 is closed to a "
+        "client. Allowed: the address of one, such as tcp://127.0.0.1:8786.\n"
+    )
 
 
 def test_ctrl_c_keeps_what_is_done_and_says_how_to_go_on(tmp_path: Path) -> None:

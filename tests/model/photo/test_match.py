@@ -217,15 +217,18 @@ class TestCommand:
         assert "if switching" not in lines
 
     def test_a_square_wave_is_two_chips_a_cycle(
-        self, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+        self, file: Path, monkeypatch: pytest.MonkeyPatch
     ) -> None:
-        path = tmp_path / "wave.png"
-        wave = np.tile(np.repeat([20, 200], 25).astype(np.uint8), (60, 12))
-        write_image(path, wave)
-        assert main(["match", str(path), "--led-frequency", "1kHz"]) == 0
-        lines = capsys.readouterr().out
-        assert re.search(r"switching_frequency +2 kHz", lines)
-        assert re.search(r"readout_time +(20\.0\d*|19\.99\d*|20) ±", lines)
+        asked: list[occ.Scene] = []
+
+        def match(_photo: object, scene: occ.Scene, **_: object) -> occ.Match:
+            asked.append(scene)
+            return matched()
+
+        monkeypatch.setattr(match_command, "match_photo", match)
+        assert main(["match", str(file), "--led-frequency", "1kHz"]) == 0
+        (sent,) = (scene.transmitter for scene in asked)
+        assert (sent.pattern, sent.switching_frequency) == ("10", 2e3)
 
     def test_what_cannot_be_matched_gives_a_sentence(
         self, tmp_path: Path, capsys: pytest.CaptureFixture[str]

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from photo_trials import said_of_negative, said_of_other_code
+from photo_trials import said_of_negative
 from simulated_photos import photo_of, take
 
 import occ_model as occ
@@ -29,12 +29,6 @@ from occ_model.transmitter.waveform import Waveform
 @pytest.mark.parametrize("seed", [41, 103])
 def test_pictures_without_an_led_are_refused(seed: int) -> None:
     assert said_of_negative(seed).verdict == "refused"
-
-
-def test_the_scenes_code_is_never_taken_for_another() -> None:
-    found = said_of_other_code(2)
-    assert found.right
-    assert not found.scene_s
 
 
 @pytest.mark.whole

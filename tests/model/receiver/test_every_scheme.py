@@ -135,7 +135,7 @@ def test_the_threshold_gives_no_wrong_payload_of_long_exposures(
 @pytest.mark.parametrize(("code", "framing"), SCHEMES)
 def test_a_payload_is_refused_or_right_at_any_exposure(code: str, framing: str) -> None:
     random = np.random.default_rng(7)
-    for chips in np.linspace(0.5, 3.0, amount(2, 12)):
+    for chips in np.linspace(0.5, 3.0, 12)[:: amount(8, 1)]:
         scene = SCENE.replace(
             line_code=code, framing=framing, code=int(random.integers(256)), enhancement="none",
             exposure_time=136e-6, switching_frequency=float(chips) / 136e-6,

@@ -67,7 +67,7 @@ def test_a_rounded_focal_length_is_part_of_the_stated_errors(tmp_path: Path) -> 
     assert "as given" in right.assumed[0]
 
 
-@pytest.mark.parametrize("quarters", [1, 2])
+@pytest.mark.parametrize("quarters", [1, pytest.param(2, marks=pytest.mark.whole)])
 def test_a_photo_is_read_however_it_lies(tmp_path: Path, quarters: int) -> None:
     room = _room()
     image = np.rot90(_picture(), quarters)

@@ -164,7 +164,7 @@ def test_an_animated_picture_has_colours_to_choose_and_its_transparent_parts_are
     opaque, other = (Image.fromarray(pixels) for pixels in (first, second))
     path = tmp_path / "a.png"
     opaque.save(path, save_all=True, append_images=[other], duration=[40, 60], blend=0)
-    for channel, level in [("red", 200), ("green", 100), ("blue", 50), ("luma", 124)]:
+    for channel, level in [("blue", 50), ("luma", 124)]:
         film = occ.load_video(path, "columns", channel=channel)
         assert (film.frame_count, film.frame_rate) == (2, 25.0)
         assert (film.frame(0).image == level).all()

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QTabBar, QWidget
 
 _GAP = 8
 
-_TALL = 440  # height in pixels from which panels stand one over the other
+_TALL_HEIGHT = 440  # height in pixels from which panels stand one over the other
 _COLUMNS = 1100  # width in pixels from which a high pane has two columns
 _TOP_FRACTION = 0.56  # largest fraction of the height for the upper panel
 
@@ -65,7 +65,7 @@ class Panels(QWidget):
     def _arrange(self) -> None:
         main, second, third = self._panels
         area = self.rect()
-        if area.height() < _TALL:
+        if area.height() < _TALL_HEIGHT:
             fitting = next((n for n in (3, 2) if self._fit(*self._panels[:n])), 1)
             self._offer(() if fitting == 3 else self._panels[fitting - 1 :])
             places = self._side_by_side(area, *self._panels[: fitting - 1], self._last(third))

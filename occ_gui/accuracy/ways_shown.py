@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from occ_model.results.accuracy import CLOSED_FORM, AccuracyPoint
 
-_EVERY = 4  # of the samplings, every fourth one is a point; the curve joins them all
+_POINT_SPACING = 4  # of the samplings, every fourth one is a point; the curve joins them all
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +52,7 @@ def _samplings(points: Sequence[AccuracyPoint]) -> list[Way]:
     ways = [
         Way(point, point.name if place in (0, len(samplings) - 1) else point.name.split()[0])
         for place, point in enumerate(samplings)
-        if place % _EVERY == 0
+        if place % _POINT_SPACING == 0
     ]
     ways.reverse()  # the most exact first
     return [*(Way(p, "closed form") for p in points if p.name == CLOSED_FORM), *ways]

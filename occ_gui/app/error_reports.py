@@ -26,7 +26,7 @@ _LEVELS = {
     QtMsgType.QtFatalMsg: logging.CRITICAL,
 }
 
-HARMLESS = "This plugin does not support propagateSizeHints()"
+HARMLESS_MESSAGE = "This plugin does not support propagateSizeHints()"
 """Qt's message for every window on a platform that has no windows."""
 
 
@@ -117,6 +117,6 @@ def log_qt_messages(give_up: Callable[[], NoReturn] | None = None) -> None:
     def log(kind: QtMsgType, _context: QMessageLogContext, message: str) -> None:
         if kind == QtMsgType.QtFatalMsg and give_up is not None:
             give_up()
-        _qt_log.log(logging.DEBUG if message == HARMLESS else _LEVELS[kind], message)
+        _qt_log.log(logging.DEBUG if message == HARMLESS_MESSAGE else _LEVELS[kind], message)
 
     qInstallMessageHandler(log)

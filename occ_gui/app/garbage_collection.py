@@ -18,7 +18,7 @@ from PySide6.QtCore import QObject, QTimer
 _INTERVAL_MS = 250
 
 _REST_S = 2.0  # how long the program is idle before memory is given back
-_IDLE = 0.1  # fraction of a processor that an idle program takes at most
+_IDLE_FRACTION = 0.1  # fraction of a processor that an idle program takes at most
 
 _WORTH_S = 1.0
 """Processor time of the work since memory was given back last, below which it is not again."""
@@ -68,7 +68,7 @@ class GarbageCollector(QObject):
         passed, taken = now - self._looked, used - self._used
         self._looked, self._used = now, used
         self._worked += taken
-        self._idle = self._idle + passed if taken <= _IDLE * passed else 0.0
+        self._idle = self._idle + passed if taken <= _IDLE_FRACTION * passed else 0.0
         if self._idle >= _REST_S and self._worked >= _WORTH_S:
             gc.collect()
             give_memory_back()

@@ -24,7 +24,7 @@ _MODULATIONS = (0.01, 200.0)
 _FREQUENCIES = (1.0, 1e4)
 """Ends of the axes, in percent and Hz; the latter reaches on to a lamp that is faster."""
 
-_BEYOND = 2.0
+_FREQUENCY_MARGIN = 2.0
 
 _SAMPLE = QSize(14, 14)
 _DASHES, _SIZES = Qt.PenStyle.DashLine, (5.0, 11.0)
@@ -145,7 +145,7 @@ class RiskPlot(QWidget):
             [np.log10(eye.percent_flicker)] if is_seen else [],
         )
         low, high = _FREQUENCIES
-        across = np.log10([low, max(high, _BEYOND * eye.frequency)])
+        across = np.log10([low, max(high, _FREQUENCY_MARGIN * eye.frequency)])
         self.plot.setXRange(*across, padding=0)
         self.plot.setYRange(*np.log10(_MODULATIONS), padding=0)
         self.plot.setAccessibleDescription(

@@ -26,7 +26,7 @@ _ROOM = 6  # pixels above and below the text of a row, together
 
 _LEAST_HEIGHT = 260
 
-_USUAL = 1 / 60  # shutter time in seconds that the table shows in its middle at first
+_USUAL_SHUTTER_TIME = 1 / 60  # shutter time in seconds that the table shows in its middle at first
 
 
 class BandsView(QWidget):
@@ -99,7 +99,11 @@ class BandsView(QWidget):
                 self.table.setItem(row, column, item)
         self._fit_table()
         if is_first:
-            usual = next(row for row, speed in enumerate(self._speeds) if speed.nominal <= _USUAL)
+            usual = next(
+                row
+                for row, speed in enumerate(self._speeds)
+                if speed.nominal <= _USUAL_SHUTTER_TIME
+            )
             middle = QAbstractItemView.ScrollHint.PositionAtCenter
             self.table.scrollTo(self.table.model().index(usual, 0), middle)
 

@@ -16,9 +16,9 @@ _CELL = 24
 _GAP = 3
 _LABEL = 66
 
-_NARROWEST = 9.0  # pixels of a cell below which a digit does not fit
-_BAR = 3  # pixels of a bar and the gap beside it
-_OVER = 2  # pixels by which a bar of wrong bits is longer than its row at either end
+_LEAST_CELL_WIDTH = 9.0  # pixels of a cell below which a digit does not fit
+_BAR_WIDTH = 3  # pixels of a bar and the gap beside it
+_MARK_OVERHANG = 2  # pixels by which a bar of wrong bits is longer than its row at either end
 _MOST_DIGITS = 64  # bits up to which the tool tip writes them out
 _FADED_OPACITY = 0.35  # opacity of bits that are not of the present scene
 
@@ -94,7 +94,7 @@ class BitStrip(QWidget):
             top = _GAP + row * (_CELL + _GAP)
             painter.setPen(self.palette().color(QPalette.ColorRole.WindowText))
             painter.drawText(QRectF(0, top, _LABEL, _CELL), Qt.AlignmentFlag.AlignVCenter, label)
-            if width < _NARROWEST:
+            if width < _LEAST_CELL_WIDTH:
                 self._draw_bars(painter, top, bits, wrong if row == 1 else set())
                 continue
             for place in range(len(self._sent)):
@@ -109,7 +109,7 @@ class BitStrip(QWidget):
     ) -> None:
         span = self.width() - _LABEL - _GAP
         count = len(self._sent)
-        bars = max(1, min(count, span // _BAR))
+        bars = max(1, min(count, span // _BAR_WIDTH))
         for bar in range(bars):
             first, last = bar * count // bars, (bar + 1) * count // bars
             cell = QRectF(_LABEL + bar * span / bars, top, span / bars - 1.0, _CELL)
@@ -120,7 +120,7 @@ class BitStrip(QWidget):
                 height = max(1.0, _CELL * sum(part) / len(part))
                 painter.fillRect(cell.adjusted(0, _CELL - height, 0, 0), _RIGHT)
             else:
-                painter.fillRect(cell.adjusted(0, -_OVER, 0, _OVER), _WRONG)
+                painter.fillRect(cell.adjusted(0, -_MARK_OVERHANG, 0, _MARK_OVERHANG), _WRONG)
 
     def _draw_missing(self, painter: QPainter, cell: QRectF) -> None:
         painter.setPen(QPen(self.palette().color(QPalette.ColorRole.Mid), 1, Qt.PenStyle.DashLine))

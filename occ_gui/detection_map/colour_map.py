@@ -46,7 +46,7 @@ def image_of(colours: ByteArray) -> QImage:
     return image.copy()  # the array's memory is freed
 
 
-_BAR = 12
+_BAR_WIDTH = 12
 _GAP = 4
 
 
@@ -74,7 +74,7 @@ class ColourBar(QWidget):
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         metrics = self.fontMetrics()
         widest = max((metrics.horizontalAdvance(text) for _, text in self._numbers), default=0)
-        return QSize(_BAR + 2 * _GAP + widest, 6 * metrics.height())
+        return QSize(_BAR_WIDTH + 2 * _GAP + widest, 6 * metrics.height())
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         return QSize(self.sizeHint().width(), 3 * self.fontMetrics().height())
@@ -83,7 +83,7 @@ class ColourBar(QWidget):
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
         painter = QPainter(self)
         line = self.fontMetrics().height()
-        bar = QRectF(_GAP, line / 2, _BAR, self.height() - line)
+        bar = QRectF(_GAP, line / 2, _BAR_WIDTH, self.height() - line)
         painter.drawImage(bar, self._colours)
         painter.setPen(self.palette().color(QPalette.ColorRole.Mid))
         painter.drawRect(bar)

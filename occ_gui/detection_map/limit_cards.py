@@ -16,7 +16,7 @@ from occ_model.results.limits import RangeEnd, WorkingRange
 from occ_model.scene.units import HERTZ
 
 _PARAMETER = "switching_frequency"
-_BESIDE = 32  # pixels of margins and gaps in a line of title and button
+_LINE_MARGINS = 32  # pixels of margins and gaps in a line of title and button
 
 _REST_MS = 800  # milliseconds that a scene must be at rest before its limits are searched
 
@@ -145,7 +145,9 @@ class LimitCard(QFrame):
     def _place_button(self) -> None:
         """Put the button beside the title, or below all else where it would cut the title off."""
         title = self.name.fontMetrics().horizontalAdvance(self.name.text())
-        is_beside = title + self.go.sizeHint().width() + _BESIDE <= self.contentsRect().width()
+        is_beside = (
+            title + self.go.sizeHint().width() + _LINE_MARGINS <= self.contentsRect().width()
+        )
         if is_beside != self._is_beside:
             self._is_beside = is_beside
             self._grid.addWidget(self.go, *((0, 1) if is_beside else (3, 0, 1, 2)))

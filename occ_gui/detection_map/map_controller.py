@@ -10,7 +10,7 @@ from occ_gui.core.store import NO_GESTURE
 from occ_gui.detection_map.map_schedule import MapRequest
 from occ_gui.detection_map.map_view import MapView
 from occ_gui.detection_map.rate_map import PointFacts, RateMap, TheoryFields
-from occ_gui.detection_map.worker import UNSEEN, left_out
+from occ_gui.detection_map.worker import UNSEEN_PARAMETERS, left_out
 from occ_gui.scene.scene_store import SceneStore
 from occ_model.results.sweep_request import SweepPoint
 from occ_model.scene.parameters import quantity
@@ -67,7 +67,7 @@ class DetectionMapController(QObject):
     def _request(self) -> MapRequest:
         x, y = self._axes
         given = {name: quantity(name).default for name in self._axes}
-        scene = self._scenes.scene.replace(**{**UNSEEN, **given})
+        scene = self._scenes.scene.replace(**{**UNSEEN_PARAMETERS, **given})
         return MapRequest(scene, x, y, self._scenes.settings.settings, self._with_image_effects)
 
     def set_seen(self, seen: bool) -> None:

@@ -23,12 +23,11 @@ from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.study import most_bits
 from occ_model.study.limits import SEARCHED, usual_images
-
-RATE = 99.0  # success rate, in percent, from which a decoder counts as reading
+from occ_model.study.working_range import READ_RATE
 
 IMAGES = 20
 
-_USUAL = len(SEARCHED) * usual_images(IMAGES, RATE)
+_USUAL_IMAGES = len(SEARCHED) * usual_images(IMAGES, READ_RATE)
 """Images that a decoder's search usually reads, from which its progress is estimated."""
 
 _ADVICE_COUNTERS = range(1, len(DECODERS) + 1)
@@ -140,7 +139,7 @@ class AdviceRequest:
         jobs = []
         for counter, decoder in zip(_ADVICE_COUNTERS, DECODERS, strict=True):
             settings = rate_settings(self.settings, IMAGES, (decoder,), self.with_image_effects)
-            jobs.append(Job(advise, (self.scene, settings, decoder, RATE), counter))
+            jobs.append(Job(advise, (self.scene, settings, decoder, READ_RATE), counter))
         yield Stage(rank, tuple(jobs))
 
 
@@ -182,7 +181,7 @@ class AdvisorController(SearchController):
         self._take_there(decoder, {name: value})
 
     def _show_tried(self, pictures: int) -> None:
-        self._pane.show_advice_progress(min(pictures / (_USUAL * len(DECODERS)), 0.99))
+        self._pane.show_advice_progress(min(pictures / (_USUAL_IMAGES * len(DECODERS)), 0.99))
 
     def _show_outdated(self, outdated: bool) -> None:
         asked, present = self._asked, self._request()

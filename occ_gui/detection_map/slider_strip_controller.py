@@ -11,7 +11,13 @@ from occ_gui.background.result_age import PAUSE
 from occ_gui.background.signals import JobChannel
 from occ_gui.detection_map.rate_map import lattice
 from occ_gui.detection_map.slider_strip import IMAGES, OwnRate, SliderStrips
-from occ_gui.detection_map.worker import UNSEEN, Along, left_out, measure_along, rate_settings
+from occ_gui.detection_map.worker import (
+    UNSEEN_PARAMETERS,
+    Along,
+    left_out,
+    measure_along,
+    rate_settings,
+)
 from occ_gui.scene.scene_store import SceneStore
 from occ_model.parallel.job import Job, Stage
 from occ_model.receiver.decoders import PAPER_DECODER
@@ -31,7 +37,7 @@ class RateRequest:
 
     def along(self, name: str) -> "RateRequest":
         """Return the request of one slider's strip, which does not depend on the slider itself."""
-        given = {**UNSEEN, name: quantity(name).default}
+        given = {**UNSEEN_PARAMETERS, name: quantity(name).default}
         return replace(self, scene=self.scene.replace(**given))
 
 
@@ -215,7 +221,7 @@ class OwnRateController(RestingController):
 
     def _move_on(self) -> None:
         present = self._present()
-        request = replace(present, scene=present.scene.replace(**UNSEEN))
+        request = replace(present, scene=present.scene.replace(**UNSEEN_PARAMETERS))
         if not self._seen or request == self._asked:
             return
         self._channel.cancel()

@@ -25,7 +25,7 @@ IMAGE_EFFECTS = tuple(effect.name for effect in EFFECTS if effect.kind == "image
 
 SEED = 1  # of all rates: that of :func:`occ_model.sweep`, so that its table is the map's
 
-UNSEEN: dict[str, ParameterValue] = {
+UNSEEN_PARAMETERS: dict[str, ParameterValue] = {
     "start_time": 0.0,
     "flicker_phase": 0.0,
     "band_reading": "aligned",

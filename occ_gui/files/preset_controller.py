@@ -8,7 +8,7 @@ from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QInputDialog, QLineEdit, QMessageBox, QWidget
 
 from occ_gui.scene.scene_store import SceneStore, new_gesture
-from occ_gui.widgets.plain_text import LONGEST
+from occ_gui.widgets.plain_text import LONGEST_TEXT
 from occ_model.errors import OccError, one_line
 from occ_model.scene.preset_file import Preset
 from occ_model.scene.presets import (
@@ -68,7 +68,7 @@ class PresetController(QObject):
         try:
             scene = preset_named(name).scene
         except OccError as error:  # its file may have changed meanwhile
-            self.status_message.emit(one_line(str(error), LONGEST))
+            self.status_message.emit(one_line(str(error), LONGEST_TEXT))
             self._update()
             return
         title = f"preset {name}"
@@ -128,6 +128,6 @@ class PresetController(QObject):
         self._presets = list(all_presets())
         self.own = user_presets()
         self._unreadable = {
-            name: one_line(reason, LONGEST) for name, reason in unreadable_presets().items()
+            name: one_line(reason, LONGEST_TEXT) for name, reason in unreadable_presets().items()
         }
         self._name()

@@ -17,7 +17,7 @@ from occ_model.errors import OccError, OutputError
 from occ_model.files.reading import read_text
 from occ_model.files.writing import make_folder, write_whole
 
-LARGEST = 4_000_000  # bytes of a session file that is read; one has thousands
+LARGEST_FILE = 4_000_000  # bytes of a session file that is read; one has thousands
 
 STATE_FOLDER = "OCC_STATE"
 """The environment variable that names another folder for the files that the program keeps."""
@@ -106,7 +106,7 @@ class SessionFile:
 
 def _record_in(path: Path) -> dict[str, Any] | None:
     try:
-        record = json.loads(read_text(path, LARGEST))
+        record = json.loads(read_text(path, LARGEST_FILE))
     except Exception:  # noqa: BLE001 - the window starts whatever the file contains
         return None
     return record if isinstance(record, dict) and record.get("format") == _FORMAT else None

@@ -15,7 +15,7 @@ from occ_gui.scene.scene_store import new_gesture
 from occ_gui.shell.results import Board
 from occ_gui.values.photo_choice import PhotoChoice
 from occ_gui.widgets.columns import PACKETS_IN_VIEW
-from occ_gui.widgets.plain_text import LONGEST
+from occ_gui.widgets.plain_text import LONGEST_TEXT
 from occ_model.errors import OccError, one_line
 from occ_model.results.teaching import Lesson, LessonList, Step
 from occ_model.scene.parameter_kinds import distinguished
@@ -81,7 +81,7 @@ class LessonController(QObject):
             try:
                 self._all = lessons()
             except OccError as error:
-                failure = one_line(str(error), LONGEST)
+                failure = one_line(str(error), LONGEST_TEXT)
             except Exception as error:  # noqa: BLE001 - the window works whatever they contain
                 reason = one_line(f"{type(error).__name__}: {error}")
                 failure = f"The lessons cannot be read: {reason}."

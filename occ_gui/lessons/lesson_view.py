@@ -12,7 +12,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from occ_gui.lessons.step_page import LEAST, StepPage, heading, paragraph
+from occ_gui.lessons.step_page import LEAST_SIZE, StepPage, heading, paragraph
 from occ_gui.widgets.building import filled, named, push_button
 from occ_gui.widgets.plain_text import in_menu
 from occ_gui.widgets.scroll_pane import ScrollPane
@@ -52,7 +52,7 @@ class EndPage(QWidget):
         # Where the button was that ended the lesson stands one that a second click may press.
         rows = ((self.next,), (self.author,), ((self.report, 1), (self.all, 1)))
         lines = [filled(QHBoxLayout(), *row, margins=(8, 0, 8, 4), spacing=8) for row in rows]
-        filled(QVBoxLayout(self), (ScrollPane(content, LEAST), 1), *lines, margins=0)
+        filled(QVBoxLayout(self), (ScrollPane(content, LEAST_SIZE), 1), *lines, margins=0)
 
     def show_answers(
         self, lesson: Lesson, answers: Sequence[CheckedAnswer | None], following: str
@@ -163,7 +163,7 @@ class LessonView(QWidget):
         super().__init__()
         self.list, self.step, self.end = LessonList(), StepPage(), EndPage()
         self._pages = QStackedWidget()
-        for page in (ScrollPane(self.list, LEAST), self.step, self.end):
+        for page in (ScrollPane(self.list, LEAST_SIZE), self.step, self.end):
             self._pages.addWidget(page)
         filled(QVBoxLayout(self), self._pages, margins=0)
 

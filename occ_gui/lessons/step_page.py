@@ -50,7 +50,7 @@ def heading(text: str = "") -> QLabel:
     return emboldened(paragraph(text), _HEADING)
 
 
-_LONGEST = 300  # characters of an answer
+_LONGEST_ANSWER = 300  # characters of an answer
 
 _SIGNS = {"right": "✓", "near": "≈", "wrong": "✗", "unreadable": "?", None: "→"}
 """The outcome as a sign, so that colour alone does not show it."""
@@ -64,7 +64,7 @@ class AnswerField(QWidget):
     def __init__(self) -> None:
         super().__init__()
         tip = "Type your answer here before you look at the explanation."
-        self.field = named(QLineEdit(maxLength=_LONGEST), "Your answer", tip)
+        self.field = named(QLineEdit(maxLength=_LONGEST_ANSWER), "Your answer", tip)
         leave_undo_to_window(self.field)
         self.unit = QLabel()
         self.check = push_button("Check", "Compare it with the model (Enter).", self._ask)
@@ -123,7 +123,7 @@ class AnswerField(QWidget):
         self.sentence.hide()
 
 
-LEAST = QSize(200, 160)  # smallest size in pixels: then a question with its text scrolls
+LEAST_SIZE = QSize(200, 160)  # smallest size in pixels: then a question with its text scrolls
 
 _EQUATION_HEIGHT = 112
 
@@ -211,7 +211,7 @@ class StepPage(QWidget):
             self.control, self.action, self.changed, self.reveal, self.answer, self.equation,
             None, margins=8, spacing=8,
         )  # fmt: skip
-        self._scroll = ScrollPane(content, LEAST)
+        self._scroll = ScrollPane(content, LEAST_SIZE)
         # The text is laid out in several passes: the end lies lower after each.
         self._scroll.verticalScrollBar().rangeChanged.connect(self._follow_end)
         # What is asked stays in view, however long the text above it is.

@@ -29,7 +29,7 @@ _MOST_ROWS = 6  # of the table that are seen without scrolling
 _ROW_HEIGHT = 24
 
 _THIN, _THICK = 2, 4
-_ABOVE = 20
+_LAYER = 20
 
 _HALF_SIDE = 1e6  # of the area for drawing, in pixels
 _HANDLE = 9  # half the size of a corner's handle in pixels: large enough to be hit
@@ -189,7 +189,7 @@ class LampOutlines(QObject):
         self.area.setCursor(Qt.CursorShape.CrossCursor)
         self.area.dragged.connect(self._draw_rectangle)
         # The area is under the rectangle, which moves by itself.
-        for height, item in enumerate((self.area, self.rectangle), _ABOVE):
+        for height, item in enumerate((self.area, self.rectangle), _LAYER):
             item.setZValue(height)
             item.hide()
             box.addItem(item, ignoreBounds=True)
@@ -212,7 +212,7 @@ class LampOutlines(QObject):
         number = pg.TextItem(str(index + 1), color=pen.color(), anchor=(0, 1), fill=(0, 0, 0, 160))
         number.setPos(lamp.region.first_column, lamp.region.first_row)
         for item in (curve, number):
-            item.setZValue(_ABOVE)
+            item.setZValue(_LAYER)
             self._box.addItem(item, ignoreBounds=True)
         return curve, number
 

@@ -14,7 +14,7 @@ from occ_gui.shell.work import Work
 from occ_gui.values.photo_choice import PhotoChoice, PhotoSource
 from occ_gui.values.photo_results import OpenPhoto
 
-KEPT = 3  # photos that are shown again at once: the user's own after a lesson with two
+KEPT_PHOTOS = 3  # photos that are shown again at once: the user's own after a lesson with two
 
 
 def _read(source: PhotoSource, report: Report) -> OpenPhoto:
@@ -41,7 +41,7 @@ class PhotoController(QObject):
         task: Task[PhotoSource, OpenPhoto] = Task(_read, "reading of the photo", impatient=True)
         self.work = Work(
             store, board, task, lambda workspace, _: workspace.photo.source, _put,
-            stays=True, keep=KEPT,
+            stays=True, keep=KEPT_PHOTOS,
         )  # fmt: skip
         self.work.failed.connect(self._fail)
         board.select(lambda results: results.opened).changed.connect(self._settle)

@@ -6,7 +6,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 from occ_gui.widgets.building import filled, push_button
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
-from occ_gui.widgets.plain_text import LONGEST, in_tool_tip
+from occ_gui.widgets.plain_text import LONGEST_TEXT, in_tool_tip
 from occ_model.errors import one_line
 from occ_model.photo.reading.choices import CHANNELS
 from occ_model.photo.reading.load import Photo
@@ -58,7 +58,7 @@ class PhotoFacts(QWidget):
 
     def show_photo(self, photo: Photo) -> None:
         self.name.set_full_text(photo.path.name)
-        self.name.setToolTip(in_tool_tip(one_line(str(photo.path), LONGEST)))
+        self.name.setToolTip(in_tool_tip(one_line(str(photo.path), LONGEST_TEXT)))
         rows, columns = photo.image.shape
         width, height = (rows, columns) if photo.turned else (columns, rows)
         is_mean = photo.channel in {"grey", "luma"}

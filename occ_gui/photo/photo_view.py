@@ -25,7 +25,7 @@ from occ_model.scene.scene import Scene
 _SCROLL_BAR = 20
 _LEAST_HEIGHT = 200
 
-_ABOVE = 4  # pixels above a part that is scrolled to
+_MARGIN_ABOVE = 4  # pixels above a part that is scrolled to
 
 
 class PhotoView(QWidget):
@@ -198,7 +198,7 @@ class PhotoView(QWidget):
         bar, room = self._scroll.verticalScrollBar(), self._scroll.viewport().height()
         top = part.mapTo(self._page, QPoint()).y()
         if not bar.value() <= top <= bar.value() + room - part.height():
-            bar.setValue(top - _ABOVE)
+            bar.setValue(top - _MARGIN_ABOVE)
 
 
 def _line() -> QFrame:

@@ -8,7 +8,7 @@ import occ_model as occ
 from occ_gui.background.task import Report, Task
 from occ_gui.core.store import Store
 from occ_gui.core.workspace import Workspace
-from occ_gui.photo.photo_controller import KEPT
+from occ_gui.photo.photo_controller import KEPT_PHOTOS
 from occ_gui.photo.photo_part import Part, PhotoPart, part_of
 from occ_gui.shell.results import Board, Results
 from occ_gui.shell.work import Work
@@ -53,7 +53,7 @@ def lamp_search(store: Store, board: Board) -> Work[AskedOfPhoto, tuple[Lamp, ..
         return occ.find_lamps(request[0], report)
 
     task: Task[AskedOfPhoto, tuple[Lamp, ...]] = Task(find, "search for lamps", impatient=True)
-    return Work(store, board, task, of, put, keep=KEPT)
+    return Work(store, board, task, of, put, keep=KEPT_PHOTOS)
 
 
 def _part(workspace: Workspace, results: Results) -> PartOfPhoto | None:
@@ -103,7 +103,7 @@ def match_work(store: Store, board: Board) -> Work[MatchRequest, FoundMatch]:
         return opened.photo, asked
 
     task = Task(match, "match of the photo", impatient=True)
-    return Work(store, board, task, of, _put_match, stays=True, keep=KEPT)
+    return Work(store, board, task, of, _put_match, stays=True, keep=KEPT_PHOTOS)
 
 
 def match(request: MatchRequest, report: Report) -> FoundMatch:

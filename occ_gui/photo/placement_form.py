@@ -14,12 +14,12 @@ from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.units import NONE, PIXEL
 
-_FARTHEST = 1e6  # largest shift of a photo in pixels
+_LARGEST_SHIFT = 1e6  # largest shift of a photo in pixels
 
 
 def _shift(name: str, label: str, meaning: str) -> Quantity:
     return Quantity(
-        name, label, "", meaning, unit=PIXEL, low=-_FARTHEST, high=_FARTHEST,
+        name, label, "", meaning, unit=PIXEL, low=-_LARGEST_SHIFT, high=_LARGEST_SHIFT,
         slider=(0.0, 5000.0), scale="linear", default=0.0,
     )  # fmt: skip
 

@@ -15,7 +15,7 @@ from occ_gui.widgets.guarded_paint import guarded
 from occ_model.arrays import ByteArray
 
 _LEAST_WIDTH = 1.3  # of a pixel whose value is written, relative to that of the widest value
-_WIDEST = "255"
+_WIDEST_TEXT = "255"
 _MAX_VALUES = 5000  # that are written: more pixels than that cannot be so large on any screen
 _MIDDLE_GREY = 128
 
@@ -151,7 +151,7 @@ def _draw_values(painter: QPainter, image: ByteArray, part: QRect, target: QRect
     place = to_screen.mapRect(target)
     width, height = place.width() / part.width(), place.height() / part.height()
     metrics = QFontMetricsF(painter.font())
-    least = _LEAST_WIDTH * metrics.horizontalAdvance(_WIDEST)
+    least = _LEAST_WIDTH * metrics.horizontalAdvance(_WIDEST_TEXT)
     count = part.width() * part.height()
     if width < least or height < metrics.height() or count > _MAX_VALUES:
         return 0

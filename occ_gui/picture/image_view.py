@@ -20,7 +20,7 @@ from occ_model.photo.reading.load import Photo
 from occ_model.results.frame import PICTURES, Frame
 
 _GAINS = (1, 2, 4, 8)
-_APART = 8  # pixels between the controls of one picture and the caption of the other
+_CAPTION_SPACING = 8  # pixels between the controls of one picture and the caption of the other
 _FIRST_GAIN = 4  # without a factor, differences of a few grey levels would look black
 
 _MODES = {
@@ -60,7 +60,7 @@ class ImageView(QWidget):
         self.simulation.caption.setMinimumWidth(self.fontMetrics().horizontalAdvance("Camera"))
         self.simulation.caption_row.addWidget(self.switch)
         self.simulation.caption_row.addWidget(self.before.controls)
-        self.photo.caption.setContentsMargins(_APART, 0, 0, 0)
+        self.photo.caption.setContentsMargins(_CAPTION_SPACING, 0, 0, 0)
         # The tops of both pictures are aligned.
         self.photo.caption.setMinimumHeight(
             max(part.sizeHint().height() for part in (self.switch, self.before.controls))

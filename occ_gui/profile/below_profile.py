@@ -29,7 +29,8 @@ _STEPS = (5.0, 10.0, 15.0, 20.0, 30.0, 50.0, 75.0, 100.0, 150.0, 200.0, 255.0)
 """Grey levels at which the axis can end, so that it rarely changes."""
 
 
-_CERTAIN = 0.95  # probability that all chips are right from which they are drawn in full
+_CERTAIN_PROBABILITY = 0.95
+"""Probability that all chips are right from which they are drawn in full."""
 
 
 class ResidualPlot(QWidget):
@@ -180,5 +181,5 @@ class _Cells(QWidget):
     @guarded
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
         painter = QPainter(self)
-        certain = self.reading is not None and self.reading.confidence >= _CERTAIN
+        certain = self.reading is not None and self.reading.confidence >= _CERTAIN_PROBABILITY
         draw_chips(painter, self.rectangles(), QColor(PHOTO), self.palette(), certain)

@@ -14,7 +14,7 @@ from occ_gui.scene.parameter_rows import CountRow, ParameterRow, QuantityRow
 from occ_gui.scene.player import Player
 from occ_gui.scene.scene_editor import SceneEditor
 from occ_gui.widgets.building import filled
-from occ_gui.widgets.plain_text import LONGEST, in_tool_tip
+from occ_gui.widgets.plain_text import LONGEST_TEXT, in_tool_tip
 from occ_model.errors import one_line
 from occ_model.results.teaching import MarkedValue
 from occ_model.scene.parameters import PARAMETERS
@@ -140,7 +140,7 @@ class ControlPanel(QWidget):
     def _list(self, text: str, name: str | None, tip: str) -> int:
         self.preset.addItem(text, name)
         place = self.preset.count() - 1
-        tip = in_tool_tip(one_line(tip, LONGEST))
+        tip = in_tool_tip(one_line(tip, LONGEST_TEXT))
         self.preset.setItemData(place, tip, Qt.ItemDataRole.ToolTipRole)
         return place
 

@@ -77,7 +77,7 @@ def _read(field: CountEdit | DecimalEdit, declared: Count | Quantity, text: str)
 
 _STEP = 0.01  # step of the arrows, as a fraction of the slider's range
 
-_WIDEST = "888.888 cd/m²"
+_WIDEST_TEXT = "888.888 cd/m²"
 
 
 class QuantityEdit(QAbstractSpinBox):
@@ -155,7 +155,7 @@ class QuantityEdit(QAbstractSpinBox):
         return QValidator.State.Acceptable, text, position
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        width = self.fontMetrics().horizontalAdvance(_WIDEST) + 28
+        width = self.fontMetrics().horizontalAdvance(_WIDEST_TEXT) + 28
         return QSize(width, super().sizeHint().height())
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name

@@ -95,7 +95,7 @@ def _label(declared: Parameter) -> QLabel:
     return label
 
 
-_BAR = 20  # pixels that the scroll bar takes at most
+_SCROLL_BAR_WIDTH = 20  # pixels that the scroll bar takes at most
 
 
 class ParameterPage(QScrollArea):
@@ -118,7 +118,7 @@ class ParameterPage(QScrollArea):
         if self.content is None:
             self.content = self._make()
             self.setWidget(self.content)
-            self.setMinimumWidth(self.content.minimumSizeHint().width() + _BAR)
+            self.setMinimumWidth(self.content.minimumSizeHint().width() + _SCROLL_BAR_WIDTH)
             leave_drops_to_window(self)
             self.made.emit(self.content)
         return self.content

@@ -13,9 +13,9 @@ from occ_gui.widgets.text_scale import resized
 from occ_model.results.teaching import MarkedValue
 from occ_model.scene.parameter_kinds import Quantity
 
-_SMALLER = 0.85
+_TEXT_SCALE = 0.85
 _TICK, _GAP = 4.0, 4.0
-_OVER = 3.0  # pixels by which a name at one side of its mark reaches to the other side
+_NAME_OVERHANG = 3.0  # pixels by which a name at one side of its mark reaches to the other side
 
 _DIGITS = 4
 _Text: TypeAlias = tuple[str, QRectF]
@@ -47,7 +47,7 @@ class SliderScale(QWidget):
         return f"{self._quantity.format(mark.value, 3)}: {mark.meaning}"
 
     def _font(self) -> QFont:
-        return resized(self.font(), _SMALLER)
+        return resized(self.font(), _TEXT_SCALE)
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         return QSize(60, round(QFontMetricsF(self._font()).height() + _TICK + 2))
@@ -116,7 +116,7 @@ class SliderScale(QWidget):
             width = metrics.horizontalAdvance(text)
             most = max(self.width() - width, 0.0)
             lefts = [x - width * fraction for fraction in (0.5, 0.75, 0.25)]
-            lefts += [x - width + _OVER, x - _OVER]
+            lefts += [x - width + _NAME_OVERHANG, x - _NAME_OVERHANG]
             boxes = [
                 QRectF(min(max(left, 0.0), most), _TICK + 1.0, width, metrics.height())
                 for left in lefts

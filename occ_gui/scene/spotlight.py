@@ -10,8 +10,8 @@ from occ_gui.widgets.frame_over import FrameOver
 from occ_gui.widgets.scroll_pane import bring_into_view
 from occ_model.scene.parameters import PARAMETERS
 
-_DIMMED = 0.75
-_AROUND = QMargins(4, 4, 4, 4)
+_DIMMING = 0.75
+_MARGINS = QMargins(4, 4, 4, 4)
 
 
 class Spotlight(QObject):
@@ -51,7 +51,7 @@ class Spotlight(QObject):
 
     def _mark(self, panel: ParameterPanel, name: str) -> None:
         row, label = panel.rows[name], panel.labels[name]
-        bring_into_view(row, 4 * _AROUND.top())
+        bring_into_view(row, 4 * _MARGINS.top())
         children = panel.findChildren(QWidget, options=Qt.FindChildOption.FindDirectChildrenOnly)
         marked = (row, label, panel.play_buttons.get(name))
         why = (
@@ -62,7 +62,7 @@ class Spotlight(QObject):
             if widget not in marked:
                 self._dim(widget, why)
         self._frame = FrameOver(
-            panel, row, lambda: label.geometry().united(row.geometry()).marginsAdded(_AROUND),
+            panel, row, lambda: label.geometry().united(row.geometry()).marginsAdded(_MARGINS),
             lambda colours: colours.color(QPalette.ColorRole.Highlight), radius=4,
         )  # fmt: skip
         self._frame.raise_()
@@ -70,7 +70,7 @@ class Spotlight(QObject):
 
     def _dim(self, widget: QWidget, why: str) -> None:
         """Dim a widget, let it take nothing, and say why in its tool tips."""
-        effect = QGraphicsOpacityEffect(widget, opacity=_DIMMED)
+        effect = QGraphicsOpacityEffect(widget, opacity=_DIMMING)
         widget.setGraphicsEffect(effect)
         self._dimmed.append(widget)
         if widget.isEnabledTo(self._controls):

@@ -19,15 +19,15 @@ from occ_model.simulation.band_model import band_drift, enhanced_band_profile
 from occ_model.simulation.render import PlannedScene, render_with
 from occ_model.study.observation import ProfileReading, read_profile
 
-LONGEST = 0.016
+LONGEST_DRAFT = 0.016
 """Seconds that a draft and its reading may take: the window needs as long to show them."""
 
-THINNEST = 4  # rows of the screen that a row of a draft fills at most
+THINNEST_ROW = 4  # rows of the screen that a row of a draft fills at most
 
 LEAST_ROWS = 64
 """Rows of a draft below which it is not thinned: fewer save no time, and show too little."""
 
-_AMPLE = 3.0
+_SPEED_MARGIN = 3.0
 """How many times faster than allowed a thinned draft is before the next one has twice its rows.
 
 More than 2: what is thinned because it took too long takes at least half of that time, and is not
@@ -60,9 +60,9 @@ class DraftRows:
         self._seconds.append(seconds)
         if len(self._seconds) < 2:
             return
-        if min(self._seconds) > LONGEST and self._thinned < THINNEST:
+        if min(self._seconds) > LONGEST_DRAFT and self._thinned < THINNEST_ROW:
             self._change(2 * self._thinned)
-        elif max(self._seconds) < LONGEST / _AMPLE and self._thinned > 1:
+        elif max(self._seconds) < LONGEST_DRAFT / _SPEED_MARGIN and self._thinned > 1:
             self._change(self._thinned // 2)
 
     def _change(self, thinned: int) -> None:
@@ -70,7 +70,8 @@ class DraftRows:
         self._seconds.clear()
 
 
-SMALL = 1_000_000  # pixels of a picture up to which it is there at once, with whatever effects
+SMALL_PICTURE = 1_000_000
+"""Pixels of a picture up to which it is there at once, with whatever effects."""
 
 
 def reading_by_profile(
@@ -94,7 +95,7 @@ def is_soon(planned: PlannedScene) -> bool:
 def draft_of(request: SimulationRequest, planned: PlannedScene) -> Frame | None:
     """Simulate some rows of a picture; None where the whole one is there as soon."""
     camera = request.scene.camera
-    if camera.rows * camera.columns <= SMALL or is_soon(planned):
+    if camera.rows * camera.columns <= SMALL_PICTURE or is_soon(planned):
         return None
     # Noise drawn for each pixel is no nearer to that of the picture, which is drawn anew.
     settings = replace(request.settings, noise="reused")

@@ -22,7 +22,7 @@ _MARGIN_FRACTION = 0.5  # most empty space beside the picture, as a part of what
 
 _WIDEST_WORD = "chips"  # the widest of the words beside a row's name
 GAPS = 14  # pixels between and around a name and what stands beside it
-_WIDEST = 2 * GUTTER  # more would leave the columns too little room
+_LARGEST_GUTTER = 2 * GUTTER  # more would leave the columns too little room
 
 CURSOR_NAMES = ("1", "2")  # A and B are pins
 _START = (0.3, 0.6)  # where the cursors stand at first, as parts of what is in view
@@ -189,7 +189,7 @@ def line_height(metrics: QFontMetrics, usual: int, around: int = 2) -> int:
 def gutter_of(font: QFont, names: Sequence[str]) -> int:
     """Return the width in pixels that the names of the rows need, with what stands beside them."""
     widest = max(needed_by(name, font) for name in names)
-    return min(max(GUTTER, widest + GAPS), _WIDEST)
+    return min(max(GUTTER, widest + GAPS), _LARGEST_GUTTER)
 
 
 def needed_by(name: str, font: QFont) -> int:

@@ -12,14 +12,15 @@ from occ_model.arrays import FloatArray
 DASH = (7.0, 5.0)  # pixels of a dash, and of the gap after it
 
 
-_STRAIGHT = 1e-6  # pixels from the line between its neighbours up to which a point lies on it
+_STRAIGHT_DISTANCE = 1e-6
+"""Pixels from the line between its neighbours up to which a point lies on it."""
 
 
 def _corners(xs: FloatArray, ys: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Leave out the points at which a curve goes straight on, as on its flat tops."""
     before, after = np.diff(xs), np.diff(ys)
     turns = np.abs(before[:-1] * after[1:] - before[1:] * after[:-1])
-    bent = turns > _STRAIGHT * np.hypot(before[:-1] + before[1:], after[:-1] + after[1:])
+    bent = turns > _STRAIGHT_DISTANCE * np.hypot(before[:-1] + before[1:], after[:-1] + after[1:])
     kept = np.concatenate([[True], bent, [True]])
     return xs[kept], ys[kept]
 

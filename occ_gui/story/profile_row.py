@@ -29,7 +29,7 @@ _SHADE = 22 / 255
 """Fraction of the text's colour in that of the columns that the decoder does not read."""
 
 _WIDTH, _THIN = 2.0, 1.2
-_CROWDED = 2  # columns a pixel of the screen from which a curve is drawn thinner
+_CROWDED_COLUMNS = 2  # columns a pixel of the screen from which a curve is drawn thinner
 
 
 class ProfileRow(StoryRow):
@@ -142,7 +142,7 @@ class ProfileRow(StoryRow):
         width: float = _WIDTH,
     ) -> None:
         cells = round(area.width() * self.devicePixelRatioF())
-        crowded = self.axis.span > _CROWDED * cells
+        crowded = self.axis.span > _CROWDED_COLUMNS * cells
         columns, levels = envelope(columns, levels, self.axis.first, self.axis.last, cells)
         if len(columns) < 2:
             return

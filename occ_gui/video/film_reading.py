@@ -8,7 +8,7 @@ import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray, IndexArray
 from occ_model.results.fact import Fact
-from occ_model.video.frame_times import BREAK
+from occ_model.video.frame_times import LEAST_BREAK
 
 
 class MarkState(IntEnum):
@@ -59,7 +59,7 @@ def frame_marks(times: Sequence[float] | FloatArray, states: ByteArray, last: fl
     ahead = steps[steps > 0.0]
     usual = float(np.median(ahead)) if ahead.size else last
     # Where the times jump nobody knows what was between.
-    steps = np.where((steps < 0.0) | (steps > BREAK * usual), usual, steps)
+    steps = np.where((steps < 0.0) | (steps > LEAST_BREAK * usual), usual, steps)
     return Marks(starts, starts + steps, states)
 
 

@@ -8,7 +8,7 @@ from PySide6.QtGui import QBrush, QColor, QPalette, QPen
 from occ_model import colours
 
 _CONTRAST = 4.5  # least contrast of text to its background by WCAG 2.1 (success criterion 1.4.3)
-_LIGHTER = 108  # step of the lightness, in percent
+_LIGHTNESS_STEP = 108  # step of the lightness, in percent
 
 
 def luminance(colour: QColor) -> float:
@@ -37,7 +37,7 @@ def _seen(paper_rgba: int, ink_rgba: int) -> QColor:
     while luminance(paper) < luminance(ink) < 1.0 and contrast(ink, paper) < _CONTRAST:
         # By the lightness of HSL, towards white; the value of HSV ends at pure blue.
         ink = QColor.fromHslF(
-            ink.hslHueF(), ink.hslSaturationF(), min(1.0, ink.lightnessF() * _LIGHTER / 100)
+            ink.hslHueF(), ink.hslSaturationF(), min(1.0, ink.lightnessF() * _LIGHTNESS_STEP / 100)
         )
     return ink
 

@@ -4,7 +4,7 @@ from PySide6.QtCore import QEvent, QSize, Qt
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QLabel
 
-from occ_gui.widgets.plain_text import LONGEST, in_tool_tip
+from occ_gui.widgets.plain_text import LONGEST_TEXT, in_tool_tip
 from occ_model.errors import one_line
 
 
@@ -22,7 +22,7 @@ class ElidedLabel(QLabel):
         self.set_full_text(text)
 
     def set_full_text(self, text: str) -> None:
-        full = one_line(text, LONGEST)
+        full = one_line(text, LONGEST_TEXT)
         if full != self._full:
             self._full = full
             self.setToolTip(in_tool_tip(full))

@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QWidget
 from occ_gui.widgets.guarded_paint import guarded
 
 DELAY = 0.12  # seconds: a pane that is behind for a shorter time is not marked, or it would flicker
-_FRESH = DELAY / 3  # a mark that is shown stays until a result is at most as old
+_FRESH_AGE = DELAY / 3  # a mark that is shown stays until a result is at most as old
 
 _OPACITY = 0.45
 _PADDING = 8
@@ -37,7 +37,7 @@ class OutdatedMark(QWidget):
         if age == 0.0 and self.isHidden() and not self._waiting.isActive():
             return
         self._set_text(text)
-        if age == 0.0 or (self.isHidden() and age < DELAY) or age < _FRESH:
+        if age == 0.0 or (self.isHidden() and age < DELAY) or age < _FRESH_AGE:
             self.hide()
         if age == 0.0:
             self._waiting.stop()

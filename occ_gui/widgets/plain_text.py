@@ -9,7 +9,7 @@ from PySide6.QtGui import (
 
 from occ_model.errors import one_line
 
-LONGEST = 4000  # most characters of a text that is shown
+LONGEST_TEXT = 4000  # most characters of a text that is shown
 
 
 def in_tool_tip(text: str) -> str:

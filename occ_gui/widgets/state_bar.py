@@ -15,7 +15,7 @@ from occ_gui.widgets.state_look import State, StateIcon, colours_of
 from occ_gui.widgets.text_scale import emboldened
 
 _ICON = 32
-_LARGER = 1.25
+_TEXT_SCALE = 1.25
 _RADIUS = 8
 _PADDING, _MARGIN = 12, 5
 
@@ -33,7 +33,7 @@ class StateBar(QWidget):
         self._sentences: tuple[str, ...] = ("",)
         self._shown: tuple[object, ...] = ()
         self.icon = StateIcon(_ICON)
-        self.title = emboldened(ElidedLabel(), _LARGER)
+        self.title = emboldened(ElidedLabel(), _TEXT_SCALE)
         self.sentence = ElidedLabel()
         self.wrapped = QLabel(
             textFormat=Qt.TextFormat.PlainText, wordWrap=True, alignment=Qt.AlignmentFlag.AlignTop

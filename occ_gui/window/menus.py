@@ -10,7 +10,7 @@ from PySide6.QtGui import QAction, QActionGroup, QKeySequence, QUndoStack
 from PySide6.QtWidgets import QDockWidget, QMainWindow, QMenu
 
 from occ_gui.values.photo_choice import MODES as OVERLAYS
-from occ_gui.widgets.plain_text import LONGEST, in_menu, in_tool_tip
+from occ_gui.widgets.plain_text import LONGEST_TEXT, in_menu, in_tool_tip
 from occ_gui.window.modes import MODES
 from occ_gui.window.theme import THEMES
 from occ_model.errors import one_line
@@ -349,7 +349,7 @@ def words_of(name: str) -> str:
 
 def _add_file(menu: QMenu, path: Path, text: str, open_file: Callable[[Path], None]) -> None:
     action = menu.addAction(in_menu(text))
-    action.setToolTip(in_tool_tip(one_line(str(path), LONGEST)))
+    action.setToolTip(in_tool_tip(one_line(str(path), LONGEST_TEXT)))
     action.triggered.connect(lambda: open_file(path))
 
 

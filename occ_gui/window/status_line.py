@@ -5,7 +5,7 @@ from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QLabel, QSizePolicy, QStatusBar
 
 from occ_gui.widgets.elided_label import ElidedLabel
-from occ_gui.widgets.plain_text import LONGEST
+from occ_gui.widgets.plain_text import LONGEST_TEXT
 from occ_gui.widgets.work_bar import WorkBar
 from occ_model.errors import one_line
 
@@ -46,7 +46,7 @@ class StatusLine(QStatusBar):
 
     def showMessage(self, message: str, timeout: int | None = 0) -> None:  # noqa: ARG002, N802 - Qt's name
         """Show a message in place of the previous one, until :meth:`clearMessage`."""
-        self._message = one_line(message, LONGEST)
+        self._message = one_line(message, LONGEST_TEXT)
         if self._message:
             self._plan_change = ""  # it is older news
         self._show_sentence()

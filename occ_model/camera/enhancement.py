@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from occ_model.arrays import ByteArray, FloatArray, IndexArray
-from occ_model.camera.photometry import FLAT, WHITE
+from occ_model.camera.photometry import FLAT_SPAN, WHITE
 
 _LEVEL_TOLERANCE = 1e-9  # grey levels within which column values are equal: their rounding error
 
@@ -40,7 +40,7 @@ class Enhancement:
         self._low, self._high = low, high
         self._is_even = 0.0 < high - low < _LEVEL_TOLERANCE
         self.curve: ByteArray = np.arange(256, dtype=np.uint8)
-        if method == "none" or high - low < FLAT:
+        if method == "none" or high - low < FLAT_SPAN:
             return
         rounded = to_bytes(profile)
         if method == "equalization":

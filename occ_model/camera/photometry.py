@@ -19,7 +19,7 @@ from occ_model.camera.exposure import lit_fraction
 from occ_model.scene.scene import Camera, Scene, Sensor
 
 WHITE = 255.0  # the largest pixel value
-FLAT = 1.0  # least span in grey levels that is enhanced: stretching less would invent stripes
+FLAT_SPAN = 1.0  # least span in grey levels that is enhanced: stretching less would invent stripes
 _MID_GREY = 118.0  # the pixel value of a scene of the luminance that the meter is calibrated to
 
 

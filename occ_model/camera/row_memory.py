@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 _Made = TypeVar("_Made")
 
-LIMIT = 24 * 2**20  # most bytes that are remembered: the rows of one large picture and of its draft
+CAPACITY = 24 * 2**20  # most bytes remembered: the rows of one large picture and of its draft
 
 MOST_ENTRIES = 256
 """Most things that are remembered: of small pictures thousands would fill the bytes, and each takes
@@ -55,4 +55,4 @@ class RowMemory:
         return made
 
 
-MEMORY = RowMemory(LIMIT)  # process-wide row cache
+MEMORY = RowMemory(CAPACITY)  # process-wide row cache

@@ -9,8 +9,8 @@ from occ_model.arrays import BoolArray, FloatArray
 from occ_model.camera.optics import Optics
 from occ_model.effects.normal_noise import normal_fraction
 
-UNSEEN = 0.1  # blur in pixels below which a pixel receives nothing of its neighbours
-STEEP = 1.5  # slope from which a rim is steep
+NEGLIGIBLE_BLUR = 0.1  # blur in pixels below which a pixel receives nothing of its neighbours
+STEEP_SLOPE = 1.5  # slope from which a rim is steep
 _FAR_RIM = 1e6  # pixels from a rim, where it does not matter
 
 
@@ -115,9 +115,9 @@ def _within(spans: Spans, places: FloatArray, blur: float) -> tuple[FloatArray, 
     ):
         slant = 1.0 / np.sqrt(1.0 + slope * slope)
         if blur < 1.0:
-            slant = np.where(slope < STEEP, 1.0, slant)
+            slant = np.where(slope < STEEP_SLOPE, 1.0, slant)
         distance = sign * (places - between(rim)) * slant
-        beside = spans.missed | ((slope > STEEP) & (distance > 0.0))
+        beside = spans.missed | ((slope > STEEP_SLOPE) & (distance > 0.0))
         found.append(np.where(beside, _FAR_RIM, distance))
     return found[0], found[1]
 

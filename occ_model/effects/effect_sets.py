@@ -22,7 +22,7 @@ from occ_model.effects.registry import EFFECTS
 from occ_model.results.plan import Way
 from occ_model.scene.simulation_settings import NoiseSource, SimulationSettings
 
-_FARTHEST = 1.15
+_MOST_EXCESS = 1.15
 """Times that changes that are added may exceed the tolerance where together they are within it."""
 
 
@@ -61,13 +61,15 @@ class EffectSets:
         Their effects' changes may add up otherwise than their sum, and are tried together.
         """
         found = self.estimates.errors_of([self.names - way.effects for way in ways])
-        return [max(own, way.error / _FARTHEST) for own, way in zip(found, ways, strict=True)]
+        return [max(own, way.error / _MOST_EXCESS) for own, way in zip(found, ways, strict=True)]
 
     def chosen(self, tolerance: float) -> tuple[Way, float]:
         """Return the fastest set within a tolerance, and its error."""
         if tolerance == math.inf:
             return Way(frozenset(), self.ways[0].seconds, math.inf), math.inf
-        near = [way for way in self.ways if way.error <= tolerance * _FARTHEST] if tolerance else []
+        near = (
+            [way for way in self.ways if way.error <= tolerance * _MOST_EXCESS] if tolerance else []
+        )
         for some in (near[:1], near[1:5], near[5:]):  # mostly the first one is within it
             for way, error in zip(some, self.errors_of(some) if some else (), strict=True):
                 if error <= tolerance:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import cv2
 import numpy as np
 
-from occ_model.camera.photometry import FLAT, WHITE
+from occ_model.camera.photometry import FLAT_SPAN, WHITE
 from occ_model.effects.effect import Effect
 from occ_model.effects.observed import Observed
 from occ_model.effects.observed_image import observed_image, observed_profile
@@ -109,7 +109,7 @@ def estimates_of(view: PaperView, settings: SimulationSettings) -> Estimates:
         own = _estimates_of(view, settings.observable, kept)
         sizes, limits = {**found.sizes, **own.sizes}, {**found.limits, **own.limits}
         found = replace(own, sizes=sizes, limits=limits)
-    if view.swing > FLAT:
+    if view.swing > FLAT_SPAN:
         return found
     # Far above the tolerance, or hidden to a sample: it cannot tell.
     limits = dict.fromkeys(found.sizes, math.inf)

@@ -8,7 +8,7 @@ import numpy as np
 from occ_model.arrays import FloatArray
 from occ_model.effects.normal_noise import (
     DAMPING,
-    SHARP,
+    SHARP_NOISE,
     moved_steps,
     moved_steps_of_noise,
     near_half,
@@ -41,7 +41,7 @@ _TINY = 1e-30
 _LEAST_SPREAD = 1e-3
 """Noise in steps below which a coefficient surely stays on one side of a step's end."""
 
-_DITHERED = 0.25
+_DITHERING_NOISE = 0.25
 """Noise in steps from which it spreads a coefficient evenly over the steps (dithering)."""
 
 _ROUNDING = 1.0 / 12.0  # mean square error of rounding to whole grey levels
@@ -140,7 +140,7 @@ class FileChange:
 
     def own_sampling(self) -> float:
         """Return the mean square of the rounding's sampling error in a column's mean."""
-        square = self._step**2 * np.minimum(1.0, (self._s / _DITHERED) ** 2) / 12.0
+        square = self._step**2 * np.minimum(1.0, (self._s / _DITHERING_NOISE) ** 2) / 12.0
         return float(square.sum()) / 64.0 / self.block_rows + self._cut * self._rounding_at_edges
 
     @cached_property
@@ -161,8 +161,11 @@ class FileChange:
         of_shift = moved_steps(shift)
         apart = self._in_pixels(np.maximum(of_shift, by_noise * self._near_half(_LEAST_SPREAD)))
         more: FloatArray = np.zeros(len(apart))
-        if float(self._s.min()) < SHARP:
-            more = self._in_pixels(np.maximum(of_shift, by_noise * self._near_half(SHARP))) - apart
+        if float(self._s.min()) < SHARP_NOISE:
+            more = (
+                self._in_pixels(np.maximum(of_shift, by_noise * self._near_half(SHARP_NOISE)))
+                - apart
+            )
         along = self._in_pixels(shift**2 - (self._x - self._x[0]) ** 2) + apart
         q = self._others
         across = moved_steps_of_noise(flips[:, None] / q) @ (q**2 * near_half(self._noise / q))

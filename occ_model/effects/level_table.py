@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from occ_model.arrays import FloatArray
-from occ_model.camera.photometry import FLAT
+from occ_model.camera.photometry import FLAT_SPAN
 
 _LEVELS = 129
 
@@ -19,7 +19,7 @@ class LevelTable:
     """
 
     def __init__(self, low: float, high: float, full: float) -> None:
-        self.step = max(high - low, FLAT) / (_LEVELS - 3)
+        self.step = max(high - low, FLAT_SPAN) / (_LEVELS - 3)
         if low < full < high:  # where noise ends
             low -= self.step * (1.0 - (full - low) / self.step % 1.0)
         self.levels: FloatArray = low + self.step * np.arange(_LEVELS, dtype=np.float64)

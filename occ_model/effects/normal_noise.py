@@ -13,15 +13,15 @@ import numpy as np
 
 from occ_model.arrays import FloatArray, Pixels
 
-FAR = 9.0  # standard deviations beyond which nothing of a normal distribution is left
+RANGE = 9.0  # standard deviations beyond which nothing of a normal distribution is left
 
 _PER_DEVIATION = 256
 
 
 @lru_cache(maxsize=1)
 def _tables() -> tuple[FloatArray, FloatArray]:
-    """Tabulate the probability Q(u) above u, and phi(u) - u Q(u), from -FAR to FAR."""
-    u = np.arange(-FAR * _PER_DEVIATION, FAR * _PER_DEVIATION + 1.0) / _PER_DEVIATION
+    """Tabulate the probability Q(u) above u, and phi(u) - u Q(u), from -RANGE to RANGE."""
+    u = np.arange(-RANGE * _PER_DEVIATION, RANGE * _PER_DEVIATION + 1.0) / _PER_DEVIATION
     beyond = np.array([0.5 * math.erfc(x / math.sqrt(2.0)) for x in u.tolist()])
     lost = np.exp(-0.5 * u * u) / math.sqrt(2.0 * math.pi) - u * beyond
     lost[-1] = 0.0
@@ -29,8 +29,8 @@ def _tables() -> tuple[FloatArray, FloatArray]:
 
 
 def _place(u: FloatArray) -> np.ndarray:
-    place = np.minimum(np.maximum(u, -FAR), FAR)
-    place += FAR + 0.5 / _PER_DEVIATION
+    place = np.minimum(np.maximum(u, -RANGE), RANGE)
+    place += RANGE + 0.5 / _PER_DEVIATION
     place *= _PER_DEVIATION
     return place.astype(np.intp)
 
@@ -63,11 +63,11 @@ _HARMONICS = 6
 DAMPING = 2.0 * math.pi**2
 """Exponent of the first harmonic, for a noise of one step; it grows as the square of the number."""
 
-_NEGLIGIBLE = 9.0  # exponent from which a harmonic is damped to nothing
-SHARP = 0.08  # noise in steps below which nearly all values are rounded as without it
-_FINEST = 2.0  # noise in steps from which it is rounded like a value that lies anywhere
-_TINY = 1e-9  # noise in steps that none is taken for
-_WIDE = 0.8  # noise in steps from which its rounded values vary as much wherever they lie
+_NEGLIGIBLE_EXPONENT = 9.0  # exponent from which a harmonic is damped to nothing
+SHARP_NOISE = 0.08  # noise in steps below which nearly all values are rounded as without it
+_FINE_NOISE = 2.0  # noise in steps from which it is rounded like a value that lies anywhere
+_TINY_NOISE = 1e-9  # noise in steps that none is taken for
+_WIDE_NOISE = 0.8  # noise in steps from which its rounded values vary as much wherever they lie
 
 
 def rounding_square(x: FloatArray, s: FloatArray) -> FloatArray:
@@ -75,14 +75,14 @@ def rounding_square(x: FloatArray, s: FloatArray) -> FloatArray:
     found = np.full(np.broadcast_shapes(x.shape, s.shape), 1.0 / 12.0)
     for n, angle, damped in _harmonics(x, s):
         found += np.cos(angle) * (damped / (math.pi * n) ** 2)
-    sharp = s < SHARP  # there the series ends too early
+    sharp = s < SHARP_NOISE  # there the series ends too early
     return np.where(sharp, (x - np.rint(x)) ** 2 + s * s, found) if sharp.any() else found
 
 
 def rounding_mean(x: FloatArray, s: FloatArray) -> FloatArray:
     """Return the mean of round(x) - x, in steps."""
     found = np.rint(x) - x
-    sharp = s < SHARP
+    sharp = s < SHARP_NOISE
     if sharp.all():
         return np.asarray(np.broadcast_to(found, np.broadcast_shapes(x.shape, s.shape)))
     damped = np.zeros(np.broadcast_shapes(x.shape, s.shape))
@@ -93,11 +93,11 @@ def rounding_mean(x: FloatArray, s: FloatArray) -> FloatArray:
 
 def _harmonics(x: FloatArray, s: FloatArray) -> Iterator[tuple[int, Pixels, Pixels]]:
     """Return the number n, the angle and (-1)^n times the damping, of those that noise leaves."""
-    least = max(float(s.min()), SHARP)
+    least = max(float(s.min()), SHARP_NOISE)
     turn = ((x - np.rint(x)) * (2.0 * math.pi)).astype(np.float32)
     square = (-DAMPING * np.square(s)).astype(np.float32)
     for n in range(1, _HARMONICS + 1):
-        if n > 1 and DAMPING * (n * least) ** 2 > _NEGLIGIBLE:
+        if n > 1 and DAMPING * (n * least) ** 2 > _NEGLIGIBLE_EXPONENT:
             return
         yield n, turn * np.float32(n), np.exp(square * np.float32(n * n)) * np.float32((-1) ** n)
 
@@ -110,7 +110,7 @@ def moved_steps(change: FloatArray) -> FloatArray:
 
 @lru_cache(maxsize=3)
 def _table(of: Callable[[FloatArray], FloatArray]) -> tuple[FloatArray, FloatArray]:
-    s = np.linspace(0.0, _FINEST, 2001)
+    s = np.linspace(0.0, _FINE_NOISE, 2001)
     return s, of(s)
 
 
@@ -131,7 +131,7 @@ def near_half(s: FloatArray) -> FloatArray:
 
 
 def _at_halves(s: FloatArray) -> FloatArray:
-    s = np.maximum(s, _TINY)
+    s = np.maximum(s, _TINY_NOISE)
     halves = np.arange(0.5, 6.0)[:, None] / s
     density = 2.0 * (np.exp(-0.5 * halves**2) / (math.sqrt(2.0 * math.pi) * s)).sum(axis=0)
     return np.asarray(np.minimum(density, 1.0))
@@ -139,12 +139,12 @@ def _at_halves(s: FloatArray) -> FloatArray:
 
 def rounded_noise(s: FloatArray) -> FloatArray:
     """Return the mean square of rounded noise about 0, in steps."""
-    return np.where(s > _FINEST, s * s + 1.0 / 12.0, np.interp(s, *_table(_square_of_rounded)))
+    return np.where(s > _FINE_NOISE, s * s + 1.0 / 12.0, np.interp(s, *_table(_square_of_rounded)))
 
 
 def _square_of_rounded(s: FloatArray) -> FloatArray:
     step = np.arange(1.0, 17.0)
-    passed = 1.0 - normal_fraction((step - 0.5)[:, None] / np.maximum(s, _TINY))
+    passed = 1.0 - normal_fraction((step - 0.5)[:, None] / np.maximum(s, _TINY_NOISE))
     return np.asarray(2.0 * ((2.0 * step - 1.0)[:, None] * passed).sum(axis=0))
 
 
@@ -155,4 +155,4 @@ def rounded_variance(x: FloatArray, s: FloatArray) -> FloatArray:
     above, below = (normal_fraction((sign * away - step + 0.5) / s) for sign in (1.0, -1.0))
     mean = (above - below).sum(axis=0)
     square = ((2.0 * step - 1.0) * (above + below)).sum(axis=0)
-    return np.where(s > _WIDE, s * s + 1.0 / 12.0, np.maximum(square - mean * mean, 0.0))
+    return np.where(s > _WIDE_NOISE, s * s + 1.0 / 12.0, np.maximum(square - mean * mean, 0.0))

@@ -7,7 +7,7 @@ import numpy as np
 
 from occ_model.arrays import FloatArray
 from occ_model.camera.enhancement import Enhancement, PassedSteps
-from occ_model.camera.photometry import FLAT, WHITE, saturate
+from occ_model.camera.photometry import FLAT_SPAN, WHITE, saturate
 from occ_model.effects.normal_noise import clipped_mean, fraction_unclipped
 from occ_model.effects.observed import Observed
 from occ_model.effects.sampled_pixels import SampledPixels
@@ -37,7 +37,7 @@ def signal_swing(pixels: SampledPixels) -> float:
     """Largest less smallest value of the enhanced profile without effects, at least 1."""
     seen = saturate(pixels.view.values)
     enhanced = Enhancement(seen, pixels.scene.model.enhancement)(seen)
-    return max(float(enhanced.max()) - float(enhanced.min()), FLAT)
+    return max(float(enhanced.max()) - float(enhanced.min()), FLAT_SPAN)
 
 
 def observed_signal(pixels: SampledPixels) -> Observed:

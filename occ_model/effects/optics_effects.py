@@ -88,7 +88,8 @@ class Vignetting(OpticsEffect):
         return replace(optics, transmission=(*optics.transmission, own))
 
 
-_WIDEST = 1e12  # largest point spread in pixels: any larger one leaves nothing of any panel either
+_LARGEST_SPREAD = 1e12
+"""Largest point spread in pixels: any larger one leaves nothing of any panel either."""
 
 
 class Defocus(OpticsEffect):
@@ -122,4 +123,4 @@ def blur_of(scene: Scene) -> float:
         focal = camera.focal_length_pixels
         vergence = abs(1.0 / lens.focus_distance - 1.0 / distance)
         spot = focal * focal * scene.sensor.pixel_pitch / camera.f_number * vergence / 4.0
-    return min(math.hypot(lens.point_spread, spot), _WIDEST)
+    return min(math.hypot(lens.point_spread, spot), _LARGEST_SPREAD)

@@ -12,7 +12,7 @@ import numpy as np
 
 from occ_model.arrays import FloatArray
 from occ_model.camera.photometry import (
-    FLAT,
+    FLAT_SPAN,
     WHITE,
     ColumnLight,
     panel_values,
@@ -71,7 +71,7 @@ def paper_view_of(
         sides=outline.sides,
         is_seen=outline.is_seen,
         region=region,
-        swing=max(highest - lowest, FLAT),
+        swing=max(highest - lowest, FLAT_SPAN),
     )
 
 

@@ -23,7 +23,7 @@ from occ_model.scene.simulation_settings import (
 _ROUNDING = 1.0 + 1e-9
 """Factor on an error that is compared with one whose sums were rounded otherwise."""
 
-_CLEARLY = 1.3  # ratio of limit to estimate from which both are stated
+_CLEAR_RATIO = 1.3  # ratio of limit to estimate from which both are stated
 
 
 def plan(
@@ -205,7 +205,7 @@ def _decide(
     size = f"about {estimate:.2g} {unit}" if estimate else "none in this scene"
     if estimate and estimates.unknown:
         size = f"not known, as {estimates.unknown}"
-    elif estimate and limit > _CLEARLY * estimate:
+    elif estimate and limit > _CLEAR_RATIO * estimate:
         size = f"about {estimate:.2g}, at most {limit:.2g} {unit}"
     verdict = "taken in" if included else "left out"
     tolerance = settings.tolerance

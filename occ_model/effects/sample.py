@@ -14,7 +14,15 @@ import numpy as np
 
 from occ_model.arrays import BoolArray, FloatArray, IndexArray
 from occ_model.camera.optics import Gain, Optics
-from occ_model.effects.cover import STEEP, UNSEEN, Spans, between, covers_of, sets_of, spans_of
+from occ_model.effects.cover import (
+    NEGLIGIBLE_BLUR,
+    STEEP_SLOPE,
+    Spans,
+    between,
+    covers_of,
+    sets_of,
+    spans_of,
+)
 from occ_model.results.decoding import Region
 
 COLUMNS = 192  # most columns of a sample of a large picture
@@ -94,7 +102,7 @@ def sample_of(
     by whole blocks of a file.
     """
     moved = {name: own.outline for name, own in optics.items() if own.outline is not plain.outline}
-    blurs = {name: own.blur for name, own in optics.items() if own.blur > UNSEEN}
+    blurs = {name: own.blur for name, own in optics.items() if own.blur > NEGLIGIBLE_BLUR}
     few = region.columns <= _ALL_COLUMNS
     step = 1 if few else -(-region.columns // COLUMNS)
     main = np.arange(region.first_column + step // 2, region.last_column, step)
@@ -165,7 +173,7 @@ def _with_side_rims(
     low, high = region.first_column - 0.5, region.last_column - 0.5
     kept, parts = np.ones(len(columns), dtype=bool), []
     for side in ("first", "last"):
-        upright = [getattr(span, side + "_slope") < STEEP for span in spans]
+        upright = [getattr(span, side + "_slope") < STEEP_SLOPE for span in spans]
         ends = [getattr(span, side)[own] for span, own in zip(spans, upright, strict=True)]
         places = between(np.concatenate(ends))
         if not len(places):

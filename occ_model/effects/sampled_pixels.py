@@ -36,7 +36,7 @@ from occ_model.effects.rims import Rims
 from occ_model.effects.sample import Sample, sample_of
 from occ_model.effects.simulated_columns import Names, SimulatedColumns
 
-_SHARPEST = 0.5  # noise in grey levels from which a pixel's rounding is nothing in the mean
+_DITHERING_NOISE = 0.5  # noise in grey levels from which a pixel's rounding is nothing in the mean
 
 
 class SampledPixels:
@@ -300,7 +300,7 @@ class SampledPixels:
         if self.file is None or not filed:
             return values
         for at in filed:  # pixels are whole levels before they are in a file
-            if self.least_noise(sets[at]) < _SHARPEST:  # a full pixel has no noise
+            if self.least_noise(sets[at]) < _DITHERING_NOISE:  # a full pixel has no noise
                 spread = self.table.look(self.spread(sets[at]), values[at])
                 values[at] += rounding_mean(values[at], spread)
         noise = np.array([self.noise_with(sets[at]) for at in filed])

@@ -39,7 +39,8 @@ __all__ = ["ESTIMATES", "PATTERN_SOURCES", "match_photo"]
 PATTERN_SOURCES = ("auto", "scene", "read")
 """Where the sent pattern is taken from: the scene, the photo, or whichever of them fits."""
 
-_EXPLAINED = 0.998  # correlation of the scene's pulse above which no other duty is searched for
+_EXPLAINED_CORRELATION = 0.998
+"""Correlation of the scene's pulse above which no other duty is searched for."""
 _SAME_DUTY = 2.0  # standard deviations within which a measured duty is the scene's
 _SECONDS = 0.05  # minimum time between two reports of progress
 
@@ -249,7 +250,7 @@ def _read(candidates: Candidates, as_sent: Hypothesis | None, sent: str) -> list
         for one in read
         if not is_single_pulse(one.chips) or (as_sent is not None and is_turned(one, as_sent))
     ]
-    if as_sent is not None and as_sent.fit.correlation >= _EXPLAINED:
+    if as_sent is not None and as_sent.fit.correlation >= _EXPLAINED_CORRELATION:
         return others
     dimmed = candidates.dimmed(as_sent)
     return others if dimmed is None else [*others, dimmed]

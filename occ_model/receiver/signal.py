@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray, IndexArray
-from occ_model.camera.photometry import FLAT
+from occ_model.camera.photometry import FLAT_SPAN
 from occ_model.results.decoding import Location, Region
 
 _BINS = 256
@@ -35,7 +35,7 @@ def column_means(image: ByteArray, region: Region) -> FloatArray:
 def why_flat(signal: FloatArray) -> str | None:
     """Return a sentence if a signal is too flat to show stripes, else None."""
     swing = float(signal.max() - signal.min())
-    if swing >= FLAT:
+    if swing >= FLAT_SPAN:
         return None
     return f"No stripes: the signal spans only {swing:.2g} grey levels."
 

@@ -11,7 +11,7 @@ from occ_model.scene.recording import Recording
 from occ_model.scene.scene import Scene
 
 USUAL_RATE = 30.0  # frames a second of a film that does not say how many
-LATEST = 1e8  # latest time of a frame from the film's first one, in seconds: three years
+LATEST_TIME = 1e8  # latest time of a frame from the film's first one, in seconds: three years
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -8,7 +8,7 @@ import numpy as np
 
 from occ_model.arrays import Pixels
 from occ_model.camera.enhancement import Enhancement, to_bytes
-from occ_model.camera.photometry import FLAT
+from occ_model.camera.photometry import FLAT_SPAN
 from occ_model.camera.picture_rows import in_blocks
 from occ_model.camera.projection import check_size, paint
 from occ_model.effects.paper_view import PaperView, paper_view_of
@@ -180,7 +180,7 @@ def _drafted(made: Pictures, columns: Columns, enhancement: Enhancement) -> dict
     """Return the column means of a draft, with the values that its pixels can have."""
     levels = np.concatenate([columns.profile, columns.around, made.profile])
     seen = enhancement(levels)
-    stretch = max(float(np.ptp(seen)) / max(float(np.ptp(levels)), FLAT), 1.0)
+    stretch = max(float(np.ptp(seen)) / max(float(np.ptp(levels)), FLAT_SPAN), 1.0)
     return {
         "profile": DraftedMeans(made.camera_image, made.profile, levels, 1.0),
         "signal": DraftedMeans(made.image, made.signal, seen, stretch),

@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from occ_model.camera.photometry import FLAT, WHITE, deviation, level_values
+from occ_model.camera.photometry import FLAT_SPAN, WHITE, deviation, level_values
 from occ_model.camera.projection import panel_corners
 from occ_model.effects.paper_view import region_of
 from occ_model.errors import OccError
@@ -23,7 +23,7 @@ from occ_model.transmitter.scheme import scheme_of
 TWO_HEADERS = ("threshold", "equalizer")  # need two headers; others read a single packet
 _NEAR_NULL = 0.96  # fraction of the null frequency from which single chips are lost in rounding
 _TARGET_LEVEL = 200.0  # grey level of the lit panel that a suggested step aims at
-_LOST = 4.0  # times the panel's area from which a rectangle is not the panel's
+_LOST_AREA_RATIO = 4.0  # times the panel's area from which a rectangle is not the panel's
 _STEP_MARGIN = 1.15  # factor by which a suggested step exceeds the theoretical limit
 
 
@@ -71,7 +71,7 @@ def _light(scene: Scene) -> Cause | None:
         return Cause(
             "all is white", "The dark chips are as white as the lit ones.", _to_level(scene, lit)
         )
-    if lit - dark < FLAT:
+    if lit - dark < FLAT_SPAN:
         return Cause(
             "too dark",
             f"The lit panel differs from the dark one by {lit - dark:.2g} grey levels: the "
@@ -94,7 +94,7 @@ def _lost_panel(scene: Scene, region: Region | None) -> Cause | None:
     """Compare what the receiver takes for the panel with the panel, where that is small."""
     camera = scene.camera
     panel = region_of(panel_corners(scene), camera.rows, camera.columns)
-    if region is None or panel is None or _area(region) < _LOST * _area(panel):
+    if region is None or panel is None or _area(region) < _LOST_AREA_RATIO * _area(panel):
         return None
     fraction, wanted = _area(panel) / (camera.rows * camera.columns), scene.receiver.bright_fraction
     if fraction >= wanted:

@@ -34,7 +34,8 @@ from occ_model.transmitter.packet import sent_chips
 
 _SEEDS = 2**32
 
-_KEPT = 512  # pictures whose decoder inputs are kept: those of a search, for the next decoder
+_KEPT_PICTURES = 512
+"""Pictures whose decoder inputs are kept: those of a search, for the next decoder."""
 _NO_PANEL = "No panel found: the picture has one grey level."
 
 
@@ -165,7 +166,7 @@ def _plan(pictures: _Pictures) -> Plan:
     return plan_of_images([pictures.scene], pictures.settings)
 
 
-@lru_cache(maxsize=_KEPT)
+@lru_cache(maxsize=_KEPT_PICTURES)
 def _kept(pictures: _Pictures, image: int) -> Observation | None:
     return _observe(pictures, _plan(pictures), image)
 

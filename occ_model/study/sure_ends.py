@@ -34,7 +34,7 @@ from occ_model.results.limits import RangeEnd, ReadInterval, Trial, WorkingRange
 from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.scene import Scene
 from occ_model.study.confidence import TWO_SIDED, trial_of
-from occ_model.study.working_range import NEAR, Images, moved, right_bits_at
+from occ_model.study.working_range import END_RATIO, Images, moved, right_bits_at
 
 MOST_IMAGES = 1000  # maximum at a value inside an end; a rate above 99.6 % would take more
 OUTSIDE = 200  # maximum images at a value beyond an end
@@ -138,7 +138,7 @@ def _seed_at(value: float, seed: int) -> int:
 
 def _inside(taken: _Pictures, end: float, other: float) -> Trial | None:
     """Find the value nearest to an end of which every image is read."""
-    value, step = end, NEAR
+    value, step = end, END_RATIO
     while value != other:
         value, step = moved(value, other, step), step * step
         read = list(takewhile(lambda right: right == taken.bits, taken.at(value)))
@@ -152,7 +152,7 @@ def _outside(taken: _Pictures, end: float, fails: Trial, rate: float) -> Trial:
     while True:
         low, high = sorted((end, fails.value))
         value = _between(low, high, 0.5)
-        if high / low <= NEAR * NEAR or value in (low, high):
+        if high / low <= END_RATIO * END_RATIO or value in (low, high):
             return fails
         refuting = _until_refuted(islice(taken.at(value), OUTSIDE), taken.bits, rate / 100.0)
         trial = refuting and trial_of(value, refuting, taken.bits)

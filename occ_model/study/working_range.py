@@ -5,8 +5,8 @@ lies outside, and shortened where a decoder would take too long. A coarse search
 steps of a factor ``STEP``. Success need not fall steadily: at low frequencies too few packets fit
 the picture, and beyond a null the stripes come back. The answer is therefore a list of intervals. A
 gap narrower than a step can be missed. The outermost ends, and those of the interval that holds the
-scene's own value or is nearest to it, are found by bisection to a factor ``NEAR``; other gaps are
-known to a step of the coarse search.
+scene's own value or is nearest to it, are found by bisection to a factor ``END_RATIO``; other gaps
+are known to a step of the coarse search.
 
 Images are spent where the rate is in doubt. A value is given up as soon as too many bits are wrong
 for further images to mend, and believed after ``FEW_IMAGES`` that reach the rate. Values on both
@@ -34,7 +34,7 @@ from occ_model.study.confidence import trial_of
 from occ_model.study.success_rate import right_bits_of_images
 
 STEP = 1.15  # ratio of neighbouring values in the first, coarse search
-NEAR = 1.003  # ratio of the values on both sides of an end at which its bisection stops
+END_RATIO = 1.003  # ratio of the values on both sides of an end at which its bisection stops
 READ_RATE = 99.0  # success rate in percent from which a decoder is taken to read
 FEW_IMAGES = 5  # images after which a value is believed to be read, until it is reported
 
@@ -56,7 +56,7 @@ def working_range(
 def expected_images(images: int) -> int:
     """Return how many images a search usually reads, from which its progress is estimated."""
     coarse = 25 * FEW_IMAGES + 15 + images
-    ends = 2 * math.ceil(math.log2(math.log(STEP) / math.log(NEAR))) * FEW_IMAGES + 8 * images
+    ends = 2 * math.ceil(math.log2(math.log(STEP) / math.log(END_RATIO))) * FEW_IMAGES + 8 * images
     return coarse + ends
 
 
@@ -215,7 +215,7 @@ class _Search:
         """Bisect, by ratio, between a value that surely works and one that fails."""
         first, enough = works, FEW_IMAGES
         while True:
-            while max(works, fails) / min(works, fails) > NEAR:
+            while max(works, fails) / min(works, fails) > END_RATIO:
                 middle = float(f"{math.sqrt(works * fails):.5g}")
                 if middle in (works, fails):
                     break
@@ -228,7 +228,7 @@ class _Search:
 
     def _confirmed(self, works: float, inner: float) -> tuple[Trial, Trial | None] | None:
         """Return the nearest value at which other images are read too, and the last refuted one."""
-        refuted, step = None, NEAR
+        refuted, step = None, END_RATIO
         while True:
             trial = self._try(works, self._settings.images, self._fresh)
             if self._reads(trial):
@@ -243,7 +243,7 @@ class _Search:
 
         Where none does up to the end of the gap, that is returned by the images that chose it.
         """
-        step = NEAR
+        step = END_RATIO
         while True:
             trial = self._whole(fails, self._fresh)
             if self._fails(trial):

@@ -12,7 +12,7 @@ _MAX_INTERVAL_DEVIATION = 0.25  # of a period, by which an interval may differ f
 _MAX_TIME_DEVIATION = 0.02  # of frame times, as a fraction of the period, that triggers a warning
 _MAX_NAMED_FRAMES = 3  # maximum number of frames that a sentence names
 
-BREAK = 16.0
+LEAST_BREAK = 16.0
 """Periods between two frames from which the film goes on as another part: what a camera that is
 stopped, or a file that is damaged, states for them says nothing of the frames before."""
 
@@ -40,7 +40,7 @@ class FrameTimes:
 
     def is_jump(self, interval: float) -> bool:
         """Whether an interval is so long that another part begins after it, or leads back."""
-        return interval > BREAK * self.period.value or interval < -_MIN_INTERVAL
+        return interval > LEAST_BREAK * self.period.value or interval < -_MIN_INTERVAL
 
     @property
     def follow(self) -> bool:
@@ -68,7 +68,7 @@ def frame_times(times: FloatArray, rounded_to: float = 0.0) -> FrameTimes | None
     if ahead.size == 0:
         return None
     usual = float(np.median(ahead))
-    jumps = (intervals > BREAK * usual) | (intervals < -_MIN_INTERVAL)
+    jumps = (intervals > LEAST_BREAK * usual) | (intervals < -_MIN_INTERVAL)
     counts = np.where(jumps, 0, np.rint(intervals / usual)).astype(np.int64)
     firsts = np.concatenate([[0], np.flatnonzero(jumps) + 1])
     sizes = np.diff(np.append(firsts, len(times)))

@@ -14,7 +14,7 @@ from occ_model.files.film_kinds import FIRST_BYTES, container_of
 from occ_model.files.reading import read_start
 from occ_model.photo.reading.choices import SCAN_AXES
 from occ_model.photo.reading.load import roughness_along
-from occ_model.results.video import LATEST, Video, VideoFrame
+from occ_model.results.video import LATEST_TIME, Video, VideoFrame
 from occ_model.scene.argument_checks import check_choice, check_count
 from occ_model.scene.provenance import first_scene_in
 from occ_model.scene.recording import Recording
@@ -190,10 +190,11 @@ class VideoFile(Video):
                 "another size than the first."
             )
             return None
-        if not abs(stored.time - self._first_time) <= LATEST:
+        if not abs(stored.time - self._first_time) <= LATEST_TIME:
             self._problem = (
                 f"{self._shown} ends early: the time of frame {index} is "
-                f"{stored.time - self._first_time:.3g} s; allowed: {-LATEST:g} to {LATEST:g} s."
+                f"{stored.time - self._first_time:.3g} s; "
+                f"allowed: {-LATEST_TIME:g} to {LATEST_TIME:g} s."
             )
             return None
         if index == len(self._times):

@@ -10,7 +10,7 @@ from occ_model.receiver.decoders import PAPER_DECODER, decoder_named
 from occ_model.receiver.sequence.soft_frame import SoftFrame
 from occ_model.receiver.sequence.soft_frame import read_frame as read_soft_frame
 from occ_model.results.sent_packets import SentPackets
-from occ_model.results.video import LATEST, Video, VideoFrame
+from occ_model.results.video import LATEST_TIME, Video, VideoFrame
 from occ_model.results.video_reading import FilmProgress, VideoReading
 from occ_model.scene.argument_checks import check_count, is_number
 from occ_model.scene.payload import form_of, payload_of_bits
@@ -231,9 +231,11 @@ class VideoReader:
                 f"first frame, {self._shape}."
             )
         time: object = frame.time
-        if not isinstance(time, int | float | np.number) or not abs(float(time)) <= LATEST:
+        if not isinstance(time, int | float | np.number) or not abs(float(time)) <= LATEST_TIME:
             raise ParameterError.of(
-                f"time of frame {frame.index}", f"{shown(time)} s", f"{-LATEST:g} to {LATEST:g} s"
+                f"time of frame {frame.index}",
+                f"{shown(time)} s",
+                f"{-LATEST_TIME:g} to {LATEST_TIME:g} s",
             )
 
     def _read_on(self) -> None:

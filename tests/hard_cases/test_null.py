@@ -12,7 +12,7 @@ import occ_model as occ
 from hard_cases.laws import cases, record
 from hard_cases.references import PATTERNS, STARTS, ExactTimes, decades, signed_decades, within
 from occ_model.camera.enhancement import enhance
-from occ_model.camera.photometry import FLAT
+from occ_model.camera.photometry import FLAT_SPAN
 from occ_model.scene.scene import Scene
 
 mpmath.mp.dps = 40
@@ -99,7 +99,7 @@ def test_a_profile_of_less_than_one_level_gets_rounding_only(
 
 
 @cases(
-    low=st.floats(0.0, 250.0), swing=st.one_of(decades(FLAT, 5.0), st.just(FLAT)),
+    low=st.floats(0.0, 250.0), swing=st.one_of(decades(FLAT_SPAN, 5.0), st.just(FLAT_SPAN)),
     method=METHODS, seed=st.integers(0, 2**32 - 1),
 )  # fmt: skip
 def test_the_least_stripes_that_count_are_enhanced_in_order(
@@ -113,7 +113,7 @@ def test_the_least_stripes_that_count_are_enhanced_in_order(
     record("enhancement against the columns' order, levels", "swing 1 to 5 levels", against, 0.0)
     levels = [round(value) for value in profile.tolist()]
     bottom, top = min(levels), max(levels)
-    if method == "stretch" and np.ptp(profile) >= FLAT and top > bottom:
+    if method == "stretch" and np.ptp(profile) >= FLAT_SPAN and top > bottom:
         exact = [Fraction(255 * (level - bottom), top - bottom) for level in levels]
         wrong = max(abs(a - int(b)) for a, b in zip(exact, enhanced, strict=True)) - Fraction(1, 2)
         assert wrong <= 1e-9

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from occ_model.photo.fit.joint_model import USUAL
+from occ_model.photo.fit.joint_model import PRIORS
 from occ_model.photo.stripes.envelope import smooth_shapes
 from photo_world.photograph import World, blurred, falloff, lit_fraction, scale
 from photo_world.pixel_noise import jpeg_noise, whitened
@@ -72,7 +72,7 @@ def bound_of_picture(world: World, *, camera_known: bool = False) -> tuple[float
     longer = _slope_of_longer(world)
     lit = lit_fraction(world)
     shapes = smooth_shapes(world.columns, _LEVELS).T
-    information = np.zeros((3 + 2 * _LEVELS + len(USUAL),) * 2)
+    information = np.zeros((3 + 2 * _LEVELS + len(PRIORS),) * 2)
     for first in range(0, world.rows, _ROWS):
         rows = slice(first, first + _ROWS)
         b, a = lamp[rows].mean(axis=0), dark[rows].mean(axis=0)
@@ -80,8 +80,8 @@ def bound_of_picture(world: World, *, camera_known: bool = False) -> tuple[float
         of_light = [*(b * slope for slope in slopes), *(b * lit * shapes), *(a * shapes)]
         information += count * _of_row(world, b * lit + a, of_light, b * longer)
     camera = slice(3 + 2 * _LEVELS, None)
-    prior = 1e12 if camera_known else 1.0 / np.array([sd for _, sd in USUAL.values()]) ** 2
-    information[camera, camera] += np.diag(np.broadcast_to(prior, len(USUAL)))
+    prior = 1e12 if camera_known else 1.0 / np.array([sd for _, sd in PRIORS.values()]) ** 2
+    information[camera, camera] += np.diag(np.broadcast_to(prior, len(PRIORS)))
     return _of_times(information)
 
 

@@ -29,7 +29,7 @@ from occ_model.scene.scene import Scene
 _ROWS_SEEN = 5
 _LEAST_BESIDE = QSize(220, 60)
 
-_WIDEST = {PHOTO: 220, NOTE: 280}
+_LARGEST_WIDTHS = {PHOTO: 220, NOTE: 280}
 """Widths in pixels at most, so that the times stay in view; the whole text is in the tooltip."""
 
 
@@ -134,7 +134,7 @@ class ManyPhotosView(QWidget):
     def _fit_columns(self) -> None:
         """Make the columns as wide as their texts, long texts less, and show the first."""
         self.table.resizeColumnsToContents()
-        for column, widest in _WIDEST.items():
+        for column, widest in _LARGEST_WIDTHS.items():
             self.table.setColumnWidth(column, min(self.table.columnWidth(column), widest))
         self.table.horizontalScrollBar().setValue(0)
 

@@ -15,7 +15,7 @@ from PySide6.QtCore import (
 from PySide6.QtGui import QGuiApplication, QPalette
 
 from occ_gui.photo.match_result import SIGNS
-from occ_gui.widgets.plain_text import LONGEST, in_tool_tip
+from occ_gui.widgets.plain_text import LONGEST_TEXT, in_tool_tip
 from occ_model.errors import ParameterError, one_line
 from occ_model.photo.match_facts import LABELS, estimate_text
 from occ_model.results.photo_table import DOUBTFUL, SURE, PhotoRow, PhotoTable, known_beside
@@ -192,7 +192,7 @@ class PhotoRowsModel(QAbstractTableModel):
                 "A lamp that only blinks has two chips a cycle."
             )
         if column == NOTE and row is not None and row.note:
-            return one_line(row.note, LONGEST)
+            return one_line(row.note, LONGEST_TEXT)
         return str(self.paths[place])
 
     def text(self, place: int, column: int) -> str:

@@ -7,9 +7,14 @@ import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.photo.evidence.doubts import LEAST_INFORMATION
-from occ_model.photo.evidence.hypothesis import UNCLIPPED, Hypothesis
+from occ_model.photo.evidence.hypothesis import CLIPPED_FRACTION, Hypothesis
 from occ_model.photo.evidence.other_codes import nearest_other
-from occ_model.photo.fit.best_timing import EXPLAINED, Explanation, explain, explain_from
+from occ_model.photo.fit.best_timing import (
+    EXPLAINED_CORRELATION,
+    Explanation,
+    explain,
+    explain_from,
+)
 from occ_model.photo.fit.camera_response import CameraTone
 from occ_model.photo.fit.chip_runs import canonical, is_single_pulse, pulse
 from occ_model.photo.fit.chips_of_harmonics import ReadPattern
@@ -68,19 +73,19 @@ class Candidates:
         if period is None:
             return []
         stripes = self.stripes
-        explained = as_sent is not None and as_sent.fit.correlation >= EXPLAINED
+        explained = as_sent is not None and as_sent.fit.correlation >= EXPLAINED_CORRELATION
         if explained and as_sent is not None and as_sent.information >= LEAST_INFORMATION[True]:
             return []
         read = read_patterns(
             stripes.profile, stripes.flattened, period, self.check,
-            is_clipped=stripes.saturated > UNCLIPPED,
+            is_clipped=stripes.saturated > CLIPPED_FRACTION,
         )  # fmt: skip
         if explained and as_sent is not None:
             known = canonical(as_sent.chips)
             read = [one for one in read if not np.array_equal(canonical(one.chips), known)]
         found = self._fitted_read(read)
         best = max((one.fit.correlation for one in found), default=0.0)
-        if not explained and best < EXPLAINED:
+        if not explained and best < EXPLAINED_CORRELATION:
             again = read_otherwise(stripes.profile, period, read, self.check)
             found += [replace(one, read_again=True) for one in self._fitted_read(again)]
         return found
@@ -148,7 +153,9 @@ class Candidates:
         if not swapped <= _NOTE_TOLERANCE < off:
             return None
         other = self._swapped(as_sent, period, len(sent))
-        return other if other is not None and other.fit.correlation >= EXPLAINED else None
+        return (
+            other if other is not None and other.fit.correlation >= EXPLAINED_CORRELATION else None
+        )
 
     def _swapped(self, found: Hypothesis, period: float, chips_sent: int) -> Hypothesis | None:
         on = round(_PARTS_OF_A_PERIOD * found.fit.timing.exposure / len(canonical(found.chips)))

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.photo.evidence.hypothesis import UNCLIPPED, Hypothesis
+from occ_model.photo.evidence.hypothesis import CLIPPED_FRACTION, Hypothesis
 from occ_model.photo.fit.chip_runs import chips_as_one, chips_if_longer, is_single_pulse, runs_of
 from occ_model.photo.stripes.period import unrepeated_fraction
 from occ_model.results.match import Stripes
@@ -61,7 +61,7 @@ def doubts(found: Hypothesis, stripes: Stripes, rows_alike: float) -> list[str]:
 
 def exposure_doubts(found: Hypothesis, stripes: Stripes) -> list[str]:
     """Say why the exposure of a hypothesis is doubtful, in sentences; its chips may not be."""
-    if found.rate != 1.0 and stripes.saturated > UNCLIPPED:
+    if found.rate != 1.0 and stripes.saturated > CLIPPED_FRACTION:
         return [
             f"{100.0 * stripes.saturated:.0f} % of the pixels are white, which lengthens bright "
             "pulses: the duty may be smaller."
@@ -161,7 +161,7 @@ def _doubts_by_reading(found: Hypothesis, stripes: Stripes) -> list[str]:
         ]
     reasons = []
     count, (together, longer) = len(found.chips), chips_if_longer(found.chips)
-    if together > 1 and stripes.saturated > UNCLIPPED:
+    if together > 1 and stripes.saturated > CLIPPED_FRACTION:
         reasons.append(
             f"{100.0 * stripes.saturated:.0f} % of the pixels are white, which lengthens bright "
             f"pulses: if each is longer by {longer} of the {count} chips that were read, "

@@ -10,7 +10,7 @@ from occ_model.photo.fit.best_timing import Explanation
 from occ_model.photo.fit.chip_runs import canonical, chips_as_one, is_single_pulse
 from occ_model.photo.fit.least_squares import StripeFit, level_freedom
 
-UNCLIPPED = 0.02
+CLIPPED_FRACTION = 0.02
 """Saturated fraction of the pixels up to which saturation hardly changes the width of the
 stripes."""
 

@@ -17,7 +17,7 @@ from occ_model.photo.stripes.period import correlated_columns, harmonics_within,
 from occ_model.results.decoding import Region
 from occ_model.results.match import PLAIN_STRIPES, Stripes
 
-_DECISIVE = 10.0  # difference of log-likelihoods that decides: a factor of 22,000
+_DECISIVE_LOG_LIKELIHOOD = 10.0  # difference of log-likelihoods that decides: a factor of 22,000
 _MODEL_ERROR = 0.02  # error in heights of the stripes that every explanation may have
 _COSINES_PER_CHIP = 2.0  # maximum number of cosines of a smooth curve per chip in view
 
@@ -56,7 +56,7 @@ class Judge:
         best = likelihoods[order[0]]
         for i, why in zip(order, reasons, strict=True):
             # What holds but is decidedly less likely than what was refused explains nothing.
-            if not why and likelihoods[i] > best - _DECISIVE:
+            if not why and likelihoods[i] > best - _DECISIVE_LOG_LIKELIHOOD:
                 return hypotheses[i]
         # What a user can do about it stands first, with what it rests on.
         reasons.sort(key=lambda why: PLAIN_STRIPES not in why)
@@ -80,9 +80,10 @@ class Judge:
             f"Nearly as likely is {other.sent}, with a correlation of {other.fit.correlation:.3f} "
             f"beside {found.fit.correlation:.3f}."
             for other, more in beside
-            if more > -_DECISIVE and not found.shares_timing_with(other, is_given=is_given)
+            if more > -_DECISIVE_LOG_LIKELIHOOD
+            and not found.shares_timing_with(other, is_given=is_given)
         ]
-        if own - self._of_curve(found, independent) < _DECISIVE:
+        if own - self._of_curve(found, independent) < _DECISIVE_LOG_LIKELIHOOD:
             reasons.append("Light that varies slowly, without any code, is nearly as likely.")
         of_exposure = exposure_doubts(found, self._stripes)
         return Verdict(tuple(reasons), tuple(of_exposure), tuple(beside))

@@ -24,7 +24,7 @@ _MOST_FINISHED = 6
 _MOST_EQUAL_RATIO = 1.05  # maximum ratio of residuals of fits that are equally good
 _EQUALIZED_RATIO = 0.5  # ratio of residuals below which a picture was equalized
 
-EXPLAINED = 0.98
+EXPLAINED_CORRELATION = 0.98
 """Correlation of a fit above which no other chips, and no equalized picture, are tried."""
 
 SAME_EXPOSURE = 0.04
@@ -94,7 +94,7 @@ def explain_from(
     best: tuple[list[StripeFit], CameraTone] | None = None
     for camera in sorted(cameras, key=lambda one: one.enhancement == "equalization"):
         is_equalized = camera.enhancement == "equalization"
-        if best is not None and is_equalized and best[0][0].correlation > EXPLAINED:
+        if best is not None and is_equalized and best[0][0].correlation > EXPLAINED_CORRELATION:
             continue
         model = StripeModel(
             stripes.profile, chips, camera.tone, starts[0].step, camera.rank_resolution

@@ -9,7 +9,7 @@ from occ_model.arrays import FloatArray
 from occ_model.photo.fit.least_squares import Tone
 from occ_model.scene.scene import Scene
 
-_DARKEST = 0.5  # grey level below which dark columns are black
+_BLACK_LEVEL = 0.5  # grey level below which dark columns are black
 _RANK_RESOLUTION = 0.5  # change of the timing in columns that changes the columns' ranks noticeably
 
 AVERAGINGS = ("pixel-value", "light")
@@ -40,7 +40,7 @@ def camera_tones(
     """
     tones = []
     for averaging in averagings:
-        tone = _camera_tone(averaging, low / high if low > _DARKEST else 0.0, check)
+        tone = _camera_tone(averaging, low / high if low > _BLACK_LEVEL else 0.0, check)
         tones.append(CameraTone(averaging, "none", tone))
         if scene.model.enhancement == "equalization":
             tones.append(CameraTone(averaging, "equalization", _equalized(tone), _RANK_RESOLUTION))

@@ -39,13 +39,21 @@ box of blur and an exposure look alike, and each shape has several minima: start
 took a blur of 1.3 columns and an exposure of 2.2 for one of 1.1 and 3.5, with a larger misfit."""
 
 _LAST_ROUNDS = 10
-_SHORTEST = 0.2  # shortest exposure in columns to start from
+_SHORTEST_EXPOSURE = 0.2  # shortest exposure in columns to start from
 
-_LONGEST = 4.2  # longest exposure in chips to start from
+_LONGEST_EXPOSURE = 4.2  # longest exposure in chips to start from
 
 _MOST_SCANNED = 2
 _MOST_MISFIT_RATIO = 4.0  # maximum misfit ratio of a starting value
-_HELD = (0, 3, 4, 5, 6, 7, 8)  # indices of the parameters held while exposures are compared
+_HELD_PARAMETERS = (
+    0,
+    3,
+    4,
+    5,
+    6,
+    7,
+    8,
+)  # indices of the parameters held while exposures are compared
 _ROUGH_ROUNDS = 3  # number of iterations that separate promising exposures from others
 
 
@@ -80,7 +88,7 @@ class Possible:
         step, exposure, blur = float(found[0]), float(found[1]), float(found[7])
         starts = []
         # Blur far below a column is hardly seen, so that a box of a column is exchanged, too.
-        for box in (max(math.sqrt(12.0) * blur, _SHORTEST), 1.0):
+        for box in (max(math.sqrt(12.0) * blur, _SHORTEST_EXPOSURE), 1.0):
             values = found.copy()
             values[1], values[7] = step * box, exposure / step / math.sqrt(12.0)
             starts.append(values)
@@ -121,7 +129,7 @@ def _with_blur(values: FloatArray, blur: float) -> FloatArray:
     values = values.copy()
     step = float(values[0])
     width = (values[1] / step) ** 2 + 12.0 * (values[7] ** 2 - blur**2)
-    values[1] = step * math.sqrt(max(float(width), _SHORTEST**2))
+    values[1] = step * math.sqrt(max(float(width), _SHORTEST_EXPOSURE**2))
     values[7] = blur
     return values
 
@@ -211,7 +219,7 @@ def alike_starts(best: Timing) -> list[Timing]:
             middle=best.middle + (math.floor(t / 2.0) + math.floor(other / 2.0)) % 2,
         )
         for other in alike
-        if 0.0 < other < _LONGEST and abs(other - t) > SAME_EXPOSURE
+        if 0.0 < other < _LONGEST_EXPOSURE and abs(other - t) > SAME_EXPOSURE
     ]
 
 
@@ -230,10 +238,12 @@ def scanned_starts(
     def rough(exposure: float) -> tuple[float, FloatArray]:
         values = usual.copy()
         values[1] = exposure
-        return model.rough(values, _HELD, _ROUGH_ROUNDS)
+        return model.rough(values, _HELD_PARAMETERS, _ROUGH_ROUNDS)
 
     most = _MOST_MISFIT_RATIO * rough(float(found[1]))[0]
-    fits = sorted((rough(one) for one in EXPOSURES if one < _LONGEST), key=lambda fit: fit[0])
+    fits = sorted(
+        (rough(one) for one in EXPOSURES if one < _LONGEST_EXPOSURE), key=lambda fit: fit[0]
+    )
     kept: list[FloatArray] = []
     for misfit, values in fits:
         apart = all(abs(values[1] - other[1]) > SAME_EXPOSURE for other in [found, *kept])

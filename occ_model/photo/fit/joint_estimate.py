@@ -16,7 +16,7 @@ from occ_model.photo.fit.best_timing import Explanation
 from occ_model.photo.fit.chip_runs import runs_of
 from occ_model.photo.fit.exposure_modes import exposure_modes
 from occ_model.photo.fit.joint_fit import JointFit
-from occ_model.photo.fit.joint_model import USUAL, JointModel
+from occ_model.photo.fit.joint_model import PRIORS, JointModel
 from occ_model.photo.fit.least_squares import StripeFit, StripeModel, exposure_deviation
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.stripes.evenly_lit import Cells, EvenProfile
@@ -147,7 +147,7 @@ def _widened(mode: JointFit, model: JointModel) -> JointFit:
     By the ratio of what they are off to what six of them are usually off (as Birge, Phys. Rev.
     40:207, 1932, for measurements that scatter by more than they state).
     """
-    ratio = max(1.0, model.unusual(mode.values) / math.sqrt(len(USUAL)))
+    ratio = max(1.0, model.unusual(mode.values) / math.sqrt(len(PRIORS)))
     factor = np.array([1.0, *[ratio] * (len(mode.values) - 1)])
     return replace(mode, covariance=mode.covariance * np.outer(factor, factor))
 

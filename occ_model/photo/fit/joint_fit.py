@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from occ_model.arrays import FloatArray
-from occ_model.photo.fit.timing import SHORTEST
+from occ_model.photo.fit.timing import SHORTEST_EXPOSURE
 
 _UNMODELLED = 0.05
 """Fraction of the data's misfit by which explanations must differ: effects outside the model change
@@ -108,7 +108,7 @@ def averaged(fits: Sequence[JointFit]) -> JointFit:
     usable = [
         one
         for one in known
-        if one.exposure > 2.0 * SHORTEST and one.covariance[3, 3] < _MOST_GAMMA_VARIANCE
+        if one.exposure > 2.0 * SHORTEST_EXPOSURE and one.covariance[3, 3] < _MOST_GAMMA_VARIANCE
     ]
     fits = sorted(usable or known, key=lambda fit: fit.exposure)
     likeliest = min(fits, key=lambda fit: fit.misfit)

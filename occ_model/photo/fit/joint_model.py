@@ -25,7 +25,7 @@ from occ_model.photo.stripes.evenly_lit import EvenProfile
 from occ_model.photo.stripes.period import correlated_columns
 from occ_model.scene.parameters import quantity
 
-USUAL = {
+PRIORS = {
     "gamma": (0.0, 0.12),
     "offset": (0.03, 0.04),
     "shoulder": (0.0, 0.25),
@@ -93,7 +93,7 @@ class JointModel:
         )
         self._noise = [np.ones(part.data.size + part.clipped.size) for part in self._parts]
         self._slow = [part.slow(np.ones(part.data.size)) for part in self._parts]
-        usual = np.array(list(USUAL.values()))
+        usual = np.array(list(PRIORS.values()))
         self._mean, self._deviation = usual[:, 0], usual[:, 1].copy()
         self._deviation[5] = math.hypot(as_one * self._deviation[5], _EDGE_SHIFT * step)
         if wide:
@@ -158,7 +158,7 @@ class JointModel:
         covariance[np.ix_(index, index)] = covariance_of(
             slopes, residual, moved, self._block
         ) * np.outer(rates, rates)
-        prior = residual[-len(USUAL) :]
+        prior = residual[-len(PRIORS) :]
         shift = np.zeros(9)
         # Where pixel values are blurred, the model itself blurs the product.
         if not self._values_blurred:
@@ -202,7 +202,7 @@ class JointModel:
         seen = self._seen.by(values, 0.0, shape)
         slopes = [part.relative_slope(seen) for part in self._parts]
         moved = float(values[0] * values[7] ** 2) * np.concatenate(slopes)
-        return np.concatenate([moved, np.zeros(len(USUAL))])
+        return np.concatenate([moved, np.zeros(len(PRIORS))])
 
     def unusual(self, values: FloatArray) -> float:
         """Return by how many standard deviations the unknowns of a fit are off what is usual."""
@@ -266,10 +266,10 @@ class JointModel:
         self._check()
         seen, rates = self._seen.by(values, 0.0, shape), self._seen.slopes(values, shape, of_tone)
         found = np.hstack(self._whitened([part.slopes(seen, rates) for part in self._parts]))
-        slopes = np.zeros((9, found.shape[1] + len(USUAL)))
-        slopes[IN_ORDER[: len(found)], : -len(USUAL)] = found
+        slopes = np.zeros((9, found.shape[1] + len(PRIORS)))
+        slopes[IN_ORDER[: len(found)], : -len(PRIORS)] = found
         slopes[GAMMA] *= self._seen.gamma(values)  # over its logarithm
-        slopes[3:, -len(USUAL) :] = np.diag(1.0 / self._deviation)
+        slopes[3:, -len(PRIORS) :] = np.diag(1.0 / self._deviation)
         return slopes.T
 
     def _whitened(self, parts: Sequence[FloatArray]) -> list[FloatArray]:

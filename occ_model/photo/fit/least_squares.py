@@ -14,11 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from occ_model.arrays import ByteArray, FloatArray
-from occ_model.camera.photometry import FLAT, WHITE
+from occ_model.camera.photometry import FLAT_SPAN, WHITE
 from occ_model.photo.fit.chip_runs import chips_as_one
 from occ_model.photo.fit.damped_least_squares import DIFFERENCE, minimized
 from occ_model.photo.fit.normal_equations import LitColumns, NormalEquations
-from occ_model.photo.fit.timing import SHORTEST, Timing
+from occ_model.photo.fit.timing import SHORTEST_EXPOSURE, Timing
 from occ_model.photo.stripes.envelope import LEAST_SWING, smooth_shapes, weighted_correlation
 from occ_model.photo.stripes.period import correlated_columns
 from occ_model.scene.parameters import quantity
@@ -27,7 +27,7 @@ from occ_model.transmitter.waveform import Waveform
 Tone = Callable[[FloatArray, float], FloatArray]
 """A camera's response: from lit fractions and gamma to pixel values between any two levels."""
 
-_FULL = WHITE - 0.5
+_SATURATED_LEVEL = WHITE - 0.5
 _LEAST_KEPT = 0.4  # minimum unsaturated fraction for saturated columns to be left out
 
 _MOST_ROUNDS = 25
@@ -42,7 +42,7 @@ _CHIPS_PER_SHAPE = 6  # number of chips in view for each polynomial of a level
 _MOST_SHAPES = 8
 
 _UNKNOWN_BLUR = 0.4  # standard deviation in columns of the blur that this model does not fit
-_DARKEST = -0.1  # minimum dark level relative to the swing: pixel values are not negative
+_LEAST_DARK_LEVEL = -0.1  # minimum dark level relative to the swing: pixel values are not negative
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -87,7 +87,7 @@ class StripeModel:
         self._scale = max(1.0, rank_resolution / DIFFERENCE) * step
         # The same number for both levels, or else the mean would fit better than the swing.
         freedom = level_freedom(step * len(profile) / chips_as_one(chips))
-        kept: NDArray[np.bool_] = profile < _FULL
+        kept: NDArray[np.bool_] = profile < _SATURATED_LEVEL
         self._kept = kept if kept.mean() > _LEAST_KEPT else np.ones_like(kept)
         shapes = smooth_shapes(len(profile), 2 * freedom - 1)
         self._equations = NormalEquations(shapes[self._kept], freedom)
@@ -118,7 +118,7 @@ class StripeModel:
     ) -> StripeFit:
         columns = len(self._profile)
         gamma = quantity("gamma")
-        low = np.array([0.5 * start.step, SHORTEST, -np.inf, gamma.low])
+        low = np.array([0.5 * start.step, SHORTEST_EXPOSURE, -np.inf, gamma.low])
         high = np.array([2.0 * start.step, np.inf, np.inf, gamma.high])
         first = np.array([start.step, start.exposure, start.middle, start.gamma])
         if not with_gamma:
@@ -154,7 +154,7 @@ class StripeModel:
         low, swing, profile = self.levels(timing)
         possible = _can_be_levels(low, swing)
         # Bounded below, since flattening divides by it.
-        swing = np.maximum(swing, LEAST_SWING * max(float(swing.max()), FLAT))
+        swing = np.maximum(swing, LEAST_SWING * max(float(swing.max()), FLAT_SPAN))
         data, model = (self._profile - low) / swing, (profile - low) / swing
         correlation = weighted_correlation(data, model, swing**2)
         residual = self._profile - profile
@@ -164,7 +164,7 @@ class StripeModel:
 
 def _can_be_levels(low: FloatArray, swing: FloatArray) -> bool:
     usual = float(np.median(swing))
-    return usual > 0.0 and float(np.median(low)) > _DARKEST * usual
+    return usual > 0.0 and float(np.median(low)) > _LEAST_DARK_LEVEL * usual
 
 
 def level_freedom(counted: float) -> int:

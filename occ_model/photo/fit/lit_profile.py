@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from occ_model.arrays import FloatArray
 from occ_model.photo.fit.normal_equations import LitColumns, NormalEquations, at_least_one, solved
-from occ_model.photo.fit.seen_stripes import BLUR, REACH, Seen, SeenSlopes, blurred
+from occ_model.photo.fit.seen_stripes import BLUR, BLUR_REACH, Seen, SeenSlopes, blurred
 from occ_model.photo.stripes.envelope import LEAST_SWING, smooth_shapes
 from occ_model.photo.stripes.evenly_lit import EvenProfile
 
@@ -58,7 +58,7 @@ class LitProfile:
         self._slow = np.ascontiguousarray(slow_shapes[self.kept])
         shapes = smooth_shapes(len(profile.values), 2 * freedom - 1)
         self._shapes = np.ascontiguousarray(shapes[:, :freedom].T)
-        self._wide_shapes = np.pad(self._shapes, ((0, 0), (REACH, REACH)), mode="edge")
+        self._wide_shapes = np.pad(self._shapes, ((0, 0), (BLUR_REACH, BLUR_REACH)), mode="edge")
         self._equations = NormalEquations(shapes[self.kept], freedom)
         self._kept_shapes = np.ascontiguousarray(self._shapes[:, self.kept])
         self._clipped_shapes = np.ascontiguousarray(self._shapes[:, self.clipped])

@@ -6,9 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from occ_model.arrays import FloatArray
-from occ_model.photo.fit.timing import SHORTEST
+from occ_model.photo.fit.timing import SHORTEST_EXPOSURE
 
-_LOW = np.array([0.5, SHORTEST, -np.inf, -np.inf, -0.1, -0.9, -0.9, 0.0, -0.3])
+_LOW = np.array([0.5, SHORTEST_EXPOSURE, -np.inf, -np.inf, -0.1, -0.9, -0.9, 0.0, -0.3])
 _HIGH = np.array([2.0, np.inf, np.inf, np.inf, 0.3, 0.9, 1.5, 3.0, 0.3])
 """Bounds of the parameters except gamma; those of the step are relative to it."""
 

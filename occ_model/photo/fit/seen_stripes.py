@@ -18,7 +18,7 @@ from occ_model.arrays import ByteArray, FloatArray
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.fit.tone_curve import ToneCurve, ToneSlopes, ToneTable
 
-REACH = 8
+BLUR_REACH = 8
 """Maximum distance in columns over which blur acts."""
 
 _LEAST_BLUR = 0.05  # blur in columns below which a picture is sharp
@@ -105,7 +105,7 @@ class BlurredLight:
 
     def _places(self, timing: Timing) -> FloatArray:
         """Return where the exposures start of all columns that blur reaches."""
-        column = np.arange(-REACH, self._columns + REACH)
+        column = np.arange(-BLUR_REACH, self._columns + BLUR_REACH)
         return np.asarray(timing.start(self._columns) + timing.step * column, dtype=np.float64)
 
     def _integrated(self, timing: Timing, edges: FloatArray) -> FloatArray:
@@ -132,7 +132,7 @@ class BlurredLight:
 
 def blurred(rows: FloatArray, kernel: FloatArray) -> FloatArray:
     """Blur a row, or several, along the columns, and leave out those that only blur reaches."""
-    found = cv2.filter2D(np.atleast_2d(rows), -1, kernel[None])[:, REACH:-REACH]
+    found = cv2.filter2D(np.atleast_2d(rows), -1, kernel[None])[:, BLUR_REACH:-BLUR_REACH]
     return np.asarray(found, dtype=np.float64).reshape(*rows.shape[:-1], -1)
 
 
@@ -145,7 +145,7 @@ def blur_kernel(blur: float, tails: float = 0.0, shape: BlurShape = "normal") ->
     each column the fraction of it that the column covers; exponential tails decay by the same ratio
     from column to column.
     """
-    off = np.abs(np.arange(-REACH, REACH + 1)).astype(np.float64)
+    off = np.abs(np.arange(-BLUR_REACH, BLUR_REACH + 1)).astype(np.float64)
     blur = max(blur, _LEAST_BLUR)
     if shape == "box":
         half = math.sqrt(3.0) * blur

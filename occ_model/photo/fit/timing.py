@@ -8,7 +8,7 @@ import numpy as np
 from occ_model.arrays import FloatArray
 from occ_model.transmitter.waveform import Duration, Phases, Waveform
 
-SHORTEST = 1e-3
+SHORTEST_EXPOSURE = 1e-3
 """Shortest exposure in chips: shorter ones make the same stripes."""
 
 

@@ -27,7 +27,8 @@ from occ_model.results.decoding import Region
 from occ_model.results.lamp import Lamp
 
 _MOST_REFLECTED = 0.45  # brightness over a lamp's below which what blinks alike is its reflection
-_FAINT = 0.25  # brightness relative to the brightest lamp below which a lamp may be a reflection
+_FAINT_BRIGHTNESS = 0.25
+"""Brightness relative to the brightest lamp below which a lamp may be a reflection."""
 _FAINTEST, _FEW_PERIODS = 0.1, 3.0  # relative brightness and periods of what is not reported
 _GAMMA = 2.2  # exponent that converts grey levels to light for comparison
 _MOST_LIT = 0.65  # maximum duty of two stripes; two panes of a window have a larger one
@@ -247,7 +248,7 @@ def _with_doubts(blinking: Sequence[Blinking]) -> list[Blinking]:
     """Mark what is faint beside the brightest one, and leave out what is little else than noise."""
     brightest = max((one.light for one in blinking), default=0.0)
     return [
-        replace(one, lamp=replace(one.lamp, is_faint=one.light < _FAINT * brightest))
+        replace(one, lamp=replace(one.lamp, is_faint=one.light < _FAINT_BRIGHTNESS * brightest))
         for one in blinking
         if one.light >= _FAINTEST * brightest or (one.lamp.periods or _FEW_PERIODS) >= _FEW_PERIODS
     ]

@@ -14,12 +14,12 @@ _LEAST_SWING = 0.4  # minimum swing over the lamp's, or an edge's; less is scatt
 _LEAST_OWN = 0.7  # minimum fraction of the edges between a lamp's outermost ones that are its own
 _CUT_TOLERANCE = 0.3  # maximum distance in chips of an edge whose stripe the rim cuts
 _MOST_WIDTH = 1.15  # maximum width of a stripe that the rim cuts, relative to a whole one
-_SMOOTH = 2  # strips on either side over which the median of a rim is taken
+_SMOOTHING_STRIPS = 2  # strips on either side over which the median of a rim is taken
 
 _CELL = 8  # columns over which levels are averaged, about as many as a strip has rows
 _PADDING = 3  # cells around a shape within which its rim may lie
 _LEVELS = np.linspace(0.08, 0.92, 15)  # between the darkest and the brightest cell
-_DARK = 10.0  # grey levels added before ratios are formed: lower levels are noise
+_ADDED_LEVEL = 10.0  # grey levels added before ratios are formed: lower levels are noise
 _MOST_FALL = 0.65  # maximum ratio of levels outside and inside a rim; a halo falls less
 _LEAST_AREA = 0.2  # minimum area within the rim relative to the shape; less is a hot spot
 
@@ -60,7 +60,7 @@ def _rectangles(
     known = np.array(sorted(spans))
     sides = np.array([spans[strip] for strip in known.tolist()])
     apart = np.abs(shown[:, None] - known)
-    near = apart <= np.maximum(_SMOOTH, apart.min(axis=1, keepdims=True))
+    near = apart <= np.maximum(_SMOOTHING_STRIPS, apart.min(axis=1, keepdims=True))
     smooth = np.array([np.median(sides[beside], axis=0) for beside in near])
     left = np.maximum(np.floor(smooth[:, 0]), 0).astype(np.int64)
     right = np.minimum(np.ceil(smooth[:, 1]) + 1, columns).astype(np.int64)
@@ -191,7 +191,9 @@ def _within_rim(levels: FloatArray, least: float) -> np.ndarray | None:
         outer = (cv2.dilate(wider, ring) > 0) & (wider == 0)
         if place.sum() < least or not inner.any() or not outer.any():
             continue
-        fall = (float(levels[outer].mean()) + _DARK) / (float(levels[inner].mean()) + _DARK)
+        fall = (float(levels[outer].mean()) + _ADDED_LEVEL) / (
+            float(levels[inner].mean()) + _ADDED_LEVEL
+        )
         if fall < best:
             best, found = fall, place > 0
     return found

@@ -19,7 +19,7 @@ _FINE, _CELL = 2000, 4
 have colour filters of 2 by 2 or 4 by 4 pixels of one colour, and what is interpolated from them
 leaves a pattern that repeats after 4 columns on the steep edges of a lamp."""
 
-_BRIGHT = 0.6  # fraction of white above which a place is bright
+_BRIGHT_FRACTION = 0.6  # fraction of white above which a place is bright
 _ABOVE_MEDIAN = 1.6  # ratio to the picture's median above which a place is bright
 _LEAST_AREA = 3e-4  # minimum area of a lamp relative to the picture
 _MOST_COLUMNS = 512  # to which a picture is reduced: there are no fine stripes
@@ -49,7 +49,9 @@ def steady_lamps(means: FloatArray, bounds: IndexArray, blinking: Sequence[Lamp]
     strips, columns = means.shape
     narrow = min(columns, _MOST_COLUMNS)
     levels = cv2.resize(means, (narrow, strips), interpolation=cv2.INTER_AREA)
-    least = max(_BRIGHT * WHITE, min(_ABOVE_MEDIAN * float(np.median(levels)), 0.98 * WHITE))
+    least = max(
+        _BRIGHT_FRACTION * WHITE, min(_ABOVE_MEDIAN * float(np.median(levels)), 0.98 * WHITE)
+    )
     taken = np.zeros((strips, narrow), dtype=bool)
     for lamp in blinking:
         for first, last, left, right in lamp.spans.tolist():

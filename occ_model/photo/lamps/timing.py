@@ -16,7 +16,7 @@ _PULSE_OFF, _PULSE_COLUMN = 0.08, 0.4
 """Maximum root mean square distance of the edges of a code, and of a pulse, from their lattices: in
 chips and, besides, in columns."""
 
-_TIGHTER = 0.5  # factor of the tolerance for the mean edges of many rows
+_TOLERANCE_FACTOR = 0.5  # factor of the tolerance for the mean edges of many rows
 _MOST_RATIO = 0.5  # maximum ratio of the distances from a code's lattices after a rim is left out
 _LEAST_DEVIATION = 0.1  # minimum standard deviation of an edge in columns
 
@@ -84,13 +84,13 @@ def timings_of(edges: Edges, weights: FloatArray, codes: bool = True) -> list[La
     waiting = [(edges, weights)]
     while waiting:
         part, shown = waiting.pop()
-        for segment in segments_of(part, 0, _TIGHTER if codes else 1.0, codes=codes):
+        for segment in segments_of(part, 0, _TOLERANCE_FACTOR if codes else 1.0, codes=codes):
             timing = _refined(segment, part, shown)
             if timing is not None and timing.off < timing.most_off:
                 found.append(timing)
                 continue
             # Edges of two lamps side by side lie near some lattice too, but not on it.
-            pulses = segments_of(segment.edges, 0, _TIGHTER, codes=False)
+            pulses = segments_of(segment.edges, 0, _TOLERANCE_FACTOR, codes=False)
             if not pulses:
                 continue
             longest = max(pulses, key=lambda one: len(one.edges))

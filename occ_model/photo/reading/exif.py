@@ -25,7 +25,7 @@ _PIXELS_ACROSS, _PIXELS_DOWN, _PIXELS_UNIT = 0xA20E, 0xA20F, 0xA210
 _UNITS = {2.0: 25.4e-3, 3.0: 1e-2, 4.0: 1e-3}
 """Metres in which the pixels of the sensor are counted."""
 
-_SQUARE = 0.02  # fraction by which a pixel's sides may differ
+_SIDE_DIFFERENCE = 0.02  # fraction by which a pixel's sides may differ
 _DECIMALS = 3  # decimals of millimetres that a focal length is written in at most
 _ISO_OR_MORE = 65535  # value of the oldest tag, of 16 bits, where the ISO speed is larger
 
@@ -114,7 +114,7 @@ def _sensor_diagonal(tags: Mapping[int, Any]) -> float | None:
         _number(tags.get(tag)) or 0.0 for tag in (_WIDTH, _HEIGHT, _PIXELS_ACROSS, _PIXELS_DOWN)
     )
     is_sensible = min(width, height) >= 1.0 and 0.0 < across < math.inf
-    if unit is None or not is_sensible or not math.isclose(across, down, rel_tol=_SQUARE):
+    if unit is None or not is_sensible or not math.isclose(across, down, rel_tol=_SIDE_DIFFERENCE):
         return None
     return math.hypot(width, height) / across * unit
 

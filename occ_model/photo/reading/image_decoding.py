@@ -26,7 +26,7 @@ Samples: TypeAlias = NDArray[np.uint8 | np.uint16]
 Box: TypeAlias = tuple[int, int, int, int]
 """A rectangle of a picture: its first column and row, and the column and row after its last."""
 
-DECODED = 0.8
+DECODED_FRACTION = 0.8
 """Fraction of the work that is done when a picture is decoded."""
 
 _GREY_LEVEL = 257  # one grey level in samples of 16 bits: 65535 / 255
@@ -57,14 +57,14 @@ class DecodedPicture:
     """
 
     def __init__(self, opened: "Callable[[float, float], ImageFile]") -> None:
-        self.picture = opened(0.0, DECODED / 2)
+        self.picture = opened(0.0, DECODED_FRACTION / 2)
         self._raw_modes = raw_modes_of(self.picture)
         _load(self.picture)
         self._lower: ImageFile | None = None
         if is_deep_in_colours(self._raw_modes):
             # OpenCV reads such files in one go, but prints the errors of damaged ones on stderr,
             # reports no progress and cannot be cancelled: Pillow reads them twice instead.
-            self._lower = opened(DECODED / 2, DECODED)
+            self._lower = opened(DECODED_FRACTION / 2, DECODED_FRACTION)
             _take_lower_bytes(self._lower)
             _load(self._lower)
         elif self.picture.mode == "I":

@@ -17,7 +17,7 @@ from occ_model.photo.reading.choices import CHANNELS, SCAN_AXES
 from occ_model.photo.reading.exif import CameraNotes, camera_notes, orientation_of, turns_of
 from occ_model.photo.reading.file import open_file, picture_opener
 from occ_model.photo.reading.image_decoding import (
-    DECODED,
+    DECODED_FRACTION,
     DecodedPicture,
     Samples,
     take_channel,
@@ -30,7 +30,8 @@ from occ_model.scene.argument_checks import check_choice, check_count
 
 __all__ = ["CHANNELS", "Photo", "column_means", "load_photo"]
 
-_USUAL = 0.97  # fraction of the differences between neighbours that are not at a panel's edges
+_USUAL_FRACTION = 0.97
+"""Fraction of the differences between neighbours that are not at a panel's edges."""
 
 Corners: TypeAlias = Region | Sequence[int]
 """A Region, or first row, row after the last, first column, column after the last."""
@@ -193,7 +194,9 @@ def _taken(
     try:
         notes, orientation = camera_notes(decoded.picture), orientation_of(decoded.picture)
         samples, taken = take_channel(
-            decoded, channel, lambda fraction: report(DECODED + (1.0 - DECODED) * fraction)
+            decoded,
+            channel,
+            lambda fraction: report(DECODED_FRACTION + (1.0 - DECODED_FRACTION) * fraction),
         )
     finally:
         decoded.close()
@@ -223,7 +226,7 @@ def roughness_along(samples: Samples | ByteArray, axis: int) -> float:
     """
     means = means_along(samples, axis)
     steps = np.sort(np.abs(np.diff(means)))
-    usual = steps[: math.ceil(_USUAL * len(steps))]
+    usual = steps[: math.ceil(_USUAL_FRACTION * len(steps))]
     return float(usual.mean()) if usual.size else 0.0
 
 

@@ -28,7 +28,7 @@ from occ_model.photo.reading.exif import (
     CameraNotes,
     notes_of,
 )
-from occ_model.photo.reading.image_decoding import DECODED, Samples, no_stderr
+from occ_model.photo.reading.image_decoding import DECODED_FRACTION, Samples, no_stderr
 from occ_model.photo.reading.limits import check_bytes, check_file_size, check_size
 from occ_model.photo.reading.watched_file import Reporter, WatchedFile
 
@@ -165,7 +165,7 @@ def read_mosaic(
     check_file_size(path, "RAW", size)
     notes = _tags_of(file)
     file.seek(0, os.SEEK_SET)
-    file.watch(size, 0.0, 0.5 * DECODED)
+    file.watch(size, 0.0, 0.5 * DECODED_FRACTION)
     try:
         with rawpy.RawPy() as raw, no_stderr():
             raw.open_buffer(file)
@@ -173,7 +173,7 @@ def read_mosaic(
             check_size(path, width, height, max_pixels)
             check_bytes(path, width, height, _BYTES_A_PIXEL * width * height, size)
             raw.unpack()
-            report(DECODED)
+            report(DECODED_FRACTION)
             return _mosaic(shown, raw, notes)
     except (rawpy.LibRawError, rawpy.NotSupportedError) as error:
         if report.ended_by is not None:

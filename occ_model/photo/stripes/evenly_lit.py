@@ -18,7 +18,7 @@ from occ_model.photo.reading.load import Photo, means_along
 from occ_model.photo.stripes.find import BANDS
 from occ_model.results.decoding import Region
 
-_CLIPPED = 0.98  # fraction of white above which a pixel may have been clipped
+_CLIPPED_LEVEL = 0.98  # fraction of white above which a pixel may have been clipped
 _LEAST_CLIPPED = 0.002  # clipped fraction above which a profile is divided into groups
 _UNCLIPPED, _ALL_CLIPPED = 0.005, 0.9  # fractions of a clipped column's pixels
 _BLURRED_COLUMNS = 3  # columns beside a clipped one that blur may have darkened
@@ -67,7 +67,7 @@ class Cells:
         """Average a region of a photo over bands of rows."""
         part = region.crop(photo.samples)
         starts = np.linspace(0, len(part), min(BANDS, len(part)) + 1).astype(np.int64)
-        full = (part >= _CLIPPED * photo.white).view(np.uint8)
+        full = (part >= _CLIPPED_LEVEL * photo.white).view(np.uint8)
         means, clipped = [], []
         for first, last in pairwise(starts.tolist()):
             means.append(means_along(part[first:last], 0) * (WHITE / photo.white))
@@ -98,7 +98,7 @@ class Cells:
         return profiles[:_MOST_GROUPS]
 
     def _groups(self, rows: FloatArray) -> list[NDArray[np.bool_]]:
-        steps = [*(step * WHITE for step in _GROUP_LEVELS), _CLIPPED * WHITE]
+        steps = [*(step * WHITE for step in _GROUP_LEVELS), _CLIPPED_LEVEL * WHITE]
         groups = [(low < rows) & (rows <= high) for low, high in pairwise(steps)]
         core = rows > steps[-1]
         if core.any():

@@ -10,7 +10,7 @@ import cv2
 import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray
-from occ_model.camera.photometry import FLAT, WHITE
+from occ_model.camera.photometry import FLAT_SPAN, WHITE
 from occ_model.errors import MatchError, ParameterError
 from occ_model.photo.reading.load import Corners, Photo, column_means, part_of, region_within
 from occ_model.photo.stripes.envelope import envelope
@@ -34,7 +34,7 @@ _LEAST_COLUMNS = 16
 _LEAST_EDGES = 3
 
 _LEAST_COHERENCE = 0.2  # minimum fraction of the variation that all bands have in common
-_FULL = 0.996  # fraction of white above which a sample is saturated
+_SATURATED_LEVEL = 0.996  # fraction of white above which a sample is saturated
 _MOST_FULL = 0.8  # saturated fraction of the columns above which the others do not show the stripes
 
 _LEAST_STRIPS = 3  # above which the outermost ones, cut by the rim, are left out
@@ -97,19 +97,19 @@ def _stripes_between(photo: Photo, rows: Region, profile: FloatArray) -> Stripes
     profile = profile[first:last]
     low, high = envelope(profile, 2 * gap)
     swing = float(np.median(high - low))
-    if swing < FLAT:
+    if swing < FLAT_SPAN:
         raise MatchError(f"No stripes: the columns differ by {swing:.2g} grey levels only.")
-    high = np.maximum(high, low + FLAT)
+    high = np.maximum(high, low + FLAT_SPAN)
     found = repeat_period((profile - low) / (high - low))
     period, uncertainty = found if found is not None else (None, None)
-    if np.mean(profile >= _FULL * WHITE) > _MOST_FULL:
+    if np.mean(profile >= _SATURATED_LEVEL * WHITE) > _MOST_FULL:
         raise MatchError(
             "No stripes: nearly all columns of the panel are white; expose less, or choose another "
             "channel."
         )
     region = _moved(Region(0, rows.rows, first, last), rows)
     part = region.crop(photo.samples)
-    full = np.count_nonzero(part >= _FULL * photo.white) / part.size
+    full = np.count_nonzero(part >= _SATURATED_LEVEL * photo.white) / part.size
     return Stripes(region, profile, low, high, period, uncertainty, full)
 
 

@@ -5,7 +5,7 @@ import numpy as np
 from occ_model.arrays import FloatArray
 from occ_model.photo.stripes.envelope import smooth_shapes
 
-_SHORTEST = 3  # shortest period in columns
+_SHORTEST_PERIOD = 3  # shortest period in columns
 _LEAST_AUTOCORRELATION = 0.5  # minimum autocorrelation after one period
 _TOLERANCE = 0.06  # maximum difference of the shortest period's autocorrelation from the best
 _LONGEST_FRACTION = 0.67  # longest period relative to the width: part of it must be seen twice
@@ -28,7 +28,7 @@ def _rough_period(flattened: FloatArray) -> float | None:
     correlations = autocorrelation(flattened)
     count = int(_LONGEST_FRACTION * len(correlations))
     negative = np.flatnonzero(correlations[:count] < 0.0)
-    start = max(_SHORTEST, int(negative[0]) if negative.size else _SHORTEST)
+    start = max(_SHORTEST_PERIOD, int(negative[0]) if negative.size else _SHORTEST_PERIOD)
     inner = correlations[start : count - 1]
     if inner.size < 1:
         return None

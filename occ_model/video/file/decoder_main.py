@@ -19,7 +19,7 @@ from typing import IO, Any
 DECODER_OPTION = "--decoder-of-films"  # makes a bundled program a decoder
 MOST_MEMORY = 400_000_000  # bytes that decoding may take, beyond those at the process's start
 _FRAMES_LEFT = 12  # bytes a pixel that a decoder which goes on has left: four frames in colours
-LONGEST = 4.0  # seconds of processor time that one request may take
+LONGEST_REQUEST = 4.0  # seconds of processor time that one request may take
 TOOK_TOO_LONG = 21  # exit code of a process that took too long
 
 HEADER = struct.Struct("<II")  # before each answer: the bytes of its JSON and of its pixels
@@ -49,7 +49,7 @@ class _Watch:
         while True:
             time.sleep(_CHECK)
             since = self._since
-            if since is not None and time.process_time() - since > LONGEST:
+            if since is not None and time.process_time() - since > LONGEST_REQUEST:
                 os._exit(TOOK_TOO_LONG)
             closed = self._closed
             if closed is not None and time.monotonic() - closed > _IDLE_SECONDS:

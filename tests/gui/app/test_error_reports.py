@@ -17,7 +17,7 @@ from pytestqt.exceptions import capture_exceptions
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
-from occ_gui.app.error_reports import HARMLESS, ErrorReports, log_qt_messages
+from occ_gui.app.error_reports import HARMLESS_MESSAGE, ErrorReports, log_qt_messages
 from occ_gui.app.panes import picture
 from occ_gui.app.report import report_text, show_report
 from occ_gui.picture.averaged_image import AveragedImage
@@ -124,12 +124,12 @@ def logged(caplog: pytest.LogCaptureFixture) -> Iterator[pytest.LogCaptureFixtur
 
 def test_a_message_keeps_its_level_and_its_words(logged: pytest.LogCaptureFixture) -> None:
     qDebug("a detail")
-    qWarning(HARMLESS)  # a platform's note on every window
+    qWarning(HARMLESS_MESSAGE)  # a platform's note on every window
     qWarning("an odd thing")
     qCritical("a bad thing")
     assert logged.record_tuples == [
         ("qt", logging.DEBUG, "a detail"),
-        ("qt", logging.DEBUG, HARMLESS),
+        ("qt", logging.DEBUG, HARMLESS_MESSAGE),
         ("qt", logging.WARNING, "an odd thing"),
         ("qt", logging.ERROR, "a bad thing"),
     ]

@@ -25,7 +25,7 @@ from occ_gui.detection_map.slider_strip_controller import (
     own_rate_stages,
 )
 from occ_gui.detection_map.slider_strip_controller import RateRequest as Request
-from occ_gui.detection_map.worker import SEED, UNSEEN, measure_along, rate_settings
+from occ_gui.detection_map.worker import SEED, UNSEEN_PARAMETERS, measure_along, rate_settings
 from occ_gui.simulation.verdict import verdict_on
 from occ_gui.widgets.state_look import State
 from occ_model.cli import main
@@ -122,7 +122,7 @@ def test_six_doors_give_the_same_number(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     """Strip, map, limits, both commands of the shell, and banner, asked the same."""
-    scene = scene_of(decoder).replace(**UNSEEN)
+    scene = scene_of(decoder).replace(**UNSEEN_PARAMETERS)
     settings, images = SimulationSettings(), OWN_IMAGES
     frequency = scene.transmitter.switching_frequency
     (banner,) = (stage.jobs for stage in own_rate_stages(Request(scene, settings, decoder)))
@@ -158,7 +158,7 @@ def test_six_doors_give_the_same_number(
     assert (float(line["95 % from (%)"]), float(line["95 % to (%)"])) == (own.low, own.high)
     assert (100.0 * rate.low, 100.0 * rate.high) == pytest.approx((own.low, own.high))
     monkeypatch.setattr(module, "STEP", 1e9)  # no values between the scene's own and the ends
-    monkeypatch.setattr(module, "NEAR", 1e9)
+    monkeypatch.setattr(module, "END_RATIO", 1e9)
     scene_file.write_text(scene.to_toml(), encoding="utf-8")
     capsys.readouterr()
     main([

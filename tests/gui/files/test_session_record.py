@@ -11,7 +11,7 @@ from small_rooms import small_room
 
 from occ_gui.core.store import History, StepChange
 from occ_gui.core.workspace import FIRST_SETTINGS, Step, Workspace
-from occ_gui.files.session import LARGEST, SessionFile
+from occ_gui.files.session import LARGEST_FILE, SessionFile
 from occ_gui.files.session_record import Kept, kept_in, record_of
 from occ_gui.values.film_choice import FilmChoice
 from occ_gui.values.photo_choice import MatchChoice, PhotoChoice, PhotoFrame, PhotoReading
@@ -134,7 +134,7 @@ DAMAGED_SCENES = {
     "a deep key": f"format = 1\n{'a.' * DEEP}a = 1\n",
     "a very deep list": f"format = 1\na = {'[' * 100_000}\n",
     "a deep parameter": f"format = 1\n[camera]\niso = {'{a=' * DEEP}1{'}' * DEEP}\n",
-    "much": "format = 1\n#" + LARGEST * "x",
+    "much": "format = 1\n#" + LARGEST_FILE * "x",
     "no text": "\ud800",
 }
 

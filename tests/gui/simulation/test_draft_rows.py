@@ -6,7 +6,7 @@ from gui.kinds import SnapshotOf, not_none
 
 import occ_model as occ
 from occ_gui.simulation import jobs
-from occ_gui.simulation.jobs import LEAST_ROWS, LONGEST, THINNEST, DraftRows
+from occ_gui.simulation.jobs import LEAST_ROWS, LONGEST_DRAFT, THINNEST_ROW, DraftRows
 from occ_gui.simulation.snapshot import Picture, halved
 from occ_gui.values.simulated import LEAST_DRAFT_STEP
 from occ_model.scene.scene import Scene
@@ -27,23 +27,23 @@ def step_after(*seconds: float, rows: int = ROWS, shown: float = 11.3) -> int:
 )
 def test_a_draft_in_time_has_the_rows_that_the_screen_shows(shown: float, step: int) -> None:
     assert step_after(shown=shown) == step
-    assert step_after(*9 * [0.9 * LONGEST], shown=shown) == step
+    assert step_after(*9 * [0.9 * LONGEST_DRAFT], shown=shown) == step
 
 
 def test_of_late_drafts_the_next_has_half_of_the_rows() -> None:
-    late = 1.1 * LONGEST
+    late = 1.1 * LONGEST_DRAFT
     assert step_after(late, late) == 22
-    assert step_after(*4 * [late]) == 11 * THINNEST
-    assert step_after(*99 * [late]) == 11 * THINNEST
+    assert step_after(*4 * [late]) == 11 * THINNEST_ROW
+    assert step_after(*99 * [late]) == 11 * THINNEST_ROW
 
 
 def test_a_single_late_draft_changes_nothing() -> None:
-    late, in_time = 9.0 * LONGEST, 0.9 * LONGEST
+    late, in_time = 9.0 * LONGEST_DRAFT, 0.9 * LONGEST_DRAFT
     assert step_after(*9 * [late, in_time]) == 11
 
 
 def test_a_draft_that_is_ample_in_time_gets_its_rows_back() -> None:
-    late, soon = 1.1 * LONGEST, 0.3 * LONGEST
+    late, soon = 1.1 * LONGEST_DRAFT, 0.3 * LONGEST_DRAFT
     assert step_after(*4 * [late], *2 * [soon]) == 22
     assert step_after(*4 * [late], *4 * [soon]) == 11
 
@@ -56,12 +56,12 @@ def test_the_rows_settle(whole: float, fraction_of_rows: float) -> None:
     for _ in range(30):
         steps.append(chosen.step(ROWS, 11.0))
         thinned = steps[-1] / 11
-        chosen.took(whole * LONGEST * (1.0 - fraction_of_rows + fraction_of_rows / thinned))
+        chosen.took(whole * LONGEST_DRAFT * (1.0 - fraction_of_rows + fraction_of_rows / thinned))
     assert len(set(steps[10:])) == 1
 
 
 def test_no_draft_is_thinned_below_what_shows_a_picture() -> None:
-    late = 4 * [9.0 * LONGEST]
+    late = 4 * [9.0 * LONGEST_DRAFT]
     assert step_after(*late, rows=LEAST_ROWS * 15) == 15
     assert step_after(*late, rows=LEAST_ROWS * 2) == 11
 
@@ -73,9 +73,9 @@ def test_a_picture_of_few_pixels_needs_no_draft(
     planned = plan_scene(request.scene, request.settings)
     assert not jobs.is_soon(planned), "it has an effect that differs by pixel"
     pixels = request.scene.camera.rows * request.scene.camera.columns
-    monkeypatch.setattr(jobs, "SMALL", pixels)
+    monkeypatch.setattr(jobs, "SMALL_PICTURE", pixels)
     assert jobs.draft_of(request, planned) is None
-    monkeypatch.setattr(jobs, "SMALL", pixels - 1)
+    monkeypatch.setattr(jobs, "SMALL_PICTURE", pixels - 1)
     draft = not_none(jobs.draft_of(request, planned))
     assert draft.rows_step == request.draft_step
 

@@ -64,7 +64,7 @@ def test_no_reading_is_replaced_by_one_of_an_earlier_scene(
 @pytest.fixture
 def pictures(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> list[Picture]:
     """Draft pictures of any size, and keep all that are delivered."""
-    monkeypatch.setattr(jobs, "SMALL", 0)
+    monkeypatch.setattr(jobs, "SMALL_PICTURE", 0)
     return collect(bench.controller.picture_ready)
 
 

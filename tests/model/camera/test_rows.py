@@ -15,7 +15,7 @@ from occ_model.camera.row_interpolation import (
     row_weights,
     smooth_columns,
 )
-from occ_model.camera.row_memory import LIMIT, MEMORY, RowMemory
+from occ_model.camera.row_memory import CAPACITY, MEMORY, RowMemory
 from occ_model.simulation.render import observe
 
 STILL = {"sensor-noise": False, "fixed-pattern": False, "jpeg": False}
@@ -113,7 +113,7 @@ def test_what_is_larger_than_the_memory_is_not_remembered() -> None:
 
 
 def test_no_number_of_moves_fills_more_than_the_limit(monkeypatch: pytest.MonkeyPatch) -> None:
-    limit = LIMIT // amount(4, 1)  # less of it is full sooner
+    limit = CAPACITY // amount(4, 1)  # less of it is full sooner
     monkeypatch.setattr(MEMORY, "_limit", limit)
     scene = occ.load_preset("phone-136us-real").replace(rows=1152, jpeg_quality=0)
     for move in range(amount(8, 60)):

@@ -35,7 +35,7 @@ from occ_model.study.sure_ends import (
     pairs_of,
     sure_end,
 )
-from occ_model.study.working_range import FEW_IMAGES, NEAR, STEP
+from occ_model.study.working_range import END_RATIO, FEW_IMAGES, STEP
 
 SCENE = Scene()
 
@@ -94,11 +94,11 @@ def test_both_ends_of_an_interval_are_found_to_the_stated_ratio(
     for range_end, truth in ((found.lowest, low), (found.highest, high)):
         works, fails = ends(range_end)
         assert min(works, fails) <= truth <= max(works, fails)
-        assert max(works, fails) / min(works, fails) <= NEAR
+        assert max(works, fails) / min(works, fails) <= END_RATIO
         assert range_end.inside is not None
         assert low <= range_end.inside.value <= high
         assert range_end.interval[0] <= truth <= range_end.interval[1]
-        assert range_end.interval[1] / range_end.interval[0] <= NEAR**3
+        assert range_end.interval[1] / range_end.interval[0] <= END_RATIO**3
 
 
 @pytest.mark.parametrize("own", [700.0, 5e3, 40e3])
@@ -116,7 +116,9 @@ def test_ranges_are_lists_of_intervals_and_both_ends_of_the_scenes_own_are_exact
             works, fails = ends(range_end)
             assert min(works, fails) <= wanted <= max(works, fails)
             is_outermost = wanted in (truth[0][0], truth[-1][1])
-            assert (max(works, fails) / min(works, fails) <= NEAR) == (is_exact or is_outermost)
+            assert (max(works, fails) / min(works, fails) <= END_RATIO) == (
+                is_exact or is_outermost
+            )
     assert found.own.rate == 100.0
     assert found.highest is found.intervals[-1].highest
 
@@ -126,7 +128,7 @@ def test_the_images_that_confirm_an_end_have_not_chosen_it(decoding: Decoding) -
     decoding(lambda frequency, _, seed: frequency <= (12e3 if seed == 1 else 11e3))
     range_end = occ.limits(SCENE, images=20).frequency.highest
     works, fails = ends(range_end)
-    assert works <= 11e3 < fails <= 12e3 * NEAR
+    assert works <= 11e3 < fails <= 12e3 * END_RATIO
     assert (range_end.works.whole, range_end.fails.whole) == (20, 0)
 
 

@@ -316,7 +316,7 @@ _BUSY = """
 import sys
 sys.path.insert(0, sys.argv[1])
 from occ_model.video.file import decoder_main, source
-decoder_main.LONGEST = 0.3
+decoder_main.LONGEST_REQUEST = 0.3
 usual = source.OpenCvSource.read
 def read(self):
     frame = usual(self)
@@ -435,7 +435,7 @@ def test_a_film_without_a_rate_states_no_length_that_it_could_end_before(
 def test_a_film_ends_where_its_times_cannot_be(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("occ_model.video.load.LATEST", 0.2)
+    monkeypatch.setattr("occ_model.video.load.LATEST_TIME", 0.2)
     film = occ.load_video(saved(tmp_path, film_bytes("mp4", "mp4v")))
     assert [frame.index for frame in film] == list(range(7))
     assert "the time of frame 7 is 0.233 s; allowed: -0.2 to 0.2 s." in film.problem

@@ -8,7 +8,7 @@ import pytest
 
 from occ_model.photo.fit.exposure_modes import Possible, _with_blur
 from occ_model.photo.fit.joint_fit import JointFit
-from occ_model.photo.fit.joint_model import USUAL, JointModel
+from occ_model.photo.fit.joint_model import PRIORS, JointModel
 from occ_model.photo.fit.seen_stripes import BlurredLight, BlurShape, blur_kernel
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.fit.tone_curve import ToneCurve
@@ -41,7 +41,7 @@ def model_of(
 def test_what_made_the_stripes_leaves_but_what_is_unusual_of_the_camera() -> None:
     """Six unknowns off what is usual, each in its standard deviations, and no other misfit."""
     model = model_of(values_of())
-    mean, deviation = np.array(list(USUAL.values())).T
+    mean, deviation = np.array(list(PRIORS.values())).T
     deviation = np.append(deviation[:5], math.hypot(deviation[5], 0.4 * 0.09))
     off = (TRUE[3:] - mean) / deviation
     assert model.unusual(TRUE) == pytest.approx(np.linalg.norm(off))

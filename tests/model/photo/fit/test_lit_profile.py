@@ -6,7 +6,7 @@ from scipy.optimize import least_squares
 
 from occ_model.photo.fit.lit_profile import LitProfile, deviation_of
 from occ_model.photo.fit.normal_equations import at_least_one
-from occ_model.photo.fit.seen_stripes import REACH, BlurredLight, Seen, blur_kernel, blurred
+from occ_model.photo.fit.seen_stripes import BLUR_REACH, BlurredLight, Seen, blur_kernel, blurred
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.fit.tone_curve import ToneCurve
 from occ_model.photo.stripes.envelope import smooth_shapes
@@ -94,7 +94,7 @@ def test_no_levels_explain_kept_and_clipped_columns_better(brighter: float, nois
 def test_blurred_grey_levels_of_the_model_leave_next_to_no_residual() -> None:
     """Their levels are corrected by one step; as if light were blurred some are off."""
     kernel = blur_kernel(1.5)
-    dark, swing = (np.pad(levels, REACH, mode="edge") for levels in (DARK, SWING))
+    dark, swing = (np.pad(levels, BLUR_REACH, mode="edge") for levels in (DARK, SWING))
     values = blurred(TABLE.value_of(dark + swing * SHARP), kernel)
     lit = BlurredLight(CHIPS, COLUMNS).lit_fraction(TIMING, 1.5, 0.02)
     part = profile_of(values, ALL, ~ALL)
@@ -107,7 +107,7 @@ def test_blurred_grey_levels_of_the_model_leave_next_to_no_residual() -> None:
 def test_dark_columns_beside_bright_ones_are_followed_where_grey_levels_are_blurred() -> None:
     """Their light cannot be told from blurred grey levels; its curve is steep near black."""
     kernel = blur_kernel(1.5)
-    dark, swing = np.full(COLUMNS + 2 * REACH, 0.001), np.pad(SWING, REACH, mode="edge")
+    dark, swing = np.full(COLUMNS + 2 * BLUR_REACH, 0.001), np.pad(SWING, BLUR_REACH, mode="edge")
     table = ToneCurve(2.2).table()
     values = blurred(table.value_of(dark + swing * SHARP), kernel)
     lit = BlurredLight(CHIPS, COLUMNS).lit_fraction(TIMING, 1.5, 0.02)

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from gui.kinds import not_none
 from gui.user import User
-from PySide6.QtCore import QPoint, QRect, Qt
+from PySide6.QtCore import QEvent, QPoint, QRect, Qt
 from PySide6.QtGui import QGuiApplication
-from PySide6.QtWidgets import QWidget
+from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
@@ -121,6 +121,8 @@ def test_the_receivers_picture_is_chosen_in_all_panes(application: Application) 
     image.choose_picture("camera")
     assert story.whose.key() == "camera"
     assert story.rows.profile.levels is reading.profile
+    profile.enhanced.click()
+    assert not application.store.store.workspace.is_enhanced
 
 
 def test_the_mouse_reads_all_rows_out(application: Application, qtbot: QtBot) -> None:
@@ -131,6 +133,9 @@ def test_the_mouse_reads_all_rows_out(application: Application, qtbot: QtBot) ->
     pointed = rows.crosshair.pointed
     assert pointed == pytest.approx(column, abs=1)
     assert application.story.readout.toolTip().startswith(f"column {pointed}  ·  ")
+    QApplication.sendEvent(row, QEvent(QEvent.Type.Leave))
+    assert rows.crosshair.pointed is None
+    assert application.story.readout.toolTip().startswith(f"column {rows.crosshair.column}  ·  ")
 
 
 def test_an_open_photo_is_drawn_in_the_story(
@@ -173,7 +178,8 @@ def test_the_context_menu_copies_the_values_at_the_crosshair_and_the_bar_leads_t
     application: Application, user: User
 ) -> None:
     user.wait_until_idle()
-    entries = {action.text(): action for action in story_menu(application).actions()}
+    menu = story_menu(application)
+    entries = {action.text(): action for action in menu.actions()}
     assert "Meas&ure" in entries
     application.window.actions_by_name["measure"].trigger()
     assert len(application.story.rows.crosshair.cursors.columns) == 2
@@ -181,6 +187,7 @@ def test_the_context_menu_copies_the_values_at_the_crosshair_and_the_bar_leads_t
     assert QGuiApplication.clipboard().text().startswith("column ")
     assert user.message.startswith("Copied: column ")
     assert "Copy fi&gure" in entries
+    menu.aboutToHide.emit()
     application.story.verdict.lesson_wanted.emit(AVERAGES_LESSON)
     pane = application.shell.pane("lessons")
     assert not application.window.is_put_away("lessons")

@@ -23,7 +23,7 @@ from occ_gui.lessons.lesson_view import LessonView
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.plain_text import in_tool_tip, plain
 from occ_model.results.teaching import LessonList
-from occ_model.scene.presets import USER_FOLDER, save_preset
+from occ_model.scene.presets import USER_FOLDER, delete_preset, save_preset
 from occ_model.scene.scene import Scene
 from occ_model.teaching.lessons import lessons
 
@@ -104,6 +104,9 @@ def test_no_name_of_a_file_and_no_note_in_it_becomes_a_mark(
     assert plain(undo) == f"opening of {SHOWN}.toml"
     marked = [text for text in texts(window) if RichText.mightBeRichText(text) and "<img" in text]
     assert not marked
+    delete_preset("hostile")
+    application.presets._update()
+    assert combo.findData("hostile") == -1
 
 
 def test_a_scene_files_name_does_not_mark_a_change(application: Application) -> None:

@@ -74,16 +74,14 @@ class DepthOver:
         at_ends = self.of_code(frequency * ends) + self.flicker(ends)
         least = np.minimum(at_ends[:-1], at_ends[1:])
         for rate in (frequency, self.flicker_frequency):
-            node = np.maximum(np.ceil(rate * ends[:-1]), 1.0)
-            for _ in range(_MAX_NODES):
-                inside = node <= rate * ends[1:]
-                if not inside.any():
-                    break
-                exposures = node / rate
-                chips = node if rate == frequency else frequency * exposures
-                depth = self.of_code(chips) + self.flicker(exposures)
-                least = np.where(inside, np.minimum(least, depth), least)
-                node = node + 1.0
+            first = np.maximum(np.ceil(rate * ends[:-1]), 1.0)
+            count = np.floor(rate * ends[1:]) - first + 1.0
+            count = np.clip(count, 0.0, _MAX_NODES).astype(np.int64)
+            place = np.repeat(np.arange(len(count)), count)
+            node = first[place] + np.arange(len(place)) - (np.cumsum(count) - count)[place]
+            exposures = node / rate
+            chips = node if rate == frequency else frequency * exposures
+            np.minimum.at(least, place, self.of_code(chips) + self.flicker(exposures))
         return np.asarray(least)
 
 

@@ -67,7 +67,7 @@ def _frontier_scene(name: str, random: np.random.Generator) -> Scene:
 
 def test_the_study_says_what_the_pictures_show() -> None:
     """Where all or none of 40 images are read, another picture differs once in some dozens."""
-    scenes = frontier_scenes(amount(6, 12))
+    scenes = frontier_scenes(amount(4, 12))
     surprises = sure = 0
     for number, scene in enumerate(scenes):
         rate = occ.success_rate(scene, images=40, seed=number)

@@ -18,6 +18,7 @@ from occ_gui.lessons import answers
 from occ_gui.lessons.lesson_controller import changed_sentence
 from occ_gui.lessons.lesson_view import LessonView
 from occ_gui.lessons.step_page import StepPage
+from occ_model.figures import drawing
 from occ_model.results.teaching import CheckedAnswer
 from occ_model.teaching.answers import check_answer
 from occ_model.teaching.lessons import lessons
@@ -211,6 +212,7 @@ def test_the_end_shows_the_answers_and_saves_them_as_a_report(
     guide.end.report.click()
     bench.wait_until_idle()
     assert list(tmp_path.iterdir()) == [], "it is not wanted"
+    monkeypatch.setitem(drawing._STYLE, "figure.constrained_layout.use", False)  # it is slow
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(path), ""))
     guide.end.report.click()
     bench.wait_until_idle()

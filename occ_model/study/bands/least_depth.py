@@ -75,8 +75,8 @@ class DepthOver:
         least = np.minimum(at_ends[:-1], at_ends[1:])
         for rate in (frequency, self.flicker_frequency):
             first = np.maximum(np.ceil(rate * ends[:-1]), 1.0)
-            count = np.floor(rate * ends[1:]) - first + 1.0
-            count = np.clip(count, 0.0, _MAX_NODES).astype(np.int64)
+            inside = np.floor(rate * ends[1:]) - first + 1.0
+            count = np.clip(inside, 0.0, _MAX_NODES).astype(np.int64)
             place = np.repeat(np.arange(len(count)), count)
             node = first[place] + np.arange(len(place)) - (np.cumsum(count) - count)[place]
             exposures = node / rate

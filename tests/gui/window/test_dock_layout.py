@@ -97,7 +97,7 @@ def faults(window: QWidget) -> list[str]:
     controls = visible_controls(window)
     found = [f"too small: {describe(control)}" for control in controls if too_small(control)]
     found += [f"cut off: {describe(control)}" for control in controls if cut_off(control)]
-    children = defaultdict[QWidget, list[QWidget]](list)
+    children = defaultdict[QWidget | None, list[QWidget]](list)
     for control in controls:
         children[control.parentWidget()].append(control)
     found += [

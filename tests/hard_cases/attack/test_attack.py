@@ -13,7 +13,7 @@ from hard_cases import laws
 from hard_cases.attack.program import Outcomes, doors
 from hard_cases.attack.promise import Door
 
-EVERYDAY, WHOLE = 45, int(os.environ.get("OCC_ATTACK", 800))
+EVERYDAY, WHOLE = 36, int(os.environ.get("OCC_ATTACK", 800))
 """Cases at all doors together; ``OCC_ATTACK`` asks for more."""
 
 FIRST = int(os.environ.get("OCC_ATTACK_SEED", 0))

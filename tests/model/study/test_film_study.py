@@ -66,7 +66,7 @@ def test_a_frame_shows_whole_the_chips_that_are_not_cut_off() -> None:
 
 
 def test_the_published_example_is_received_as_counting_says() -> None:
-    request = example_request(frames=65)
+    request = example_request(frames=33)
     (point,) = film_study(request)
     assert point.packet_chips == PACKET_CHIPS == 52
     assert point.is_right

@@ -9,6 +9,7 @@ projection: Golub and Pereyra, SIAM J. Numer. Anal. 10:413, 1973).
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -68,21 +69,22 @@ class StripeFit:
 class StripeModel:
     """The model of one profile, for one sequence of chips and one tone.
 
-    ``step``: chips per column, roughly: the number of chips limits the degrees of freedom of the
-    levels. ``rank_resolution``: smallest change of the timing, in columns, that changes the
-    response.
+    ``tone``: None for a profile of light, which is linear in the lit fractions: the slopes of its
+    fit are known, and take no differences. ``step``: chips per column, roughly: the number of chips
+    limits the degrees of freedom of the levels. ``rank_resolution``: smallest change of the timing,
+    in columns, that changes the response.
     """
 
     def __init__(
         self,
         profile: FloatArray,
         chips: ByteArray,
-        tone: Tone,
+        tone: Tone | None,
         step: float,
         rank_resolution: float = 0.0,
     ) -> None:
         self._profile = profile
-        self._waveform = Waveform(chips)
+        self._chips, self._waveform = chips, Waveform(chips)
         self._tone = tone
         self._scale = max(1.0, rank_resolution / DIFFERENCE) * step
         # The same number for both levels, or else the mean would fit better than the swing.
@@ -95,20 +97,43 @@ class StripeModel:
         self._kept_shapes = np.ascontiguousarray(self._shapes[:, self._kept])
         self._kept_profile = profile[self._kept]
         self._weight = np.ones(len(self._kept_profile))
+        # Slopes are asked for where the residual has just been.
+        self._at = lru_cache(maxsize=1)(self._fitted_at)
 
     def levels(self, timing: Timing) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Fit the levels for a given timing.
 
         ``low``, ``swing`` and the model's profile, limited to white, each of shape (columns,).
         """
-        tone = self._tone(timing.lit_fraction(self._waveform, len(self._profile)), timing.gamma)
+        tone, low, swing = self._at(timing)
+        return low, swing, np.minimum(low + swing * tone, WHITE)
+
+    def _fitted_at(self, timing: Timing) -> tuple[FloatArray, FloatArray, FloatArray]:
+        tone = timing.lit_fraction(self._waveform, len(self._profile))
+        if self._tone is not None:
+            tone = self._tone(tone, timing.gamma)
+        low, swing = self._explained(tone, self._kept_profile).reshape(2, -1) @ self._shapes
+        return tone, low, swing
+
+    def _explained(self, tone: FloatArray, data: FloatArray) -> FloatArray:
+        """Return the levels that explain data of the kept columns, shape (kept,) or (any, kept)."""
         kept = LitColumns(self._kept_shapes, tone[self._kept])
         matrix = self._equations.matrix(self._weight, kept.lit)
         # Where the response hardly varies the levels are undetermined: keep them small.
         matrix.flat[:: len(matrix) + 1] += 1e-9 * len(self._weight)
-        levels = np.linalg.solve(matrix, kept.sums(self._kept_profile))
-        low, swing = levels.reshape(2, -1) @ self._shapes
-        return low, swing, np.minimum(low + swing * tone, WHITE)
+        return np.asarray(np.linalg.solve(matrix, kept.sums(data).T).T)
+
+    def _slopes(self, timing: Timing) -> FloatArray:
+        """Return the residual's slopes over step, exposure and middle where the tone is linear.
+
+        What has the residual as a factor is left out (Kaufman, BIT 15:49, 1975).
+
+        Shape (columns, 3).
+        """
+        lit, _, swing = self._at(timing)
+        changes = swing * timing.lit_slopes(lit, self._chips)
+        levels = self._explained(lit, changes[:, self._kept])
+        return (LitColumns(self._shapes, lit).light(levels) - changes).T
 
     def fit(
         self,
@@ -136,6 +161,7 @@ class StripeModel:
             np.zeros(len(free)),
             rounds,
             _LEAST_GAIN,
+            None if self._tone else lambda scaled: self._slopes(timing_of(scaled)) * scale,
         )
         covariance = np.zeros((4, 4))
         covariance[np.ix_(free, free)] = _covariance(slopes, residual) * np.outer(scale, scale)

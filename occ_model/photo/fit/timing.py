@@ -5,7 +5,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from occ_model.arrays import FloatArray
+from occ_model.arrays import ByteArray, FloatArray
 from occ_model.transmitter.waveform import Duration, Phases, Waveform
 
 SHORTEST_EXPOSURE = 1e-3
@@ -29,9 +29,27 @@ class Timing:
 
     def lit_fraction(self, waveform: Waveform, columns: int) -> FloatArray:
         """Return the fraction of each exposure in which the LED is on, shape (columns,)."""
-        place = self.start(columns) + self.step * np.arange(columns, dtype=np.float64)
+        place = self._starts(columns)
         chip = np.floor(place)
         phases = Phases((chip % waveform.period).astype(np.int64), place - chip)
         exposure = Duration.of(Fraction(self.exposure), waveform.period)
         lit = waveform.lit_chips(phases, exposure) / exposure.in_chips(waveform.period)
         return np.clip(lit, 0.0, 1.0)
+
+    def lit_slopes(self, lit: FloatArray, chips: ByteArray) -> FloatArray:
+        """Return the lit fractions' slopes over step, exposure and middle, shape (3, columns).
+
+        An exposure that is later gains the chip that it ends in and loses the one it starts in.
+        """
+        starts = self._starts(len(lit))
+        first, last = (
+            chips.take(np.floor(place).astype(np.int64), mode="wrap").astype(np.float64)
+            for place in (starts, starts + self.exposure)
+        )
+        later = (last - first) / self.exposure
+        longer = (0.5 * (last + first) - lit) / self.exposure
+        from_middle = np.arange(len(lit)) - 0.5 * (len(lit) - 1)
+        return np.stack([later * from_middle, longer, later])
+
+    def _starts(self, columns: int) -> FloatArray:
+        return self.start(columns) + self.step * np.arange(columns, dtype=np.float64)

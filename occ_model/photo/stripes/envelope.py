@@ -1,6 +1,7 @@
 """Estimate the slowly varying dark and bright levels of stripes under uneven light."""
 
 import math
+from functools import lru_cache
 
 import cv2
 import numpy as np
@@ -35,13 +36,17 @@ def envelope(profile: FloatArray, width: int) -> tuple[FloatArray, FloatArray]:
     return np.asarray(low, dtype=np.float64), np.asarray(high, dtype=np.float64)
 
 
+@lru_cache(maxsize=8)  # a film's frames ask for the same
 def smooth_shapes(count: int, freedom: int) -> FloatArray:
     """Return Chebyshev polynomials, of which slowly varying levels are linear combinations.
 
     Shape (columns, freedom).
     """
     place = np.linspace(-1.0, 1.0, count)
-    return np.asarray(np.polynomial.chebyshev.chebvander(place, freedom - 1))
+    vander = np.polynomial.chebyshev.chebvander(place, freedom - 1)
+    shapes: FloatArray = np.asarray(vander, dtype=np.float64)
+    shapes.flags.writeable = False  # it is cached and shared
+    return shapes
 
 
 def without_trend(profile: FloatArray) -> FloatArray:

@@ -7,17 +7,11 @@ import pytest
 from amount import amount
 
 import occ_model as occ
-from occ_model.photo.stripes.period import correlated_columns
+from occ_model.photo.fit.least_squares import StripeModel
+from occ_model.photo.fit.timing import Timing
 from occ_model.results.decoding import DecodeResult
 from occ_model.scene.scene import Scene
-from occ_model.video.chip_timing import (
-    ChipLattice,
-    ChipTiming,
-    _Levels,
-    _noise,
-    _ratios,
-    fit_timing,
-)
+from occ_model.video.chip_timing import ChipLattice, ChipTiming, _ratios, fit_timing, noise_of
 from occ_model.video.read_frame import first_lattice
 
 CHIPS = np.array([1, 0, 1, 1, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0, 1, 0, 1, 0], dtype=np.uint8)
@@ -25,11 +19,21 @@ LENGTH = 20.0
 """Columns a chip."""
 
 
+def _lit(lattice: ChipLattice, columns: int) -> np.ndarray:
+    """Lit fractions by the chips' running sum; beside them the outermost ones go on."""
+    values = np.pad(lattice.values.astype(float), 9, mode="edge")
+    starts = lattice.phase - lattice.first + 9.0 + lattice.step * np.arange(columns)
+    running, places = np.concatenate([[0.0], np.cumsum(values)]), np.arange(len(values) + 1.0)
+    ends = starts + lattice.exposure
+    lit = np.interp(ends, places, running) - np.interp(starts, places, running)
+    return np.asarray(lit / lattice.exposure)
+
+
 def _light(lattice: ChipLattice, columns: int, noise: float, seed: int) -> np.ndarray:
     """Light of a panel that is brighter on one side, with noise."""
     random = np.random.default_rng(seed)
     place = np.linspace(-1.0, 1.0, columns)
-    fraction, _, _ = lattice.lit(columns)
+    fraction = _lit(lattice, columns)
     swing = 1.0 + 0.3 * place - 0.2 * place**2
     return np.asarray(
         0.1 + 0.05 * place + swing * fraction + noise * random.standard_normal(columns)
@@ -57,14 +61,10 @@ def _fit(exposure: float, noise: float, seed: int) -> tuple[ChipLattice, ChipTim
     return lattice, fitted
 
 
-def _middle(lattice: ChipLattice, columns: int = 1200) -> float:
-    return lattice.phase + 0.5 * lattice.exposure + 0.5 * lattice.step * (columns - 1)
-
-
 @pytest.mark.parametrize("exposure", [0.2, 0.5, 0.97, 1.8])
 def test_without_noise_phase_and_step_are_exact(exposure: float) -> None:
     lattice, fitted = _fit(exposure, 1e-6, 7)
-    assert fitted.middle == pytest.approx(_middle(lattice), abs=1e-3)
+    assert fitted.middle == pytest.approx(lattice.middle(1200), abs=1e-3)
     assert fitted.lattice.step == pytest.approx(lattice.step, rel=1e-5)
 
 
@@ -72,7 +72,7 @@ def test_an_exposure_shorter_than_a_column_has_an_error_that_is_not_understated(
     found = []
     for seed in range(amount(30, 60)):
         lattice, fitted = _fit(0.02, 1e-6, seed)
-        found.append((fitted.middle - _middle(lattice)) / fitted.middle_error)
+        found.append((fitted.middle - lattice.middle(1200)) / fitted.middle_error)
     # How much of it edges hide depends on where they lie: the error is for the worst places.
     assert float(np.sqrt(np.mean(np.square(found)))) < 1.2
 
@@ -81,7 +81,7 @@ def test_stated_errors_of_phase_and_step_cover_68_percent() -> None:
     found = []
     for seed in range(amount(60, 120)):
         lattice, fitted = _fit(0.5, 0.05, seed)
-        found.append((fitted.middle - _middle(lattice)) / fitted.middle_error)
+        found.append((fitted.middle - lattice.middle(1200)) / fitted.middle_error)
         found.append((fitted.lattice.step - lattice.step) / fitted.step_error)
     # Standard deviation of the fraction in 120 values: 4 %.
     assert np.mean(np.abs(found) < 1.0) == pytest.approx(0.68, abs=0.08)
@@ -93,7 +93,7 @@ def test_light_that_falls_off_as_a_lens_s_shifts_no_edges_of_all_frames_alike() 
     found = []
     for seed in range(amount(30, 60)):
         lattice = _lattice(0.5, seed)
-        fraction, _, _ = lattice.lit(1200)
+        fraction = _lit(lattice, 1200)
         noise = 0.01 * np.random.default_rng(seed).standard_normal(1200)
         fitted = fit_timing(fall * (0.1 + fraction) + noise, _rough(lattice, seed))
         found.append((fitted.lattice.step - lattice.step) / fitted.step_error)
@@ -121,16 +121,17 @@ def test_chips_that_never_change_have_no_timing() -> None:
 def test_every_ratio_is_the_change_of_the_squared_distance_by_that_chip_alone() -> None:
     lattice = _lattice(1.6, 14, step=0.2)
     light = _light(lattice, 400, 0.8, 14)
-    levels = _Levels.fitted(light, lattice)
-    noise = _noise(levels) * correlated_columns(levels.residual)
-    here, _, _ = lattice.lit(400)
-    for chip, ratio in enumerate(_ratios(lattice, levels).tolist()):
+    here, timing = _lit(lattice, 400), Timing(lattice.step, 1.6, lattice.middle(400), 1.0)
+    _, swing, profile = StripeModel(light, lattice.values, None, lattice.step).levels(timing)
+    found = _ratios(lattice, swing, light - profile)
+    noise = noise_of(swing, light - profile, lattice.step)
+    for chip, ratio in enumerate(found.tolist()):
         squares = []
         for value in (0, 1):
             values = lattice.values.copy()
             values[chip] = value
-            fraction, _, _ = replace(lattice, values=values).lit(400)
-            residual = levels.residual + levels.swing * (here - fraction)
+            fraction = _lit(replace(lattice, values=values), 400)
+            residual = light - profile + swing * (here - fraction)
             squares.append(float(residual @ residual))
         # Chips that are out of view repeat the outermost ones where the light is worked out.
         if 3 < chip < 80:

@@ -105,6 +105,17 @@ def test_a_fit_states_what_noise_does_to_it() -> None:
     assert all(fit.covariance[3, 3] == 0.0 for fit in fits)
 
 
+def test_light_is_fitted_as_by_a_linear_response_whose_slopes_take_differences() -> None:
+    noisy = PROFILE + np.random.default_rng(3).normal(size=COLUMNS)
+    start = replace(TRUE, step=0.0901, exposure=0.5, middle=2.9)
+    light, linear = (
+        StripeModel(noisy, CHIPS, tone, TRUE.step).fit(start) for tone in (None, lambda lit, _: lit)
+    )
+    for name in ("step", "exposure", "middle"):
+        assert getattr(light.timing, name) == pytest.approx(getattr(linear.timing, name), rel=1e-3)
+    assert np.diag(light.covariance) == pytest.approx(np.diag(linear.covariance), rel=0.05)
+
+
 def test_stripes_that_vanish_are_taken_for_a_twentieth_of_the_highest_ones() -> None:
     """Whoever flattens divides by their height: it is never next to nothing."""
     shapes = smooth_shapes(COLUMNS, 2)

@@ -159,6 +159,7 @@ def test_mode_and_layouts_are_there_again_and_can_be_reset(start: Starting, qtbo
         assert not window.docks["controls"].isHidden()
         assert window.dockWidgetArea(window.docks["decode"]) != LEFT
         assert window.saveState().size() == first.size()
+        window.docks["controls"].hide()
     with start(fresh=True) as application:
         assert not application.window.docks["controls"].isHidden()
 

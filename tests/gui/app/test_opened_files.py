@@ -32,6 +32,34 @@ def entries(menu: QMenu) -> list[str]:
     return [action.text() for action in menu.actions() if not action.isSeparator()]
 
 
+@pytest.fixture
+def samples(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, camera_scene: Scene) -> Path:
+    """Put a sample photo with its scene in place of those of the program."""
+    folder = tmp_path / "resources" / "photos"
+    folder.mkdir(parents=True)
+    Image.fromarray(occ.render(camera_scene).image).save(folder / "led-1khz-panel.jpg")
+    (folder / "led-1khz-panel.toml").write_text(camera_scene.to_toml(), encoding="utf-8")
+    monkeypatch.setattr(file_controller, "resource_path", tmp_path.joinpath("resources").joinpath)
+    return folder
+
+
+@pytest.mark.own_window
+def test_a_sample_is_opened_with_its_scene_and_not_remembered_and_without_any_none_is_offered(
+    samples: Path, user: User, application: Application, camera_scene: Scene,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:  # fmt: skip
+    menu = application.window.menus.samples
+    assert entries(menu) == ["LED 1 kHz panel (simulated)"]
+    menu.actions()[0].trigger()
+    user.wait_until_idle()
+    assert application.store.scene == camera_scene
+    assert application.window.windowTitle().startswith("led-1khz-panel.jpg")
+    assert application.preferences.files == ()
+    monkeypatch.setattr(file_controller, "resource_path", samples.joinpath)  # which has no folder
+    application.window.menus.show_samples(file_controller.sample_photos(), application.open_photo)
+    assert not menu.isEnabled()
+
+
 def test_files_that_were_opened_are_listed_and_opened_again(
     application: Application, user: User, taken: Path, photo_file: Path, tmp_path: Path
 ) -> None:
@@ -95,34 +123,6 @@ def test_photos_dropped_together_become_a_table_and_the_first_opens(
     qtbot.waitUntil(lambda: application.view("photo").many.isVisible())  # across the bottom
     assert application.window.actions_by_name["match_all"].isEnabled()
     assert application.window.windowTitle().startswith("stripes.png")
-
-
-@pytest.fixture
-def samples(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, camera_scene: Scene) -> Path:
-    """Put a sample photo with its scene in place of those of the program."""
-    folder = tmp_path / "resources" / "photos"
-    folder.mkdir(parents=True)
-    Image.fromarray(occ.render(camera_scene).image).save(folder / "led-1khz-panel.jpg")
-    (folder / "led-1khz-panel.toml").write_text(camera_scene.to_toml(), encoding="utf-8")
-    monkeypatch.setattr(file_controller, "resource_path", tmp_path.joinpath("resources").joinpath)
-    return folder
-
-
-@pytest.mark.own_window
-def test_a_sample_is_opened_with_its_scene_and_not_remembered_and_without_any_none_is_offered(
-    samples: Path, user: User, application: Application, camera_scene: Scene,
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:  # fmt: skip
-    menu = application.window.menus.samples
-    assert entries(menu) == ["LED 1 kHz panel (simulated)"]
-    menu.actions()[0].trigger()
-    user.wait_until_idle()
-    assert application.store.scene == camera_scene
-    assert application.window.windowTitle().startswith("led-1khz-panel.jpg")
-    assert application.preferences.files == ()
-    monkeypatch.setattr(file_controller, "resource_path", samples.joinpath)  # which has no folder
-    application.window.menus.show_samples(file_controller.sample_photos(), application.open_photo)
-    assert not menu.isEnabled()
 
 
 TITLE = "Optical Camera Communication"

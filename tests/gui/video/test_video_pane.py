@@ -87,6 +87,31 @@ def test_the_menu_opens_and_closes_a_film_which_stays_open_where_the_next_is_non
     assert application.video.wiring.view.pictures.shown == (False, True)
 
 
+def test_a_camera_is_read_live_and_released_with_the_mode(
+    pane: VideoWiring, application: Application, qtbot: QtBot, film: Video
+) -> None:
+    source = FilmSource([*film] * 200, "Stand-in")
+    pane.live.start(source)
+    qtbot.waitUntil(lambda: pane.view.pictures.shown[0] and len(states(pane)) > 0)
+    video = not_none(pane.live.video)
+    assert pane.view.bar.axis.key() == "columns"
+    assert pane.view.bar.title.toolTip() == "Stand-in, live"
+    assert not pane.view.transport.play.isEnabled()
+    application.window.modes.switch("explore")
+    assert not pane.live.is_filming
+    qtbot.waitUntil(lambda: not video._thread.is_alive())
+
+
+def test_the_window_closes_while_a_film_plays_and_is_read(
+    pane: VideoWiring, application: Application
+) -> None:
+    pane.view.bar.read.click()
+    pane.films.player.play()
+    application.window.close()
+    assert not pane.films.player.is_playing
+    assert not pane.readings.is_running
+
+
 @pytest.mark.own_window
 def test_a_film_of_the_last_session_can_be_closed_unseen_and_opens_when_the_mode_is_first_shown(
     application: Application, user: User, film_file: Path
@@ -103,28 +128,3 @@ def test_a_film_of_the_last_session_can_be_closed_unseen_and_opens_when_the_mode
     application.window.modes.switch("video")
     user.wait_until_idle()
     assert application.video.wiring.path == film_file
-
-
-def test_the_window_closes_while_a_film_plays_and_is_read(
-    pane: VideoWiring, application: Application
-) -> None:
-    pane.view.bar.read.click()
-    pane.films.player.play()
-    application.window.close()
-    assert not pane.films.player.is_playing
-    assert not pane.readings.is_running
-
-
-def test_a_camera_is_read_live_and_released_with_the_mode(
-    pane: VideoWiring, application: Application, qtbot: QtBot, film: Video
-) -> None:
-    source = FilmSource([*film] * 200, "Stand-in")
-    pane.live.start(source)
-    qtbot.waitUntil(lambda: pane.view.pictures.shown[0] and len(states(pane)) > 0)
-    video = not_none(pane.live.video)
-    assert pane.view.bar.axis.key() == "columns"
-    assert pane.view.bar.title.toolTip() == "Stand-in, live"
-    assert not pane.view.transport.play.isEnabled()
-    application.window.modes.switch("explore")
-    assert not pane.live.is_filming
-    qtbot.waitUntil(lambda: not video._thread.is_alive())

@@ -1,7 +1,6 @@
 """The story stands on the first screen, and says and shows the same as the other panes."""
 
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -41,26 +40,23 @@ def test_what_the_program_is_for_stands_on_the_first_screen(
     assert rows.profile.band is not None
 
 
-@pytest.mark.parametrize(
-    "changes",
-    [{"switching_frequency": 500.0}, {"exposure_time": 136e-6, "switching_frequency": 16e3}],
-)
-def test_the_bar_and_the_decoding_pane_say_the_same(
-    application: Application, user: User, changes: dict[str, Any]
-) -> None:
-    application.store.change(**changes)
+def test_the_bar_and_the_decoding_pane_say_the_same(application: Application, user: User) -> None:
+    application.store.change(exposure_time=136e-6, switching_frequency=16e3)
     user.wait_until_idle()
     pane, bar = application.view("decode"), application.story.verdict
+    states = set[State]()
     for place in range(pane.decoders.count()):
         pane.decoders.setCurrentIndex(place)
         user.wait_until_idle()
         is_read = pane.verdict.text().startswith("✓")
         assert (bar.state is State.GOOD) == is_read
+        states.add(bar.state)
         if is_read:
             assert pane.verdict.text() == f"✓ {bar.title.toolTip()}"
         else:
             assert pane.verdict.text() == "✗ No code read"
             assert bar.title.toolTip().startswith("No code: ")
+    assert states >= {State.GOOD, State.BAD}
 
 
 def test_a_decoder_is_chosen_in_the_story_or_by_its_tab(

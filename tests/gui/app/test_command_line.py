@@ -36,9 +36,8 @@ def test_a_screenshot_of_the_size_asked_for_is_written(
 ) -> None:
     picture = tmp_path / "window.png"
     ended = starts.run(
-        "--screenshot", picture, "--size", "1920x1080", "--photo", photo_file, "--match",
-        "--overlay", "split", "--dock", "photo", "--set=pattern=10",
-        "--set=switching_frequency=4kHz", SMALL, program=UNMEASURED,
+        "--screenshot", picture, "--size", "1920x1080", "--photo", photo_file,
+        "--overlay", "split", "--dock", "photo", SMALL, program=UNMEASURED,
     )  # fmt: skip
     assert (ended.returncode, ended.stdout, ended.stderr) == (0, "", "")
     with Image.open(picture) as image:

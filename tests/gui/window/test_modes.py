@@ -97,6 +97,11 @@ def test_a_hidden_pane_is_shown_in_the_mode_about_it(
         window.bring_to_front(pane)
         qtbot.waitUntil(partial(in_front, application, pane))
         assert window.modes.mode == home
+    window.modes.switch("explore")
+    window.tabifyDockWidget(window.docks["profile"], window.docks["decode"])
+    for pane in ("decode", "profile", "decode"):
+        window.bring_to_front(pane)
+        qtbot.waitUntil(partial(in_front, application, pane))
 
 
 class Widths(QObject):

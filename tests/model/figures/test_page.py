@@ -74,9 +74,16 @@ def test_a_file_has_the_texts_that_were_fitted_to_its_page() -> None:
     figure = Figure(figsize=(3.0, 2.0), layout="constrained")
     figure.subplots().set_title(TEXTS["long"])
     figure_bytes(figure, "svg", Provenance("title", {}))
-    assert figure.axes[0].get_title().count("\n") > 3
-    assert figure.get_figheight() > 2.5
+    title = figure.axes[0].title
+    added = title.get_text().count("\n")
+    assert added > 3
+    assert figure.get_figheight() == pytest.approx(2.0 + added * 1.2 * title.get_fontsize() / 72.0)
     assert not cut_off(figure)
+    # The axes have the places that the layout gives them on the page as it became.
+    placed = figure.axes[0].get_position().bounds
+    figure.set_layout_engine("constrained")
+    figure.draw_without_rendering()
+    assert placed == pytest.approx(figure.axes[0].get_position().bounds, abs=0.01)
 
 
 def test_letters_come_from_any_font_that_has_them() -> None:

@@ -110,14 +110,16 @@ class Quantity(Declaration):
         is_rounded_in = read is not None and self.low <= read <= self.high
         return self.unit.format(number, digits=17) if is_rounded_in else text
 
-    def parse(self, text: str, plain: float = 1.0) -> float:
-        """Read a value as people write it; ``plain`` is the SI value of 1 without a unit.
+    def parse(self, text: str, plain: float | None = None) -> float:
+        """Read a value as people write it.
 
-        A number without a unit that lies beyond the slider, and would not in SI, is refused: who
-        types 20000 for a frequency shown in kHz hardly means 20 MHz.
+        A number without a unit is in SI, or of ``plain`` SI units in a field that shows another
+        unit. One that lies beyond the slider so, and would not the other way, is refused: who types
+        20000 for a frequency shown in kHz hardly means 20 MHz, and who writes 136 for an exposure
+        time hardly means 136 s.
         """
         self.check_length(text, self.allowed)
-        readings = self.unit.readings(text, plain)
+        readings = self.unit.readings(text, 1.0 if plain is None else plain)
         if len(readings) > 1:
             comma, thousands = (self.unit.format(value) for value in readings)
             raise self.refuse(
@@ -129,11 +131,17 @@ class Quantity(Declaration):
             unit = f" in {self.unit.display(self.default)[0]}" if self.unit.symbol else ""
             raise self.refuse(f"is {shown(text)}, which is not a number{unit}", self.allowed)
         value = self.check(readings[0])
-        in_si = self.unit.parse(text)
-        if in_si not in (value, None) and self._offers(in_si) and not self._offers(value):
+        usual = self.unit.display(self.default)
+        other = self.unit.parse(text, usual[1] if plain is None else 1.0)
+        if other not in (value, None) and self._offers(other) and not self._offers(value):
+            found = (self.unit.format(value), self.unit.format(other))
+            both = (
+                f"is {found[0]} and may be meant as {found[1]}"
+                if plain is None
+                else f"means {found[0]} in the unit shown and {found[1]} in {self.unit.symbol}"
+            )
             raise self.refuse(
-                f"is {shown(text)} without a unit, which means {self.unit.format(value)} in the "
-                f"unit shown and {self.unit.format(in_si)} in {self.unit.symbol}",
+                f"is {shown(text)} without a unit, which {both}",
                 f"{self.allowed}, written with its unit",
             )
         return value

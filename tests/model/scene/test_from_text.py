@@ -21,7 +21,7 @@ def test_a_setting_changes_its_parameter_and_nothing_else(
     data: st.DataObject, quantity: Quantity
 ) -> None:
     value = data.draw(st.floats(quantity.low, quantity.high))
-    scene = with_settings(Scene(), [f"{quantity.name}={value!r}"])
+    scene = with_settings(Scene(), [f"{quantity.name}={value!r} {quantity.unit.symbol}"])
     assert scene == Scene().replace(**{quantity.name: value})
 
 
@@ -33,6 +33,9 @@ def test_a_setting_changes_its_parameter_and_nothing_else(
         ("  exposure_time=1/8000", "exposure_time", 1 / 8000),
         ("distance=60cm", "distance", 0.6),
         ("yaw=0.5 rad", "yaw", 0.5),
+        ("exposure_time=0.000136", "exposure_time", 136e-6),
+        ("exposure_time=136 s", "exposure_time", 136.0),
+        ("switching_frequency=20000", "switching_frequency", 20e3),
         ("rows=300", "rows", 300),
         ("code=0b1011001110", "code", 718),
         ("code=0x3ff", "code", 1023),
@@ -71,6 +74,11 @@ def test_the_last_of_two_settings_of_one_parameter_holds() -> None:
         ("is=100", r"^There is no parameter 'is'; did you mean iso\?$"),
         ("iso=", r"^iso is '', which is not a number; allowed: 1 to "),
         ("iso=100=200", r"^iso is '100=200', which is not a number; allowed: "),
+        (
+            "exposure_time=136",
+            r"^exposure_time is '136' without a unit, which is 136 s and may be "
+            r"meant as 136 µs; allowed: 1 ns to 1000000 s, written with its unit\.$",
+        ),
     ],
 )
 def test_a_bad_setting_is_refused_in_a_sentence(setting: str, sentence: str) -> None:

@@ -1,10 +1,12 @@
 """The pages of the manual and the README: their links, tables, examples and commands."""
 
 import ast
+import math
 import re
 import shlex
 from pathlib import Path
 
+import numpy as np
 import pytest
 from documents import FOLDER, PAGES, README, ROOT, blocks, links, text_of, without_code
 
@@ -119,6 +121,42 @@ def test_the_table_of_what_tolerances_call_for_is_that_of_the_plans() -> None:
         counts = [int(cell.partition(",")[0]) for cell in cells.split("|")]
         scene = occ.load_preset(name)
         assert counts == [len(occ.plan(scene, each).included) for each in tolerances], name
+
+
+def test_the_stated_error_of_the_example_s_draft_is_the_drafts() -> None:
+    (code,) = [code for code in blocks(page_named("effects"), "python") if "draft_error" in code]
+    scene = occ.load_preset("phone-136us-real")
+    names: dict[str, object] = {"occ": occ, "scene": scene}
+    exec(compile(code, "effects.md", "exec"), names)
+    draft = names["draft"]
+    assert isinstance(draft, occ.Frame)
+    columns = occ.panel_corners(scene)[:, 0]
+    on_panel = slice(math.ceil(columns.min()), math.ceil(columns.max()))
+    whole = occ.render(scene, noise="reused", seed=2)
+    off = [
+        getattr(draft, name)[on_panel] - getattr(whole, name)[on_panel]
+        for name in ("profile", "signal")
+    ]
+    found = [float(np.sqrt(np.mean(difference**2))) for difference in off]
+    numbers = re.findall(r"\d+\.\d+", code.partition("#")[2])
+    assert [*draft.draft_error.values(), *found] == pytest.approx(
+        [float(number) for number in numbers], rel=0.05
+    )
+
+
+def test_detection_ceases_where_the_table_of_limits_ends() -> None:
+    """README and the page of the paper name frequencies that the page of the sweeps has found."""
+    ends = re.findall(
+        r"^\| (phone-136us|tablet-122us)(?:-real)? \| threshold \| \S+ kHz \| (\S+) kHz \|",
+        page_named("sweeps"),
+        re.MULTILINE,
+    )
+    found = {f"{float(end):.1f}" for _, end in ends}
+    assert len(found) == 4
+    for text, least in ((_README, 4), (page_named("paper"), 3)):
+        said = re.findall(r"(?:ceases|with a real lens,) at (\d+\.\d) kHz", text)
+        assert len(said) == least
+        assert set(said) <= found
 
 
 def calls(folder: str, name: str) -> list[ast.Call]:

@@ -86,6 +86,10 @@ def _stepped(
     if step is None or not step > 0.0 or math.isinf(step):
         raise parameter.refuse(f"varies in steps of {shown(text)}", "a step above 0")
     steps = (high - low) / step * (1 + 1e-9)
+    if steps < 1.0:  # only the first value would be left
+        raise parameter.refuse(
+            f"varies in steps of {shown(text)}", "a step above 0, no larger than the range"
+        )
     if steps >= MOST_POINTS:  # possibly infinitely many
         count = f"{math.floor(steps) + 1} values" if steps < 1e15 else "too many values"
         raise parameter.refuse(f"varies over {count}", f"up to {MOST_POINTS}")

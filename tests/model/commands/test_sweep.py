@@ -69,6 +69,9 @@ def test_steps_that_meet_the_end_end_there_exactly() -> None:
         ("distance=2:1:0.1", "from a lower to a higher"),
         ("distance=1:2:0", "steps of '0'; allowed: a step above 0"),
         ("distance=1:2:1kHz", "a step above 0"),
+        ("distance=1:2:1.1", "no larger than the range"),
+        ("exposure_time=10us:30us:10", "no larger than the range"),  # 10 s
+        ("bits=2:9:8", "no larger than the range"),
         ("distance=1:2:x1", "varies in 'x1'; allowed: x2 to x"),
         ("distance=1m:2m:1nm", "values; allowed: up to 1000000"),
         ("distance=1:2:1e-320", "distance varies over too many values; allowed: up to 1000000"),

@@ -67,6 +67,9 @@ def add_to(commands: Commands) -> None:
 
 def _run(options: argparse.Namespace) -> int:
     scene = scene_of(options)
+    percent = options.readout_tolerance
+    if not 0.0 < percent <= 50.0:
+        raise ParameterError.of("--readout-tolerance", f"{percent:g} %", "above 0 % up to 50 %")
     if options.follow or is_film(options.file):
         return read_film(options, scene)
     result = _decoded(scene, options, options.scan_axis)
@@ -115,9 +118,6 @@ _MIN_RATE_PACKETS = 50  # packets from which the rates of parts are reported
 
 def read_film(options: argparse.Namespace, scene: Scene) -> int:
     """Read the film that a command line names, and print what it says."""
-    percent = options.readout_tolerance
-    if not 0.0 < percent <= 50.0:
-        raise ParameterError.of("--readout-tolerance", f"{percent:g} %", "above 0 % up to 50 %")
     video = load_video(options.file, options.scan_axis, channel=_channel(options.channel))
     with progress_bar(total=video.frame_count, unit="frame", disable=options.follow or None) as bar:
 
@@ -131,7 +131,7 @@ def read_film(options: argparse.Namespace, scene: Scene) -> int:
             video,
             scene,
             options.decoder,
-            readout_tolerance=percent / 100.0,
+            readout_tolerance=options.readout_tolerance / 100.0,
             progress=report_progress,
         )
     for line in _film_report(reading, video):

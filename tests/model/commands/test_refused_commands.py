@@ -52,9 +52,9 @@ READING = {
     "match grey.png": "No stripes",
     "bench --data no-such-table.csv": "no-such-table.csv cannot be read",
     **{
-        f"decode p.png --follow --readout-tolerance={percent}": f"--readout-tolerance is {percent} "
+        f"decode p.png {kind} --readout-tolerance={percent}": f"--readout-tolerance is {percent} "
         "%; allowed: above 0 % up to 50 %."
-        for percent in ("nan", "-5", "0", "51")
+        for kind, percent in (("--follow", "nan"), ("--follow", "0"), ("", "-5"), ("", "51"))
     },
     "match p.png --chips --lamps": "--chips is given with --lamps",
     "match p.png --chips --out fit.toml": "--out is given with --chips",

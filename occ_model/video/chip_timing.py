@@ -12,7 +12,7 @@ import numpy as np
 
 from occ_model.arrays import BoolArray, ByteArray, FloatArray, IndexArray
 from occ_model.photo.fit.least_squares import StripeModel, level_freedom
-from occ_model.photo.fit.timing import SHORTEST, Timing
+from occ_model.photo.fit.timing import SHORTEST_EXPOSURE, Timing
 from occ_model.photo.stripes.period import correlated_columns
 
 _SHIFTS = np.linspace(-0.75, 0.75, 5)  # chips, tried first: decoders count from different ends
@@ -58,7 +58,7 @@ def fit_timing(light: FloatArray, start: ChipLattice) -> ChipTiming | None:
     columns, values = len(light), start.values
     if values.size == 0 or values.min() == values.max():
         return None
-    exposure, before = max(start.exposure, SHORTEST), start.first - _BESIDE
+    exposure, before = max(start.exposure, SHORTEST_EXPOSURE), start.first - _BESIDE
     middles = start.middle(columns) - before + _SHIFTS
     tried = [Timing(start.step, exposure, middle, 1.0) for middle in middles.tolist()]
     model = _model(light, values, start.step)

@@ -21,6 +21,8 @@ from occ_gui.window.toolbar import ToolBar
 _OPENED_BELOW, _OPENED_BESIDE = 0.37, 0.26
 """Fractions of the window's height and width for a pane opened below the middle, or beside it."""
 
+_LEAST_BELOW = 530  # pixels of width that each pane below the middle may need
+
 _FIRST_SIZE = QSize(1280, 800)
 _PROPAGATED = Qt.ApplicationAttribute.AA_UseStyleSheetPropagationInWidgetStyles
 _WITH_PICTURE = "photo"
@@ -79,6 +81,7 @@ class MainWindow(QMainWindow):
         """Make room for a pane that the user has opened by the menu."""
         dock = self.sender()
         if isinstance(dock, Dock):
+            self._share_place(dock)
             QTimer.singleShot(0, dock, lambda: self._give_place(dock, True))
 
     def add_pane(self, name: str, title: str, content: QWidget) -> Dock:
@@ -103,8 +106,32 @@ class MainWindow(QMainWindow):
         # Qt would widen the window for what the middle needed before its page was changed.
         QApplication.sendPostedEvents(None, QEvent.Type.LayoutRequest.value)
         dock.show()
+        if is_new:
+            self._share_place(dock)
         # A window that has just been shown arranges its docks once more, in another order.
         QTimer.singleShot(0, dock, lambda: self._give_place(dock, is_new))
+
+    def _share_place(self, dock: Dock) -> None:
+        """Let a pane that has just opened be a tab beside another one where both have no room.
+
+        Qt would widen the window beyond the screen, and draw one pane over the other.
+        """
+        below = Qt.DockWidgetArea.BottomDockWidgetArea
+        if dock.isFloating() or self.dockWidgetArea(dock) != below:
+            return
+        others = [
+            other
+            for other in self.docks.values()
+            if other is not dock
+            and self.dockWidgetArea(other) == below
+            and not (other.isFloating() or other.visibleRegion().isEmpty())
+        ]
+        if not others or self.tabifiedDockWidgets(dock):
+            return
+        left = min(other.geometry().left() for other in others)
+        room = max(other.geometry().right() for other in others) - left
+        if _LEAST_BELOW * (len(others) + 1) > room:
+            self.tabifyDockWidget(others[-1], dock)
 
     def _give_place(self, dock: Dock, is_new: bool) -> None:
         """Bring a pane to the front, and let one that has just opened be large enough."""

@@ -1,7 +1,9 @@
 """Modes: a layout for each task, reached by keys and tabs, that comes back as it was left."""
 
 from functools import partial
+from itertools import combinations
 
+import pytest
 from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtGui import QAccessible, QResizeEvent
 from PySide6.QtWidgets import QApplication, QTabBar, QWidget
@@ -12,6 +14,7 @@ from occ_gui.app.application import Application
 from occ_gui.window.modes import HOMES, MODES, PICTURE
 
 NAMES = list(MODES)
+SETTLED_MS = 200  # in which a window arranges its docks
 CONTROL, RIGHT = Qt.KeyboardModifier.ControlModifier, Qt.DockWidgetArea.RightDockWidgetArea
 
 
@@ -130,3 +133,25 @@ def test_no_change_of_the_mode_widens_the_window_even_for_a_moment(
             window.modes.switch(shown_mode)
             QApplication.processEvents()
     assert widths.seen <= {1000}
+
+
+@pytest.mark.own_window  # each pane is made when it is first seen
+@pytest.mark.parametrize("by_menu", [False, True])
+def test_panes_that_have_no_room_side_by_side_share_a_place_and_the_window_stays_as_wide(
+    application: Application, qtbot: QtBot, by_menu: bool
+) -> None:
+    window = application.window
+    window.resize(1280, 800)
+    QApplication.processEvents()
+    widths = Widths(window)
+    for pane in ("spectrum", "profile", "compare", "bench"):
+        if by_menu:
+            window.docks[pane].toggleViewAction().trigger()
+        else:
+            window.bring_to_front(pane)
+        qtbot.waitUntil(partial(in_front, application, pane))
+        qtbot.wait(SETTLED_MS)
+    assert widths.seen <= {1280}
+    seen = [dock for dock in window.docks.values() if not dock.visibleRegion().isEmpty()]
+    for one, other in combinations(seen, 2):
+        assert not one.geometry().intersects(other.geometry()), (one.objectName(), other)

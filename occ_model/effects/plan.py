@@ -19,6 +19,7 @@ from occ_model.scene.simulation_settings import (
     SimulationSettings,
     unit_of,
 )
+from occ_model.scene.units import NONE
 
 _ROUNDING = 1.0 + 1e-9
 """Factor on an error that is compared with one whose sums were rounded otherwise."""
@@ -202,11 +203,11 @@ def _decide(
     by_hand = settings.force.get(name)
     included = bool(estimate) and name not in left_out if by_hand is None else by_hand
     unit = unit_of(settings.observable)
-    size = f"about {estimate:.2g} {unit}" if estimate else "none in this scene"
+    size = f"about {NONE.format(estimate, 2)} {unit}" if estimate else "none in this scene"
     if estimate and estimates.unknown:
         size = f"not known, as {estimates.unknown}"
     elif estimate and limit > _CLEAR_RATIO * estimate:
-        size = f"about {estimate:.2g}, at most {limit:.2g} {unit}"
+        size = f"about {NONE.format(estimate, 2)}, at most {NONE.format(limit, 2)} {unit}"
     verdict = "taken in" if included else "left out"
     tolerance = settings.tolerance
     if by_hand is not None:

@@ -28,6 +28,8 @@ _THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}(?:[eE][+-]?\d+)?")
 
 _MAX_DECIMALS = 6  # decimals of an estimate above which its error is written in a unit of its own
 
+_LARGEST_PLAIN = 1e6  # a number below it, and not below 1, is written without an exponent
+
 _ROUNDING_ERROR = 1e-12  # relative error that is the arithmetic's, and is not stated
 LONGEST_TEXT = 200  # of a quantity's text: several times the characters of 17 digits and a unit
 
@@ -136,6 +138,8 @@ class Unit:
         """Write ``value`` with ``digits`` significant digits and its unit."""
         symbol, factor = self.display(value)
         number = f"{value / factor:.{digits}g}" if math.isfinite(value) else str(value)
+        if "e" in number and 1.0 <= abs(float(number)) < _LARGEST_PLAIN:
+            number = f"{float(number):.0f}"
         if not symbol:
             return number
         return f"{number}{symbol}" if symbol == "°" else f"{number} {symbol}"

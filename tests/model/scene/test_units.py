@@ -233,6 +233,12 @@ def test_an_error_has_two_digits_whatever_its_size(size: int, error: float) -> N
             assert "." not in digits or len(significant) == 2
 
 
+def test_hundreds_to_two_digits_have_no_exponent() -> None:
+    assert SECOND.format(113e-6, 2) == "110 µs"
+    assert NONE.format(-999.6, 3) == "-1000"
+    assert NONE.format(2e6, 2) == "2e+06"
+
+
 def test_a_pure_number_has_no_unit() -> None:
     assert NONE.format_estimate(2.2191, 0.03) == "2.219 ± 0.030"
     assert NONE.format_estimate(-0.001, 0.3) == "0.00 ± 0.30"  # no sign before nothing

@@ -17,7 +17,7 @@ def match_with(**changes: Any) -> Match:
         "scene": occ.Scene(), "stripes": stripes, "readout_time": 14.5777e-6,
         "switching_frequency": 2e3, "exposure_time": 62.5e-6, "start_time": 1e-4, "gamma": 2.22,
         "uncertainties": {"readout_time": 2.7e-10, "exposure_time": 2.1e-7, "start_time": 3e-7},
-        "pattern": "1001", "pattern_was_read": True, "profile": profile + 2.0,
+        "pattern": "1010", "pattern_was_read": True, "profile": profile + 2.0,
         "correlation": 0.99123,
     }  # fmt: skip
     return Match(**{**values, **changes})

@@ -224,4 +224,6 @@ class PhotoVerdictBar(StateBar):
 
 def _first_of(reasons: Sequence[str]) -> str:
     more = len(reasons) - 1
-    return reasons[0] + (f" And {more} more." if more else "")
+    return reasons[0] + (
+        f" And {more} more {'reason' if more == 1 else 'reasons'}." if more else ""
+    )

@@ -7,7 +7,7 @@ from occ_model.results.fact import Fact
 from occ_model.results.match import Alternative, Match
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import quantity
-from occ_model.scene.square_wave import CHIPS_OF_A_CYCLE
+from occ_model.scene.square_wave import chips_of_cycle
 from occ_model.scene.units import HERTZ, Unit
 
 KNOWN = ("switching_frequency", "readout_time")
@@ -84,9 +84,9 @@ def in_columns(facts: tuple[Fact, ...], width: int = 22) -> Iterator[str]:
 def _estimate(match: Match, name: str, condition: str) -> tuple[str, str]:
     deviation = match.uncertainties.get(name)
     text = estimate_text(quantity(name), getattr(match, name), deviation)
-    if name == "switching_frequency" and len(match.pattern) == CHIPS_OF_A_CYCLE:
+    if name == "switching_frequency" and (chips := chips_of_cycle(match.pattern)):
         # A blinking LED is specified by its cycles, not by its chips.
-        cycles = HERTZ.format(match.switching_frequency / CHIPS_OF_A_CYCLE, _DIGITS)
+        cycles = HERTZ.format(match.switching_frequency / chips, _DIGITS)
         text += f": blinks at {cycles}"
     if deviation is None:
         return text, "assumed" if condition and name == known_of(match) else "given"
@@ -121,7 +121,7 @@ def _duty(match: Match) -> tuple[str, str]:
     deviation = match.uncertainties.get("duty")
     if deviation is None:
         text = f"lit for {100.0 * match.duty:.3g} % of a period"
-        if (match.pattern + match.pattern[0]).count("01") != 1:
+        if not chips_of_cycle(match.pattern):
             return text, ""
         return text, "assumed" if match.exposure_reasons else "given"
     percent = Unit("%").format_estimate(100.0 * match.duty, 100.0 * deviation)

@@ -10,7 +10,6 @@ from occ_model.results.sweep import csv_row
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
-from occ_model.scene.square_wave import CHIPS_OF_A_CYCLE
 from occ_model.scene.units import HERTZ
 from occ_model.version import __version__
 
@@ -249,9 +248,12 @@ _FREQUENCY = "switching_frequency"
 
 
 def assumption(name: str, value: float, chips: int) -> str:
-    """Return the condition under which estimated times hold, as ``"if f = 10 kHz: "``."""
+    """Return the condition under which estimated times hold, as ``"if f = 10 kHz: "``.
+
+    ``chips``: those of a cycle of an LED that only blinks, 0 of any other.
+    """
     known = quantity(name)
-    if name == _FREQUENCY and chips == CHIPS_OF_A_CYCLE:
-        cycles = HERTZ.format(value / CHIPS_OF_A_CYCLE)
+    if name == _FREQUENCY and chips:
+        cycles = HERTZ.format(value / chips)
         return f"if it is a lamp of {cycles} ({known.format(value)} chips): "
     return f"if {known.symbol} = {known.format(value)}: "

@@ -30,3 +30,8 @@ def blinking(scene: Scene, cycles: float) -> Scene:
     ``cycles``: cycles per second, a value that ``SQUARE_FREQUENCY`` allows.
     """
     return scene.replace(pattern=SQUARE_WAVE, switching_frequency=CHIPS_OF_A_CYCLE * cycles)
+
+
+def chips_of_cycle(pattern: str) -> int:
+    """Return the chips of a cycle of an LED that only blinks, with any duty; 0 if it does not."""
+    return len(pattern) if (pattern + pattern[:1]).count("01") == 1 else 0

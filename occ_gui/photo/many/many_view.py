@@ -25,6 +25,7 @@ from occ_model.results.photo_table import (
 )
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
+from occ_model.scene.square_wave import chips_of_cycle
 
 _ROWS_SEEN = 5
 _LEAST_BESIDE = QSize(220, 60)
@@ -239,7 +240,7 @@ class ManyPhotosView(QWidget):
         if self._found is not None and not self._found.rests_on_the_scene:
             return ""  # each photo has a value that was entered for it
         known = known_beside(estimate)
-        chips = len(scene.transmitter.pattern)
+        chips = chips_of_cycle(scene.transmitter.pattern)
         return condition(known, float(scene.value(known)), self._certain, chips)
 
     def _show_found(self, table: PhotoTable | None) -> None:

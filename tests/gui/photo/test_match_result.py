@@ -38,12 +38,26 @@ def test_results_stand_with_uncertainty_in_the_screens_units(
     assert texts["saturated"].startswith("12.5 %")
     assert texts["periods"] == f"{3 * 2e3 * 14.5777e-6 / 4:.3g}"
     assert texts["exposed"] == "0.125"
-    assert texts["duty"] == "lit for 50 % of a period (given)"
-    assert view.result.values["pattern"].toolTip() == "1001 (read from the photo)"
+    assert texts["duty"] == "lit for 50 % of a period"
+    assert view.result.values["pattern"].toolTip() == "1010 (read from the photo)"
     assert "one standard deviation" in view.result.values["exposure_time"].toolTip()
     spreads = {**match.uncertainties, "exposure_time": 15e-6}
     view.show_matched(replace(match, exposure_time=6e-6, uncertainties=spreads))
     assert view.result.values["exposure_time"].text() == "below 36 µs (6 ± 15 µs)"
+    spreads["exposure_time"] = 29e-6
+    view.show_matched(replace(match, exposure_time=55e-6, uncertainties=spreads))
+    assert view.result.values["exposure_time"].text() == "below 110 µs (55 ± 29 µs)"
+
+
+def test_a_lamp_that_blinks_with_any_duty_is_known_by_its_cycles(
+    view: LiveView, match: Match
+) -> None:
+    view.show_matched(replace(match, pattern="1" * 30 + "0" * 20, switching_frequency=50e3))
+    shown = view.result.values
+    assert shown["switching_frequency"].text() == "50 kHz: blinks at 1 kHz (assumed)"
+    assert shown["duty"].text() == "lit for 60 % of a period (given)"
+    said = "What follows holds if it is a lamp of 1 kHz (50 kHz chips)."
+    assert view.result.condition.text() == said
 
 
 def test_one_photo_gives_the_frames_readout_and_lines_for_other_programs(

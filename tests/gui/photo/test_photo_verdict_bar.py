@@ -55,9 +55,12 @@ def test_a_sure_match_says_what_was_found_and_on_what_it_rests(
     assert "If f = 2 kHz" in said
     view.show_matched(replace(match, pattern="10"))  # named by the lamp's own frequency
     assert "If it is a lamp of 1 kHz (2 kHz chips): readout" in bar.accessibleDescription()
+    dimmed = replace(match, pattern="1" * 30 + "0" * 20, switching_frequency=50e3)
+    view.show_matched(dimmed)  # its duty was fitted in fiftieths of a cycle
+    assert "If it is a lamp of 1 kHz (50 kHz chips): readout" in bar.accessibleDescription()
     view.show_matched(replace(match, reasons=REASONS))
     assert (bar.state, bar.heading) == (State.DOUBTFUL, "Photo: doubtful match")
-    assert f"{REASONS[0]} And 1 more." in bar.accessibleDescription()
+    assert f"{REASONS[0]} And 1 more reason." in bar.accessibleDescription()
 
 
 def test_a_match_whose_exposure_is_doubtful_is_not_called_sure_without_saying_so(

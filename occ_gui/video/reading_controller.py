@@ -169,10 +169,10 @@ def sentences_of(
 
 def _losses(known: FilmProgress, whole: VideoReading) -> str:
     """Say why packets are lost, and that their bits are not counted as wrong ones."""
-    where = "sent in the gap between two frames, or cut off by a frame's edge"
+    where = "they were sent in the gap between two frames, or cut off by a frame's edge"
     if unplaced := known.frames - known.placed:
         where += f", or in one of {unplaced} frames that were not placed"
-    text = f"Of {whole.lost} lost packets no frame shows {whole.cut_off} whole: {where}."
+    text = f"{whole.cut_off} of {whole.lost} lost packets are not whole in any frame: {where}."
     if misread := whole.lost - whole.cut_off:
         text += f" {misread} were in view and misread."
     return text + " The bit error rate counts only bits of packets in view."

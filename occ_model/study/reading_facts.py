@@ -112,7 +112,7 @@ def clock_facts(clock: Clock) -> Iterator[Fact]:
         yield Fact("drift", "Drift", text, meaning=meaning)
     yield Fact(
         "frame_starts",
-        "Frame starts",
+        "Frame jitter",
         SECOND.format(clock.timing_noise, 4),
         f"off the times stated, root mean square of {clock.frames} frames",
         "How far the frames begin from the times that are stated for them.",

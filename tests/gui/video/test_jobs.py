@@ -171,7 +171,7 @@ def test_an_interval_is_written_without_exponents_and_tells_nearly_all_from_all(
 def test_lost_packets_are_told_from_wrong_bits() -> None:
     whole = reading(6, 1, 11, wrong=2)
     (sentence,) = sentences_of(known(whole), whole, None)
-    assert sentence.startswith("Of 14 lost packets no frame shows 11 whole")
+    assert sentence.startswith("11 of 14 lost packets are not whole in any frame: ")
     assert "3 were in view and misread" in sentence
     assert "not placed" not in sentence
     assert "1 frames that were not placed" in sentences_of(known(whole, 1), whole, None)[0]

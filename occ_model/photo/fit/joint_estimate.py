@@ -241,7 +241,7 @@ def without_rims(
     model.estimate_noise(start)
     misfit = model.misfit_of_columns(model.rough(start, (), _ROUNDS)[1])
     shows = within_rims(misfit) & within_rims((profile - first.profile) ** 2)
-    found = [replace(one, kept=one.kept & shows, clipped=one.clipped & shows) for one in profiles]
+    found = [replace(one, kept=one.kept & shows) for one in profiles]
     return [one for one in found if one.kept.sum() >= _LEAST_KEPT] or list(profiles)
 
 

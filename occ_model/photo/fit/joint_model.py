@@ -3,8 +3,8 @@
 The light of a column is a(i) + b(i) x lit(i), with levels a and b that vary slowly; the camera's
 tone curve makes it a grey level. Tone curve, blur and the LED's switching are not known: they are
 fitted too, held by what is usual (a Gaussian prior each), so that the timing's uncertainty includes
-them. Clipped columns enter as "at least white": a residual where the model is darker (a censored
-normal likelihood's one-sided limit: Tobin, Econometrica 26:24, 1958).
+them. Clipped columns are left out: of 99 simulated photographs (25 of them saturated to a third or
+more) no estimate is nearer to the truth with what they tell, that the light is at least white.
 """
 
 import math
@@ -88,10 +88,8 @@ class JointModel:
         slow = int(np.clip(counted / _CHIPS_PER_SLOW_SHAPE, 1, _MOST_SLOW_SHAPES))
         self._parts = [LitProfile(profile, freedom, slow) for profile in profiles]
         width = max(_LEAST_BLOCK, round(_CHIPS_PER_BLOCK * as_one / step))
-        self._block = np.concatenate(
-            [np.concatenate([part.kept, part.clipped]) // width for part in self._parts]
-        )
-        self._noise = [np.ones(part.data.size + part.clipped.size) for part in self._parts]
+        self._block = np.concatenate([part.kept // width for part in self._parts])
+        self._noise = [np.ones(part.data.size) for part in self._parts]
         self._slow = [part.slow(np.ones(part.data.size)) for part in self._parts]
         usual = np.array(list(PRIORS.values()))
         self._mean, self._deviation = usual[:, 0], usual[:, 1].copy()
@@ -212,15 +210,14 @@ class JointModel:
         """Take a fit's residual as the noise of each profile, neighbours being correlated."""
         seen = self._seen.by(values)
         for number, part in enumerate(self._parts):
-            residual = part.residual(seen)[: part.data.size]
+            residual = part.residual(seen)
             slow = part.slow(np.ones(part.data.size))
             residual -= slow @ (slow.T @ residual)
             deviation = deviation_of(residual, part.slope, part.freedom + slow.shape[1] / 2.0)
             whole = np.zeros(self._columns)
             whole[part.kept] = residual / deviation
             deviation *= math.sqrt(CORRELATED_COLUMNS * correlated_columns(whole))
-            white = np.full(part.clipped.size, float(np.median(deviation)))
-            self._noise[number] = np.concatenate([deviation, white])
+            self._noise[number] = deviation
             self._slow[number] = part.slow(deviation)
 
     def misfit_of_columns(self, values: FloatArray) -> FloatArray:
@@ -231,7 +228,7 @@ class JointModel:
         seen = self._seen.by(values)
         squares, count = np.zeros(self._columns), np.zeros(self._columns)
         for part in self._parts:
-            squares[part.kept] += part.residual(seen)[: part.data.size] ** 2
+            squares[part.kept] += part.residual(seen) ** 2
             count[part.kept] += 1.0
         return np.where(count > 0.0, squares / np.maximum(count, 1.0), np.nan)
 
@@ -275,13 +272,9 @@ class JointModel:
     def _whitened(self, parts: Sequence[FloatArray]) -> list[FloatArray]:
         """Divide residuals, or slopes, by the noise, and take out what is slow."""
         found = []
-        for values, part, noise, slow in zip(
-            parts, self._parts, self._noise, self._slow, strict=True
-        ):
+        for values, noise, slow in zip(parts, self._noise, self._slow, strict=True):
             white = values / noise
-            own = white[..., : part.data.size]
-            own -= (own @ slow) @ slow.T
-            found.append(white)
+            found.append(white - (white @ slow) @ slow.T)
         return found
 
 

@@ -9,12 +9,10 @@ levels: the equations' derivative is linear in their slopes, with the matrix of 
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from occ_model.arrays import FloatArray
 
 _LEAST_FRACTION = 1e-9  # of the trace of a matrix, added to its diagonal
-_MOST_STEPS, _HALVINGS = 40, 10  # Newton's, and those that find the fraction of one of them
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -100,58 +98,6 @@ def solved(matrix: FloatArray, sums: FloatArray) -> FloatArray:
 
     What they leave undetermined is kept small.
     """
-    regular = _with_diagonal(matrix, _LEAST_FRACTION * float(np.trace(matrix)))
+    regular = matrix.copy()
+    regular.flat[:: len(regular) + 1] += _LEAST_FRACTION * float(np.trace(matrix))
     return np.asarray(np.linalg.solve(regular, sums.T).T)
-
-
-def _with_diagonal(matrix: FloatArray, least: float) -> FloatArray:
-    found = matrix.copy()
-    found.flat[:: len(found) + 1] += least
-    return found
-
-
-def at_least_one(
-    matrix: FloatArray,
-    sums: FloatArray,
-    columns: FloatArray,
-    weight: float,
-    below: NDArray[np.bool_],
-) -> tuple[FloatArray, FloatArray, NDArray[np.bool_]]:
-    """Solve normal equations for levels by which further columns are at least 1.
-
-    What a column is below 1 is squared and counts ``weight``. The misfit is quadratic piece by
-    piece: Newton's steps lead to its minimum, each as long as the misfit decreases.
-
-    ``columns``: shape (levels, further columns). ``below``: which of them are guessed to be below
-    1. The equations in which those that are count as seen at 1, the levels, and which ones are.
-    """
-    most = float(np.trace(matrix) + weight * np.sum(columns**2))
-    matrix = _with_diagonal(matrix, _LEAST_FRACTION * most)
-
-    def counted(below: NDArray[np.bool_]) -> tuple[FloatArray, FloatArray]:
-        some = columns[:, below]
-        together = matrix + weight * some @ some.T
-        return together, np.linalg.solve(together, sums + weight * some.sum(axis=1))
-
-    def fraction(levels: FloatArray, change: FloatArray) -> float:
-        """Return the fraction of a change that leads to its least misfit."""
-        light, by_change = levels @ columns, change @ columns
-        slope, rise = change @ (matrix @ levels - sums), change @ matrix @ change
-        low, high = 0.0, 1.0
-        for _ in range(_HALVINGS):
-            middle = 0.5 * (low + high)
-            short = np.maximum(1.0 - light - middle * by_change, 0.0)
-            is_beyond = slope + middle * rise > weight * short @ by_change
-            low, high = (low, middle) if is_beyond else (middle, high)
-        return high
-
-    together, wanted = counted(below)
-    levels = wanted
-    for _ in range(_MOST_STEPS):
-        if np.array_equal(wanted @ columns < 1.0, below):
-            return together, wanted, below
-        if levels is not wanted:
-            levels = levels + fraction(levels, wanted - levels) * (wanted - levels)
-        below = levels @ columns < 1.0
-        together, wanted = counted(below)
-    return together, levels, below

@@ -87,14 +87,10 @@ class EvenTable:
 
 
 class ToneTable:
-    """The light of each tabulated pixel value, and the pixel value's slope over light.
-
-    Its steepness is the slope of grey levels over light at white.
-    """
+    """The light of each tabulated pixel value, and the pixel value's slope over light."""
 
     def __init__(self, light: FloatArray, slope: FloatArray) -> None:
         self.light, self.slope = light, slope
-        self.steepness = WHITE * float(slope[-1])
         self._light = EvenTable(_GRID[0], _GRID[-1], light)
         self._slope = EvenTable(_GRID[0], _GRID[-1], slope)
 
@@ -121,7 +117,6 @@ class ToneSlopes:
     """The slopes of a tabulated tone curve over its parameters.
 
     ``light``: shape (parameters, grey levels), those of the light of each tabulated pixel value.
-    ``of_steepness``: shape (parameters,), those of the grey levels' slope at white.
     """
 
     def __init__(self, table: ToneTable, light: FloatArray = _NO_SLOPES) -> None:
@@ -129,7 +124,6 @@ class ToneSlopes:
         slope = -(table.slope**2) * np.gradient(light, _STEP, axis=-1)
         self._both = EvenTable(_GRID[0], _GRID[-1], np.concatenate([light, WHITE * slope]))
         self._steep = WHITE * _STEP / np.diff(table.light)
-        self.of_steepness = WHITE * slope[:, -1]
 
     def at(self, values: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the slopes of grey levels' light, and of their slope over light."""

@@ -20,7 +20,7 @@ from occ_model.results.decoding import Region
 
 _CLIPPED_LEVEL = 0.98  # fraction of white above which a pixel may have been clipped
 _LEAST_CLIPPED = 0.002  # clipped fraction above which a profile is divided into groups
-_UNCLIPPED, _ALL_CLIPPED = 0.005, 0.9  # fractions of a clipped column's pixels
+_UNCLIPPED = 0.005  # clipped fraction of a column's pixels up to which it is kept
 _BLURRED_COLUMNS = 3  # columns beside a clipped one that blur may have darkened
 _LEAST_LIGHT = 0.6  # minimum brightness of an unclipped group over the brightest
 _QUANTILE = 0.75  # of the brightness along a row: its ends may not show the lamp
@@ -43,9 +43,6 @@ class EvenProfile:
     # Shape (columns of the region,); mean of the group's pixels in each column, in grey levels.
     values: FloatArray
     kept: NDArray[np.bool_]  # shape as ``values``; the columns in which none of them is clipped
-    # Shape as ``values``; the columns in which all of them are: the light is at least what makes
-    # white.
-    clipped: NDArray[np.bool_]
     rows: float
 
     @property
@@ -126,4 +123,4 @@ class Cells:
         if kept.sum() < _LEAST_COLUMNS:
             return None
         rows = self.rows_a_band * float(np.median(count[kept]))
-        return EvenProfile(values, kept, seen & (fraction > _ALL_CLIPPED), rows)
+        return EvenProfile(values, kept, rows)

@@ -169,7 +169,7 @@ def test_what_a_check_raises_ends_the_joint_fit() -> None:
             raise KeyboardInterrupt
 
     columns = stripes_of_ones_and_zeros(12.0, 400)
-    even = EvenProfile(columns, np.ones(400, dtype=bool), np.zeros(400, dtype=bool), 100.0)
+    even = EvenProfile(columns, np.ones(400, dtype=bool), 100.0)
     model = JointModel([even], np.array([1, 0], dtype=np.uint8), 1 / 12, 2.2, check=stop)
     with pytest.raises(KeyboardInterrupt):
         model.fit(model.start(Timing(1 / 12, 0.5, 0.0, 2.2)))

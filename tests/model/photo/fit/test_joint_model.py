@@ -33,8 +33,7 @@ def values_of(true: np.ndarray = TRUE, brightest: float = 0.6) -> np.ndarray:
 def model_of(
     values: np.ndarray, gamma: float = 2.2, *, values_blurred: bool = False, wide: bool = False
 ) -> JointModel:
-    clipped = values >= 255.0
-    profile = EvenProfile(np.minimum(values, 255.0), ~clipped, clipped, 20.0)
+    profile = EvenProfile(np.minimum(values, 255.0), values < 255.0, 20.0)
     return JointModel([profile], CHIPS, 0.09, gamma, values_blurred=values_blurred, wide=wide)
 
 
@@ -79,8 +78,7 @@ def hot_spot(blur: float, bend: float, *, values_blurred: bool) -> JointFit:
         if values_blurred
         else values(np.convolve(light, kernel, "same"))
     )[20:-20]
-    every = np.ones(columns, dtype=bool)
-    profile = EvenProfile(seen, every, ~every, 20.0)
+    profile = EvenProfile(seen, np.ones(columns, dtype=bool), 20.0)
     model = JointModel([profile], CHIPS, 0.09, 2.2, values_blurred=values_blurred)
     model.estimate_noise(true)
     return model.fit(true)

@@ -2,10 +2,8 @@
 
 import numpy as np
 import pytest
-from scipy.optimize import least_squares
 
 from occ_model.photo.fit.lit_profile import LitProfile, deviation_of
-from occ_model.photo.fit.normal_equations import at_least_one
 from occ_model.photo.fit.seen_stripes import BLUR_REACH, BlurredLight, Seen, blur_kernel, blurred
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.fit.tone_curve import ToneCurve
@@ -26,13 +24,13 @@ NOISE = np.random.default_rng(7).normal(size=COLUMNS)
 ALL = np.ones(COLUMNS, dtype=bool)
 
 
-def profile_of(values: np.ndarray, kept: np.ndarray, clipped: np.ndarray) -> LitProfile:
-    return LitProfile(EvenProfile(values, kept, clipped, 20.0), FREEDOM, 4)
+def profile_of(values: np.ndarray, kept: np.ndarray = ALL) -> LitProfile:
+    return LitProfile(EvenProfile(values, kept, 20.0), FREEDOM, 4)
 
 
 def test_a_profile_of_the_model_leaves_no_residual() -> None:
     values = TABLE.value_of(DARK + SWING * LIT)
-    residual = profile_of(values, ALL, ~ALL).residual(SEEN)
+    residual = profile_of(values).residual(SEEN)
     assert residual == pytest.approx(np.zeros(COLUMNS), abs=0.01)
 
 
@@ -46,49 +44,8 @@ def test_levels_are_those_of_weighted_least_squares(every: int) -> None:
     levels = np.linalg.lstsq(
         model * weight[:, None], TABLE.light_of(data) * weight, rcond=None
     )[0]  # fmt: skip
-    residual = profile_of(values, kept, ~ALL).residual(SEEN)
+    residual = profile_of(values, kept).residual(SEEN)
     assert residual == pytest.approx(data - TABLE.value_of(model @ levels), abs=1e-3)
-
-
-def test_clipped_columns_count_only_where_the_model_is_darker() -> None:
-    light = 2.5 * (DARK + SWING * LIT)
-    clipped = light > 1.0
-    assert 20 < clipped.sum() < 200
-    values = np.minimum(TABLE.value_of(light), 255.0)
-    part = profile_of(values, ~clipped, clipped)
-    residual = part.residual(SEEN)
-    assert residual == pytest.approx(np.zeros(len(residual)), abs=0.02)
-    # As many dark columns called clipped: the model cannot be both, and lies between.
-    dark = LIT < 0.02
-    wrong = profile_of(values, ~clipped & ~dark, clipped | dark).residual(SEEN)
-    short = wrong[(~clipped & ~dark).sum() :]
-    assert (short >= 0.0).all()
-    assert short[dark[clipped | dark]].min() > 10.0
-
-
-@pytest.mark.parametrize(("brighter", "noise"), [(1.0, 0.0), (4.0, 0.5)])
-def test_no_levels_explain_kept_and_clipped_columns_better(brighter: float, noise: float) -> None:
-    """Also where all columns that show how bright the lamp is are white, as it is overexposed."""
-    light = brighter * (DARK + SWING * LIT)
-    clipped = LIT > 0.9 if brighter == 1.0 else light > 0.95
-    values = np.minimum(TABLE.value_of(light) + noise * NOISE, 255.0)
-    near = np.convolve(clipped, np.ones(7), mode="same") > 0.0 if brighter > 1.0 else clipped
-    part = profile_of(np.where(clipped, 255.0, values), ~near, clipped)
-    model = np.hstack([SHAPES, SHAPES * LIT[:, None]])
-    weight, steep = TABLE.slope_at(values[~near]), 255.0 * float(TABLE.slope[-1])
-    own, seen = model[~near] * weight[:, None], TABLE.light_of(values[~near]) * weight
-
-    def misfit(levels: np.ndarray) -> np.ndarray:
-        short = np.maximum(1.0 - model[clipped] @ levels, 0.0)
-        return np.concatenate([own @ levels - seen, steep * short])
-
-    start = np.linalg.lstsq(own, seen, rcond=None)[0]
-    levels = least_squares(misfit, start, method="lm", xtol=1e-14, ftol=1e-14, gtol=1e-14).x
-    residual = part.residual(SEEN)
-    short = steep * np.maximum(1.0 - model[clipped] @ levels, 0.0)
-    assert residual[(~near).sum() :] == pytest.approx(short, abs=0.01)
-    kept = (values - TABLE.value_of(model @ levels))[~near]
-    assert residual[: (~near).sum()] == pytest.approx(kept, abs=0.01)
 
 
 def test_blurred_grey_levels_of_the_model_leave_next_to_no_residual() -> None:
@@ -97,7 +54,7 @@ def test_blurred_grey_levels_of_the_model_leave_next_to_no_residual() -> None:
     dark, swing = (np.pad(levels, BLUR_REACH, mode="edge") for levels in (DARK, SWING))
     values = blurred(TABLE.value_of(dark + swing * SHARP), kernel)
     lit = BlurredLight(CHIPS, COLUMNS).lit_fraction(TIMING, 1.5, 0.02)
-    part = profile_of(values, ALL, ~ALL)
+    part = profile_of(values)
     as_values = part.residual(Seen(lit, TABLE, SHARP, kernel))
     as_light = part.residual(Seen(lit, TABLE, None, kernel))
     assert np.std(as_light) > 1.0
@@ -111,26 +68,12 @@ def test_dark_columns_beside_bright_ones_are_followed_where_grey_levels_are_blur
     table = ToneCurve(2.2).table()
     values = blurred(table.value_of(dark + swing * SHARP), kernel)
     lit = BlurredLight(CHIPS, COLUMNS).lit_fraction(TIMING, 1.5, 0.02)
-    residual = profile_of(values, ALL, ~ALL).residual(Seen(lit, table, SHARP, kernel))
+    residual = profile_of(values).residual(Seen(lit, table, SHARP, kernel))
     assert residual == pytest.approx(np.zeros(COLUMNS), abs=0.02)
 
 
-def test_white_holds_the_levels_where_grey_levels_are_blurred() -> None:
-    """Dark columns alone do not show how bright a lamp is that is white wherever it is lit."""
-    kernel, picture = blur_kernel(0.8), 4.0 * (DARK + SWING * LIT)
-    clipped = picture > 0.95
-    near = np.convolve(clipped, np.ones(7), mode="same") > 0.0
-    values = TABLE.value_of(picture) + 0.5 * NOISE
-    part = profile_of(np.where(clipped, 255.0, values), ~near, clipped)
-    levels = part._fitted(Seen(LIT, TABLE, SHARP, kernel)).shown
-    dark, swing = np.split(levels, 2)
-    light = SHAPES @ dark + SHAPES @ swing * LIT
-    assert light[clipped].min() > 0.95
-    assert light[clipped].max() < 10.0
-
-
 def test_slow_shapes_are_orthonormal_and_hold_what_is_slow() -> None:
-    part = profile_of(TABLE.value_of(DARK + SWING * LIT), ALL, ~ALL)
+    part = profile_of(TABLE.value_of(DARK + SWING * LIT))
     noise = 1.0 + 0.5 * LIT
     basis = part.slow(noise)
     assert basis.shape == (COLUMNS, 4)
@@ -141,13 +84,13 @@ def test_slow_shapes_are_orthonormal_and_hold_what_is_slow() -> None:
 
 def test_few_columns_give_up_few_shapes() -> None:
     few = np.arange(COLUMNS) < 24
-    part = profile_of(TABLE.value_of(DARK + SWING * LIT), few, ~ALL)
+    part = profile_of(TABLE.value_of(DARK + SWING * LIT), few)
     assert part.slow(np.ones(24)).shape == (24, 3)
 
 
 def test_a_columns_slope_is_the_steepest_of_it_and_its_neighbours() -> None:
     values = np.where(np.arange(COLUMNS) < 100, 20.0, 120.0)
-    part = profile_of(values, ALL, ~ALL)
+    part = profile_of(values)
     assert np.flatnonzero(part.slope).tolist() == [98, 99, 100, 101]
     assert part.slope.max() == 50.0
 
@@ -168,27 +111,3 @@ def test_noise_is_never_less_than_can_be_known() -> None:
     assert (exact > 0.0).all()
     falling = deviation_of(np.linspace(2.0, 0.0, 100), np.linspace(0.0, 50.0, 100), 3.0)
     assert falling == pytest.approx(falling[0])
-
-
-WEIGHT = 25.0
-
-
-@pytest.mark.parametrize("freedom", [2, 4])
-def test_levels_by_which_columns_are_at_least_one_leave_the_misfit_no_slope(freedom: int) -> None:
-    """Where only the darkest columns are seen, whole steps of Newton's go round in circles."""
-    for seed in range(40):
-        random = np.random.default_rng(seed)
-        lit, shapes = random.uniform(size=COLUMNS), smooth_shapes(COLUMNS, freedom)
-        model = np.hstack([shapes, shapes * lit[:, None]])
-        light = 0.1 + 2.0 * lit
-        seen, white = lit < 0.06, light > 1.0
-        values = light[seen] + 0.02 * random.normal(size=int(seen.sum()))
-        matrix, sums, columns = model[seen].T @ model[seen], model[seen].T @ values, model[white].T
-        guess = random.integers(2, size=int(white.sum())).astype(bool)
-        together, levels, below = at_least_one(matrix, sums, columns, WEIGHT, guess)
-        np.testing.assert_array_equal(below, levels @ columns < 1.0)
-        some = columns[:, below]
-        pull = sums + WEIGHT * some.sum(axis=1)
-        np.testing.assert_allclose(together @ levels, pull, atol=1e-9 * np.abs(pull).max())
-        added = together - matrix - WEIGHT * some @ some.T
-        assert np.abs(added).max() < 1e-6 * np.trace(together)

@@ -77,7 +77,8 @@ def test_a_file_has_the_texts_that_were_fitted_to_its_page() -> None:
     title = figure.axes[0].title
     added = title.get_text().count("\n")
     assert added > 3
-    assert figure.get_figheight() == pytest.approx(2.0 + added * 1.2 * title.get_fontsize() / 72.0)
+    line = 1.2 * float(title.get_fontsize()) / 72.0
+    assert figure.get_figheight() == pytest.approx(2.0 + added * line)
     assert not cut_off(figure)
     # The axes have the places that the layout gives them on the page as it became.
     placed = figure.axes[0].get_position().bounds

@@ -1,13 +1,11 @@
 """The window starts whatever the files contain that it reads at its start."""
 
 import os
-import subprocess
-import sys
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from gui.starts import PROJECT
+from gui.starts import Starts
 from PySide6.QtCore import QSettings
 
 from occ_gui.core.workspace import Workspace
@@ -55,16 +53,14 @@ print(kept_settings().value("view/margins"))
 """
 
 
-def test_the_default_settings_are_those_of_the_users_folder(tmp_path: Path) -> None:
+def test_the_default_settings_are_those_of_the_users_folder(
+    starts: Starts, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     folder = tmp_path / "occ-explorer"
     folder.mkdir()
     (folder / "occ-gui.conf").write_text("[view]\nmargins=no\n", "ascii")
-    environment = {**os.environ, "XDG_CONFIG_HOME": str(tmp_path)}
-    del environment["OCC_STATE"]
-    read = subprocess.run(
-        [sys.executable, "-c", READ_SETTINGS],
-        cwd=PROJECT, env=environment, capture_output=True, text=True, timeout=60, check=False,
-    )  # fmt: skip
+    monkeypatch.delenv("OCC_STATE")
+    read = starts.run(program=READ_SETTINGS, XDG_CONFIG_HOME=str(tmp_path))
     assert (read.stdout, read.stderr) == ("no\n", "")
 
 

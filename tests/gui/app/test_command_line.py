@@ -1,12 +1,10 @@
 """``occ-gui`` from the command line: screenshots, and wrong options answered in sentences."""
 
-import os
-import subprocess
 import sys
 from pathlib import Path
 
 import pytest
-from gui.starts import PROJECT, UNMEASURED, Starts
+from gui.starts import UNMEASURED, Starts
 from PIL import Image
 from PySide6.QtCore import QTimer
 
@@ -170,12 +168,8 @@ def test_without_a_display_a_screenshot_is_offered(
     assert "no display" in refusal([], capsys)
 
 
-def test_a_display_that_does_not_answer_gives_a_sentence() -> None:
-    ended = subprocess.run(
-        [sys.executable, "-m", "occ_gui"],
-        cwd=PROJECT, env={**os.environ, "QT_QPA_PLATFORM": "xcb", "DISPLAY": ":59999"},
-        capture_output=True, text=True, timeout=120, check=False,
-    )  # fmt: skip
+def test_a_display_that_does_not_answer_gives_a_sentence(starts: Starts) -> None:
+    ended = starts.run(QT_QPA_PLATFORM="xcb", DISPLAY=":59999")
     assert ended.returncode == 2
     *_, sentence = ended.stderr.splitlines(keepends=True)
     assert is_one_sentence(sentence)

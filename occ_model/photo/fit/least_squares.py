@@ -38,6 +38,8 @@ _REGULARIZATION = 1e-4
 """Regularization of the covariance: a parameter on which no column depends gets a standard
 deviation of a hundred of its scales."""
 
+_SINGULAR = 1e-13  # fraction of the largest sum of squares below which one is rounding error
+
 _CHIPS_PER_SHAPE = 6  # number of chips in view for each polynomial of a level
 
 _MOST_SHAPES = 8
@@ -212,5 +214,6 @@ def _covariance(slopes: FloatArray, residual: FloatArray) -> FloatArray:
     variance *= correlated_columns(residual)
     products = slopes.T @ slopes
     # A parameter on which no column depends gets a large variance instead of a division by zero.
-    products[np.diag_indices_from(products)] += _REGULARIZATION * max(variance, 1e-12)
+    least = _SINGULAR * float(np.diag(products).max())
+    products[np.diag_indices_from(products)] += max(_REGULARIZATION * variance, least, 1e-16)
     return np.asarray(np.linalg.inv(products) * variance)

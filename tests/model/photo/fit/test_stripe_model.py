@@ -116,6 +116,19 @@ def test_light_is_fitted_as_by_a_linear_response_whose_slopes_take_differences()
     assert np.diag(light.covariance) == pytest.approx(np.diag(linear.covariance), rel=0.05)
 
 
+def test_the_slopes_of_light_are_limits_of_differences_where_nothing_is_left() -> None:
+    model = StripeModel(PROFILE, CHIPS, None, TRUE.step)
+    for place, name in enumerate(("step", "exposure", "middle")):
+        change = 1e-7 if name == "step" else 1e-5
+        more, less = (
+            model.levels(replace(TRUE, **{name: getattr(TRUE, name) + sign * change}))[2]
+            for sign in (1.0, -1.0)
+        )
+        slopes = model._slopes(TRUE)[:, place]
+        off = np.abs(slopes + (more - less) / (2.0 * change))
+        assert np.quantile(off, 0.95) < 1e-3 * np.abs(slopes).max()  # but at the chips' edges
+
+
 def test_stripes_that_vanish_are_taken_for_a_twentieth_of_the_highest_ones() -> None:
     """Whoever flattens divides by their height: it is never next to nothing."""
     shapes = smooth_shapes(COLUMNS, 2)

@@ -12,6 +12,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QWidget
 from occ_gui.widgets.axes import Axis
 from occ_gui.widgets.building import filled
 from occ_gui.widgets.colours import pen_on, seen_on
+from occ_gui.widgets.event_filters import leave_drops_to_window
 from occ_gui.widgets.guarded_paint import guarded
 
 _LINE = QSize(24, 12)
@@ -193,4 +194,6 @@ def new_plot(
     for side in ("left", "bottom"):
         plot.limit(side, _MAX_RANGE, _LEAST_SPAN)
     plot.getViewBox().disableAutoRange()
+    leave_drops_to_window(plot)  # some are made when the window is long there
+    plot.setAcceptDrops(False)
     return plot

@@ -1,4 +1,7 @@
-"""Colours of curves, on screen and in print, distinct with any colour vision (Okabe and Ito)."""
+"""Colours of curves, on screen and in print, distinct with any colour vision (Okabe and Ito).
+
+Thresholds and noise, which no figure shows together, have the same.
+"""
 
 SIMULATION = "#0072B2"
 BAND = "#D55E00"

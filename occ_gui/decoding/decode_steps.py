@@ -82,7 +82,7 @@ class SignalPlot(QWidget):
         self.setVisible(result.signal is not None)
 
     def _show_folded(self, folded: FloatArray, model: FloatArray) -> None:
-        self.plot.setLabel("bottom", "bin of a packet")
+        self.plot.setLabel("bottom", "eighth of a chip")
         self.plot.setLabel("left", "lit fraction")
         _draw(self.signal, folded)
         _draw(self.model, model)

@@ -34,7 +34,7 @@ def room_drawing(
             column, row = read.hull.mean(axis=0).tolist()
             yield read.name or "unnamed", None, None, None, column, row
 
-    header = ("what", "true (m, rad)", "found", "standard error", "column", "row")
+    header = ("what", "true (m, rad)", "found", "standard deviation", "column", "row")
     return Drawing(
         "room", _TITLE, lambda: _draw(room, image, reading, is_photo), header, rows,
         lambda date: _provenance(room, date),
@@ -87,7 +87,7 @@ def _draw_plan(ax: Axes, room: Room, reading: RoomReading, is_photo: bool) -> No
         found, errors = reading.located.place, reading.located.errors
         ax.errorbar(
             [found.x], [found.y], [2.0 * errors[1]], [2.0 * errors[0]], fmt="x",
-            color=colours.BAND, label="found, two standard errors",
+            color=colours.BAND, label="found, two standard deviations",
         )  # fmt: skip
     ax.set_aspect("equal")
     ax.set_xlabel("x (m)")

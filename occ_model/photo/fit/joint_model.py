@@ -3,8 +3,8 @@
 The light of a column is a(i) + b(i) x lit(i), with levels a and b that vary slowly; the camera's
 tone curve makes it a grey level. Tone curve, blur and the LED's switching are not known: they are
 fitted too, held by what is usual (a Gaussian prior each), so that the timing's uncertainty includes
-them. Clipped columns are left out: of 99 simulated photographs (25 of them saturated to a third or
-more) no estimate is nearer to the truth with what they tell, that the light is at least white.
+them. Clipped columns are left out: in some hundred simulated photographs, forty of them with a
+fifth or more saturated, that their light is at least white made estimates no nearer to the truth.
 """
 
 import math

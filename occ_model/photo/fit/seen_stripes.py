@@ -94,11 +94,10 @@ class BlurredLight:
         place, exposure = self._places(timing), timing.exposure
         first, last = (self._passed(edges, where) for where in (place, place + exposure))
         before, after = (self._levels[passed % len(self._levels)] for passed in (first, last))
-        lit, rise = self._integrated(timing, edges), (after - before) / exposure
-        from_middle = np.arange(len(place)) - 0.5 * (len(place) - 1)
-        by_exposure = (0.5 * (after + before) - lit) / exposure
+        lit = self._integrated(timing, edges)
         by_longer = 0.5 * (last - first) / exposure
-        return np.stack([rise * from_middle, by_exposure, rise, np.zeros_like(lit), by_longer])
+        by_timing = timing.slopes_between(lit, before, after)
+        return np.stack([*by_timing, np.zeros_like(lit), by_longer])
 
     def _edges_of(self, longer: float) -> FloatArray:
         return self._edges - 0.5 * longer * self._changes

@@ -37,15 +37,20 @@ class Timing:
         return np.clip(lit, 0.0, 1.0)
 
     def lit_slopes(self, lit: FloatArray, chips: ByteArray) -> FloatArray:
-        """Return the lit fractions' slopes over step, exposure and middle, shape (3, columns).
-
-        An exposure that is later gains the chip that it ends in and loses the one it starts in.
-        """
+        """Return the lit fractions' slopes over step, exposure and middle, shape (3, columns)."""
         starts = self._starts(len(lit))
         first, last = (
             chips.take(np.floor(place).astype(np.int64), mode="wrap").astype(np.float64)
             for place in (starts, starts + self.exposure)
         )
+        return self.slopes_between(lit, first, last)
+
+    def slopes_between(self, lit: FloatArray, first: FloatArray, last: FloatArray) -> FloatArray:
+        """Return the lit fractions' slopes over step, exposure and middle, shape (3, columns).
+
+        An exposure that is later gains the light that it ends in and loses what it starts in:
+        ``last`` and ``first``, 1 where the LED is on.
+        """
         later = (last - first) / self.exposure
         longer = (0.5 * (last + first) - lit) / self.exposure
         from_middle = np.arange(len(lit)) - 0.5 * (len(lit) - 1)

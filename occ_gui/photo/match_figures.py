@@ -16,7 +16,6 @@ from occ_model.results.match import Match
 from occ_model.results.photo_table import assumption
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
-from occ_model.scene.square_wave import chips_of_cycle
 
 WHAT_ERRORS_MEAN = (
     "± is one standard deviation, of the fit alone: the error of the value that is known comes "
@@ -45,18 +44,15 @@ def stale_sentence(
     return f"Found with {declared.format(then)}; the scene has {declared.format(now)} now: "
 
 
-def condition(name: str, value: float, certain: Mapping[str, float], chips: int) -> str:
-    """Name the value that estimates rest on, as ``"if f = 10 kHz: "``; empty where it is certain.
-
-    A lamp that only blinks is known by its cycles, each of so many ``chips``; 0 for any other.
-    """
-    return "" if is_certain(name, value, certain) else assumption(name, value, chips)
+def condition(name: str, value: float, certain: Mapping[str, float], pattern: str) -> str:
+    """Name the value that estimates rest on, as "if f = 10 kHz: "; empty where it is certain."""
+    return "" if is_certain(name, value, certain) else assumption(name, value, pattern)
 
 
 def condition_of(match: Match, certain: Mapping[str, float]) -> str:
     """Name the value that a match's estimates of time rest on, unless the user is certain of it."""
     name = known_of(match)
-    return condition(name, float(getattr(match, name)), certain, chips_of_cycle(match.pattern))
+    return condition(name, float(getattr(match, name)), certain, match.pattern)
 
 
 def _grid(parent: QWidget | None = None) -> QGridLayout:

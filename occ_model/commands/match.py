@@ -26,7 +26,7 @@ from occ_model.results.lamp import Lamp
 from occ_model.results.match import ChipReading, Match
 from occ_model.scene.from_text import write_scene_file
 from occ_model.scene.scene import Scene
-from occ_model.scene.square_wave import SQUARE_FREQUENCY, blinking, chips_of_cycle
+from occ_model.scene.square_wave import SQUARE_FREQUENCY, blinking
 from occ_model.scene.units import Unit
 
 
@@ -142,7 +142,7 @@ def _run_lamps(photo: Photo, scene: Scene, options: argparse.Namespace) -> int:
 
 def _how_known(match: Match, options: argparse.Namespace) -> str:
     known = known_of(match)
-    return assumption_of(known, getattr(match, known), chips_of_cycle(match.pattern), options)
+    return assumption_of(known, getattr(match, known), match.pattern, options)
 
 
 def _square_wave(scene: Scene, text: str) -> Scene:

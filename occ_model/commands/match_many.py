@@ -27,7 +27,7 @@ from occ_model.results.photo_table import (
 from occ_model.scene.argument_checks import check_count
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
-from occ_model.scene.square_wave import CHIPS_OF_A_CYCLE, SQUARE_FREQUENCY, chips_of_cycle
+from occ_model.scene.square_wave import CHIPS_OF_A_CYCLE, SQUARE_FREQUENCY
 
 _MAX_FILE_CHARACTERS = 32
 
@@ -59,10 +59,10 @@ def run_many(options: argparse.Namespace, scene: Scene) -> int:
     table = _matched(paths, scene, own, options, jobs)
     if table is None:
         return EXIT_INTERRUPTED
-    chips = chips_of_cycle(table.scene.transmitter.pattern)
     known = ""
     if table.rests_on_the_scene:
-        known = assumption_of(table.known, float(table.scene.value(table.known)), chips, options)
+        pattern = table.scene.transmitter.pattern
+        known = assumption_of(table.known, float(table.scene.value(table.known)), pattern, options)
     paste = stated_lines(table, known)
     if options.out:
         write_whole(options.out, csv_text(table, paste, known).encode("utf-8"))

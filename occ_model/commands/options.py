@@ -162,9 +162,9 @@ def forced(options: argparse.Namespace) -> dict[str, bool]:
     return {**dict.fromkeys(options.on, True), **dict.fromkeys(options.off, False)}
 
 
-def assumption_of(name: str, value: float, chips: int, options: argparse.Namespace) -> str:
+def assumption_of(name: str, value: float, pattern: str, options: argparse.Namespace) -> str:
     """Name the value that the estimates of time rest on; empty where the command line states it."""
     stated = {setting.partition("=")[0].strip() for setting in options.settings}
     if options.led_frequency is not None:
         stated.add("switching_frequency")
-    return "" if name in stated else assumption(name, value, chips)
+    return "" if name in stated else assumption(name, value, pattern)

@@ -10,6 +10,7 @@ from occ_model.results.sweep import csv_row
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
+from occ_model.scene.square_wave import chips_of_cycle
 from occ_model.scene.units import HERTZ
 from occ_model.version import __version__
 
@@ -247,13 +248,13 @@ def _text(text: str) -> str:
 _FREQUENCY = "switching_frequency"
 
 
-def assumption(name: str, value: float, chips: int) -> str:
+def assumption(name: str, value: float, pattern: str) -> str:
     """Return the condition under which estimated times hold, as ``"if f = 10 kHz: "``.
 
-    ``chips``: those of a cycle of an LED that only blinks, 0 of any other.
+    An LED that only blinks, by the ``pattern`` of its chips, is known by its cycles.
     """
     known = quantity(name)
-    if name == _FREQUENCY and chips:
+    if name == _FREQUENCY and (chips := chips_of_cycle(pattern)):
         cycles = HERTZ.format(value / chips)
         return f"if it is a lamp of {cycles} ({known.format(value)} chips): "
     return f"if {known.symbol} = {known.format(value)}: "

@@ -25,7 +25,6 @@ from occ_model.results.photo_table import (
 )
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
-from occ_model.scene.square_wave import chips_of_cycle
 
 _ROWS_SEEN = 5
 _LEAST_BESIDE = QSize(220, 60)
@@ -240,8 +239,8 @@ class ManyPhotosView(QWidget):
         if self._found is not None and not self._found.rests_on_the_scene:
             return ""  # each photo has a value that was entered for it
         known = known_beside(estimate)
-        chips = chips_of_cycle(scene.transmitter.pattern)
-        return condition(known, float(scene.value(known)), self._certain, chips)
+        pattern = scene.transmitter.pattern
+        return condition(known, float(scene.value(known)), self._certain, pattern)
 
     def _show_found(self, table: PhotoTable | None) -> None:
         if table is not None and table is not self._found and self._scene is not None:

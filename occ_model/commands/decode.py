@@ -26,7 +26,7 @@ from occ_model.results.video_reading import FilmProgress, VideoReading
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import SECOND
 from occ_model.study.reading_facts import clock_facts, error_rate, packet_facts
-from occ_model.video.clock import READOUT_TOLERANCE
+from occ_model.video.clock import MOST_READOUT_TOLERANCE, READOUT_TOLERANCE
 from occ_model.video.file.source import CHANNELS as FILM_CHANNELS
 from occ_model.video.load import load_video
 from occ_model.video.reader import decode_video
@@ -67,9 +67,11 @@ def add_to(commands: Commands) -> None:
 
 def _run(options: argparse.Namespace) -> int:
     scene = scene_of(options)
-    percent = options.readout_tolerance
-    if not 0.0 < percent <= 50.0:
-        raise ParameterError.of("--readout-tolerance", f"{percent:g} %", "above 0 % up to 50 %")
+    percent, most = options.readout_tolerance, 100.0 * MOST_READOUT_TOLERANCE
+    if not 0.0 < percent <= most:
+        raise ParameterError.of(
+            "--readout-tolerance", f"{percent:g} %", f"above 0 % up to {most:g} %"
+        )
     if options.follow or is_film(options.file):
         return read_film(options, scene)
     result = _decoded(scene, options, options.scan_axis)

@@ -31,6 +31,7 @@ _PART_GROWTH = 1.3  # factor by which the fitted part of the film grows, once it
 _MAX_CHI_SQUARED_EXCESS = 9.0  # up to which an alias is not excluded: three standard deviations
 
 READOUT_TOLERANCE = 0.01  # maximum relative difference of the readout time from the given rough one
+MOST_READOUT_TOLERANCE = 0.5
 _MAX_READOUT_EXCESS = 1e-3  # relative error by which the readout may exceed the frame period
 _MIN_FRAMES = 3  # minimum number of frames to fit the clock to
 _MAX_OUTLIER_FRACTION = 0.1  # outlier fraction of the phases that triggers a warning

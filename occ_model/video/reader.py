@@ -16,7 +16,7 @@ from occ_model.scene.argument_checks import check_count, is_number
 from occ_model.scene.payload import form_of, payload_of_bits
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.transmitter.packet import code_of
-from occ_model.video.clock import READOUT_TOLERANCE
+from occ_model.video.clock import MOST_READOUT_TOLERANCE, READOUT_TOLERANCE
 from occ_model.video.frame_times import FrameTimes
 from occ_model.video.packets import packets_of
 from occ_model.video.payload_so_far import (
@@ -117,9 +117,10 @@ class VideoReader:
     ) -> None:
         check_scene(scene)
         decoder_named(decoder)
-        if not is_number(readout_tolerance) or not 0.0 < readout_tolerance <= 0.5:
+        most = MOST_READOUT_TOLERANCE
+        if not is_number(readout_tolerance) or not 0.0 < readout_tolerance <= most:
             raise ParameterError.of(
-                "readout_tolerance", shown(readout_tolerance), "above 0 up to 0.5"
+                "readout_tolerance", shown(readout_tolerance), f"above 0 up to {most:g}"
             )
         self._scene, self._reads = scene, FrameReader(scene, decoder)
         self._period = period_of(scene)

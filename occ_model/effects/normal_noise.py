@@ -13,15 +13,15 @@ import numpy as np
 
 from occ_model.arrays import FloatArray, Pixels
 
-RANGE = 9.0  # standard deviations beyond which nothing of a normal distribution is left
+_RANGE = 9.0  # standard deviations beyond which nothing of a normal distribution is left
 
 _PER_DEVIATION = 256
 
 
 @lru_cache(maxsize=1)
 def _tables() -> tuple[FloatArray, FloatArray]:
-    """Tabulate the probability Q(u) above u, and phi(u) - u Q(u), from -RANGE to RANGE."""
-    u = np.arange(-RANGE * _PER_DEVIATION, RANGE * _PER_DEVIATION + 1.0) / _PER_DEVIATION
+    """Tabulate the probability Q(u) above u, and phi(u) - u Q(u), from -_RANGE to _RANGE."""
+    u = np.arange(-_RANGE * _PER_DEVIATION, _RANGE * _PER_DEVIATION + 1.0) / _PER_DEVIATION
     beyond = np.array([0.5 * math.erfc(x / math.sqrt(2.0)) for x in u.tolist()])
     lost = np.exp(-0.5 * u * u) / math.sqrt(2.0 * math.pi) - u * beyond
     lost[-1] = 0.0
@@ -29,8 +29,8 @@ def _tables() -> tuple[FloatArray, FloatArray]:
 
 
 def _place(u: FloatArray) -> np.ndarray:
-    place = np.minimum(np.maximum(u, -RANGE), RANGE)
-    place += RANGE + 0.5 / _PER_DEVIATION
+    place = np.minimum(np.maximum(u, -_RANGE), _RANGE)
+    place += _RANGE + 0.5 / _PER_DEVIATION
     place *= _PER_DEVIATION
     return place.astype(np.intp)
 

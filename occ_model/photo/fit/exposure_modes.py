@@ -45,15 +45,7 @@ _LONGEST_EXPOSURE = 4.2  # longest exposure in chips to start from
 
 _MOST_SCANNED = 2
 _MOST_MISFIT_RATIO = 4.0  # maximum misfit ratio of a starting value
-_HELD_PARAMETERS = (
-    0,
-    3,
-    4,
-    5,
-    6,
-    7,
-    8,
-)  # indices of the parameters held while exposures are compared
+_HELD_INDICES = (0, 3, 4, 5, 6, 7, 8)  # of the parameters held while exposures are compared
 _ROUGH_ROUNDS = 3  # number of iterations that separate promising exposures from others
 
 
@@ -238,7 +230,7 @@ def scanned_starts(
     def rough(exposure: float) -> tuple[float, FloatArray]:
         values = usual.copy()
         values[1] = exposure
-        return model.rough(values, _HELD_PARAMETERS, _ROUGH_ROUNDS)
+        return model.rough(values, _HELD_INDICES, _ROUGH_ROUNDS)
 
     most = _MOST_MISFIT_RATIO * rough(float(found[1]))[0]
     fits = sorted(

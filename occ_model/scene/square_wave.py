@@ -33,5 +33,5 @@ def blinking(scene: Scene, cycles: float) -> Scene:
 
 
 def chips_of_cycle(pattern: str) -> int:
-    """Return the chips of a cycle of an LED that only blinks, with any duty; 0 if it does not."""
+    """Return the chips of a pattern that is one pulse, of any duty, and 0 of any other."""
     return len(pattern) if (pattern + pattern[:1]).count("01") == 1 else 0

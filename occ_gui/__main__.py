@@ -7,7 +7,6 @@ from occ_model.program import run_program
 
 
 def main() -> int:
-    """Run the application in this process; return its exit code."""
     return run_program("occ-gui", _command, is_process=True, is_window=True)
 
 

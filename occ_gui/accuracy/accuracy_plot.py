@@ -134,10 +134,7 @@ class AccuracyPlot(QWidget):
         self.legend.setVisible(self.height() >= _LEGEND_HEIGHT)
 
     def show_ways(self, expected: Forecast) -> None:
-        """Draw what accuracy costs: error over time of all sets of effects that a plan may have.
-
-        Times are those expected from what was measured, errors the plan's limits.
-        """
+        """Draw expected time and error limit of each set of effects that a plan may choose."""
         timed = zip(expected.ways, expected.ways_seconds, strict=True)
         shown = [(way, s) for way, s in timed if s is not None and way.error < math.inf]
         shown.sort(key=lambda pair: pair[1])
@@ -173,7 +170,6 @@ class AccuracyPlot(QWidget):
         return () if self._measuring or self._outdated else self._complete
 
     def show_unit(self, unit: str) -> None:
-        """Name the unit of the errors."""
         self.plot.setLabel("left", f"error ({unit})")
 
     def show_study_begun(self) -> None:

@@ -1,8 +1,4 @@
-"""Pane of accuracy and time: the costs of effects, other tolerances, other ways to compute.
-
-Each of the three questions has a part of the pane: the table of effects with the selected one, the
-slider from fast to exact with its sentence, and the plot of the ways to compute.
-"""
+"""Pane of accuracy and time: table of effects, slider from fast to exact, plot of all ways."""
 
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
@@ -26,20 +22,17 @@ from occ_model.results.plan import Decision
 from occ_model.scene.simulation_settings import SimulationSettings, unit_of
 
 _TABLE_WIDTH, _PLOT_WIDTH, _DETAIL_WIDTH = 560, 344, 312
-"""Pixels that the parts need beside each other."""
+"""Pixels that the parts need side by side."""
 
 
 class AccuracyView(QWidget):
-    """The slider from fast to exact, the table of effects, and the plot of error over time.
-
-    It draws only while it is visible, as :meth:`set_seen` says.
-    """
+    """The slider from fast to exact, the table of effects, and the plot of error over time."""
 
     tolerance_edited = Signal(float)
     refused = Signal(str)  # why an entered value is refused
 
     mended = Signal()
-    """An allowed tolerance was entered, whether or not it differs from the last one."""
+    """A valid tolerance was entered, whether or not it differs from the last one."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -103,12 +96,10 @@ class AccuracyView(QWidget):
         return self.table, self.detail
 
     def set_seen(self, seen: bool) -> None:
-        """Draw from now on, or stop drawing while the pane is hidden."""
         self._seen = seen
         self._redraw()
 
     def show_settings(self, settings: SimulationSettings) -> None:
-        """Show the simulation settings without emitting a signal."""
         self.tolerance.show_unit(unit_of(settings.observable))
         self.plot.show_unit(unit_of(settings.observable))
         self.tolerance.show_value(settings.tolerance)
@@ -122,7 +113,7 @@ class AccuracyView(QWidget):
         self._redraw()
 
     def show_switched(self, switched: tuple[Decision, ...]) -> None:
-        """Mark what the plan has just switched; nothing when it is no news any more."""
+        """Mark the effects that the plan has just switched; none when that is no longer news."""
         if switched != self._switched:
             self._switched = switched
             if not switched:  # else it is drawn with its picture, which comes next
@@ -133,7 +124,7 @@ class AccuracyView(QWidget):
         self._draw()
 
     def show_forecast(self, request: SimulationRequest, expected: Forecast) -> None:
-        """Show what a picture with the present settings would take, and how exact it would be."""
+        """Show the expected time and error of a picture with the present settings."""
         self._forecast = (request, expected)
         if not self.tolerance.slider.isSliderDown():
             self.tolerance.show_marks(marks_of(expected.ways))

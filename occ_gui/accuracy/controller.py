@@ -29,10 +29,8 @@ def _predict(asked: _Asked, _report: object) -> tuple[SimulationRequest, Forecas
 class AccuracyController(QObject):
     """Starts the study when nothing has changed for a while, and cancels it at the next change.
 
-    It never runs during the simulation of a picture: both would be slower, and its times wrong.
-    What the next picture would take is predicted at every change.
-
-    ``pane``: shows what is measured; nothing is measured while it is hidden.
+    It never runs during the simulation of a picture: both would be slower, and its times wrong. The
+    time of the next picture is predicted at every change.
     """
 
     def __init__(
@@ -70,7 +68,6 @@ class AccuracyController(QObject):
         return SimulationRequest(self._scenes.scene, self._scenes.settings.settings)
 
     def set_seen(self, seen: bool) -> None:
-        """Measure while the pane is visible, and stop when it is hidden."""
         self._seen = seen
         if seen:
             self._predict()
@@ -95,7 +92,7 @@ class AccuracyController(QObject):
         self._predict()
 
     def _predict(self) -> None:
-        """Predict from the last picture, where it is one of the present scene."""
+        """Predict from the last picture if it shows the present scene."""
         snapshot, request = self._snapshot, self._request()
         if not self._seen or snapshot is None or snapshot.request.scene != request.scene:
             return

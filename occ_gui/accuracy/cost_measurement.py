@@ -19,7 +19,7 @@ _RUNS, _PATIENCE = 5, 1.0  # pictures are made so often in turn; no more often a
 
 @dataclass(frozen=True, slots=True)
 class SceneCosts:
-    """What has been measured of the effects of a scene."""
+    """What has been measured of a scene's effects."""
 
     request: SimulationRequest
     # The times of pictures that were made in turn: with the effects of the request's plan, with all
@@ -29,10 +29,10 @@ class SceneCosts:
     errors: Mapping[frozenset[str], float] = field(default_factory=dict)
 
     def of(self, request: SimulationRequest, picture: TimeFractions) -> MeasuredCosts:
-        """Return what of it holds for a request, whose picture took these times when it was made.
+        """Return what is known of a request whose picture took these times.
 
-        Where a picture with the same effects was made again, in turn with the others, its times
-        take their place: only what was measured at the same time can be compared.
+        Times measured in turn with other pictures replace those of the picture: only they can be
+        compared.
         """
         here, there = self.request.settings, request.settings
         compared = _compared(request) == _compared(self.request)
@@ -56,13 +56,12 @@ class Measured:
 
 
 class CostMeasurement:
-    """Measures on the study's thread; what was compared of the last scene is not compared again."""
+    """Measures on the study's thread; what was compared for the last scene is reused."""
 
     def __init__(self) -> None:
         self._complete: tuple[object, CompleteSimulation] | None = None
 
     def __call__(self, request: SimulationRequest, report: Report) -> None:
-        """Measure the effects' costs, then the points of a study, and report each."""
         timer = _CancellableTimer(report)
         complete = self._complete_of(request, timer)
         chosen = plan_with(request.scene, request.settings)
@@ -111,7 +110,7 @@ def _in_turn(request: SimulationRequest, report: Report) -> tuple[TimeFractions,
 
 
 def _as_stated(point: AccuracyPoint, costs: SceneCosts) -> AccuracyPoint:
-    """Return a point with the time that the pane states elsewhere of the same picture."""
+    """Return a point with the time that the pane states elsewhere for the same picture."""
     same = (p.seconds for p in costs.pictures if p.included == frozenset(point.effects))
     return point if point.part != "effects" else replace(point, seconds=next(same, point.seconds))
 

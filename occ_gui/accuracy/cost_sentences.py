@@ -16,10 +16,7 @@ def picture_sentence(costs: MeasuredCosts, made: float, expected: Forecast | Non
 
 
 def ends_sentence(costs: MeasuredCosts, unit: str) -> str:
-    """Say what other ends of the slider take: no effects, and all.
-
-    It is empty until they are measured, in turn with the picture.
-    """
+    """State the times without any effect and with all of them; empty until both are measured."""
     if not costs.is_comparable:
         return ""
     bare = next((fractions for fractions in costs.others if not fractions.included), None)
@@ -36,7 +33,7 @@ def ends_sentence(costs: MeasuredCosts, unit: str) -> str:
 
 
 def forecast_sentence(frame: Frame, times: TimeFractions, expected: Forecast) -> str:
-    """Say what the next picture will take, how exact it will be, and what is switched."""
+    """State the next picture's time and error, and the effects that it switches."""
     before, after = set(frame.plan.included), set(expected.plan.included)
     now = milliseconds(times.seconds)
     if expected.seconds is None:
@@ -65,7 +62,7 @@ def _error(expected: Forecast) -> str:
 
 
 def _promise(expected: Forecast) -> str:
-    """Say what the plan promises of an error that is neither measured nor predicted yet."""
+    """State the error that the plan promises while none is measured or predicted."""
     plan = expected.plan
     off_by_hand = any(d.forced and d.estimate and not d.included for d in plan.decisions)
     if off_by_hand or plan.tolerance == math.inf:

@@ -34,8 +34,6 @@ class _Cell(QStyledItemDelegate):
 
 
 class PictureCell(_Cell):
-    """Draws the small pictures of an effect, with it and without it."""
-
     def __init__(self, rows: Rows, parent: QObject) -> None:
         super().__init__(rows, parent)
         self._images: dict[int, tuple[object, QImage, QImage]] = {}
@@ -58,7 +56,7 @@ class PictureCell(_Cell):
 
 
 def _fitted(area: QRect, image: QImage) -> QRect:
-    """Return the place of a picture in the middle of an area, never enlarged."""
+    """Centre an image in an area, shrunk where needed but never enlarged."""
     scale = min(area.width() / image.width(), area.height() / image.height(), 1.0)
     place = QRect(0, 0, round(scale * image.width()), round(scale * image.height()))
     place.moveCenter(area.center())
@@ -66,7 +64,7 @@ def _fitted(area: QRect, image: QImage) -> QRect:
 
 
 class TimeCell(_Cell):
-    """Draws a time as a bar, hollow where the effect is left out, and the number beside it."""
+    """Draws a time as a bar, hollow where the effect is left out, and as a number."""
 
     @guarded
     def paint(self, painter: QPainter, option: QStyleOptionViewItem, index: _Index) -> None:
@@ -91,18 +89,18 @@ class TimeCell(_Cell):
 
 
 _LEAST_LEVELS, _MOST_LEVELS = 0.01, 300.0
-"""Ends of the axis of errors, in levels; it is logarithmic."""
+"""Limits of the logarithmic axis of errors, in levels."""
 
 _NUMBER_WIDTH = 44  # pixels of the number beside the axis
 
 
 def axis_of(area: QRect) -> tuple[int, int]:
-    """Return where the axis of errors begins in a cell, and its length, in pixels."""
+    """Return the start and the length of the axis of errors in a cell, in pixels."""
     return area.left() + _GAP, max(area.width() - _NUMBER_WIDTH - 2 * _GAP, 1)
 
 
 def place_of(levels: float, area: QRect) -> float:
-    """Return the place of an error on the axis; beyond an end, that end."""
+    """Return the position of an error on the axis, clamped to its ends."""
     left, length = axis_of(area)
     if levels <= _LEAST_LEVELS:
         return float(left)
@@ -111,7 +109,7 @@ def place_of(levels: float, area: QRect) -> float:
 
 
 def levels_at(place: float, area: QRect) -> float:
-    """Return the error at a place on the axis: 0 before it, and infinity beyond it."""
+    """Return the error at a position: 0 before the axis, and infinity beyond it."""
     left, length = axis_of(area)
     fraction = (place - left) / length
     if fraction <= 0.0:
@@ -121,10 +119,9 @@ def levels_at(place: float, area: QRect) -> float:
 
 
 class ErrorCell(_Cell):
-    """Draws an effect's error on an axis that all rows share, and the number beside it.
+    """Draws an effect's error as a dot, with a whisker to the plan's estimate.
 
-    A dot is what was measured; a whisker goes from it to what the plan estimates. The tolerance is
-    a line through all rows; those beyond it have a colour.
+    The tolerance is a line through all rows; errors beyond it are coloured.
     """
 
     def __init__(self, rows: Rows, tolerance: Callable[[], float], parent: QObject) -> None:

@@ -74,8 +74,6 @@ class CropPictures(QWidget):
 
 
 class EffectDetail(QWidget):
-    """The effect whose row is selected."""
-
     def __init__(self) -> None:
         super().__init__()
         self.title = emboldened(paragraph())

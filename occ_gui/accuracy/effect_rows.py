@@ -16,13 +16,11 @@ from occ_model.scene.simulation_settings import unit_of
 ELSE = "everything else"  # key of the last row, which is no effect
 
 _STAGES = {"light": "Light", "optics": "Optics", "sensor": "Sensor", "processing": "File"}
-"""The stages of the light's way in words that fit a narrow column."""
+"""Stages of the light's path, in words that fit a narrow column."""
 
 
 @dataclass(frozen=True, slots=True)
 class EffectRow:
-    """Contents of one row."""
-
     effect: str  # the effect's name; ``ELSE`` in the last row
     stage: str  # the stage of the light's way; empty in the last row
     label: str  # the effect's name on the screen
@@ -48,11 +46,10 @@ class EffectRow:
 def rows_of(
     frame: Frame, costs: MeasuredCosts, new: Collection[str], forecast: Forecast | None = None
 ) -> tuple[EffectRow, ...]:
-    """Return the rows: the effects in the order that light travels, then everything else.
+    """Return the effects in the order that light passes them, then everything else.
 
-    ``costs``: its times, and what was measured of its scene.
-    ``new``: the effects that the plan has just switched.
-    ``forecast``: what the controls would make of it.
+    ``new`` names the effects that the plan has just switched; ``forecast`` is what the controls
+    would give.
     """
     rows = []
     for decision in frame.plan.decisions:
@@ -113,7 +110,7 @@ def _row(
 
 
 def _error(decision: Decision, difference: EffectDifference | None, unit: str) -> tuple[str, str]:
-    """Return the error without an effect, and what it means."""
+    """Return the error without an effect, and its explanation."""
     if not decision.estimate:
         return "none", "The scene does not have this effect."
     is_known = decision.limit < math.inf
@@ -146,7 +143,7 @@ STAGE, PICTURE, EFFECT, ERROR, TIME, SWITCH = range(6)
 SORTED = (STAGE, EFFECT, ERROR, TIME)
 
 LEAST_SCATTER = 0.1
-"""Times that differ by less than this fraction of the longer are about equal, measured or not."""
+"""Fraction of the longer of two times below which their difference does not count."""
 
 Order: TypeAlias = tuple[int, bool]  # a column, and whether its largest value comes first
 
@@ -156,11 +153,10 @@ AS_LIGHT_TRAVELS: Order = (STAGE, False)
 def arranged(
     rows: Sequence[EffectRow], order: Order, present: Sequence[str] = ()
 ) -> tuple[EffectRow, ...]:
-    """Arrange rows.
+    """Sort rows; those without a value come last.
 
-    ``order``: what to sort by. Rows without a value come last.
-    ``present``: the effects in their present order. Rows whose times are about equal keep it: a
-    time that is measured again is another, and would shuffle them.
+    Rows with about equal times keep their ``present`` order: times that are measured again differ a
+    little, and would shuffle them.
     """
     column, falls = order
     kept = [row for row in rows if row.effect == ELSE]
@@ -188,11 +184,7 @@ def are_about_equal(one: EffectRow, other: EffectRow) -> bool:
 
 
 def slowest_of(rows: Sequence[EffectRow], before: str = "") -> str:
-    """Return the effect in the picture that takes most time; empty where there is none.
-
-    ``before``: the effect that took most time so far: it still does where another takes about as
-    much.
-    """
+    """Return the slowest effect of the picture, or ``before`` where it takes about as long."""
     timed = [r for r in rows if r.seconds is not None and r.included and r.effect != ELSE]
     if not timed:
         return ""
@@ -206,7 +198,7 @@ def _value(row: EffectRow, column: int) -> float | None:
 
 
 def _mend(rows: list[EffectRow], falls: bool) -> None:
-    """Swap neighbours that stand wrong by more than the scatter, until there are none."""
+    """Swap neighbours that are out of order by more than the scatter."""
     swapped = True
     while swapped:
         swapped = False

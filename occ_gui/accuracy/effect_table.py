@@ -43,7 +43,7 @@ _TINT.setAlpha(48)
 LOWEST_ROW, HIGHEST_ROW = 16, 28  # pixels of a row in a low pane and in a high one
 
 _LEAST_ROWS = 4
-"""Rows in view at the least, so that no window grows beyond its screen: the others scroll."""
+"""Fewest visible rows: the others scroll, so that no window grows beyond its screen."""
 
 _ROWS = 11  # rows that the table has room for before it has any
 
@@ -109,7 +109,7 @@ class EffectModel(QAbstractTableModel):
                 self.dataChanged.emit(self.index(place, STAGE), self.index(place, SWITCH))
 
     def sort(self, column: int, order: Qt.SortOrder = Qt.SortOrder.AscendingOrder) -> None:
-        """Sort by a column from now on; by one that has no order, as light travels."""
+        """Sort by a column; by one without an order, as light passes the effects."""
         falls = order == Qt.SortOrder.DescendingOrder
         self._order = (column, falls) if column in SORTED else AS_LIGHT_TRAVELS
         new = arranged(self._given, self._order)
@@ -117,7 +117,7 @@ class EffectModel(QAbstractTableModel):
             self._reorder(new)
 
     def _reorder(self, rows: tuple[EffectRow, ...]) -> None:
-        """Show the same effects in another order; the selection and the switches go with them."""
+        """Reorder the same effects, with the selection and the switches."""
         self.layoutAboutToBeChanged.emit()
         before = self.persistentIndexList()
         effects = [self.rows[index.row()].effect for index in before]
@@ -191,8 +191,6 @@ def _colour(row: EffectRow, column: int) -> QColor | None:
 
 
 class _FlatSwitch(QComboBox):
-    """A combo box as low as a row of the table."""
-
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         return QSize(super().minimumSizeHint().width(), LOWEST_ROW)
 
@@ -248,7 +246,6 @@ class EffectTable(QTableView):
         self.effects.show_rows(rows)
 
     def show_tolerance(self, tolerance: float) -> None:
-        """Show the tolerance as a line through all rows, without emitting a signal."""
         self._tolerance = tolerance
         self.viewport().update()
 
@@ -287,7 +284,6 @@ class EffectTable(QTableView):
                 self.selectRow(place)
 
     def show_force(self, force: Mapping[str, bool]) -> None:
-        """Show which effects the user has switched, without emitting a signal."""
         self._force = force
         for effect, switch in self.switches.items():
             switch.setCurrentIndex(_STATES.index(force.get(effect)))
@@ -319,7 +315,7 @@ class EffectTable(QTableView):
         return switch
 
     def _size_columns(self) -> None:
-        """Make every column as wide as its widest text, and the name take what remains."""
+        """Fit the columns to their texts; the name takes the rest of the width."""
         header, metrics = self.horizontalHeader(), self.fontMetrics()
         header.setSectionResizeMode(QHeaderView.ResizeMode.Interactive)
         for column in (PICTURE, STAGE):
@@ -338,7 +334,7 @@ class EffectTable(QTableView):
         self._leave_room_for_names()
 
     def _leave_room_for_names(self) -> None:
-        """Hide what tells least, where the table is too narrow for the effects' names."""
+        """Hide the least informative columns where names would be cut off."""
         metrics = self.fontMetrics()
         texts = (_text(row, EFFECT) for row in self.effects.rows)
         room = self.viewport().width() - 8
@@ -349,10 +345,7 @@ class EffectTable(QTableView):
             self.setColumnHidden(column, room < 0)
 
     def _title_width(self, column: int) -> int:
-        """Return the width at which the title of a column is shown whole, with room for its arrow.
-
-        Qt's would leave room for an arrow also where no click sorts.
-        """
+        """Return a title's width, with room for an arrow only where a click sorts, unlike Qt's."""
         header = self.horizontalHeader()
         header.setSortIndicatorShown(column in SORTED)
         width = header.sectionSizeHint(column)

@@ -10,8 +10,6 @@ from occ_gui.simulation.snapshot import Snapshot
 
 
 class AccuracyPane(PiecesPane):
-    """Connects the view with the settings and with the study."""
-
     def __init__(self, scenes: SceneStore, simulation: SimulationController) -> None:
         self.view = view = AccuracyView()
         super().__init__(view, view.show_settings, view.show_switched, self._show_snapshot)

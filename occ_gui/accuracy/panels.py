@@ -18,8 +18,6 @@ _TOP_FRACTION = 0.56  # largest fraction of the height for the upper panel
 
 @dataclass(frozen=True, slots=True)
 class Panel:
-    """A panel."""
-
     title: str
     widget: QWidget
     width: int  # the width in pixels that it needs beside others
@@ -27,7 +25,7 @@ class Panel:
 
 
 class Panels(QWidget):
-    """Three panels: the main one, and two that share the remaining space or take turns in it."""
+    """A main panel, and two that divide the remaining space or take turns in it."""
 
     def __init__(self, main: Panel, second: Panel, third: Panel) -> None:
         super().__init__()
@@ -119,7 +117,7 @@ class Panels(QWidget):
         return places
 
     def _over_each_other(self, area: QRect) -> tuple[QRect, QRect]:
-        """Divide an area for the main panel and what stands below it."""
+        """Divide an area between the main panel and what stands below it."""
         wanted = self._panels[0].widget.sizeHint().height()
         height = min(wanted, int(_TOP_FRACTION * area.height()))
         top = QRect(area.left(), area.top(), area.width(), height)

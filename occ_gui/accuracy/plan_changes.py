@@ -12,7 +12,7 @@ _NEW_MS = 8000  # for how long what the plan has switched is marked, and stated 
 
 
 class PlanNews(QObject):
-    """Tells for a while what the plan of the latest picture has switched."""
+    """Reports for a while what the plan of the latest picture has switched."""
 
     changed = Signal(object)  # the decisions that are new; none when they are no news any more
 
@@ -24,7 +24,6 @@ class PlanNews(QObject):
         self._forgetting.timeout.connect(self._forget)
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
-        """Compare the plan of the next picture with that of the one before."""
         last, self._last = self._last, snapshot.frame
         if last is None:
             return
@@ -39,7 +38,7 @@ class PlanNews(QObject):
 
 
 def switch_sentence(switched: Sequence[Decision]) -> str:
-    """Name the effects that were switched; what each takes stands in the table, and only there."""
+    """Name the effects that were switched; their times stand in the table only."""
     parts = []
     for included, way in ((True, "in"), (False, "out")):
         labels = [decision.label for decision in switched if decision.included is included]

@@ -41,7 +41,6 @@ class ToleranceEdit(QuantityEdit):
             self.lineEdit().setText(f"∞ {self._quantity.unit.symbol}")
 
     def take_typed(self) -> None:
-        """Accept the typed text, as leaving the field does."""
         text = self.lineEdit().text().removesuffix(self._quantity.unit.symbol).strip().lower()
         if self._typed and text in _INFINITE:
             self.set_value(math.inf)
@@ -51,8 +50,6 @@ class ToleranceEdit(QuantityEdit):
 
 
 class ToleranceSlider(QWidget):
-    """A slider from fast to exact, with the tolerance that it means."""
-
     edited = Signal(float)
 
     refused = Signal(str)  # why an entered value is refused
@@ -77,7 +74,7 @@ class ToleranceSlider(QWidget):
         self.show_value(TOLERANCE.default)
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return a height at which a style's frame leaves the field's text whole."""
+        """Return a height that leaves the text whole within a style's frame."""
         least = super().minimumSizeHint()
         return least.expandedTo(QSize(0, self.field.minimumSizeHint().height()))
 
@@ -85,7 +82,6 @@ class ToleranceSlider(QWidget):
         return super().sizeHint().expandedTo(QSize(0, self.minimumSizeHint().height()))
 
     def show_unit(self, unit: str) -> None:
-        """Name the unit, that of a decision or levels, in the field and in what is said of it."""
         if unit == self._unit:
             return
         self._unit = unit
@@ -102,17 +98,13 @@ class ToleranceSlider(QWidget):
             control.setToolTip(meaning)
 
     def show_value(self, tolerance: float) -> None:
-        """Show a tolerance without emitting a signal."""
         self.field.set_value(tolerance)
         self._place(tolerance)
 
     def show_marks(self, marks: tuple[float, ...]) -> None:
-        """Let the slider stop where another plan begins, without emitting a signal.
+        """Let the slider stop where another plan begins.
 
-        Between two marks every tolerance has the same plan.
-
-        ``marks``: the tolerances between infinity and zero from which a plan holds, the largest
-        first.
+        ``marks``: the tolerances between infinity and zero at which plans begin, the largest first.
         """
         if marks == self.marks:
             return
@@ -140,7 +132,7 @@ class ToleranceSlider(QWidget):
 
 
 def marks_of(ways: Sequence[Way]) -> tuple[float, ...]:
-    """Return the tolerances from which plans hold that neither end of the slider has."""
+    """Return the tolerances at which plans begin, but for those at the slider's ends."""
     errors = (way.error for way in ways[1:] if 0.0 < way.error < math.inf)
     return tuple(error for error in errors if error > TOLERANCE.at(0.0))
 

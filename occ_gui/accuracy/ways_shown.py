@@ -17,7 +17,7 @@ class Way:
 def ways_shown(points: Iterable[AccuracyPoint]) -> list[Way]:
     """Choose the points to show, the one of the present setting first.
 
-    Of the effects' ladder, whose steps the table of effects shows, only the ends are points.
+    Of the ladder of effects only the ends are points: the table of effects shows its steps.
     """
     by_part: dict[str, list[AccuracyPoint]] = {}
     for point in points:

@@ -19,8 +19,6 @@ from occ_model.scene.parameters import PARAMETERS
 
 
 class Application(Parts):
-    """The window, with all its parts connected."""
-
     def __init__(self, workspace: Workspace, preferences: QSettings | None = None) -> None:
         super().__init__(workspace, preferences)
         self.photo = PhotoInWindow(self)
@@ -98,20 +96,16 @@ class Application(Parts):
         return self.measuring.is_idle and self.shell.is_measured
 
     def open_photo(self, path: Path, match: bool = False, front: bool = True) -> None:
-        """Open a photo.
-
-        ``match``: whether to match it and to apply the result to the scene.
-        ``front``: whether to bring its pane to the front.
-        """
+        """Open a photo; ``match`` applies its match to the scene, ``front`` shows its pane."""
         self.photo.open(path, match, front)
 
     def resume(self, workspace: Workspace) -> None:
-        """Have what an earlier window has left, which is no step and stays behind."""
+        """Restore what an earlier window left, without a step to undo."""
         self.photo.stay_behind(workspace.photo.path)
         self.store.store.put(workspace)
 
     def _users_own(self) -> Workspace:
-        """Return what the user has set; what a lesson shows in its place is not kept."""
+        """Return what the user has set, without what a lesson shows in its place."""
         return self.lessons.users_own() or self.store.store.workspace
 
     def _keep_view(self) -> None:

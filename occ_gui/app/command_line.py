@@ -59,10 +59,6 @@ _PATIENCE_MS = 60_000  # longest time that a screenshot waits for the picture
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the application and return its exit code.
-
-    ``arguments``: the words of the command line; by default those of this process.
-    """
     is_process = arguments is None
     work = partial(read_command_line, arguments)
     return run_program("occ-gui", work, is_process=is_process, is_window=True)
@@ -81,7 +77,7 @@ def _start_and_run(options: argparse.Namespace) -> int:
 
 
 def _check_qt() -> None:
-    """Refuse to go on where Qt is not installed, or cannot be loaded."""
+    """Refuse to start where Qt is not installed, or cannot be loaded."""
     absent = [name for name in ("PySide6", "pyqtgraph") if find_spec(name) is None]
     if absent:
         raise occ.OccError(
@@ -177,7 +173,7 @@ def _run(options: argparse.Namespace, begin: Start) -> int:
 
 
 def _leave_plugins(code: int, preferences: "QSettings | None") -> None:
-    """End the process, if a plug-in does not come back: a usual end would wait for it."""
+    """End the process at once if a plug-in hangs: a usual exit would wait for it."""
     hung = all_at_work()
     if hung:
         for who in hung:
@@ -221,10 +217,7 @@ def _close_on_interrupt(application: "Application") -> None:
 def start(
     workspace: Workspace, arguments: list[str], preferences: "QSettings | None" = None
 ) -> "tuple[QApplication, Application]":
-    """Create the application, with its window not shown yet.
-
-    ``preferences``: the stored preferences; by default nothing is stored.
-    """
+    """Create the application with a hidden window; without ``preferences`` nothing is stored."""
     if sys.platform == "linux" and not any(os.environ.get(name) for name in _DISPLAYS):
         # Qt would print several lines about it.
         from occ_gui.app.display import NO_DISPLAY
@@ -272,9 +265,9 @@ def _end_without_display() -> NoReturn:
 def wait_until_shown(application: "Application", measured: bool = False) -> None:
     """Process events until all requested results are shown.
 
-    ``measured``: whether to wait also for the detection map and the strips under the sliders.
-    Raises OccError where the scene has no picture, or it took too long; a map that is not complete
-    is shown as it is.
+    ``measured``: whether to wait for the detection map and the strips under the sliders, too; a map
+    that stays incomplete is shown so. Raises OccError where the scene has no picture, or it takes
+    too long.
     """
     from PySide6.QtCore import QDeadlineTimer, QEventLoop, QTimer
     from PySide6.QtWidgets import QApplication
@@ -304,7 +297,6 @@ def _is_idle(application: "Application", measured: bool) -> bool:
 
 
 def _take_screenshot(application: "Application", path: Path) -> None:
-    """Save a picture of the window once all results are shown."""
     from PySide6.QtCore import QBuffer, QIODevice
 
     try:

@@ -13,18 +13,18 @@ from occ_gui.app.system_libraries import missing_libraries, sentence_about
 NO_DISPLAY = "There is no display that a window can be opened on; use --screenshot FILE."
 
 _MISSING = re.compile(r"^(\S+): cannot open shared object file")
-"""What the dynamic linker says of a library that it does not find."""
+"""Message of the dynamic linker on a missing library."""
 
 _LARGEST, _LEAST = QSize(1680, 1050), QSize(1280, 800)
 _FRACTION = 0.92
-"""Fraction of the screen that the first window takes: what lies behind it stays in sight.
+"""Fraction of the screen that the first window takes.
 
 Where that is less than the sliders and the story need, the window takes the whole screen.
 """
 
 
 def reason_for_no_window() -> str:
-    """Say why Qt cannot open a window: libraries are missing, or there is no display."""
+    """Explain why Qt cannot open a window: libraries are missing, or there is no display."""
     missing = missing_libraries(*platforms())
     if missing:
         return sentence_about(missing)
@@ -33,7 +33,7 @@ def reason_for_no_window() -> str:
 
 
 def platforms() -> tuple[str, ...]:
-    """Name the kinds of display that are there, as Qt names its plug-ins for them."""
+    """Return the available kinds of display, by the names of Qt's plug-ins for them."""
     chosen = os.environ.get("QT_QPA_PLATFORM", "").split(";")[0].split(":")[0]
     if chosen:
         return (chosen,)
@@ -42,7 +42,7 @@ def platforms() -> tuple[str, ...]:
 
 
 def unlisted_library(names: tuple[str, ...]) -> str | None:
-    """Return the first library that Qt's plug-ins of these names lack, None if they lack none."""
+    """Return the first library that Qt's plug-ins of these names lack, None if none is missing."""
     folder = Path(QLibraryInfo.path(QLibraryInfo.LibraryPath.PluginsPath), "platforms")
     for name in names:
         plugin = folder / f"libq{name}.so"
@@ -57,7 +57,7 @@ def unlisted_library(names: tuple[str, ...]) -> str | None:
 
 
 def first_place(screen: QRect) -> QRect:
-    """Return where the first window opens: in the middle, or over all of a small screen."""
+    """Return the first window's place: the middle, or all of a small screen."""
     wanted = (screen.size() * _FRACTION).boundedTo(_LARGEST)
     if wanted != wanted.expandedTo(_LEAST):
         return screen
@@ -67,7 +67,7 @@ def first_place(screen: QRect) -> QRect:
 
 
 def open_first(window: QWidget, screen: QRect) -> None:
-    """Give a window its first place; one that takes the whole screen is maximized."""
+    """Place a window; maximize it where its place is the whole screen."""
     place = first_place(screen)
     window.setGeometry(place)
     if place == screen:  # its frame too must fit

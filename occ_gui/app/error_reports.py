@@ -31,11 +31,11 @@ HARMLESS_MESSAGE = "This plugin does not support propagateSizeHints()"
 
 
 _ON_THE_WAY = re.compile(r"(Error calling Python override of [\w:]+\(\): )+")
-"""What Qt for Python writes before an exception's text where an event is handled meanwhile."""
+"""Prefix of Qt for Python to the text of an exception that was raised in an event handler."""
 
 
 class LastMessages(logging.Handler):
-    """Keeps the last messages that were logged, for the report of a mistake."""
+    """Keeps the last log messages for the report of a mistake."""
 
     def __init__(self) -> None:
         super().__init__(logging.WARNING)
@@ -43,7 +43,6 @@ class LastMessages(logging.Handler):
         self.lines: deque[str] = deque(maxlen=_LINES)
 
     def emit(self, record: logging.LogRecord) -> None:
-        """Keep a message, with the lines of an exception, at most the last of them."""
         self.lines.extend(self.format(record).splitlines())
         if logging.lastResort is not None:  # as if this handler were not there
             logging.lastResort.handle(record)
@@ -64,14 +63,12 @@ class ErrorReports(QObject):
         self._before: tuple[Callable[..., object], Callable[..., object]] | None = None
 
     def install(self) -> None:
-        """Handle the unhandled exceptions of all threads from now on."""
         self._before = (sys.excepthook, threading.excepthook)
         sys.excepthook = self.report
         logging.getLogger().addHandler(self.last)
         threading.excepthook = self._report_thread
 
     def remove(self) -> None:
-        """Restore the exception hooks that were there before."""
         if self._before is not None:
             sys.excepthook, threading.excepthook = self._before
             logging.getLogger().removeHandler(self.last)
@@ -80,7 +77,7 @@ class ErrorReports(QObject):
     def report(
         self, kind: type[BaseException], error: BaseException, trace: TracebackType | None
     ) -> None:
-        """Log an exception and report it, unless one of its kind was reported at this line."""
+        """Log an exception, and report it unless one of its kind was reported at this line."""
         if issubclass(kind, KeyboardInterrupt | SystemExit):
             sys.__excepthook__(kind, error, trace)
             return

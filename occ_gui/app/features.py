@@ -12,7 +12,6 @@ from occ_model.version import __version__
 
 
 def features(parts: Parts, of_photo: PhotoInWindow) -> tuple[Feature[Any], ...]:
-    """Declare what stands in docks, and what the menus offer besides."""
     scenes, shell, window = parts.store, parts.shell, parts.window
     preferences, store = parts.preferences, parts.store.store
 

@@ -1,4 +1,4 @@
-"""Figures of the panes, declared: of what each is drawn, which is found out before it is."""
+"""Declarations of the panes' figures."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -28,7 +28,7 @@ _OVERLAY_FILE = "picture-with-photo"
 
 
 def picture_figures(store: Store, about_photo: Callable[[], str]) -> tuple[Figure, Figure]:
-    """Declare the figures; ``about_photo`` gives what stands under a picture of the photo."""
+    """``about_photo`` returns the caption of a picture with the photo."""
 
     def picture(pane: "PicturesPane | None", shown: Snapshot) -> Draw:
         workspace, photo = store.workspace, _photo(pane)
@@ -92,8 +92,6 @@ def _with_photo(view: "ImageView", opened: "Photo", shown: Snapshot, mode: str, 
 
 
 def profile_figure(store: Store, board: Board, about_photo: Callable[[], str]) -> Figure:
-    """Declare the figure; ``about_photo`` gives what stands under the profile of the photo."""
-
     def ask(pane: "ProfilePane | None", shown: Snapshot) -> Draw:
         workspace, photo = store.workspace, board.results.photo_profile
         comparison = None if photo is None else photo.comparison
@@ -178,7 +176,7 @@ def bands_figures() -> tuple[Figure, ...]:
 
 
 def room_figure() -> Figure:
-    """Declare the figure, which there is once the picture of the present place is read."""
+    """Declare the figure, available once the picture of the present place is read."""
 
     def ask(pane: "RoomPane | None", _shown: Snapshot) -> Draw:
         shown = None if pane is None else pane.shown

@@ -21,11 +21,11 @@ _REST_S = 2.0  # how long the program is idle before memory is given back
 _IDLE_FRACTION = 0.1  # fraction of a processor that an idle program takes at most
 
 _WORTH_S = 1.0
-"""Processor time of the work since memory was given back last, below which it is not again."""
+"""Seconds of processor time that work takes at least before memory is given back after it."""
 
 
 def give_memory_back() -> None:
-    """Let the C library give back what is freed, where it is that of GNU."""
+    """Return freed memory to the system, where the C library is GNU's."""
     with suppress(OSError, AttributeError):
         ctypes.CDLL("libc.so.6").malloc_trim(0)
 
@@ -55,7 +55,7 @@ class GarbageCollector(QObject):
         gc.unfreeze()
 
     def collect(self) -> None:
-        """Collect the oldest generation whose threshold is exceeded, and give memory back."""
+        """Collect the oldest generation whose threshold is exceeded, and return memory."""
         counts, limits = gc.get_count(), gc.get_threshold()
         due = [old for old in range(3) if counts[old] > limits[old] > 0]
         if due:
@@ -63,7 +63,7 @@ class GarbageCollector(QObject):
         self._rest()
 
     def _rest(self) -> None:
-        """Give memory back once after each work, as soon as nothing is done for a while."""
+        """Return memory once after each work, as soon as nothing is done for a while."""
         now, used = time.monotonic(), time.process_time()
         passed, taken = now - self._looked, used - self._used
         self._looked, self._used = now, used

@@ -16,7 +16,7 @@ class LessonsInWindow(QObject):
     noted = Signal(str)  # the outcome of an action, shown until the scene changes
 
     columns_held = Signal(object)
-    """How many columns a lesson keeps in view; None for as many as usual."""
+    """Number of columns that a lesson keeps in view; None for the usual one."""
 
     photo_explained = Signal(bool)  # whether the step of a lesson that is shown is about the photo
 
@@ -36,7 +36,6 @@ class LessonsInWindow(QObject):
         lessons.action_wanted.connect(self._do)
 
     def _do(self, action: str) -> None:
-        """Do what a step of a lesson has a button for: an entry of the menus."""
         self._window.actions_by_name[_ENTRY_OF_ACTION[action]].trigger()
 
     def _show_pane_of_step(self, name: str) -> None:
@@ -56,7 +55,7 @@ class LessonsInWindow(QObject):
         return own
 
     def end(self) -> None:
-        """Restore what the user was working on, if a lesson is under way."""
+        """Restore the user's own work, if a lesson is under way."""
         pane = self._shell.made_pane("lessons")
         if pane is not None:
             pane.end()

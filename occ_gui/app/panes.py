@@ -1,4 +1,4 @@
-"""The panes of the window and its services, each declared; what is heavy is imported when made."""
+"""Declarations of the window's panes and services; heavy modules are imported when needed."""
 
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
@@ -39,9 +39,9 @@ if TYPE_CHECKING:
 
 
 def picture(store: Store, about_photo: Callable[[], str]) -> Feature[Any]:
-    """Declare the pane, which stands in the story in place of its rows.
+    """Declare the pane, which takes the place of the story's rows.
 
-    ``about_photo`` gives what stands under a figure with the photo.
+    ``about_photo`` returns the caption of a figure with the photo.
     """
 
     def part(workspace: Workspace, results: Results) -> tuple[object, ...]:
@@ -74,7 +74,7 @@ def decoding(store: Store) -> Feature[Any]:
 def photo(
     scenes: SceneStore, photos: PhotoController, image: "Callable[[], ImageView]", board: Board
 ) -> Feature[Any]:
-    """Declare the pane: a photo is shown with the picture, which ``image`` gives."""
+    """Declare the pane; ``image`` returns the view of the picture, where the photo is shown."""
 
     def make() -> "PhotoPane":
         from occ_gui.photo.pane import PhotoPane
@@ -100,7 +100,6 @@ def photo(
 
 
 def photos(pane: "Callable[[], PhotoPane]") -> Feature[Any]:
-    """Declare the pane of several photos, whose table is that of the pane of one."""
     return Feature(
         name="photos",
         title="Photos",
@@ -110,10 +109,7 @@ def photos(pane: "Callable[[], PhotoPane]") -> Feature[Any]:
 
 
 def profile(store: Store, board: Board, about_photo: Callable[[], str]) -> Feature[Any]:
-    """Declare the pane: the comparison and the equations look at what it shows.
-
-    ``about_photo`` gives what stands under a figure with the photo.
-    """
+    """Declare the pane; ``about_photo`` returns the caption of a figure with the photo."""
 
     def part(workspace: Workspace, results: Results) -> tuple[object, ...]:
         photo = (results.photo_profile, results.chips)
@@ -131,7 +127,7 @@ def profile(store: Store, board: Board, about_photo: Callable[[], str]) -> Featu
 
 
 def accuracy(scenes: SceneStore, simulation: SimulationController) -> Feature[Any]:
-    """Declare the pane: it measures while it is seen, beside no simulation."""
+    """Declare the pane; it measures while it is visible, but never during a simulation."""
     return Feature(
         name="accuracy",
         title="Accuracy and time",
@@ -154,7 +150,6 @@ def detection_map(scenes: SceneStore, measuring: Measuring) -> Feature[Any]:
 
 
 def bands(scenes: SceneStore) -> Feature[Any]:
-    """Declare the pane: it shows the bars of the present scene, and changes its exposure."""
     return Feature(
         name="bands",
         title="Bars",
@@ -166,7 +161,7 @@ def bands(scenes: SceneStore) -> Feature[Any]:
 
 
 def equations(scenes: SceneStore, plot: "Callable[[], Plot]") -> Feature[Any]:
-    """Declare the pane; in the plot of the profile the user picks the column that it explains."""
+    """Declare the pane; its column is picked in the plot of the profile."""
     return Feature(
         name="equations",
         title="Equations",
@@ -206,7 +201,6 @@ def compare(pins: PinController) -> Feature[Any]:
 def lessons(
     scenes: SceneStore, board: Board, controls: ControlPanel, preferences: Preferences
 ) -> Feature[Any]:
-    """Declare the pane: it changes the scene, opens photos, and marks one of the controls."""
     return Feature(
         name="lessons",
         title="Lessons",
@@ -271,13 +265,11 @@ def export(
 def animation(
     window: QWidget, scenes: SceneStore, preferences: Preferences, bar: WorkBar
 ) -> Feature[Any]:
-    """Declare the export of a slider's run, with a bar that shows how far it is."""
     export = "occ_gui.export.animation:AnimationExport"
     return Feature(name="animation", make=later(export, window, scenes, preferences, bar))
 
 
 def transmitter(window: QWidget, scenes: SceneStore, preferences: Preferences) -> Feature[Any]:
-    """Declare what a board needs to blink the scene: a dialog, which follows the scene."""
     sender = "occ_gui.transmitter.transmitter_controller:TransmitterController"
     return Feature(
         name="transmitter",
@@ -302,7 +294,6 @@ def manual(window: QMainWindow, shell: Shell, current_pane: Callable[[], str]) -
 def welcome(
     window: MainWindow, shell: Shell, preferences: Preferences, files: FileController
 ) -> Feature[Any]:
-    """Declare the page, whose doors lead to lessons, photo and exploring."""
     return Feature(
         name="welcome",
         make=later("occ_gui.welcome.welcome:Welcome", window, shell, preferences, files),

@@ -1,4 +1,4 @@
-"""Parts of the window: stores, controllers and panes, in the order in which each needs others."""
+"""Parts of the window: stores, controllers and panes, in the order of dependence."""
 
 from typing import Any
 
@@ -37,10 +37,7 @@ from occ_model.receiver.decoders import DECODERS
 
 
 class Parts(QObject):
-    """What the window is made of, for those who connect some of it.
-
-    ``preferences``: the stored preferences; by default nothing is stored.
-    """
+    """Stores, controllers and panes of the window; without ``preferences`` nothing is stored."""
 
     current_pane: CurrentPane  # of all docks, once they have been added
 
@@ -78,11 +75,11 @@ class Parts(QObject):
         self.error_reports = ErrorReports()
 
     def view(self, name: str) -> Any:
-        """Return the view of a pane, which is made if it has never been seen."""
+        """Return the view of a pane, which is made if needed."""
         return self.shell.pane(name).view
 
     def _middle(self) -> QWidget:
-        """Give the story its place, with one for the whole picture in it."""
+        """Return the story, with a place for the whole picture in it."""
         whole = self.shell.embed(panes.picture(self.store.store, self.about_photo))
         return self.shell.embed(story(self.store, self.simulation, whole, [*DECODERS]))
 
@@ -96,7 +93,7 @@ class Parts(QObject):
 
 
 def _controls() -> ControlPanel:
-    """Make the controls, those of the effects in the order that light travels."""
+    """Make the controls; those of the effects in the order that light passes them."""
     effects = dict.fromkeys(name for effect in EFFECTS for name in effect.parameters)
     stages = {name: e.stage for e in reversed(EFFECTS) for name in e.parameters}
     return ControlPanel([], [*effects], {name: stages[name] for name in effects})

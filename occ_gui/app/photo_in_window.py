@@ -1,4 +1,4 @@
-"""The photo in the window: what reading and matching it change beside its own pane."""
+"""The photo in the window: what reading and matching it change outside its own pane."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -18,8 +18,6 @@ if TYPE_CHECKING:
 
 
 class PhotoInWindow(QObject):
-    """Connects the photo with the window, and its pane once that is made."""
-
     def __init__(self, parts: Parts) -> None:
         super().__init__(parts.window)
         self._parts = parts
@@ -52,7 +50,7 @@ class PhotoInWindow(QObject):
         self._parts.photos.open(path)
 
     def stay_behind(self, path: Path | None) -> None:
-        """Do not bring the photo to the front that is about to be opened, if there is one."""
+        """Do not bring to the front the photo that is about to be opened, if any."""
         self._front_next = path is None
 
     def match(self) -> None:
@@ -114,7 +112,7 @@ class PhotoInWindow(QObject):
         self._parts.photos.cancel()
 
     def _on_read(self, opened: "OpenPhoto") -> None:
-        """Bring a photo to the front that was read for the first time, and not in another way."""
+        """Bring a newly opened photo to the front, but not one that is only read again."""
         last, self._path = self._path, opened.source.path
         if self._front_next and last != self._path:
             self._parts.window.bring_to_front("photo")

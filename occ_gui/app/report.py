@@ -1,4 +1,4 @@
-"""The text that a report of a mistake needs: versions, system, scene, settings, last messages."""
+"""Text of an error report: versions, system, scene, settings, last messages."""
 
 import locale
 import platform

@@ -45,7 +45,7 @@ class Start:
 
     @property
     def first(self) -> Workspace:
-        """What a window is made with: the rest comes when it has all that listens to it."""
+        """The workspace that a window is made with; the rest follows once it is connected."""
         begin = Workspace(self.workspace.scene, self.workspace.settings)
         return self.workspace.step.laid_over(begin)
 
@@ -63,11 +63,7 @@ class Start:
 
 
 def start_of(options: Namespace, scene: Scene, settings: SimulationSettings, own: bool) -> Start:
-    """Determine what the window starts with.
-
-    ``options``: the command line.
-    ``own``: whether the settings are the defaults, as the command line names none.
-    """
+    """Return what the window starts with; ``own``: whether the settings are the defaults."""
     asked = bool(options.scene or options.settings or not isinstance(options.preset, DefaultOption))
     first = Workspace(scene, settings)
     if options.screenshot:  # it does not depend on the last session
@@ -81,7 +77,7 @@ def start_of(options: Namespace, scene: Scene, settings: SimulationSettings, own
 
 
 def kept_settings() -> "QSettings":
-    """Open the stored preferences: those of the folder that the environment names, or of Qt's."""
+    """Open the stored preferences: in the folder that the environment names, or Qt's."""
     from PySide6.QtCore import QSettings
 
     from occ_gui.files.session import STATE_FOLDER, state_folder

@@ -1,4 +1,4 @@
-"""Status messages: which event ends each message in the status line and at the fields."""
+"""Status messages, and the event that ends each of them."""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
@@ -17,9 +17,9 @@ _CHANGE, _PICTURE, _PHOTO, _MATCH = "a change of the scene", "a picture", "a pho
 
 
 class StatusMessages(QObject):
-    """Shows messages in the status line of a window until the event that makes them obsolete.
+    """Shows messages in the status line of a window until an event makes them obsolete.
 
-    A refused value's is shown at its field, too.
+    The message on a refused value is shown at its field, too.
     """
 
     def __init__(self, window: MainWindow, controls: ControlPanel) -> None:
@@ -28,24 +28,21 @@ class StatusMessages(QObject):
         self._failing: tuple[str, ...] = ()
 
     def follow(self, *forms: "AccuracyView | PhotoView") -> None:
-        """Show what forms refuse from now on, until an allowed value is entered there."""
+        """Show refusals of these forms, each until a valid value is entered there."""
         for form in forms:
             form.refused.connect(self.show_note)
             form.mended.connect(self.end_refusal)
 
     def show_note(self, sentence: str) -> None:
-        """Show what the user should know of the present scene, such as why an input is refused.
-
-        It stays until the next change of scene or settings.
-        """
+        """Show a remark on the present scene, until the next change of scene or settings."""
         self._window.say(sentence, until=_CHANGE)
 
     def show_refusal_for(self, sentence: str, parameters: Sequence[str]) -> None:
-        """Show at the fields of parameters why their values were refused, until as above."""
+        """Show at the fields of parameters why their values were refused."""
         self._controls.show_problem(sentence, parameters)
 
     def show_failure(self, sentence: str, parameters: Sequence[str] = ()) -> None:
-        """Show why a scene has no picture, also at the fields it is about, until the next one."""
+        """Show why a scene has no picture, also at the fields concerned, until the next picture."""
         self._window.say(sentence, until=_PICTURE)
         self._controls.end_refusals(self._failing)
         self._failing = tuple(parameters)

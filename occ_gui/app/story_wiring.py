@@ -18,7 +18,6 @@ if TYPE_CHECKING:
 
 
 def connect_story(parts: Parts) -> None:
-    """Connect the story with the menus, and with the panes that show the same in detail."""
     story, menus = parts.story, parts.window.menus
     parts.simulation.draft_for(lambda: _rows_per_pixel(story, parts.shell))
     parts.lessons.columns_held.connect(story.rows.hold_columns)
@@ -55,7 +54,6 @@ def connect_story(parts: Parts) -> None:
 
 
 def story_menu(parts: Parts) -> QMenu:
-    """Make the context menu of the rows: what can be copied, exported and measured there."""
     actions, menu = parts.window.actions_by_name, QMenu(parts.story.rows)
     text = parts.story.readout.toolTip()
     menu.addAction("Copy the &values at the crosshair", lambda: parts.window.say(copy_text(text)))
@@ -114,7 +112,7 @@ class _SimulationNaming(QObject):
 
 
 def _share_column(crosshair: Crosshair, exposure: "ExposureController") -> None:
-    """Explain the exposure of the column that is chosen in the story, and the other way round."""
+    """Keep equal the column chosen in the story and the one whose exposure is explained."""
 
     def follow() -> None:
         if crosshair.column is not None:
@@ -126,7 +124,7 @@ def _share_column(crosshair: Crosshair, exposure: "ExposureController") -> None:
 
 
 class _WholePictureWhileAsked(QObject):
-    """Shows the whole picture while something is asked of it, and then what was there before."""
+    """Shows the whole picture while something needs it, and then what was there before."""
 
     def __init__(self, story: StoryView) -> None:
         super().__init__(story)
@@ -142,7 +140,7 @@ class _WholePictureWhileAsked(QObject):
 
 
 def _rows_per_pixel(story: StoryView, shell: Shell) -> float:
-    """Return how many rows of the picture share a pixel where it is seen."""
+    """Return how many rows of the picture fall on a pixel of the screen."""
     pane = shell.made_pane("picture") if story.shows_whole_picture else None
     stripes = story.rows.stripes
     return stripes.rows_per_pixel() if pane is None else float(pane.view.rows_per_pixel())

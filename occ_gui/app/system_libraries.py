@@ -42,7 +42,7 @@ APT_INSTALL = ("apt-get", "install", "-y", "--no-install-recommends")
 
 
 def loads(library: str) -> bool:
-    """Tell whether the dynamic linker finds a shared library, and all that it links."""
+    """Return whether the dynamic linker finds a shared library and its dependences."""
     try:
         ctypes.CDLL(library)
     except OSError:
@@ -64,7 +64,7 @@ def install_line(packages: Iterable[str]) -> str:
 
 
 def sentence_about(missing: Mapping[str, str]) -> str:
-    """Name the libraries that the system lacks, and the line that installs their packages."""
+    """Name the missing libraries, and the command that installs their packages."""
     sentence = f"No window can be opened, because this system lacks {', '.join(missing)}"
     packages = [package for package in missing.values() if package]
     if not (packages and shutil.which("apt-get")):

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class VideoPane(QObject):
-    """What opens, saves and closes films; a film is opened at the first look at its pane."""
+    """Opens, saves and closes films; a film is opened when its pane is first shown."""
 
     def __init__(
         self, window: MainWindow, shell: Shell, store: Store, files: FileController
@@ -35,7 +35,7 @@ class VideoPane(QObject):
 
     @property
     def wiring(self) -> "VideoWiring":
-        """The pane, which is made if it has never been seen."""
+        """The pane, which is made if needed."""
         pane: VideoWiring = self._shell.pane("video")
         return pane
 

@@ -17,8 +17,6 @@ _HOLD, _YES = "edit/hold_brightness", "yes"
 
 
 class ViewOptions(QObject):
-    """Shows in the menus how the window looks, and stores what the user chooses."""
-
     def __init__(
         self, window: MainWindow, store: Store, preferences: Preferences, hold: HoldBrightness
     ) -> None:
@@ -38,7 +36,7 @@ class ViewOptions(QObject):
         store.select(lambda workspace: workspace.overlay).changed.connect(self._show_overlay)
 
     def restore(self) -> None:
-        """Have the options of the last window, before this one is shown."""
+        """Restore the options of the last window, before this one is shown."""
         recall = self._preferences.recall
         self.layout.restore()
         self.theme.choose(recall(_THEME))
@@ -51,7 +49,6 @@ class ViewOptions(QObject):
         self.layout.keep()
 
     def choose_overlay(self, mode: str) -> None:
-        """Show the photo beside the simulated picture or over it, by a mode of the overlay."""
         self._store.put(replace(self._store.workspace, overlay=mode))
 
     def _show_overlay(self, mode: str) -> None:

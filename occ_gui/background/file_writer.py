@@ -1,4 +1,4 @@
-"""Writing of a file that takes its time: off the window's thread, with a bar that cancels it."""
+"""Writing of a large file off the window's thread, with a bar that cancels it."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -12,9 +12,9 @@ from occ_model.errors import one_line
 
 
 class FileWriter(QObject, Generic[Request]):
-    """Writes one file at a time; one that is still being written is given up.
+    """Writes one file at a time; a new request cancels the running one.
 
-    ``write``: writes what a request asks for and returns the file; what is given up leaves nothing.
+    ``write`` writes what a request asks for and returns the file; a cancelled one leaves no file.
     """
 
     status_message = Signal(str)

@@ -1,4 +1,4 @@
-"""Age of results: for how long the request of a result has not been the present one."""
+"""Age of results: the time since their request was replaced."""
 
 import math
 from collections import deque
@@ -11,11 +11,11 @@ Request = TypeVar("Request")
 PAUSE = 0.15  # seconds: changes that follow each other faster are one movement, such as a drag
 
 _REMEMBERED_REQUESTS = 64
-"""Former requests whose end is remembered; the result of an older one is of any age."""
+"""Number of replaced requests whose time is remembered."""
 
 
 class ResultAges(Generic[Request]):
-    """The present request, and when each of the former ones ceased to be it."""
+    """The present request, and when each former one was replaced."""
 
     def __init__(self, request: Request, clock: Callable[[], float] = monotonic) -> None:
         self.present = request
@@ -34,7 +34,7 @@ class ResultAges(Generic[Request]):
         self.present = request
 
     def age(self, request: Request | None) -> float:
-        """Return for how many seconds a request has not been the present one.
+        """Return the seconds since a request was replaced.
 
         Zero for the present request, infinite for none and for one that is not remembered.
         """

@@ -1,4 +1,4 @@
-"""Signals of the work queue: results of the job scheduler, given on the window's thread."""
+"""Signals of the work queue: results of the job scheduler, delivered on the window's thread."""
 
 from collections.abc import Callable
 from threading import Thread
@@ -14,21 +14,21 @@ from occ_model.parallel.scheduler import Scheduler
 from occ_model.parallel.worker_thread import WorkerThread
 
 _INTERVAL = 0.05
-"""Seconds between two reports of a channel's results, so that the window can draw each of them."""
+"""Seconds between two reports of a channel's results, so that the window can draw each."""
 
 _STAGE_INTERVAL = 0.3
 """The same during an uninterruptible stage: it is short, and is shown whole where that is soon."""
 
 
 class JobChannel(QObject):
-    """One kind of work, of which only the newest request is done.
+    """One kind of work, of which only the newest request is processed.
 
-    A newer request replaces the one that is worked on; an uninterruptible stage is completed
-    before, so that something is shown while requests keep coming.
+    A newer request replaces the running one; an uninterruptible stage is completed first, so that
+    something is shown while requests keep coming.
     """
 
     results_ready = Signal(object, list)
-    """A request, and results of it: no more often than a window can be drawn."""
+    """A request and some of its results, no more often than a window can be drawn."""
 
     finished = Signal(object)  # the request whose results have all been given
     failed = Signal(str)  # a sentence that says why no more results come
@@ -52,11 +52,11 @@ class JobChannel(QObject):
         self._queue.scheduler().put(run)
 
     def request(self, run: int) -> Any:
-        """Return the request of a run, None where it is not wanted any more."""
+        """Return the request of a run, None if it has been replaced."""
         return self._requests.get(run)
 
     def cancel(self) -> None:
-        """Abandon the work; none of its results are given any more."""
+        """Cancel the work; no more of its results are reported."""
         if self._requests:
             self._requests.clear()
             self._queue.scheduler().cancel(self._number, self._next)
@@ -88,7 +88,7 @@ class JobChannel(QObject):
 
 
 class WorkQueue(QObject):
-    """Channels of work and the scheduler that shares workers among them."""
+    """Channels of work, and the scheduler that divides workers among them."""
 
     _results_ready = Signal(int, int, list)
     _ended = Signal(int, int, str)
@@ -130,7 +130,6 @@ class WorkQueue(QObject):
         return 0 if workers is None else workers.counted(counter)
 
     def stop(self) -> None:
-        """Abandon all work and end the workers; no results are given any more."""
         if self._stopped:
             return
         self._stopped = True

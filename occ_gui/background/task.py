@@ -16,11 +16,11 @@ PATIENCE_MS = 2000  # how long the ends of all threads together wait for plug-in
 _LOOK_MS = 50
 
 _left: list[QThread] = []
-"""Threads whose plug-in does not come back: Qt would abort the process if one were deleted."""
+"""Threads with a plug-in that hangs: Qt would abort the process if one were deleted."""
 
 
 class WorkerThread:
-    """A thread for one worker: much that could be worked on never is, and needs no thread."""
+    """A thread for one worker, started when first needed."""
 
     _waited_ms = 0
 
@@ -31,16 +31,13 @@ class WorkerThread:
         worker.moveToThread(self._thread)
 
     def begin(self) -> None:
-        """Start the thread before the first work; not again once it was ended."""
+        """Start the thread, unless it was started or ended before."""
         if self._may_begin:
             self._may_begin = False
             self._thread.start()
 
     def end(self) -> None:
-        """Wait for the running work, and end the thread.
-
-        Our own work always comes to its end; a plug-in's need not, and is left behind.
-        """
+        """Wait for the running work, and end the thread; a plug-in that hangs is left behind."""
         self._may_begin = False
         self._thread.quit()
         while not self._thread.wait(_LOOK_MS):
@@ -54,7 +51,7 @@ _log = logging.getLogger(__name__)
 
 
 def sentence_of(error: Exception, name: str, request: object) -> str:
-    """Say why work has no result; an unexpected error goes to the log with its traceback."""
+    """Explain why work has no result; an unexpected error is logged with its traceback."""
     if isinstance(error, OccError):
         return labelled(error)
     _log.error("%s failed for %r", name, request, exc_info=error)
@@ -67,16 +64,16 @@ Result = TypeVar("Result")
 
 
 Report: TypeAlias = Callable[[Any], None]
-"""Takes a part of the result, the fraction of the work done, or None, which is not given on;
-ends work that is not wanted by raising an exception."""
+"""Takes a part of the result, the fraction of the work done, or None, which is not passed on;
+raises an exception in cancelled work."""
 
 
 class Superseded(Exception):  # noqa: N818 - no error: nobody waits for it any more
-    """Ends work whose result is not needed any more; nothing is reported of it."""
+    """Ends work whose result is no longer needed; nothing is reported of it."""
 
 
 class _Run:
-    """A request that is worked on, and what the window lets its work know."""
+    """A running request, with what the window tells its worker."""
 
     def __init__(self, request: Any) -> None:
         self.request = request
@@ -90,13 +87,13 @@ class _Run:
 
 
 class Reporter:
-    """What work tells and asks while it goes on, on its own thread."""
+    """What running work reports to its task, and asks of it, on the worker's thread."""
 
     def __init__(self, worker: "_Worker", run: _Run) -> None:
         self._worker, self._run = worker, run
 
     def __call__(self, part: Any = None) -> None:
-        """Report a part of the result, or the fraction done; end work that is not wanted."""
+        """Report a part of the result, or the fraction done; end cancelled work."""
         if not self._run.is_wanted:
             raise Superseded
         if part is not None:
@@ -108,10 +105,10 @@ class Reporter:
             raise Superseded
 
     def wait_for_paint(self, seconds: float) -> None:
-        """Go on when the window has painted what it was given, or after some seconds.
+        """Wait until the window has painted what was reported, at most so many seconds.
 
-        Painting needs the interpreter, the memory and a core, as what follows does: side by side
-        both take twice as long, and what the user waits for is the picture.
+        Painting needs the interpreter, the memory and a core, as the following work does: at once
+        both take twice as long, and the user waits for the picture.
         """
         self._run.painted.clear()
         self._worker.paint_awaited.emit(self._run)
@@ -121,10 +118,10 @@ class Reporter:
 class Task(QObject, Generic[Request, Result]):
     """Runs a function on a thread of its own, for one request at a time.
 
-    A request that comes while another is at work waits; a newer one takes its place. The running
-    one goes on, and its result is shown: ended at every move of a slider, it would show nothing
-    until the slider stops. That of an impatient task ends at its next report instead. The function
-    takes a request and a :class:`Reporter`, and must not touch a widget; the name is for the log.
+    A request that comes meanwhile waits, and a newer one replaces it. The running one goes on, and
+    its result is shown: ended at every move of a slider, it would show nothing until the slider
+    stops. Only that of an impatient task ends at its next report. The function takes a request and
+    a :class:`Reporter`, and must not touch a widget; the name is for the log.
     """
 
     reported = Signal(object)
@@ -168,13 +165,12 @@ class Task(QObject, Generic[Request, Result]):
             self._running.newer.set()
 
     def cancel(self) -> None:
-        """Let nothing come any more of what was asked; work ends at its next report."""
+        """Report no more results; running work ends at its next report."""
         self._waiting = None
         if self._running is not None:
             self._running.abandon()
 
     def stop(self) -> None:
-        """Cancel, and wait for the end of the thread; nothing is done any more."""
         self._is_stopped = True
         self.cancel()
         self._thread.end()

@@ -22,7 +22,7 @@ _KINDS = (1.0, 2.0, 5.0)
 
 _MODULATIONS = (0.01, 200.0)
 _FREQUENCIES = (1.0, 1e4)
-"""Ends of the axes, in percent and Hz; the latter reaches on to a lamp that is faster."""
+"""Ends of the axes, in percent and Hz; the latter is exceeded for a faster lamp."""
 
 _FREQUENCY_MARGIN = 2.0
 

@@ -46,7 +46,7 @@ class _Curve:
 
 @dataclass(frozen=True, slots=True)
 class Drawn:
-    """A point as it is drawn, in powers of ten."""
+    """A point of a plot, in powers of ten."""
 
     at: float
     value: float  # the rate, or the bits a second; not a number where no error was seen

@@ -25,15 +25,13 @@ _SAMPLE = QSize(14, 14)
 
 
 PUBLISHED, OF_SCENE = "published", "scene"
-"""Whose code and timing: those of the published benchmark, or those of the scene."""
+"""Source of the code and timing: the published benchmark, or the scene."""
 
 _EFFORTS = (2_560, 10_240, 102_400)  # bits at each point that can be chosen
 
 
 @dataclass(frozen=True, slots=True)
 class BenchChoice:
-    """What is to be measured."""
-
     whose: str = PUBLISHED
     decoders: tuple[str, ...] = ()
     bits: int = _EFFORTS[1]
@@ -142,7 +140,7 @@ class BenchView(QWidget):
         self._show_state()
 
     def _show_page(self) -> None:
-        """Show plots and table, or before the first measurement what they are for."""
+        """Show plots and table, or their purpose before the first measurement."""
         there = bool(self._setting)
         self._pages.setCurrentWidget(self.plots[self.what.key()] if there else self.invitation)
         self.table.setVisible(there and self.height() >= _LEAST_WITH_TABLE)
@@ -210,7 +208,7 @@ class BenchView(QWidget):
         self._show_state()
 
     def show_ended(self, sentence: str) -> None:
-        """Show that no more points come, and why where some are missing."""
+        """Show that the measurement has ended, and why some points are missing."""
         self.work.end()
         self.measure.setEnabled(True)
         self._ended = sentence
@@ -223,7 +221,7 @@ class BenchView(QWidget):
         self._show_state()
 
     def show_outdated(self, outdated: bool) -> None:
-        """Show whether the points are of another code or timing than would be measured now."""
+        """Mark the points where their code or timing is not the one chosen now."""
         self._is_outdated = outdated
         text = "of another code or timing: measure again"
         self.outdated.show_age(DELAY if outdated else 0.0, text)

@@ -1,4 +1,4 @@
-"""The pane of the bench: what is asked for in its view is measured in the background."""
+"""The pane of the bench: what its view requests is measured in the background."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -25,11 +25,7 @@ _RANK = -1  # below all others: somebody waits for it
 
 
 def request_of(choice: BenchChoice, scene: Scene) -> BenchRequest:
-    """Make the request.
-
-    ``scene``: its scheme, number of bits, switching frequency, readout time and the columns of its
-    panel are used, where its own code is measured.
-    """
+    """Make the request; for the scene's own code, with the scene's scheme, bits and timing."""
     request = BenchRequest(decoders=choice.decoders, bits=choice.bits)
     if choice.whose == PUBLISHED:
         return request
@@ -52,7 +48,7 @@ def request_of(choice: BenchChoice, scene: Scene) -> BenchRequest:
 
 
 def setting_of(request: BenchRequest) -> BenchRequest:
-    """Return a request without its decoders and its effort, which change no curve."""
+    """Return a request without decoders and effort, which leave each curve as it is."""
     return replace(request, decoders=(), bits=1)
 
 
@@ -82,7 +78,7 @@ class BenchController(QObject):
         return request, tuple(self._points)
 
     def choose(self, choice: BenchChoice) -> None:
-        """Measure this when asked next; what is shown of something else is marked."""
+        """Set the next measurement; results of another choice are marked."""
         self._choice = choice
         self._mark()
 
@@ -110,7 +106,7 @@ class BenchController(QObject):
         yield Stage(_RANK, (Job(bench_bounds, (request,)), *jobs))
 
     def cancel(self) -> None:
-        """Stop measuring; the points that are known stay."""
+        """Stop measuring; the points measured so far stay."""
         if not self.channel.is_idle:
             self.channel.cancel()
             self._pane.show_ended("Cancelled: some points are missing.")

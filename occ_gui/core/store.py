@@ -1,4 +1,4 @@
-"""Store: holds the workspace, tells who looks at a part of it, and keeps the steps to undo."""
+"""Store: holds the workspace, notifies listeners of changes, and keeps the steps to undo."""
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
@@ -16,7 +16,7 @@ from occ_model.scene.parameters import PARAMETERS
 
 @dataclass(frozen=True, slots=True)
 class StepChange:
-    """One step: its title, the scene's values that it changes, and the rest of what it led to."""
+    """A step: its title, the scene's values that it changes, and the rest of the new state."""
 
     title: str
     values: Mapping[str, ParameterValue]
@@ -42,7 +42,7 @@ class History:
     done: int = 0
 
     def states(self) -> Iterator[Step]:
-        """Return the state before each step and that after the last; errors as `Scene.replace`."""
+        """Return the state before each step and that after the last; raises as `Scene.replace`."""
         scene = self.first.scene
         yield self.first
         for step in self.steps:
@@ -57,7 +57,7 @@ MOST_STEPS = 500  # steps that can be undone; each of them keeps two scenes in m
 
 
 class Selection(QObject, Generic[T]):
-    """A part of the workspace, or of the results, which tells when it differs."""
+    """A part of the workspace, or of the results, which emits a signal when it changes."""
 
     changed = Signal(object)
 
@@ -67,14 +67,15 @@ class Selection(QObject, Generic[T]):
 
 
 class Store(QObject):
-    """Holds the workspace.
+    """Holds the workspace and announces its changes.
 
-    All hear of a change in the order in which they have selected, and of one change after the
-    other: what a listener changes in turn is announced when all have heard of the change before.
+    Listeners are notified in the order of their selection, of one change after the other: a change
+    made by a listener is announced after the present one.
     """
 
     step_begun = Signal(object)
-    """The workspace that a new step, an undo or a redo has left; emitted before it is announced."""
+    """The workspace before a new step, an undo or a redo; emitted before the change is
+    announced."""
 
     def __init__(self, workspace: Workspace) -> None:
         super().__init__()
@@ -93,7 +94,7 @@ class Store(QObject):
         return selection
 
     def put(self, workspace: Workspace, title: str = "", gesture: int = NO_GESTURE) -> None:
-        """Replace the workspace; what can be undone is a step, changes of one gesture together."""
+        """Replace the workspace, as a step to undo; changes of one gesture are one step."""
         left, self.workspace = self.workspace, workspace
         if workspace.step != left.step:
             self._keep_step(left, title, gesture)
@@ -125,7 +126,7 @@ class Store(QObject):
             self.undo_stack.undo()  # only removes the obsolete step
 
     def _last_step(self) -> "_Command | None":
-        """Return the step that led to this workspace, None at a saved state or if none did."""
+        """Return the step that led to this workspace, None at a saved state or without one."""
         index = self.undo_stack.index()
         if index == 0 or index != self.undo_stack.count() or self.undo_stack.isClean():
             return None
@@ -139,7 +140,7 @@ class Store(QObject):
             self.put(self.workspace)
 
     def history(self, state: Step) -> History:
-        """Return the steps; where a state is not the present one, those alone that led to it."""
+        """Return the steps; for an earlier state, only those that led to it."""
         stack, present = self.undo_stack, self.undo_stack.index()
         commands = (stack.command(place) for place in range(stack.count()))
         steps = [command for command in commands if isinstance(command, _Command)]
@@ -152,7 +153,7 @@ class Store(QObject):
         return History(first, tuple(step.change for step in kept), done)
 
     def resume(self, history: History) -> None:
-        """Have the steps of an earlier window, if they lead to the present state; else none."""
+        """Restore the steps of an earlier window, if they lead to the present state."""
         try:
             states = [*history.states()]
         except OccError:
@@ -183,7 +184,7 @@ class _Command(QUndoCommand):
 
     @property
     def change(self) -> StepChange:
-        """What the step changes; noted once, as a session is written each second of a drag."""
+        """What the step changes, kept since a session is written each second of a drag."""
         if self._noted is None or self._noted[0] is not self.after:
             self._noted = self.after, StepChange.between(self._title, self.before, self.after)
         return self._noted[1]

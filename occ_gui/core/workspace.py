@@ -1,4 +1,4 @@
-"""Workspace: all that the user has set, as one value; nothing that was computed, and no pixels."""
+"""Workspace: all that the user has set, as one value without results or pixels."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
@@ -32,7 +32,7 @@ class Step:
     preset: str = field(default="", compare=False)  # it follows from how the scene was changed
 
     def laid_over(self, workspace: "Workspace") -> "Workspace":
-        """Return a workspace that has this part, and else is as before."""
+        """Return a workspace with this part replaced."""
         laid = replace(workspace, scene=self.scene, room=self.room, preset=self.preset)
         return laid.with_force(self.force)
 
@@ -55,7 +55,7 @@ class Workspace:
     room: RoomChoice = field(default_factory=RoomChoice)
     pins: Pins = (None, None)
     preset: str = ""
-    """The preset that the scene is, or was before some of its values were changed; or empty."""
+    """The preset that the scene is or was changed from; empty for none."""
     scene_file: Path | None = None
 
     @property
@@ -63,5 +63,5 @@ class Workspace:
         return Step(self.scene, dict(self.settings.force), self.room, self.preset)
 
     def with_force(self, force: Mapping[str, bool]) -> Self:
-        """Return a workspace in which exactly these effects are switched by hand."""
+        """Return a workspace with exactly these effects forced."""
         return replace(self, settings=replace(self.settings, force=dict(force)))

@@ -43,7 +43,7 @@ class BitStrip(QWidget):
         self.setAccessibleName("Sent and received bits")
 
     def show_bits(self, sent: Sequence[int], received: Sequence[int]) -> None:
-        """Show bits in the order of sending; bits that were not received are missing at the end."""
+        """Show bits in the order sent; bits that were not received are missing at the end."""
         bits = tuple(map(int, sent)), tuple(map(int, received))[: len(sent)]
         if bits == (self._sent, self._received):
             return
@@ -70,7 +70,7 @@ class BitStrip(QWidget):
         self.setToolTip(text)
 
     def wrong_places(self) -> list[int]:
-        """Return the indices of the received bits that differ from the sent ones."""
+        """Return the indices of received bits that are wrong."""
         return wrong_places(self._sent, self._received)
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
@@ -176,7 +176,7 @@ def _shortened(text: str) -> str:
 
 
 def _marked(pieces: Iterable[Piece]) -> str:
-    """Write what was received, with wrong letters crossed out in the colour of what is wrong."""
+    """Write what was received, with wrong letters crossed out and coloured."""
     marked, letters = "", 0
     for piece in pieces:
         letters += len(piece.sent)

@@ -27,7 +27,7 @@ _STEPS = {
     "correlation": "Correlation",
     "confidence": "Confidence",
 }
-"""The quantities that are measured on the way, with their titles."""
+"""Titles of the quantities that the decoder's steps measure."""
 
 
 class DecodeView(QWidget):
@@ -96,7 +96,6 @@ class DecodeView(QWidget):
         self._show_chosen()
 
     def show_outdated(self, outdated: bool) -> None:
-        """Show whether the results are of an earlier scene; they are not the present verdict."""
         reading = self._reading
         if reading is None or outdated == self._is_outdated:
             return
@@ -106,7 +105,7 @@ class DecodeView(QWidget):
         self.verdict.setText(self._verdict(self._chosen(reading)))
 
     def show_run(self, value: str, _pictured: str) -> None:
-        """Say of which value of a slider that runs the verdict is; empty while none runs."""
+        """Show for which value of a running slider the verdict is; empty while none runs."""
         if value != self._run:
             self._run = value
             if self._reading is not None:
@@ -131,7 +130,7 @@ class DecodeView(QWidget):
         return self._results(reading)[max(0, self.decoders.currentIndex())]
 
     def decoder(self) -> str:
-        """Return the name of the decoder whose result is shown; empty before the first result."""
+        """Return the decoder of the shown result; empty before the first one."""
         return "" if self._reading is None else self._chosen(self._reading).decoder
 
     def choose_decoder(self, name: str) -> None:
@@ -235,7 +234,7 @@ def _number(text: str, value: float | None) -> str | None:
 
 
 def _same_steps(one: DecodeResult, other: DecodeResult | None) -> bool:
-    """Return whether two results would be drawn alike: of one decoder, from the same signal."""
+    """Return whether two results are drawn alike: by one decoder, from the same signal."""
     return (
         other is not None
         and one.decoder == other.decoder

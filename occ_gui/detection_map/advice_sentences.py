@@ -31,7 +31,6 @@ class AdviceLine:
 
 
 def advice_lines(advice: Advice, frames_a_second: float = FRAMES_A_SECOND) -> list[AdviceLine]:
-    """Write a title and a few lines on what was found."""
     lines = [AdviceLine(_title(advice.limits), is_title=True)]
     for found, theory, low, high in (
         (advice.limits.frequency, advice.frequency, "lowest frequency", _HIGHEST),
@@ -62,7 +61,7 @@ def line_on_highest_frequency(advice: Advice) -> AdviceLine:
 
 
 def still_holds(parameters: frozenset[str]) -> str:
-    """Say that the advice is of an earlier scene, and which of its limits hold all the same."""
+    """State that the advice is for an earlier scene, and which of its limits still hold."""
     text = "This advice is on the scene before the change."
     if not parameters:
         return text

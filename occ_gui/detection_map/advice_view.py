@@ -25,8 +25,6 @@ _LEAST = QSize(200, 60)
 
 
 class AdviceView(QWidget):
-    """Sentences on the highest frequency and the working exposures of each decoder."""
-
     asked = Signal()  # the user asks for advice on the current scene
 
     cancelled = Signal()
@@ -38,7 +36,7 @@ class AdviceView(QWidget):
     def __init__(self, decoders: Sequence[str] = ()) -> None:
         super().__init__()
         self.cards = LimitCards(decoders)
-        """The highest frequencies in short, for another place than this page."""
+        """The highest frequencies in short, placed outside this page."""
         self.cards.destination_chosen.connect(self.destination_chosen)
         self._frames_a_second = FRAMES_A_SECOND
         self._lines: list[QWidget] = []
@@ -77,11 +75,11 @@ class AdviceView(QWidget):
         self.state.setVisible(not running)
 
     def use_frame_rate(self, frames_a_second: float) -> None:
-        """Count bits a second at so many pictures a second in the advice that comes."""
+        """Set the pictures a second for which later advice counts bits a second."""
         self._frames_a_second = self.cards.frames_a_second = frames_a_second
 
     def show_advice_begun(self, left_out: tuple[str, ...]) -> None:
-        """Remove the previous advice, and show that a search is running and what it leaves out."""
+        """Remove the previous advice, and announce a search and what it leaves out."""
         for line in self._lines:
             self._column.removeWidget(line)
             line.deleteLater()
@@ -94,7 +92,6 @@ class AdviceView(QWidget):
             self._add(AdviceLine(f"This advice leaves out: {', '.join(left_out)}.", is_title=True))
 
     def show_advice_progress(self, fraction: float) -> None:
-        """Show the fraction of the search that is done, from 0 to 1."""
         self.progress.setValue(round(100 * fraction))
 
     def show_advice(self, advice: Advice) -> None:
@@ -115,7 +112,7 @@ class AdviceView(QWidget):
         self._show_running(False)
 
     def show_advice_outdated(self, outdated: bool, reachable: frozenset[str]) -> None:
-        """Show whether the scene has changed since, and which limits hold all the same."""
+        """Mark the advice as outdated; ``reachable``: parameters whose limits still hold."""
         self.cards.show_outdated(outdated and "switching_frequency" not in reachable)
         if not self._lines:
             return

@@ -12,7 +12,7 @@ from occ_model.study.most_bits import most_bits
 def advise(
     scene: Scene, settings: RateSettings, decoder: str, rate: float, heartbeat: Heartbeat
 ) -> Advice:
-    """Find the limits of a decoder's working range, with those that theory gives."""
+    """Find the limits of a decoder's working range, and the theoretical ones."""
     found = limits(
         scene, decoder, rate=rate, images=settings.images, seed=settings.seed,
         tolerance=settings.tolerance, force=settings.force, path=settings.path, heartbeat=heartbeat,

@@ -25,10 +25,10 @@ from occ_model.scene.parameters import quantity
 from occ_model.scene.recording import FRAME_RATE
 
 _SCALES = {RATES: (0.0, 100.0), DIFFERENCES: (-100.0, 100.0)}
-"""Values at both ends of each colour map, in percent."""
+"""Limits of each colour map, in percent."""
 
 _MOST_IN_A_ROW, _LEAST_OF_TWO_ROWS = 2, 360
-"""Maps beside each other, and the least height in pixels of two rows of them."""
+"""Most maps in a row, and the least height in pixels of two rows."""
 
 
 class MapPlots(QWidget):
@@ -156,7 +156,6 @@ class MapPlots(QWidget):
         self._show_lines()
 
     def _scale(self, scheme: str) -> tuple[float, float]:
-        """Return the values at both ends of a colour map."""
         low, high = _SCALES[scheme]
         if self._shown == "rate":
             return low, high
@@ -209,7 +208,7 @@ _LIMITS = {
     "packets": ("two packets", "Below this frequency no two packets fit the panel's image."),
     "saturation": ("white", "The lit panel reaches the largest value."),
 }
-"""What each limit's line is called, and what it means."""
+"""Name and meaning of each limit's line."""
 
 _SAMPLE = QSize(28, 12)
 

@@ -26,7 +26,7 @@ def _written(frequency: float) -> str:
 
 
 class LimitCards(QWidget):
-    """A card for each decoder; while they are seen, the limits of a new scene are asked for."""
+    """A card for each decoder; while they are visible, the limits of a new scene are requested."""
 
     asked = Signal()  # the limits of the present scene are wanted
 
@@ -167,7 +167,7 @@ class LimitCard(QFrame):
         self._show_way()
 
     def _show_way(self) -> None:
-        """Enable the button where it leads to a limit of this scene, and say so or why not."""
+        """Enable the button where it leads to a limit of this scene; else explain why not."""
         self.go.setEnabled(self._destination is not None and not self._is_outdated)
         self.go.setToolTip(
             "Of an earlier scene: the limit is searched for again while this is seen."
@@ -187,7 +187,7 @@ class LimitCard(QFrame):
     def show_limit(self, end: RangeEnd | None, text: str, rate: float) -> None:
         """Show the upper end of the working range, None if the decoder reads nowhere.
 
-        ``rate``: the success rate, in percent, from which on a decoder counts as reading.
+        ``rate``: the least success rate, in percent, at which a decoder counts as reading.
         """
         if end is None:
             self._show("none", text, None)
@@ -232,7 +232,7 @@ class MostBitsCard(QFrame):
     cancelled = Signal()
 
     chosen = Signal(object)
-    """The user goes to what was found, a :class:`~occ_model.results.MostBits`."""
+    """The user goes to the result, a :class:`~occ_model.results.MostBits`."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -293,7 +293,7 @@ class MostBitsCard(QFrame):
         self.text.set_full_text(self._with_state(self._sentence(best)))
 
     def _with_state(self, sentence: str) -> str:
-        """Add to a sentence how far the search is, or why it has no result."""
+        """Append the progress of the search, or why it has no result."""
         parts = (sentence, self._state, *(self._failures if self._best is None else ()))
         return "; ".join(part for part in parts if part)
 

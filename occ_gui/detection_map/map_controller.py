@@ -1,4 +1,4 @@
-"""Controller of the detection map: it measures success rates while the map is seen."""
+"""Controller of the detection map: it measures success rates while the map is visible."""
 
 from functools import partial
 
@@ -43,10 +43,7 @@ class DetectionMapController(QObject):
 
     @property
     def is_first_answer_awaited(self) -> bool:
-        """Whether the first points of a map are being measured, and do not take long.
-
-        It may be asked for on any thread.
-        """
+        """Whether the first points of a map are still being measured, and quickly; thread-safe."""
         return self._awaited is not None
 
     @property
@@ -59,7 +56,7 @@ class DetectionMapController(QObject):
 
     @property
     def full(self) -> "tuple[RateMap, MapRequest] | None":
-        """The map and its request, None while a point of it is not known."""
+        """The map and its request, None while points are missing."""
         if self.map is None or self._shown is None or not self.is_current:
             return None
         return (self.map, self._shown) if self.map.least_images else None
@@ -78,7 +75,7 @@ class DetectionMapController(QObject):
             self._stop()
 
     def choose_axes(self, x: str, y: str) -> None:
-        """Map other parameters; where one is chosen twice the other takes its place."""
+        """Set the axes; a parameter chosen twice is replaced by the other one."""
         before = self._axes
         if x == y:
             x, y = (x, before[0]) if x == before[1] else (before[1], y)
@@ -152,7 +149,7 @@ class DetectionMapController(QObject):
         self._asked = self._awaited = None
 
     def point_at(self, place: tuple[int, int] | None) -> None:
-        """Show the facts of a point, given by its places along both axes."""
+        """Show the facts of a point, by its indices along both axes."""
         shown = self.map
         x, y = -1, -1
         if place is not None and shown is not None:
@@ -177,7 +174,7 @@ class DetectionMapController(QObject):
         )  # fmt: skip
 
     def go_to(self, place: tuple[int, int]) -> None:
-        """Set the scene to a point, given by its places along both axes, in one step."""
+        """Set the scene to a point, by its indices along both axes, in one step."""
         shown = self.map
         if shown is not None:
             x, y = place

@@ -39,7 +39,7 @@ def axis_unit(quantity: Quantity) -> tuple[str, float]:
 
 
 def axis_title(quantity: Quantity, short: bool = False) -> str:
-    """Return the title of an axis with its unit; a short one uses the quantity's symbol if any."""
+    """Return the title of an axis with its unit; a short one uses the symbol, if any."""
     symbol = axis_unit(quantity)[0]
     name = quantity.symbol.replace("_", "") if short and quantity.symbol else quantity.label
     return f"{name} ({symbol})" if symbol else name
@@ -77,14 +77,14 @@ STYLES: dict[str, Qt.PenStyle] = {
     "packets": Qt.PenStyle.DotLine,
     "saturation": Qt.PenStyle.DashDotLine,
 }
-"""Dash pattern of each limit: dashes can be told apart on any colour and by any eye."""
+"""Dash pattern of each limit, distinguishable on any colour."""
 
 Point = tuple[float, float]  # positions along both axes, from 0 to 1
 
 _INK, _PAPER = QColor("black"), QColor("white")
 _CASING = QColor(255, 255, 255, 210)
 _AT_END = 1e-6
-"""How near an end of an axis, whose length is 1, a line's end lies that is cut off there."""
+"""Distance from an end of an axis, in axis lengths, within which a line is cut off there."""
 
 _TICK = 4
 _GAP = 3
@@ -106,7 +106,7 @@ class MapPlot(QWidget):
     picked = Signal(int, int)  # the point that the user chose, by its indices along both axes
 
     pointed = Signal(object)
-    """The point under the mouse or chosen by the arrow keys, None if there is none."""
+    """The point under the mouse or chosen by the arrow keys, None for none."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -143,7 +143,7 @@ class MapPlot(QWidget):
         self.update()
 
     def area(self) -> QRectF:
-        """Return the rectangle of the map inside the axes, in pixels."""
+        """Return the rectangle inside the axes, in pixels."""
         known = (self.size(), bool(self.title))
         if self._area_of != known:
             self._area_of, self._area = known, self._find_area()
@@ -158,7 +158,7 @@ class MapPlot(QWidget):
         return QRectF(self.rect()).adjusted(left, top, -right, -bottom)
 
     def place_of(self, point: Point) -> QPointF:
-        """Return the pixel of a point given by its positions along both axes, from 0 to 1."""
+        """Return the pixel of a point, given in fractions of both axes."""
         area = self.area()
         (x, y), (across, up) = point, self._shape
         if self._image.isNull():  # no points yet, whose cells the axes begin and end with
@@ -248,7 +248,7 @@ class MapPlot(QWidget):
                 painter.drawPolyline(path)
 
     def _to_edges(self, line: FloatArray) -> list[Point]:
-        """Go on with a line that ends at the last points' centres: their cells reach further."""
+        """Extend a line that ends at the outermost points' centres to the edge of their cells."""
         points: list[Point] = [(float(x), float(y)) for x, y in line]
         if len(points) < 2 or self._image.isNull():
             return points
@@ -258,7 +258,7 @@ class MapPlot(QWidget):
         return [*([ahead] if ahead else []), *points, *([behind] if behind else [])]
 
     def _beyond(self, before: Point, end: Point) -> Point | None:
-        """Return where a line leaves the map that ends at an axis's first or last value."""
+        """Return where a line leaves the map, if it ends at an axis's first or last value."""
         steps = []
         for from_, to, count in zip(before, end, self._shape, strict=True):
             way, margin = to - from_, 0.5 / max(count - 1, 1)

@@ -1,4 +1,4 @@
-"""A detection map as work: what is asked, its stages from coarse to sure, and its table."""
+"""A detection map as work: its request, its stages from coarse to precise, and its table."""
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
@@ -25,10 +25,10 @@ second."""
 IMAGES = (1, 2, 5)  # images a point, one after the other
 
 COARSE, FINE, SURE = 0, 2, 4
-"""Ranks: the first answer, all points, and more images of each. Strips go in between."""
+"""Priorities: first points, all points, more images of each. Strips come in between."""
 
 _THEORY_SHAPES = ((7, 5), (17, 9))
-"""Points along both axes at which the limits of theory are computed, at first and then."""
+"""Points along both axes at which theoretical limits are computed, first and later."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,7 +59,7 @@ class MapRequest:
     def stages(
         self, images: IndexArray, with_theory: bool, found_slow: Callable[[], object] = lambda: None
     ) -> Iterator[Stage]:
-        """Return the stages of the work that is left; say if even the first points take long."""
+        """Yield the remaining stages; call ``found_slow`` if even the first points take long."""
         slow = self.with_image_effects and bool(left_out(self.scene, self.settings))
         if slow:
             found_slow()
@@ -69,7 +69,7 @@ class MapRequest:
 def table_of(
     rates: RateMap, asked: MapRequest, frames_a_second: float = FRAMES_A_SECOND
 ) -> SweepTable:
-    """Return a complete map as a table; later points do not change it."""
+    """Return a complete map as a table, which later points do not change."""
     request = asked.sweep(rates.least_images, rates.decoders)
     settings = replace(request.settings, frames_a_second=frames_a_second)
     sent, right = rates.sent.copy(), rates.right.copy()
@@ -90,10 +90,9 @@ def table_of(
 def map_stages(
     requests: tuple[SweepRequest, ...], images: IndexArray, with_theory: bool, slow: bool
 ) -> Iterator[Stage]:
-    """Return the stages of a map.
+    """Yield the stages of a map.
 
-    ``images``: shape (points along x, points along y): images that were read at each point
-    already.
+    ``images``: shape (points along x, points along y): images read at each point so far.
     """
     first, *others = requests
     order = list(first.in_order_of_work())
@@ -125,7 +124,7 @@ def _on_lattice(shape: tuple[int, ...], stride: int) -> IndexArray:
 
 
 def _jobs(request: SweepRequest, indices: list[int], slow: bool) -> tuple[Job, ...]:
-    """Make a job of each line of points: along it decoders keep what they have prepared."""
+    """Make a job of each line of points, along which decoders reuse what they have prepared."""
     if slow:
         return tuple(_job(request, (index,)) for index in indices)
     along_y = request.shape[1]

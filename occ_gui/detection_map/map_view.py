@@ -127,7 +127,6 @@ class MapView(QWidget):
         self.advice.asked.emit()
 
     def show_axes(self, x: str, y: str) -> None:
-        """Set the parameters of the axes without emitting a signal."""
         self._axes = (x, y)
         self.across.show_key(x)
         self.up.show_key(y)
@@ -144,7 +143,7 @@ class MapView(QWidget):
         self.plots.show_setting((x, y))
 
     def show_progress(self, known: int, total: int, images: int) -> None:
-        """Show how many points are known, and how many images each has at least."""
+        """Show the number of known points, and the least number of images at each."""
         self._progress = f"{known} of {total} points measured"
         if known >= total:
             self._progress = (
@@ -159,7 +158,7 @@ class MapView(QWidget):
         self._show_status()
 
     def show_age(self, age: float) -> None:
-        """Show for how many seconds the map has been of an earlier scene; zero if it is not."""
+        """Show for how many seconds the map has been outdated; zero if it is not."""
         self._is_outdated = age > 0.0
         self.outdated.show_age(age, "computing…")
         self._show_status()

@@ -12,7 +12,7 @@ from occ_model.receiver.decoders import DECODERS, QUICK_DECODERS
 
 
 class MapPane(Pane[None]):
-    """The map and the searches beside it, which go on while the pane is hidden."""
+    """The map and its searches, which go on while the pane is hidden."""
 
     def __init__(self, scenes: SceneStore, measuring: Measuring) -> None:
         view = MapView(QUICK_DECODERS, tuple(DECODERS))

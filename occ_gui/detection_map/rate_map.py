@@ -33,7 +33,7 @@ def lattice(name: str, count: int) -> tuple[float, ...]:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class TheoryFields:
-    """The side of each theoretical limit on which the points of a lattice lie."""
+    """Sides of the theoretical limits on which the points of a lattice lie."""
 
     # The points' positions along both sliders, from 0 to 1
     places: tuple[FloatArray, FloatArray]
@@ -122,21 +122,21 @@ class RateMap:
         return int(self.images.min())
 
     def rates(self, decoder: str) -> FloatArray:
-        """Return a decoder's rate at every point in percent; NaN where it is unknown or refused."""
+        """Return a decoder's rate at every point in percent; NaN where unknown or refused."""
         rates = np.full(self.shape, np.nan)
         right = 100.0 * self.right[..., self.decoders.index(decoder)]
         np.divide(right, self.sent, out=rates, where=self.sent > 0)
         return rates
 
     def bits_a_second(self, decoder: str, frames_a_second: float) -> FloatArray:
-        """Return the net bits a second at every point, of a payload a picture; NaN as above."""
+        """Return the net bits a second of a payload a picture; NaN where unknown or refused."""
         fraction = np.full(self.shape, np.nan)
         whole = self.whole[..., self.decoders.index(decoder)]
         np.divide(whole, self.images, out=fraction, where=self.sent > 0)
         return fraction * self.most_bits(frames_a_second)
 
     def most_bits(self, frames_a_second: float) -> FloatArray:
-        """Return the bits a second at every point if all were read, 0 where none is known."""
+        """Return the bits a second at every point if all were read, 0 where unknown."""
         bits = np.zeros(self.shape)
         np.divide(self.sent, self.images, out=bits, where=self.sent > 0)
         with np.errstate(divide="ignore"):
@@ -148,7 +148,7 @@ class RateMap:
         return np.where((self.images > 0) & (self.sent == 0), 1, 0)
 
     def refusal(self) -> str:
-        """Return why the model refuses all points that are known; empty if it does not."""
+        """Return why the model refuses all known points; empty if it does not."""
         if np.any(self.sent > 0) or not self.notes:
             return ""
         return next(iter(self.notes.values()))
@@ -156,7 +156,7 @@ class RateMap:
     def owners(self) -> tuple[IndexArray, IndexArray]:
         """Return for every point the known one whose rate it shows: coarse points fill large cells.
 
-        Twice, as indices along x and along y; -1 where no point nearby is known.
+        As indices along x and along y; -1 where no point nearby is known.
         """
         x, y = (np.full(self.shape, -1, dtype=np.int64) for _ in range(2))
         for stride in STRIDES:

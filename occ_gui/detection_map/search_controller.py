@@ -28,23 +28,23 @@ from occ_model.study.working_range import READ_RATE
 IMAGES = 20
 
 _USUAL_IMAGES = len(SEARCHED) * usual_images(IMAGES, READ_RATE)
-"""Images that a decoder's search usually reads, from which its progress is estimated."""
+"""Usual number of images in a decoder's search, from which its progress is estimated."""
 
 _ADVICE_COUNTERS = range(1, len(DECODERS) + 1)
 _MOST_COUNTER = len(DECODERS) + 1
-"""Counters of the pictures that were tried, of which each search has its own."""
+"""Number of counters of tried pictures, one for each search."""
 
 _LOOK_MS = 100
 
 ASKED, IN_TURN = -1, 3
-"""Ranks: before all else where the user asks; otherwise after all points of a map that is seen,
-before further images of them."""
+"""Priorities: first where the user asks; otherwise after all points of a visible map, before
+further images of them."""
 
 
 class SearchController(QObject):
-    """Searches in the background, looks how far it is, and ends where the scene has changed.
+    """Searches in the background, reports progress, and ends where the scene changes.
 
-    A subclass says in :meth:`_request` what would be searched for now.
+    A subclass returns the present request from :meth:`_request`.
     """
 
     _cancelled = _changed = ""  # why a search has ended, as the pane says it
@@ -77,7 +77,7 @@ class SearchController(QObject):
         self._look.start()
 
     def _take_there(self, decoder: str, changes: Mapping[str, ParameterValue]) -> None:
-        """Set the scene to what was found, in one step, and show what its decoder reads."""
+        """Set the scene to a result in one step, and show what its decoder reads."""
         self._scenes.change(NO_GESTURE, **changes)
         store = self._scenes.store
         store.put(replace(store.workspace, decoder=decoder))
@@ -131,7 +131,7 @@ class AdviceRequest:
     with_image_effects: bool
 
     def along(self, name: str) -> "AdviceRequest":
-        """Return the request without a parameter's value, which its limits do not depend on."""
+        """Return the request without a value on which its limits do not depend."""
         scene = self.scene.replace(**{name: quantity(name).default})
         return replace(self, scene=scene)
 
@@ -144,8 +144,6 @@ class AdviceRequest:
 
 
 class AdvisorController(SearchController):
-    """Searches for the limits of a scene."""
-
     _cancelled, _changed = "Cancelled.", "The scene has changed; ask again."
 
     def __init__(
@@ -167,14 +165,14 @@ class AdvisorController(SearchController):
         return AdviceRequest(self._scenes.scene, settings, self._with_image_effects)
 
     def start(self, rank: int = ASKED) -> None:
-        """Search for the limits of the current scene, as the user asks for them."""
+        """Search for the limits of the current scene at the user's request."""
         request = self._request()
         without = () if self._with_image_effects else left_out(request.scene, request.settings)
         self._pane.show_advice_begun(without)
         self._begin(request, partial(request.stages, rank))
 
     def search_in_turn(self) -> None:
-        """Search for the limits of the current scene, which the map does not wait for."""
+        """Search for the limits of the current scene, after the points of the map."""
         self.start(IN_TURN)
 
     def take_there(self, name: str, value: float, decoder: str) -> None:
@@ -195,7 +193,7 @@ class MostBitsRequest:
     frames_a_second: float
 
     def stages(self) -> Iterator[Stage]:
-        """Return one job for each decoder, one after the other: other work keeps its process."""
+        """Return one job for each decoder, in turn, so that other work keeps its process."""
         for decoder in most_bits.DECODERS:
             job = Job(carry_most, (self.scene, decoder, self.frames_a_second), _MOST_COUNTER)
             yield Stage(ASKED, (job,))

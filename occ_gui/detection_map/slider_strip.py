@@ -26,7 +26,7 @@ _AT_HANDLE = 3  # pixels that the present scene's colour is seen on either side 
 
 @dataclass(frozen=True, slots=True)
 class OwnRate:
-    """The fraction of right bits, from 0 to 1, with its 95 % interval, in so many pictures."""
+    """The fraction of right bits, 0 to 1, with its 95 % interval and the number of pictures."""
 
     fraction: float
     low: float
@@ -44,7 +44,7 @@ class SliderStrip(QWidget):
         self._label = label
         self.fractions: tuple[float | None, ...] = ()
         self.present: OwnRate | None = None
-        """The fraction of bits that are read at the scene's own value."""
+        """The success rate at the scene's own value."""
         slider.valueChanged.connect(self.update)
         self._is_outdated = self._is_faded = False
         self._fading = QTimer(self, singleShot=True)
@@ -79,13 +79,13 @@ class SliderStrip(QWidget):
         self.setAccessibleDescription(read)
 
     def show_fractions(self, fractions: tuple[float | None, ...]) -> None:
-        """Show the fraction of bits read correctly at positions of the slider, None: not known."""
+        """Show the fraction of bits read at positions of the slider; None where unknown."""
         self.fractions = fractions
         self._explain()
         self.update()
 
     def show_present(self, rate: OwnRate | None) -> None:
-        """Show the rate at the scene's own value, which the handle stands at; None if unknown."""
+        """Show the rate at the scene's own value, that of the handle; None if unknown."""
         if rate != self.present:
             self.present = rate
             self._explain()
@@ -170,12 +170,11 @@ class StripLegend(QWidget):
         return QSize(120, self.fontMetrics().height() + 2)
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return no height: the sliders come first."""
+        """Return a height of zero: the sliders come first."""
         return QSize(120, 0)
 
     @guarded
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
-        """Draw the bar between its two words, if the line is whole."""
         if self.height() < self.fontMetrics().height():
             return
         painter = QPainter(self)

@@ -36,16 +36,16 @@ class RateRequest:
     decoder: str
 
     def along(self, name: str) -> "RateRequest":
-        """Return the request of one slider's strip, which does not depend on the slider itself."""
+        """Return the request of one slider's strip, without that slider's value."""
         given = {**UNSEEN_PARAMETERS, name: quantity(name).default}
         return replace(self, scene=self.scene.replace(**given))
 
 
 class RestingController(QObject):
-    """Measures, while it is seen, what the present scene, settings and decoder ask for.
+    """Measures, while visible, what the present scene, settings and decoder require.
 
-    A subclass says in :meth:`_move_on` what the present request changes, in :meth:`_measure` what
-    to put into the channel, and in :meth:`_take` what to do with results.
+    A subclass determines in :meth:`_move_on` what the present request changes, in :meth:`_measure`
+    what to put into the channel, and in :meth:`_take` what to do with results.
     """
 
     def __init__(self, scenes: SceneStore, channel: JobChannel) -> None:
@@ -102,10 +102,11 @@ RANKS = (3, 3)  # after all points of a map that is seen, before further images 
 def strip_stages(
     missing: Mapping[str, tuple[RateRequest, set[int]]], present: RateRequest
 ) -> Iterator[Stage]:
-    """Return the stages of the work that is left.
+    """Return the remaining stages of work.
 
-    ``present``: the request for the scene. Where its points take long, each is a job that a newer
-    request ends; that is found out when the work begins, and holds up no slider.
+    ``present``: the request for the scene itself. Points that take long are jobs of their own,
+    which a newer request ends; whether they do is found when the work begins, without delaying a
+    slider.
     """
     slow = bool(left_out(present.scene, present.settings))
     done: set[int] = set()
@@ -190,7 +191,7 @@ def _fraction(point: SweepPoint) -> float | None:
 
 
 def _nearest(fractions: Mapping[int, float | None], place: int) -> float | None:
-    """Return a position's fraction, or that of the known one on the coarser lattice beside it."""
+    """Return a position's fraction, else that of its neighbour on the coarser lattice."""
     if place in fractions:
         return fractions[place]
     return fractions.get(round(place / STRIDES[0]) * STRIDES[0])
@@ -201,10 +202,10 @@ OWN_RANK = 1  # after a first answer of the map, before all else
 
 
 class OwnRateController(RestingController):
-    """Measures the rate of the present scene once it rests, while it is seen."""
+    """Measures the rate of the present scene once it rests, while it is visible."""
 
     changed = Signal(object)
-    """The rate, an :class:`OwnRate`; None where it is not known of the present scene."""
+    """The rate, an :class:`OwnRate`; None where unknown."""
 
     def __init__(self, scenes: SceneStore, channel: JobChannel) -> None:
         super().__init__(scenes, channel)

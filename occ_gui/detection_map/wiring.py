@@ -1,4 +1,4 @@
-"""Measuring: the processes that map, strips, advice and bench share, and the strips themselves."""
+"""Measuring: the processes of map, strips, advice and bench, and the strips themselves."""
 
 from collections.abc import Callable
 from functools import cached_property
@@ -37,13 +37,10 @@ def new_workers() -> "Workers":
 
 
 class Measuring(QObject):
-    """Channels of work in processes; the strips along the sliders use one from the start.
-
-    Nothing of it is made before it is needed: the window and its first picture come before.
-    """
+    """Channels of work in processes, made when first needed; the strips use one from the start."""
 
     rate_changed = Signal(object)
-    """The rate of the present scene, an :class:`OwnRate`; None where it is not known."""
+    """The rate of the present scene, an :class:`OwnRate`; None where unknown."""
 
     def __init__(
         self, scenes: SceneStore, strips: SliderStrips, may_begin: Callable[[], bool]
@@ -64,7 +61,7 @@ class Measuring(QObject):
         return WorkQueue(len(CHANNELS), lambda: new_workers())
 
     def channel(self, of: str) -> "JobChannel":
-        """Return the channel of one of those that measure, by its name in CHANNELS."""
+        """Return a channel, by its name in CHANNELS."""
         return self.queue.channels[CHANNELS.index(of)]
 
     @cached_property

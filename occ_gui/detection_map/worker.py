@@ -30,7 +30,7 @@ UNSEEN_PARAMETERS: dict[str, ParameterValue] = {
     "flicker_phase": 0.0,
     "band_reading": "aligned",
 }
-"""Parameters that no rate depends on, as it is a mean over all start times."""
+"""Parameters without influence on rates, which are means over all start times."""
 
 PRELOAD = __name__  # the module that a worker process needs
 
@@ -46,8 +46,8 @@ def rate_settings(
 ) -> RateSettings:
     """Return the settings with which rates are measured for the window.
 
-    ``with_image_effects``: whether rows of the picture are simulated where the scene calls for
-    them; otherwise what needs them is left out, or refused where it cannot be.
+    ``with_image_effects``: whether rows of the picture are simulated where needed; otherwise image
+    effects are left out, or refused where they cannot be.
     """
     force: Mapping[str, bool] = settings.force
     path: SignalPath = "auto"
@@ -57,10 +57,7 @@ def rate_settings(
 
 
 def left_out(scene: Scene, settings: SimulationSettings) -> tuple[str, ...]:
-    """Name what the scene calls for and a profile cannot show; points with it take long.
-
-    Nothing is named where there is no picture, which the points themselves say.
-    """
+    """Name the scene's effects that a profile cannot show; none where there is no picture."""
     try:
         decided = plan(scene, settings.tolerance, "signal", settings.force).decisions
         effects = tuple(d.label for d in decided if d.kind == "image" and d.included)
@@ -85,8 +82,8 @@ def theory_fields(
 ) -> TheoryFields:
     """Compute on which side of each limit the points of a coarse lattice lie.
 
-    The numbers are logarithms of ratios, which on logarithmic axes are nearly planes, so that lines
-    between few points are exact enough.
+    Values are logarithms of ratios, nearly planes over logarithmic axes, so that lines between few
+    points are exact enough.
     """
     places = (np.linspace(0.0, 1.0, counts[0]), np.linspace(0.0, 1.0, counts[1]))
     sides = {name: np.full(counts, math.nan) for name in LINES}

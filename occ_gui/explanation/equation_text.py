@@ -11,7 +11,7 @@ from occ_model.results.teaching import Equation, Term
 HIGHLIGHT_MS = 1500  # milliseconds that a term stays marked after one of its parameters has changed
 
 _MARK = "background-color:#F7D774; color:#000000; font-weight:600; text-decoration:underline;"
-"""Marked by colour, weight and underline, so that colour-blind readers see it too."""
+"""Style of marked terms: colour, weight and underline, so that colour-blind readers see it."""
 
 _RAISED = re.compile(r"(<su[bp]>.*?</su[bp]>)")
 _SYMBOL = re.compile(r"[A-Za-zγ]+")  # noqa: RUF001 - the equation's own letter

@@ -25,8 +25,6 @@ _STEPS = {Qt.Key.Key_Left: -1, Qt.Key.Key_Right: 1, Qt.Key.Key_PageDown: -10, Qt
 
 
 class ColumnPicker(QObject):
-    """Marks a column of a plot, and emits a signal for the column that the user picks."""
-
     hovered = Signal(int)
     clicked = Signal(int)
 
@@ -157,7 +155,6 @@ class ExposurePlot(QWidget):
         self.hold.clicked.connect(self.hold_chosen)
 
     def show_column(self, column: int, columns: int, held: bool) -> None:
-        """Show which of the picture's columns is chosen, without emitting a signal."""
         with QSignalBlocker(self.column):
             self.column.setRange(0, columns - 1)
             self.column.setValue(column)

@@ -30,7 +30,7 @@ class _Film:
 
 
 class AnimationExport(Service):
-    """Writes animations on a thread, with a bar that shows how far it is and cancels it."""
+    """Writes animations on a thread, with a progress bar that cancels it."""
 
     def __init__(
         self, window: QWidget | None, scenes: SceneStore, preferences: Preferences, bar: WorkBar
@@ -45,7 +45,7 @@ class AnimationExport(Service):
         self.writer.status_message.connect(self.status_message)
 
     def ask(self, name: str) -> None:
-        """Let the user choose a file, and write the run of a parameter's slider into it."""
+        """Ask for a file, and write the animation of a parameter's slider into it."""
         kinds = ("GIF animation (*.gif)", "MP4 film (*.mp4)", "Animated PNG (*.png)")
         start = Path(self._preferences.export_folder, f"{name}.gif")
         chosen, kind = QFileDialog.getSaveFileName(
@@ -57,7 +57,7 @@ class AnimationExport(Service):
             self.write(path if path.suffix else path.with_suffix(ending), name)
 
     def write(self, path: Path, name: str) -> None:
-        """Write the run of a parameter's slider from its first value to its last, and back."""
+        """Write an animation of a parameter's slider from end to end and back."""
         declared = PARAMETERS[name]
         if not isinstance(declared, Quantity):
             return

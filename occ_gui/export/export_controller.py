@@ -63,7 +63,7 @@ class ExportController(Service):
         return super().is_idle and not self._waiting
 
     def ask(self, name: str) -> None:
-        """Let the user choose the file that a figure is written to."""
+        """Ask for a file, and write a figure to it."""
         shown = self._present.latest
         if shown is not None and self._request(name, shown) is None:
             return
@@ -90,11 +90,10 @@ class ExportController(Service):
         self.export(name, path)
 
     def export(self, name: str, path: Path) -> None:
-        """Write a figure in the format that the file's ending names."""
         self._present.ask(partial(self._draw, name, path))
 
     def ask_for_folder(self) -> None:
-        """Let the user choose the folder that all figures are written to."""
+        """Ask for a folder, and write all figures to it."""
         folder = QFileDialog.getExistingDirectory(
             self._window, "Export all figures into a folder", self._preferences.export_folder
         )

@@ -51,7 +51,7 @@ class Exported:
 
 
 def export(job: ExportJob) -> Exported:
-    """Write figures; what cannot be written complete is not there at all."""
+    """Write figures, each complete or not at all."""
     if job.folder is not None:
         return Exported(job, _write_all(job.folder, job.requests))
     (request,) = job.requests
@@ -68,7 +68,7 @@ def export(job: ExportJob) -> Exported:
 
 
 def _write_all(folder: Path, requests: Sequence[FigureRequest]) -> list[Path]:
-    """Write a folder's figures beside their places first: a full disk leaves none."""
+    """Write a folder's figures under temporary names first: a full disk leaves none."""
     from occ_model.figures.drawing import files_of, write_all
 
     is_new = not folder.exists()

@@ -45,7 +45,7 @@ def _has_scene(path: Path) -> bool:
 
 
 def _is_film(path: Path) -> bool:
-    """Return whether a file is a film: by its name's ending, or where it has several pictures."""
+    """Return whether a file is a film: by its ending, or as it has several pictures."""
     ending = path.suffix.lower()
     if ending not in _MOVING:
         return ending in _FILM_ENDINGS
@@ -81,7 +81,7 @@ class FileController(QObject):
     scene_opened = Signal(Path)
 
     several_opened = Signal(list)
-    """The paths of the photos that were dropped together, of which the first is opened."""
+    """Photos dropped together, of which the first is opened."""
 
     film_asked = Signal(Path)
     film_save_asked = Signal(Path)
@@ -104,7 +104,7 @@ class FileController(QObject):
         photos.opened.connect(self._remember)
 
     def ask_for_photo(self) -> None:
-        """Let the user choose a photo and open it, or several as a table."""
+        """Ask for a photo and open it, or for several as a table."""
         kinds = f"Photos ({_PHOTOS});;All files (*)"
         names, _ = QFileDialog.getOpenFileNames(
             self._window, "Open photos", self._preferences.folder, kinds
@@ -157,7 +157,7 @@ class FileController(QObject):
         self._photos.open(path)
 
     def open_dropped(self, paths: Sequence[Path]) -> None:
-        """Open the first scene and film of the dropped files, and the first photo, or a table."""
+        """Open the first dropped scene, film and photo, or several photos as a table."""
         files = [path for path in paths if _is_file(path)]
         scenes = [path for path in files if _has_scene(path)]
         films = [path for path in files if path not in scenes and _is_film(path)]
@@ -219,15 +219,11 @@ class FileController(QObject):
             self.save_picture(path)
 
     def ask_to_save_table(self, text: str) -> None:
-        """Let the user choose where to save the table of several photos, written as CSV."""
         if path := self._named("Save the table of the photos", "readout.csv", "Tables (*.csv)"):
             self._save(path, lambda: write_whole(path, text.encode("utf-8")))
 
     def save_picture(self, path: Path) -> None:
-        """Save the camera's or the receiver's picture of the present scene, at its full size.
-
-        It is written as soon as it is there, as the one of the two that is shown now.
-        """
+        """Save the present scene's picture, camera's or receiver's as shown, at full size."""
         self._when_present(partial(self._write_picture, path, self._store.store.workspace.whose))
 
     def _write_picture(self, path: Path, whose: str, shown: Snapshot) -> None:
@@ -254,7 +250,7 @@ class FileController(QObject):
         return Path(name) if name else None
 
     def _named(self, title: str, first: str, kinds: str) -> Path | None:
-        """Let the user name a file to be written; without an ending it has that of the first."""
+        """Ask for a file to be written; a name without an ending gets that of ``first``."""
         folder = self._preferences.folder
         start = str(Path(folder, first)) if folder else first
         name, _ = QFileDialog.getSaveFileName(self._window, title, start, kinds)

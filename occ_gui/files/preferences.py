@@ -16,9 +16,9 @@ _LONGEST_PATH = 4096  # most characters of a stored path; no system allows longe
 
 
 class Preferences(QObject):
-    """The recent files, their last folder, and texts by their keys.
+    """The recent files, their last folder, and texts by key.
 
-    ``settings``: where they are stored; None to keep them only while the window is open.
+    ``settings``: the storage; None to keep them only while the window is open.
     """
 
     changed = Signal()  # the list of recent files has changed
@@ -32,15 +32,15 @@ class Preferences(QObject):
 
     @property
     def folder(self) -> str:
-        """The first folder of a dialog that opens files: at first that of the exported figures.
+        """The first folder of dialogs that open files, at first that of figures.
 
-        Empty for that of the system.
+        Empty for the system's.
         """
         return self._there(_FOLDER) or self._there(_EXPORTS)
 
     @property
     def export_folder(self) -> str:
-        """The first folder of a dialog that writes figures: at first that of the opened files."""
+        """The first folder of dialogs that write figures, at first that of opened files."""
         return self._there(_EXPORTS) or self._there(_FOLDER)
 
     def _there(self, key: str) -> str:
@@ -59,7 +59,7 @@ class Preferences(QObject):
         self._write(_MARGINS, "yes" if shown else _NO)
 
     def add(self, path: Path) -> None:
-        """Add an opened file to the recent files, and store its folder."""
+        """Add to the recent files, and store the folder."""
         path = path.absolute()
         self.visit(path)
         others = (other for other in self.files if other != path)
@@ -88,7 +88,7 @@ class Preferences(QObject):
             self.changed.emit()
 
     def recall(self, key: str) -> str:
-        """Return the text stored under a key; empty where there is none."""
+        """Return the text stored under a key; empty if none."""
         value = self._value(key)
         return value if isinstance(value, str) and len(value) <= _MAX_TEXT_LENGTH else ""
 
@@ -120,7 +120,7 @@ def _can_be_path(text: str) -> bool:
 
 
 def _paths(value: object) -> tuple[Path, ...]:
-    """Read stored paths; invalid ones are left out."""
+    """Parse stored paths; invalid ones are left out."""
     texts = value if isinstance(value, list) else [value]
     paths = [Path(text) for text in texts if isinstance(text, str) and _can_be_path(text)]
     absolute = [path for path in paths if path.is_absolute()]

@@ -25,8 +25,6 @@ if TYPE_CHECKING:
 
 
 class PresetController(QObject):
-    """Keeps the list of presets and carries out the commands for them."""
-
     status_message = Signal(str)
     changed = Signal()
 
@@ -42,7 +40,7 @@ class PresetController(QObject):
 
     @property
     def titles(self) -> list[tuple[str, str]]:
-        """Names and titles of the presets: first those of the program, then those of the user."""
+        """Names and titles of the presets, the program's before the user's."""
         return [(preset.name, preset.title) for preset in self._presets]
 
     @property

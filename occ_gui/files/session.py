@@ -20,7 +20,7 @@ from occ_model.files.writing import make_folder, write_whole
 LARGEST_FILE = 4_000_000  # bytes of a session file that is read; one has thousands
 
 STATE_FOLDER = "OCC_STATE"
-"""The environment variable that names another folder for the files that the program keeps."""
+"""Environment variable with another folder for the program's own files."""
 
 _FORMAT = 1
 
@@ -28,7 +28,7 @@ _MOST_WINDOWS = 8  # Windows that can be open at a time, each with its own sessi
 
 
 def state_folder() -> Path:
-    """Return the folder of the files that the program keeps, which may not exist yet."""
+    """Return the folder of the program's own files, which may not exist yet."""
     folder = os.environ.get(STATE_FOLDER)
     if folder:
         return Path(folder)
@@ -129,15 +129,15 @@ def _time_of(path: Path) -> int:
 
 
 LONGEST_WAIT_MS = 1000
-"""Longest time from a change to its writing; later changes within it are written with it."""
+"""Longest delay from a change to its writing; later changes within it are written with it."""
 
 
 def restored(
     file: SessionFile, first: Workspace, *, is_scene_asked: bool, are_settings_asked: bool
 ) -> Workspace:
-    """Return the workspace that a window begins with: that of the last session.
+    """Return the first workspace: the last session's, but for what the command line gives.
 
-    ``first``: what the command line asks for. A scene or settings that it names win.
+    ``first``: what the command line asks for.
     """
     last = file.last
     if last is None:
@@ -153,9 +153,9 @@ def restored(
 
 
 class Session(QObject):
-    """Keeps the workspace of a window in a file; before :meth:`begin` it writes nothing.
+    """Keeps the workspace of a window in a file, once :meth:`begin` is called.
 
-    ``own``: gives what the user has set, which is no lesson's.
+    ``own`` returns what the user has set, without what a lesson shows.
     """
 
     status_message = Signal(str)
@@ -175,7 +175,7 @@ class Session(QObject):
         self._timer.timeout.connect(self.write)
 
     def begin(self, file: SessionFile, *, is_scene_asked: bool) -> None:
-        """Bring back the steps of a crash, and write to the file from now on."""
+        """Restore the steps of a crash, and write to the file from now on."""
         self._file = file
         if file.crashed is not None:
             self._bring_back(file.crashed, is_scene_asked=is_scene_asked)
@@ -183,7 +183,7 @@ class Session(QObject):
         self._note_change()
 
     def _bring_back(self, left: Kept, *, is_scene_asked: bool) -> None:
-        """Put the scene of a crash with the steps that led to it, or as a step if it is old."""
+        """Restore the scene of a crash with its steps, or as a single step if it is old."""
         store, asked = self._store, self._store.workspace.step
         crashed = left.workspace.step
         store.put(crashed.laid_over(store.workspace), "restoring of the last session")

@@ -1,6 +1,6 @@
-"""Record of a session: what a window is working on, as a table of plain values and back.
+"""Record of a session: a workspace with its steps, as a table of plain values and back.
 
-Parts that cannot be read are as at first: a window starts whatever its file contains.
+Unreadable parts keep their first values: a window starts whatever its file contains.
 """
 
 import json
@@ -45,7 +45,7 @@ from occ_model.scene.square_wave import SQUARE_FREQUENCY
 T = TypeVar("T")
 
 _MOST_OF_HISTORY = 1_000_000
-"""Characters of the steps in a record; the oldest ones are left out of longer ones."""
+"""Longest record of steps, in characters; the oldest ones are left out."""
 
 _VIEW: Mapping[str, tuple[object, ...]] = {
     "decoder": tuple(DECODERS),
@@ -54,15 +54,12 @@ _VIEW: Mapping[str, tuple[object, ...]] = {
     "is_enhanced": (False, True),
     "shown": SHOWN,
 }
-"""What is chosen of how results are shown, and what each of it can be."""
+"""Choices of how results are shown, with their possible values."""
 
 
 @dataclass(frozen=True, slots=True)
 class Kept:
-    """What a window is working on, and the steps that led to it.
-
-    A window that has come to its end leaves no steps.
-    """
+    """A workspace, and the steps that led to it; none after a regular end."""
 
     workspace: Workspace
     history: History | None = None
@@ -106,7 +103,7 @@ def _film_record(film: FilmChoice) -> dict[str, Any]:
 
 
 def _room_record(choice: RoomChoice, former: RoomChoice) -> dict[str, Any]:
-    """Write a choice; of a room that differs in its camera alone, only the camera."""
+    """Write a choice; only the camera where nothing else differs from the former room."""
     room, other = choice.room, former.room
     is_known = room is None or (
         other is not None and (room.lamps, room.scene) == (other.lamps, other.scene)
@@ -158,7 +155,7 @@ def _history_record(history: History) -> dict[str, Any] | None:
 
 
 def _read(first: T, read: Callable[[], T]) -> T:
-    """Return what is read, or what there is at first where it cannot be."""
+    """Return what is read, or ``first`` where it cannot be."""
     try:
         return read()
     except Exception:  # noqa: BLE001 - the window starts whatever the file contains
@@ -171,7 +168,7 @@ def _check(holds: bool) -> None:
 
 
 def kept_in(record: Mapping[str, Any] | None) -> Kept | None:
-    """Read what was kept; None without a scene that can be read."""
+    """Read a record; None without a scene that can be read."""
     values: Mapping[str, Any] = record or {}
     if (scene := _read(None, lambda: _scene(values["scene"]))) is None:
         return None
@@ -201,7 +198,7 @@ def _with_view(workspace: Workspace, values: Any) -> Workspace:
 
 
 def _photo(values: Any, region: Any) -> PhotoChoice:
-    """Return what was set about photos; in the former format there are a path and a region."""
+    """Read what was set about photos; the former format has a path and a region."""
     if not isinstance(values, dict):
         values = {"path": values, "region": region}
     path, part = _file(values.get("path")), _read(None, lambda: _region(values["region"]))
@@ -223,7 +220,7 @@ def _photo(values: Any, region: Any) -> PhotoChoice:
 
 
 def _film(values: Any) -> FilmChoice:
-    """Return what was set about films; in the former format there is a path."""
+    """Read what was set about films; the former format has a path."""
     if not isinstance(values, dict):
         return FilmChoice(_file(values))
     film = FilmChoice(_file(values.get("path")))
@@ -238,7 +235,7 @@ def _film(values: Any) -> FilmChoice:
 
 
 def _room(values: Any, former: RoomChoice) -> RoomChoice:
-    """Return what was set about rooms; a room that is not written is the former one."""
+    """Read what was set about rooms; a room that is not written is the former one."""
 
     def chosen() -> RoomChoice:
         length, photo = values["focal_length"], _file(values["photo"])
@@ -273,7 +270,7 @@ def _pin(values: Any) -> PinnedScene:
 
 
 def _history(values: Any) -> History:
-    """Return the steps if each of them leads to a scene; the former format knows no rooms."""
+    """Read the steps if each of them leads to a scene; the former format has no rooms."""
     first = Step(
         Scene.from_toml(values["scene"]),
         _force(values["force"]),
@@ -314,7 +311,7 @@ def _settings(values: Any) -> SimulationSettings:
 
 
 def _region(values: Any) -> Region:
-    """Return a rectangle of whole numbers; whether it lies in the photo shows when that is read."""
+    """Read a rectangle of whole numbers; whether it lies in the photo is checked with that."""
     region = Region(**values)
     _check(all(type(side) is int and side >= 0 for side in asdict(region).values()))
     return region

@@ -100,7 +100,7 @@ _CODE_MARGIN, _HEADING_ABOVE, _NEAR = 14, 16, 4
 
 
 def style_page(document: QTextDocument, palette: QPalette) -> None:
-    """Set the margins of headings, the ground of code blocks and the lines of tables."""
+    """Set the margins of headings, the background of code blocks and the lines of tables."""
     ground, line = palette.alternateBase(), palette.mid().color()
     tables: set[int] = set()
     document.pageCount()  # lays out all: of a page changed before that Qt leaves out paragraphs

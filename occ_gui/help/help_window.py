@@ -100,7 +100,7 @@ class HelpWindow(QMainWindow):
         self.browser.setSource(url)
 
     def find_next(self) -> bool:
-        """Find the next place of the text that is searched for, from the start after the last."""
+        """Find the next occurrence of the searched text, from the start after the last."""
         text = self.search.text()
         if not text:
             return False
@@ -163,7 +163,7 @@ def _search_field(name: str, tip: str) -> QLineEdit:
 class Manual(Service):
     """The window of the manual, made when a page is first shown.
 
-    ``pages`` has page and heading of each pane, of which ``current_pane`` gives one.
+    ``pages`` maps panes to page and heading; ``current_pane`` returns a pane.
     """
 
     def __init__(

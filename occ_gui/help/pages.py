@@ -62,7 +62,7 @@ def sections(folder: Path) -> list[Section]:
 
 
 def _parts(page: str) -> Iterator[tuple[str, str]]:
-    """Divide a page into headings and the text below each; a comment in an example is neither."""
+    """Divide a page into headings and the text below each, without comments in examples."""
     heading, lines, is_example = "", list[str](), False
     for line in page.splitlines():
         is_example ^= line.startswith("```")

@@ -36,7 +36,7 @@ class LessonAnswers(QObject):
         super().__init__()
         self._given: dict[tuple[str, int], tuple[CheckedAnswer, Scene, MatchedPhoto]] = {}
         self._waiting: list[_Asked] = []
-        """What is being checked, and after it what is to be checked: none of it is forgotten."""
+        """The answer that is being checked, then those that wait."""
         self.runner: Task[_Asked, tuple[_Asked, CheckedAnswer]] = Task(
             lambda request, _: _check(request), "lesson"
         )

@@ -39,8 +39,8 @@ class LessonController(QObject):
     control_wanted = Signal(str)  # the name of the parameter that a step is about; empty for none
 
     columns_held = Signal(object)
-    """How many columns a step keeps in view, so that a change of the scene is seen as such; None
-    for as many as usual."""
+    """Number of columns that a step keeps in view, so that a change is seen as such; None: the
+    usual."""
 
     equation_wanted = Signal(str)  # the name of the equation that explains a step; empty for none
     action_wanted = Signal(str)  # what a step has a button for, as the step names it
@@ -59,7 +59,7 @@ class LessonController(QObject):
         self._places: dict[str, int] = {}
         self._user: Workspace | None = None
         self._first: Path | None = None
-        """The photo that was open before the lesson: it is out of sight in a step without one."""
+        """The photo that was open before the lesson, hidden in a step without one."""
         self._last: Lesson | None = None
         answers.checked.connect(self._show_checked)
         store.select(lambda workspace: workspace.scene).changed.connect(self._follow_scene)
@@ -128,10 +128,7 @@ class LessonController(QObject):
         self._pane.end.report.setEnabled(not self._answers.is_checking(done))
 
     def _following(self) -> Lesson | None:
-        """Return the lesson that follows in the list on the one that is done, None after the last.
-
-        A file that has been removed or renamed meanwhile has none after it.
-        """
+        """Return the next lesson in the list, None after the last or where its file is gone."""
         if self._last is not None and self._last in self._all.lessons:
             rest = self._all.lessons[self._all.lessons.index(self._last) + 1 :]
             return next(iter(rest), None)
@@ -150,7 +147,7 @@ class LessonController(QObject):
         self._list()
 
     def users_own(self) -> Workspace | None:
-        """Return what the end of the lesson restores; None where none is under way."""
+        """Return what the end of the lesson restores; None if none is under way."""
         user, present = self._user, self._store.workspace
         if user is None:
             return None
@@ -160,7 +157,7 @@ class LessonController(QObject):
         return replace(own, photo=photo)
 
     def restore_user(self) -> None:
-        """Restore what the user was working on; the scene in one step that can be undone."""
+        """Restore the user's own work; the scene in one step to undo."""
         user, self._user = self.users_own(), None
         self.columns_held.emit(None)
         if user is not None:
@@ -235,7 +232,7 @@ class LessonController(QObject):
             self._pane.step.animation.show_shutter(rolling_shutter(scene))
 
     def _mark_answer(self) -> None:
-        """Say of an answer that was checked at another scene that it was."""
+        """Mark an answer that was checked at another scene."""
         lesson = self._current
         if lesson is not None:
             place = self._places[lesson.name]
@@ -281,7 +278,7 @@ _MOST_NAMED = 2
 
 
 def changed_sentence(step: Step, scene: Scene) -> str:
-    """Say what differs from the step's scene, and what is about which.
+    """State how the scene differs from the step's, and which text is about which.
 
     Empty where the scene is that of the step or of its check, and where the step is about a photo,
     whose match changes the scene when it is applied.

@@ -48,14 +48,14 @@ class LessonReports(QObject):
 
     @property
     def author(self) -> str:
-        """The name of the student as it was entered last; empty before."""
+        """The student's name as last entered; empty before."""
         return self._preferences.recall(_AUTHOR)
 
     def keep_author(self, author: str) -> None:
         self._preferences.keep(_AUTHOR, one_line(author.strip()))
 
     def ask(self, lesson: Lesson, steps: Sequence[AnsweredStep], author: str) -> None:
-        """Let the user choose a file, and write the report with this name of the student."""
+        """Ask for a file, and write the report with this name of the student."""
         self.keep_author(author)
         start = Path(self._preferences.export_folder, f"{lesson.name}{_ENDING}")
         chosen, _ = QFileDialog.getSaveFileName(
@@ -86,7 +86,7 @@ def _write(job: _Job) -> Path:
 
 
 class LessonPane(Pane[None]):
-    """The lessons and all that they move; a step marks one of the controls."""
+    """The lessons and all that they change; a step marks one of the controls."""
 
     noted = Signal(str)  # the outcome of an action, for as long as the scene stays
 

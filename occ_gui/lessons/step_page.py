@@ -40,7 +40,6 @@ def paragraph(text: str = "") -> QLabel:
 
 
 def typeset_paragraph() -> QLabel:
-    """Make a label for text with indices, set by :func:`typeset`."""
     label = paragraph()
     label.setTextFormat(Qt.TextFormat.RichText)
     return label
@@ -53,7 +52,7 @@ def heading(text: str = "") -> QLabel:
 _LONGEST_ANSWER = 300  # characters of an answer
 
 _SIGNS = {"right": "✓", "near": "≈", "wrong": "✗", "unreadable": "?", None: "→"}
-"""The outcome as a sign, so that colour alone does not show it."""
+"""Sign of each outcome, so that colour alone does not show it."""
 
 
 class AnswerField(QWidget):
@@ -93,7 +92,6 @@ class AnswerField(QWidget):
         self._write()
 
     def show_outdated(self, outdated: bool) -> None:
-        """Show whether what the check says is of another scene than the one that is shown."""
         if outdated != self._is_outdated:
             self._is_outdated = outdated
             self._write()

@@ -36,7 +36,7 @@ _HANDLE = 9  # half the size of a corner's handle in pixels: large enough to be 
 
 
 class LampForm(QWidget):
-    """What of a photo is matched: all of it, one of its lamps, or a rectangle drawn by hand."""
+    """The choice of what is matched: the photo, one of its lamps, or a rectangle drawn by hand."""
 
     find_asked = Signal()
     chosen = Signal(int)  # the user chose the lamp of this index
@@ -128,7 +128,6 @@ class LampForm(QWidget):
         )
 
     def show_by_hand(self, by_hand: bool) -> None:
-        """Show whether a rectangle is drawn by hand, without emitting a signal."""
         with QSignalBlocker(self.by_hand):
             self.by_hand.setChecked(by_hand)
 

@@ -61,7 +61,7 @@ class MatchController(QObject):
         self.work.failed.connect(self.failed)
         self.work.found.connect(self._tell_refusal)
         self._settled: MatchAsked | None = None
-        """The match that is shown, which may have come back with its photo."""
+        """The match that is shown, which may have been restored with its photo."""
         board.select(lambda results: results.match).changed.connect(self._settle)
 
     def _settle(self) -> None:
@@ -90,7 +90,7 @@ class MatchController(QObject):
             self._ask(asked, choice)
 
     def cancel(self) -> None:
-        """Cancel the running match; that of before is again the last that was asked for."""
+        """Cancel the running match, and return to the previous one."""
         if not self.work.task.is_idle:
             self._ask(self._settled, self._store.workspace.photo.form)
 
@@ -100,7 +100,7 @@ class MatchController(QObject):
         self._store.put(replace(workspace, photo=photo))
 
     def use_notes(self) -> None:
-        """Put the settings that the camera recorded in the photo into the scene, as one step."""
+        """Apply the settings that the camera recorded to the scene, as one step."""
         photo = self.photo
         if photo is None:
             return
@@ -118,7 +118,7 @@ class MatchController(QObject):
             self._scenes.put(match.scene, f"match with {photo.path.name}")
 
     def cure(self) -> None:
-        """Replace the scene by the matched one at a shutter speed without bars, as one step."""
+        """Apply the match at a shutter speed without bars to the scene, as one step."""
         match = self._usable()
         if match is not None:
             self._scenes.put(cure_of(match.scene).scene, "shutter speed without bars")
@@ -141,7 +141,7 @@ class MatchController(QObject):
         self.saved.emit(name)
 
     def _usable(self) -> Match | None:
-        """Return the match that is shown; say why it is not used where it is of something else."""
+        """Return the match that is shown; report where it is of something else, and not used."""
         part, match = self._part, self.match
         if match is not None and part.elsewhere:
             self.failed.emit(f"This match is {part.elsewhere}; it is not used.")

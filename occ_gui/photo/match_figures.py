@@ -1,4 +1,4 @@
-"""Figures of a match, what they rest on, and lines of them to paste into other programs."""
+"""Figures of a match, what they depend on, and lines of them to paste into other programs."""
 
 import math
 from collections.abc import Mapping
@@ -26,17 +26,17 @@ WHAT_ERRORS_MEAN = (
 
 
 def is_certain(name: str, value: float, certain: Mapping[str, float]) -> bool:
-    """Whether a known value is among those, in SI units, that the user has confirmed."""
+    """Whether a known value, in SI units, is one that the user has confirmed."""
     return math.isclose(value, certain.get(name, math.nan), rel_tol=1e-9)
 
 
 def stale_sentence(
     scene: Scene, name: str, then: float, given: float, certain: Mapping[str, float]
 ) -> str:
-    """Begin to say that the scene has another known value now than ``then``; empty if it has not.
+    """Return the start of a sentence where the scene's known value is not ``then``; else empty.
 
-    What is certain of a photo holds whatever the scene becomes. ``given`` is what the scene had
-    when the result was found: a square wave is known by its own frequency.
+    What is certain of a photo holds whatever the scene becomes. ``given`` is the scene's value when
+    the result was found: a square wave has its own frequency.
     """
     declared, now = quantity(name), float(scene.value(name))
     if now in {then, given} or is_certain(name, then, certain):
@@ -45,12 +45,12 @@ def stale_sentence(
 
 
 def condition(name: str, value: float, certain: Mapping[str, float], pattern: str) -> str:
-    """Name the value that estimates rest on, as "if f = 10 kHz: "; empty where it is certain."""
+    """Name the value that estimates depend on, as "if f = 10 kHz: "; empty where it is certain."""
     return "" if is_certain(name, value, certain) else assumption(name, value, pattern)
 
 
 def condition_of(match: Match, certain: Mapping[str, float]) -> str:
-    """Name the value that a match's estimates of time rest on, unless the user is certain of it."""
+    """Name the value that a match's times depend on, unless the user is certain of it."""
     name = known_of(match)
     return condition(name, float(getattr(match, name)), certain, match.pattern)
 
@@ -65,7 +65,7 @@ def _grid(parent: QWidget | None = None) -> QGridLayout:
 
 
 class MatchValues(QWidget):
-    """The figures as a table: a row that says nothing is hidden."""
+    """The figures as a table; rows without a value are hidden."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -87,7 +87,7 @@ class MatchValues(QWidget):
         )
 
     def show_match(self, match: Match, certain: Mapping[str, float], noted: float | None) -> None:
-        """Show a match; the camera may have noted the exposure time in seconds."""
+        """Show a match; ``noted``: the exposure time in seconds recorded by the camera, if any."""
         condition = condition_of(match, certain)
         facts = match_facts(match, condition, noted)
         # What they rest on is said once, above them.
@@ -107,7 +107,7 @@ class MatchValues(QWidget):
 
 
 class PasteLines(QWidget):
-    """A line for each program, with a button that copies it, or a sentence why there is none."""
+    """A line for each program with a button that copies it, or the reason why there is none."""
 
     copied = Signal(str)  # a text was copied: a sentence that says so
 
@@ -122,9 +122,9 @@ class PasteLines(QWidget):
         self.show_lines({})
 
     def show_lines(self, lines: Mapping[str, str], condition: str = "") -> None:
-        """Show lines by their programs, or where they rest on a condition only that.
+        """Show lines by program, or where they depend on a condition only that.
 
-        A line that is pasted elsewhere leaves behind what it rests on.
+        A line that is pasted elsewhere loses its condition.
         """
         why_none = ""
         if condition and lines:

@@ -30,7 +30,7 @@ class MatchForm(QWidget):
 
     chosen = Signal(object)  # another choice was made: a MatchChoice
     certain_chosen = Signal(str, object)
-    """A known value was confirmed for this photo, in SI units, or is only assumed: None."""
+    """A known value, in SI units, was confirmed for this photo, or is only assumed: None."""
 
     cancelled = Signal()
     refused = Signal(str)  # why an entered value is refused
@@ -42,7 +42,7 @@ class MatchForm(QWidget):
         self._shown = MatchChoice()
         self._certain: Mapping[str, float] = {}
         self._forgotten: Mapping[str, float] = {}
-        """The values that were confirmed of the photos before."""
+        """Values that were confirmed for earlier photos."""
         self.sent = KeyedComboBox(
             "What was sent",
             "What the LED in the photo sent: what the scene sends, a square wave of so many "
@@ -83,7 +83,7 @@ class MatchForm(QWidget):
         self._show_known()
 
     def _make_known(self) -> None:
-        """Make the fields of the known values, which can also be entered here."""
+        """Make the fields of the known values, which can be edited here, too."""
         self.known: dict[str, QuantityEdit] = {}
         note = "A known value of the photo; entering it changes the scene."
         for name in KNOWN:
@@ -101,7 +101,7 @@ class MatchForm(QWidget):
         )
         self.certain.clicked.connect(self._click_certain)
         self.notices: dict[QuantityEdit, RefusalNotice] = {}
-        """The sentences that say, under each field, why its last input was refused."""
+        """The reason, under each field, why its last input was refused."""
         for field in (self.square, *self.known.values()):
             notice = self.notices[field] = RefusalNotice(field)
             field.refused.connect(notice.show_problem)
@@ -110,7 +110,7 @@ class MatchForm(QWidget):
             field.edited.connect(self.mended)
 
     def match_square(self) -> None:
-        """Match with a square wave, of a frequency that is only assumed until it is entered."""
+        """Match with a square wave, whose frequency is assumed until it is entered."""
         self.sent.show_key("square")
         self._show_known()
         self.start.click()
@@ -172,7 +172,7 @@ class MatchForm(QWidget):
         filled(QVBoxLayout(self), grid, run, margins=0, spacing=3)
 
     def choice(self) -> MatchChoice:
-        """Return the choices, including values that are typed but not yet entered."""
+        """Return the choices, including values that are typed but not entered."""
         for field in (self.square, *self.known.values()):
             field.take_typed()
         return self._choice()
@@ -188,7 +188,7 @@ class MatchForm(QWidget):
     def show_choice(
         self, choice: MatchChoice, certain: Mapping[str, float], forgotten: Mapping[str, float]
     ) -> None:
-        """Show the choices, which known values are confirmed, and which were of other photos."""
+        """Show the choices, the confirmed values, and those confirmed for other photos."""
         if choice != self._shown:  # what was typed since and is not entered stays
             self._shown = choice
             self.sent.show_key(choice.sent)
@@ -199,14 +199,13 @@ class MatchForm(QWidget):
         self._show_known()
 
     def show_scene(self, scene: Scene) -> None:
-        """Show the known values of this scene, which are no longer those that were refused."""
+        """Show the known values of this scene, in place of refused ones."""
         self._scene = scene
         for notice in self.notices.values():
             notice.end()
         self._show_known()
 
     def show_running(self, running: bool) -> None:
-        """Show the progress and the cancel button, or the button that starts a match."""
         hidden, shown = (self.start, self.cancel) if running else (self.cancel, self.start)
         had_focus = hidden.hasFocus()
         for widget in (self.progress, self.cancel):
@@ -218,7 +217,6 @@ class MatchForm(QWidget):
         self.progress.setValue(0)
 
     def show_progress(self, fraction: float) -> None:
-        """Show the fraction of the work that is done, from 0 to 1."""
         self.progress.setValue(round(_STEPS * fraction))
 
     def _show_known(self) -> None:

@@ -20,16 +20,16 @@ from occ_model.scene.scene import Scene
 from occ_model.scene.units import HERTZ, SECOND
 
 SIGNS = {SURE: "●", DOUBTFUL: "◐", REFUSED: "○", UNREADABLE: "✕"}
-"""A sign for each verdict, so that none rests on a colour alone."""
+"""Sign of each verdict, so that none depends on colour alone."""
 
 STATES = {SURE: State.GOOD, DOUBTFUL: State.DOUBTFUL}
-"""Whose colours the plate has, as the bar at the top has."""
+"""State whose colours a verdict has, here as in the bar at the top."""
 
 _MARGIN = 4
 
 
 class VerdictView(QWidget):
-    """Whether a match is sure or doubtful: a word on a coloured plate, and reasons in sentences."""
+    """Whether a match is sure or doubtful: a word on a coloured plate, with its reasons."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -48,14 +48,13 @@ class VerdictView(QWidget):
         filled(QVBoxLayout(self), row, self.reasons, margins=0, spacing=_MARGIN)
 
     def show_verdict(self, verdict: str, reasons: Sequence[str]) -> None:
-        """Show a verdict, SURE or DOUBTFUL, and its reasons, each a sentence."""
+        """Show a verdict, SURE or DOUBTFUL, with a sentence for each reason."""
         self._verdict = verdict
         self.reasons.setText("\n".join(f"• {reason}" for reason in reasons))
         self.reasons.setVisible(bool(reasons))
         self.show_outdated(False)
 
     def show_outdated(self, outdated: bool) -> None:
-        """Show whether the verdict is on something else than is asked about now."""
         self._is_outdated = outdated
         sign = "Before:" if outdated else SIGNS[self._verdict]
         self.word.setText(f"{sign} {self._verdict}")
@@ -133,8 +132,8 @@ class MatchResult(QWidget):
     ) -> None:
         """Show a match.
 
-        ``noted``: the exposure time in seconds that the camera noted, if it did.
-        ``given``: the known value of the scene when the match was asked for, in SI units.
+        ``noted``: the exposure time in seconds recorded by the camera, if any. ``given``: the known
+        value of the scene at the match's start, in SI units.
         """
         self._match, self._noted, self._turned = match, noted, turned
         self._cure, self._given = None, given
@@ -189,7 +188,7 @@ class MatchResult(QWidget):
         self.paste.show_lines(lines_of_match(match, turned=self._turned), condition)
 
     def show_outdated(self, why: str, usable: bool) -> None:
-        """Show why the match is not the present one, empty if it is, and whether it can be used."""
+        """Show why the match is outdated, empty if it is not, and whether it can be used."""
         if self._match is None:
             return
         self.verdict.show_outdated(bool(why))

@@ -1,4 +1,4 @@
-"""The pane of the photo: what it shows follows from what is set, what the user does is an edit."""
+"""The pane of the photo: it shows what is set, and what the user does edits that."""
 
 from dataclasses import replace
 
@@ -146,7 +146,7 @@ class PhotoPane(Pane[PhotoPart]):
             self._board.put(replace(self._board.results, photo_profile=profile))
 
     def _show_found(self, found: FoundMatch) -> None:
-        """Show the end of a match: one that is refused as the last one was, too."""
+        """Show the end of a match, also where it is refused as the last one was."""
         if found.refusal:
             self.verdict.show_ended(found.refusal)
         else:
@@ -186,7 +186,7 @@ class PhotoPane(Pane[PhotoPart]):
         self._place(None)
 
     def _cure(self) -> None:
-        """Show the simulation at a shutter speed without bars, beside the photo."""
+        """Show the simulation at a shutter speed without bars next to the photo."""
         self.matching.cure()
         self._lay(MODES[0])
 

@@ -75,11 +75,9 @@ class PhotoController(QObject):
             self._give_up()
 
     def scan_along(self, scan_axis: str) -> None:
-        """Set the axis of the file that the shutter scanned, and read the open photo again."""
         self._read_by(scan_axis=scan_axis)
 
     def take_channel(self, channel: str) -> None:
-        """Set the channel, and read the open photo again."""
         self._read_by(channel=channel)
 
     def _read_by(self, **changes: str) -> None:

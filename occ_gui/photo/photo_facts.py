@@ -18,7 +18,7 @@ _PREFIXES = {"exposure_time": "", "iso": "ISO ", "f_number": "f/"}
 
 class PhotoFacts(QWidget):
     settings_asked = Signal()
-    """The user puts the settings that the camera recorded into the scene."""
+    """The user applies the camera's recorded settings to the scene."""
 
     channel_chosen = Signal(str)
     scan_axis_chosen = Signal(str)
@@ -77,6 +77,5 @@ class PhotoFacts(QWidget):
         self.use_settings.setEnabled(bool(recorded))
 
     def show_reading(self, channel: str, scan_axis: str) -> None:
-        """Show the options of reading without emitting a signal."""
         self.channel.show_key(channel)
         self.scan_axis.show_key(scan_axis)

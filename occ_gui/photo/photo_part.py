@@ -1,4 +1,4 @@
-"""What of a photo is shown and matched: it follows from what is set, which the user edits."""
+"""What of a photo is shown and matched, derived from what the user has set."""
 
 from dataclasses import dataclass, field, replace
 from typing import TypeAlias
@@ -23,7 +23,7 @@ Part: TypeAlias = Lamp | Region | None
 
 
 def part_of(choice: PhotoChoice, results: Results) -> Part:
-    """Return what of the open photo is matched: of a lamp that is not known any more, its place."""
+    """Return the matched part of the open photo; of a lamp that is no longer known, its place."""
     opened = results.opened
     if opened is None:
         return None
@@ -60,7 +60,7 @@ def found_in(results: Results) -> FoundMatch | None:
 def automatic_placement(
     photo: Photo, reading: ColumnView, searched: StripeSearch | None = None
 ) -> Placement:
-    """Place a photo of the picture's size at its corner, and of any other its lamp on the panel."""
+    """Place a photo of the picture's size at its corner, any other with its lamp on the panel."""
     camera = reading.scene.camera
     if photo.image.shape == (camera.rows, camera.columns):
         return Placement()
@@ -113,14 +113,14 @@ class PhotoPart:
 
     @property
     def stripes(self) -> Stripes | None:
-        """The stripes of the match, whose levels are those of the fit, or those found before."""
+        """The stripes of the match, with the fitted levels, or those found before."""
         if self.match is not None:
             return self.match.stripes
         return None if self.searched is None else self.searched.stripes
 
     @property
     def compared_stripes(self) -> Stripes | None:
-        """The stripes as they are compared, by the same levels before a match and after it."""
+        """The stripes to compare, with the same levels before a match and after it."""
         return self.stripes if self.searched is None else self.searched.stripes or self.stripes
 
     @property
@@ -134,12 +134,12 @@ class PhotoPart:
 
     @property
     def refusal(self) -> tuple[str, ...]:
-        """Why there is no match of what is shown; empty where it was not refused."""
+        """Why the match was refused; empty where it was not."""
         return () if self.found is None else self.found.refusal_of(self.part)
 
     @property
     def elsewhere(self) -> str:
-        """Why the match is not of what is shown, and cannot be used; empty if it is."""
+        """Why the match belongs to something else and cannot be used; empty if it can."""
         if self.is_late:
             return "of the photo before: one is being read"
         if self.found is not None and self.found.part != self.part:
@@ -148,18 +148,16 @@ class PhotoPart:
 
     @property
     def age(self) -> tuple[str, bool]:
-        """Why the match is not the present one, empty if it is, and whether it can be used."""
+        """Why the match is outdated, empty if it is not, and whether it can be used."""
         refused = "of the match before: the last one is refused" * bool(self.refusal)
         return self.elsewhere or refused, not self.elsewhere
 
 
 _INSET = 4
-"""A first rectangle leaves out one part of so many at each side of the photo."""
+"""A first rectangle leaves out the photo's size divided by this at each side."""
 
 
 class PartEdits(QObject):
-    """Chooses a lamp, a rectangle or all of the photo that is shown."""
-
     def __init__(self, store: Store, board: Board) -> None:
         super().__init__()
         self._store, self._board = store, board
@@ -180,7 +178,7 @@ class PartEdits(QObject):
             self._match(lamps[index])
 
     def draw(self, region: Region) -> None:
-        """Match this rectangle, as far as it lies within the photo."""
+        """Match this rectangle, clipped to the photo."""
         photo = self._board.results.photo
         if photo is None:
             return
@@ -192,7 +190,7 @@ class PartEdits(QObject):
         self._match(clipped if lies_within(photo, clipped) else self.part)
 
     def set_by_hand(self, by_hand: bool) -> None:
-        """Match a rectangle drawn by hand, first that of the chosen lamp, or the whole photo."""
+        """Match a rectangle drawn by hand, at first that of the chosen lamp, or the whole photo."""
         photo = self._board.results.photo
         if not by_hand or photo is None:
             self.match_whole()

@@ -27,11 +27,11 @@ STEPS = {
 """The steps in their order, each with its word and its meaning."""
 
 EARLIER = "earlier"
-"""What a match is worth that was made of something else than what is to be matched now."""
+"""Verdict on a match of something other than what is to be matched now."""
 
 
 class PhotoSteps(QWidget):
-    """A button for each step, which says whether the step is done, is next, or must wait."""
+    """A button for each step: done, next, or waiting."""
 
     chosen = Signal(str)  # the step that the user goes to, one of STEPS
 
@@ -50,8 +50,8 @@ class PhotoSteps(QWidget):
     def show_state(self, *, has_photo: bool, match: str, is_applied: bool) -> None:
         """Show how far the photo is explained.
 
-        ``match``: what its match is worth, ``"sure"`` or ``"doubtful"``; EARLIER if it answers
-        another question than the present one; empty if there is none.
+        ``match``: ``"sure"``, ``"doubtful"``, EARLIER for a match of something else, or empty for
+        none.
         """
         shown = (has_photo, match, is_applied)
         if shown == self._shown:  # at each change of the scene, and styles are slow to apply
@@ -107,7 +107,7 @@ class PhotoVerdictBar(StateBar):
         self._write()
 
     def show_row(self, row: PhotoRow | None) -> None:
-        """Show what the table of several photos has found in this one, which is not matched yet."""
+        """Show the table's result for this photo, which is not matched by itself yet."""
         self._row = row
         self._write()
 
@@ -116,7 +116,7 @@ class PhotoVerdictBar(StateBar):
         self._write()
 
     def show_ended(self, why_not: Sequence[str] = ()) -> None:
-        """Show that no match is running, and the sentences that say why none was found."""
+        """Show that no match is running, with the reasons why none was found."""
         self._is_running, self._why_not = False, tuple(why_not)
         self._write()
 
@@ -125,7 +125,7 @@ class PhotoVerdictBar(StateBar):
         self.show_ended()
 
     def show_outdated(self, why: str) -> None:
-        """Show why the match is not the present one, empty if it is."""
+        """Show why the match is outdated, empty if it is not."""
         self._outdated = why
         self._write()
 
@@ -185,7 +185,7 @@ class PhotoVerdictBar(StateBar):
         return State.DOUBTFUL, ("Photo: doubtful match", f"{reason} {found}", reason)
 
     def about(self) -> str:
-        """Return the photo's name, and what its match is worth and has found, for a figure."""
+        """Return the photo's name, its verdict and what was found, for a figure."""
         if self._photo is None:
             return ""
         name = f"photo {one_line(self._photo.path.name)}"
@@ -200,7 +200,7 @@ class PhotoVerdictBar(StateBar):
         return f"{name}; its match is {verdict}, but not this scene's. {found}"
 
     def _listed(self, row: PhotoRow) -> tuple[State, tuple[str, ...]]:
-        """Return what the table has found, whose numbers stand in its row."""
+        """Return the state and the sentences of the table's result."""
         state = STATES.get(row.verdict, State.BAD)
         is_matched = state is not State.BAD
         here = "Match it by itself to see its curves and to apply what is found." * is_matched
@@ -208,7 +208,7 @@ class PhotoVerdictBar(StateBar):
         return state, (title, f"{row.note} {here}".strip(), row.note or here)
 
     def _found(self, match: Match) -> str:
-        """Return what was found, in one sentence."""
+        """Summarize a match in one sentence."""
         parts = []
         for name in (known_beside(known_of(match)), "exposure_time"):
             declared, spread = quantity(name), match.uncertainties.get(name)

@@ -41,7 +41,7 @@ class PhotoView(QWidget):
         unseen = QWidget(self)
         unseen.hide()
         self.many = ManyPhotosView(unseen)
-        """The table of several photos, until a pane of its own takes it."""
+        """The table of several photos, until its own pane takes it."""
         self.facts, self.form, self.lamps = PhotoFacts(), MatchForm(), LampForm()
         self.result, self.placement = MatchResult(), PlacementForm()
         self.verdict = PhotoVerdictBar()
@@ -80,7 +80,7 @@ class PhotoView(QWidget):
         return page
 
     def show_samples(self, files: Mapping[str, Path]) -> None:
-        """Offer sample photos, by what they show, where no photo is open."""
+        """Offer sample photos, by description, where no photo is open."""
         for text, path in files.items():
             button = push_button(
                 f"Sample: {text} (simulated)",
@@ -126,7 +126,7 @@ class PhotoView(QWidget):
         return self._photo is not None
 
     def _show_page(self) -> None:
-        """Show the forms where there is a photo or a table of several, else the invitation."""
+        """Show the forms where there is a photo or a table, else the invitation."""
         self._pages.setCurrentIndex(1 if self.has_photo or self.many.rows.paths else 0)
         for part in (self.facts, self.form.start, self.placement):
             part.setVisible(self.has_photo)
@@ -168,7 +168,7 @@ class PhotoView(QWidget):
         self.verdict.show_ended()
 
     def show_match(self, found: FoundMatch | None, cure: Cure | None = None) -> None:
-        """Show this match, and what takes its bars away, or that there is none."""
+        """Show a match with the remedy for its bars, or that there is none."""
         match = None if found is None else found.match
         self.result.setVisible(match is not None)
         self._match, self._is_outdated = match, False
@@ -185,7 +185,7 @@ class PhotoView(QWidget):
             bar.setValue(place)
 
     def show_match_outdated(self, why: str, usable: bool) -> None:
-        """Show why the match is not the present one, empty if it is, and whether it can be used."""
+        """Show why the match is outdated, empty if it is not, and whether it can be used."""
         self._is_outdated = bool(why)
         self.result.show_outdated(why, usable)
         self.verdict.show_outdated(why)

@@ -1,4 +1,4 @@
-"""What is worked out of the open photo: lamps, stripes, chips and the match, and a comparison."""
+"""Background work on the open photo: lamps, stripes, chips, the match, and a comparison."""
 
 from dataclasses import replace
 
@@ -26,16 +26,13 @@ from occ_model.scene.scene import Scene
 from occ_model.scene.square_wave import blinking
 
 PartOfPhoto = tuple[Photo, Part]
-"""A photo, and the part of it that is matched."""
 
 AskedOfPhoto = tuple[Photo, Asked]
-"""A photo, and the search that was asked for."""
 
 MatchRequest = tuple[Photo, MatchAsked]
-"""A photo that was read, and the match that was asked for."""
 
 _LEAST_SWING = 0.5
-"""Swing in grey levels below which the simulated columns show no stripes."""
+"""Least swing, in grey levels, of simulated columns with stripes."""
 
 
 def lamp_search(store: Store, board: Board) -> Work[AskedOfPhoto, tuple[Lamp, ...]]:
@@ -62,7 +59,7 @@ def _part(workspace: Workspace, results: Results) -> PartOfPhoto | None:
 
 
 def stripe_search(store: Store, board: Board) -> Work[PartOfPhoto, StripeSearch]:
-    """Find the stripes of a photo, or of a part of it; those of a match replace them."""
+    """Find the stripes of a photo or a part of it; those of a match replace them."""
 
     def search(asked: PartOfPhoto, _report: Report) -> StripeSearch:
         try:
@@ -129,7 +126,7 @@ def match(request: MatchRequest, report: Report) -> FoundMatch:
 
 
 def _put_match(results: Results, found: FoundMatch | None) -> Results:
-    """Put a match among the results; where it is refused, the last one of the photo stays."""
+    """Store a match; where it is refused, the last one of the photo stays."""
     last = results.match
     if found is not None and found.refusal and last is not None and last.photo is found.photo:
         found = replace(last, refusal=found.refusal, refused_part=found.part)
@@ -137,7 +134,7 @@ def _put_match(results: Results, found: FoundMatch | None) -> Results:
 
 
 def known_scene(scene: Scene, choice: MatchChoice) -> tuple[Scene, str]:
-    """Return the scene with what the user knows, and where the sent pattern is taken from."""
+    """Return the scene with the known values, and the source of the sent pattern."""
     if choice.sent != "square":
         return scene, choice.sent
     # A lamp that is dimmed by the width of its pulses blinks too: "scene" would refuse it.
@@ -145,7 +142,7 @@ def known_scene(scene: Scene, choice: MatchChoice) -> tuple[Scene, str]:
 
 
 def compared(part: PhotoPart) -> tuple[object, ...]:
-    """Return what a comparison follows from."""
+    """Return what a comparison depends on."""
     found = (part.compared_stripes, part.why_no_stripes)
     return (part.photo, part.reading, *found, part.placement, part.is_enhanced)
 

@@ -46,7 +46,7 @@ _FIELD = 12  # digits for which a field has room at the least, its arrows and fr
 
 
 class _PlaceField(DecimalEdit):
-    """A field with room for the usual: Qt would keep it for the farthest place there may be."""
+    """A field as wide as usual values: Qt would reserve the width of the extreme ones."""
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         return QSize(self.minimumSizeHint().width(), super().sizeHint().height())
@@ -113,7 +113,6 @@ class PlacementForm(QWidget):
         filled(QVBoxLayout(self), grid, buttons, margins=0, spacing=4)
 
     def show_placement(self, placement: Placement, by_hand: bool) -> None:
-        """Show the placement without emitting a signal."""
         self._placement = placement
         for (field, notice), value in zip(self.notices.items(), astuple(placement), strict=True):
             notice.end()

@@ -1,4 +1,4 @@
-"""Image item that averages the pixels under each screen pixel, so that no false stripes appear."""
+"""Image item that averages the pixels under each screen pixel, which avoids false stripes."""
 
 import math
 from collections.abc import Sequence
@@ -21,12 +21,11 @@ _MIDDLE_GREY = 128
 
 
 class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has no types
-    """A grey image that shows the mean of the pixels that share a pixel of the screen.
+    """A grey image that shows the mean of the pixels under each pixel of the screen.
 
     Taking one of them instead, as image items do, turns fine stripes into coarse ones that do not
-    exist. A pixel of the image that is larger than one of the screen is drawn as a square.
-
-    ``with_values``: whether the grey level is written into pixels that are large enough to read it.
+    exist. A pixel of the image that is larger than one of the screen is drawn as a square;
+    ``with_values`` writes its grey level into it where there is room.
     """
 
     def __init__(self, *, with_values: bool = False) -> None:
@@ -42,10 +41,9 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
     def set_image(
         self, image: ByteArray, rect: QRectF | None = None, halves: Sequence[ByteArray] = ()
     ) -> None:
-        """Show an image.
+        """Show an image of shape (rows, columns), which is not copied.
 
-        ``image``: shape (rows, columns): the image; it is not copied.
-        ``rect``: where it lies, by default with its first pixel's centre at (0, 0).
+        ``rect``: its place, by default with the first pixel's centre at (0, 0).
         """
         rows, columns = image.shape
         rect = QRectF(-0.5, -0.5, columns, rows) if rect is None else rect

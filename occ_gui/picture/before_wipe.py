@@ -84,7 +84,7 @@ class BeforeWipe(QObject):
             self._place()
 
     def _place(self) -> None:
-        """Place the line and the labels at the chosen fraction of the picture's width."""
+        """Place the line and the labels at the chosen fraction of the width."""
         if self._image is None:
             return
         column = self._fraction * self._image.shape[1] - 0.5

@@ -138,7 +138,7 @@ class ImageView(QWidget):
         self.simulation.show_region(reading.decoded.region)
 
     def show_picture(self, picture: Picture) -> None:
-        """Show this picture in place of the previous one; the region decoded from that stays."""
+        """Show a picture in place of the previous one, whose decoded region stays."""
         self._frame = frame = picture.frame
         image = frame.picture(self.whose)
         # The user may have chosen the other picture since this one was prepared.
@@ -188,7 +188,7 @@ class ImageView(QWidget):
         self.overlay.set_placement(placement)
 
     def set_mode(self, mode: str) -> None:
-        """Show the photo beside the simulated picture or on it, by one of MODES."""
+        """Set how the photo is shown, one of MODES."""
         self._mode = mode
         self.mode.show_key(mode)
         self.overlay.set_mode(mode)

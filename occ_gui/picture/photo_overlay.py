@@ -92,9 +92,9 @@ class DifferenceImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has
 
 
 def difference_cells(first: _Layer, second: _Layer, most: int) -> tuple[FloatArray, QRectF] | None:
-    """Return the absolute difference of two images in grey levels, and the rectangle they share.
+    """Return the absolute difference of two images in grey levels, and their common rectangle.
 
-    It is averaged over at most so many cells a side, none smaller than a unit of the rectangles;
+    It is averaged over at most ``most`` cells a side, none smaller than a unit of the rectangles;
     None where the images do not overlap.
     """
     grid = first[1].intersected(second[1])
@@ -108,8 +108,8 @@ def difference_cells(first: _Layer, second: _Layer, most: int) -> tuple[FloatArr
 def cell_means(image: ByteArray, rect: QRectF, grid: QRectF, shape: tuple[int, int]) -> FloatArray:
     """Average an image over the cells of a grid of this shape, in grey levels.
 
-    Two images of different sizes are compared without false stripes: each cell holds the exact
-    mean of the pixels under it, weighted by the area they share with the cell.
+    Each cell is the exact mean of the pixels under it, weighted by the common area, so that images
+    of different sizes are compared without false stripes.
     """
     rows, columns = image.shape
     x = _edges(grid.left() - rect.left(), grid.width(), columns / rect.width(), shape[1], columns)
@@ -204,12 +204,11 @@ class PhotoOverlay(QObject):
         return self.difference.gain
 
     def set_mode(self, mode: str) -> None:
-        """Set the way of showing the photo, one of MODES; nothing is drawn over for the first."""
+        """Set how the photo is shown, one of MODES; the first draws nothing over the picture."""
         self.mode = mode
         self._arrange()
 
     def set_opacity(self, opacity: float) -> None:
-        """Set the opacity of a blended photo, from 0 to 1."""
         self.opacity = opacity
         self._arrange()
 

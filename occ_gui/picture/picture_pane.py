@@ -64,7 +64,7 @@ class PicturePane(QWidget):
             self.fit()
 
     def rows_per_pixel(self) -> float:
-        """Return how many rows of the picture share a pixel of the screen."""
+        """Return how many rows of the picture fall on a pixel of the screen."""
         height = self.graphics.height() * self.graphics.devicePixelRatioF()
         return float(self.box.viewRect().height() / max(height, 1.0))
 

@@ -25,10 +25,7 @@ _LEAST_TABLE = 250
 
 
 class CompareView(QWidget):
-    """Buttons that pin, the table of differences, and the profiles of A and B.
-
-    It draws only while it is visible, as :meth:`set_seen` says.
-    """
+    """Buttons that pin, the table of differences, and the profiles of A and B."""
 
     pin_asked = Signal(str)  # the user pins the current state as "A" or "B"
 
@@ -107,7 +104,6 @@ class CompareView(QWidget):
         filled(QVBoxLayout(self), self.hint, row, (panes, 1), None, margins=(4, 2, 4, 2), spacing=2)
 
     def set_seen(self, seen: bool) -> None:
-        """Draw from now on, or stop drawing while the pane is hidden."""
         self._seen = seen
         if seen and self._drawn is not self._pinned:
             self._redraw()
@@ -196,8 +192,6 @@ class CompareView(QWidget):
 
 
 class ComparePane(Pane[None]):
-    """The differences between A and B, and the buttons that pin them."""
-
     def __init__(self, pins: PinController) -> None:
         view = CompareView()
         super().__init__(view)

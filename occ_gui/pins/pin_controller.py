@@ -100,7 +100,7 @@ class PinController(QObject):
 
     @property
     def _missing(self) -> dict[str, SimulationRequest]:
-        """What an earlier window had pinned, and is not simulated yet."""
+        """Pins of an earlier window that are not simulated yet."""
         return {name: pin.request for name, pin in self._kept.items() if name not in self._found}
 
     @property
@@ -139,14 +139,14 @@ class PinController(QObject):
             self._keep(name, None)
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
-        """Keep these results for the next pin, or for the one that waits for them."""
+        """Use these results for the next pin, or for the one that waits for them."""
         self._snapshot, self._may_simulate = snapshot, True
         self._simulate()
         if self._waiting and self._is_present(snapshot):
             self.pin(self._waiting)
 
     def give_up(self) -> None:
-        """Pin nothing any more: the present scene has no picture."""
+        """Cancel waiting pins: the present scene has no picture."""
         self._may_simulate = True
         self._simulate()
         if self._waiting:
@@ -179,7 +179,7 @@ class PinController(QObject):
         self.status_message.emit("Nothing is pinned any more.")
 
     def go_to(self, name: str) -> None:
-        """Replace the scene by that of A or of B, as one step."""
+        """Replace the scene by that of A or B, as one step."""
         pin = self._kept.get(name)
         if pin is None:
             self.status_message.emit(f"Nothing is pinned as {name} yet.")
@@ -296,7 +296,7 @@ class PinController(QObject):
 
 
 def _simulate_all(pins: dict[str, SimulationRequest], report: Report) -> None:
-    """Simulate the pictures of pins; one that has none, or no longer, is left out."""
+    """Simulate the pictures of pins, leaving out those that have none."""
     for name, pin in pins.items():
         with suppress(OccError):
             report((name, snapshot_of(pin, render_with(pin.scene, pin.settings))))

@@ -30,7 +30,7 @@ _STEPS = (5.0, 10.0, 15.0, 20.0, 30.0, 50.0, 75.0, 100.0, 150.0, 200.0, 255.0)
 
 
 _CERTAIN_PROBABILITY = 0.95
-"""Probability that all chips are right from which they are drawn in full."""
+"""Least probability that all chips are right at which they are drawn in full."""
 
 
 class ResidualPlot(QWidget):
@@ -59,7 +59,7 @@ class ResidualPlot(QWidget):
         self.curve = self.plot.add_curve(thin(PHOTO))
         self._photo: Photo | None = None
         self._limit = _STEPS[0]
-        """The end of the axis: for one photo it only grows, so that a residual is seen to fall."""
+        """Limit of the axis: for one photo it only grows, so that a residual is seen to fall."""
         filled(QVBoxLayout(self), self.numbers, (self.plot, 1), margins=0, spacing=1)
 
     def _follow(self, _box: pg.ViewBox, columns: tuple[float, float]) -> None:
@@ -106,7 +106,7 @@ class ResidualPlot(QWidget):
 class ChipStrip(QWidget):
     """Cells of the chips, lit ones filled, and a button that copies them as text.
 
-    ``left``: pixels of the plot's axis, where the button has its place.
+    ``left``: width of the plot's axis in pixels, where the button stands.
     """
 
     copied = Signal(str)  # a text was copied: a sentence that says so
@@ -136,7 +136,7 @@ class ChipStrip(QWidget):
         self.cells.update()
 
     def place(self, first_column: float, scale: float) -> None:
-        """Put the photo's first column under a column of the simulation, and scale its columns."""
+        """Place the photo's first column at a column of the simulation, and scale its columns."""
         self.cells.placement = (first_column, scale)
         self.cells.update()
 

@@ -9,8 +9,6 @@ from occ_gui.shell.results import of_reading
 
 
 class ProfilePane(PiecesPane):
-    """The profile of the scene, with those of before and of a photo."""
-
     def __init__(self, store: Store) -> None:
         self.view = view = ProfileView()
         super().__init__(

@@ -22,7 +22,7 @@ _LEAST_HEIGHT = 76  # pixels: in a low window all panes share the height
 
 _AXIS_WIDTH = 52
 _LONGEST_LEVEL, _AXIS_GAPS = "-200", 14
-"""Pixels: the least width of an axis, and what lies between its name, numbers and ticks."""
+"""The longest number of an axis, and the pixels between its name, numbers and ticks."""
 
 _SHADE = 20  # opacity of the text's colour over the columns that are not read, of 255
 
@@ -32,8 +32,8 @@ _BEYOND_ANY_PICTURE = 1e7
 class ProfileView(QWidget):
     """Grey level over column: the simulation, the band model (or why it is undefined), the photo.
 
-    The plot follows the panel's first packets, or the whole panel, until the user moves it. While
-    a photo is open, the residual of photo minus simulation is drawn below.
+    The plot follows the panel's first packets, or the whole panel, until the user moves it. Below
+    it is the residual of an open photo minus the simulation.
     """
 
     enhanced_chosen = Signal(bool)  # whether the user chose the enhanced columns
@@ -123,7 +123,7 @@ class ProfileView(QWidget):
         layout.addWidget(self.chips)
 
     def _axis_width(self) -> int:
-        """Return the width of the axes at the left: a name upright beside the longest number."""
+        """Return the width of the left axes: an upright name beside the longest number."""
         metrics = self.fontMetrics()
         needed = metrics.height() + metrics.horizontalAdvance(_LONGEST_LEVEL) + _AXIS_GAPS
         return max(_AXIS_WIDTH, needed)
@@ -161,10 +161,7 @@ class ProfileView(QWidget):
         self.plot.getAxis("bottom").setStyle(showValues=not below)
 
     def show_reading(self, reading: Reading) -> None:
-        """Show this reading in place of the previous one.
-
-        While the pane is hidden, what the exact picture replaces in a moment is not drawn.
-        """
+        """Show a reading; a hidden pane skips what the exact picture will soon replace."""
         self._reading = reading
         text, tip = first_periods(not reading.scene.transmitter.pattern)
         if text != self._packets.text():  # Qt would lay the row out anew for the same text
@@ -242,7 +239,7 @@ class ProfileView(QWidget):
         self._fit_levels()
 
     def _offer_before(self) -> None:
-        """Show the curve of before, unless the simulation is compared with a photo."""
+        """Show the earlier curve, unless the simulation is compared with a photo."""
         shown = self._before is not None and self._photo_levels is None
         self.before.setVisible(shown)
         self.legend.show_line("before", shown)

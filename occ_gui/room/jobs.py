@@ -35,7 +35,7 @@ class RoomPlan:
 
 @dataclass(frozen=True, slots=True)
 class Look:
-    """What is looked at: what the room's camera sees, or a photo of the room."""
+    """Source of the picture: the room's camera, or a photo of the room."""
 
     room: Room
     photo: Path | None = None

@@ -57,7 +57,7 @@ class RoomPane(Pane[RoomChoice]):
 
     @property
     def room(self) -> Room:
-        """The room that is shown, with its camera where the user has put it."""
+        """The shown room, with the camera where the user has put it."""
         room = self._store.workspace.room.room
         return self._first if room is None else room
 
@@ -100,7 +100,7 @@ class RoomPane(Pane[RoomChoice]):
                    focal_length=focal_length)  # fmt: skip
 
     def open(self, path: Path) -> None:
-        """Show the room of a file; a sentence says why it cannot be read."""
+        """Show the room of a file, or why it cannot be read."""
         try:
             self.take(path.name, load_room(path))
         except OccError as error:
@@ -132,7 +132,7 @@ class RoomPane(Pane[RoomChoice]):
 
 
 def _have_one_map(now: Room, then: Room) -> bool:
-    """Compare rooms: another place of the camera is no matter of a map, its turn and height are."""
+    """Compare rooms by what a map depends on: the camera's turn and height, not its place."""
     return now.replace(x=then.camera.x, y=then.camera.y) == then
 
 

@@ -73,7 +73,7 @@ class PlanPlot(QWidget):
             target.setPen(pen_on(palette, pg.mkPen(PHOTO, width=2)))
 
     def show_plan(self, plan: RoomPlan, place: Place, *, is_new: bool) -> None:
-        """Show lamps and camera; of another room the plan is fitted to the pane anew."""
+        """Show lamps and camera; fit the plan of another room to the pane."""
         loops = [np.vstack([outline, outline[:1]]) for outline in plan.outlines.values()]
         ends = np.cumsum([len(loop) for loop in loops]) - 1
         joined = np.vstack(loops)
@@ -106,7 +106,7 @@ class PlanPlot(QWidget):
         self._dress(self.palette())
 
     def show_located(self, located: Located | None, true: Place) -> float:
-        """Show a place with its error ellipse; return by how much both are enlarged."""
+        """Show a place with its error ellipse; return the factor by which both are enlarged."""
         if located is None:
             self.ellipse.setData([], [])
             self.found.setData([], [])

@@ -32,7 +32,7 @@ class RoomView(QWidget):
     photo_closed = Signal()  # the user wants to see what the camera sees in place of the photo
 
     focal_length_given = Signal(float)
-    """The user gives the photo's equivalent focal length, in metres."""
+    """The user enters the photo's equivalent focal length, in metres."""
 
     map_asked = Signal()  # the user wants the map over the floor measured
 
@@ -92,7 +92,7 @@ class RoomView(QWidget):
         self.rooms.setCurrentIndex(self.rooms.findText(name))
 
     def show_plan(self, room: Room, plan: RoomPlan, *, is_new: bool) -> None:
-        """Show where lamps and camera are; what the last picture has shown is out of date."""
+        """Show lamps and camera; results of the last picture become outdated."""
         self.plan.show_plan(plan, room.camera, is_new=is_new)
         self.plan.show_located(None, room.camera)
         self.headline.setText("Looking…")

@@ -27,7 +27,7 @@ class CodeEntry(QWidget):
     """
 
     edited = Signal(str, object, int)
-    """The parameter's name, code or payload, its value, and the number of the gesture."""
+    """The parameter, code or payload, its value, and the number of the gesture."""
 
     refused = Signal(str)  # the reason why an input is not valid
 
@@ -61,7 +61,6 @@ class CodeEntry(QWidget):
         self._show_title(None)
 
     def show_scene(self, scene: Scene) -> None:
-        """Show the code of a scene without emitting a signal."""
         transmitter = scene.transmitter
         # A raw pattern or a payload is sent in place of the code.
         self.setEnabled(not transmitter.pattern)
@@ -107,7 +106,7 @@ class CodeEntry(QWidget):
         self.notices[0].show_problem(sentence)
 
     def end_refusal(self) -> None:
-        """Remove what was shown, but what is said of a text that its field still shows."""
+        """Remove other problems, but not one about a text that its field still shows."""
         self.notices[0].end()
         if self.bits.text() == self._written:
             self.notices[1].end()

@@ -27,10 +27,9 @@ MAIN = ("exposure_time", "switching_frequency", "readout_time", "iso", "f_number
 class ControlPanel(QWidget):
     """All controls of a scene.
 
-    ``effects``: the parameters of the effects, which have their own page, in the order that light
-    travels.
-    ``stages``: by the name of an effect's parameter what the light passes there: ``"light"``,
-    ``"optics"``, ``"sensor"`` or ``"processing"``; each has a heading on that page.
+    ``effects``: the parameters of the effects, on a page of their own, in the order that light
+    passes them. ``stages``: by parameter the heading there: ``"light"``, ``"optics"``, ``"sensor"``
+    or ``"processing"``.
     """
 
     preset_chosen = Signal(str)
@@ -75,7 +74,7 @@ class ControlPanel(QWidget):
 
     @property
     def panels(self) -> dict[str, ParameterPanel]:
-        """The controls of all pages, by title; they are made where they have never been seen."""
+        """Controls of all pages by title, made if needed."""
         return {title: page.panel() for title, page in self._pages.items()}
 
     @property
@@ -102,7 +101,6 @@ class ControlPanel(QWidget):
         return {name: words[stage] for stage, name in first.items()}
 
     def connect_editor(self, editor: SceneEditor) -> None:
-        """Connect every row and the code directly with the editor of the scene."""
         self._editor = editor
         _connect(self._fields().values(), editor)
 
@@ -121,9 +119,8 @@ class ControlPanel(QWidget):
     ) -> None:
         """List these presets in place of the former ones.
 
-        ``unreadable``: names of presets that cannot be loaded, with the reasons; they cannot be
-        chosen.
-        ``own``: names of the presets that the user has named: these are listed by name.
+        ``unreadable``: presets that cannot be loaded or chosen, with the reasons. ``own``: presets
+        of the user, which are listed by name.
         """
         self.preset.clear()
         for name, title in presets:
@@ -148,7 +145,6 @@ class ControlPanel(QWidget):
         self._main.add_foot(widget)
 
     def main_rows(self) -> dict[str, QuantityRow]:
-        """Return the rows of the first page, by the names of their parameters."""
         rows = self._main.rows.items()
         return {name: row for name, row in rows if isinstance(row, QuantityRow)}
 
@@ -171,17 +167,17 @@ class ControlPanel(QWidget):
         self._main.show_marks(name, marks)
 
     def show_problem(self, sentence: str, names: Iterable[str]) -> None:
-        """Show, at the fields of some parameters, what is wrong with their values."""
+        """Show, at the fields of parameters, what is wrong with their values."""
         for field in self._needed(names):
             field.show_problem(sentence)
 
     def end_refusals(self, names: Iterable[str] | None = None) -> None:
-        """Remove the sentences of refusals from the fields of some parameters; by default all."""
+        """Remove the refusals from the fields of parameters; by default all."""
         for field in self._fields().values() if names is None else self._fields_of(names):
             field.end_refusal()
 
     def _needed(self, names: Iterable[str]) -> list[CodeEntry | ParameterRow]:
-        """Return the controls of some parameters, which are made where they are not there yet."""
+        """Return the controls of some parameters, made if needed."""
         wanted = set(names)
         for page in self._pages.values():
             if wanted.intersection(page.names):
@@ -193,7 +189,7 @@ class ControlPanel(QWidget):
         return [fields[name] for name in names if name in fields]
 
     def _fields(self) -> dict[str, CodeEntry | ParameterRow]:
-        """Return the controls that have been made, by the names of their parameters."""
+        """Return the existing controls, by parameter."""
         fields: dict[str, CodeEntry | ParameterRow] = {"code": self.code}
         for panel in self._made:
             fields.update(panel.rows)

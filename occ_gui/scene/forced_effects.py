@@ -1,4 +1,4 @@
-"""Forced effects: a line that lists the effects switched by hand, and gives them back."""
+"""Forced effects: a line of the effects switched by hand, with a button that resets them."""
 
 from collections.abc import Mapping
 
@@ -9,7 +9,7 @@ from occ_gui.widgets.building import filled, paragraph, push_button
 
 
 def switch_text(effect: str, included: bool | None, labels: Mapping[str, str]) -> str:
-    """Say in words how an effect is switched: on or off by hand, or by the plan (None)."""
+    """Describe how an effect is switched: on or off by hand, or by the plan (None)."""
     how = {True: "on by hand", False: "off by hand", None: "as planned"}[included]
     return f"{labels.get(effect, effect)} {how}"
 

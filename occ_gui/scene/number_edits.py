@@ -65,7 +65,7 @@ def _prepare(field: CountEdit | DecimalEdit) -> None:
 
 
 def _read(field: CountEdit | DecimalEdit, declared: Count | Quantity, text: str) -> float:
-    """Read the typed number; the last value stays where it is refused."""
+    """Parse the typed number; the last value stays where it is refused."""
     try:
         value = declared.parse(text)
     except ParameterError as error:
@@ -122,7 +122,6 @@ class QuantityEdit(QAbstractSpinBox):
         self._typed = True
 
     def take_typed(self) -> None:
-        """Accept the typed text, as leaving the field does."""
         if not self._typed:  # leaving the field must not round the value
             return
         plain = self._quantity.unit.display(self._value)[1]

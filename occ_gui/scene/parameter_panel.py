@@ -67,7 +67,6 @@ class ParameterPanel(QWidget):
             foot.addWidget(widget)
 
     def show_scene(self, scene: Scene) -> None:
-        """Show a scene: each row whose value differs from the scene's shows the new one."""
         for name, row in self.rows.items():
             value = scene.value(name)
             if value != row.value:

@@ -34,10 +34,10 @@ class ParameterRow(QWidget):
     refused = Signal(str)  # the reason why an input is not valid
 
     value: ParameterValue | None = None
-    """The value that the controls show, or that the user has entered; None before the first."""
+    """The value shown or entered; None before the first."""
 
     notice: RefusalNotice
-    """Why the last input was refused, or what is wrong with the value, under the field."""
+    """Notice under the field: why the last input was refused, or what is wrong with the value."""
 
     def __init__(self, declaration: Declaration) -> None:
         super().__init__()
@@ -46,14 +46,12 @@ class ParameterRow(QWidget):
         self.refused.connect(self.show_problem)
 
     def show_problem(self, sentence: str) -> None:
-        """Show why a value was refused, or what is wrong with the present one."""
         self.notice.show_problem(sentence)
 
     def end_refusal(self) -> None:
         self.notice.end()
 
     def show_value(self, value: ParameterValue) -> None:
-        """Show a value without emitting a signal."""
         self.value = value
         self._display(value)
 
@@ -118,12 +116,11 @@ class QuantityRow(ParameterRow):
         return self.slider.value() / _SLIDER_STEPS
 
     def begin_run(self) -> None:
-        """Begin a run of the slider, whose changes are undone as one."""
+        """Begin a run of the slider, which is undone as one change."""
         self._gestures.end()
         self._is_running = True
 
     def run_to(self, fraction: float) -> None:
-        """Move the slider as the mouse would."""
         self.slider.setValue(round(fraction * _SLIDER_STEPS))
 
     def value_at(self, fraction: float) -> float:
@@ -140,7 +137,7 @@ class QuantityRow(ParameterRow):
         self._tell_value(value)
 
     def _tell_value(self, value: float) -> None:
-        """Tell a screen reader the value: that of the slider itself is a number of steps."""
+        """Announce the value to a screen reader: that of the slider itself is a number of steps."""
         self.slider.setAccessibleDescription(self._quantity.format(value, _DIGITS))
 
     def _slide(self, position: int) -> None:
@@ -174,7 +171,7 @@ class CountRow(ParameterRow):
             self.field.setValue(int(value))
 
     def show_instead(self, number: int | None, reason: str = "") -> None:
-        """Show a number that follows from something else, and why; None: the own value again."""
+        """Show a derived number, and its reason; None: the own value again."""
         self.field.setEnabled(number is None)
         self.field.setToolTip(reason or explain(self._declared))
         with QSignalBlocker(self.field):

@@ -72,7 +72,7 @@ class Player(QObject):
             button.menu_asked.connect(self._open_menu)
 
     def play(self, name: str) -> None:
-        """Run a slider from where it stands; the one that runs is stopped."""
+        """Run a slider from its position, and stop any other."""
         self.stop()
         row = self._rows[name]
         self.playing, self._fraction, self._direction = name, row.fraction, 1.0
@@ -123,7 +123,6 @@ class Player(QObject):
         menu.popup(button.mapToGlobal(button.rect().bottomLeft()))
 
     def menu_of(self, name: str) -> QMenu:
-        """Make the menu of a slider's button: speed, loop, and a film of it."""
         menu = QMenu(self._buttons[name])
         speeds = QActionGroup(menu)
         for speed in SPEEDS:

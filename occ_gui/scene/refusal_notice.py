@@ -43,7 +43,6 @@ class RefusalNotice(QLabel):
         field.installEventFilter(self)
 
     def show_problem(self, sentence: str) -> None:
-        """Show why a value was refused, or what is wrong with the one that the field shows."""
         self.setText(sentence)
         self._field.setAccessibleDescription(sentence)
         self._take_colour()
@@ -52,7 +51,7 @@ class RefusalNotice(QLabel):
         QAccessible.updateAccessibility(QAccessibleEvent(self, QAccessible.Event.Alert))
 
     def _appear(self) -> None:
-        """Show the sentence over the page that the field is on."""
+        """Show the sentence over the page of the field."""
         page = _page_of(self._field)
         if self.parentWidget() is not page:
             self.setParent(page)
@@ -62,7 +61,7 @@ class RefusalNotice(QLabel):
         self.raise_()
 
     def _place(self) -> None:
-        """Lie under the field, or above it where there is no room below."""
+        """Place the sentence under the field, or above it where there is no room below."""
         page = self.parentWidget() or self._field
         width = page.width() - 2 * _MARGIN
         height = self.heightForWidth(width)
@@ -96,7 +95,7 @@ class RefusalNotice(QLabel):
         super().paintEvent(event)
 
     def end(self) -> None:
-        """Remove the sentence: the value is mended, or no longer wanted."""
+        """Remove the sentence: the value is corrected, or no longer wanted."""
         if self.text():
             self.clear()
             self._field.setAccessibleDescription("")
@@ -119,7 +118,7 @@ class RefusalNotice(QLabel):
 
 
 def _page_of(field: QWidget) -> QWidget:
-    """Return the page that a field scrolls with, or else the pane or window that it is in."""
+    """Return the page that a field scrolls with, or else its pane or window."""
     page = field
     while not page.isWindow() and (around := page.parentWidget()) is not None:
         pane = around.parentWidget()

@@ -1,4 +1,4 @@
-"""Scene editor: makes the changes that the controls ask for, by the rule of held brightness."""
+"""Scene editor: makes the changes of the controls, with the brightness held if chosen."""
 
 from PySide6.QtCore import QObject, Signal
 
@@ -11,7 +11,7 @@ _EXPOSURE, _ISO = "exposure_time", "iso"
 
 
 class HoldBrightness(QObject):
-    """While it is on, the product S t of equation (1) stays constant as the exposure changes."""
+    """While it is on, keeps the product S t of equation (1) constant as the exposure changes."""
 
     switched = Signal(bool)
 
@@ -85,7 +85,7 @@ class SceneEditor(QObject):
     def edit(self, name: str, value: ParameterValue, gesture: int) -> None:
         """Change a parameter, and the ISO speed with it where the brightness is held.
 
-        ``gesture``: the number of the gesture: changes of one gesture are undone as one step.
+        ``gesture``: changes of one gesture are undone as one step.
         """
         self.edit_started.emit()
         self._store.change(gesture, **self.brightness.changes(name, value))

@@ -1,4 +1,4 @@
-"""Scene store: edits of the scene and of the settings of its simulation, and which are steps."""
+"""Scene store: edits of the scene and of its simulation settings, and which are steps."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -23,9 +23,9 @@ from occ_model.scene.simulation_settings import (
 
 
 class SettingsStore(QObject):
-    """The settings of the simulation in a workspace, and the edits of them.
+    """The simulation settings of a workspace, and their edits.
 
-    ``effect_labels`` are the names on the screen of all effects, by their names in the program.
+    ``effect_labels`` maps effects to their names on the screen.
     """
 
     changed = Signal(object)
@@ -59,7 +59,7 @@ class SettingsStore(QObject):
 
 
 _MOST_OF_A_CHANGE = 2
-"""Parameters that one change of the user has at most: the exposure and, held by it, the ISO."""
+"""Most parameters in one change of the user: the exposure and, held by it, the ISO."""
 
 
 class SceneStore(QObject):
@@ -68,7 +68,7 @@ class SceneStore(QObject):
     refused = Signal(str)  # the reason why a change was not made; the scene is unchanged
 
     refused_for = Signal(str, object)
-    """The same, and the names of the parameters that were to be changed."""
+    """The refusal, and the names of the refused parameters."""
 
     def __init__(self, store: Store, effect_labels: Mapping[str, str] | None = None) -> None:
         super().__init__()
@@ -151,7 +151,7 @@ class Gestures:
         self._since_change = QElapsedTimer()
 
     def end(self) -> None:
-        """Let the next change begin a new gesture, however soon it follows."""
+        """Begin a new gesture with the next change, however soon it follows."""
         self._since_change.invalidate()
 
     def of_change(self, held: bool = False) -> int:

@@ -35,7 +35,7 @@ class SliderScale(QWidget):
         self.setAccessibleName(f"From {low} to {high}")
 
     def show_marks(self, marks: Sequence[MarkedValue]) -> None:
-        """Show marks at some values; those beyond the slider's ends are left out."""
+        """Show marks at values within the slider's range."""
         low, high = self._quantity.slider
         found = tuple(mark for mark in marks if low <= mark.value <= high)
         if found != self.marks:
@@ -62,7 +62,7 @@ class SliderScale(QWidget):
         return x + self._slider.x() - self.x()
 
     def event(self, event: QEvent) -> bool:
-        """Tell what a mark means when the mouse rests near it."""
+        """Explain a mark when the mouse rests near it."""
         if event.type() == QEvent.Type.ToolTip and isinstance(event, QHelpEvent):
             near = [
                 m

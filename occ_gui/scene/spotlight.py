@@ -69,7 +69,7 @@ class Spotlight(QObject):
         self._frame.show()
 
     def _dim(self, widget: QWidget, why: str) -> None:
-        """Dim a widget, let it take nothing, and say why in its tool tips."""
+        """Dim and disable a widget, with the reason as its tooltip."""
         effect = QGraphicsOpacityEffect(widget, opacity=_DIMMING)
         widget.setGraphicsEffect(effect)
         self._dimmed.append(widget)

@@ -1,4 +1,4 @@
-"""Feature: all that the window has to know of a pane."""
+"""Feature: the declaration of a pane or a service."""
 
 import pkgutil
 from collections.abc import Callable, Mapping
@@ -20,11 +20,11 @@ if TYPE_CHECKING:
 
 
 Draw: TypeAlias = "Callable[[], Drawing]"
-"""Makes a drawing, on another thread than the window's: it touches no widget."""
+"""Makes a drawing on a background thread, without widgets."""
 
 
 def later(name: str, *arguments: Any, **named: Any) -> Callable[..., Any]:
-    """Return a call of a function or class, written ``module:name``, which is imported then."""
+    """Return a function that imports and calls ``module:name`` with these arguments."""
 
     def call(*more: Any) -> Any:
         return pkgutil.resolve_name(name)(*arguments, *more, **named)
@@ -41,10 +41,10 @@ class Figure:
     name: str
     title: str
     draw: Callable[[Any, Snapshot], Draw]
-    """Says how the figure is drawn, of the pane and the results on the window; the pane is None
-    where it was never seen. Raises NothingToDraw."""
+    """Returns how to draw the figure from the pane, None if it was never seen, and the shown
+    results; raises NothingToDraw."""
     is_another: Callable[[Any], bool] = lambda _pane: True
-    """Whether it differs at the moment from all other figures."""
+    """Whether it differs at present from all other figures."""
 
 
 Part = TypeVar("Part")
@@ -66,14 +66,14 @@ class Work(Protocol):
 
 
 class Service(QObject):
-    """What is made of a feature when it is first wanted: what carries out its commands."""
+    """Carries out the commands of a feature; made when first needed."""
 
     status_message = Signal(str)
 
     tasks: tuple[Task[Any, Any], ...] = ()  # the work that is waited for, and that ends with it
 
     measures: tuple[Work, ...] = ()
-    """What measures, for which nobody waits as for a picture; it ends with it, too."""
+    """Background measurements that no picture waits for; they end with it."""
 
     @property
     def is_idle(self) -> bool:
@@ -84,19 +84,18 @@ class Service(QObject):
         return all(work.is_idle for work in self.measures)
 
     def stop(self) -> None:
-        """End all work; nothing is shown any more."""
         for work in (*self.tasks, *self.measures):
             work.stop()
 
 
 class Pane(Service, Generic[Part]):
-    """What is made of a feature when its pane is first seen: a widget, and its connections.
+    """A widget with its connections, made when its pane is first seen.
 
-    A pane that computes nothing in the background only has to show its part.
+    A pane without background work only has to show its part.
     """
 
     made_of: Mapping[QWidget, MadeOf] = MappingProxyType({})
-    """What is marked while that of which it is made is of an earlier scene."""
+    """Widgets that are marked while their results are of an earlier scene."""
 
     verdicts: tuple[VerdictView, ...] = ()  # what says whether the code was read
 
@@ -108,11 +107,11 @@ class Pane(Service, Generic[Part]):
         """Show this part of workspace and results in place of the last one."""
 
     def set_seen(self, seen: bool) -> None:
-        """Take note whether the pane is seen; parts are shown only while it is."""
+        """Note whether the pane is visible; parts are shown only while it is."""
 
 
 class PiecesPane(Pane[tuple[Any, ...]]):
-    """A pane whose part has several pieces, each of which is shown where it is another."""
+    """A pane that redraws only those pieces of its part that have changed."""
 
     def __init__(self, widget: QWidget, *shows: Callable[[Any], object]) -> None:
         super().__init__(widget)
@@ -130,8 +129,8 @@ class PiecesPane(Pane[tuple[Any, ...]]):
 class Feature(Generic[Part]):
     """A pane of the window, or a service without one.
 
-    ``make`` is called when the pane is first seen, or when one of ``commands`` is first given: what
-    is heavy is imported there.
+    ``make`` is called when the pane is first seen, or one of ``commands`` first given: heavy
+    modules are imported there.
     """
 
     name: str
@@ -139,11 +138,11 @@ class Feature(Generic[Part]):
     help: str = ""  # page and heading of the manual that explain the pane
     make: Callable[[], Any] = Service  # makes a Pane where there is a title, and else a Service
     part: Callable[[Workspace, Results], Part | None] = lambda _workspace, _results: None
-    """What of the window the pane shows; None for nothing that it could show."""
+    """Selects what the pane shows; None for nothing that it could show."""
     goes_on_hidden: bool = False
-    """Whether the pane shows its part while it is hidden, too: others look at what it shows."""
+    """Whether the pane shows its part while it is hidden, too: others look at it."""
     actions: Mapping[str, Callable[[], object]] = field(default_factory=dict)
-    """What the entries of the menus do that belong to it, by name."""
+    """Handlers of menu entries, by name."""
     commands: Mapping[str, Callable[[Any], object]] = field(default_factory=dict)
-    """What further entries do with what has been made, which is made for them."""
+    """Handlers of further entries, called with the pane or service, which is made for them."""
     figures: tuple[Figure, ...] = ()

@@ -14,22 +14,22 @@ from occ_gui.widgets.outdated_mark import DELAY, OutdatedMark
 from occ_model.scene.parameters import quantity
 
 VERDICT_DELAY = 0.06
-"""Seconds for which a verdict of an earlier scene is not marked, some four frames of a screen."""
+"""Seconds before a verdict of an earlier scene is marked, some four frames of a screen."""
 
 
 _DIGITS = 4  # significant digits of a slider's value
 
 
 class OutdatedMarks(QObject):
-    """Compares what results were made of with the present scene, at every change of either.
+    """Compares the scenes of all results with the present one, at every change of either.
 
     A pane is marked when its result has been outdated for a moment. A verdict follows the scene
     within a few milliseconds where the profile path answers; one that is later than
-    ``VERDICT_DELAY`` is shown as that of an earlier scene, until one of the present scene is there
-    and the movement of the scene has ended: it would flicker otherwise.
+    ``VERDICT_DELAY`` is marked until one of the present scene is there and the scene rests: it
+    would flicker otherwise.
 
-    A slider that runs by itself is always ahead of the picture. Picture and readings are not
-    marked then: the verdicts say of which of its values they are.
+    A slider that runs by itself is always ahead of the picture. Picture and readings are not marked
+    then: the verdicts name their value.
     """
 
     def __init__(self, board: Board, simulation: SimulationController, parent: QObject) -> None:
@@ -52,7 +52,7 @@ class OutdatedMarks(QObject):
         return not self._settling.isActive()
 
     def marks(self, *made_of: MadeOf) -> list[OutdatedMark]:
-        """Return the marks of what is made of these, by default all of them."""
+        """Return the marks of these results, by default all."""
         return [mark for mark, of in self._marks if of in made_of or not made_of]
 
     def mark(self, widget: QWidget, made_of: MadeOf) -> None:
@@ -98,8 +98,8 @@ class OutdatedMarks(QObject):
     def _age_in_run(self, mark: OutdatedMark, made_of: MadeOf, age: float) -> float:
         """Return the age to mark by while a slider runs.
 
-        The verdicts tell the value of picture and readings. Any other mark that has appeared stays
-        to the end of the run: it would flicker otherwise.
+        The verdicts name the value of picture and readings. Any other mark, once shown, stays to
+        the end of the run: it would flicker otherwise.
         """
         if made_of is not of_snapshot:
             return 0.0

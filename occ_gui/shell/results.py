@@ -29,12 +29,12 @@ T = TypeVar("T")
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Results:
-    """What was computed last; each part says itself what it was computed from."""
+    """The latest results; each part holds what it was computed from."""
 
     snapshot: Snapshot | None = None  # the exact picture, and what is read of it
 
     picture: Picture | None = None
-    """The picture that is there first: a draft, or the exact one before it is decoded."""
+    """The first picture: a draft, or the exact one before it is decoded."""
 
     reading: Reading | None = None  # what is read of the scene, by its picture or sooner
     before: Snapshot | None = None  # the exact picture before the latest step
@@ -51,7 +51,7 @@ class Results:
     listed: "ListedRows | None" = None  # what was found in the photos of the table
 
     photo_profile: "PhotoProfile | None" = None
-    """The profile of the open photo, beside the simulated one."""
+    """The profile of the open photo, in the columns of the simulated one."""
 
     film: "Video | None" = None  # the film of a file that was opened last
 
@@ -61,7 +61,7 @@ class Results:
 
 
 MadeOf: TypeAlias = Callable[[Results], SimulationRequest | None]
-"""Returns what a part of the results was computed from; None where there is no such part."""
+"""Returns what a part of the results was computed from; None if there is none."""
 
 
 def of_snapshot(results: Results) -> SimulationRequest | None:
@@ -86,7 +86,7 @@ class Board(QObject):
         self._selections: list[Selection[Any]] = []
 
     def select(self, of: Callable[[Results], T]) -> Selection[T]:
-        """Look at a part of the results from now on, after the panes have."""
+        """Return a selection of the results, which is notified after the panes."""
         selection = Selection(of, self.results)
         self._selections.append(selection)
         return selection

@@ -26,7 +26,7 @@ class DockWindow(Protocol):
 
 
 class Shell(QObject):
-    """The declared features, each made when it is first wanted, with their panes in docks."""
+    """The declared features, each made when first needed, with their panes in docks."""
 
     made = Signal(str, object)  # a pane has been made: its name, and the Pane
     said = Signal(str)  # a sentence of one of the features for the status line
@@ -54,7 +54,7 @@ class Shell(QObject):
             )
 
     def embed(self, feature: Feature[Any]) -> QWidget:
-        """Give a feature a place in another pane, which shows and hides it."""
+        """Place a feature in another pane, which shows and hides it."""
         place = self._place(feature)
         place.shown.connect(place.set_seen)
         return place
@@ -66,7 +66,7 @@ class Shell(QObject):
         return place
 
     def pane(self, name: str) -> Any:
-        """Return a pane or a service, which is made if it has never been seen or wanted."""
+        """Return a pane or a service, which is made if needed."""
         if name in self._places:
             return self._places[name].made()
         if name not in self._services:
@@ -75,7 +75,7 @@ class Shell(QObject):
         return self._services[name]
 
     def made_pane(self, name: str) -> Any:
-        """Return a pane or a service, None if it was never made, or is not added yet."""
+        """Return a pane or a service, None if it was not made or added yet."""
         place = self._places.get(name)
         return place.pane if place else self._services.get(name)
 
@@ -100,7 +100,7 @@ class Shell(QObject):
         return [figure for figure, place in self._figures.values() if figure.is_another(place.pane)]
 
     def draw(self, name: str, shown: Snapshot) -> Draw:
-        """Say how a figure is drawn of these results; raises NothingToDraw."""
+        """Return how to draw a figure of these results; raises NothingToDraw."""
         figure, place = self._figures[name]
         return figure.draw(place.pane, shown)
 
@@ -123,7 +123,7 @@ class Shell(QObject):
 
 
 class _Place(QWidget):
-    """The place of a pane, empty until it is first seen."""
+    """The place of a pane, empty until first seen."""
 
     shown = Signal(bool)
 
@@ -163,7 +163,7 @@ class _Place(QWidget):
         self.shown.emit(False)
 
     def look(self) -> None:
-        """Show the part of the pane, if it is seen and its part is another one."""
+        """Show the part of the pane, if it is visible and has changed."""
         if self.pane is None or not (self._is_seen or self.feature.goes_on_hidden):
             return
         part = self.feature.part(self._shell._store.workspace, self._shell._board.results)

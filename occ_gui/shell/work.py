@@ -1,4 +1,4 @@
-"""Work: keeps one of the results, asking a task for it whenever what it follows from differs."""
+"""Work: keeps one of the results up to date by a task."""
 
 from collections import deque
 from collections.abc import Callable
@@ -13,12 +13,11 @@ from occ_gui.shell.results import Board, Results
 
 
 class Work(QObject, Generic[Request, Result]):
-    """Keeps a result that follows from workspace and results on the board.
+    """Keeps a result up to date with workspace and results.
 
-    ``of``: gives what is asked of the task; None where there is no such result.
-    ``put``: puts a result among the others, or takes it away.
-    ``stays``: whether the last result stays until the next one is there.
-    ``keep``: how many results are given again at once when their requests come back.
+    ``of`` returns the request to the task; None where there is no such result. ``put`` stores or
+    removes a result. ``stays``: whether the last result stays until the next one is there.
+    ``keep``: number of results that are kept for requests that come back.
     """
 
     begun = Signal()

@@ -8,7 +8,7 @@ _MIN_VISIBLE_DRIFT = 0.05  # drift in columns per packet below which it is not s
 
 
 def drift_of(reading: ColumnView) -> str:
-    """Say by how much the band model drifts; empty where it does not."""
+    """State by how much the band model drifts; empty where it does not."""
     columns = abs(reading.band_drift)
     if columns < _MIN_VISIBLE_DRIFT:
         return ""
@@ -17,14 +17,14 @@ def drift_of(reading: ColumnView) -> str:
 
 
 def drift_sentence(reading: ColumnView) -> str:
-    """Say so with the reason in a line; empty where it does not."""
+    """State the drift with its reason in a line; empty where there is none."""
     if not (drift := drift_of(reading)):
         return ""
     return f"The band model {drift}: it rounds, and skips the exposure between equal chips."
 
 
 def what_is_compared() -> str:
-    """Say what the band model is compared with, where its bands lie where they are sent."""
+    """Describe what the band model is compared with, where its bands lie where they are sent."""
     return (
         "The band model is drawn with the exact length of each run of chips, so that its bands lie "
         "where those of the simulation do: compare the width and levels of the bands of a packet. "
@@ -33,7 +33,7 @@ def what_is_compared() -> str:
 
 
 def why_it_drifts() -> str:
-    """Say why, and what can be done about it."""
+    """Explain the drift, and what can be done about it."""
     return (
         "The band model rounds each band to whole columns, and leaves out the exposure between two "
         "equal chips. Both add up along the picture, so that its bands drift away from those of "

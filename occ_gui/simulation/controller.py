@@ -44,10 +44,10 @@ from occ_model.simulation.render import plan_scene, render_with
 _REST_TIME = 0.05  # seconds without a change after which the exact picture is begun
 
 _LONGEST_PAINT = 0.1
-"""Seconds for which work waits at most until the window has painted what it has been given."""
+"""Longest time, in seconds, for which work waits for the window to paint."""
 
 _LOOK, _MOST_LOOKS = 0.005, 20
-"""Seconds between two looks whether the exact picture may begin, and the most looks."""
+"""Seconds between two checks whether the exact picture may begin, and the most checks."""
 
 
 def _go_on() -> None:
@@ -70,7 +70,7 @@ class SimulationController(QObject):
     """
 
     picture_ready = Signal(object)
-    """The Picture of a scene, before it is decoded; a Reading that it has is shown already."""
+    """The Picture of a scene, before it is decoded; its Reading, if any, is shown already."""
 
     reading_shown = Signal(object)
     """The Reading that the panes show from now on; a Snapshot where it is the picture's."""
@@ -81,7 +81,7 @@ class SimulationController(QObject):
     failed_for = Signal(str, object)  # the same, and the names of the parameters that it is about
 
     submitted = Signal()
-    """The scene or a setting has changed: results of the last request are outdated."""
+    """The scene or a setting has changed: the last results are outdated."""
 
     def __init__(self, scenes: SceneStore) -> None:
         super().__init__()
@@ -106,19 +106,16 @@ class SimulationController(QObject):
     def draft_for(self, rows_per_pixel: Callable[[], float]) -> None:
         """Draft as many rows from now on as the screen shows, or fewer where drafts are late.
 
-        ``rows_per_pixel``: returns how many rows of the picture share a pixel of the screen.
+        ``rows_per_pixel``: returns how many rows of the picture fall on a pixel of the screen.
         """
         self._rows_per_pixel = rows_per_pixel
 
     def defer_while(self, others_first: Callable[[], bool]) -> None:
-        """Begin exact pictures from now on after short work that the user waits for sooner.
-
-        ``others_first``: returns whether there is such work; called on the simulation's thread.
-        """
+        """Delay exact pictures while ``others_first``, called on the worker's thread, is true."""
         self._others_first = others_first
 
     def read_with(self, decoder: str) -> None:
-        """Read the present scene, and those after it, with this decoder too."""
+        """Read this scene and later ones with this decoder, too."""
         self._more = () if decoder in QUICK_DECODERS else (decoder,)
         read = self._read
         if self._more and (read is None or decoder not in {r.decoder for r in read.results}):
@@ -191,7 +188,7 @@ class SimulationController(QObject):
         self.reading_shown.emit(reading)
 
     def _is_news(self, reading: Reading) -> bool:
-        """Return whether a reading is of a later scene than the one shown, or surer."""
+        """Return whether a reading is of a later scene than the one shown, or more reliable."""
         shown = self._read
         if shown is None:
             return True

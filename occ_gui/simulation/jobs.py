@@ -25,13 +25,13 @@ LONGEST_DRAFT = 0.016
 THINNEST_ROW = 4  # rows of the screen that a row of a draft fills at most
 
 LEAST_ROWS = 64
-"""Rows of a draft below which it is not thinned: fewer save no time, and show too little."""
+"""Fewest rows of a thinned draft: still fewer save no time, and show too little."""
 
 _SPEED_MARGIN = 3.0
-"""How many times faster than allowed a thinned draft is before the next one has twice its rows.
+"""Factor by which a thinned draft must beat its time limit before its rows are doubled.
 
-More than 2: what is thinned because it took too long takes at least half of that time, and is not
-made finer and thinner in turn.
+More than 2: thinning a slow draft can no more than halve its time, so that it is not made finer and
+thinner in turn.
 """
 
 
@@ -47,16 +47,16 @@ class DraftRows:
         self._seconds: deque[float] = deque(maxlen=2)
 
     def step(self, rows: int, rows_per_pixel: float) -> int:
-        """Return of how many rows of the picture the draft has one.
+        """Return how many rows of the picture each row of the draft stands for.
 
-        ``rows_per_pixel``: rows of the picture that share a pixel of the screen.
+        ``rows_per_pixel``: rows of the picture that fall on a pixel of the screen.
         """
         shown = max(LEAST_DRAFT_STEP, int(rows_per_pixel))
         wanted = shown * self._thinned
         return min(max(shown, min(wanted, rows // LEAST_ROWS)), rows)
 
     def took(self, seconds: float) -> None:
-        """Learn how long the last draft and its reading have taken."""
+        """Record the seconds that the last draft and its reading have taken."""
         self._seconds.append(seconds)
         if len(self._seconds) < 2:
             return
@@ -71,13 +71,13 @@ class DraftRows:
 
 
 SMALL_PICTURE = 1_000_000
-"""Pixels of a picture up to which it is there at once, with whatever effects."""
+"""Most pixels of a picture that is there at once, with whatever effects."""
 
 
 def reading_by_profile(
     request: SimulationRequest, planned: PlannedScene | None = None
 ) -> Reading | None:
-    """Read a scene without its picture; None where only pixels show what is read."""
+    """Read a scene without its picture; None where the reading needs pixels."""
     more = filter(_is_usable, request.more)
     decoders = (*QUICK_DECODERS, *more)
     view = None if planned is None else planned.view
@@ -88,12 +88,12 @@ def reading_by_profile(
 
 
 def is_soon(planned: PlannedScene) -> bool:
-    """Return whether a picture is there within milliseconds: its rows are copies of one."""
+    """Return whether a picture takes milliseconds: its rows are copies of one."""
     return planned.plan.kinds <= {"column"}
 
 
 def draft_of(request: SimulationRequest, planned: PlannedScene) -> Frame | None:
-    """Simulate some rows of a picture; None where the whole one is there as soon."""
+    """Simulate some rows of a picture; None where the whole one is as fast."""
     camera = request.scene.camera
     if camera.rows * camera.columns <= SMALL_PICTURE or is_soon(planned):
         return None
@@ -103,7 +103,7 @@ def draft_of(request: SimulationRequest, planned: PlannedScene) -> Frame | None:
 
 
 def reading_of_draft(request: SimulationRequest, frame: Frame) -> Reading:
-    """Read a draft of a picture, in the rows of the whole one."""
+    """Read a draft of a picture, with rows counted in the whole one."""
     scene = frame.scene
     first = occ.decode(frame.image, scene)
     results = (first, *_decode_with_others(first, scene, request.more))
@@ -142,7 +142,7 @@ def _seen(
     found: Frame | ProfileReading,
     results: Sequence[DecodeResult],
 ) -> dict[str, Any]:
-    """Return what any reading has: what was found, its results, and the band model beside it."""
+    """Return the common fields of readings: what was found, the results, and the band model."""
     band, enhanced_band, undefined, drift = None, None, "", 0.0
     try:
         band = occ.band_profile(scene)
@@ -172,7 +172,7 @@ def _seen(
 
 
 def _is_usable(decoder: str) -> bool:
-    """Whether a decoder can be used; what is wrong with a plug-in's is said with the picture."""
+    """Whether a decoder can be used; a plug-in's error is reported with the picture."""
     try:
         decoder_named(decoder)
     except PluginError:
@@ -183,7 +183,7 @@ def _is_usable(decoder: str) -> bool:
 def _decode_with_others(
     decoded: DecodeResult, scene: Scene, more: tuple[str, ...]
 ) -> Iterator[DecodeResult]:
-    """Decode the signal that one decoder has located in the picture with the other decoders."""
+    """Decode the signal that one decoder has located with the other decoders."""
     for name in (*QUICK_DECODERS, *more):
         if name == decoded.decoder:
             continue

@@ -11,10 +11,10 @@ Use = Callable[[Snapshot], None]
 
 
 class PresentResults(QObject):
-    """Returns the results of the present scene to those who ask, as soon as the panes show them.
+    """Delivers the results of the present scene, as soon as the panes show them.
 
-    Results of an earlier scene are never given: whoever asks while a scene is computed waits for
-    it. Where a scene has no picture, they are told so, and what they asked for is not done.
+    Requests wait while a scene is computed, so that no results of an earlier one are delivered.
+    Where a scene has no picture, they are cancelled with a message.
     """
 
     status_message = Signal(str)  # whether a request waits, or why it was given up
@@ -26,7 +26,7 @@ class PresentResults(QObject):
         self._waiting: list[Use] = []
         self._is_refused = False
         self.latest: Snapshot | None = None
-        """The results that the panes show, of the present scene or of an earlier one."""
+        """The results shown by the panes, of the present scene or an earlier one."""
         simulation.submitted.connect(self._on_change)
         simulation.snapshot_shown.connect(self._on_snapshot)
         simulation.failed.connect(self._on_failure)
@@ -42,7 +42,7 @@ class PresentResults(QObject):
             self.status_message.emit("Waiting for the picture of this scene…")
 
     def _serve(self) -> bool:
-        """Deliver the latest results to all who wait, if they are those of the present scene."""
+        """Deliver the latest results to all requests, if they are those of the present scene."""
         snapshot = self.latest
         if snapshot is None or not self.is_present(snapshot):
             return False

@@ -20,7 +20,7 @@ SOURCES: tuple[Source, ...] = ("profile", "draft", "picture")
 
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class ColumnView:
-    """What rows of columns show, of a scene or of a frame of a film: profile, bands and chips."""
+    """The columns of a scene, or of a frame of a film: profile, bands and chips."""
 
     scene: Scene
     # Shape (columns,): means of the panel's pixels in each column, before the receiver's
@@ -77,7 +77,7 @@ class ColumnView:
 
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class Reading(ColumnView):
-    """What is read of one scene: its profile, the band model beside it, and the results."""
+    """What is read of one scene: its profile, the band model, and the decoders' results."""
 
     request: SimulationRequest
     # What it was read from: ``"profile"``, without pixels; a ``"draft"`` of the picture; or the
@@ -102,12 +102,12 @@ class Snapshot(Reading):
 
 
 _MIN_COPY_SIDE = 256
-"""Pixels of a side; smaller pictures are drawn fast enough without smaller copies."""
+"""Least side, in pixels, of a picture with reduced copies; smaller ones are drawn fast enough."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class PictureView:
-    """The pixels of a picture, of a scene or of a frame of a film, and where they lie."""
+    """The pixels of a scene's picture, or of a frame of a film, and their place."""
 
     image: ByteArray  # shape (len(rows), columns): The pixels
     rows: range  # the rows of the whole picture that they show; a draft has some of them
@@ -155,7 +155,7 @@ class Picture:
         request: SimulationRequest | None = None,
         reading: Reading | None = None,
     ) -> Self:
-        """Compute the smaller copies; to be called on a background thread."""
+        """Compute the reduced copies; slow, for a background thread."""
         return cls(frame, whose, halves_of(frame.picture(whose)), request, reading)
 
 

@@ -26,7 +26,7 @@ class Verdict:
 
     @property
     def explanation(self) -> str:
-        """The rest of the reason, which the heading begins; empty where there is none."""
+        """The rest of the reason after the heading; may be empty."""
         parts = _CLAUSE_END.split(self.reason, maxsplit=1)
         if self.state is not State.BAD or len(parts) < 2:
             return self.reason
@@ -44,7 +44,7 @@ class Verdict:
 
 
 def result_of(reading: ColumnView, decoder: str) -> DecodeResult:
-    """Return what a decoder read; of one that has not read yet, that it will."""
+    """Return a decoder's result, or that it has not read yet."""
     found = (result for result in reading.results if result.decoder == decoder)
     return next(found, None) or DecodeResult(decoder, failure=_AWAITED)
 
@@ -74,7 +74,7 @@ def what_was_read(decoded: DecodeResult) -> str:
 
 
 def verdict_on(decoded: DecodeResult, sent: Sequence[int]) -> Verdict:
-    """Compare what a decoder read with the bits sent; these are empty for a raw pattern."""
+    """Compare a decoder's result with the sent bits, which are empty for a raw pattern."""
     if not sent:
         return Verdict(State.NEUTRAL, "No code is sent", decoded.failure or "")
     if decoded.failure == _AWAITED:

@@ -8,20 +8,20 @@ from PySide6.QtGui import QFontMetrics, QPainter, QPalette, QPen
 from occ_gui.widgets.state_look import State, colours_of
 
 HEADER = ("header", "H")
-"""What a header is called, shorter for narrower cells."""
+"""Names of a header, the shorter one for narrow cells."""
 
 _MARKS = {State.GOOD: " ✓", State.BAD: " ✗"}
 _PADDING = 4  # pixels of a cell that no text covers
 
 
 def have_room_for_marks(metrics: QFontMetrics, widths: Iterable[float]) -> bool:
-    """Return whether the mark of a bit fits into each cell: in one row all have it or none."""
+    """Return whether the mark of a bit fits into each cell: a row has all of them or none."""
     needed = max(metrics.horizontalAdvance(bit + mark) for bit in "01" for mark in _MARKS.values())
     return all(needed <= width - _PADDING for width in widths)
 
 
 def have_room_for_bits(metrics: QFontMetrics, widths: Iterable[float]) -> bool:
-    """Return whether a digit fits into each cell, if only just: one row has all of them or none."""
+    """Return whether a digit fits into each cell: a row has all of them or none."""
     needed = max(map(metrics.horizontalAdvance, "01"))
     return all(needed <= width for width in widths)
 
@@ -35,13 +35,13 @@ def draw_field(  # noqa: PLR0913 - what is drawn, where and how
     is_header: bool = False,
     state: State = State.NEUTRAL,
     is_marked: bool = False,
-    is_told: bool | None = None,
+    has_text: bool | None = None,
     within: QRectF | None = None,
 ) -> None:
     """Draw a header or a bit as a rounded cell; a wrong one is crossed out.
 
     ``texts``: the bit, or what the header is called; the first text that fits is drawn.
-    ``is_told``: whether the text is drawn, the shortest one also where it hardly fits; None: where
+    ``has_text``: whether the text is drawn, the shortest one also where it hardly fits; None: where
     it fits.
     ``within``: the area that is seen: the text stands in the part of the cell within it.
     """
@@ -59,7 +59,7 @@ def draw_field(  # noqa: PLR0913 - what is drawn, where and how
     fitting = (
         each for each in (texts[0] + mark, *texts) if metrics.horizontalAdvance(each) <= room
     )
-    text = "" if is_told is False else next(fitting, texts[-1] if is_told else "")
+    text = "" if has_text is False else next(fitting, texts[-1] if has_text else "")
     if text:
         # About the middle of what is seen, and not cut where it is as wide as its cell.
         painter.drawText(seen.adjusted(-2, 0, 2, 0), Qt.AlignmentFlag.AlignCenter, text)

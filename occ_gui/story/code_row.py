@@ -31,7 +31,7 @@ _MISSING = "·"  # in place of a letter that was not received
 
 
 class CodeRow(StoryRow):
-    """Chips as cells, and under them header and bits, the right ones ticked, the wrong crossed.
+    """Chips as cells, and under them header and bits, right ones ticked, wrong ones crossed out.
 
     The letters of a text, or the bytes, stand above their bits.
     """
@@ -79,7 +79,7 @@ class CodeRow(StoryRow):
         return int(self._decoded.bits[bit])
 
     def state_of(self, bit: int) -> State:
-        """Return whether a bit that was received is the one sent; neutral if it was refused."""
+        """Compare a received bit with the sent one; neutral if it was refused."""
         if self._decoded is None or bit >= min(len(self._sent), self._decoded.bits.size):
             return State.NEUTRAL
         if self._decoded.failure is not None and not self.fields:
@@ -88,7 +88,7 @@ class CodeRow(StoryRow):
         return State.GOOD if right else State.BAD
 
     def received_at(self, column: float) -> tuple[int | None, int | None]:
-        """Return the chip, and the number of the bit, that were read at a column."""
+        """Return the chip, and the index of the bit, read at a column."""
         edges, decoded = self.edges, self._decoded
         if edges is None or decoded is None or not edges[0] <= column < edges[-1]:
             return None, None
@@ -103,7 +103,7 @@ class CodeRow(StoryRow):
         return QSize(160, self._lines()[-1][1] + 2 * _GAP)
 
     def _lines(self) -> tuple[tuple[int, int], tuple[int, int], tuple[int, int]]:
-        """Return top and bottom of the chips, of the letters, if there are any, and of the bits."""
+        """Return top and bottom of the chips, of the letters, if any, and of the bits."""
         metrics = self.fontMetrics()
         bit = line_height(metrics, _BITS, 4)
         chips = _GAP + line_height(metrics, _CHIPS)
@@ -150,7 +150,7 @@ class CodeRow(StoryRow):
     def _draw_fields(
         self, painter: QPainter, place: QRectF, decoded: DecodeResult, edges: list[float]
     ) -> list[Span]:
-        """Draw header and bits under the columns that carry them; give where the bits are."""
+        """Draw header and bits under their columns; return where the bits are."""
         spans = [(field.bit, edges[field.first], edges[field.last]) for field in self.fields]
         bits = [(bit, left, right) for bit, left, right in spans if bit is not None]
         self._draw_bits(painter, place, decoded, bits)
@@ -167,18 +167,18 @@ class CodeRow(StoryRow):
         decoded: DecodeResult,
         bits: Sequence[tuple[int, float, float]],
     ) -> None:
-        """Draw bits, each from one x to another: in one row all are marked and written or none."""
+        """Draw bits, each from one x to another; a row has all marks and digits or none."""
         metrics, widths = painter.fontMetrics(), [right - left for _, left, right in bits]
         is_marked = have_room_for_marks(metrics, widths)
-        is_told = have_room_for_bits(metrics, widths)
+        has_text = have_room_for_bits(metrics, widths)
         for bit, left, right in bits:
             cell = QRectF(left, place.top(), right - left, place.height())
             texts = (str(int(decoded.bits[bit])),)
             draw_field(painter, cell, texts, self.palette(), state=self.state_of(bit),
-                       is_marked=is_marked, is_told=is_told)  # fmt: skip
+                       is_marked=is_marked, has_text=has_text)  # fmt: skip
 
     def _say_instead(self, painter: QPainter, place: QRectF, decoded: DecodeResult) -> None:
-        """Say why there are no chips: none were read, or the decoder reads whole packets."""
+        """Explain why there are no chips: none were read, or the decoder reads whole packets."""
         text = "No chips were read."
         if decoded.code is not None:
             text = "This decoder compares whole packets, and reads no single chips."
@@ -189,13 +189,13 @@ class CodeRow(StoryRow):
         painter.drawText(place.adjusted(8, 0, 0, 0), LEFT, text)
 
     def list_label(self) -> str:
-        """Return what is said before bits that are not under the columns that carry them."""
+        """Return the label before bits that have no columns of their own."""
         if self._decoded is not None and self._decoded.failure is not None:
             return "not accepted:"
         return "from all packets together:"
 
     def _list_bits(self, painter: QPainter, place: QRectF, decoded: DecodeResult) -> list[Span]:
-        """Draw bits that have no columns of their own side by side, and say so before them."""
+        """Draw bits that have no columns of their own side by side, after a label."""
         if not decoded.bits.size:
             self._write(painter, place, "No bits were read.")
             return []

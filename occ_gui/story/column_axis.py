@@ -1,4 +1,4 @@
-"""What all rows of the story share: columns in view with their scales, crosshair, room for text."""
+"""Common to all rows of the story: columns in view, scales, crosshair, room for text."""
 
 import math
 from collections.abc import Sequence
@@ -14,7 +14,7 @@ LEFT = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter
 RIGHT = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
 
 GUTTER = 104
-"""Pixels at the left of each row, for its name and its levels, in text of the usual size."""
+"""Pixels at the left of each row for its name and levels, in text of the usual size."""
 
 MARGIN = 12  # pixels at the right of each row
 _LEAST_SPAN = 4.0  # fewest columns in view
@@ -54,7 +54,6 @@ class ColumnAxis(QObject):
         return self.gutter + (column - self.first) / self.span * self.plot_width(width)
 
     def column(self, pixel: float, width: float) -> float:
-        """Return the column at a pixel of a row of this width."""
         return self.first + (pixel - self.gutter) / self.plot_width(width) * self.span
 
     def plot_width(self, width: float) -> float:
@@ -62,7 +61,6 @@ class ColumnAxis(QObject):
         return max(1.0, width - self.gutter - MARGIN)
 
     def set_gutter(self, pixels: int) -> None:
-        """Leave so many pixels at the left of each row."""
         if pixels != self.gutter:
             self.gutter = pixels
             self.changed.emit()
@@ -80,14 +78,14 @@ class ColumnAxis(QObject):
         self._put(*self._home)
 
     def zoom(self, factor: float, at: float) -> None:
-        """Show ``factor`` times as many columns; the one at ``at`` stays where it is."""
+        """Show ``factor`` times as many columns, with the one at ``at`` in its place."""
         whole = (self._ends[1] - self._ends[0]) * (1.0 + _MARGIN_FRACTION)
         span = min(max(self.span * factor, _LEAST_SPAN), max(whole, _LEAST_SPAN))
         fraction = (at - self.first) / self.span
         self._move(at - fraction * span, at + (1.0 - fraction) * span)
 
     def pan(self, columns: float) -> None:
-        """Move by some columns, to the right where they are more than zero."""
+        """Move by some columns, to the right where they are positive."""
         self._move(self.first + columns, self.last + columns)
 
     def reveal(self, first: float, last: float) -> None:
@@ -102,7 +100,7 @@ class ColumnAxis(QObject):
         self._put(*self._within(first, last))
 
     def _within(self, first: float, last: float) -> tuple[float, float]:
-        """Move a range so that the picture stays in view."""
+        """Shift a range so that the picture stays in view."""
         beside = _MARGIN_FRACTION * (last - first)
         low, high = self._ends[0] - beside, self._ends[1] + beside
         shift = max(low - first, 0.0) + min(high - last, 0.0)
@@ -115,7 +113,7 @@ class ColumnAxis(QObject):
 
 
 class MeasureCursors(QObject):
-    """Two columns that the user moves, or none while nothing is measured."""
+    """Two columns that the user moves to measure, or none."""
 
     changed = Signal()  # a cursor has moved, or they have been switched on or off
 
@@ -153,7 +151,7 @@ class Crosshair(QObject):
         self.cursors = MeasureCursors(self)
 
     def set_columns(self, columns: int, first: int) -> None:
-        """Set the number of columns; ``first`` is chosen if none is yet."""
+        """Set the number of columns; choose ``first`` if none is chosen yet."""
         self.columns = columns
         self.choose(first if self.column is None else self.column)
         if self.pointed is not None:
@@ -177,17 +175,17 @@ class Crosshair(QObject):
 
     @property
     def read(self) -> int | None:
-        """The column whose values are read out: that under the mouse, else the chosen one."""
+        """The column whose values are shown: that under the mouse, else the chosen one."""
         return self.column if self.pointed is None else self.pointed
 
 
 def line_height(metrics: QFontMetrics, usual: int, around: int = 2) -> int:
-    """Return the height of a line of text in pixels, with so many above and below it."""
+    """Return the height of a line of text in pixels, with ``around`` above and below it."""
     return max(usual, metrics.height() + around)
 
 
 def gutter_of(font: QFont, names: Sequence[str]) -> int:
-    """Return the width in pixels that the names of the rows need, with what stands beside them."""
+    """Return the width in pixels of the rows' names with their levels."""
     widest = max(needed_by(name, font) for name in names)
     return min(max(GUTTER, widest + GAPS), _LARGEST_GUTTER)
 

@@ -32,7 +32,7 @@ class ColumnValues:
 def values_at(
     column: int, scene: Scene, light: LightRow, profile: ProfileRow, code: CodeRow
 ) -> ColumnValues | None:
-    """Read all rows at a column; None where there are no results yet, or no such column."""
+    """Read all rows at a column; None without results, or outside the picture."""
     levels = profile.levels
     if levels is None or not 0 <= column < len(levels):
         return None

@@ -18,8 +18,7 @@ _SPACING = 6  # pixels between the legend and what stands beside it
 class CurveLegend(QWidget):
     """Samples of lines with their names, in further lines where they do not fit into one.
 
-    ``usual``: the keys that it keeps room for, so that nothing moves when one of them comes or
-    goes.
+    ``usual``: keys whose room is reserved, so that nothing moves when they come or go.
     """
 
     def __init__(self, lines: Mapping[str, tuple[QPen, str]], usual: tuple[str, ...] = ()) -> None:
@@ -39,7 +38,7 @@ class CurveLegend(QWidget):
             self.show_lines(keys, note, self.toolTip())
 
     def show_lines(self, keys: tuple[str, ...], note: str = "", meaning: str = "") -> None:
-        """Show these entries, and a remark after them; the pointer gets a sentence to read."""
+        """Show these entries and a remark after them, whose tooltip is its meaning."""
         self.setToolTip(meaning)
         if (keys, note) != (self.shown, self.note):
             self.shown, self.note = keys, note
@@ -66,7 +65,7 @@ class CurveLegend(QWidget):
 
     @property
     def widest(self) -> int:
-        """The width that the widest of the usual entries needs."""
+        """The width of the widest of the usual entries."""
         return max(map(self._width, self._usual), default=0)
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
@@ -90,7 +89,7 @@ class CurveLegend(QWidget):
 
     @staticmethod
     def _placed(widths: Sequence[int], room: int) -> list[tuple[int, int]]:
-        """Return the left edge and the line of entries that are set one after the other."""
+        """Return the left edge and the line of each entry."""
         places, left, line = list[tuple[int, int]](), 0, 0
         for width in widths:
             if left and left + width > room:

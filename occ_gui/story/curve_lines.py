@@ -13,7 +13,7 @@ DASH = (7.0, 5.0)  # pixels of a dash, and of the gap after it
 
 
 _STRAIGHT_DISTANCE = 1e-6
-"""Pixels from the line between its neighbours up to which a point lies on it."""
+"""Largest distance, in pixels, of a point that counts as on the line between its neighbours."""
 
 
 def _corners(xs: FloatArray, ys: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -95,7 +95,6 @@ class LightRow(StoryRow):
         return line_height(self.fontMetrics(), _LABEL, 0)
 
     def draw(self, painter: QPainter, area: QRectF) -> None:
-        """Draw the waveform, and the header and bits sent below it."""
         if self._scene is None:
             return
         light = self._light_area(area)
@@ -178,7 +177,7 @@ class LightRow(StoryRow):
         line = self._strip_height() / (2 if self.letters else 1)
         low = area.bottom() - line + 1
         width = (bits[0].last - bits[0].first) * step
-        is_told = have_room_for_bits(painter.fontMetrics(), [width]) or None
+        has_text = have_room_for_bits(painter.fontMetrics(), [width]) or None
         cells = [
             (HEADER, header, header, low),
             *(((str(self._sent[bit]),), field, field, low) for bit, field in enumerate(bits)),
@@ -193,7 +192,7 @@ class LightRow(StoryRow):
             )
             if cell.right() >= area.left() and cell.left() <= area.right():
                 draw_field(painter, cell, texts, self.palette(), is_header=first is header,
-                           is_told=is_told if top == low else None, within=area)  # fmt: skip
+                           has_text=has_text if top == low else None, within=area)  # fmt: skip
 
     def _say_sent(self, painter: QPainter, area: QRectF) -> None:
         strip = self._strip_height()

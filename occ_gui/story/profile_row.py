@@ -45,7 +45,7 @@ class ProfileRow(StoryRow):
         self._drawn_from: tuple[object, ...] = ()
         self._top = 255.0
         self.threshold: tuple[float, float] | None = None
-        """The levels between which the decoder's threshold lies; None where it has none."""
+        """The levels between which the decoder's threshold lies; None if it has none."""
 
     def show_reading(self, reading: ColumnView, decoded: DecodeResult) -> None:
         self._reading, self._decoded = reading, decoded

@@ -80,7 +80,7 @@ class StoryRow(QWidget):
         return self.axis.column(x, self.width())
 
     def draw(self, painter: QPainter, area: QRectF) -> None:
-        """Draw what depends on the results, into an area that is cut off."""
+        """Draw what depends on the results, clipped to an area."""
         raise NotImplementedError
 
     def draw_beside(self, painter: QPainter, area: QRectF) -> None:
@@ -146,7 +146,7 @@ class StoryRow(QWidget):
         return picture
 
     def _gutter_font(self) -> QFont:
-        """Return the row's font, smaller where its name would touch what stands beside it."""
+        """Return the row's font, smaller where its name would touch its levels."""
         font, room = QFont(self.font()), self.axis.gutter - GAPS
         for _ in range(_MOST_FITS):
             needed = needed_by(self.name, font)

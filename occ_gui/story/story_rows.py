@@ -39,7 +39,7 @@ class StoryRows(QWidget):
     values_changed = Signal(str)  # the values of the column at the crosshair, in words
 
     measured_changed = Signal(str)
-    """What is measured between the cursors, in words; empty while nothing is."""
+    """What is measured between the cursors, in words; empty for nothing."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -97,7 +97,7 @@ class StoryRows(QWidget):
         return part
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        """Leave the names of the rows as much room as text of another size needs."""
+        """Reserve as much room for the rows' names as text of another size needs."""
         super().changeEvent(event)
         if event.type() == QEvent.Type.FontChange and hasattr(self, "_line_of_legend"):
             self._leave_room()
@@ -152,7 +152,6 @@ class StoryRows(QWidget):
         self._show_legend()
 
     def choose_decoder(self, name: str) -> None:
-        """Show what this decoder read; by default the paper's."""
         self._decoder = name
         self._show_decoded()
         self._read_out()
@@ -172,14 +171,14 @@ class StoryRows(QWidget):
         self.fit()
 
     def fit(self) -> None:
-        """Follow the range that was chosen last again."""
+        """Follow the last chosen range again."""
         self.axis.fit()
         self._mark_range()
 
     def hold_columns(self, columns: float | None) -> None:
         """Keep so many columns in view in place of the first packets; None for the packets again.
 
-        The columns that a user has moved to are left.
+        Columns that the user has moved to stay.
         """
         self._held = columns
         self._set_range()
@@ -201,7 +200,7 @@ class StoryRows(QWidget):
         return result_of(self._reading, self._decoder or self._reading.decoded.decoder)
 
     def values(self) -> ColumnValues | None:
-        """Return the values of the column at the crosshair, else of the chosen one."""
+        """Return the values at the crosshair, else at the chosen column."""
         column = self.crosshair.read
         if self._reading is None or column is None:
             return None
@@ -236,7 +235,7 @@ class StoryRows(QWidget):
         self.axis.set_home(first - beside, last + beside, last_column + 1)
 
     def _mark_range(self) -> None:
-        """Mark the range that is followed; none while the user looks elsewhere."""
+        """Mark the followed range; none while the user looks elsewhere."""
         for name, button in self.ranges.items():
             button.setChecked(self.axis.is_following and name == self.range)
 

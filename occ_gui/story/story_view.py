@@ -17,9 +17,9 @@ _WHOLE, _WHOLE_TIP = "Whole picture", "Show the whole picture in place of the fo
 
 
 class _Held(QWidget):
-    """Holds a widget whose contents change often, and passes no request for another size on.
+    """Holds a widget whose contents change often, without passing on its size requests.
 
-    A label asks for one with each text, upon which the whole window would be laid out anew.
+    A label makes one with each text, and the whole window would be laid out anew.
     """
 
     def __init__(self, content: QWidget) -> None:
@@ -73,7 +73,7 @@ class StoryView(QWidget):
         )  # fmt: skip
 
     def offer(self, decoders: Sequence[str]) -> None:
-        """Offer these decoders, beside those offered before."""
+        """Add decoders to the choice."""
         for name in decoders:
             if self.decoder.findData(name) < 0:
                 self.decoder.addItem(f"Decoder: {name}", name)
@@ -96,7 +96,7 @@ class StoryView(QWidget):
         self.whole.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
 
     def _size_by_page(self) -> None:
-        """Let only the page that is shown need space."""
+        """Let only the visible page determine the size."""
         kinds = QSizePolicy.Policy
         for page in (self.rows, self._picture):
             kind = kinds.Expanding if page is self._pages.currentWidget() else kinds.Ignored
@@ -142,13 +142,11 @@ class StoryView(QWidget):
         self.rows.show_reading(reading)
 
     def choose_decoder(self, name: str) -> None:
-        """Show what this decoder read, and the verdict on it, without a signal."""
         self.decoder.show_key(name)
         self.verdict.choose_decoder(name)
         self.rows.choose_decoder(name)
 
     def choose_picture(self, whose: str) -> None:
-        """Show the camera's picture and profile or the receiver's, without a signal."""
         self.whose.show_key(whose)
         self.rows.choose_picture(whose)
 

@@ -21,7 +21,7 @@ _LEAST_THUMBNAIL = 32  # pixels of height of a thumbnail in which a frame can st
 
 
 class StripesRow(StoryRow):
-    """The rows of the picture that show the panel: a pixel of the screen is its cell's mean."""
+    """The rows of the picture that show the panel, averaged over each pixel of the screen."""
 
     def __init__(self, axis: ColumnAxis, crosshair: Crosshair) -> None:
         super().__init__("Picture", axis, crosshair)
@@ -40,18 +40,18 @@ class StripesRow(StoryRow):
         self.redraw()
 
     def rows_per_pixel(self) -> float:
-        """Return how many rows of the picture share a pixel of the screen.
+        """Return how many rows of the picture fall on a pixel of the screen.
 
-        Whatever rows of it a draft has shown: so successive drafts have the same rows.
+        Independent of the draft that is shown, so that successive drafts have the same rows.
         """
         first, last = (0, 0) if self._corners is None else _showing(self._corners, self._all_rows)
         pixels = max(1.0, self.height() * self.devicePixelRatioF())
         return (last - first) / pixels
 
     def rows_shown(self) -> tuple[int, int]:
-        """Return the first row of the picture that shows the panel, and the one after the last.
+        """Return the panel's first row in the picture, and the one after its last.
 
-        A draft has one of so many rows of the picture, which are counted here.
+        Counted in the whole picture, of which a draft has only some rows.
         """
         return (0, 0) if self._corners is None else _showing(self._corners, self._rows)
 

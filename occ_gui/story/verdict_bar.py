@@ -20,7 +20,7 @@ _MOST_FORCED = 2  # effects switched by hand that have a chip each; more share o
 
 
 def chips_of(reading: Reading, decoder: str) -> Iterator[Chip]:
-    """Yield what holds for the results, beside the verdict on one decoder's."""
+    """Yield what holds for the results besides the verdict on one decoder's."""
     if not reading.has_picture:  # which has the last word
         meaning = "Read from the column profile or a draft; the exact picture is computed."
         yield Chip(_COMPUTING, "picture follows", meaning, State.WAITING)
@@ -43,7 +43,7 @@ def computing() -> Chip:
 
 
 def of_pictures(rate: OwnRate) -> Chip:
-    """Return what is read of pictures that begin at any time, beside the verdict on this one."""
+    """Return the success rate of pictures that begin at any time."""
     text = f"of {rate.images} pictures: {100.0 * rate.fraction:.3g} % of bits"
     meaning = (
         f"This picture is one; of {rate.images} that begin at any time "
@@ -58,9 +58,9 @@ def of_pictures(rate: OwnRate) -> Chip:
 
 
 def behind_run(chips: tuple[Chip, ...], pictured: str) -> tuple[Chip, ...]:
-    """Say of which value the picture is, where a slider runs ahead of it.
+    """Add the value of the picture, where a running slider is ahead of it.
 
-    ``pictured``: the value of the picture; empty where it is that of the results.
+    ``pictured``: that value; empty where it is that of the results.
     """
     rest = tuple(chip for chip in chips if chip.key != _COMPUTING)
     if not pictured:
@@ -99,7 +99,7 @@ def _by_hand(reading: Reading) -> list[Chip]:
 
 
 AVERAGES_LESSON = "2-past-the-shutter"
-"""The lesson on codes that are read though no column sees one chip alone."""
+"""The lesson on codes that are read though each column averages several chips."""
 
 
 class VerdictBar(StateBar):
@@ -126,7 +126,6 @@ class VerdictBar(StateBar):
         self._write()
 
     def choose_decoder(self, name: str) -> None:
-        """Show the verdict on the result of this decoder; by default on the paper's."""
         self._decoder = name
         self._write()
 
@@ -136,7 +135,7 @@ class VerdictBar(StateBar):
             self._write()
 
     def show_run(self, value: str, pictured: str) -> None:
-        """Say of which value of a slider that runs the verdict is.
+        """Show for which value of a running slider the verdict is.
 
         ``value``: the value with its label; empty while no slider runs.
         """
@@ -145,7 +144,7 @@ class VerdictBar(StateBar):
             self._write()
 
     def show_failure(self, sentence: str) -> None:
-        """Show that the present scene has no picture, and why; until the next results."""
+        """Show why the present scene has no picture, until the next results."""
         self._failure = sentence
         self._write()
 
@@ -155,7 +154,7 @@ class VerdictBar(StateBar):
             self._write()
 
     def show_rate(self, rate: OwnRate | None) -> None:
-        """Show beside the verdict on this picture what is read of others; None if not known."""
+        """Show the rate of other pictures next to the verdict on this one; None if unknown."""
         self._rate = rate
         self._write()
 
@@ -212,7 +211,7 @@ class VerdictBar(StateBar):
         self.step.setToolTip("Opens the lesson on exposures longer than a chip.")
 
     def _heading(self, verdict: str) -> str:
-        """Write whose verdict it is, where that is not plain."""
+        """Return the heading, with the source of the verdict where that is not evident."""
         if self._run:
             verdict = f"{self._run}: {verdict[:1].lower()}{verdict[1:]}"
         if not self._is_named:

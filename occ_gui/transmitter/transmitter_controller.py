@@ -24,7 +24,7 @@ _MOST_FOLDERS = 1000
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Drawn:
-    """The figure of a wiring as PNG, and its text for those who do not see it."""
+    """The figure of a wiring as PNG, and its text alternative."""
 
     sent: Transmission
     png: bytes
@@ -33,7 +33,7 @@ class Drawn:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Saved:
-    """The folder that was written, how many files, and why there is no WAV file, if so."""
+    """The written folder, the number of files, and why there is no WAV file, if so."""
 
     folder: Path
     files: int
@@ -48,7 +48,7 @@ def draw_wiring(sent: Transmission) -> Drawn:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class SaveJob:
-    """What is sent, and the folder in which a new one is made for it."""
+    """What is sent, and the parent of its new folder."""
 
     sent: Transmission
     parent: Path
@@ -63,7 +63,7 @@ def save_files(job: SaveJob) -> Saved:
 
 
 def new_folder(parent: Path, name: str) -> Path:
-    """Make a folder of a name, with a number after it where there is one already."""
+    """Make a folder, with a number after its name where that exists already."""
     for number in range(1, _MOST_FOLDERS):
         folder = parent / (name if number == 1 else f"{name}-{number}")
         if not folder.exists():
@@ -79,8 +79,6 @@ _BOARD = "transmitter/board"  # key of the preference that stores the board
 
 
 class TransmitterController(Service):
-    """Fills the dialog, which follows the scene, and carries out what it asks for."""
-
     def __init__(self, window: QWidget, store: SceneStore, preferences: Preferences) -> None:
         super().__init__()
         self._window = window
@@ -153,7 +151,7 @@ class TransmitterController(Service):
             self._store.change(switching_frequency=float(self._sent.timing.frequency))
 
     def ask_to_save(self) -> None:
-        """Let the user choose the folder in which a new one is made."""
+        """Ask for the parent of the new folder, and save there."""
         title = "Make a folder for the board in"
         folder = QFileDialog.getExistingDirectory(self.dialog, title, self._preferences.folder)
         if folder:

@@ -9,14 +9,14 @@ from occ_model.photo.reading.choices import SCAN_AXES
 from occ_model.scene.recording import Recording
 
 FIRST_FRAMES, FRAMES = 60, range(2, 100_001)
-"""How many frames the simulated film has at first, and can have."""
+"""Number of frames that the simulated film has at first, and its range."""
 
 _openings = count(1)
 
 
 @dataclass(frozen=True, slots=True)
 class FilmSource:
-    """A file that was opened, and what of its pictures the shutter scanned."""
+    """An opened file, and the axis of its pictures that the shutter scanned."""
 
     path: Path
     axis: str

@@ -24,7 +24,7 @@ KNOWN = ("switching_frequency", "readout_time")
 """Stripes determine only the product of these two: one must be known to estimate the other."""
 
 SENT = ("auto", "scene", "square", "read")
-"""What an LED has sent: to be found out, what the scene does, a square wave, or to be read."""
+"""Sources of the sent pattern: found out, the scene, a square wave, or read."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +45,7 @@ class Placement:
     scale: float = 1.0  # pixels of the simulated picture per pixel of the photo
 
     def within_limits(self) -> Self:
-        """Give it a scale that is neither too small nor too large."""
+        """Clamp the scale."""
         return replace(self, scale=min(max(self.scale, LEAST_SCALE), LARGEST_SCALE))
 
 
@@ -66,7 +66,7 @@ class PhotoSource:
 
 @dataclass(frozen=True, slots=True)
 class PhotoFrame:
-    """A photo as it is read: along the other axis, a rectangle of it is another."""
+    """A photo and how it is read, which the coordinates of a rectangle depend on."""
 
     path: Path
     shape: tuple[int, ...] = ()  # rows and columns; empty where it was not read yet
@@ -82,7 +82,7 @@ class Asked:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class MatchAsked(Asked):
-    """A match that was asked for: the scene and the choices at that time, and what is matched."""
+    """The request of a match: the scene and the choices at that time, and the part."""
 
     scene: Scene
     choice: MatchChoice
@@ -99,7 +99,7 @@ class Placed:
 
 @dataclass(frozen=True, slots=True)
 class PhotoChoice:
-    """What the user has set about photos; what belongs to another one than is shown is idle."""
+    """What the user has set about photos; what belongs to a photo that is not shown is idle."""
 
     path: Path | None = None  # the photo that is open, or about to be; None for none
     reading: PhotoReading = field(default_factory=PhotoReading)
@@ -124,14 +124,14 @@ class PhotoChoice:
 
     @property
     def rectangle(self) -> Region | None:
-        """The rectangle of what is matched, which a session keeps; None for the whole photo."""
+        """The rectangle that is matched, as a session keeps it; None for the whole photo."""
         parts = [part for frame, part in self.parts.items() if frame.path == self.path]
         if not parts:
             return None
         return parts[-1] if isinstance(parts[-1], Region) else parts[-1].region
 
     def opened(self, path: Path) -> Self:
-        """Open a photo: what is certain of one of the table is so of all of them."""
+        """Open a photo; what is certain of one photo of the table is certain of all."""
         opened = replace(self, path=path, opening=next(_openings))
         is_listed = path in self.listed and self.path in (None, *self.listed)
         return opened if is_listed or path == self.path else opened.uncertain()
@@ -140,12 +140,12 @@ class PhotoChoice:
         return replace(self, path=None, parts={}).uncertain()
 
     def shown_by(self, frequency: float) -> Self:
-        """Begin with the form as at first, the switching frequency in Hz being certain."""
+        """Reset the form, with the switching frequency in Hz being certain."""
         certain = {"switching_frequency": frequency}
         return replace(self, form=MatchChoice(), certain=certain, forgotten={})
 
     def uncertain(self) -> Self:
-        """Take no value as certain any more, and say so of those that were."""
+        """Take no value as certain any more, and note those that were."""
         return replace(self, certain={}, forgotten={**self.forgotten, **self.certain})
 
     def with_certain(self, name: str, value: float | None) -> Self:

@@ -26,7 +26,7 @@ class OpenPhoto:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class StripeSearch:
-    """The stripes of a photo or of a part of it, or a sentence why there are none."""
+    """The stripes of a photo or of a part of it, or why there are none."""
 
     stripes: "Stripes | None"
     sentence: str
@@ -45,13 +45,13 @@ class FoundMatch:
     is_listed: bool = False
 
     def refusal_of(self, part: "Lamp | Region | None") -> tuple[str, ...]:
-        """Return the reasons why there is no match of this part; empty where it was not refused."""
+        """Return why there is no match of this part; empty where it was not refused."""
         return self.refusal if part == self.refused_part else ()
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ListedRows:
-    """What was found in the photos of the table so far, and how they were read."""
+    """What was found so far in the photos of the table, and how they were read."""
 
     rows: "tuple[PhotoRow, ...]"
     reading: PhotoReading
@@ -67,8 +67,6 @@ class ListedRows:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class PhotoProfile:
-    """A photo's profile in the columns of a simulated one."""
-
     # Both profiles compared, None if ``sentence`` says why that is impossible
     comparison: "Comparison | None"
     # Shape (columns of the photo,): mean of each column of the whole photo, in grey levels

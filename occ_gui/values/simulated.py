@@ -1,4 +1,4 @@
-"""What is simulated: a scene with settings, by which pictures and pins are known."""
+"""A scene with settings, by which simulated pictures and pins are identified."""
 
 from dataclasses import dataclass, field
 from typing import TypeAlias
@@ -8,7 +8,7 @@ from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 
 LEAST_DRAFT_STEP = 4
-"""Rows of the picture that a row of a draft stands for at least: fewer are no sooner there."""
+"""Fewest rows of the picture for each row of a draft: with fewer it is no faster."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,7 +24,7 @@ class SimulationRequest:
 
 @dataclass(frozen=True, slots=True)
 class PinnedScene:
-    """What was pinned, and the preset that its scene was changed from; empty for none."""
+    """A pinned request, and the preset of its scene; empty for none."""
 
     request: SimulationRequest
     preset: str = ""

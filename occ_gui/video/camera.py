@@ -16,7 +16,7 @@ from occ_model.errors import VideoError, one_line
 from occ_model.video.file.quiet import quiet_opencv
 
 AXES = ("lines", "columns")
-"""What of a source's pictures the rolling shutter scans, the usual one first."""
+"""Axes of a source's pictures that the rolling shutter scans, the usual one first."""
 
 _DEVICES = Path("/sys/class/video4linux")
 
@@ -38,12 +38,12 @@ class LivePicture:
 
 
 class FrameSource(Protocol):
-    """What gives pictures one after the other; used by one thread at a time."""
+    """A source of successive pictures; used by one thread at a time."""
 
     title: str
 
     axis: str
-    """What of its pictures the rolling shutter usually scans: ``"lines"`` or ``"columns"``."""
+    """Axis that the rolling shutter usually scans: ``"lines"`` or ``"columns"``."""
 
     def open(self) -> None: ...
 
@@ -51,10 +51,10 @@ class FrameSource(Protocol):
         """Wait for the next picture; None where there are no more, as of a camera unplugged."""
 
     def lock_exposure(self, on: bool) -> bool:
-        """Hold the exposure, or let the source choose it; False where it does not know how to."""
+        """Lock the exposure, or let the source choose it; False if it cannot."""
 
     def close(self) -> None:
-        """End filming; a source that is not open stays so."""
+        """Close the source, if it is open."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,12 +64,12 @@ class CameraDevice:
 
 
 def find_cameras(devices: Path = _DEVICES) -> tuple[CameraDevice, ...]:
-    """List the cameras; where the system has no list, each of the first is opened for a moment."""
+    """List the cameras; where the system has no list, try to open each of the first."""
     return tuple(_listed(devices) if _IS_LINUX else _probed())
 
 
 def _listed(devices: Path) -> Iterator[CameraDevice]:
-    """List the devices that film: the first of the nodes that each camera has."""
+    """List the capture devices: the first node of each camera."""
     for number, folder in sorted(_numbered(devices)):
         if _text_in(folder / "index") in ("", "0"):
             yield CameraDevice(number, _text_in(folder / "name") or f"/dev/video{number}")
@@ -134,7 +134,7 @@ class CameraSource:
         return LivePicture(monotonic() - self._began, np.asarray(pixels, dtype=np.uint8))
 
     def lock_exposure(self, on: bool) -> bool:
-        """Hold the exposure time of the moment, or let the camera choose it."""
+        """Lock the present exposure time, or let the camera choose it."""
         capture = self._capture
         if capture is None:
             return False

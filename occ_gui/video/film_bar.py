@@ -52,7 +52,7 @@ class FilmBar(QWidget):
         self.show_reading(False)
 
     def show_film(self, title: str, *, is_film: bool, is_live: bool) -> None:
-        """Show what is read: a film, a camera's picture, or the simulated film where neither is."""
+        """Show what is read: a film, a camera's picture, or else the simulated film."""
         self.title.set_full_text(title)
         self.close_film.setVisible(is_film or is_live)
         self.close_film.setText("Stop camera" if is_live else "Close")
@@ -121,7 +121,7 @@ class Transport(QWidget):
             self.play.rename("play", "Play", "Play the film at its own speed (Space).")
 
     def show_place(self, index: int, count: int | None, time: float | None) -> None:
-        """Show which frame is seen, of how many, and its time in seconds."""
+        """Show the index of the frame, the number of frames, and the time in seconds."""
         if time is None:
             self.place.set_full_text("")
             return
@@ -129,6 +129,5 @@ class Transport(QWidget):
         self.place.set_full_text(f"frame {index + 1}{of_all}, {time:.4f} s")
 
     def set_usable(self, usable: bool) -> None:
-        """Let the buttons be pressed while there is a film of several frames."""
         for button in (self.back, self.play, self.on):
             button.setEnabled(usable)

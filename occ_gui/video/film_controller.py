@@ -22,7 +22,7 @@ _DRAFT_STEP = 8  # a draft of the simulated frame shows one of so many rows, whi
 
 
 class FilmPlayer(QObject):
-    """Plays a film at its own speed: frames that would come late are left out."""
+    """Plays a film at its own speed, skipping frames that would be late."""
 
     wanted = Signal(int)  # the number of the frame that is to be shown
 
@@ -44,13 +44,13 @@ class FilmPlayer(QObject):
         return self._turns.isActive()
 
     def set_film(self, count: int, rate: float | None) -> None:
-        """Stop, and begin at the first frame of a film of so many frames at this rate."""
+        """Stop, and rewind to the start of a film of so many frames at this rate."""
         self.pause()
         self.index, self.count = 0, count
         self._rate = rate or USUAL_RATE
 
     def set_count(self, count: int) -> None:
-        """Set how many frames there are, where that is found out by reading the film."""
+        """Set the number of frames, where it is found by reading the film."""
         self.count = count
         if self.index >= count > 0:
             self.seek(count - 1)
@@ -88,7 +88,7 @@ class FilmPlayer(QObject):
         self.seek(self.index + frames)
 
     def advance(self) -> None:
-        """Show the frame whose time has come."""
+        """Show the frame that is due."""
         passed = 1e-3 * self._clock.elapsed()
         index = min(self._began_at + int(passed * self._rate), self.count - 1)
         if index > self.index:
@@ -110,7 +110,7 @@ class FilmController(QObject):
     """The film that is open, the frame that is shown of it, and the simulated film beside it."""
 
     opened = Signal(object)
-    """The Video that is open now, None where there is only the simulated one."""
+    """The open Video, None for the simulated one."""
 
     failed = Signal(str)  # why a film cannot be opened; what was open stays
 
@@ -122,9 +122,9 @@ class FilmController(QObject):
         super().__init__()
         self._scenes, self._store = scenes, scenes.store
         self._settled = replace(self.choice, path=None)
-        """What belongs to the film that is shown: one that was chosen before is not yet."""
+        """The choices of the film that is shown; one chosen since is not shown yet."""
         self.film: Video | None = None
-        """The film that is open; None where there is only the simulated one."""
+        """The open film; None for the simulated one."""
         self.is_live = False  # whether the film is a camera's, which keeps no frames
         self.last_live: VideoFrame | None = None
         """The last frame of a camera, which stays when the camera is gone."""
@@ -154,7 +154,7 @@ class FilmController(QObject):
 
     @property
     def count(self) -> int:
-        """How many frames there are, 0 where it is not known."""
+        """Number of frames, 0 if unknown."""
         if self.film is None:
             return self.choice.frames
         return self.film.frame_count or 0
@@ -164,17 +164,13 @@ class FilmController(QObject):
         return self.choice.recording.frame_rate if self.film is None else self.film.frame_rate
 
     def simulated(self) -> Video:
-        """Return the simulated film of the present scene.
-
-        Raises OccError where the scene cannot be recorded so.
-        """
+        """Return the present scene's film; raises OccError where it cannot be recorded."""
         return occ.render_video(
             self._scenes.scene, self.choice.frames, self.choice.recording,
             settings=self._scenes.settings.settings,
         )  # fmt: skip
 
     def set_seen(self, seen: bool) -> None:
-        """Simulate and read frames while the pane is visible."""
         self._is_seen = seen
         if seen:
             self.show()
@@ -182,9 +178,9 @@ class FilmController(QObject):
             self.player.pause()
 
     def open(self, path: Path, axis: str = SCAN_AXES[0]) -> None:
-        """Open a film; what is open stays until it can be shown.
+        """Open a film; the present one stays until it can be shown.
 
-        ``axis``: what of its pictures the shutter scanned, one of SCAN_AXES.
+        ``axis``: the axis that the shutter scanned, one of SCAN_AXES.
         """
         self.edit(lambda choice: choice.opened(path, axis))
 
@@ -229,7 +225,7 @@ class FilmController(QObject):
             self.show()
 
     def show(self) -> None:
-        """Show the frame that the player has come to, once the pane is seen."""
+        """Show the player's frame, if the pane is visible."""
         if not self._is_seen or (self.is_live and self.last_live is None):
             return
         is_fast = self.player.is_playing or self.is_live

@@ -12,8 +12,6 @@ from occ_model.video.frame_times import LEAST_BREAK
 
 
 class MarkState(IntEnum):
-    """Whether a frame or a packet was read."""
-
     PENDING = 0
     READ = 1  # read: a frame whose place in what is sent is known, a packet that is as all others
     UNCHECKED = 2  # read, but nothing says whether it is right, or where it belongs
@@ -22,7 +20,7 @@ class MarkState(IntEnum):
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Marks:
-    """Marks, in order of time but where a film states another one."""
+    """Marks in the order of time, unless the film's own times are not."""
 
     # Shape (marks,): when each begins and ends, in seconds
     starts: FloatArray = field(default_factory=lambda: np.zeros(0))
@@ -35,7 +33,7 @@ class Marks:
 
     @property
     def extent(self) -> tuple[float, float]:
-        """When the first of them begins and the last one ends, in seconds."""
+        """Start of the first mark and end of the last one, in seconds."""
         return (float(self.starts.min()), float(self.ends.max())) if len(self) else (0.0, 0.0)
 
     def counted(self, edges: FloatArray) -> IndexArray:
@@ -47,10 +45,9 @@ class Marks:
 
 
 def frame_marks(times: Sequence[float] | FloatArray, states: ByteArray, last: float) -> Marks:
-    """Return a mark for each frame, which lasts until the next one begins, if that is soon.
+    """Return a mark for each frame, which lasts until the next one, if that is soon.
 
-    ``states``: shape (frames,): whether each was read.
-    ``last``: how long the last one lasts, in seconds.
+    ``states``: shape (frames,). ``last``: duration of the last frame, in seconds.
     """
     starts = np.asarray(times, dtype=np.float64)
     if not len(starts):

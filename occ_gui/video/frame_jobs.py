@@ -122,9 +122,7 @@ def _shown(image: ByteArray, story: FrameStory, caption: str) -> ShownPicture:
 def _story(frame: VideoFrame, scene: Scene, request: FrameRequest | None, whose: str) -> FrameStory:
     """Read one frame by itself.
 
-    ``frame``, ``scene``: the frame, and what is known of it; of a simulated one the very scene that
-    it shows.
-    ``request``: what was asked for where it is simulated, else None.
+    ``scene``: what is known of it; of a simulated frame its own scene, with its ``request``.
     """
     image = frame.image
     step = 1

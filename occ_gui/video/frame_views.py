@@ -25,8 +25,6 @@ _LEAST = QSize(140, 90)
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ShownPicture:
-    """A picture of a frame, ready to be drawn."""
-
     image: ByteArray  # shape (rows, columns): the picture
     halves: tuple[ByteArray, ...]
     region: Region | None  # what was read of it, None where nothing was found

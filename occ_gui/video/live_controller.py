@@ -24,19 +24,19 @@ from occ_model.results.video import Video, VideoFrame
 from occ_model.scene.scene import Scene
 
 _JOIN_SECONDS = 5.0
-"""How long is waited for a device that does not answer before the program goes on without it."""
+"""Longest wait, in seconds, for a device that does not answer."""
 
 _TURN_MS = 30  # milliseconds between two pictures on the screen
 
 
 class LiveVideo(Video):
-    """The pictures of a source as a film without an end, which loses what nobody had time for.
+    """The pictures of a source as a film without end, which drops those that are not read.
 
-    The source is opened, read and closed by a thread of its own, so that a picture that is still
-    being decoded never delays the next ones, and a device that hangs never holds up the window.
+    The source is opened, read and closed by a thread of its own, so that decoding never delays the
+    next pictures, and a device that hangs never blocks the window.
 
-    ``axis``: what of them the rolling shutter scans, one of AXES.
-    ``after``: the film before, whose device is to be released first.
+    ``axis``: the axis that the shutter scans, one of AXES. ``after``: the film before, whose device
+    is released first.
     """
 
     def __init__(
@@ -77,28 +77,28 @@ class LiveVideo(Video):
             self._changed.notify_all()
 
     def join(self) -> None:
-        """Wait until the device is released; not for ever, as a driver may hang."""
+        """Wait until the device is released, but not for ever: a driver may hang."""
         if self._thread.ident is not None:
             self._thread.join(_JOIN_SECONDS)
 
     def lock_exposure(self, on: bool, answer: Callable[[bool], None]) -> None:
-        """Hold the exposure or let it go, between two pictures; the answer says whether it could.
+        """Lock or release the exposure, between two pictures.
 
-        The answer comes from another thread.
+        ``answer`` is called from another thread with the success.
         """
         with self._changed:
             self._orders.append(lambda: answer(self.source.lock_exposure(on)))
 
     def frames(self, first: int = 0) -> Iterator[VideoFrame]:  # noqa: ARG002 - as of any film
-        """Return the newest picture whenever one is asked for, until there are no more.
+        """Yield the newest picture at each request, until there are no more.
 
-        Each is given once. ``first`` is not used: what has passed has passed.
+        Each is yielded once; ``first`` is ignored: past pictures are not kept.
         """
         while (frame := self._next()) is not None:
             yield frame
 
     def frame(self, index: int) -> VideoFrame:
-        """Refuse: what has passed has passed."""
+        """Refuse: past pictures are not kept."""
         raise VideoError(f"Frame {index} of {self.title} is not kept: it is a live film.")
 
     def _next(self) -> VideoFrame | None:
@@ -114,7 +114,7 @@ class LiveVideo(Video):
         return self.last
 
     def _grey(self, pixels: ByteArray) -> ByteArray:
-        """Take the luma, as of a film in a file, with the scan axis as columns."""
+        """Return the luma, as of a film in a file, with the scan axis as columns."""
         if pixels.ndim == 3:
             pixels = np.asarray(cv2.cvtColor(pixels, cv2.COLOR_BGR2GRAY), dtype=np.uint8)
         if self.axis == "lines":
@@ -199,9 +199,9 @@ class LiveController(QObject):
         self.start(CameraSource(device))
 
     def start(self, source: FrameSource, axis: str = "") -> None:
-        """Read what a source gives, in place of the film that is open.
+        """Read a source in place of the open film.
 
-        ``axis``: what of its pictures the shutter scans; by default what the source says.
+        ``axis``: the axis that the shutter scans; by default that of the source.
         """
         self.stop_filming()
         self.video = LiveVideo(source, axis or source.axis, self._last)
@@ -212,7 +212,7 @@ class LiveController(QObject):
         self._turns.start()
 
     def scan_along(self, axis: str) -> None:
-        """Set what the shutter scans: the camera is opened again."""
+        """Set the axis that the shutter scans, and reopen the camera."""
         if self.video is not None:
             self.start(self.video.source, axis)
 

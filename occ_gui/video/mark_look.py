@@ -44,7 +44,7 @@ _LEAST_OUTLINE = 4.0  # least width in pixels of a mark that is drawn with an ou
 
 
 def brush_of(state: MarkState, palette: QPalette) -> QBrush:
-    """Return the pattern of a state's marks in its colour; none where it is to come."""
+    """Return the brush of a state's marks; an empty one for frames to come."""
     return QBrush(colours_of(LOOKS[state].state, palette).ink, LOOKS[state].pattern)
 
 

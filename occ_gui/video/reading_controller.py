@@ -1,4 +1,4 @@
-"""Reading of a film in the background: its frames one by one, and again and again what is known."""
+"""Reading of a film in the background, with a summary of all frames now and then."""
 
 from collections import deque
 from dataclasses import dataclass
@@ -32,7 +32,7 @@ class ReadingRequest:
 
 
 def read_film(request: ReadingRequest, report: Report) -> FilmReading:
-    """Read a film from its first frame to its last; reports are FilmReadings."""
+    """Read a film from its first frame to its last, reporting FilmReadings."""
     collected, last = _Collected(request), monotonic()
     interval = _LIVE_INTERVAL if request.is_live else _INTERVAL
     for frame in request.film:
@@ -77,7 +77,7 @@ class _Collected:
             self.look()
 
     def look(self) -> None:
-        """Look at all frames together: later ones tell the places of earlier ones."""
+        """Read all frames together: later ones show the places of earlier ones."""
         if not self._frames:
             return
         began = monotonic()
@@ -113,7 +113,7 @@ class _Collected:
 
 
 def state_of_frame(frame: FrameReading) -> MarkState:
-    """Return whether a frame was read: its chips, and their place in what is sent."""
+    """Return whether a frame's chips were read, with their place in what is sent."""
     if frame.place is not None:
         return MarkState.READ
     return MarkState.UNCHECKED if frame.chips.size else MarkState.LOST
@@ -140,7 +140,7 @@ def marks_of_packets(packets: SentPackets) -> Marks:
 
 
 def _joined(before: Marks, after: Marks, first: float) -> Marks:
-    """Return marks of both, one after the other, from a time on."""
+    """Return both sequences of marks, from a time on."""
     if not len(before):
         return after
     last = float(after.starts[0]) if len(after) else np.inf
@@ -168,7 +168,7 @@ def sentences_of(
 
 
 def _losses(known: FilmProgress, whole: VideoReading) -> str:
-    """Say why packets are lost, and that their bits are not counted as wrong ones."""
+    """Explain lost packets, whose bits do not count as wrong."""
     where = "they were sent in the gap between two frames, or cut off by a frame's edge"
     if unplaced := known.frames - known.placed:
         where += f", or in one of {unplaced} frames that were not placed"

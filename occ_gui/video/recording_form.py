@@ -69,18 +69,16 @@ class RecordingForm(QWidget):
         return self.count.value()
 
     def show_recording(self, recording: Recording) -> None:
-        """Show this recording in place of the previous one, without a signal."""
         self.recording = recording
         for name, field in self.fields.items():
             field.set_value(getattr(recording, name))
 
     def show_frames(self, frames: int) -> None:
-        """Show how many frames the film has, without a signal."""
         with QSignalBlocker(self.count):
             self.count.setValue(frames)
 
     def show_scene(self, scene: Scene) -> None:
-        """Show what a film of this scene misses between two frames, or why there is none."""
+        """Show what a film of this scene misses between frames, or why there is none."""
         try:
             self.recording.check(scene)
         except OccError as error:

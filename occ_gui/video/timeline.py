@@ -23,12 +23,12 @@ from occ_gui.widgets.columns import round_step
 from occ_gui.widgets.guarded_paint import guarded
 
 _LEAST_GUTTER, _BESIDE, _MARGIN = 64, 6, 10
-"""Pixels at the left at least, around the names of the rows, and at the right."""
+"""Pixels at the left at least, around the rows' names, and at the right."""
 
 _FRAMES, _PACKETS, _TICKS, _GAP = 24, 18, 18, 4
 _LEAST_SPACING = 80.0  # fewest pixels between two ticks
 _LEAST_MARK = 3.0
-"""Fewest pixels of a mark that is drawn by itself; narrower ones are counted in bins."""
+"""Least width in pixels of a single mark; narrower ones are counted in bins."""
 
 _STEPS = {
     Qt.Key.Key_Left: -1, Qt.Key.Key_Right: 1,
@@ -98,7 +98,6 @@ class Timeline(QWidget):
     # Where things are.
 
     def _gutter(self) -> int:
-        """Return the room that the names of the rows need."""
         names = "frames", "packets"
         widest = max(map(self.fontMetrics().horizontalAdvance, names))
         return max(widest + 2 * _BESIDE, _LEAST_GUTTER)
@@ -109,12 +108,12 @@ class Timeline(QWidget):
         return QRectF(gutter, _GAP, width, _FRAMES + _GAP + _PACKETS)
 
     def x_of(self, time: float) -> float:
-        """Return where a time lies, in pixels from the left."""
+        """Return the position of a time, in pixels from the left."""
         area, span = self._area(), self._last - self._first
         return area.left() + ((time - self._first) / span * area.width() if span > 0.0 else 0.0)
 
     def frame_at(self, x: float) -> int:
-        """Return the frame at a pixel, the first or last one beside the film."""
+        """Return the frame at a pixel, clamped to the film."""
         area = self._area()
         time = self._first + (x - area.left()) / area.width() * (self._last - self._first)
         order = np.argsort(self.frames.starts, kind="stable")  # some films state another one
@@ -178,7 +177,7 @@ class Timeline(QWidget):
             draw_mark(painter, cell.intersected(place), MarkState(state), palette)
 
     def _draw_bins(self, painter: QPainter, place: QRectF, marks: Marks) -> None:
-        """Draw how many of the marks that share a few pixels are in each state, one on another."""
+        """Draw stacked counts of the states of marks that fall on a few pixels."""
         bins = max(1, int(place.width() / _LEAST_MARK))
         counts = marks.counted(np.linspace(self._first, self._last, bins + 1))
         painter.setPen(Qt.PenStyle.NoPen)
@@ -272,10 +271,9 @@ class Timeline(QWidget):
 
 
 def tick_step(span: float, width: float) -> tuple[float, int]:
-    """Return the seconds between two ticks, and the decimals that tell them apart.
+    """Return the step between ticks in seconds, and its decimals.
 
-    ``span``: the time in view, in seconds; more than zero.
-    ``width``: the pixels that it takes.
+    ``span``: the time in view, in seconds, more than zero. ``width``: its pixels.
     """
     step = round_step(span * _LEAST_SPACING / max(width, 1.0) * 0.999)
     return step, max(0, -math.floor(math.log10(step * 1.001)))

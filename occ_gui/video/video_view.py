@@ -31,13 +31,13 @@ _MOST_TEXT = 200_000  # most characters of the text that are kept on the screen:
 _LEAST_HEIGHT = 40
 
 _LARGE_PICTURE_PERCENT = 80
-"""Percent of the height that the pictures take where they are to be seen large."""
+"""Height of large pictures, in percent of the pane."""
 
 _LEAST_FORM = QSize(240, 80)
 
 
 class DataView(QWidget):
-    """The text as it comes in, beside the facts of the reading, and its sentences."""
+    """The received text, the facts of the reading, and remarks."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -131,14 +131,14 @@ class VideoView(QWidget):
         self._outdated = [OutdatedMark(part) for part in (self.data, self.timeline)]
 
     def _size_by_page(self) -> None:
-        """Let only the page that is shown need height: the pictures get what is left."""
+        """Let only the visible page need height: the pictures get what is left."""
         kinds = QSizePolicy.Policy
         for page in self._pages:
             is_shown = page is self.pages.currentWidget()
             page.setSizePolicy(kinds.Preferred, kinds.Expanding if is_shown else kinds.Ignored)
 
     def show_message(self, sentence: str) -> None:
-        """Show what is wrong with the film or the camera; empty for nothing."""
+        """Show an error of the film or the camera; empty for none."""
         self.message.setText(sentence)
         self.message.setVisible(bool(sentence))
 
@@ -160,5 +160,5 @@ class VideoView(QWidget):
             mark.show_age(1.0 if outdated else 0.0, "read for an earlier scene")
 
     def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 - Qt's name
-        """Step, seek and play by the keys of the timeline, wherever they are not used."""
+        """Apply the keys of the timeline wherever no other widget uses them."""
         self.timeline.keyPressEvent(event)

@@ -1,4 +1,4 @@
-"""Connections of the film: its pane with what opens it, shows it, reads it, and films."""
+"""Connections of the film's pane with opening, showing, reading and filming."""
 
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -118,7 +118,7 @@ class VideoWiring(Pane[FilmChoice]):
         return all(task.is_idle for task in self.tasks if task is not endless)
 
     def set_seen(self, seen: bool) -> None:
-        """Show frames while the pane is visible; a camera is released with it."""
+        """Show frames while the pane is visible; a hidden one releases its camera."""
         if not seen:
             self.live.stop_filming()
             self._show_bar()
@@ -214,7 +214,7 @@ class VideoWiring(Pane[FilmChoice]):
         self.view.show_message(sentence)
 
     def _scan_along(self, axis: str) -> None:
-        """Read the film or the camera anew, scanned along another axis."""
+        """Read the film or the camera anew, along another axis."""
         if self.live.is_filming:
             self.live.scan_along(axis)
         elif self.path is not None:
@@ -259,7 +259,7 @@ class VideoWiring(Pane[FilmChoice]):
         view.transport.show_place(index, count, shown.time)
 
     def _instead_of_film(self) -> str:
-        """Return what stands in the place of a film's frame while there is none."""
+        """Return the text in place of a film's frame while there is none."""
         if self.films.film is not None or self.films.is_live:
             return "The frame is on its way."
         return "Open a film, or use a camera, to see it beside the simulated one."
@@ -280,7 +280,7 @@ class VideoWiring(Pane[FilmChoice]):
         self.view.show_outdated(scene is not None and scene != self._scenes.scene)
 
     def _frames(self) -> Marks:
-        """Return the marks of all frames: of those read, and of those still to come."""
+        """Return the marks of frames read and of those still to come."""
         reading = self.readings.reading
         read = len(reading.times)
         step = 1.0 / (self.films.rate or USUAL_RATE)

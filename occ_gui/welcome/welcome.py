@@ -37,7 +37,7 @@ class Door(QPushButton):
         self._draw()
 
     def size_for(self, width: int = _LEAST_SIDE) -> QSize:
-        """Return the size that shows all texts, at least as wide as asked for and no narrower."""
+        """Return the size that shows all texts, at least of this width."""
         width = max(width, self._layout.minimumSize().width())
         return QSize(width, max(_LEAST_SIDE, self._layout.heightForWidth(width)))
 
@@ -128,7 +128,7 @@ class Welcome(Service):
         self.dialog.activateWindow()
 
     def enter(self, door: str) -> None:
-        """Lay the window out for what is behind a door, and begin it."""
+        """Arrange the window for the task behind a door, and begin it."""
         self._window.modes.switch(_MODES[door])
         if door == "learn":
             self._window.bring_to_front("lessons")

@@ -14,7 +14,7 @@ from occ_gui.widgets.guarded_paint import guarded
 _NUMBER_LENGTH = {"left": 18.0, "bottom": 36.0}  # pixels that a number occupies along the axis
 
 _LEAST_SPACING = 3.0
-"""Least distance in pixels of ticks without numbers, where they stand at powers of ten."""
+"""Least distance, in pixels, of unnumbered ticks at powers of ten."""
 
 _LEAST_NUMBERS = 2  # powers of ten in view below which other round values are numbered
 
@@ -33,10 +33,7 @@ class Axis(pg.AxisItem):  # type: ignore[misc]  # pyqtgraph has no types
     def generateDrawSpecs(  # noqa: N802 - pyqtgraph's name
         self, painter: QPainter
     ) -> tuple[Any, Any, list[tuple[QRectF, Any, str]]] | None:
-        """Lay out the axis, with each number at a whole pixel.
-
-        Between two pixels one version of Qt draws a text at the upper, another at the lower.
-        """
+        """Lay out the axis, with numbers at whole pixels: between them Qt's versions differ."""
         found = super().generateDrawSpecs(painter)
         if found is None:
             return None

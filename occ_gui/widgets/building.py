@@ -26,7 +26,7 @@ def filled(
     margins: int | tuple[int, int, int, int] | None = None,
     spacing: int | None = None,
 ) -> Box:
-    """Fill a layout; margins and spacing that are not given are those of the style."""
+    """Fill a layout; margins and spacing default to those of the style."""
     if margins is not None:
         left, top, right, bottom = (margins,) * 4 if isinstance(margins, int) else margins
         layout.setContentsMargins(left, top, right, bottom)
@@ -73,7 +73,7 @@ def push_button(
 def check_box(
     text: str, tip: str = "", do: Callable[..., object] | SignalInstance | None = None
 ) -> QCheckBox:
-    """Make a box whose switching, by the user or not, is told."""
+    """Make a check box; ``do`` is called at every change, by the user or not."""
     made = QCheckBox(text)
     made.setToolTip(tip)
     if do is not None:
@@ -82,7 +82,7 @@ def check_box(
 
 
 def read_only(table: Table, name: str, tip: str = "") -> Table:
-    """Let a table only be read: by whole rows, without their numbers; the Tab key leaves it."""
+    """Make a table read-only: whole rows without numbers; the Tab key leaves it."""
     table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
     table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
     table.verticalHeader().hide()
@@ -91,7 +91,7 @@ def read_only(table: Table, name: str, tip: str = "") -> Table:
 
 
 def paragraph(text: str = "", *, name: str = "", is_selectable: bool = False) -> QLabel:
-    """Make a label of plain text, wrapped where it is too long for one line."""
+    """Make a label of plain text with wrapping."""
     label = named(QLabel(text, wordWrap=True, textFormat=Qt.TextFormat.PlainText), name)
     if is_selectable:
         label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)

@@ -11,7 +11,7 @@ from occ_gui.widgets.colours import seen_on
 _LEAST_FOR_DIGIT = 7.5
 
 _MIN_FITTING_FRACTION = 0.6
-"""Fraction of the cells that must have room for a digit: at the edges are parts of cells."""
+"""Least fraction of the cells with room for a digit: those at the edges are cut off."""
 
 _FADED_OPACITY = 0.45
 
@@ -26,9 +26,9 @@ def _digit(value: int) -> QStaticText:
 def draw_digits(
     painter: QPainter, cells: Sequence[tuple[int, QRectF]], within: QRectF | None = None
 ) -> None:
-    """Write each chip's digit into the middle of its cell, where that is wide enough.
+    """Write each chip's digit into its cell, where there is room.
 
-    ``within``: the area that is seen: a digit that it would cut off is left out.
+    ``within``: the visible area; a digit that it cuts off is left out.
     """
     size = painter.fontMetrics().size(0, "0")
     width, height = size.width(), size.height()
@@ -41,7 +41,7 @@ def draw_digits(
 
 
 def have_room_for_digits(cells: Sequence[tuple[int, QRectF]]) -> bool:
-    """Return whether most cells have room for their digits: else none has one."""
+    """Return whether most cells have room for their digits; else none gets one."""
     wide = sum(cell.width() >= _LEAST_FOR_DIGIT for _, cell in cells)
     return wide >= _MIN_FITTING_FRACTION * len(cells)
 
@@ -54,10 +54,7 @@ def draw_chips(
     certain: bool = True,
     within: QRectF | None = None,
 ) -> None:
-    """Draw chips, each a 0 or 1 with its place; those that are not certain are faded.
-
-    Digits stay readable: on a faded cell the colour of text is seen, whatever it is.
-    """
+    """Draw chips at their places; uncertain ones are faded, with digits in the colour of text."""
     lit = seen_on(palette, colour)
     base, text = (
         palette.color(role) for role in (QPalette.ColorRole.Base, QPalette.ColorRole.Text)

@@ -28,8 +28,6 @@ class Chip:
 
 
 class ChipLabel(QWidget):
-    """A chip as a rounded label with the icon of its state."""
-
     def __init__(self, chip: Chip, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._text = QStaticText()
@@ -146,7 +144,7 @@ def plain_text_of(html: str) -> str:
 
 
 def _taken(labels: list[ChipLabel], chip: Chip) -> ChipLabel | None:
-    """Take a label for a chip, best one that shows the like; None where there is none left."""
+    """Take a label for a chip, preferably one that looks the same; None if none is left."""
     if not labels:
         return None
     alike = (place for place, label in enumerate(labels) if label.chip.key == chip.key)

@@ -1,4 +1,4 @@
-"""Colours and pens that plots, rows and legends share, seen on their background by WCAG 2.1."""
+"""Colours and pens of plots, rows and legends, with sufficient contrast by WCAG 2.1."""
 
 from functools import lru_cache
 
@@ -43,7 +43,7 @@ def _seen(paper_rgba: int, ink_rgba: int) -> QColor:
 
 
 def mixed(one: QColor, other: QColor, fraction: float) -> QColor:
-    """Return the opaque colour that a fraction of one colour over another has."""
+    """Return the opaque colour of one colour over another, at this opacity."""
     parts = zip(one.getRgb()[:3], other.getRgb()[:3], strict=True)  # type: ignore[index]
     return QColor(*(round(fraction * a + (1.0 - fraction) * b) for a, b in parts))
 

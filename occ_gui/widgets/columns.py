@@ -1,4 +1,4 @@
-"""What axes over columns share, without a plot: round steps, and the periods first in view."""
+"""Common to axes over columns, without a plot: round steps, and the periods first in view."""
 
 import math
 

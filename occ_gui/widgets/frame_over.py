@@ -1,4 +1,4 @@
-"""A frame drawn over a widget, whatever the style of that; it lets the mouse through."""
+"""A frame drawn over a widget of whatever style; it lets the mouse through."""
 
 from collections.abc import Callable
 
@@ -12,7 +12,7 @@ _WIDTH = 2
 
 
 class FrameOver(QWidget):
-    """``place``: where it lies in its parent, asked for whenever ``watched`` has moved."""
+    """``place`` returns where it lies in its parent, whenever ``watched`` has moved."""
 
     def __init__(
         self,

@@ -63,7 +63,7 @@ def pixmap(name: str, colour: QColor, size: int, ratio: float) -> QPixmap:
 class IconButton(QToolButton):
     """A flat button that shows an icon.
 
-    ``size``: its width and height, independent of the screen.
+    ``size``: width and height, independent of the screen.
     """
 
     def __init__(self, drawing: str, size: int) -> None:

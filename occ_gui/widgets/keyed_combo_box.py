@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QComboBox, QSizePolicy
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
 
 _POPUP_MARGIN = 36
-"""Pixels that a list takes beside its words: margins, and a scroll bar where it is long."""
+"""Pixels of a list besides its words: margins and scroll bar."""
 
 
 class KeyedComboBox(QComboBox):
@@ -33,7 +33,7 @@ class KeyedComboBox(QComboBox):
         self.activated.connect(lambda: self.chosen.emit(self.key()))
 
     def showPopup(self) -> None:  # noqa: N802 - Qt's name
-        """Open the list as wide as its widest word, however narrow the box is."""
+        """Open the list as wide as its widest word, however narrow the box."""
         words = (self.itemText(place) for place in range(self.count()))
         widest = max(map(self.fontMetrics().horizontalAdvance, words), default=0)
         self.view().setMinimumWidth(widest + _POPUP_MARGIN)
@@ -43,5 +43,4 @@ class KeyedComboBox(QComboBox):
         return str(self.currentData())
 
     def show_key(self, key: str) -> None:
-        """Show the word of a key without emitting a signal."""
         self.setCurrentIndex(self.findData(key))

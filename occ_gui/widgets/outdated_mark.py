@@ -1,4 +1,4 @@
-"""Mark of an outdated result: a veil over the pane, with a word that says why."""
+"""Mark of an outdated result: a veil over the pane, with the reason."""
 
 import math
 
@@ -32,7 +32,7 @@ class OutdatedMark(QWidget):
     def show_age(self, age: float, text: str) -> None:
         """Mark the pane once its result has been outdated for a moment.
 
-        ``age``: for how many seconds it has been outdated; zero if it is not.
+        ``age``: seconds since it was outdated; zero if it is not.
         """
         if age == 0.0 and self.isHidden() and not self._waiting.isActive():
             return

@@ -1,4 +1,4 @@
-"""Plots: axes and limits of zooming that all share, and the legend beside one."""
+"""Plots: common axes and limits of zooming, and the legend beside one."""
 
 from collections.abc import Callable
 from typing import TypeAlias
@@ -130,8 +130,8 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph has no types
     def limit(self, side: str, farthest: float, least_span: float) -> None:
         """Limit panning and zooming to what can be drawn.
 
-        ``farthest``: the largest distance from zero in view, in the axis's unit.
-        ``least_span``: the smallest range in view, in the axis's unit.
+        In the axis's unit, ``farthest`` is the largest distance from zero in view, ``least_span``
+        the smallest range.
         """
         axis = "X" if side == "bottom" else "Y"
         ends = {f"{axis.lower()}Min": -farthest, f"{axis.lower()}Max": farthest}

@@ -1,4 +1,4 @@
-"""State bar: a state in large letters, why it is so below, and chips at the right."""
+"""State bar: a state in large letters, its reason below, and chips at the right."""
 
 import math
 from collections.abc import Sequence
@@ -169,7 +169,6 @@ class StateBar(QWidget):
 
     @guarded
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
-        """Draw the coloured area, with a line of the same ink at its left."""
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         colours = colours_of(self.state, self.palette())

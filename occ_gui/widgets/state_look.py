@@ -35,7 +35,7 @@ _COLOURS = {
     State.BAD: (("#8c1d18", "#fbdedb"), ("#ffb8b0", "#521a16")),
     State.NEUTRAL: (("#2b2b2b", "#e2e4e8"), ("#ececec", "#4a4d52")),
 }
-"""Ink and paper, in the light and in the dark."""
+"""Colours of ink and paper, in the light and in the dark theme."""
 
 
 def is_dark(palette: QPalette) -> bool:

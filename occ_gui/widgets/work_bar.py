@@ -11,8 +11,6 @@ _PATIENCE_MS = 300  # work that takes less time is not shown: the bar would only
 
 
 class WorkBar(QWidget):
-    """A progress bar and a cancel button, hidden while there is no work."""
-
     cancelled = Signal()
 
     def __init__(self, what: str, parent: QWidget | None = None) -> None:

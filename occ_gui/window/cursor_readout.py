@@ -1,4 +1,4 @@
-"""Cursor readout: column, row and grey level at the mouse, as a text for the status line."""
+"""Cursor readout: column, row and grey level at the mouse, for the status line."""
 
 from collections.abc import Callable
 
@@ -53,7 +53,7 @@ def follow_profile(profile: ProfileView, show: Callable[[str], None]) -> None:
 
 
 def follow_pictures(image: ImageView, show: Callable[[str], None]) -> None:
-    """Show column, row and level under the mouse in picture and photo, as above."""
+    """Show column, row and level under the mouse in picture and photo; empty outside."""
 
     def place(pane: PicturePane, point: QPointF) -> tuple[int, int]:
         at = pane.box.mapSceneToView(point)

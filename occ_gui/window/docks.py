@@ -13,7 +13,7 @@ _STEP = 24  # pixels by which a floated pane is moved from its place, so that it
 
 
 def beside(place: QRect, screen: QRect) -> QRect:
-    """Return where a pane floats that stood at a place: near it, and whole on the screen."""
+    """Return where a pane floats: near its former place, and whole on the screen."""
     size = QSize(min(place.width(), screen.width()), min(place.height(), screen.height()))
     corner = place.topLeft() + QPoint(_STEP, _STEP)
     return QRect(

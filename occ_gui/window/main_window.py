@@ -26,7 +26,7 @@ _LEAST_BELOW = 530  # pixels of width that each pane below the middle may need
 _FIRST_SIZE = QSize(1280, 800)
 _PROPAGATED = Qt.ApplicationAttribute.AA_UseStyleSheetPropagationInWidgetStyles
 _WITH_PICTURE = "photo"
-"""The pane that is about what the whole picture shows: the photo stands beside it."""
+"""The pane that goes with the whole picture: the photo stands beside that."""
 
 _IN_STORY = ("profile", "decode")  # panes that show in detail what the story shows, too
 
@@ -78,7 +78,7 @@ class MainWindow(QMainWindow):
         return dock
 
     def _on_opened(self) -> None:
-        """Make room for a pane that the user has opened by the menu."""
+        """Make room for a pane opened by the menu."""
         dock = self.sender()
         if isinstance(dock, Dock):
             self._share_place(dock)
@@ -112,7 +112,7 @@ class MainWindow(QMainWindow):
         QTimer.singleShot(0, dock, lambda: self._give_place(dock, is_new))
 
     def _share_place(self, dock: Dock) -> None:
-        """Let a pane that has just opened be a tab beside another one where both have no room.
+        """Let a pane that has just opened be a tab of another one where both have no room.
 
         Qt would widen the window beyond the screen, and draw one pane over the other.
         """
@@ -151,7 +151,7 @@ class MainWindow(QMainWindow):
             self._share_height(dock)
 
     def _share_height(self, dock: Dock) -> None:
-        """Let a pane at a side have half of the height, if those above it need no more of it."""
+        """Give a pane at a side half of the height, if those above it can spare it."""
         above = [
             other
             for other in self.docks.values()
@@ -179,7 +179,7 @@ class MainWindow(QMainWindow):
         self._raise(name)
 
     def put_away(self, name: str) -> None:
-        """Hide a pane that the present mode does not show by itself."""
+        """Hide a pane that the present mode does not show."""
         if name not in MODES[self.modes.mode].panes:
             self.docks[name].hide()
 
@@ -205,11 +205,11 @@ class MainWindow(QMainWindow):
         self._status_line.showMessage(sentence)
 
     def leave_messages_to(self, *labels: QLabel) -> None:
-        """Show nothing in the status line that one of these labels shows meanwhile."""
+        """Suppress messages in the status line that one of these labels shows."""
         self._status_line.leave_to(*labels)
 
     def happened(self, what: str) -> None:
-        """Remove the sentence that is shown until this event."""
+        """Remove the message that is shown until this event."""
         if self._message_until == what:
             self._status_line.clearMessage()
 
@@ -229,7 +229,6 @@ class MainWindow(QMainWindow):
         return True
 
     def dress(self) -> None:
-        """Set the style sheet in the colours of the present theme."""
         sheet = style_sheet(QApplication.palette())
         if sheet != self.styleSheet():
             size = self.size()

@@ -20,10 +20,10 @@ _WITH_PHOTO = (
     "close_photo", "match", "use_settings", "find_lamps", "region_by_hand", "whole_photo",
     "export_overlay",
 )  # fmt: skip
-"""Entries that are enabled while a photo is open."""
+"""Entries enabled while a photo is open."""
 
 _WITH_MATCH = ("apply_match", "save_match")
-"""Entries that are enabled while there is the result of a match."""
+"""Entries enabled while there is the result of a match."""
 
 _SEARCH_WORDS = "search_words"  # the property of an action in which they stand
 
@@ -211,7 +211,7 @@ class Menus(QObject):
         entries: Mapping[str, tuple[str, str, str]],
         keys: str = "",
     ) -> QActionGroup:
-        """Add entries of which one is checked, in this order: by name text, tip and words.
+        """Add exclusive entries, in this order: by name text, tip and search words.
 
         ``keys``: their shortcuts, with braces for an entry's number, which counts from 1.
         """
@@ -300,7 +300,7 @@ class Menus(QObject):
         self._view.addAction(dock.toggleViewAction())
 
     def show_choice(self, group: QActionGroup, key: str) -> None:
-        """Check the entry of a group that stands for a key, without triggering it."""
+        """Check the entry of a key in a group, without triggering it."""
         for action in group.actions():
             if action.data() == key:
                 action.setChecked(True)
@@ -312,7 +312,6 @@ class Menus(QObject):
             self.actions[name].setEnabled(is_open)
 
     def show_match_found(self, is_found: bool) -> None:
-        """Enable the entries that need the result of a match while there is one."""
         for name in _WITH_MATCH:
             self.actions[name].setEnabled(is_found)
 
@@ -336,7 +335,7 @@ class Menus(QObject):
 
 
 def search_words(action: QAction) -> str:
-    """Return the words by which an entry is found besides those of its text."""
+    """Return the words by which an entry is found, besides its text."""
     return str(action.property(_SEARCH_WORDS) or "")
 
 

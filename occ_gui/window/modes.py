@@ -1,4 +1,4 @@
-"""Modes: the panes that a task needs, where they stand, and the change from one to another."""
+"""Modes: the panes of each task, their places, and the change between modes."""
 
 from binascii import crc32
 from collections.abc import Callable, Mapping
@@ -12,7 +12,7 @@ STORY, PICTURE = "story", "picture"
 """The pages in the middle: the way from light to bits, and the picture with the photo."""
 
 Groups = tuple[tuple[str, ...], ...]
-"""Panes from top to bottom; those of a group share a place, the first in front."""
+"""Panes from top to bottom; those of a group are tabs of one place, the first in front."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,7 +85,7 @@ MODES: Mapping[str, Mode] = MappingProxyType(
 HOMES: Mapping[str, str] = MappingProxyType(
     {mode.main: name for name, mode in MODES.items() if mode.main != PICTURE}
 )
-"""The mode that is about a pane, by the pane's name."""
+"""The mode of each pane that is a mode's main one."""
 
 
 _AREA = Qt.DockWidgetArea
@@ -97,13 +97,13 @@ _ELSEWHERE = {
     "lessons": _AREA.RightDockWidgetArea,
     "video": _AREA.RightDockWidgetArea,
 }
-"""Where a pane stands that the mode does not show; all others stand below."""
+"""Areas of panes that the mode does not show; all others stand below."""
 
 
 def arrange(window: QMainWindow, docks: Mapping[str, QDockWidget], mode: Mode) -> None:
     """Show the panes of a mode at their places, and hide all others.
 
-    Another pane, when it is asked for, stands at the right or below.
+    Other panes open at the right or below.
     """
     for dock in docks.values():
         window.removeDockWidget(dock)
@@ -168,7 +168,7 @@ class ModeSwitch(QObject):
         self._window, self._docks, self._show_page = window, docks, show_page
         self.mode = next(iter(MODES))
         self.layouts: dict[str, QByteArray] = {}
-        """What the other modes' layouts were when they were left, by name."""
+        """Layouts of the other modes when they were left, by name."""
         self.is_shown = False  # whether the window has been laid out
         self.version = 0  # the version of stored layouts: one of other panes is ignored
 
@@ -190,7 +190,7 @@ class ModeSwitch(QObject):
         self.changed.emit(name)
 
     def reset(self) -> None:
-        """Lay out the present mode as it was at first."""
+        """Restore the first layout of the present mode."""
         self.layouts.pop(self.mode, None)
         self._enter()
 
@@ -221,9 +221,9 @@ class ModeSwitch(QObject):
             window.setUpdatesEnabled(True)
 
     def _limit_sides(self, mode: Mode) -> None:
-        """Leave what the window gains in width to the main pane where there is no page.
+        """Give the width that the window gains to the main pane where there is no page.
 
-        Qt would share it between the panes.
+        Qt would divide it between the panes.
         """
         sides = {name for group in mode.left for name in group}
         for name, dock in self._docks.items():

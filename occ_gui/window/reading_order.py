@@ -30,7 +30,7 @@ def next_to_focus(window: QWidget, after: QWidget | None, forward: bool) -> QWid
 
 
 def focus_stops(widget: QWidget) -> Iterator[QWidget]:
-    """Yield the widgets in a widget that the Tab key reaches, in reading order."""
+    """Yield the widgets that the Tab key reaches, in reading order."""
     for child in _as_read(_children(widget)):
         if child.focusPolicy() & Qt.FocusPolicy.TabFocus and child.focusProxy() is None:
             yield child

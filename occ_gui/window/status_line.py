@@ -10,10 +10,10 @@ from occ_gui.widgets.work_bar import WorkBar
 from occ_model.errors import one_line
 
 _MESSAGE_FRACTION, _POINTED_FRACTION, _TIMING_FRACTION = 0.3, 0.4, 0.3
-"""Fractions of the width: the message takes at least so much, the readouts at most."""
+"""Fractions of the width: least for the message, most for the readouts."""
 
 _SEEN_ANEW = (QEvent.Type.Show, QEvent.Type.Hide, QEvent.Type.Paint)
-"""Events of a label after which it may show another text, or none."""
+"""Events of a label after which it may show another text."""
 
 _BULLET = "• "
 
@@ -58,7 +58,7 @@ class StatusLine(QStatusBar):
         return self._message
 
     def leave_to(self, *labels: QLabel) -> None:
-        """Show no message that one of these labels shows in full, as long as it is in view."""
+        """Suppress messages that one of these labels shows in full while it is visible."""
         for label in labels:
             self._others.append(label)
             label.installEventFilter(self)
@@ -73,17 +73,16 @@ class StatusLine(QStatusBar):
         return bool(self._message) and any(self._message in _in_one_line(text) for text in texts)
 
     def show_plan_change(self, sentence: str) -> None:
-        """Show which effects the plan has switched, while there is no message; empty ends it."""
+        """Show which effects the plan has switched, while there is no message; empty removes it."""
         self._plan_change = sentence
         self._show_sentence()
 
     def show_timing(self, simulation: float, reading: float) -> None:
-        """Show the computing times in seconds of the last simulation and its decoding."""
+        """Show the seconds of the last simulation and of its decoding."""
         self._times = f"simulated in {1e3 * simulation:.1f} ms, read in {1e3 * reading:.1f} ms"
         self.show_times(self._shows_times)
 
     def show_times(self, shown: bool) -> None:
-        """Show the computing times, or leave them out where nothing of the scene is shown."""
         self._shows_times = shown
         self._timing.set_full_text(self._times if shown else "")
 

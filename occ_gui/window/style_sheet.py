@@ -163,7 +163,6 @@ _ROLE = re.compile(r"palette\(([\w-]+)\)")
 
 
 def style_sheet(palette: QPalette) -> str:
-    """Return the style sheet in the colours of a palette, with the paths of its icons."""
     sheet = _SHEET.replace("{icons}", resource_path("icons", "style").as_posix())
     return _ROLE.sub(lambda found: _colour(palette, found[1]), sheet)
 

@@ -34,7 +34,7 @@ class TextSize(QObject):
         self.choose(SIZES[0])
 
     def choose(self, percent: int) -> None:
-        """Change to a size, and tell which one it is; one not among SIZES changes nothing."""
+        """Change the size and emit a signal; a size not among SIZES changes nothing."""
         if percent not in SIZES:
             return
         if percent != self.percent:

@@ -35,7 +35,7 @@ class ManyRequest:
 
 
 def match_all(request: ManyRequest, report: Report) -> PhotoTable:
-    """Match all photos, and report each row with its place."""
+    """Match all photos, and report each row with its index."""
     from occ_model.photo.many.match_photos import matched_rows, usual_jobs
     from occ_model.photo.many.table import table_of
 
@@ -60,7 +60,7 @@ def match_all(request: ManyRequest, report: Report) -> PhotoTable:
 
 
 class ManyPhotosController(QObject):
-    """Matches the photos of a table, in so many processes; by default one for each core."""
+    """Matches the photos of a table in parallel, by default in a process for each core."""
 
     def __init__(
         self,
@@ -88,7 +88,7 @@ class ManyPhotosController(QObject):
         view.rows.known_given.connect(self._match_again)
 
     def choose_files(self, paths: Sequence[Path]) -> None:
-        """List these photos in place of the previous ones; nothing is certain of them yet."""
+        """List these photos in place of the previous ones, without any certain value."""
         listed = tuple(paths)
         self._photos.edit(lambda each: replace(each.uncertain() if listed else each, listed=listed))
 
@@ -126,7 +126,7 @@ class ManyPhotosController(QObject):
         self.runner.ask(ManyRequest(paths, settings, self._jobs))
 
     def _match_again(self, place: int) -> None:
-        """Match the photo whose known value was given; before all are matched, only with them."""
+        """Match a photo whose known value was entered; before all are matched, only with them."""
         table, settings = self.table, self._settings
         if table is None or settings is None:
             return
@@ -138,7 +138,7 @@ class ManyPhotosController(QObject):
         self.runner.ask(ManyRequest(paths, settings, self._jobs, table.rows, place))
 
     def cancel(self) -> None:
-        """Cancel the work; the rows that are done stay."""
+        """Cancel the work; finished rows stay."""
         if not self.runner.is_idle:
             self.runner.cancel()
             self._view.show_ended()

@@ -30,7 +30,7 @@ _ROWS_SEEN = 5
 _LEAST_BESIDE = QSize(220, 60)
 
 _LARGEST_WIDTHS = {PHOTO: 220, NOTE: 280}
-"""Widths in pixels at most, so that the times stay in view; the whole text is in the tooltip."""
+"""Largest widths in pixels, so that the times stay in view; the tooltip has the whole text."""
 
 
 class ManyPhotosView(QWidget):
@@ -132,7 +132,7 @@ class ManyPhotosView(QWidget):
         self.table.activated.connect(self._choose)
 
     def _fit_columns(self) -> None:
-        """Make the columns as wide as their texts, long texts less, and show the first."""
+        """Fit the columns to their texts, less to long ones, and show the first."""
         self.table.resizeColumnsToContents()
         for column, widest in _LARGEST_WIDTHS.items():
             self.table.setColumnWidth(column, min(self.table.columnWidth(column), widest))
@@ -143,7 +143,7 @@ class ManyPhotosView(QWidget):
             self.photo_chosen.emit(self.rows.paths[index.row()])
 
     def show_files(self, paths: Sequence[Path]) -> None:
-        """Show these files in place of the previous ones, or put the table away."""
+        """Show these files in place of the previous ones, or hide the table."""
         self.rows.show_files(paths)
         self._show_found(None)
         self.work.end()
@@ -159,7 +159,7 @@ class ManyPhotosView(QWidget):
         self.show_busy(estimate, scene)
 
     def show_busy(self, estimate: str, scene: Scene) -> None:
-        """Show that some of the photos are being matched, and no mean before they are."""
+        """Show that photos are being matched, and no mean yet."""
         self.rows.is_busy = True
         self._show_found(None)
         self._asked, self._counts = (estimate, scene), ""
@@ -235,7 +235,7 @@ class ManyPhotosView(QWidget):
         self.stale.setVisible(bool(stale))
 
     def _rests_on(self, estimate: str, scene: Scene) -> str:
-        """Name the value that an estimate rests on, unless the user is certain of it."""
+        """Name the value that an estimate depends on, unless the user is certain of it."""
         if self._found is not None and not self._found.rests_on_the_scene:
             return ""  # each photo has a value that was entered for it
         known = known_beside(estimate)

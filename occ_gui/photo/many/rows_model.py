@@ -25,16 +25,15 @@ from occ_model.scene.refusal import refusal_of
 _Index = QModelIndex | QPersistentModelIndex
 
 PHOTO, VERDICT, KNOWN, ESTIMATE, EXPOSURE, NOTED, CORRELATION, NOTE = range(8)
-"""The columns of the table."""
 
 _NUMBERS = (KNOWN, ESTIMATE, EXPOSURE, NOTED, CORRELATION)
 
 
 class PhotoRowsModel(QAbstractTableModel):
-    """The photos, with what was found in each so far, and what is known of each by itself."""
+    """The photos, with what was found in each so far and what is known of each."""
 
     known_given = Signal(int)
-    """The known value of the photo at this place was given, or taken back."""
+    """The known value of the photo at this index was entered or removed."""
 
     refused = Signal(str)  # why a known value is refused; the last one stays
 
@@ -48,22 +47,22 @@ class PhotoRowsModel(QAbstractTableModel):
         self._earlier: Path | None = None
         self._open: Path | None = None
         self._given: dict[str, dict[int, float]] = {}
-        """What was given for single photos, by the parameter's name and their places."""
+        """Values entered for single photos, by the parameter's name and the photo's index."""
         self._usual: float | None = None
-        """The known value of all others, in SI units, once they are matched with it."""
+        """Known value of all other photos, in SI units, once they are matched with it."""
         self.is_busy = False
-        """Whether the photos are being matched, so that nothing can be given for them."""
+        """Whether the photos are being matched, so that no value can be entered for them."""
 
     @property
     def known(self) -> str:
         return known_beside(self._estimate)
 
     def given(self, name: str) -> tuple[tuple[int, float], ...]:
-        """Return the values of a known parameter that were given for single photos, in SI units."""
+        """Return the values of a known parameter entered for single photos, in SI units."""
         return tuple(sorted(self._given.get(name, {}).items()))
 
     def show_open(self, path: Path | None) -> None:
-        """Mark the photo that is open: its row alone has the colours of a selection."""
+        """Highlight the row of the open photo."""
         self._open = path
         self._redraw()
 
@@ -79,9 +78,10 @@ class PhotoRowsModel(QAbstractTableModel):
         self.endResetModel()
 
     def show_begun(self, estimate: str, usual: float) -> None:
-        """Forget what was found: all photos are matched anew, for this parameter.
+        """Clear the results: all photos are matched anew, for this parameter.
 
-        The value of the other one is known, and is the usual one but where another was given.
+        ``usual``: the other parameter's known value, in SI units, where a photo has none of its
+        own.
         """
         self.beginResetModel()
         self._rows, self._table, self._estimate = {}, None, estimate
@@ -98,18 +98,18 @@ class PhotoRowsModel(QAbstractTableModel):
         self._redraw()
 
     def show_condition(self, condition: str) -> None:
-        """Show the value that the times rest on where it is assumed; empty where it is certain."""
+        """Show the assumed value that the times depend on; empty where it is certain."""
         self._condition = condition
 
     def show_earlier(self, path: Path | None) -> None:
-        """Say of the photo that was matched by itself since that its row is of an earlier match."""
+        """Mark the row of a photo that has been matched by itself since."""
         if path == self._earlier:
             return
         self._earlier = path
         self._redraw()
 
     def row_of(self, path: Path) -> PhotoRow | None:
-        """Return what was found in the photo of a file, None where nothing was found so far."""
+        """Return what was found in a photo, None if nothing so far."""
         return next((row for row in self._rows.values() if row.path == path), None)
 
     def rowCount(self, parent: _Index = QModelIndex()) -> int:  # noqa: B008, N802 - Qt's
@@ -157,7 +157,7 @@ class PhotoRowsModel(QAbstractTableModel):
     def setData(  # noqa: N802 - Qt's name
         self, index: _Index, value: Any, role: int = Qt.ItemDataRole.EditRole
     ) -> bool:
-        """Take the known value of a photo as it was typed; an empty text is the usual one again."""
+        """Take the known value of a photo as typed; an empty text restores the usual one."""
         place, text = index.row(), str(value).strip()
         if index.column() != KNOWN or role != Qt.ItemDataRole.EditRole:
             return False
@@ -179,7 +179,7 @@ class PhotoRowsModel(QAbstractTableModel):
         return True
 
     def _tip(self, place: int, column: int) -> str:
-        """Return what a cell rests on, or why the photo is not sure."""
+        """Return what a cell depends on, or why the photo is not sure."""
         row = self._rows.get(place)
         text = self.text(place, column)
         if column in (ESTIMATE, EXPOSURE) and text:

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from occ_model.errors import OutputError, one_line
-from occ_model.files.writing import PICTURE_ENDINGS
 from occ_model.scene.from_text import check_scene_path
 from occ_model.scene.presets import user_folder
 
@@ -28,28 +27,30 @@ OUTPUTS = {  # options that name a file or folder to write
     "screenshot": "--screenshot",
 }
 
-_FIGURES = (*PICTURE_ENDINGS, ".pdf", ".svg")
-
 
 @dataclass(frozen=True, slots=True)
 class Written:
-    """The kind of file that a command writes to the path of an option."""
+    """What a command writes to the path of an option."""
 
-    what: str
-    ending: str = ""
-    refused: tuple[str, ...] = ()
+    # Refuses a path that has another ending
+    check: Callable[[Path], object] = lambda _path: None
     # The files that are written, where the path is that of their folder
     names: tuple[str, ...] = ()
 
 
-SCENE_FILE = Written("A scene")  # its ending is checked wherever scenes are saved
-TABLE = Written("A table", ".csv", (*_FIGURES, ".toml"))
+def _check_table_path(path: Path) -> None:
+    if path.suffix.lower() != ".csv":
+        raise OutputError(f"{one_line(str(path))} has no ending of a table; use .csv.")
+
+
+SCENE_FILE = Written(check_scene_path)
+TABLE = Written(_check_table_path)
 
 
 def folder_of_figures(*names: str) -> Written:
     """Describe a folder of figures of these names, each as PDF, PNG and CSV."""
     endings = ("pdf", "png", "csv")
-    return Written("Figures", names=tuple(f"{name}.{end}" for name in names for end in endings))
+    return Written(names=tuple(f"{name}.{end}" for name in names for end in endings))
 
 
 def check_files(options: argparse.Namespace) -> None:
@@ -78,16 +79,8 @@ def check_files(options: argparse.Namespace) -> None:
 def _check_endings(options: argparse.Namespace) -> None:
     for option in vars(options).get("writes", {}):
         path: Path | None = getattr(options, option)
-        if path is None:
-            continue
-        written = _written(options, option)
-        if written is SCENE_FILE:
-            check_scene_path(path)
-        if path.suffix.lower() in written.refused:
-            raise OutputError(
-                f"{written.what} is not written to a {path.suffix.lower()} file; name one that "
-                f"ends in {written.ending}, not {one_line(str(path))}."
-            )
+        if path is not None:
+            _written(options, option).check(path)
 
 
 def _inputs(options: argparse.Namespace) -> Iterator[tuple[str, Path]]:
@@ -116,7 +109,7 @@ def _outputs(options: argparse.Namespace) -> Iterator[tuple[str, Path]]:
 def _written(options: argparse.Namespace, option: str) -> Written:
     """Return what a command line writes to the path of an option."""
     written: Written | Callable[[argparse.Namespace], Written]
-    written = vars(options).get("writes", {}).get(option, Written("A file"))
+    written = vars(options).get("writes", {}).get(option, Written())
     return written if isinstance(written, Written) else written(options)
 
 

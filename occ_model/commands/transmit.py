@@ -31,7 +31,7 @@ def add_to(commands: Commands) -> None:
 
 def _written(options: argparse.Namespace) -> Written:
     names = file_names(options.out, board_named(options.board))
-    return Written("A sketch", names=names)
+    return Written(names=names)
 
 
 def _run(options: argparse.Namespace) -> int:

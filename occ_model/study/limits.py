@@ -18,7 +18,7 @@ from occ_model.parallel.job import NO_PROCESSES, Heartbeat, Job, JobResult
 from occ_model.receiver.decoders import PAPER_DECODER
 from occ_model.results.advice import Advice, TheoryLimits
 from occ_model.results.limits import Limits
-from occ_model.results.sweep_request import MOST_JOBS, RateSettings, SignalPath
+from occ_model.results.sweep_request import RateSettings, SignalPath
 from occ_model.scene.argument_checks import check_count, is_number
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene, check_scene
@@ -101,7 +101,7 @@ def limits_of(
     """Find the limits of several decoders, as :func:`limits` does for each of them."""
     check_scene(scene)
     wanted = _checked(rate)
-    check_count("jobs", jobs, 1, MOST_JOBS)
+    check_count("jobs", jobs, 1, MOST_PROCESSES)
     asked = []
     for decoder in settings.decoders:
         own = replace(settings, decoders=(decoder,))

@@ -25,6 +25,7 @@ WITHOUT_FILES = {
     "room locate --set distance=2m": "A room has no distance: ",
     "sweep --vary distance=1 --vary distance=2": "distance is varied twice",
     "sweep --vary distance=1 --jobs 100000": "allowed: a whole number from 1 to 1,024.",
+    "limits --jobs 3": "jobs is 3; allowed: a whole number from 1 to 2.",
     f"sweep --vary distance=1 --images {'9' * 4000}": "a whole number from 1 to 1,000,000.",
     "sweep --vary iso=100:4000:1 --vary distance=1:2:x300": "1,170,300 points; allowed",
     "sweep --vary distance=1 --on jpeg --off jpeg": "both on and off",
@@ -68,6 +69,7 @@ READING = {
 }
 
 NO_SCENE = "has no ending of a scene file; use .toml."
+NO_TABLE = "has no ending of a table; use .csv."
 
 WRITING = {
     "render -o missing/out.png": "missing/out.png cannot be written: name a file in a folder ",
@@ -75,12 +77,12 @@ WRITING = {
     "render -o out.xyz": "out.xyz has no ending of an image format; use .png, ",
     "film -o film.avi": "film.avi has no ending of a film",
     "match 0.png p.png --out nowhere/x.csv": "name a file in a folder that is there",
-    "match 0.png p.png --out .": "name a file to write to",
+    "match 0.png p.png --out folder.csv": "name a file to write to",
     "figures --out p.png/new": "cannot be made",
     "transmit -o p.png": "cannot be made",
     "sweep --vary distance=1 --plot x.gif": "'.gif'; allowed: .png, .pdf, .svg",
     "sweep --vary distance=1 --plot no/such/x.png": "cannot be written",
-    "sweep --vary distance=1 --out .": "is a folder",
+    "sweep --vary distance=1 --out folder.csv": "is a folder",
     "sweep --vary distance=1 --vary yaw=0 --vary roll=0 --plot x.png": "one axis or two, not 3",
     **{
         f"{words} {name}": f"{name} {NO_SCENE}"
@@ -96,7 +98,7 @@ SAME_FILE = {
     "match p.png --out hard.toml": "--out is hard.toml, the same file as the photo; ",
     "match hard.toml --out away/../hard.toml": "the same file as the photo; ",
     "match p.png w.csv --out w.csv": "the same file as one of the photos; ",
-    "match p.png w.csv --out w.png": "A table is not written to a .png file",
+    "match p.png w.csv --out w.png": NO_TABLE,
     "match p.png --scene s.toml --out s.toml": "the same file as the file of --scene; ",
     "match p.png --out t.csv": "t.csv has no ending of a scene file; use .toml.",
     "render -o q.png --save-scene q.png": "--out and --save-scene are the same file, ",
@@ -107,8 +109,7 @@ SAME_FILE = {
     "render --scene p.png -o p.png": "the same file as the file of --scene; ",
     "render --preset mine -o q.png --save-scene mine.toml": "the file of --preset; ",
     "sweep --vary iso=100 --out w.png --plot w.png": "--out and --plot are the same file, ",
-    "sweep --vary iso=100 --out w.png": "A table is not written to a .png file",
-    "sweep --vary iso=100 --out w.toml": "name one that ends in .csv, not w.toml.",
+    **{f"sweep --vary iso=100 --out w{end}": f"w{end} {NO_TABLE}" for end in ("", ".png", ".txt")},
     "sweep --vary iso=100 --out x --plot ./x": "--out and --plot are the same file, ",
     "sweep --vary iso=100 --scene w.csv --out w.csv": "the same file as the file of --scene; ",
     "figures --out figures --photo-68us figures/figure-3.png": "the file of --photo-68us; ",
@@ -127,7 +128,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(folder)
         patch.setenv("OCC_PRESETS", str(folder))
-        for name in ("figures", "away", "folder.png"):
+        for name in ("figures", "away", "folder.png", "folder.csv"):
             Path(name).mkdir()
         scene = occ.load_preset("phone-68us").replace(rows=60)
         for name in ("p.png", "0.png", "figures/figure-3.png"):

@@ -1,6 +1,6 @@
-"""Refuse arguments of a wrong kind, by what the public functions' annotations say.
+"""Refuse arguments of a wrong kind, by the annotations of the public functions.
 
-One door for all of them: a function behind it need not check what its annotations tell.
+A public function therefore need not check what its annotations say.
 """
 
 import types
@@ -39,8 +39,8 @@ def checked(function: _Function) -> _Function:
     """Let a public function refuse arguments of another kind than it is annotated with.
 
     Objects are checked before any work. Numbers, texts and arrays are left to the function, which
-    knows the allowed range and takes all that works, such as a list for an array: only where it
-    fails by another error than one of ours is the argument at fault named.
+    knows the range and accepts all that works, such as a list for an array: the argument is named
+    only where it fails by an error that is not ours.
     """
     form = signature(function)
 
@@ -72,7 +72,7 @@ def _hints(function: Callable[..., Any]) -> dict[str, Any]:
 def _refuse_wrong(
     given: Mapping[str, Any], hints: Mapping[str, Any], form: Signature, *, at_once: bool
 ) -> None:
-    """Refuse the first argument of a wrong kind, at once only objects."""
+    """Refuse the first argument of a wrong kind; with ``at_once`` only objects are checked."""
     for name, value in given.items():
         hint = hints.get(name, Any)
         is_left = value is form.parameters[name].default or (at_once and not _is_of_objects(hint))
@@ -92,7 +92,7 @@ def _class_of(hint: Any) -> Any:
 
 
 def _is_of_objects(hint: Any) -> bool:
-    """Whether only objects of these classes, or functions, are meant."""
+    """Whether a hint means only objects of these classes, or functions."""
     kinds = {_class_of(part) for part in _parts(hint)} - {type(None), Callable}
     return all(isinstance(kind, type) and kind.__module__.startswith(_OURS) for kind in kinds)
 

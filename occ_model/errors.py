@@ -38,7 +38,7 @@ class RefusedValue:
     place: str = ""
 
     def sentence(self, name: str = "", verb: str = "") -> str:
-        """Return the refusal in words, by another name and verb where they are given."""
+        """Return the refusal as a sentence, with another name and verb if given."""
         begin = f"{self.place}: " if self.place else ""
         condition = f" {self.condition}" if self.condition else ""
         return (
@@ -156,7 +156,7 @@ class _ShortRepr(reprlib.Repr):
 
 
 def shown(value: object) -> str:
-    """Write any value as part of a sentence: as ``repr`` would, but short and in one line."""
+    """Format any value for a sentence: as ``repr`` would, but short and in one line."""
     # An array's has several lines.
     text = " ".join(line.strip() for line in _ShortRepr().repr(value).split("\n"))
     half = _LONGEST_VALUE // 2
@@ -164,12 +164,12 @@ def shown(value: object) -> str:
 
 
 def printable(text: str) -> str:
-    """Write a text of any length, such as a lesson's, in one line, control characters escaped."""
+    """Format a text of any length in one line, with control characters escaped."""
     return one_line(" ".join(text.split()), _LONGEST_TEXT)
 
 
 def one_line(text: str, longest: int = _LONGEST_NAME) -> str:
-    """Write a name, title or path in one line, control characters escaped."""
+    """Format a name, title or path in one line, with control characters escaped."""
     start = text[: longest + 1]
     if len(start) > longest:
         start = f"{start[: longest - 1]}…"

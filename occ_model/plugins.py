@@ -1,4 +1,4 @@
-"""Plug-ins: what installed packages offer under an entry point, read when first asked for."""
+"""Plug-ins: what installed packages offer under an entry point, read when first needed."""
 
 import re
 from collections.abc import Callable, Iterator
@@ -28,7 +28,7 @@ _at_work: dict[int, str] = {}  # the plug-in that each thread is in
 
 @contextmanager
 def at_work(who: str) -> Iterator[None]:
-    """Note that this thread is in a plug-in, for whoever waits for it in vain."""
+    """Note that this thread is in a plug-in, to name it where it hangs."""
     thread = get_ident()
     before = _at_work.get(thread)
     _at_work[thread] = who
@@ -42,7 +42,7 @@ def at_work(who: str) -> Iterator[None]:
 
 
 def all_at_work() -> tuple[str, ...]:
-    """Return the plug-ins that threads of this process are in, each as the start of a sentence."""
+    """Name the plug-ins that threads of this process are in, each as the start of a sentence."""
     return tuple(dict.fromkeys(_at_work.copy().values()))
 
 
@@ -63,17 +63,17 @@ def _found(group: str) -> "dict[str, EntryPoint]":
 
 
 def _is_name(name: object) -> bool:
-    """Whether lists, scene files and names of files can hold a name; a package may have any."""
+    """Whether a name is safe in lists, scene files and names of files; a package may have any."""
     return isinstance(name, str) and _NAME.fullmatch(name) is not None
 
 
 def plugin_names(group: str) -> tuple[str, ...]:
-    """Return the names that plug-ins offer in a group, without importing any of them."""
+    """Return the names of plug-ins in a group, without importing any of them."""
     return tuple(_found(group))
 
 
 def load_plugin(group: str, name: str, kind: type[_Kind]) -> _Kind:
-    """Import what a plug-in offers under a name, which has to be of a kind and so named too."""
+    """Import a plug-in's object of this name, and check its kind and its own name."""
     entry = _found(group).get(name)
     if entry is None:
         raise PluginError(f"There is no plug-in {one_line(name)!r} of {group}.")
@@ -102,7 +102,7 @@ def described(group: str, name: str) -> str:
 def called(
     who: str, verb: str, kind: type[_Kind], function: Callable[..., Any], *given: Any
 ) -> _Kind:
-    """Call a function of a plug-in, whose fault is a sentence, and whose result is of a kind."""
+    """Call a plug-in's function; its error becomes a sentence, and its result is checked."""
     try:
         with at_work(who):
             result = function(*given)
@@ -116,5 +116,5 @@ def called(
 
 
 def reason(error: BaseException) -> str:
-    """Write an exception of a plug-in as the end of a sentence."""
+    """Format a plug-in's exception as the end of a sentence."""
     return f"{type(error).__name__}: {one_line(str(error))}."

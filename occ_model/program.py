@@ -181,7 +181,7 @@ def discard(stream: "TextIO | None") -> None:
 
 
 def _say_failure(name: str, error: Exception) -> int:
-    """Report an error that no other part of the program has reported; return the exit code."""
+    """Report an error that nothing else in the program has reported; return the exit code."""
     _discard_unwritten_output()
     if isinstance(error, BrokenPipeError):  # the reader of our output has closed it on purpose
         return EXIT_FAILURE

@@ -22,7 +22,7 @@ from occ_gui.video.mark_look import LOOKS, brush_of, draw_mark
 from occ_gui.widgets.columns import round_step
 from occ_gui.widgets.guarded_paint import guarded
 
-_LEAST_GUTTER, _BESIDE, _MARGIN = 64, 6, 10
+_LEAST_GUTTER, _NAME_PADDING, _MARGIN = 64, 6, 10
 """Pixels at the left at least, around the rows' names, and at the right."""
 
 _FRAMES, _PACKETS, _TICKS, _GAP = 24, 18, 18, 4
@@ -100,7 +100,7 @@ class Timeline(QWidget):
     def _gutter(self) -> int:
         names = "frames", "packets"
         widest = max(map(self.fontMetrics().horizontalAdvance, names))
-        return max(widest + 2 * _BESIDE, _LEAST_GUTTER)
+        return max(widest + 2 * _NAME_PADDING, _LEAST_GUTTER)
 
     def _area(self) -> QRectF:
         gutter = self._gutter()
@@ -148,7 +148,7 @@ class Timeline(QWidget):
         ):
             place = QRectF(area.left(), top, area.width(), height)
             painter.setPen(self.palette().color(QPalette.ColorRole.WindowText))
-            beside = QRectF(0, place.top(), area.left() - _BESIDE, place.height())
+            beside = QRectF(0, place.top(), area.left() - _NAME_PADDING, place.height())
             flags = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
             painter.drawText(beside, flags, name)
             painter.fillRect(place, self.palette().color(QPalette.ColorRole.Base))

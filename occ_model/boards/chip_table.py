@@ -1,4 +1,4 @@
-"""The packet as text of a sketch: its comment at the head, and its table of packed chips."""
+"""The packet in a sketch: its comment at the head, and its table of packed chips."""
 
 from collections.abc import Sequence
 
@@ -37,9 +37,9 @@ def _lines(octets: Sequence[str]) -> list[Sequence[str]]:
 
 
 def head(sent: Transmission, mark: str) -> str:
-    """Say in comment lines what a sketch sends, each after a mark.
+    """State in comment lines what a sketch sends, each after a mark.
 
-    No line ends in what the user wrote: a backslash there would join the next line to it.
+    No line ends in the user's text: a backslash there would join the next line to it.
     """
     lines = [
         f"Blinks an LED so that a rolling-shutter camera can read it: {sent.board.title}.",
@@ -75,7 +75,7 @@ def _chips(chips: ByteArray) -> list[str]:
 
 
 def frequency_lines(sent: Transmission) -> list[str]:
-    """State the frequency that is sent, its error, and what is not known of the clock."""
+    """State the frequency that is sent, its error, and the unknown part of the clock's error."""
     timing = sent.timing
     asked = "as asked"
     if not timing.is_as_asked:

@@ -94,7 +94,6 @@ while True:
 
 
 def pico_sketch(sent: Transmission) -> str:
-    """Write the program in MicroPython."""
     timing, packets = sent.timing, repeats_to_words(len(sent.chips))
     waits = timing.prescaler - 1
     return _SKETCH.substitute(

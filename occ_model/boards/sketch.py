@@ -69,7 +69,7 @@ _DEFAULT_NAME = "blink"
 
 
 def sketch_name(folder: Path, board: Board) -> str:
-    """Name the sketch's file: as its folder, which the Arduino IDE wants, or ``main.py``."""
+    """Name the sketch's file: as its folder, as the Arduino IDE requires, or ``main.py``."""
     if board.ending == ".py":
         return f"main{board.ending}"
     name = folder.resolve().name

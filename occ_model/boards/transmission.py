@@ -46,7 +46,7 @@ class ChipTiming:
 
     @property
     def error_ppm(self) -> Fraction:
-        """By how much more than asked is sent, in parts per million of the frequency."""
+        """Relative error of the frequency in parts per million, positive where it is too high."""
         return (self.frequency / self.asked - 1) * 10**6
 
     @property
@@ -56,7 +56,7 @@ class ChipTiming:
 
 
 def best_timing(board: Board, frequency: float) -> ChipTiming:
-    """Choose the setting whose frequency is nearest; of several the one with the finest timer."""
+    """Choose the setting of the nearest frequency; of equals the one with the finest timer."""
     asked = Fraction(frequency)
     if not board.lowest_frequency <= asked <= board.highest_frequency:
         raise _refusal(board, frequency)
@@ -69,7 +69,7 @@ def best_timing(board: Board, frequency: float) -> ChipTiming:
 
 
 def _counts(board: Board, prescaler: int, asked: Fraction) -> Iterator[int]:
-    """Return the whole numbers around the exact count that the board allows."""
+    """Yield the whole numbers around the exact count that the board allows."""
     below = floor(board.clock / (prescaler * asked))
     for count in (below, below + 1):
         if 1 <= count <= board.largest_count and prescaler * count >= board.least_cycles:
@@ -91,7 +91,7 @@ def _refusal(board: Board, frequency: float) -> ParameterError:
 
 @dataclass(frozen=True, eq=False)
 class Transmission:
-    """One period of the chips that a board sends over and over, and how long each lasts."""
+    """One period of the chips that a board repeats, and the length of each."""
 
     scene: Scene
     board: Board
@@ -131,10 +131,7 @@ class Transmission:
 
 
 def transmission(scene: Scene, board: Board) -> Transmission:
-    """Prepare what a board sends.
-
-    Raises ParameterError: the board cannot blink at that frequency or store the packet.
-    """
+    """Prepare what a board sends; ParameterError where it cannot send that fast, or so much."""
     chips = packet(scene)
     room = table_size(board, len(chips))
     if room > board.table_bytes:
@@ -172,7 +169,7 @@ SEIZURES = (
 
 
 def flicker_sentence(sent: Transmission) -> str:
-    """State the lowest frequency in the light, of the repeated packet, and if it is visible."""
+    """State the lowest frequency in the light, and whether it is visible."""
     lowest, run = sent.lowest_frequency, sent.longest_run
     if lowest is None or run is None:
         return "The light does not change: all chips are equal."

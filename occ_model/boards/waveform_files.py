@@ -62,7 +62,7 @@ def vcd_text(sent: Transmission) -> str:
 
 
 def _vcd_unit(cycle: Fraction) -> tuple[str, int]:
-    """Choose the coarsest unit of which a cycle is a whole number."""
+    """Choose the coarsest unit that divides a cycle."""
     for power in range(3 * (len(_VCD_UNITS) - 1) + 1):
         ticks = cycle * 10**power
         if ticks.denominator == 1:

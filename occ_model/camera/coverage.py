@@ -21,8 +21,6 @@ _MAX_EXACT_ROWS = 4096  # maximum rows of an outline to use all of them: a blur 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class CoveredPart:
-    """Some columns of some rows."""
-
     columns: slice
     # The fraction of the light in each pixel that comes from the panel: one for all pixels, or an
     # array of float32, shape (rows, columns)
@@ -113,7 +111,7 @@ class Coverage:
         return _joined(parts)
 
     def _rims(self, rows: range) -> list[tuple[int, int]]:
-        """Return the columns near which the outline runs in some rows, from the left."""
+        """Return the columns near the outline in some rows, from the left."""
         (x0, y0), (x1, y1) = self._starts, self._ends
         reach = self._margin + self._cell
         low, high = rows[0] - reach, rows[-1] + reach
@@ -133,7 +131,7 @@ class Coverage:
         return list(zip(start[firsts].tolist(), stop[lasts].astype(int).tolist(), strict=True))
 
     def _even(self, rows: range, columns: slice) -> CoveredPart:
-        """Return columns that the outline is not near to: inside where it runs round the first."""
+        """Return columns away from the outline, covered where it runs round the first of them."""
         (x0, y0), (x1, y1) = self._starts, self._ends
         crossed = (y0 <= rows[0]) != (y1 <= rows[0])
         x0, y0, x1, y1 = x0[crossed], y0[crossed], x1[crossed], y1[crossed]
@@ -211,7 +209,7 @@ class Coverage:
 
 
 def _height(outline: FloatArray, seen: range) -> int:
-    """Count the rows seen that lie between the outline's first and its last."""
+    """Count the rows seen between the outline's first and its last."""
     low, high = np.clip(outline[:, 1], seen.start, seen.stop).min(), outline[:, 1].max()
     return int(min(float(high), float(seen.stop)) - low)
 

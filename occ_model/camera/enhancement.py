@@ -50,7 +50,7 @@ class Enhancement:
             self.curve = to_bytes((np.arange(256) - darkest) * (WHITE / (brightest - darkest)))
 
     def __call__(self, values: NDArray[np.floating[Any]]) -> ByteArray:
-        """Round and enhance grey levels, of the profile or not, of any shape."""
+        """Round and enhance grey levels of any shape."""
         if self._is_even:
             same = (values >= self._low) & (values <= self._high)
             values = np.where(same, self._low, values)
@@ -71,21 +71,21 @@ class Enhancement:
         return mean, np.sqrt(np.maximum(passed.mean_of(curve**2) - mean**2, 0.0))
 
     def mean(self, passed: "PassedSteps") -> FloatArray:
-        """Return the first of these alone."""
+        """Return the mean of :meth:`moments` alone."""
         return passed.mean_of(self.curve.astype(np.float64))
 
     def smoothed(self, passed: "PassedSteps") -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Return the same, and the mean of the sum of squares of the steps passed."""
+        """Return :meth:`moments`, and the mean of the sum of squares of the steps passed."""
         jumps = np.concatenate([[0.0], np.cumsum(np.diff(self.curve.astype(np.float64)) ** 2)])
         return *self._moments(passed), passed.mean_of(jumps)
 
     def of_bytes(self, image: ByteArray, out: ByteArray | None = None) -> ByteArray:
-        """Enhance levels that are rounded already, shape (rows, columns), if wanted in place."""
+        """Enhance rounded levels, shape (rows, columns), optionally in place."""
         return np.asarray(cv2.LUT(image, self.curve, dst=out), dtype=np.uint8)
 
 
 def byte_fractions(levels: FloatArray, spread: FloatArray, weights: FloatArray) -> FloatArray:
-    """Return how many pixels have each of the 256 levels, by their means, noise and weights."""
+    """Return the number of pixels of each of the 256 levels, by means, noise and weights."""
     steps = PassedSteps.of(levels, spread)
     edge, passed = steps.edge, steps.passed
     ones, none = np.ones((len(levels), 1)), np.zeros((len(levels), 1))
@@ -103,7 +103,7 @@ def fraction_above(limit: float, levels: FloatArray, spread: FloatArray) -> Floa
 
 @dataclass(frozen=True, eq=False, slots=True)
 class PassedSteps:
-    """The steps from one grey level to the next near some levels, and who passes them."""
+    """The steps from one grey level to the next near some levels, and the pixels that pass them."""
 
     # Shape (values, steps): the grey level below each step; below the first one lies hardly any
     # pixel
@@ -112,7 +112,7 @@ class PassedSteps:
 
     @classmethod
     def of(cls, levels: FloatArray, spread: FloatArray) -> Self:
-        """Find them for noisy pixels of some mean values."""
+        """Find the steps for noisy pixels of some mean values."""
         reach = min(math.ceil(_NEGLIGIBLE_TAIL * float(spread.max())) + 1, 256)
         lowest = np.minimum(np.maximum(np.rint(levels).astype(np.int64) - reach, 0), 255)
         step = lowest[:, None] + np.arange(2 * reach)

@@ -52,7 +52,7 @@ def _column_starts(
     shift: Fraction,
     columns: int,
 ) -> Phases:
-    """Return the phases for all that they depend on: another exposure time leaves them."""
+    """Return the phases, cached by all that they depend on; not the exposure time."""
     frequency = Fraction(switching_frequency)
     start = (Fraction(start_time) * frequency + shift) % period
     phases = _phases(start, _step(readout_time, switching_frequency, period), period, columns)
@@ -104,7 +104,7 @@ class _Steps:
 
 @lru_cache(maxsize=8)
 def _steps(step: Fraction, count: int) -> _Steps:
-    """Count up from 0 by ``step``; pictures that differ in their start time only share it."""
+    """Count up from 0 by ``step``; pictures that differ in their start time use the same steps."""
     step_chip = int(step)
     within = step - step_chip
     coarse = float(np.float32(float(within)))
@@ -141,7 +141,7 @@ def _lit_fraction(
     columns: int,
     start_time: float,
 ) -> FloatArray:
-    """Return the fraction for all that it depends on: what a scene is seen from changes nothing."""
+    """Return the fraction, cached by all that it depends on; not the pose."""
     waveform = _waveform(chips)
     frequency = Fraction(switching_frequency)
     exposure = Duration.of(Fraction(exposure_time) * frequency, waveform.period)
@@ -156,7 +156,7 @@ def _lit_fraction(
 
 
 def forget_exposures() -> None:
-    """Forget what is kept of earlier scenes: the next exposure takes the time of a first one."""
+    """Clear the caches: the next exposure takes the time of a first one."""
     for kept in (_steps, _step, _column_starts, _lit_fraction, _waveform):
         kept.cache_clear()
 

@@ -1,4 +1,4 @@
-"""Optics: how the lens pictures the panel, which effects change one after the other."""
+"""Optics: how the lens pictures the panel, changed by one effect after the other."""
 
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass, field
@@ -36,8 +36,6 @@ STAGE = "optics"  # the stage that the time of no effect in particular is counte
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Optics:
-    """The imaging of the panel: outline, blur and gains."""
-
     # Shape (corners, 2): the panel's outline in the picture, (column, row) of each corner
     outline: FloatArray
     blur: float = 0.0  # Standard deviation of the lens's blur in pixels
@@ -48,5 +46,5 @@ class Optics:
 
     @property
     def is_plain(self) -> bool:
-        """Whether every pixel shows either the panel or its surroundings, just as bright."""
+        """Whether every pixel shows either the panel or its surroundings, without blur or gain."""
         return not (self.blur or self.emission or self.transmission)

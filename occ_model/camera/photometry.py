@@ -41,18 +41,17 @@ def pixel_value(
 
 
 def fast_power(values: FloatArray, power: float) -> FloatArray:
-    """Return a power, some times faster than NumPy's, and not the same in the last digits."""
+    """Return a power, faster than NumPy, with other last digits."""
     found: FloatArray = np.asarray(cv2.pow(values.reshape(-1, 1), power), dtype=np.float64)
     return found.reshape(values.shape)
 
 
 def luminance_of(values: FloatArray, camera: Camera) -> FloatArray:
-    """Return the luminance that has a pixel value, in cd/m2: :func:`pixel_value` undone."""
+    """Return the luminance of a pixel value, in cd/m2: the inverse of :func:`pixel_value`."""
     return np.asarray((values / _MID_GREY) ** camera.gamma / _gain(camera))
 
 
 def saturate(values: FloatArray) -> FloatArray:
-    """Limit pixel values to what a pixel can hold."""
     return np.clip(values, 0.0, WHITE)
 
 
@@ -156,7 +155,7 @@ def values_of(electrons: FloatArray, scene: Scene) -> FloatArray:
 
 
 def converter_step(scene: Scene) -> float:
-    """Return the electrons of one step of the converter, whose range ends at the largest value."""
+    """Return the electrons per step of the converter, whose range ends at the largest value."""
     return _converter_step(scene.camera, scene.sensor)
 
 

@@ -26,7 +26,7 @@ BLOCK_ROWS = 64  # rows that are computed at once: a whole number of blocks of a
 
 
 def in_blocks(rows: range) -> list[range]:
-    """Divide rows, or every k-th row, of a picture into those that are computed at once."""
+    """Divide rows, or every k-th row, of a picture into blocks that are computed at once."""
     return [rows[start : start + BLOCK_ROWS] for start in range(0, len(rows), BLOCK_ROWS)]
 
 
@@ -68,7 +68,7 @@ class Rows:
     def combine(
         self, operation: np.ufunc, target: Pixels, nodes: Pixels, rims: Sequence[Pixels]
     ) -> None:
-        """Combine pixels with what is known at the nodes and of the rims, in place."""
+        """Combine pixels with those of the nodes and of the rims, in place."""
         places = [rim.columns for rim in self.rims]
         own = [operation(target[:, at], rim) for at, rim in zip(places, rims, strict=True)]
         operation(target, self._rows_of(nodes), out=target)
@@ -76,13 +76,13 @@ class Rows:
             target[:, at] = values
 
     def each_row(self) -> "Rows":
-        """Return the same without weights: each row as a node, or one that all are like."""
+        """Return the rows without weights: each row as a node, or one that all equal."""
         if self.weights is None:
             return self
         return replace(self, nodes=self._rows_of(self.nodes), weights=None)
 
     def changed(self, change: Callable[[Pixels], Pixels]) -> "Rows":
-        """Return the same with other values, which are not smooth: of rows without weights."""
+        """Return the rows with other values, which need not be smooth; only without weights."""
         rims = tuple(replace(rim, values=change(rim.values)) for rim in self.rims)
         return replace(self, nodes=change(self.nodes), rims=rims)
 
@@ -186,7 +186,7 @@ class PictureRows:
         return Rows(place, nodes, weights, tuple(rims), tuple(columns for _, columns in inside))
 
     def _shared(self, lit: Sequence[_Lit]) -> list[slice]:
-        """Return the columns that more than one panel lights."""
+        """Return the columns lit by more than one panel."""
         if len(self._panels) == 1:
             return []
         steps = np.zeros(self._columns + 1, dtype=np.int64)
@@ -229,15 +229,15 @@ class PictureRows:
     ) -> tuple[Pixels, Pixels | None]:
         """Return the nodes and the weights of the rows, without the rims."""
         if self._is_even:
-            return self._alike(inside), None
+            return self._common_row(inside), None
         line = node_rows(place)
         nodes = self._even(line, inside, stage_ended)
         if len(place) > len(line) and smooth_columns(nodes).all():
             return nodes, row_weights(len(place))
         return self._even(np.asarray(place, np.float64), inside, stage_ended), None
 
-    def _alike(self, inside: list[tuple[_Panel, slice]]) -> Pixels:
-        """Return the row that all rows are like between the rims."""
+    def _common_row(self, inside: list[tuple[_Panel, slice]]) -> Pixels:
+        """Return the row that all rows equal between the rims."""
         shown, row = self._plain
         if inside != shown:  # the same array again is known to have the same noise
             row = self._surroundings.copy()

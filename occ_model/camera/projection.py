@@ -67,7 +67,7 @@ def image_rays(points: FloatArray, camera: Camera) -> FloatArray:
 
 
 def rays_at(points: FloatArray, rows: int, columns: int, focal_length: float) -> FloatArray:
-    """Return the same for the :func:`geometry_of` a camera."""
+    """Return :func:`image_rays` for the :func:`geometry_of` a camera."""
     return np.asarray((points - _middle(rows, columns)) / focal_length)
 
 
@@ -97,7 +97,7 @@ def rotation_of(pose: Pose) -> FloatArray:
 
 
 def rotations(yaw: FloatArray, pitch: FloatArray, roll: FloatArray) -> FloatArray:
-    """Return the same of many angles, shape (*angles, 3, 3)."""
+    """Return :func:`rotation_of` many angles, shape (*angles, 3, 3)."""
     angles = (pitch, yaw, roll)
     (sx, cx), (sy, cy), (sz, cz) = ((np.sin(angle), np.cos(angle)) for angle in angles)
     one, zero = np.ones_like(sx), np.zeros_like(sx)
@@ -139,7 +139,6 @@ def _row_from(y: float, rows: int) -> int:
 
 
 def check_size(camera: Camera) -> None:
-    """Refuse a picture that is too large."""
     rows, columns = camera.rows, camera.columns
     if rows * columns > MAX_PIXELS:
         raise ProjectionError(
@@ -152,7 +151,7 @@ def check_size(camera: Camera) -> None:
 def paint(
     enhanced: ByteArray, corners: FloatArray, rows: range, surroundings: ByteArray
 ) -> ByteArray:
-    """Make the image: inside the panel every row carries the profile, outside the surroundings."""
+    """Make the image: the profile in every row of the panel, and the surroundings beside it."""
     columns = len(enhanced)
     spans = row_spans(corners, rows.stop, columns)
     first, last = (ends[rows.start :: rows.step] for ends in spans)

@@ -27,7 +27,7 @@ def node_rows(rows: range) -> FloatArray:
 
 @lru_cache(maxsize=16)
 def row_weights(rows: int) -> Pixels:
-    """Return the weights that make a band's rows from its nodes, shape (rows, nodes)."""
+    """Return the weights from a band's nodes to its rows, shape (rows, nodes)."""
     found = chebvander(np.linspace(-1.0, 1.0, rows), NODES - 1) @ _coefficients()
     return np.asarray(found, dtype=np.float32)
 
@@ -41,7 +41,7 @@ def weighted(weights: Pixels, values: Pixels) -> Pixels:
 
 
 def smooth_columns(values: Pixels, tolerance: float = TOLERANCE) -> NDArray[np.bool_]:
-    """Return in which columns the rows follow from values at the nodes within a tolerance."""
+    """Return the columns whose rows follow from the nodes within a tolerance."""
     last = np.abs(weighted(_coefficients()[-2:].astype(np.float32), values))
     return np.asarray(last.sum(axis=0) <= tolerance)
 
@@ -52,7 +52,7 @@ def _nodes() -> FloatArray:
 
 @lru_cache(maxsize=1)
 def _coefficients() -> FloatArray:
-    """Return what makes Chebyshev coefficients of the values at the nodes, shape (nodes, nodes)."""
+    """Return the matrix from values at nodes to Chebyshev coefficients, shape (nodes, nodes)."""
     transform = 2.0 / NODES * chebvander(_nodes(), NODES - 1).T
     transform[0] /= 2.0
     return np.asarray(transform)

@@ -1,4 +1,4 @@
-"""Memory of rows that depend on the pose and the lens alone, while other things move.
+"""Cache of rows that depend on the pose and the lens alone.
 
 A slider changes one parameter at a time: of picture after picture the gains and the panel's rims
 stay what they were.
@@ -16,12 +16,12 @@ _Made = TypeVar("_Made")
 CAPACITY = 24 * 2**20  # most bytes remembered: the rows of one large picture and of its draft
 
 MOST_ENTRIES = 256
-"""Most things that are remembered: of small pictures thousands would fill the bytes, and each takes
-as much again in objects other than arrays."""
+"""Most objects in the cache: thousands of small pictures would fill the bytes, and each takes as
+much again in objects other than arrays."""
 
 
 class RowMemory:
-    """Arrays by what they depend on, up to ``limit`` bytes; those used longest ago go first."""
+    """Arrays by what they depend on, up to ``limit`` bytes; the least recently used go first."""
 
     def __init__(self, limit: int, entries: int = MOST_ENTRIES) -> None:
         self._limit, self._entries = limit, entries
@@ -35,7 +35,7 @@ class RowMemory:
         make: Callable[[], _Made],
         arrays: Callable[[_Made], Iterable[NDArray[Any]]],
     ) -> _Made:
-        """Return what was made for a key, or make it; its ``arrays`` are read-only from now on."""
+        """Return a cached object, or make it; its ``arrays`` become read-only."""
         with self._lock:
             if key in self._known:
                 self._known.move_to_end(key)

@@ -41,7 +41,6 @@ def read_command_line(arguments: Sequence[str] | None) -> argparse.Namespace:
 
 
 def run_command(options: argparse.Namespace) -> int:
-    """Run the command of a command line; return the exit code."""
     check_files(options)
     code: int = options.command(options)
     return code

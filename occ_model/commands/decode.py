@@ -119,7 +119,7 @@ _MIN_RATE_PACKETS = 50  # packets from which the rates of parts are reported
 
 
 def read_film(options: argparse.Namespace, scene: Scene) -> int:
-    """Read the film that a command line names, and print what it says."""
+    """Read the film of a command line, and print the results."""
     video = load_video(options.file, options.scan_axis, channel=_channel(options.channel))
     with progress_bar(total=video.frame_count, unit="frame", disable=options.follow or None) as bar:
 
@@ -159,7 +159,7 @@ def _channel(name: str) -> str:
 
 
 def _film_line(known: FilmProgress) -> str:
-    """Say in one line what is known after a frame."""
+    """Describe in one line what is known after a frame."""
     frame = known.frame
     what = frame.failure or f"{len(frame.chips)} chips from chip {frame.place} of the packet on"
     payload = f"  {known.payload}" if known.payload else ""
@@ -192,7 +192,7 @@ def _film_report(reading: VideoReading, video: Video) -> list[str]:
 
 
 def _by_parts(reading: VideoReading) -> Iterator[str]:
-    """Write the packet error rate in parts of the film."""
+    """Format the packet error rate of each part of the film."""
     for window in reading.rates(_RATE_PARTS):
         if window.packets:
             rate = "{} ({})".format(*error_rate(window.packets_lost, window.packets, "packets"))

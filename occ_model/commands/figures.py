@@ -83,7 +83,7 @@ def _draw_figures(options: argparse.Namespace, photos: list[Photo | None]) -> No
 
 
 def _progress_of(bar: Any) -> Progress:
-    """Let one sweep move a bar on from where it is."""
+    """Return a callback that moves a bar on, by one sweep from where it is."""
     before = bar.n
     return lambda done, _total, _left: bar.update(before + done - bar.n)
 
@@ -97,7 +97,7 @@ def _requests(options: argparse.Namespace) -> dict[str, SweepRequest]:
 
 
 def _rates_file(options: argparse.Namespace, preset: str) -> Path:
-    """Name the file that keeps the rates until their figure is written."""
+    """Return the file that keeps the rates until their figure is written."""
     folder: Path = options.out
     return folder / f"rates-{preset}-images-{options.images}-seed-{options.seed}.csv"
 

@@ -107,7 +107,6 @@ def _outputs(options: argparse.Namespace) -> Iterator[tuple[str, Path]]:
 
 
 def _written(options: argparse.Namespace, option: str) -> Written:
-    """Return what a command line writes to the path of an option."""
     written: Written | Callable[[argparse.Namespace], Written]
     written = vars(options).get("writes", {}).get(option, Written())
     return written if isinstance(written, Written) else written(options)

@@ -92,7 +92,7 @@ def _recording(options: argparse.Namespace) -> Recording:
 
 
 def _waypoint(text: str) -> Waypoint:
-    """Read a waypoint as it is written on a command line."""
+    """Parse a waypoint of a command line."""
     start, _, rest = text.partition(":")
     time = SECOND.parse(start)
     if time is None or not rest:
@@ -118,7 +118,7 @@ def _waypoint(text: str) -> Waypoint:
 
 
 def _loss(film: Video, path: Path) -> str:
-    """Say what a lossy codec did to the first frame."""
+    """Describe the loss of a codec in the first frame."""
     written = load_video(path, "columns").frame(0).image
     rows, columns = written.shape
     error = written.astype(np.float64) - film.frame(0).image[:rows, :columns]

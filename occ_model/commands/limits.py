@@ -110,7 +110,7 @@ def _in_columns(cells: Sequence[str]) -> str:
 
 
 def row(found: Limits, frames_a_second: float = FRAMES_A_SECOND) -> str:
-    """Write the limits of a decoder as a line of the table."""
+    """Format the limits of a decoder as a line of the table."""
     cells = [found.decoder]
     for each in (found.frequency, found.exposure):
         cells += range_cells(each)
@@ -118,7 +118,7 @@ def row(found: Limits, frames_a_second: float = FRAMES_A_SECOND) -> str:
 
 
 def range_cells(found: WorkingRange) -> tuple[str, str, str]:
-    """Write the lowest and the highest value of a range, and its first gap."""
+    """Format the lowest and the highest value of a range, and its first gap."""
     if found.lowest is None or found.highest is None:
         return "none", "none", ""
     first, *others = gaps(found) or ["no"]
@@ -127,13 +127,13 @@ def range_cells(found: WorkingRange) -> tuple[str, str, str]:
 
 
 def _end_text(found: WorkingRange, end: RangeEnd) -> str:
-    """Write an end, and whether the search ended there."""
+    """Format an end, and whether the search ended there."""
     value = written(found.parameter, end.value)
     return f"{value} (searched to)" if end.fails is None else value
 
 
 def sentences(answers: Sequence[Limits], frames_a_second: float = FRAMES_A_SECOND) -> list[str]:
-    """Write by which images the ends were confirmed, and what theory says."""
+    """State the images that confirmed the ends, and the theoretical limits."""
     ranges = [each for found in answers for each in (found.frequency, found.exposure)]
     is_sure = any(end and end.interval for each in ranges for end in (each.lowest, each.highest))
     lines = ["By more images:"] if is_sure else []

@@ -90,7 +90,7 @@ def _codes(options: argparse.Namespace) -> int:
 
 
 def _title(find: Callable[[str], LineCode | Framing | Decoder], name: str) -> str:
-    """Return the title of what has a name, or why it cannot be used."""
+    """Return the title of a name, or why it cannot be used."""
     try:
         return find(name).title
     except OccError as error:

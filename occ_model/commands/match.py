@@ -106,7 +106,7 @@ def _run(options: argparse.Namespace) -> int:
 
 
 def _check(options: argparse.Namespace) -> None:
-    """Refuse options that do not go together."""
+    """Refuse options that exclude each other."""
     if options.out and (options.lamps or options.chips):
         what = "--lamps" if options.lamps else "--chips"
         raise ParameterError(f"--out is given with {what}; allowed: the scene of one match.")
@@ -151,7 +151,7 @@ def _square_wave(scene: Scene, text: str) -> Scene:
 
 
 def _report(match: Match, assumption: str, noted: float | None) -> list[str]:
-    """Write a match in lines, with the exposure time in seconds that the camera noted."""
+    """Describe a match in lines; ``noted``: exposure time in seconds recorded by the camera."""
     verdict = [f"{'verdict':22}{match.verdict}", *(f"{'':22}{why}" for why in match.all_reasons)]
     return [*verdict, *in_columns(match_facts(match, assumption, noted))]
 
@@ -160,7 +160,7 @@ _REGION = re.compile(r"(\d{1,9}):(\d{1,9}),(\d{1,9}):(\d{1,9})")
 
 
 def region_from(text: str) -> Region:
-    """Read the rectangle ``R0:R1,C0:C1``: rows R0 to before R1, columns C0 to before C1."""
+    """Parse the rectangle ``R0:R1,C0:C1``: rows R0 to before R1, columns C0 to before C1."""
     found = _REGION.fullmatch(text.strip())
     if found is None:
         raise ParameterError.of(
@@ -188,7 +188,6 @@ def lamp_lines(number: int, lamp: Lamp) -> list[str]:
 
 
 def chip_lines(reading: ChipReading) -> list[str]:
-    """Describe the chips read from a photo in lines."""
     return [
         f"{'chips':22}{reading.text}",
         f"{'chips in view':22}{len(reading.chips)}, between the first edge and the last one",

@@ -33,7 +33,6 @@ _MAX_FILE_CHARACTERS = 32
 
 
 def add_many_options(parser: argparse.ArgumentParser) -> None:
-    """Add what is for several photos only."""
     parser.add_argument("more", nargs="*", type=Path, metavar="file", help=argparse.SUPPRESS)
     parser.add_argument(
         "--jobs", type=int, metavar="N", help="processes for several photos; default: one a core"
@@ -74,7 +73,7 @@ def run_many(options: argparse.Namespace, scene: Scene) -> int:
 
 
 def _known(paths: list[Path], options: argparse.Namespace) -> dict[int, float]:
-    """Return the known values of single photos, by their places."""
+    """Return the known values of single photos, by index."""
     known: dict[int, float] = {}
     of_cycles = options.led_frequency is not None and options.estimate == "readout_time"
     declared = SQUARE_FREQUENCY if of_cycles else quantity(known_beside(options.estimate))
@@ -87,7 +86,7 @@ def _known(paths: list[Path], options: argparse.Namespace) -> dict[int, float]:
 
 
 def _places(name: str, paths: list[Path]) -> list[int]:
-    """Return where a photo stands among those given: by its path, or by its file's name alone."""
+    """Return the indices of a photo among those given, by its path or its file's name alone."""
     for names in ([str(path) for path in paths], [path.name for path in paths]):
         places = [place for place, each in enumerate(names) if each == name]
         if len({paths[place] for place in places}) == 1:
@@ -157,7 +156,7 @@ def _report(table: PhotoTable, known: str) -> list[str]:
 
 
 def _found(row: PhotoRow, name: str) -> str:
-    """Write what was found in a photo, in columns."""
+    """Format what was found in a photo, in columns."""
     texts = []
     for each in (name, "exposure_time"):
         value, error = getattr(row, each), row.uncertainty(each)
@@ -191,5 +190,5 @@ def _cut(text: str, width: int) -> str:
 
 
 def written_by(options: argparse.Namespace) -> Written:
-    """Return what ``--out`` is: the table of several photos, or the scene fitted to one."""
+    """Return what ``--out`` writes: the table of several photos, or the scene fitted to one."""
     return TABLE if options.more else SCENE_FILE

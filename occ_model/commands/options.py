@@ -43,7 +43,7 @@ class Parser(argparse.ArgumentParser):
 
 
 def number(text: str) -> float:
-    """Read the number of an option, with a decimal point or comma, or ``inf``."""
+    """Parse the number of an option, with a decimal point or comma, or ``inf``."""
     readings = NONE.readings(text)
     if len(readings) > 1:
         comma, thousands = (NONE.format(value) for value in readings)
@@ -65,7 +65,7 @@ def whole_number(text: str) -> int:
 
 
 def decoder_name(text: str) -> str:
-    """Read the name of a decoder, also of a plug-in, which is not imported yet."""
+    """Check the name of a decoder; a plug-in's is not imported yet."""
     if text not in DECODERS and text not in decoders():
         raise argparse.ArgumentTypeError(
             f"there is no decoder {shown(text)}; known: {', '.join(decoders())}"
@@ -80,7 +80,7 @@ def add_option(
     what: str = "",
     **more: Any,
 ) -> None:
-    """Add an option with a default, which its help ends with, and whose type is the option's."""
+    """Add an option with a default, which ends its help and sets its type."""
     kinds = {int: whole_number, float: number}
     if type(default) in kinds:  # a text stays as it is: a window asks whether it is the default
         more["type"] = kinds[type(default)]
@@ -105,13 +105,11 @@ def add_scene_options(parser: argparse.ArgumentParser) -> None:
 
 
 def scene_of(options: argparse.Namespace) -> Scene:
-    """Make the scene that a command line describes."""
     scene = read_scene_file(options.scene) if options.scene else load_preset(options.preset)
     return with_settings(scene, options.settings)
 
 
 def add_plan_options(parser: argparse.ArgumentParser) -> None:
-    """Add the options that choose the simulated effects."""
     own = SimulationSettings()
     add_option(
         parser, "--tolerance", own.tolerance, "what effects left out may change, in levels of the "
@@ -138,7 +136,6 @@ def add_noise_options(parser: argparse.ArgumentParser) -> None:
 
 
 def add_simulation_options(parser: argparse.ArgumentParser) -> None:
-    """Add the options of the simulation; :func:`simulation_settings_of` reads them."""
     add_plan_options(parser)
     add_noise_options(parser)
 
@@ -163,7 +160,7 @@ def forced(options: argparse.Namespace) -> dict[str, bool]:
 
 
 def assumption_of(name: str, value: float, pattern: str, options: argparse.Namespace) -> str:
-    """Name the value that the estimates of time rest on; empty where the command line states it."""
+    """Name the value that estimated times depend on; empty where the command line states it."""
     stated = {setting.partition("=")[0].strip() for setting in options.settings}
     if options.led_frequency is not None:
         stated.add("switching_frequency")

@@ -13,7 +13,7 @@ _SETTINGS = "TQDM_"  # prefix of the environment variables by which a user chang
 
 
 def progress_bar(**options: Any) -> Any:
-    """Return a bar of tqdm's, shown on a terminal, whatever the user's environment holds for it."""
+    """Return a tqdm bar, shown on a terminal whatever the user's environment says."""
     return _bar_class()(file=sys.stderr, **{"disable": None, **options})
 
 
@@ -30,7 +30,7 @@ def _bar_class() -> Any:
         from tqdm import tqdm
 
     class Bar(tqdm):  # type: ignore[misc]  # tqdm has no types
-        """A bar that is given up where it cannot be written: the result counts."""
+        """A bar that is abandoned where it cannot be written: the result counts."""
 
         def display(self, *arguments: Any, **options: Any) -> None:
             with _full_disk_ignored():
@@ -58,7 +58,7 @@ def _settings_hidden() -> Iterator[None]:
 
 @contextmanager
 def _full_disk_ignored() -> Iterator[None]:
-    """Send all of standard error nowhere from the first write on that fails."""
+    """Discard all of standard error from the first failing write on."""
     try:
         yield
     except OSError:

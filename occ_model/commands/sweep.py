@@ -96,14 +96,14 @@ def add_to(commands: Commands) -> None:
 
 
 def add_worker_options(parser: argparse.ArgumentParser) -> None:
-    """Add the options that say where a study's work is done."""
+    """Add the options for where a study runs."""
     work = parser.add_mutually_exclusive_group()
     add_option(work, "--jobs", 1, "processes", metavar="N")
     work.add_argument("--cluster", metavar="ADDRESS", help="workers of a dask scheduler instead")
 
 
 def add_work_options(parser: argparse.ArgumentParser) -> None:
-    """Add the options that say where a study's work is done, and where its results go."""
+    """Add the options for where a study runs, and where its results go."""
     add_worker_options(parser)
     parser.add_argument(
         "--out", type=Path, metavar="FILE.csv",

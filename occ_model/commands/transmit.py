@@ -55,7 +55,7 @@ def _facts(sent: Transmission) -> list[str]:
 
 
 def _wav(sent: Transmission) -> str:
-    """Say how exact the WAV file is, whose sample rate is a whole number of Hz."""
+    """State the frequency error of the WAV file, whose sample rate is a whole number of Hz."""
     timing = wav_timing(sent)
     return (
         f"WAV: {timing.samples_a_chip} samples a chip at {HERTZ.format(timing.sample_rate)}, "

@@ -52,7 +52,7 @@ def covers_of(
     blurs: Mapping[str, float],
     plain: Optics,
 ) -> dict[frozenset[str], FloatArray | None]:
-    """Return the panel's fraction of each pixel, with each set of effects on the outline."""
+    """Return the panel's fraction of each pixel, for each set of effects on the outline."""
     found: dict[frozenset[str], FloatArray | None] = {}
     distances: dict[str, tuple[FloatArray, ...]] = {}
     for chosen in sets_of([*moved, *blurs]):
@@ -92,7 +92,7 @@ def _blurred(distance: FloatArray, blur: float) -> FloatArray:
 def _distances(
     outline: FloatArray, columns: FloatArray, rows: FloatArray, blur: float
 ) -> tuple[FloatArray, ...]:
-    """Return how far pixels lie within the outline's top, bottom, left and right rim."""
+    """Return the distances of pixels inside the outline's top, bottom, left and right rim."""
     down = spans_of(outline, columns, 0)
     along = spans_of(outline, rows.ravel(), 1)
     lines = np.broadcast_to(columns[:, None], rows.shape)
@@ -103,10 +103,10 @@ def _distances(
 
 
 def _within(spans: Spans, places: FloatArray, blur: float) -> tuple[FloatArray, FloatArray]:
-    """Return how far places on lines lie within the first and the last rim that these meet.
+    """Return the distances of places on lines inside the first and the last rim of these.
 
-    From a slanting rim it is shorter than along the line; a narrow blur goes along the axes.
-    Within a steep rim the distance along the other axis counts.
+    From a slanting rim it is shorter than along the line; a narrow blur goes along the axes. Within
+    a steep rim the distance along the other axis counts.
     """
     found = []
     for sign, rim, slope in (

@@ -28,7 +28,8 @@ _ITERATIONS = 40  # of the inverse distortion; each leaves a few percent of the 
 _MOST_OFF = 1e-6  # largest error of an inverse, in focal lengths
 
 _RADII = np.linspace(0.0, 4.0, 129)[1:]
-"""Radii of that search, in multiples of the picture's corner and of the radius needed."""
+"""Radii at which a fold is searched for, in multiples of the picture's corner and of the radius
+needed."""
 
 
 class Distortion(OpticsEffect):
@@ -212,7 +213,7 @@ def part_inside(polygon: FloatArray, side: FloatArray) -> FloatArray:
 
 
 def subdivided(polygon: FloatArray, parts: IndexArray) -> FloatArray:
-    """Divide the edge of a polygon from each corner to the next into so many equal parts."""
+    """Divide each edge of a polygon, from its corner to the next, into so many equal parts."""
     edge = np.repeat(np.arange(len(polygon)), parts)
     before = np.cumsum(parts) - parts
     fraction = ((np.arange(len(edge)) - before[edge]) / parts[edge])[:, None]

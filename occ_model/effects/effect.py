@@ -1,8 +1,8 @@
 """The interface of an effect: something that the paper's model leaves out.
 
-An effect belongs to one stage of the light's way from the panel to the file. It says whether a
-scene has it (``is_present``), and simulates it (``apply``). How much leaving it out changes what is
-observed follows from that, on a sample of the pixels: see :mod:`occ_model.effects.estimates`.
+An effect belongs to one stage of the light's way from the panel to the file. It determines whether
+a scene has it (``is_present``), and simulates it (``apply``). How much leaving it out changes what
+is observed follows from that, on a sample of the pixels: see :mod:`occ_model.effects.estimates`.
 """
 
 from abc import ABC, abstractmethod
@@ -23,15 +23,13 @@ Values = TypeVar("Values", FloatArray, Pixels)  # pixel values of either precisi
 
 @dataclass(frozen=True, slots=True)
 class Cost:
-    """What an effect takes: seconds for a picture, and for a million of its pixels."""
+    """Computing time of an effect: seconds for a picture, and for a million of its pixels."""
 
     picture: float = 0.0
     pixels: float = 0.0
 
 
 class Effect(ABC):
-    """An effect, of whatever stage."""
-
     name: ClassVar[str]  # The identifier, as in a plan
     label: ClassVar[str]  # The field's term for it, as on screen
     kind: ClassVar[Kind]  # How it leaves the rows of a picture
@@ -39,11 +37,11 @@ class Effect(ABC):
     parameters: ClassVar[tuple[str, ...]]  # The parameters of a scene that it depends on, by name
 
     cost: ClassVar[Cost] = Cost()
-    """What it takes by itself, as measured: see :mod:`occ_model.effects.effect_sets`."""
+    """Its own computing time, as measured: see :mod:`occ_model.effects.effect_sets`."""
 
     @abstractmethod
     def is_present(self, scene: Scene) -> bool:
-        """Return whether a scene has the effect; where not, it is exactly nothing."""
+        """Return whether a scene has the effect; without it the effect changes exactly nothing."""
 
 
 class LightEffect(Effect):
@@ -85,7 +83,7 @@ class NoiseEffect(Effect):
     kind = "noise"
     stage = "sensor"
     of_the_camera: ClassVar[bool] = False
-    """Whether every picture that the camera takes has the same noise."""
+    """Whether the noise is the same in every picture that the camera takes."""
 
     @abstractmethod
     def spread(self, scene: Scene, values: FloatArray) -> FloatArray:

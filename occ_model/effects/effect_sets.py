@@ -1,9 +1,9 @@
-"""The sets of effects that a scene can be simulated with, what they take and how far they are.
+"""The sets of effects that a scene can be simulated with, with their times and errors.
 
-What effects take is as measured: the shortest of some pictures of the presets on one computer. A
-plan compares times, and must be the same on every computer. Where pixels are simulated at all, for
-whatever effect, exposing and keeping them takes what it takes; noise from a stored plane is scaled
-once for all noise.
+Times are as measured: the shortest of some pictures of the presets on one computer. A plan compares
+times, and must be the same on every computer. Where pixels are simulated at all, exposing and
+storing them takes the same time for any effects; noise from a stored plane is scaled once for all
+noise.
 """
 
 import math
@@ -23,12 +23,12 @@ from occ_model.results.plan import Way
 from occ_model.scene.simulation_settings import NoiseSource, SimulationSettings
 
 _MOST_EXCESS = 1.15
-"""Times that changes that are added may exceed the tolerance where together they are within it."""
+"""Largest ratio of the sum of changes to the tolerance at which the changes are tried together."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class EffectSets:
-    """The sets of effects that no other is both faster and closer than, the fastest first."""
+    """The sets of effects that no other is both faster and more exact than, the fastest first."""
 
     estimates: Estimates
     names: frozenset[str]  # The effects that may be left out
@@ -56,9 +56,9 @@ class EffectSets:
         return cls(estimates, subsets.effects[0], float(subsets.seconds[0]), ways)
 
     def errors_of(self, ways: Sequence[Way]) -> list[float]:
-        """Return the least tolerances at which sets may be simulated.
+        """Return the least tolerance at which each set may be simulated.
 
-        Their effects' changes may add up otherwise than their sum, and are tried together.
+        The changes of its effects need not add, and are tried together.
         """
         found = self.estimates.errors_of([self.names - way.effects for way in ways])
         return [max(own, way.error / _MOST_EXCESS) for own, way in zip(found, ways, strict=True)]
@@ -79,7 +79,7 @@ class EffectSets:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Subsets:
-    """All subsets of some effects, the first of which has all."""
+    """All subsets of some effects, the full set first."""
 
     effects: tuple[frozenset[str], ...]
     left_out: FloatArray  # 1 where a subset does not have an effect: (subsets, effects)
@@ -104,7 +104,7 @@ def _subsets(
 
 
 def _errors_of(estimates: Estimates, free: tuple[Effect, ...], left_out: FloatArray) -> FloatArray:
-    """Return what leaving out sets of effects changes, in levels, as if changes added."""
+    """Return the changes by leaving out sets of effects, in levels, as if changes added."""
     if estimates.seen is None:
         return np.where(left_out.any(axis=1), math.inf, 0.0)
     if not free:
@@ -121,7 +121,7 @@ def _errors_of(estimates: Estimates, free: tuple[Effect, ...], left_out: FloatAr
 _PIXELS = 1.1e-3  # seconds for a million pixels whose rows differ
 
 _NOISE: dict[NoiseSource, float] = {"exact": 10e-3, "reused": 0.9e-3}
-"""Seconds to draw a million numbers, or to fetch them."""
+"""Seconds to draw a million random numbers, or to fetch them."""
 
 _NOISY_FILE = 6e-3  # seconds by which a million noisy pixels take longer in a file
 
@@ -129,7 +129,7 @@ _NOISY_FILE = 6e-3  # seconds by which a million noisy pixels take longer in a f
 def seconds_of(
     effects: Sequence[Effect], sets: FloatArray, pixels: int, noise: NoiseSource
 ) -> FloatArray:
-    """Return what sets of effects take, (sets, effects), 1 where a set simulates an effect."""
+    """Return the times of sets of effects, given as (sets, effects): 1 where simulated."""
     millions = pixels * 1e-6
     each = np.array([effect.cost.picture + effect.cost.pixels * millions for effect in effects])
     by_pixel = np.array([effect.kind != "column" for effect in effects], dtype=bool)

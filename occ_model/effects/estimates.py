@@ -19,13 +19,13 @@ from occ_model.errors import ProjectionError
 from occ_model.scene.simulation_settings import Observable, SimulationSettings
 
 ALLOWANCE = 1.05
-"""Factor on what a sample shows, so that hardly any change is larger than its estimate."""
+"""Factor on the change that a sample shows, so that hardly any exceeds its estimate."""
 
 _PEAK, _NOISE_PEAK = 2.0, 3.0
 """Root mean squares of a smooth change, and of noise, that are to stay within a chip's margin."""
 
 _LEAST_ESTIMATE = 1e-9
-"""Estimate in grey levels of an effect that a scene has and a sample does not show."""
+"""Estimate, in grey levels, of a scene's effect that the sample does not show."""
 
 _UNDITHERED_FRACTION = 0.25
 """Fraction of a mean square by which a file without noise may change it further."""
@@ -34,7 +34,7 @@ _READ_FRACTION = 0.15  # fraction of a chip from its middle at which it is read
 
 
 def observed(pixels: SampledPixels, observable: Observable) -> Observed:
-    """Return what is observed of the sample, and how it changes."""
+    """Return the observable of the sample, and its changes."""
     if observable == "image":
         found = observed_image(pixels)
     else:
@@ -51,10 +51,10 @@ def observed(pixels: SampledPixels, observable: Observable) -> Observed:
 
 
 def margins(pixels: SampledPixels, signal: Observed) -> tuple[float, float]:
-    """Return how far chips keep from the threshold, and the steps between columns near it.
+    """Return the chips' distance from the threshold, and the steps between columns near it.
 
-    Both in levels of the signal. A chip that passes the threshold is read wrongly; where the
-    signal crosses it, noise larger than the step between columns makes runs that are none.
+    Both in levels of the signal. A chip that passes the threshold is read wrongly; where the signal
+    crosses it, noise larger than the step between columns makes false runs.
     """
     scene, sample = pixels.scene, pixels.sample
     seen = signal.complete / np.sqrt(sample.weights)
@@ -80,14 +80,14 @@ class Estimates:
     limits: Mapping[str, float]  # With what it may not show
 
     seen: Observed | None
-    """What is observed, None where no set of effects is known to be small enough."""
+    """The observable, None where no set of effects is known to be small enough."""
 
     stretch: float  # Levels of the stretched profile per grey level
     factors: Mapping[str, float]  # By what an effect's change counts more than by its size
     unknown: str = ""  # Why no change is known; every limit is then infinite
 
     def errors_of(self, sets: Sequence[frozenset[str]]) -> list[float]:
-        """Return what leaving out sets of effects together changes at most, in levels."""
+        """Return the largest changes by leaving out sets of effects together, in levels."""
         if self.seen is None:
             return [math.inf if left_out else 0.0 for left_out in sets]
         most = np.sqrt(self.seen.together(sets)).tolist()

@@ -1,4 +1,4 @@
-"""What a file of rounded cosine coefficients makes of pixels, of noise and of changes."""
+"""What a file of rounded cosine coefficients does to pixels, noise and changes."""
 
 import math
 from functools import cached_property, lru_cache
@@ -31,7 +31,7 @@ def _transform() -> FloatArray:
 
 
 _EDGE_SPECTRUM: FloatArray = 8.0 / math.pi / np.maximum(np.arange(8.0), 1.0)
-"""About the coefficients of an edge of one grey level across a block."""
+"""Approximate coefficients of an edge of one grey level across a block."""
 
 _NOISES: FloatArray = np.linspace(0.0, 16.0, 129) ** 2
 """Deviations of noise for which a file's are tabulated, in grey levels."""
@@ -49,7 +49,7 @@ _ROUNDING = 1.0 / 12.0  # mean square error of rounding to whole grey levels
 
 @lru_cache(maxsize=4)
 def _read_back(steps: bytes) -> FloatArray:
-    """Tabulate the deviation of noise as it is read back."""
+    """Tabulate the deviation of noise as it is read back from the file."""
     step, q = np.split(np.frombuffer(steps), [8])
     noise = np.sqrt(_NOISES**2 + _ROUNDING)[:, None]
     s = noise / step
@@ -98,7 +98,7 @@ class FileChange:
         return values[:, :, self._inner][:, self._blocks]
 
     def _coefficients(self, blocks: FloatArray) -> FloatArray:
-        """Return those without a vertical frequency, in their steps: (sets, blocks, 8, nodes)."""
+        """Return coefficients without a vertical frequency, in steps: (sets, blocks, 8, nodes)."""
         if not len(self._blocks):
             return np.zeros((len(blocks), 1, 8, 1))
         found = np.matmul(_transform() * math.sqrt(8.0), blocks)
@@ -107,7 +107,7 @@ class FileChange:
         return np.asarray(found)
 
     def means(self, values: FloatArray, spread: FloatArray) -> FloatArray:
-        """Change pixels' mean values, (sets, columns, nodes), to those that are read back.
+        """Convert pixels' mean values, (sets, columns, nodes), to those that are read back.
 
         Each of the sets has a noise of its own.
         """
@@ -125,7 +125,7 @@ class FileChange:
 
     @cached_property
     def own_change(self) -> float:
-        """The mean square of what the file changes."""
+        """Mean square of the file's own change."""
         rims = self._rims
         along = (rounding_square(self._x[0], self._s) * self._step**2).sum(axis=1)
         noise = self._noise / self._others
@@ -135,7 +135,7 @@ class FileChange:
 
     @property
     def _rounding_at_edges(self) -> float:
-        """The mean square of rounding in blocks with a rim."""
+        """Mean square of rounding in blocks with a rim."""
         return float((self._all**2 * np.minimum(self._of_rims**2, 1.0 / 12.0)).mean())
 
     def own_sampling(self) -> float:
@@ -208,10 +208,10 @@ class FileChange:
         return float(np.exp(-DAMPING * self._s**2).mean())
 
     def undithered(self) -> float:
-        """Return the mean square of what no sample can tell: rounding alike in all blocks.
+        """Return the mean square that no sample shows: rounding alike in all blocks.
 
-        Where noise does not spread a block's mean over the steps, the smallest change may round
-        the blocks of an even picture otherwise, many at once: half of them are counted.
+        Where noise does not spread a block's mean over the steps, the smallest change may round the
+        blocks of an even picture otherwise, many at once: half of them are counted.
         """
         sharp = self._step[:2] ** 2 * np.exp(-DAMPING * self._s[:2] ** 2)
         return float(sharp.sum()) / 2.0 / 64.0
@@ -225,17 +225,17 @@ class FileChange:
         return fractions * self._at_rims(sizes, self._along)
 
     def added_at_a_rim(self, fraction: float, square: float) -> float:
-        """Return the same for one change."""
+        """Return :meth:`added_at_rims` for one change."""
         return float(self.added_at_rims(np.array(fraction), np.array(square))) if fraction else 0.0
 
     def spread(self, spread: FloatArray) -> FloatArray:
-        """Return the deviation of a pixel's noise as it is read back, for some before."""
+        """Return the deviation of a pixel's noise as it is read back."""
         return np.interp(spread, _NOISES, _read_back(self._all.tobytes()))
 
     def of_noise(self, own: FloatArray, left: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the mean squares of noises as they are read back: in pixels, and in column means.
 
-        Each is left out beside all other noise, which is left.
+        Each noise is left out while all other noise stays.
         """
         rest = np.sqrt(left**2 + _ROUNDING)
         own = np.sqrt(own**2 + moved_steps_of_noise(own))

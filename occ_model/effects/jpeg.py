@@ -59,7 +59,6 @@ class Jpeg(FileEffect):
         return math.sqrt(float((steps[0] ** 2).sum()) / 12.0) / 8.0, most
 
     def check_size(self, scene: Scene, shape: tuple[int, ...]) -> None:
-        """Refuse a picture that is larger than a JPEG file can hold."""
         if self.is_present(scene) and max(shape) > LONGEST_SIDE["JPEG"]:
             raise ParameterError.of(
                 "jpeg_quality",

@@ -25,7 +25,6 @@ class LevelTable:
         self.levels: FloatArray = low + self.step * np.arange(_LEVELS, dtype=np.float64)
 
     def place(self, values: FloatArray) -> Places:
-        """Return where values lie among the levels."""
         low, high = float(self.levels[0]), float(self.levels[-1])
         fraction = (values - low) * ((_LEVELS - 1) / (high - low))
         np.maximum(fraction, 0.0, out=fraction)
@@ -35,7 +34,7 @@ class LevelTable:
         return below, fraction
 
     def at(self, table: FloatArray, places: Places) -> FloatArray:
-        """Interpolate one table at some places, shape as these."""
+        """Interpolate one table, shape as ``places``."""
         below, fraction = places
         return np.asarray(table.take(below) + fraction * _steps(table).take(below))
 
@@ -51,7 +50,6 @@ class LevelTable:
         return self.at(tables.ravel(), (below, fraction))
 
     def slope(self, table: FloatArray) -> FloatArray:
-        """Return the slope of a table at each level."""
         ends = np.concatenate([table[:1], table, table[-1:]])
         slope = (ends[2:] - ends[:-2]) / (2.0 * self.step)
         slope[[0, -1]] *= 2.0
@@ -70,5 +68,5 @@ class LevelTable:
 
 
 def _steps(tables: FloatArray) -> FloatArray:
-    """Return the differences of neighbours, some times faster than NumPy's."""
+    """Return the differences of neighbours, faster than NumPy."""
     return np.asarray(tables[..., 1:] - tables[..., :-1])

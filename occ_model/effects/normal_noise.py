@@ -92,7 +92,7 @@ def rounding_mean(x: FloatArray, s: FloatArray) -> FloatArray:
 
 
 def _harmonics(x: FloatArray, s: FloatArray) -> Iterator[tuple[int, Pixels, Pixels]]:
-    """Return the number n, the angle and (-1)^n times the damping, of those that noise leaves."""
+    """Yield n, the angle, and (-1)^n times the damping, of the harmonics that noise leaves."""
     least = max(float(s.min()), SHARP_NOISE)
     turn = ((x - np.rint(x)) * (2.0 * math.pi)).astype(np.float32)
     square = (-DAMPING * np.square(s)).astype(np.float32)
@@ -115,7 +115,7 @@ def _table(of: Callable[[FloatArray], FloatArray]) -> tuple[FloatArray, FloatArr
 
 
 def moved_steps_of_noise(s: FloatArray) -> FloatArray:
-    """Return the same for a change by noise: by |d| - d^2 where that stays within a step."""
+    """Return :func:`moved_steps` for a change by noise: |d| - d^2 where within a step."""
     return np.interp(s, *_table(_moved_by_noise))
 
 

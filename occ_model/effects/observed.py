@@ -1,4 +1,4 @@
-"""What is observed of a sample of pixels, and how it changes without some of the effects."""
+"""The observable of a sample of pixels, and its changes without some of the effects."""
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -8,17 +8,17 @@ import numpy as np
 from occ_model.arrays import FloatArray
 
 LIMIT_ALLOWANCE = 1.3
-"""Factor on what a sample shows for the most that it is, which keeps a plan's promise."""
+"""Factor from the change that a sample shows to its limit, which keeps a plan's promise."""
 
 _SURE_DEVIATIONS = 3.5
 """Standard deviations by which the root mean square of finite noise may exceed its expectation."""
 
 
 class Observed:
-    """What is observed of a sample, and how it changes without some of the effects.
+    """The observable of a sample, and its changes without some of the effects.
 
-    What effects change adds as it is, with its sign, where it is the same in every picture; what
-    noise and a file's rounding change is independent, and its mean squares add.
+    What is the same in every picture adds with its sign; what noise and a file's rounding change is
+    independent, and its mean squares add.
     """
 
     def __init__(
@@ -27,19 +27,20 @@ class Observed:
         seen: Callable[[Sequence[frozenset[str]]], FloatArray],
         changing: Sequence[str],
     ) -> None:
-        """Observe all effects, and without each that changes what is seen.
+        """Observe all effects, and without each that changes the observable.
 
-        That gives values times the roots of their weights, (sets, values), with sets of effects.
+        ``seen`` returns values times the roots of their weights, (sets, values), for sets of
+        effects.
         """
         self._names = names
         self._seen = seen
         self._place = {name: at for at, name in enumerate(changing)}
         self.alone: dict[str, float] = {}
-        """The mean square of what is independent in an effect's change."""
+        """Mean square of the independent part of an effect's change."""
         self.doubt: dict[str, float] = {}
-        """The mean square of what the sample may not show of it."""
+        """Mean square of what the sample may not show of an effect."""
         self.known: dict[str, float] = {}
-        """Factor on the root of that for the most that it is, where its law is known."""
+        """Factor on the root of ``alone`` for the largest change, where its law is known."""
         self.unsure = 0.0
         """Fraction by which any mean square may be larger."""
         found = seen([names, *(names - {name} for name in changing)])
@@ -56,24 +57,24 @@ class Observed:
         self.known.update(dict.fromkeys(squares, 1.0 + _SURE_DEVIATIONS / math.sqrt(2.0 * values)))
 
     def add_doubt(self, names: Iterable[str], square: float) -> None:
-        """Add a mean square to what the sample may not show of some effects."""
+        """Add a mean square that the sample may not show, to some effects."""
         for name in names:
             self.doubt[name] = self.doubt.get(name, 0.0) + square
 
     def shown(self, name: str) -> float:
-        """Return the mean square of what leaving out an effect changes, as the sample shows it."""
+        """Return the mean square of an effect's change, as the sample shows it."""
         place = self._place.get(name)
         square = 0.0 if place is None else float(self._products[place, place])
         return max(square + self.alone.get(name, 0.0), 0.0)
 
     def sampling_error(self, name: str, values: int) -> float:
-        """Return the standard error of that where some values of so many are a sample."""
+        """Return the standard error of :meth:`shown` where the sample is a part of ``values``."""
         squares = self._moved[self._place[name]] ** 2
         left = max(1.0 - len(squares) / values, 0.0)
         return math.sqrt(left * float((squares**2).sum()))
 
     def together(self, sets: Sequence[frozenset[str]]) -> FloatArray:
-        """Return the most of the mean square of what leaving out sets of effects changes."""
+        """Return the largest mean squares of changes by leaving out sets of effects."""
         moved = [
             [self._place[name] for name in left_out if name in self._place] for left_out in sets
         ]
@@ -87,9 +88,9 @@ class Observed:
         return self._most(names, members, squares)
 
     def of_subsets(self, names: Sequence[str], members: FloatArray) -> FloatArray:
-        """Return about the same for many sets of effects, as if their changes added.
+        """Return about :meth:`together` for many sets of effects, as if their changes added.
 
-        The members are 1 where a set has an effect: shape (sets, effects).
+        ``members``: 1 where a set has an effect, shape (sets, effects).
         """
         moving = [at for at, name in enumerate(names) if name in self._place]
         places = [self._place[names[at]] for at in moving]
@@ -98,7 +99,7 @@ class Observed:
         return self._most(names, members, squares)
 
     def _most(self, names: Sequence[str], members: FloatArray, squares: FloatArray) -> FloatArray:
-        """Add to mean squares what is independent and in doubt, with the allowances."""
+        """Add to mean squares the independent and the doubtful ones, with the allowances."""
         alone = np.array([self.alone.get(name, 0.0) for name in names])
         known = np.array([self.known.get(name, 0.0) for name in names])
         doubt = np.array([self.doubt.get(name, 0.0) for name in names])

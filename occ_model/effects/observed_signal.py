@@ -24,7 +24,7 @@ _ROUNDING_MARGIN = 0.02
 """Grey levels from the middle between two levels within which rounding cannot be foretold."""
 
 _LARGE_STEP = 32.0
-"""Levels by which an enhancement can part neighbouring levels, so that one column matters."""
+"""Step between neighbouring levels after the enhancement above which a single column matters."""
 
 _MOST_GAIN = 8.0  # times by which an enhancement raises contrasts at most, where noise smooths it
 
@@ -52,7 +52,7 @@ def observed_signal(pixels: SampledPixels) -> Observed:
         if inside is not None:  # beside the panel nothing is enhanced
             for included, own, of_own, on in zip(sets, values, found, inside, strict=True):
                 if not on.all():
-                    of_own[~on] = _beside(pixels, included, own[~on])
+                    of_own[~on] = _mean_rounded(pixels, included, own[~on])
         return pixels.mean_of_rows(found) * weights
 
     found = Observed(pixels.names, seen, sorted(pixels.names))
@@ -79,7 +79,7 @@ def observed_signal(pixels: SampledPixels) -> Observed:
     return found
 
 
-def _beside(pixels: SampledPixels, included: Names, values: FloatArray) -> FloatArray:
+def _mean_rounded(pixels: SampledPixels, included: Names, values: FloatArray) -> FloatArray:
     """Return the mean of pixels of some mean values that are rounded and not enhanced."""
     spread = pixels.spread(included)
     if float(spread.max()) < LEAST_SMOOTHING_NOISE:
@@ -89,7 +89,7 @@ def _beside(pixels: SampledPixels, included: Names, values: FloatArray) -> Float
 
 
 def _doubt_sharp_steps(pixels: SampledPixels, found: Observed) -> None:
-    """Doubt how pixels are rounded that no noise spreads over the enhancement's steps.
+    """Add doubt about the rounding of pixels that no noise spreads over the enhancement's steps.
 
     Whole plateaus of values that lie between two levels may be rounded otherwise; in a file
     whatever its own error reaches, since that is alike in blocks of equal rows.
@@ -115,10 +115,10 @@ def _doubt_sharp_steps(pixels: SampledPixels, found: Observed) -> None:
 
 
 def _doubt_large_steps(pixels: SampledPixels, found: Observed) -> None:
-    """Doubt columns near a large step of the enhancement that the sample does not have.
+    """Add doubt about columns near a large step of the enhancement that the sample lacks.
 
-    An equalization makes one where many columns share a value. What each column of the profile
-    changes there is summed over all columns, less what those of the sample stand for.
+    An equalization makes one where many columns have the same value. What each column of the
+    profile changes there is summed over all columns, less what those of the sample stand for.
     """
     missed, region = pixels.unsampled, pixels.view.region
     if missed is None:
@@ -171,7 +171,7 @@ def _seen_profile(pixels: SampledPixels) -> FloatArray:
 
 
 def _doubt_a_cut_file(pixels: SampledPixels, found: Observed) -> None:
-    """Doubt what a file makes of noise that black or white cuts off: it is not normal."""
+    """Add doubt about a file's change of noise that black or white cuts off: it is not normal."""
     if pixels.file is None:
         return
     spread = pixels.spread(pixels.names)

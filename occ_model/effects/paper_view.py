@@ -86,7 +86,7 @@ class _Outline:
 
 @lru_cache(maxsize=16)
 def _outline_of(corners: bytes, rows: int, columns: int) -> _Outline:
-    """Return what follows from the corners, which stay while pose and lens do."""
+    """Return what follows from the corners, cached while pose and lens stay."""
     places = np.frombuffer(corners).reshape(-1, 2)
     seen = region_of(places, rows, columns)
     region = seen or Region(0, rows, 0, columns)

@@ -22,7 +22,7 @@ from occ_model.scene.simulation_settings import (
 from occ_model.scene.units import NONE
 
 _ROUNDING = 1.0 + 1e-9
-"""Factor on an error that is compared with one whose sums were rounded otherwise."""
+"""Factor on an error in comparisons with one whose sums were rounded otherwise."""
 
 _CLEAR_RATIO = 1.3  # ratio of limit to estimate from which both are stated
 
@@ -73,17 +73,16 @@ def plan(
 
 
 def plan_with(scene: Scene, settings: SimulationSettings) -> Plan:
-    """Decide which effects are simulated with some settings: see :func:`plan`."""
     check_scene(scene)
     settings = settings.checked(NAMES)
     return plan_of(paper_view_of(scene), settings)
 
 
 def called_for_by_signal(chosen: Plan, scene: Scene) -> tuple[str, ...]:
-    """Name the effects that a plan leaves out and one for the signal takes in.
+    """Name the effects that a plan leaves out and one for the signal includes.
 
-    A picture that is planned for its pixels, with a large tolerance, may so be decoded otherwise
-    than a study says, which plans for the signal. What is switched by hand is so in both.
+    A picture planned for its pixels, with a large tolerance, may so be decoded otherwise than in a
+    study, which plans for the signal. Effects switched by hand are so in both.
     """
     left_out = {d.effect for d in chosen.decisions if d.estimate and not (d.included or d.forced)}
     if not left_out or chosen.observable == "signal" or chosen.tolerance == math.inf:
@@ -112,7 +111,7 @@ def plan_of(view: PaperView, settings: SimulationSettings) -> Plan:
 
 
 def complete_plan(scene: Scene, settings: SimulationSettings) -> Plan:
-    """Take in every effect of a scene but those switched off by hand, without estimating any."""
+    """Include every effect of a scene but those switched off by hand, without any estimate."""
     decisions = tuple(
         _take_in(effect, scene, settings.force.get(effect.name)) for effect in EFFECTS
     )
@@ -136,7 +135,7 @@ def _take_in(effect: Effect, scene: Scene, by_hand: bool | None) -> Decision:
 def signal_plan(
     scenes: Sequence[Scene], settings: SimulationSettings, *, needs_pixels: bool
 ) -> Plan:
-    """Decide which effects decoders read pictures with that differ in phase and code alone.
+    """Decide on the effects of pictures for decoders, which differ in phase and code alone.
 
     Where pixels are simulated, those that the signal of any of them calls for. Without pixels all
     effects take less time than estimating what they change.
@@ -179,7 +178,6 @@ def ways_of(scene: Scene, settings: SimulationSettings) -> tuple[Way, ...]:
 
 
 def _sets_of(view: PaperView, settings: SimulationSettings) -> EffectSets:
-    """Return the sets of effects that a scene can be simulated with."""
     force = tuple(sorted(settings.force.items()))
     return _known_sets(view, settings.observable, force, settings.noise)
 

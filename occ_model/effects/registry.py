@@ -31,12 +31,12 @@ _Kind = TypeVar("_Kind", bound=Effect)
 
 
 def planned(plan: Plan, kind: type[_Kind]) -> tuple[_Kind, ...]:
-    """Return the effects of a kind that a plan includes, in order."""
+    """Return the planned effects of a kind, in order."""
     return named(plan.included, kind)
 
 
 def named(names: Collection[str], kind: type[_Kind]) -> tuple[_Kind, ...]:
-    """Return the effects of a kind that have some names, in order."""
+    """Return the effects of a kind with these names, in order."""
     return tuple(effect for effect in _of_kind(kind) if effect.name in names)
 
 

@@ -22,7 +22,7 @@ class Rims:
 
     @property
     def blocks(self) -> int:
-        """The blocks of a file that the panel spans in a column."""
+        """Number of a file's blocks that the panel spans in a column."""
         return -(-self._region.last_row // 8) - self._region.first_row // 8
 
     @property
@@ -33,7 +33,7 @@ class Rims:
 
     @cached_property
     def fractions(self) -> tuple[float, float]:
-        """The fractions of pixels in blocks of a file with rims along the rows, and upright ones.
+        """Fractions of pixels in blocks of a file with rims along the rows, and upright ones.
 
         A turned rim is both.
         """
@@ -52,7 +52,7 @@ class Rims:
         return min(1.0, sum(self.fractions))
 
     def _moved(self, name: str) -> FloatArray | None:
-        """Return what an effect changes in the panel's fraction of each pixel, None for nothing."""
+        """Return an effect's change of the panel's fraction of each pixel, None for none."""
         covers, outline = self._sample.covers, self._sample.outline
         whole, without = covers[outline], covers[outline - {name}]
         if whole is without or whole is None or without is None:

@@ -82,7 +82,7 @@ class Sample:
 
     @property
     def arrays(self) -> tuple[FloatArray, ...]:
-        """All that it holds."""
+        """All arrays of the sample."""
         covers = tuple(cover for cover in self.covers.values() if cover is not None)
         gains = (*self.emission.values(), *self.transmission.values())
         return (self.rows, self.row_weights, self.weights, *covers, *gains)
@@ -96,9 +96,9 @@ class Sample:
 def sample_of(
     region: Region, level: bool, optics: Mapping[str, Optics], plain: Optics, in_blocks: bool
 ) -> Sample:
-    """Choose the pixels of a sample in the region that is observed, which a level panel fills.
+    """Choose the pixels of a sample in the observed region, which a level panel fills.
 
-    The optics are what each effect makes of the plain ones by itself. In blocks, columns are taken
+    ``optics``: what each effect alone makes of the ``plain`` ones. ``in_blocks``: columns are taken
     by whole blocks of a file.
     """
     moved = {name: own.outline for name, own in optics.items() if own.outline is not plain.outline}

@@ -40,10 +40,10 @@ _DITHERING_NOISE = 0.5  # noise in grey levels from which a pixel's rounding is 
 
 
 class SampledPixels:
-    """A sample of a scene's pixels, and what they and their noise are with some of the effects.
+    """A sample of a scene's pixels: their values and noise with some of the effects.
 
-    What is asked of many sets of effects is computed for all of them at once: the first axis of
-    the arrays is that of the sets.
+    Values for many sets of effects are computed at once: the first axis of the arrays is that of
+    the sets.
     """
 
     def __init__(self, view: PaperView, effects: Iterable[Effect]) -> None:
@@ -101,7 +101,7 @@ class SampledPixels:
         return np.asarray(self.stack[0])
 
     def place(self, name: str) -> int:
-        """Return the place in ``stack`` of the pixels without an effect."""
+        """Return the index in ``stack`` of the pixels without an effect."""
         return self.moving.index(name) + 1 if name in self._moving else 0
 
     def values(self, sets: Sequence[Names]) -> FloatArray:
@@ -150,7 +150,6 @@ class SampledPixels:
 
     @property
     def levels(self) -> FloatArray:
-        """The levels of the table."""
         return self.table.levels
 
     @cached_property
@@ -165,7 +164,7 @@ class SampledPixels:
         return self._spread(included)[0]
 
     def least_noise(self, included: Names) -> float:
-        """Return the least of that."""
+        """Return the smallest :meth:`spread`."""
         return self._spread(included)[1]
 
     def _spread(self, included: Names) -> tuple[FloatArray, float]:
@@ -290,7 +289,6 @@ class SampledPixels:
         return np.asarray(np.einsum("...cn,cn->...c", seen, self.sample.row_weights))
 
     def mean_of_columns(self, seen: FloatArray) -> float:
-        """Return the mean over the columns."""
         return float(seen @ self.sample.weights)
 
     def read_back(self, sets: Sequence[Names]) -> FloatArray:
@@ -318,5 +316,5 @@ class SampledPixels:
 
 @lru_cache(maxsize=2)  # a scene's picture and its signal
 def sampled_pixels(view: PaperView, effects: tuple[Effect, ...]) -> SampledPixels:
-    """Return the sample of a view's pixels, of which only these effects are not switched off."""
+    """Return the sample of a view's pixels, for the effects that are not switched off."""
     return SampledPixels(view, effects)

@@ -32,8 +32,8 @@ class SignalSampling:
         self._uneven = np.maximum(pixels.table.slope(jumps) - self._even, 0.0)
         inside = pixels.inside([pixels.names])
         self._inside = None if inside is None else inside[0]  # beside the panel nothing is enhanced
-        self._beside = 0.0 if inside is None else pixels.mean_of_rows(~inside[0])
-        self._gain = pixels.mean_of_columns(self._of_panel(self._even) + self._beside)
+        self._off_panel_fraction = 0.0 if inside is None else pixels.mean_of_rows(~inside[0])
+        self._gain = pixels.mean_of_columns(self._of_panel(self._even) + self._off_panel_fraction)
         one = 1.0 / (self._rows**2 * pixels.view.region.columns)
         self._pixel = pixels.mean_at_whole(self._even + self._uneven) * one
         # One pixel whose noise is drawn otherwise.
@@ -46,12 +46,12 @@ class SignalSampling:
         return self._pixels.mean_of_rows(found if self._inside is None else found * self._inside)
 
     def of_effects(self) -> dict[str, float]:
-        """Return it for each effect, by name."""
+        """Return the mean square for each effect."""
         mean = self._pixels.mean_of_columns
         return {name: mean(squares) for name, squares in self._of_columns.items()}
 
     def fluctuations(self) -> dict[str, float]:
-        """Return by how much it may be larger in the columns of one picture, by name.
+        """Return the possible excess of each mean square in the columns of one picture.
 
         The mean square of n numbers of the variance v deviates by the root of (2 v^2 + k) / n. The
         fourth cumulant k is that of few pixels that pass large steps.
@@ -63,7 +63,7 @@ class SignalSampling:
         }
 
     def _of_mean(self, square: FloatArray, of_means: float) -> FloatArray:
-        """Return that of a mean: of its pixels' deviations, and what is known of means."""
+        """Return the mean square of a mean, from that of its pixels and the known one of means."""
         return square / self._rows + of_means * self._gain
 
     def _of_noise(self) -> dict[str, FloatArray]:
@@ -96,17 +96,17 @@ class SignalSampling:
         file = self._pixels.file
         moved = 0.0 if file is None else min(math.sqrt(file.own_change), 1.0)
         part = self._even / 6.0 + self._uneven * 0.8 * moved
-        return self._of_panel(part) + self._beside / 6.0
+        return self._of_panel(part) + self._off_panel_fraction / 6.0
 
     @property
     def doubt_of_file(self) -> float:
-        """How much more that of a file may be, whose rounding is alike in the rows of a block."""
+        """Possible excess of the file's mean square: it rounds the rows of a block alike."""
         if not self._pixels.files:
             return 0.0
         return 7.0 * self._pixels.mean_of_columns(self._rounded) / self._rows
 
     def _of_changes(self) -> dict[str, FloatArray]:
-        """Return it for effects that move the pixels' means."""
+        """Return the mean squares of effects on the pixels' means."""
         pixels = self._pixels
         changes = np.abs(pixels.stack[1:] - pixels.whole)
         of_means: FloatArray = np.zeros(len(changes))

@@ -14,9 +14,9 @@ Names = frozenset[str]  # effects by name
 
 
 class SimulatedColumns:
-    """The light of a view's columns, their values and the receiver's enhancement of these.
+    """The light of a view's columns, their values, and the receiver's enhancement of them.
 
-    Each is known by the effects on it: on the light, and on a pixel's mean value.
+    Each is cached by the effects on it: on the light, and on a pixel's mean value.
     """
 
     def __init__(
@@ -32,7 +32,6 @@ class SimulatedColumns:
         self._enhancement: dict[Names, Enhancement] = {}
 
     def light(self, included: Names) -> ColumnLight:
-        """Return the light of all columns."""
         key = included & self._of_light
         if key not in self._light:
             light = self._view.light
@@ -43,7 +42,7 @@ class SimulatedColumns:
         return self._light[key]
 
     def light_at(self, sets: Sequence[Names], columns: IndexArray) -> tuple[ColumnLight, list[int]]:
-        """Return the different lights at some columns, (lights, columns), and whose each is."""
+        """Return the different lights at some columns, (lights, columns), and each set's index."""
         keys = [included & self._of_light for included in sets]
         known = list(dict.fromkeys(keys))
         lights = [self.light(key) for key in known]
@@ -57,14 +56,13 @@ class SimulatedColumns:
         return found, [known.index(key) for key in keys]
 
     def profile(self, included: Names) -> FloatArray:
-        """Return the values of all columns on the panel."""
         key = included & self._of_value
         if key not in self._profile:
             self._profile[key] = self.dimmed(key, slice(None), 1.0)
         return self._profile[key]
 
     def dimmed(self, included: Names, columns: slice, factor: FloatArray | float) -> FloatArray:
-        """Return those of some columns as a lens dims them, before they are full or white."""
+        """Return the values of some columns as a lens dims them, before saturation."""
         values = self._exposed_by(included)[columns] * factor
         for limit in self._limits:
             if limit.name in included:
@@ -83,7 +81,6 @@ class SimulatedColumns:
         return self._exposed[key]
 
     def enhancement(self, included: Names) -> Enhancement:
-        """Return the receiver's enhancement of the profile."""
         key = included & self._of_value
         if key not in self._enhancement:
             method = self._view.scene.model.enhancement

@@ -43,7 +43,6 @@ class SmoothedCurves:
         self._curves: dict[Names, FloatArray] = {}
 
     def noise(self, included: Names) -> _Noise:
-        """Return the noise that some effects leave."""
         key = included - self._moving
         if key not in self._noises:
             spread, file = self._pixels.spread(included), self._pixels.file

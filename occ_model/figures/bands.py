@@ -23,7 +23,6 @@ _MIN_MODULATION = 0.01  # percent at the lower end of the chart
 
 
 def bands_drawing(scene: Scene) -> Drawing:
-    """Draw the least depth of the bars over frequency and exposure."""
     found = depth_map(scene)
 
     def rows() -> Iterable[tuple[object, ...]]:

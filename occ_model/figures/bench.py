@@ -29,7 +29,6 @@ _NULL: dict[str, Any] = {"color": "0.6", "linestyle": ":", "linewidth": 1.0}
 def write_bench(
     folder: Path, request: BenchRequest, points: Sequence[BenchPoint], frames_a_second: float
 ) -> None:
-    """Write the figure as PDF and PNG, and its points as CSV."""
     drawing = bench_drawing(request, points, frames_a_second)
     provenance = bench_provenance(request, frames_a_second)
     for ending in (".pdf", ".png", ".csv"):
@@ -37,7 +36,7 @@ def write_bench(
 
 
 def bench_provenance(request: BenchRequest, frames_a_second: float, date: str = "") -> Provenance:
-    """Say how the points were measured."""
+    """Describe how the points were measured."""
     scenes = {scheme: bench_scene(request, scheme) for scheme in request.schemes}
     return Provenance(_TITLE, scenes, request.seed, _notes(request, frames_a_second), date)
 
@@ -45,7 +44,7 @@ def bench_provenance(request: BenchRequest, frames_a_second: float, date: str = 
 def bench_drawing(
     request: BenchRequest, points: Sequence[BenchPoint], frames_a_second: float
 ) -> Drawing:
-    """Draw what a request has measured, beside what theory says."""
+    """Draw the measured points of a request with the theoretical bounds."""
     check_frame_rate(bench_scene(request, request.schemes[0]), frames_a_second)
     bounds = bench_bounds(request)
     return Drawing(

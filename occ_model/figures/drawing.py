@@ -40,7 +40,7 @@ _STYLE: dict[Any, Any] = {
 
 
 def house_style() -> AbstractContextManager[None]:
-    """Draw all figures within this context in the same style, whatever the user's settings."""
+    """Return a context in which all figures have one style, whatever the user's settings."""
     look = dict[Any, Any](rcParamsDefault) | _STYLE
     # The backend only concerns windows, and these figures become files.
     del look["backend"]
@@ -135,7 +135,7 @@ def write_all(
 
 
 def settings_notes(settings: SimulationSettings) -> tuple[str, ...]:
-    """Write a simulation's settings, except the seed, as lines of a provenance."""
+    """Format a simulation's settings, except the seed, as lines of a provenance."""
     forced = ", ".join(f"{name} {'on' if on else 'off'}" for name, on in settings.force.items())
     observable = settings.observable
     return (
@@ -155,7 +155,7 @@ def write_table(
 def table_text(
     header: Sequence[str], rows: Iterable[Sequence[object]], provenance: Provenance
 ) -> str:
-    """Write a table as text; the arguments are those of :func:`write_table`."""
+    """Format a table as text; the arguments are those of :func:`write_table`."""
     text = StringIO()
     for line in provenance.lines():
         text.write(f"# {line}".rstrip() + "\n")

@@ -26,7 +26,6 @@ _MARKERS = "os^Dv"
 
 
 def write_films_figure(folder: Path, request: FilmRequest, points: Sequence[FilmPoint]) -> None:
-    """Write the figure as PDF, PNG and SVG, and its numbers as CSV."""
     provenance = Provenance(
         _TITLE,
         {"scene": request.scene},

@@ -112,7 +112,7 @@ def _write_step_figure(path: Path, each: AnsweredStep) -> None:
 
 
 def _plain(text: str) -> str:
-    """Write a text so that Markdown shows it as it is."""
+    """Escape a text for Markdown."""
     text = printable(text)
     for sign in "\\`*_[]<>#|&":
         text = text.replace(sign, f"\\{sign}")
@@ -186,7 +186,7 @@ def _draw_step(figure: Figure, number: int, each: AnsweredStep, top: float, bott
 def _write(
     figure: Figure, top: float, text: str, font: FontProperties, colour: str, most: int = 5
 ) -> int:
-    """Write a text below a height of the page, in at most so many lines; give their number."""
+    """Write a text below a height of the page, in at most so many lines; return their number."""
     text, font = with_letters(printable(text), font)
     lines = lines_within(text, (_RIGHT - _LEFT) * _PAGE[0], font, most) if text else []
     figure.text(
@@ -209,7 +209,7 @@ def _draw_seen(figure: Figure, each: AnsweredStep, top: float, bottom: float) ->
 
 
 def match_lines(match: Match, photo: str) -> list[str]:
-    """Say what a match found: values with standard deviations, the verdict, its reasons."""
+    """Describe a match: values with standard deviations, the verdict, its reasons."""
     lines = [f"photo {one_line(photo)}: {match.verdict}" if photo else match.verdict]
     for name in ("readout_time", "exposure_time"):
         declared = quantity(name)
@@ -233,7 +233,7 @@ def draw_profile(ax: Axes, scene: Scene) -> None:
 
 
 def draw_match(axes: Sequence[Axes], match: Match) -> None:
-    """Draw a photo's profile with the one fitted to it, and below it what is left over."""
+    """Draw a photo's profile with the one fitted to it, and the residual below."""
     above, below = axes
     shown = min(_SHOWN_COLUMNS, len(match.profile))
     above.plot(match.stripes.profile[:shown], linewidth=0.9, label="photo", **PHOTO)  # type: ignore[arg-type]

@@ -11,7 +11,7 @@ from occ_model.arrays import FloatArray
 
 @dataclass(frozen=True, slots=True)
 class PhotoLayer:
-    """Where a photo lies over a simulated picture, and how much of it is seen."""
+    """Where a photo lies over a simulated picture, and how much of it is visible."""
 
     # The pixel of the simulated picture under the centre of the photo's first pixel
     column: float = 0.0
@@ -70,7 +70,7 @@ class Difference:
 
 
 def lay_over(ax: Axes, cells: FloatArray, layer: PhotoLayer, shape: tuple[int, ...]) -> None:
-    """Draw an averaged part of a photo over the picture drawn, within that picture's limits."""
+    """Draw an averaged part of a photo over the drawn picture, within that picture's limits."""
     limits = ax.get_xlim(), ax.get_ylim()
     rows, columns = shape
     extent = layer.extent(rows, columns, layer.first_row(rows))

@@ -26,7 +26,7 @@ _POINTS = 72.0  # points to an inch
 
 
 def lines_within(text: str, inches: float, font: FontProperties, most: int) -> list[str]:
-    """Break a text into at most so many lines of a width; what does not fit ends in an ellipsis."""
+    """Break a text into at most ``most`` lines of a width; an ellipsis replaces the rest."""
     letters = max(len(text), 1)
     lines = [text]
     while letters > 1 and max((_inches(line, font) for line in lines), default=0.0) > inches:
@@ -43,7 +43,7 @@ def _inches(line: str, font: FontProperties) -> float:
 
 
 def fit_texts(figure: Figure) -> None:
-    """Break the lines of texts that are wider than their room, and let the page grow by them.
+    """Break the lines of texts that are too wide for their room, and enlarge the page for them.
 
     Legends get fewer columns where their entries have no room side by side.
     """
@@ -87,13 +87,13 @@ def _all(figure: Figure, kind: type[_Kind]) -> list[_Kind]:
 
 @dataclass(frozen=True, slots=True)
 class _Room:
-    """A text and the width that it may have, in inches."""
+    """A text and its available width, in inches."""
 
     text: Text
     inches: float
 
     def fit(self) -> float:
-        """Break the text's lines, and give the height of those that this adds."""
+        """Break the text's lines; return the height of those that this adds."""
         before = self.text.get_text().split("\n")
         font = self.text.get_fontproperties()
         lines = [
@@ -121,7 +121,6 @@ def _rooms(figure: Figure) -> Iterator[_Room]:
 
 
 def _headings(ax: Axes) -> Iterator[Text]:
-    """Yield the titles of axes, and the label below them."""
     titles = [child for child in ax.get_children() if isinstance(child, Text)]
     for text in (*titles, ax.xaxis.label):
         # Others stand at places of the data.
@@ -130,13 +129,13 @@ def _headings(ax: Axes) -> Iterator[Text]:
 
 
 def _across(ax: Axes) -> int:
-    """Return the number of axes that stand side by side."""
+    """Return the number of axes side by side."""
     place = ax.get_subplotspec()
     return 1 if place is None else place.get_gridspec().ncols // len(place.colspan)
 
 
 def _to_the_edge(text: Text, figure: Figure) -> float:
-    """Return the width that a text may have where it stands."""
+    """Return the width available to a text at its place."""
     box, width = text.get_window_extent(), float(figure.get_figwidth())
     left, right = float(box.x0 / figure.dpi), float(box.x1 / figure.dpi)
     match text.get_horizontalalignment():
@@ -157,7 +156,7 @@ def _narrow(legend: Legend, figure: Figure) -> None:
 
 
 def with_letters(text: str, font: FontProperties) -> tuple[str, FontProperties]:
-    """Take letters that a font has not from the computer's others, or a square for them."""
+    """Take letters that a font lacks from the computer's others, or replace them by a square."""
     missing = set(text) - {"\n"} - _letters_of(fontManager.findfont(font))
     families = list(font.get_family())
     for entry in fontManager.ttflist if missing else ():

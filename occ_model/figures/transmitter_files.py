@@ -59,7 +59,6 @@ def _contents(folder: Path, sent: Transmission) -> tuple[dict[str, bytes], str]:
 
 
 def wiring_bytes(sent: Transmission, format_name: str) -> bytes:
-    """Encode the figure of the wiring as PNG, SVG or PDF."""
     with house_style():
         return figure_bytes(wiring_figure(sent), format_name, provenance(sent))
 
@@ -95,7 +94,7 @@ def wiring_figure(sent: Transmission) -> Figure:
 
 
 def notes(sent: Transmission) -> list[str]:
-    """Write what the circuit's values rest on, and what to beware of."""
+    """Describe what the circuit's values are based on, and what to beware of."""
     board, values = sent.board, wiring(sent.board)
     edge = SECOND.format(values.rise_time, 2)
     fraction = 100 * values.rise_time / float(sent.timing.period)

@@ -112,7 +112,7 @@ def _of_cells(
     down: FloatArray,
     across: FloatArray,
 ) -> Drawing:
-    """Make the drawing of a picture whose table holds its cells, by the cells' centres."""
+    """Draw a picture; its table holds the cells, by the cells' centres."""
 
     def rows() -> Iterable[tuple[object, ...]]:
         for row, values in zip(down.tolist(), cells.tolist(), strict=True):
@@ -123,7 +123,7 @@ def _of_cells(
 
 
 def _cells(image: ByteArray) -> tuple[FloatArray, int]:
-    """Average a picture over square cells of as many pixels as print needs; give their side too."""
+    """Average a picture over square cells as large as print needs; return their side, too."""
     size = -(-max(image.shape) // MOST_CELLS)
     rows, columns = image.shape[0] // size, image.shape[1] // size
     whole = image[: rows * size, : columns * size]
@@ -232,7 +232,7 @@ def _profile_figure(
 
 
 def _placed(comparison: Comparison, columns: int) -> FloatArray:
-    """Return a photo's profile over all columns of the simulation, not a number outside it."""
+    """Return a photo's profile over all columns of the simulation, NaN outside it."""
     placed = np.full(columns, np.nan)
     first = comparison.first_column
     placed[first : first + len(comparison.photo)] = comparison.photo

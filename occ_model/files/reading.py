@@ -76,7 +76,7 @@ def _failed(path: Path, error: OSError) -> SceneFileError:
 
 
 def reason_of(error: OSError | ValueError) -> str:
-    """Say why a path cannot be opened; Python refuses names that no system knows by ValueError."""
+    """Explain why a path cannot be opened; Python refuses impossible names by ValueError."""
     if isinstance(error, OSError):
         return error.strerror or str(error)
     return "no file can have this name"

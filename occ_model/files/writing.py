@@ -46,7 +46,7 @@ def write_image(path: Path, image: ByteArray, description: str = "") -> None:
 
 
 def check_image_path(path: Path) -> None:
-    """Refuse a path that no image can be written to, before the work whose result it is for."""
+    """Refuse a path that no image can be written to, before the image is made."""
     check_replaceable(path)
     _format_of(path)
 

@@ -72,7 +72,7 @@ class Workers(Protocol):
         """Queue a job that belongs to a run of a channel."""
 
     def abandon(self, channel: int, run: int) -> None:
-        """Let the jobs of all runs of a channel that are earlier than ``run`` end."""
+        """End the jobs of all runs of a channel that are earlier than ``run``."""
 
     def counted(self, counter: int) -> int:
         """Return the number of heartbeats in a counter."""
@@ -140,7 +140,7 @@ def counting_heartbeat(
 
 
 def reason_of(error: BaseException) -> str:
-    """Return an exception's type and text in one line."""
+    """Format an exception's type and text in one line."""
     text = " ".join(str(error).split()).rstrip(".")
     name = type(error).__name__
     return f"{name}: {text}" if text else name

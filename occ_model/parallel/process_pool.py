@@ -52,7 +52,7 @@ class ProcessPool:
 
     @property
     def processes(self) -> list[int]:
-        """The numbers of the processes that were started."""
+        """Identifiers of the processes that were started."""
         return [process.pid for process in self._started()]
 
     def _started(self) -> list[Any]:
@@ -64,19 +64,16 @@ class ProcessPool:
             return self._executor.submit(_work, job, channel, run)
 
     def abandon(self, channel: int, run: int) -> None:
-        """Let the jobs of all runs of a channel that are earlier than ``run`` end."""
         self._first_runs[channel] = run
 
     def counted(self, counter: int) -> int:
         return int(self._counts[counter])
 
     def renew(self) -> None:
-        """Start new processes in place of those that died."""
         self.close()
         self._executor = self._start()
 
     def close(self) -> None:
-        """End the processes, also in the middle of a job."""
         with interrupts_held():
             # It returns when all processes have ended, and some of them must be killed for that. It
             # waits for them alone: of two that wait for a process one misses its exit code.
@@ -158,7 +155,7 @@ def check_open_files(workers: int) -> None:
 
 
 def _socket_path_fits() -> bool:
-    """Say whether the path of a server's socket in the temporary folder is short enough."""
+    """Return whether the path of a server's socket in the temporary folder is short enough."""
     try:
         return len(os.fsencode(tempfile.gettempdir())) <= _LONGEST_FOLDER
     except OSError:  # there is none that can be written to
@@ -225,7 +222,7 @@ def _start_resource_tracker() -> None:
 
 @contextmanager
 def _single_threads() -> Iterator[None]:
-    """Let processes started meanwhile do linear algebra in one thread."""
+    """Limit linear algebra to one thread in processes started meanwhile."""
     before = {name: os.environ.get(name) for name in _THREADS}
     os.environ.update(dict.fromkeys(_THREADS, "1"))
     try:

@@ -30,12 +30,12 @@ class StageProgress:
         return not (self.has_waiting or self.in_flight)
 
     def take(self) -> Job:
-        """Take the first job that waits; it is with a worker from now on."""
+        """Take the first waiting job, which is with a worker from now on."""
         self.in_flight += 1
         return self._waiting.popleft()
 
     def put_back(self, job: Job) -> None:
-        """Let a job wait again, before all others."""
+        """Return a job to the head of those that wait."""
         self.in_flight -= 1
         self._waiting.appendleft(job)
 

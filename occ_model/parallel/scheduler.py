@@ -58,11 +58,11 @@ class Scheduler:
         self._losses = 0
 
     def put(self, run: Run) -> None:
-        """Ask for work in place of the channel's earlier runs."""
+        """Request work in place of the channel's earlier runs."""
         self._inbox.put(lambda: self._receive(run))
 
     def cancel(self, channel: int, run: int) -> None:
-        """Abandon all runs of a channel that are earlier than ``run``."""
+        """Cancel all runs of a channel that are earlier than ``run``."""
         self._inbox.put(lambda: self._cancel(channel, run))
 
     def close(self) -> None:
@@ -78,7 +78,7 @@ class Scheduler:
             self.end_workers()
 
     def step(self, timeout: float | None = None) -> bool:
-        """Answer a message, waiting up to ``timeout`` seconds for it; say whether more may come."""
+        """Answer a message after at most ``timeout`` seconds; return whether more may come."""
         try:
             message = self._inbox.get(timeout=timeout)
         except Empty:
@@ -187,7 +187,7 @@ class Scheduler:
         return chosen
 
     def _would_delay(self, rank: int) -> bool:
-        """Say whether jobs of this rank would delay what somebody waits for."""
+        """Return whether jobs of this rank would delay an uninterruptible stage."""
         return any(
             stage.stage.uninterruptible and stage.stage.rank < rank
             for run in self._runs.values()
@@ -238,7 +238,7 @@ class Scheduler:
         self._begin_pending(run.channel)
 
     def _recover(self, workers: Workers, error: Exception) -> None:
-        """Replace workers that ended, and let the jobs that they had wait again."""
+        """Replace workers that ended, and put back the jobs that they had."""
         for future, (_, stage, job) in reversed(list(self._in_flight.items())):
             if not _has_result(future):
                 del self._in_flight[future]
@@ -262,7 +262,7 @@ class Scheduler:
 
 
 def _has_result(future: "Future[JobResult]") -> bool:
-    """Say whether a job came back before its worker ended."""
+    """Return whether a job came back before its worker ended."""
     return future.done() and not future.cancelled() and future.exception() is None
 
 

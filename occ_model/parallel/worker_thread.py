@@ -22,7 +22,6 @@ class WorkerThread:
         return self._executor.submit(do_job, job, heartbeat)
 
     def abandon(self, channel: int, run: int) -> None:
-        """Let the jobs of all runs of a channel that are earlier than ``run`` end."""
         self._first_runs[channel] = run
 
     def counted(self, counter: int) -> int:

@@ -86,7 +86,7 @@ def compare(
 
 
 def _edges(profile: FloatArray) -> int:
-    """Count how often a profile changes from well above its mean to well below it, or back."""
+    """Count changes of a profile from well above its mean to well below it, and back."""
     about = profile - profile.mean()
     sides = np.sign(about[np.abs(about) > 0.5 * about.std()])
     return int(np.count_nonzero(np.diff(sides)))

@@ -132,7 +132,7 @@ def _doubts_by_error(estimate: str, value: float, deviation: float) -> list[str]
 
 
 def _doubts_by_fraction(name: str, fraction: float, limit: float) -> list[str]:
-    """Say that a relative standard deviation is beyond its limit."""
+    """Return whether a relative standard deviation is beyond its limit, as a sentence."""
     if fraction <= limit:
         return []
     shown, most = distinct_texts(100.0 * fraction, 100.0 * limit)

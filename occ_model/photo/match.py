@@ -37,7 +37,7 @@ from occ_model.transmitter.packet import sent_chips
 __all__ = ["ESTIMATES", "PATTERN_SOURCES", "match_photo"]
 
 PATTERN_SOURCES = ("auto", "scene", "read")
-"""Where the sent pattern is taken from: the scene, the photo, or whichever of them fits."""
+"""Source of the sent pattern: the scene, the photo, or whichever of them fits."""
 
 _EXPLAINED_CORRELATION = 0.998
 """Correlation of the scene's pulse above which no other duty is searched for."""
@@ -126,7 +126,7 @@ def match_photo(  # noqa: PLR0913 - all but the first two are words with default
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Case:
-    """The hypotheses about a photo, and what it takes to conclude from one of them."""
+    """The hypotheses about a photo, and what a conclusion from one of them needs."""
 
     photo: Photo
     candidates: Candidates
@@ -199,7 +199,7 @@ class _Progress:
 
 
 def check_words(scene: Scene, estimate: str, sent: str, averaging: str) -> None:
-    """Refuse what is no scene, and words that are not allowed, before any work."""
+    """Refuse what is not a scene, and choices that are not allowed, before any work."""
     check_scene(scene)
     check_choice("estimate", estimate, ESTIMATES)
     check_choice("sent", sent, PATTERN_SOURCES)

@@ -37,7 +37,7 @@ LABELS = {
     "repeats": "Stripes repeat after",
     "alternative": "Or instead",
 }
-"""What each fact is called, in the order of all of them."""
+"""Names of the facts, in their order."""
 
 _DIGITS = 4
 
@@ -53,8 +53,8 @@ def known_of(match: Match) -> str:
 def match_facts(match: Match, condition: str = "", noted: float | None = None) -> tuple[Fact, ...]:
     """List the facts of a match, in the order of :data:`LABELS`.
 
-    ``condition``: what the estimates of time rest on where it is only assumed, as ``"if f = 10
-    kHz: "``. ``noted``: the exposure time in seconds that the camera noted in the photo.
+    ``condition``: the assumption that estimated times depend on, as ``"if f = 10 kHz: "``.
+    ``noted``: the exposure time in seconds that the camera recorded.
     """
     texts = dict[str, tuple[str, str]]()
     for name in ESTIMATES:
@@ -75,7 +75,7 @@ def match_facts(match: Match, condition: str = "", noted: float | None = None) -
 
 
 def in_columns(facts: tuple[Fact, ...], width: int = 22) -> Iterator[str]:
-    """Write facts in lines; a parameter is called by its name, as it is typed."""
+    """Format facts in lines; a parameter has its name, as it is typed."""
     for fact in facts:
         label = fact.label[:1].lower() + fact.label[1:]
         yield f"{fact.key if fact.key in ESTIMATES else label:{width}}{fact}"

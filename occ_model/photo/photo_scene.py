@@ -98,7 +98,6 @@ def with_levels(scene: Scene, fit: StripeFit) -> Scene:
 
 
 def with_notes(scene: Scene, photo: Photo) -> Scene:
-    """Set the parameters that the photo's EXIF data hold."""
     noted = {name: getattr(photo, name) for name in _NOTED}
     return with_allowed(scene, **{n: value for n, value in noted.items() if value is not None})
 

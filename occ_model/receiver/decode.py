@@ -68,7 +68,7 @@ def decode(image: NDArray[Any], scene: Scene, decoder: str = PAPER_DECODER) -> D
 
 
 def _levels(image: NDArray[Any]) -> FloatArray:
-    """Return pixel values of any type as grey levels 0 to 255."""
+    """Convert pixel values of any type to grey levels, 0 to 255."""
     levels = image.astype(np.float64)
     return levels / 257.0 if image.dtype == np.uint16 else levels
 

@@ -1,4 +1,4 @@
-"""The interface of a decoder, and what decoders share: the last step, and a refusal."""
+"""The interface of a decoder, and what is common to decoders: the last step, and a refusal."""
 
 import math
 from collections.abc import Callable
@@ -76,12 +76,12 @@ def has_short_chips(scene: Scene) -> bool:
 
 
 def with_short_chips(failure: str, scene: Scene) -> str:
-    """Say before a failure that chips are too short, where they are: it follows from that."""
+    """Put before a failure that chips are too short, where they are and cause it."""
     return f"{_sentence(scene)} {failure}" if has_short_chips(scene) else failure
 
 
 def then_short_chips(failure: str, scene: Scene) -> str:
-    """Say after a failure that chips are too short, where they are: it may have another cause."""
+    """Add to a failure that chips are too short, where they are: it may have another cause."""
     return f"{failure} {_sentence(scene)}" if has_short_chips(scene) else failure
 
 

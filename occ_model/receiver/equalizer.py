@@ -72,7 +72,7 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
 
 
 def _agreed(read: DecodeResult, scene: Scene) -> DecodeResult:
-    """Read every packet that the picture shows, and keep what most of them say.
+    """Read every packet that the picture shows, and take the majority of their bits.
 
     The paper reads the first one alone; errors of undone light differ from packet to packet.
     """
@@ -105,7 +105,7 @@ def _agreed(read: DecodeResult, scene: Scene) -> DecodeResult:
 def _why_unexplained(
     read: DecodeResult, light: FloatArray, exposure: float, scene: Scene
 ) -> str | None:
-    """Say that the light is not that of the packet read; None where it is, or a rule checks it."""
+    """Return why the light is not the packet's; None where it is, or a rule checks it."""
     scheme = scheme_of(scene.transmitter)
     length = read.chip_length
     if scheme.is_papers or scheme.framing.checks or length is None or read.chip_starts is None:

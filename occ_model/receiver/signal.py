@@ -139,7 +139,6 @@ def least_bright_fraction() -> float:
 
 
 def _histogram(image: ByteArray) -> IndexArray:
-    """Count the pixels of each grey level, shape (256,)."""
     counts = np.zeros(256, dtype=np.int64)
     # OpenCV counts in single precision, which holds no whole number above 2^24.
     rows = max(1, 2**24 // image.shape[1])

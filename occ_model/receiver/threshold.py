@@ -41,7 +41,7 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
 
 
 def _why_unsure(scene: Scene) -> str | None:
-    """Say why a payload may have been misread unnoticed; None where it may not."""
+    """Return why a payload may have been misread unnoticed; None where it cannot."""
     scheme = scheme_of(scene.transmitter)
     if scheme.is_papers or scheme.framing.checks:
         return None
@@ -67,7 +67,7 @@ def read_stripes(signal: FloatArray, scene: Scene) -> DecodeResult:
 
 
 def _knows_length(scene: Scene) -> bool:
-    """Return whether the decoder may know a chip's length, and names it where it is too short."""
+    """Return whether the decoder may know a chip's length; also reports one that is too short."""
     return bool(scene.transmitter.pattern) or not scheme_of(scene.transmitter).is_papers
 
 

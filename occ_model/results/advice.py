@@ -14,7 +14,7 @@ from occ_model.scene.units import HERTZ, SECOND
 
 @dataclass(frozen=True, slots=True)
 class TheoryLimits:
-    """Values of one parameter at which theory places a limit, the others unchanged."""
+    """Values of one parameter at which theory places a limit, with the others unchanged."""
 
     band_model: float  # Where the band model ends: t = t_LED
     null: float  # Where an alternating pattern has no stripes: t = 2 t_LED
@@ -42,7 +42,7 @@ _LONGEST_PAYLOAD = 24  # characters of a payload that are named
 
 
 def sent_text(scene: Scene) -> str:
-    """Name what the pictures of a study show: the scene's own code or payload."""
+    """Describe what the pictures of a study show: the scene's own code or payload."""
     sent = scene.transmitter
     if sent.payload:
         return f"“{one_line(typed_form(sent.payload), _LONGEST_PAYLOAD)}”"
@@ -50,7 +50,7 @@ def sent_text(scene: Scene) -> str:
 
 
 def own_text(found: Limits, frames_a_second: float = FRAMES_A_SECOND) -> str:
-    """Say what was read at the scene's own values, and how many bits a second that would be."""
+    """State what was read at the scene's own values, with its bits a second."""
     own, bits = found.frequency.own, found.bits_a_second(frames_a_second)
     return (
         f"At {written(found.frequency.parameter, own.value)} it read {own.whole} of {own.images} "

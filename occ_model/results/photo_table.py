@@ -232,7 +232,7 @@ def _counted(number: int, what: str) -> str:
 
 
 def _error(deviation: float | None) -> str | None:
-    """Write a standard deviation to two digits, as in the window."""
+    """Format a standard deviation to two digits, as in the window."""
     return None if deviation is None else f"{deviation:.1e}"
 
 
@@ -240,7 +240,7 @@ _FORMULA = "=+-@\uff1d\uff0b\uff0d\uff20"  # first of a spreadsheet's formula, a
 
 
 def _text(text: str) -> str:
-    """Return a text from a file, quoted so that no spreadsheet evaluates it."""
+    """Quote a text from a file so that no spreadsheet evaluates it."""
     text = one_line(text, _MAX_TEXT_LENGTH)
     return f"'{text}" if text.startswith(tuple(_FORMULA)) else text
 

@@ -87,7 +87,7 @@ class SentPackets(Sequence[PacketReading]):
 
     @cached_property
     def _firsts(self) -> list[int]:
-        """The number of each part's first packet, and the number of all."""
+        """Number of each part's first packet, and of all packets."""
         return list(accumulate((part.count for part in self.parts), initial=0))
 
     @cached_property
@@ -96,7 +96,7 @@ class SentPackets(Sequence[PacketReading]):
 
     @cached_property
     def _elapsed(self) -> list[float]:
-        """How much of the film lies before each part, and in all of them, in seconds."""
+        """Seconds of film before each part, and of all parts."""
         return list(accumulate((part.duration for part in self.parts), initial=0.0))
 
     def __len__(self) -> int:
@@ -131,11 +131,10 @@ class SentPackets(Sequence[PacketReading]):
         return (self[number] for number in range(len(self)))
 
     def cut(self, edges: FloatArray) -> tuple[tuple[int, tuple[PacketReading, ...]], ...]:
-        """Divide the packets by how long the film had run when each began.
+        """Divide the packets by the running time of the film at which each began.
 
-        ``edges``: rising times in seconds without what lies between the film's parts; all packets
-        lie between the outermost two. Returns how many were sent, and those in view, in each
-        window.
+        ``edges``: rising times in seconds without the gaps between the film's parts; all packets
+        lie between the outermost two. Returns the number sent, and those in view, in each window.
         """
         bounds = [0, *(self._before(edge) for edge in edges[1:-1].tolist()), len(self)]
         found = []
@@ -154,7 +153,7 @@ class SentPackets(Sequence[PacketReading]):
         return self.parts[place].start + elapsed - self._elapsed[place]
 
     def _before(self, elapsed: float) -> int:
-        """Return how many packets began before the film had run for so long."""
+        """Return the number of packets that began before the film had run for so long."""
         before = 0
         for part, at in zip(self.parts, self._elapsed, strict=False):
             if part.step > 0.0:
@@ -165,14 +164,14 @@ class SentPackets(Sequence[PacketReading]):
         return before
 
     def starts(self, numbers: IndexArray) -> FloatArray:
-        """Return when packets of some numbers began, in seconds by the film's clock."""
+        """Return the start times of packets in seconds, by the film's clock."""
         index = self._part_of(numbers)
         begins = np.array([part.start + part.begin for part in self.parts])
         later = numbers - np.array(self._firsts, dtype=np.int64)[index]
         return np.asarray(begins[index] + later * self.steps(numbers))
 
     def steps(self, numbers: IndexArray) -> FloatArray:
-        """Return how long packets of some numbers last, in seconds."""
+        """Return the lengths of packets in seconds."""
         return np.array([part.step for part in self.parts])[self._part_of(numbers)]
 
     def _part_of(self, numbers: IndexArray) -> IndexArray:

@@ -27,8 +27,6 @@ class Spectrum:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class LevelHistogram:
-    """How often each grey level occurs."""
-
     fractions: FloatArray  # Shape (256,): fraction of the pixels at each level; they add up to 1
 
     @property

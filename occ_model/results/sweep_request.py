@@ -33,8 +33,6 @@ decoder computes the forward model of all codes."""
 
 @dataclass(frozen=True, slots=True)
 class RateSettings:
-    """How a success rate is measured."""
-
     images: int
     decoders: tuple[str, ...]
     seed: int = 1
@@ -56,7 +54,6 @@ class SweepRequest:
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """The number of values of each axis."""
         return tuple(len(values) for values in self.axes.values())
 
     @property

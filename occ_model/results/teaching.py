@@ -15,8 +15,6 @@ from occ_model.scene.scene import Scene
 
 @dataclass(frozen=True, slots=True)
 class Term:
-    """A part of an equation."""
-
     text: str  # As HTML with ``sub`` and ``sup`` only
     parameters: tuple[str, ...] = ()
 
@@ -113,7 +111,7 @@ class RollingShutter:
 
 @dataclass(frozen=True, slots=True)
 class MarkedValue:
-    """A value of a parameter that is worth a mark."""
+    """A value of a parameter that deserves a mark."""
 
     value: float
     label: str
@@ -195,8 +193,6 @@ class CheckedAnswer:
 
 @dataclass(frozen=True, slots=True)
 class LessonList:
-    """The lessons that were found."""
-
     # Built-in lessons, then those of the user's folder
     lessons: tuple[Lesson, ...]
     # Why files of the user's folder are not lessons, by file name
@@ -205,8 +201,6 @@ class LessonList:
 
 @dataclass(frozen=True, slots=True)
 class AnsweredStep:
-    """A step with a student's answer to it."""
-
     step: Step
     answer: CheckedAnswer | None
     # The scene at which the answer was checked and which the report draws; the question's without

@@ -272,7 +272,7 @@ class VideoReading:
 
 
 def _compared(packets: Sequence[PacketReading]) -> tuple[int, int]:
-    """Return the bits that could be compared, and those of them that were wrong."""
+    """Return the number of bits compared, and of those that were wrong."""
     compared = [one for one in packets if one.bits is not None and one.wrong_bits is not None]
     bits = sum(len(one.bits) for one in compared if one.bits is not None)
     return bits, sum(one.wrong_bits or 0 for one in compared)

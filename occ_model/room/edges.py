@@ -45,7 +45,7 @@ class Edge:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Points:
-    """Points of an edge: (column, row) of each, and the error that all have alike, in pixels."""
+    """Points of an edge: (column, row) of each, and their common error in pixels."""
 
     places: FloatArray
     shared: float
@@ -91,7 +91,7 @@ class EdgeFinder:
             line = _fitted(side, points, self._scene)
             if line is not None:
                 lines.append(line)
-        alike = _alike(lines)
+        alike = _variance_ratio(lines)
         return [line.edge(alike) for line in lines]
 
     def _own_light(self, corners: FloatArray, lamp: RoomLamp) -> _OwnLight:
@@ -170,7 +170,7 @@ class EdgeFinder:
 def _counts(
     light: FloatArray, expected: FloatArray, bright: float
 ) -> tuple[FloatArray, float, BoolArray]:
-    """Return how many pixels about an edge are lit, the error that all counts share, and which.
+    """Return the lit pixels about an edge, the common error of all counts, and which are valid.
 
     The light about an edge is as much as its innermost pixels would hold, so many and a part of the
     next; a count is valid only where that one is bright. ``light`` runs from outside to inside;
@@ -251,7 +251,7 @@ class _Line:
         return float(self.off @ self.off) / (len(self.x) - 2)
 
     def sums_of_blocks(self) -> tuple[float, float]:
-        """Return the squares of both ends' sums over blocks, and what unlike errors would make."""
+        """Return the squares of both ends' sums over blocks, and those of independent errors."""
         block = ((self.x - self.x.min()) // _BLOCK).astype(np.int64)
         lines = np.stack([np.ones(len(self.x)), self.along]) / math.sqrt(len(self.x))
         found = expected = 0.0
@@ -275,7 +275,7 @@ class _Line:
         return Edge(self.side, points, normal, covariance)
 
 
-def _alike(lines: Sequence[_Line]) -> float:
+def _variance_ratio(lines: Sequence[_Line]) -> float:
     """Return the variance of sums over neighbours relative to independent errors, of all edges."""
     sums = np.array([line.sums_of_blocks() for line in lines]).reshape(-1, 2).sum(axis=0)
     return max(1.0, float(sums[0] / sums[1])) if sums[1] > 0.0 else 1.0

@@ -1,4 +1,4 @@
-"""Where am I: the camera's place and angles from the named lamps in its picture."""
+"""Localization: the camera's place and angles from the named lamps in its picture."""
 
 from collections.abc import Sequence
 from dataclasses import astuple, dataclass

@@ -140,7 +140,7 @@ class LampEdges:
         return image_points(rays, self.camera)
 
     def _sides(self, numbers: FloatArray) -> IndexArray | None:
-        """Say which side of its lamp each edge is, seen from a place; None where none is seen."""
+        """Return the side of its lamp that each edge is, from a place; None where none is seen."""
         outlines = self._outlines_at(numbers[None])
         if outlines is None:
             return None

@@ -141,7 +141,7 @@ def _longest_gap(room: Room) -> int:
 
 
 def _settings(room: Room) -> tuple[Scene, ...]:
-    """Return a scene for each way in which lamps of the room send."""
+    """Return a scene for each combination of settings with which lamps of the room send."""
     return tuple(
         room.scene.replace(**dict(zip(_SENT, sent, strict=True)), code=0)
         for sent in dict.fromkeys(sent_by(lamp) for lamp in room.lamps)

@@ -137,9 +137,9 @@ def _dark_view(scene: Scene) -> PaperView:
 def _extreme(views: Sequence[PaperView]) -> list[PaperView]:
     """Return the lamps among which any effect is largest.
 
-    They are extreme in what effects of one picture depend on: depth (defocus), place in the picture
-    (vignetting, distortion), tilt and order (emission), light (noise), number of pixels, frequency
-    and edges (and what a stretch makes of all).
+    They are extreme in depth (defocus), place in the picture (vignetting, distortion), tilt and
+    order (emission), light (noise), number of pixels, frequency and edges (and what a stretch makes
+    of all).
     """
 
     def features(view: PaperView) -> tuple[float, ...]:

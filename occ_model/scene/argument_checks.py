@@ -23,7 +23,6 @@ def is_number(value: object) -> TypeGuard[float]:
 
 
 def check_choice(name: str, value: object, choices: Sequence[str]) -> None:
-    """Refuse a value that is not one of ``choices``."""
     if not isinstance(value, str) or value not in choices:
         raise ParameterError.of(name, shown(value), ", ".join(choices))
 

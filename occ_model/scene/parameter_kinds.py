@@ -20,8 +20,6 @@ MAX_PATTERN_CHIPS = 4096
 
 @dataclass(frozen=True, slots=True)
 class Declaration:
-    """The declaration of a parameter, of whatever kind."""
-
     name: str  # The identifier, as in a scene file
     label: str  # The field's term for it, as on screen
     symbol: str  # The symbol in the paper's equations, empty where it has none
@@ -33,7 +31,7 @@ class Declaration:
         return ParameterError.of(self.name, value, allowed, verb=verb, parameters=(self.name,))
 
     def check_length(self, text: str, allowed: str) -> None:
-        """Refuse a text that is too long to be a number."""
+        """Refuse a text that is too long for a number."""
         if len(text) > LONGEST_TEXT:
             raise self.refuse(
                 f"is a text of {len(text):,} characters",
@@ -55,7 +53,7 @@ def _whole(value: object) -> int | None:
 
 
 def _read_whole(text: str) -> int:
-    """Read a whole number in any of Python's notations, or with leading zeros."""
+    """Parse a whole number in any of Python's notations, or with leading zeros."""
     try:
         return int(text, 0)
     except ValueError:
@@ -86,7 +84,7 @@ class Quantity(Declaration):
         return f"{self._limit(self.low)} to {self._limit(self.high)}"
 
     def _limit(self, value: float) -> str:
-        """Write a limit in full, as 1000000 s and not 1e+06 s, unless that is too long to read."""
+        """Format a limit in full, as 1000000 s and not 1e+06 s, unless that is too long to read."""
         return self.unit.format(value, digits=_LIMIT_DIGITS)
 
     def check(self, value: object) -> float:
@@ -104,19 +102,19 @@ class Quantity(Declaration):
         return number
 
     def _outside(self, number: float) -> str:
-        """Write a value that is not allowed with enough digits that none allowed is read in it."""
+        """Format a refused value with enough digits to differ from every allowed one."""
         text = self.unit.format(number)
         read = self.unit.parse(text)  # 0.999999999 mm is written as 1000 µm
         is_rounded_in = read is not None and self.low <= read <= self.high
         return self.unit.format(number, digits=17) if is_rounded_in else text
 
     def parse(self, text: str, plain: float | None = None) -> float:
-        """Read a value as people write it.
+        """Parse a value as people write it.
 
-        A number without a unit is in SI, or of ``plain`` SI units in a field that shows another
-        unit. One that lies beyond the slider so, and would not the other way, is refused: who types
-        20000 for a frequency shown in kHz hardly means 20 MHz, and who writes 136 for an exposure
-        time hardly means 136 s.
+        A number without a unit is in SI, or in ``plain`` SI units in a field that shows another
+        unit. It is refused where it lies beyond the slider and would not in the other unit: 20000
+        for a frequency shown in kHz hardly means 20 MHz, and 136 for an exposure time hardly means
+        136 s.
         """
         self.check_length(text, self.allowed)
         readings = self.unit.readings(text, 1.0 if plain is None else plain)
@@ -165,7 +163,7 @@ class Quantity(Declaration):
         return min(max(value if rounded is None else rounded, low), high)
 
     def fraction(self, value: float) -> float:
-        """Return a slider's position for a value, 0 or 1 where the value lies outside."""
+        """Return a slider's position for a value, clamped to 0 and 1."""
         low, high = self.slider
         value = min(max(value, low), high)
         if self.scale == "log":
@@ -175,8 +173,6 @@ class Quantity(Declaration):
 
 @dataclass(frozen=True, slots=True)
 class Count(Declaration):
-    """A whole number."""
-
     low: int
     high: int
     default: int
@@ -194,7 +190,7 @@ class Count(Declaration):
         return number
 
     def parse(self, text: str) -> int:
-        """Read a whole number, also as ``0b...``, ``0x...`` or ``007``."""
+        """Parse a whole number, also as ``0b...``, ``0x...`` or ``007``."""
         self.check_length(text, self.allowed)
         try:
             number = _read_whole(text)
@@ -293,7 +289,7 @@ class ChipPattern(Declaration):
         return value
 
     def parse(self, text: str) -> str:
-        """Read a pattern; spaces between chips are fine."""
+        """Parse a pattern, which may have spaces between chips."""
         return self.check("".join(text.split()))
 
     def format(self, value: str) -> str:

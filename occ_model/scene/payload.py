@@ -1,6 +1,6 @@
 """Payloads as texts: ``text:HELLO``, ``hex:48656c6c6f`` and ``bits:0100100001``.
 
-The word before the colon says how the payload is written, and how one that is received is shown.
+The word before the colon is the form in which the payload is written, and a received one is shown.
 Without one of these words it is a text: ``HELLO`` is ``text:HELLO``.
 """
 
@@ -28,7 +28,7 @@ _REPLACEMENT_LETTER = "?"  # in place of bytes that are not text
 
 
 def canonical(value: object) -> str:
-    """Return a payload in its shortest form, or raise a ValueError with a part of a sentence."""
+    """Return a payload in its shortest form; a ValueError holds a part of a sentence."""
     if not isinstance(value, str):
         raise ValueError(f"is {shown(value)}")  # noqa: TRY004 - a wrong value as any other
     if len(value) > 4 * MAX_PAYLOAD_BITS:
@@ -59,7 +59,7 @@ def _form_and_content(typed: str) -> tuple[str, str]:
 
 
 def typed_form(payload: str) -> str:
-    """Return what somebody would type for a payload: a text that no other form has as it is."""
+    """Return a payload as it is typed: a text as it is, if no other form has it."""
     form, _, content = payload.partition(":")
     if form != "text" or not content.strip() or _DIGITS_ALONE.fullmatch(content):
         return payload
@@ -110,7 +110,7 @@ def payload_of_bits(bits: Sequence[int], form: str) -> str:
 
 
 def form_of(payload: str) -> str:
-    """Return how a payload is written: ``text``, ``hex`` or ``bits``."""
+    """Return the form of a payload: ``text``, ``hex`` or ``bits``."""
     return payload.partition(":")[0]
 
 
@@ -143,7 +143,6 @@ def compared(payload: str, received: Sequence[int]) -> tuple[Piece, ...]:
 
 
 def _letters(payload: str) -> Iterator[str]:
-    """Return the letters of a text, or the bytes of hex digits."""
     form, _, content = payload.partition(":")
     step = 2 if form == "hex" else 1
     return (content[place : place + step] for place in range(0, len(content), step))

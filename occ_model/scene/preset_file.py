@@ -30,7 +30,7 @@ class Preset:
 
 
 def preset_from(name: str, text: str) -> Preset:
-    """Read a preset from its file's text; its name is the title where the text has none."""
+    """Parse a preset; its name is the title where the text has none."""
     preset = _put_together(name, _layers(text))
     return preset if preset.title else replace(preset, title=name)
 
@@ -59,7 +59,7 @@ def _put_together(name: str, layers: tuple[dict[str, Any], ...]) -> Preset:
 
 
 def _layers(text: str) -> tuple[dict[str, Any], ...]:
-    """Read a preset file's text, after the layers of the presets that it is based on."""
+    """Parse a preset file's text, after the layers of the presets that it is based on."""
     content = toml_format.from_toml(text)
     named = content.pop("based_on", [])
     bases = [named] if isinstance(named, str) else named

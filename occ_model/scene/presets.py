@@ -60,7 +60,7 @@ def all_presets() -> tuple[Preset, ...]:
 
 
 def unreadable_presets() -> dict[str, str]:
-    """Return why preset files of the user cannot be used, by name, control characters escaped."""
+    """Return why preset files of the user cannot be used, by name, as printable text."""
     return _read_own()[1]
 
 
@@ -169,7 +169,7 @@ def _own_names() -> tuple[str, ...]:
 
 
 def _read_own() -> tuple[dict[str, Preset], dict[str, str]]:
-    """Load the user's own presets by name, and give the reasons for files that are none."""
+    """Load the user's own presets by name, with the reasons for files that are not presets."""
     loaded: dict[str, Preset] = {}
     failures: dict[str, str] = {}
     for path in resources.files_in(user_folder(), ENDING):
@@ -189,7 +189,7 @@ def _own_file(name: str) -> Path:
 
 
 def _name_problem(name: object) -> str | None:
-    """Return why a preset of the user's own cannot have a name, None where it can."""
+    """Return why a name is not allowed for a preset, None where it is."""
     if not isinstance(name, str) or not _NAME.fullmatch(name):
         return f"A preset cannot be named {shown(name)}; allowed: {_NAME_RULE}."
     if name.lower() in {other.lower() for other in _built_in()}:

@@ -7,7 +7,7 @@ _CANNOT = {"is": "cannot be", "has": "cannot have"}
 
 
 def labelled(error: OccError) -> str:
-    """Return the sentence of an error; a parameter of the scene has its label."""
+    """Return the sentence of an error, with labels in place of parameter names."""
     refused = error.refused if isinstance(error, ParameterError) else None
     if refused is None or refused.parameter not in PARAMETERS:
         return str(error)
@@ -15,7 +15,7 @@ def labelled(error: OccError) -> str:
 
 
 def refusal_of(error: OccError) -> str:
-    """Say that a value was refused, not that it is the present one.
+    """Phrase an error as a refusal, not as a fault of the present value.
 
     "Distance cannot be 0 m" stands beside a field that shows the last allowed value again. Where
     what is allowed depends on other parameters, the value may be the present one.

@@ -18,7 +18,7 @@ OBSERVABLES: tuple[Observable, ...] = ("signal", "profile", "image", "decision")
 
 
 def unit_of(observable: Observable) -> str:
-    """Return the unit of its tolerance and errors, as it stands behind a number."""
+    """Return the unit of tolerance and errors, as it stands behind a number."""
     return "margins" if observable == "decision" else LEVEL.symbol
 
 

@@ -25,7 +25,7 @@ SQUARE_FREQUENCY = Quantity(
 
 
 def blinking(scene: Scene, cycles: float) -> Scene:
-    """Let a scene send a square wave.
+    """Return a scene that sends a square wave.
 
     ``cycles``: cycles per second, a value that ``SQUARE_FREQUENCY`` allows.
     """

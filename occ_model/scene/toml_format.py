@@ -1,4 +1,4 @@
-"""The TOML format of scene files: tables of parameters and the format's version, read strictly."""
+"""TOML format of scene files: tables of parameters and the format's version, parsed strictly."""
 
 import re
 import tomllib
@@ -29,7 +29,7 @@ def to_toml(tables: Mapping[str, Mapping[str, object]]) -> str:
 
 
 def from_toml(text: str) -> dict[str, Any]:
-    """Read a text that :func:`to_toml` wrote; the version is not returned."""
+    """Parse a text of :func:`to_toml`, without its version."""
     content = parse_toml(text)
     version = content.pop("format", None)
     if version is None:
@@ -48,7 +48,7 @@ def table_of(value: object, name: str) -> Mapping[str, Any]:
 
 
 def parse_toml(text: str) -> dict[str, Any]:
-    """Read TOML from an untrusted source, in a time that grows with the text's length."""
+    """Parse TOML from an untrusted source, in a time that grows with the text's length."""
     if not isinstance(text, str):
         raise SceneFileError(f"A scene is read from text (str), not from {type(text).__name__}.")
     # A string is not a key, and a string that is a part of a key is one part.

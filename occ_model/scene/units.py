@@ -63,7 +63,7 @@ class Unit:
         return _PREFIXES.get(stem) if stem else None
 
     def parse(self, text: str, plain: float = 1.0) -> float | None:
-        """Read a number or fraction with a unit, or of ``plain`` SI units; None if unclear."""
+        """Parse a number or fraction with a unit, or in ``plain`` SI units; None if unclear."""
         readings = self.readings(text, plain)
         return readings[0] if len(readings) == 1 else None
 
@@ -107,7 +107,7 @@ class Unit:
         return chosen + self.symbol, _PREFIXES[chosen]
 
     def format_estimate(self, value: float, deviation: float | None) -> str:
-        """Write a value with its standard deviation to significant digits."""
+        """Format a value with its standard deviation to significant digits."""
         if deviation is None or not _ROUNDING_ERROR * abs(value) < deviation < math.inf:
             return self.format(value)
         symbol, factor = self.display(max(abs(value), deviation))
@@ -120,7 +120,7 @@ class Unit:
         return f"{number} ± {_rounded(deviation / factor, decimals)} {symbol}".rstrip()
 
     def format_deviation(self, deviation: float) -> str:
-        """Write a standard deviation by itself, to two digits and in a unit of its own."""
+        """Format a standard deviation by itself, to two digits and in a unit of its own."""
         symbol, factor = self.display(deviation)
         number = deviation / factor
         decimals = _decimals(number)
@@ -135,7 +135,7 @@ class Unit:
         return _scaled(round(value / factor, max(_decimals(deviation / factor), 0)), factor)
 
     def format(self, value: float, digits: int = 6) -> str:
-        """Write ``value`` with ``digits`` significant digits and its unit."""
+        """Format ``value`` with ``digits`` significant digits and its unit."""
         symbol, factor = self.display(value)
         number = f"{value / factor:.{digits}g}" if math.isfinite(value) else str(value)
         if "e" in number and 1.0 <= abs(float(number)) < _LARGEST_PLAIN:
@@ -151,7 +151,7 @@ def _decimals(deviation: float) -> int:
 
 
 def _rounded(value: float, decimals: int) -> str:
-    """Write a value to so many decimals, or rounded before the point where they are negative."""
+    """Format a value with so many decimals, or rounded before the point where negative."""
     return f"{round(value, decimals):z.{max(decimals, 0)}f}"
 
 

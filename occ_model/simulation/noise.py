@@ -1,4 +1,4 @@
-"""Noise: random numbers drawn for each pixel or taken again from one plane, and its deviation."""
+"""Noise: random numbers drawn for each pixel or reused from one plane, and their deviation."""
 
 from collections.abc import Callable, Sequence
 from functools import lru_cache
@@ -16,8 +16,8 @@ from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import NoiseSource
 
 Drawn: TypeAlias = Callable[[], Sequence[tuple[Sequence[NoiseEffect], Pixels]]]
-"""Return numbers of the standard normal distribution, shape (rows, columns), which are the caller's
-own, and the effects whose noise they are together."""
+"""Returns numbers of the standard normal distribution, shape (rows, columns), which the caller may
+change, with the effects whose noise they are together."""
 
 _PLANE_SIZE = 2**21  # numbers in the plane: eight megabytes, which fit the processor's cache
 
@@ -58,7 +58,7 @@ class ExactNoise:
 class ReusedNoise:
     """Noise reused: each row is a piece of one long row of numbers, from a random place.
 
-    Much faster than drawing. All effects share the numbers, scaled to their total deviation. The
+    Much faster than drawing. All effects use the same numbers, scaled to their total deviation. The
     pieces overlap at random, which shows neither in rows nor in columns' means.
     """
 
@@ -126,7 +126,7 @@ class NoiseSpread:
     def scale(self, normal: Pixels, rows: Rows, each_row: Rows) -> None:
         """Multiply numbers by the deviations of the pixels of some rows.
 
-        ``rows``, ``each_row``: the mean values, as they are known and without weights.
+        ``rows``, ``each_row``: the mean values, with and without weights.
         """
         known, spread = self._known
         if rows.nodes is not known:  # most rows are like the previous rows

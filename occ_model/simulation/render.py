@@ -79,7 +79,7 @@ def render(
 
 @dataclass(frozen=True, eq=False, slots=True)
 class PlannedScene:
-    """A scene whose effects are chosen: what its draft and its whole picture begin with alike."""
+    """A scene with its effects chosen: the common start of its draft and its whole picture."""
 
     view: PaperView  # The paper's view of the scene
     plan: Plan

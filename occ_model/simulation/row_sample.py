@@ -46,7 +46,7 @@ class SampledPicture:
 
 @dataclass(frozen=True, slots=True)
 class _Part:
-    """Bands that a part of the picture is sampled by, and how often each stands in the sample."""
+    """Bands that sample a part of the picture, and how often each is repeated in the sample."""
 
     bands: tuple[range, ...]
     repeats: int
@@ -63,9 +63,9 @@ def sample_picture(view: PaperView, plan: Plan, seed: int) -> SampledPicture | N
     if rows_each < 2.0:
         return None
     parts = (
-        _beside(range(across.start), rows_each),
+        _sample_beside(range(across.start), rows_each),
         _Part(_spread(across, BANDS), 1),
-        _beside(range(across.stop, view.scene.camera.rows), rows_each),
+        _sample_beside(range(across.stop, view.scene.camera.rows), rows_each),
     )
     columns, timer = expose_columns(view, plan), StageTimer()
     bands = [band for part in parts for band in part.bands]
@@ -82,7 +82,7 @@ def _span(view: PaperView) -> range:
     return range(first // BAND * BAND, min(-(-last // BAND) * BAND, rows // BAND * BAND))
 
 
-def _beside(rows: range, rows_each: float) -> _Part:
+def _sample_beside(rows: range, rows_each: float) -> _Part:
     """Sample rows beside the panel by few bands, repeated in proportion to their number."""
     height = len(rows)
     if height < BAND:
@@ -113,8 +113,8 @@ class SystematicNoise:
 
     At a row of a band and a column, the bands have quantiles in equal steps from a random first one
     (systematic sampling), each also with the opposite sign (antithetic variates). Within a band the
-    numbers are independent, as drawn ones are: what a file makes of a block is not changed. Effects
-    share the numbers, scaled to their total deviation.
+    numbers are independent, as drawn ones are, so that what a file makes of a block is not changed.
+    Effects use the same numbers, scaled to their total deviation.
     """
 
     def __init__(self, effects: Sequence[NoiseEffect], scene: Scene, seed: int) -> None:

@@ -7,7 +7,7 @@ from typing import Self
 
 
 class StageTimer:
-    """Adds up the seconds of each stage: every moment since the timer was made counts to one.
+    """Adds up the seconds of each stage: every moment since the timer was made belongs to one.
 
     ``before``: seconds of stages that ended before the timer was made, which count too.
     """
@@ -23,7 +23,7 @@ class StageTimer:
         self._last = now
 
     def begin(self) -> None:
-        """Count no time since the last stage ended: what comes now is done in another thread."""
+        """Skip the time since the last stage ended: what follows is done in another thread."""
         self._last = perf_counter()
 
     def parallel_stages_ended(self, timers: Sequence[Self]) -> None:

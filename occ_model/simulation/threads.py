@@ -24,10 +24,10 @@ def threads() -> int:
 
 
 def each_in_threads(work: Callable[[_Item], _Result], items: Iterable[_Item]) -> Iterator[_Result]:
-    """Do the work for each item, in threads; yield the results in the order of the items.
+    """Do the work for each item in threads; yield the results in the order of the items.
 
-    Items are taken in the calling thread, a few ahead of the work: what is drawn there at random
-    does not depend on the threads.
+    Items are taken in the calling thread, a few ahead of the work, so that random numbers drawn
+    there do not depend on the threads.
     """
     count, left = threads(), iter(items)
     begun = list(islice(left, 2 if count > 1 else 0))

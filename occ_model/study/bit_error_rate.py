@@ -81,7 +81,7 @@ def bit_error_rate(  # noqa: PLR0913 - a study's settings, most of them optional
 
 
 def _shared_plan(scene: Scene, settings: RateSettings, root: np.random.Generator) -> Plan | None:
-    """Return the effects that all pictures are simulated with, None where they are not alike."""
+    """Return the common effects of all pictures, None where they differ."""
     transmitter = scene.transmitter
     packet = len(sent_chips(transmitter)) * transmitter.switching_period
     if panel_readout_time(scene) < packet:

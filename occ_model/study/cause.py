@@ -34,7 +34,7 @@ column splits a run. The equalizer smooths."""
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """One step that helps: parameters to change, in SI units, or another decoder to take."""
+    """A remedy: parameters to change, in SI units, or another decoder."""
 
     label: str
     changes: Mapping[str, ParameterValue] = field(default_factory=dict)
@@ -43,7 +43,7 @@ class Step:
 
 @dataclass(frozen=True, slots=True)
 class Cause:
-    """What is wrong, in a few words; why, in a sentence; and a step that helps, if there is one."""
+    """What is wrong, in a few words; why, in a sentence; and a remedy, if any."""
 
     what: str
     why: str
@@ -82,7 +82,7 @@ def _light(scene: Scene) -> Cause | None:
 
 
 def _to_level(scene: Scene, lit: float) -> Step:
-    """Return the ISO speed that brings the lit panel to a level, as far as it goes."""
+    """Return the ISO speed that brings the lit panel to a level, within its range."""
     iso = quantity("iso")
     low, high = iso.slider
     wanted = scene.camera.iso * (_TARGET_LEVEL / max(lit, 1e-3)) ** scene.camera.gamma
@@ -91,7 +91,7 @@ def _to_level(scene: Scene, lit: float) -> Step:
 
 
 def _lost_panel(scene: Scene, region: Region | None) -> Cause | None:
-    """Compare what the receiver takes for the panel with the panel, where that is small."""
+    """Compare the region that the receiver found with the panel, where that is small."""
     camera = scene.camera
     panel = region_of(panel_corners(scene), camera.rows, camera.columns)
     if region is None or panel is None or _area(region) < _LOST_AREA_RATIO * _area(panel):
@@ -201,6 +201,6 @@ def _noise(scene: Scene, decoder: str) -> Cause | None:
 
 
 def _whole_packets(scene: Scene) -> Step:
-    """Return the step to a decoder that compares whole packets in place of single chips."""
+    """Return the remedy of a decoder that compares whole packets in place of single chips."""
     other = "matched" if scheme_of(scene.transmitter).bits <= _compared_bits(scene) else "sequence"
     return Step(f"Try the {other} decoder", decoder=other)

@@ -127,7 +127,7 @@ def _chips(room: Room, sent: IndexArray) -> ByteArray:
 
 
 def least_distance(packets: ByteArray) -> int:
-    """Return in how many chips two packets, shape (packets, chips), differ at least."""
+    """Return the least number of chips in which two packets, shape (packets, chips), differ."""
     signs, chips = 2.0 * packets - 1.0, int(packets.shape[1])
     most = -float(chips)
     for shift in range(chips):

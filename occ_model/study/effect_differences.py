@@ -108,7 +108,6 @@ def plan_of_effects(scene: Scene, observable: Observable, effects: Iterable[str]
 
 
 def rms(values: Pixels | FloatArray) -> float:
-    """Return the root mean square."""
     return float(np.sqrt(np.mean(np.square(values.ravel(), dtype=np.float64))))
 
 
@@ -129,8 +128,8 @@ _MIDDLE_GREY = 128.0
 def telling_crop(with_effect: Pixels, without: Pixels, most: tuple[int, int] = CROP) -> EffectCrop:
     """Choose the crop of the panel's bounding rectangle that shows a difference best.
 
-    One that varies slowly is shown on the whole panel, reduced by averaging areas. A fine one would
-    be averaged away: it is shown in real pixels, where it is largest.
+    A difference that varies slowly is shown on the whole panel, reduced by averaging areas. A fine
+    one would be averaged away: it is shown in real pixels, where it is largest.
     """
     difference = with_effect - without
     size = (min(most[0], len(difference)), min(most[1], difference.shape[1]))
@@ -203,7 +202,7 @@ def forecast(scene: Scene, settings: SimulationSettings, costs: MeasuredCosts) -
 def _known_ways(
     scene: Scene, observable: Observable, force: tuple[tuple[str, bool], ...], noise: NoiseSource
 ) -> tuple[Way, ...]:
-    """Return what a plan chooses among, which does not depend on the tolerance."""
+    """Return the sets of effects that a plan chooses among, cached without the tolerance."""
     return ways_of(scene, SimulationSettings(observable=observable, force=dict(force), noise=noise))
 
 

@@ -29,7 +29,7 @@ _NO_SPREAD = 1e-9  # standard deviation in grey levels below which there is no n
 
 @lru_cache(maxsize=8)
 def _noise_of(effects: tuple[NoiseEffect, ...], camera: Camera, sensor: Sensor) -> NoiseSpread:
-    """Return the deviation of pixels; the images of a point and the points of a line share it."""
+    """Return the deviation of pixels, cached for the images of a point and the points of a line."""
     return NoiseSpread(effects, Scene(camera=camera, sensor=sensor))
 
 

@@ -38,7 +38,7 @@ def panel_span(scene: Scene) -> Region | None:
 
 @lru_cache(maxsize=32)
 def _span_of(corners: bytes, rows: int, columns: int) -> Region | None:
-    """Return the rectangle; the lines of a map have the same poses."""
+    """Return the rectangle, cached for the lines of a map, which have the same poses."""
     first, last = row_spans(np.frombuffer(corners).reshape(-1, 2), rows, columns)
     lit = np.flatnonzero(last > first)
     if lit.size == 0:

@@ -13,7 +13,7 @@ _RATE = Unit("Hz/s")
 
 
 def film_facts(known: FilmProgress, whole: VideoReading | None) -> tuple[Fact, ...]:
-    """List the facts of a film that is being read; ``whole``: what was last read of all frames."""
+    """List the facts of a film that is being read; ``whole``: the last reading of all frames."""
     facts = [
         Fact(
             "placed",
@@ -37,7 +37,7 @@ def film_facts(known: FilmProgress, whole: VideoReading | None) -> tuple[Fact, .
 
 
 def packet_facts(reading: VideoReading) -> Iterator[Fact]:
-    """List how many packets arrived, and how many bits; nothing where none can be counted."""
+    """List how many packets and bits arrived; nothing where none can be counted."""
     after = reading.complete_after
     if after is not None:
         yield Fact(
@@ -120,7 +120,7 @@ def clock_facts(clock: Clock) -> Iterator[Fact]:
 
 
 def error_rate(count: int, total: int, what: str) -> tuple[str, str]:
-    """Write a rate of errors in percent with its 95 % interval, to digits that it allows."""
+    """Format an error rate in percent with its 95 % interval, to the digits that it allows."""
     fraction = count / total
     deviation = _PERCENT * math.sqrt(fraction * (1.0 - fraction) / total)
     decimals = max(0, -math.floor(math.log10(deviation))) if deviation else 0
@@ -132,7 +132,7 @@ def error_rate(count: int, total: int, what: str) -> tuple[str, str]:
 
 
 def _percent(fraction: float) -> str:
-    """Write a fraction in percent, to two digits of its distance from the nearer of 0 and 100 %."""
+    """Format a fraction in percent, to two digits of its distance from 0 or 100 %."""
     nearest = _PERCENT * min(fraction, 1.0 - fraction)
     decimals = max(0, 1 - math.floor(math.log10(nearest))) if nearest > 0.0 else 0
     return f"{_PERCENT * fraction:.{decimals}f}"

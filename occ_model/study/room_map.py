@@ -53,11 +53,9 @@ class RoomMapRequest:
 
     @property
     def points(self) -> int:
-        """How many places are measured."""
         return len(self.across) * len(self.along)
 
     def place(self, index: int) -> tuple[float, float]:
-        """Return x and y of a place."""
         column, row = divmod(index, len(self.along))
         return self.across[column], self.along[row]
 
@@ -159,7 +157,7 @@ def measure_places(
 
 
 class RoomMapText:
-    """How the places of a map are written: one row each."""
+    """Text of a map's places: one row each."""
 
     what, title, lines_a_point = "map of a room", _TITLE, 1
 
@@ -192,7 +190,7 @@ class RoomMapText:
         ))  # fmt: skip
 
     def read(self, lines: Sequence[str]) -> RoomPoint | None:
-        """Read a place; the caller checks that it is written alike."""
+        """Parse a place; the caller checks it by writing it again."""
         try:
             (line,) = lines
             x, y, _, *counts, error, stated, note = next(csv.reader([line], strict=True))

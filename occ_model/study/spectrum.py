@@ -42,7 +42,6 @@ def profile_spectrum(profile: FloatArray, scene: Scene) -> Spectrum:
 
 
 def level_histogram(image: ByteArray) -> LevelHistogram:
-    """Count the grey levels of a picture."""
     if not image.size:
         return LevelHistogram(np.zeros(LEVELS))
     counts = cv2.calcHist([np.ascontiguousarray(image)], [0], None, [LEVELS], [0, LEVELS])

@@ -147,7 +147,7 @@ def right_bits_of_images(
 
 @dataclass(frozen=True, slots=True)
 class _Pictures:
-    """What the pictures of a study depend on; the decoders that read them are not among it."""
+    """What the pictures of a study depend on, which does not include the decoders."""
 
     scene: Scene
     seed: int
@@ -220,7 +220,6 @@ def _observe(pictures: _Pictures, chosen: Plan, image: int) -> Observation | Non
 
 
 def check_rate(scene: Scene, settings: RateSettings) -> None:
-    """Check a scene and the settings of a success rate."""
     check_count("images", settings.images, 1, MOST_IMAGES)
     check_seed(settings.seed)
     check_choice("path", settings.path, SIGNAL_PATHS)

@@ -119,7 +119,6 @@ class _Search:
         self._refuted: set[int] = set()
 
     def working_range(self) -> WorkingRange:
-        """Find the intervals of values."""
         values = self._values
         searched = (values[0], values[-1])
         own = self._whole(self._own, self._settings)
@@ -137,7 +136,7 @@ class _Search:
         return WorkingRange(self._name, searched, STEP, own, (), failure, best, self._most_chips)
 
     def _runs(self) -> list[tuple[int, int]]:
-        """Return the first and the last coarse value of each interval, by their places."""
+        """Return the indices of the first and the last coarse value of each interval."""
         runs: list[tuple[int, int]] = []
         for place, value in enumerate(self._values):
             if place in self._refuted or not self._reads(self._try(value)):
@@ -164,7 +163,7 @@ class _Search:
         ))  # fmt: skip
 
     def _away(self, run: tuple[int, int]) -> float:
-        """Return how far an interval is from the scene's own value, as a logarithm."""
+        """Return an interval's distance from the scene's own value, as a logarithm."""
         low, high = (math.log(self._values[place] / self._own) for place in run)
         return max(low, -high, 0.0)
 

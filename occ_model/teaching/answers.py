@@ -61,7 +61,7 @@ def check_answer(
 
 
 def _to_set_first(check: Check, scene: Scene) -> str:
-    """Say which values the question names that a scene does not have; empty where it has all."""
+    """List the values that the question names and a scene lacks; empty where it has all."""
     differing = []
     for name in check.named:
         now, asked = scene.value(name), check.scene.value(name)

@@ -186,7 +186,7 @@ def _changed(scene: Scene, content: Mapping[str, Any]) -> Scene:
 
 
 def _written(value: object) -> str:
-    """Write a value as in an option of the command line."""
+    """Format a value as in an option of the command line."""
     return value if isinstance(value, str) else shown(value)
 
 

@@ -1,4 +1,4 @@
-"""Returns the values of a parameter at which the picture changes in kind, to mark on its slider."""
+"""Values of a parameter at which the picture changes in kind, to mark on its slider."""
 
 from occ_model.errors import OccError
 from occ_model.results.teaching import MarkedValue

@@ -1,4 +1,4 @@
-"""Returns the places of header and bits among the chips sent, and among the chips received."""
+"""Places of header and bits among the chips sent, and among the chips received."""
 
 from dataclasses import dataclass
 

@@ -21,7 +21,7 @@ def protected_bits(bits: int) -> int:
 
 
 def protect(bits: ByteArray) -> ByteArray:
-    """Add the parity to a payload, which is filled up with zeros to whole bytes."""
+    """Add the parity to a payload, which is padded with zeros to whole bytes."""
     sent = _codec().encode(bytearray(np.packbits(bits).tobytes()))
     return np.unpackbits(np.frombuffer(bytes(sent), dtype=np.uint8))
 

@@ -21,7 +21,7 @@ _Kind = TypeVar("_Kind")
 
 @dataclass(frozen=True, eq=False)
 class Registry(Generic[_Kind]):
-    """The objects that a parameter chooses among, each imported when it is first asked for."""
+    """The objects that a parameter chooses among, each imported when first needed."""
 
     parameter: str  # The parameter, which declares the names of the built-in ones
     kind: type[_Kind]
@@ -54,7 +54,7 @@ MOST_CHIPS = 65_536  # of a plug-in's period or result: more than any built-in p
 
 
 def check_kinds(who: str, given: object, **kinds: Any) -> None:
-    """Refuse what a plug-in gives if a part, by its name, is of another kind."""
+    """Refuse a plug-in's object if one of its parts, by name, is of another kind."""
     for name, kind in kinds.items():
         value = getattr(given, name)
         if not isinstance(value, kind):

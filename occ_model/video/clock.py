@@ -60,7 +60,7 @@ def fit_clock(phases: Phases, low: float, high: float) -> tuple[ClockFit, ...]:
 
 
 def _distinct(fits: list[ClockFit]) -> list[ClockFit]:
-    """Sort fits, those with few jumps and outliers first, and keep each frequency once."""
+    """Sort fits, those with few jumps and outliers first, and drop repeated frequencies."""
     ordered = sorted(
         fits, key=lambda fit: (len(fit.jumps), int((~fit.kept).sum()) // 2, fit.chi_squared)
     )
@@ -145,7 +145,7 @@ def fits_of(
 def state(
     fits: tuple[ClockFit, ...], phases: Phases, times: FrameTimes, part: Part, columns: int
 ) -> Clock:
-    """State what fits, the likeliest first, say of a film's clock in one part of its times."""
+    """State a film's clock in one part of its times, by fits of which the first is likeliest."""
     best = fits[0]
     readout = best.step / best.frequency
     relative = np.hypot(best.step_error / best.step, best.frequency_error / best.frequency)

@@ -15,7 +15,7 @@ from occ_model.scene.scene import Scene
 
 @dataclass(frozen=True, slots=True)
 class ShutterTiming:
-    """What counting needs, as exact numbers."""
+    """The exact numbers that counting needs."""
 
     frequency: Fraction  # Chips a second
     # In seconds

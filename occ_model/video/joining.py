@@ -1,4 +1,4 @@
-"""Join frames: find each one's place in what is sent, and add up what they say of each chip.
+"""Join frames: find each one's place in what is sent, and add their likelihoods of each chip.
 
 A frame's place follows from a header in view, or from the chips that earlier frames have shown, or
 from the clock, or from all of them together: each place has a likelihood, and a frame is placed

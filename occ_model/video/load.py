@@ -172,7 +172,7 @@ class VideoFile(Video):
         return decoder.seek(index, time, (self.time_step or 0.0) / 2 + _SAME_TIME)
 
     def _next(self, decoder: DecoderProcess, index: int) -> StoredFrame | None:
-        """Read the next frame, whose number this is; note its time, or how the film ends."""
+        """Read the next frame, of this number; note its time, or how the film ends."""
         try:
             stored = decoder.read()
         except VideoError as error:
@@ -202,7 +202,7 @@ class VideoFile(Video):
         return stored
 
     def _note_end(self, frames: int) -> None:
-        """Compare how many frames there are with what the file states."""
+        """Compare the number of frames with that stated by the file."""
         stated = self.frame_count
         if stated is None or frames >= stated or frames > len(self._times):
             return
@@ -226,7 +226,7 @@ class VideoFile(Video):
             self.frame_count = frames
 
     def _look(self, scan_axis: str) -> None:
-        """Read the first frames: their size, their first time, and the scan axis."""
+        """Read the size, the first time and the scan axis from the first frames."""
         decoder, opened = self._opened()
         self.frame_rate, self.frame_count = opened
         try:
@@ -247,7 +247,7 @@ class VideoFile(Video):
         put_back(decoder)
 
     def _take_note(self) -> None:
-        """Take the scene and the recording of a simulated film, where its file says them."""
+        """Take the scene and the recording of a simulated film from its file, where there."""
         note = note_in(self.path)
         with suppress(SceneFileError, ParameterError):
             self.scene = first_scene_in(note)

@@ -124,5 +124,5 @@ def _sent_bits(period: SentPeriod, bits: ByteArray) -> ByteArray | None:
 
 
 def counted_on(places: IndexArray, foretold: FloatArray, period: int) -> IndexArray:
-    """Return places counted on over periods, each the nearest to what the clock foretells."""
+    """Unwrap places over periods, each to the nearest to what the clock predicts."""
     return np.asarray(places + period * np.rint((foretold - places) / period)).astype(np.int64)

@@ -1,4 +1,4 @@
-"""What the chips of all frames, joined, give of the payload, and why it was not read."""
+"""The payload by the joined chips of all frames, and why it was not read."""
 
 import math
 from collections.abc import Sequence
@@ -71,7 +71,7 @@ def _of_blocks(chips: ByteArray, known: BoolArray, period: SentPeriod) -> IndexA
 
 
 def written(bits: IndexArray, scene: Scene) -> str:
-    """Write bits, unknown ones -1, in the form of the scene's payload, a code in bits."""
+    """Format bits, unknown ones -1, in the form of the scene's payload, a code in bits."""
     form = form_of(scene.transmitter.payload) if scene.transmitter.payload else "bits"
     if form == "bits":
         return "".join(UNKNOWN if bit < 0 else str(bit) for bit in bits.tolist())
@@ -100,7 +100,7 @@ def certainty_of(soft: SoftFrame | None, period: SentPeriod) -> float:
 
 
 def why_unplaced(frames: Sequence[TimedFrame]) -> str:
-    """Say why no frame could be placed in what is sent: what the first one by itself says."""
+    """Explain why no frame could be placed in what is sent, by the first one's own failure."""
     if not frames:
         return "The film holds no frames."
     read = [frame for frame in frames if frame.is_read]
@@ -117,7 +117,7 @@ def why_unplaced(frames: Sequence[TimedFrame]) -> str:
 
 
 def why_not_read(soft: SoftFrame | None, joined: Joined, period: SentPeriod) -> str | None:
-    """Say why the chips of all frames, joined, give no payload; None where they do."""
+    """Explain why the joined chips of all frames yield no payload; None where they do."""
     if period.scheme is None:
         return "A raw chip pattern is sent, which holds no packets."
     if soft is None:

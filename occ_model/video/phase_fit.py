@@ -161,7 +161,7 @@ def _solve(phases: Phases, counted: FloatArray, kept: BoolArray, jumps: list[int
     scatter = max(1.0, excess)
     if jitter > 0.0 and free > 2:
         scatter *= free / (free - 2.0)  # frames may agree by chance: the variance of Student's t
-    covariance = inverse * scatter * _alike(residuals[kept]) / np.outer(scale, scale)
+    covariance = inverse * scatter * _correlated_count(residuals[kept]) / np.outer(scale, scale)
     noise = float(np.sqrt(residuals[kept] @ residuals[kept] / free))
     if has_drift:
         # The phase in the middle is without what the bend's own mean takes off.
@@ -190,8 +190,8 @@ def _solve(phases: Phases, counted: FloatArray, kept: BoolArray, jumps: list[int
     )
 
 
-def _alike(residuals: FloatArray) -> float:
-    """Return how many neighbouring residuals count as one, 1 where they are independent."""
+def _correlated_count(residuals: FloatArray) -> float:
+    """Return the number of neighbouring residuals that count as one, 1 for independent ones."""
     count = len(residuals)
     power = float(residuals @ residuals)
     if count < _MIN_TO_COMPARE or power <= 0.0:
@@ -205,7 +205,7 @@ def _alike(residuals: FloatArray) -> float:
 
 
 def _local_spread(residuals: FloatArray, errors: FloatArray) -> float:
-    """Return the deviation of phases from that of the frame before: it knows of no slow change."""
+    """Return the deviation of phases from that of the frame before, free of slow changes."""
     least = float(np.median(errors))
     if len(residuals) < 3:
         return max(least, _MIN_DEVIATION)

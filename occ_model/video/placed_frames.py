@@ -1,4 +1,4 @@
-"""The frames of a film, each at its place in what is sent, and the clock that foretells places.
+"""The frames of a film, each at its place in what is sent, and the clock that predicts places.
 
 Headers place the first frames; their phases give the clock; the clock and the chips that are known
 by then place others, whose phases improve the clock.
@@ -85,7 +85,7 @@ class PlacedFrames:
         )
 
     def times(self) -> FrameTimes | None:
-        """Return the frames' times; None of fewer than two."""
+        """Return the frames' times; None for fewer than two."""
         times = np.array([timed.reading.time for timed in self.frames])
         return frame_times(times, self.time_step) if len(times) > 1 else None
 
@@ -141,7 +141,7 @@ class PlacedFrames:
         return True
 
     def _is_foretold(self, number: int) -> bool:
-        """Whether the times lead from the frames that the clock was fitted to on to a frame."""
+        """Whether the times from the frames that the clock was fitted to lead on to a frame."""
         times = self._times
         if times is None:
             return False

@@ -132,7 +132,7 @@ class FrameReader:
 def _timing(
     result: DecodeResult, signal: FloatArray, light: FloatArray, before: int, scene: Scene
 ) -> tuple[ChipTiming | None, str | None]:
-    """Fit the timing of the chips that a decoder found; say why they alone give no payload."""
+    """Fit the timing of a decoder's chips; else return why they alone give no payload."""
     if result.signal is None or result.chip_starts is None:
         return None, result.failure or "The decoder gives no chips, which joining frames needs."
     lattice = first_lattice(result, signal, before, scene)
@@ -179,7 +179,7 @@ def _timed(
 def first_lattice(
     result: DecodeResult, signal: FloatArray, before: int, scene: Scene
 ) -> ChipLattice | None:
-    """Put the chips of a decoder on a regular lattice; None where it found none.
+    """Place the chips of a decoder on a regular lattice; None where it found none.
 
     ``before``: how many columns of the signal lie before the result's region. The scene's exposure
     time and switching frequency are a first guess.

@@ -178,12 +178,12 @@ class SimulatedVideo(Video):
 
 
 def _spawned(seed: int, index: int, purpose: int) -> np.random.SeedSequence:
-    """Return the source of one of a frame's own streams of random numbers."""
+    """Return the seed of one of a frame's own streams of random numbers."""
     return np.random.SeedSequence(seed, spawn_key=(index, purpose))
 
 
 def _with_drift(scene: Scene, recording: Recording) -> Scene:
-    """Return a scene with its times and frequencies as they are in the real world."""
+    """Return a scene with its times and frequencies in the real world."""
     camera, led = 1 + Fraction(recording.camera_drift), 1 + Fraction(recording.transmitter_drift)
     return scene.replace(
         switching_frequency=float(Fraction(scene.transmitter.switching_frequency) * led),

@@ -94,7 +94,7 @@ class WithoutPackets:
         return float(np.median([look.period_error / look.period for look in seen]))
 
     def described(self, readout_time: float) -> str:
-        """Say what the frames show in a sentence or two, by a rough readout time; or nothing."""
+        """Describe what the frames show, by a rough readout time; empty for nothing."""
         seen = [look for look in self._looks if look.repeats]
         count = len(self._looks)
         if not seen:
@@ -114,12 +114,12 @@ class WithoutPackets:
 
     @property
     def may_be_packets(self) -> bool:
-        """Whether the stripes are those of a code: they repeat, and are no plain pulse."""
+        """Whether the stripes are those of a code: they repeat, and are not a plain pulse."""
         seen = [look for look in self._looks if look.repeats]
         return bool(seen) and not _mostly_pulses(seen)
 
     def _of_levels(self) -> str:
-        """Say whether whole frames are bright or dark."""
+        """Describe frames that are bright or dark as a whole."""
         levels = np.array([look.level for look in self._looks])
         low, high = (float(level) for level in np.quantile(levels, (0.1, 0.9)))
         if len(levels) < 3 or high - low < _MIN_CHANGE * high:

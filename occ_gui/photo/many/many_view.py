@@ -27,7 +27,7 @@ from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 
 _ROWS_SEEN = 5
-_LEAST_BESIDE = QSize(220, 60)
+_LEAST_RESULTS_SIZE = QSize(220, 60)
 
 _LARGEST_WIDTHS = {PHOTO: 220, NOTE: 280}
 """Largest widths in pixels, so that the times stay in view; the tooltip has the whole text."""
@@ -84,12 +84,12 @@ class ManyPhotosView(QWidget):
             QVBoxLayout(together), self.stale, self.mean, self.exposure, self.frame, self.notes,
             self.paste, None, margins=0,
         )  # fmt: skip
-        self._beside = ScrollPane(together, _LEAST_BESIDE)
-        self._beside.hide()
+        self._results_pane = ScrollPane(together, _LEAST_RESULTS_SIZE)
+        self._results_pane.hide()
         head = filled(
             QHBoxLayout(), (self.title, 1), self.start, self.copy, self.save, self.close_table
         )
-        below = filled(QHBoxLayout(), (self.table, 3), (self._beside, 2))
+        below = filled(QHBoxLayout(), (self.table, 3), (self._results_pane, 2))
         filled(QVBoxLayout(self), head, (below, 1), self.work, margins=(4, 0, 4, 4), spacing=4)
 
     def _make_buttons(self) -> None:
@@ -205,7 +205,7 @@ class ManyPhotosView(QWidget):
     def _show_note(self, sentence: str) -> None:
         self.notes.setText(sentence)
         self.notes.show()
-        self._beside.show()
+        self._results_pane.show()
 
     def show_table(self, table: PhotoTable) -> None:
         self.rows.show_table(table)
@@ -266,7 +266,7 @@ class ManyPhotosView(QWidget):
         for label, text in texts.items():
             label.setText(text)
             label.setVisible(bool(text))
-        self._beside.setVisible(any(texts.values()))
+        self._results_pane.setVisible(any(texts.values()))
 
     def _mean(self, name: str, found: CombinedEstimate | None, condition: str) -> str:
         if found is None:

@@ -53,7 +53,7 @@ class Edges:
 
     @property
     def order(self) -> IndexArray:
-        """What sorts the rising edges and the falling ones after them."""
+        """Index that sorts the rising edges and the falling ones after them."""
         return np.argsort(np.concatenate([self.rising, self.falling]))
 
     @property

@@ -67,7 +67,7 @@ def read_chips(photo: Photo, region: Corners | Lamp | None = None) -> ChipReadin
     lattice = coarsest(edges)
     if lattice is not None:
         kept = without_rims(edges, lattice)
-        edges, seen = kept, _alike(seen, edges, kept)
+        edges, seen = kept, _kept_among(seen, edges, kept)
     found = None if lattice is None else chips_between(edges, lattice)
     if lattice is None or found is None:
         raise MatchError(
@@ -87,8 +87,8 @@ def read_chips(photo: Photo, region: Corners | Lamp | None = None) -> ChipReadin
     )
 
 
-def _alike(seen: Edges, moved: Edges, kept: Edges) -> Edges:
-    """Keep of the edges that are seen those that are kept of the same edges in phase."""
+def _kept_among(seen: Edges, moved: Edges, kept: Edges) -> Edges:
+    """Return the seen edges whose moved ones are kept."""
     return Edges(
         seen.rising[np.isin(moved.rising, kept.rising)],
         seen.falling[np.isin(moved.falling, kept.falling)],

@@ -54,20 +54,20 @@ class Candidates:
     check: Callable[[], object]
 
     def exposed(self, fit: StripeFit, rate: float) -> float:
-        """Return a fit's exposure time in seconds; ``rate``: its chips in the time of a scene's."""
+        """Return a fit's exposure time in seconds; ``rate``: its chips per chip of the scene."""
         return exposure_time(fit, at_rate(self.scene, rate), self.estimate)
 
     def as_sent(self) -> Hypothesis | None:
-        """Suppose what the scene sends; None where that never changes, or has no possible fit."""
+        """Fit what the scene sends; None where that never changes, or has no possible fit."""
         chips = sent_chips(self.scene.transmitter)
         period = self.stripes.period
         near = [] if period is None else [self._near(len(canonical(chips)) / period)]
         return self._fitted("what the scene sends", chips, [*near, None], bits=0.0, was_read=False)
 
     def read(self, as_sent: Hypothesis | None = None) -> list[Hypothesis]:
-        """Suppose the chips that are read from the stripes, in each way of reading them.
+        """Fit the chips that are read from the stripes, in each way of reading them.
 
-        Those that a given hypothesis explains well already are left out.
+        Those that ``as_sent`` explains well already are left out.
         """
         period = self.stripes.period
         if period is None:
@@ -105,7 +105,7 @@ class Candidates:
         return [one for one in found if one is not None]
 
     def dimmed(self, as_sent: Hypothesis | None) -> Hypothesis | None:
-        """Suppose the scene's single pulse with another duty, as of a lamp dimmed by its width.
+        """Fit the scene's single pulse with another duty, as of a lamp dimmed by its width.
 
         The exposure blurs both edges of a pulse equally, so that its width at half its height is
         that of the light: the duty is searched near it.
@@ -191,7 +191,7 @@ class Candidates:
         return found, others
 
     def nearest_other(self, found: Hypothesis) -> Hypothesis | None:
-        """Suppose the other chips that explain the stripes best at the timing of a hypothesis."""
+        """Fit the other chips that explain the stripes best at the timing of a hypothesis."""
         chips = nearest_other(self.stripes.profile, found, self.scene.transmitter)
         if chips is None:
             return None

@@ -60,7 +60,7 @@ def doubts(found: Hypothesis, stripes: Stripes, rows_alike: float) -> list[str]:
 
 
 def exposure_doubts(found: Hypothesis, stripes: Stripes) -> list[str]:
-    """Say why the exposure of a hypothesis is doubtful, in sentences; its chips may not be."""
+    """Return why the exposure of a hypothesis is doubtful, also where its chips are not."""
     if found.rate != 1.0 and stripes.saturated > CLIPPED_FRACTION:
         return [
             f"{100.0 * stripes.saturated:.0f} % of the pixels are white, which lengthens bright "
@@ -183,7 +183,7 @@ def _doubts_by_reading(found: Hypothesis, stripes: Stripes) -> list[str]:
 
 
 def distinct_texts(value: float, limit: float) -> tuple[str, str]:
-    """Write two numbers with one decimal, or as many as show a difference."""
+    """Format two numbers with one decimal, or as many as show their difference."""
     texts = ((f"{value:.{digits}f}", f"{limit:.{digits}f}") for digits in range(1, 18))
     return next((pair for pair in texts if pair[0] != pair[1]), (str(value), str(limit)))
 

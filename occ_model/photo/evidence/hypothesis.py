@@ -34,17 +34,17 @@ class Hypothesis:
 
     @property
     def chips_in_view(self) -> float:
-        """How many chips are sent while the columns are read out."""
+        """Number of chips sent while the columns are read out."""
         return self.fit.timing.step * len(self.fit.profile)
 
     @property
     def periods(self) -> float:
-        """How many periods of the chips are in view."""
+        """Number of periods of the chips in view."""
         return self.chips_in_view / len(self.chips)
 
     @property
     def counted_chips(self) -> float:
-        """How many chips in view count: of a pulse two a period, however fine its chips are."""
+        """Number of chips in view that count: of a pulse two a period, however fine its chips."""
         return self.chips_in_view / chips_as_one(self.chips)
 
     @property

@@ -1,4 +1,4 @@
-"""Choose among hypotheses by likelihood, and say how sure the choice is, or why none holds."""
+"""Choose among hypotheses by likelihood, with the confidence in the choice, or why none holds."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -66,9 +66,9 @@ class Judge:
     def verdict(
         self, found: Hypothesis, others: Sequence[Hypothesis], *, is_given: bool
     ) -> Verdict:
-        """Say how sure a hypothesis is beside others.
+        """Return the confidence in a hypothesis among others.
 
-        ``is_given``: whether it is given what was sent: as many other chips then change no timing.
+        ``is_given``: whether what was sent is given: as many other chips then change no timing.
         """
         independent = self._independent([found, *others])
         own, *likelihoods = self._likelihoods([found, *others], independent)
@@ -89,7 +89,7 @@ class Judge:
         return Verdict(tuple(reasons), tuple(of_exposure), tuple(beside))
 
     def _refusals(self, found: Hypothesis, likelihood: float, independent: float) -> list[str]:
-        """Say why a hypothesis is refused: something else explains the stripes, or chance does."""
+        """Return why a hypothesis is refused: something else explains the stripes, or chance."""
         least = _LEAST_GIVEN
         if found.was_read:
             least = _LEAST_READ if self._blinks else _LEAST_OF_OBJECTS
@@ -132,7 +132,7 @@ class Judge:
         return reasons
 
     def _independent(self, hypotheses: Sequence[Hypothesis]) -> float:
-        """Count the independent columns by the least residual: what is left of others is signal."""
+        """Count the independent columns by the least residual: larger ones hold signal."""
         best = min(hypotheses, key=lambda one: one.fit.residual)
         residual = best.residual(self._stripes.profile)
         return len(residual) / correlated_columns(residual)

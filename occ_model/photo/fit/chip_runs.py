@@ -42,8 +42,8 @@ def pulse(on: int, count: int) -> ByteArray:
 def chips_as_one(chips: ByteArray) -> float:
     """Return how many chips count as one: of a pulse half a period, however fine its chips are.
 
-    A pulse has two edges a period: it samples the brightness of a lamp no more often than a
-    square wave of two chips does.
+    A pulse has two edges a period: it samples the brightness of a lamp no more often than a square
+    wave of two chips does.
     """
     return 0.5 * len(chips) if len(runs_of(chips)) == 2 else 1.0
 

@@ -177,7 +177,7 @@ def _rounded(levels: FloatArray) -> ByteArray:
 
 
 def _likeness(lines: Harmonics, models: Harmonics) -> FloatArray:
-    """Return the correlation of harmonics with each row of models; -1 with one that is 0."""
+    """Return the correlation of harmonics with each row of models; -1 with a row of zeros."""
     energy = np.sqrt((np.abs(models) ** 2).sum(axis=1) * float((np.abs(lines) ** 2).sum()))
     products = (lines * np.conj(models)).real.sum(axis=1)
     return np.where(energy > 0.0, products / np.maximum(energy, 1e-300), -1.0)
@@ -215,18 +215,18 @@ def _ascended(
     """
     one = np.eye(len(first), dtype=np.uint8)
     changes = np.concatenate([one, one ^ np.roll(one, 1, axis=1)])
-    chips, best = first, float(_alike(first[None], towards, products)[0])
+    chips, best = first, float(_chip_likeness(first[None], towards, products)[0])
     while True:
         others = chips ^ changes
-        alike = _alike(others, towards, products)
+        alike = _chip_likeness(others, towards, products)
         most = int(alike.argmax())
         if alike[most] <= best + _LEAST_GAIN:
             return chips, best
         chips, best = others[most], float(alike[most])
 
 
-def _alike(chips: ByteArray, towards: FloatArray, products: FloatArray) -> FloatArray:
-    """Return the likeness of each row of chips; that of chips without a change is -1."""
+def _chip_likeness(chips: ByteArray, towards: FloatArray, products: FloatArray) -> FloatArray:
+    """Return the likeness of each row of chips, -1 for constant chips."""
     energy = np.einsum("ij,ij->i", chips @ products, chips)
     varies = chips.min(axis=1) < chips.max(axis=1)
     return np.where(varies, chips @ towards / np.sqrt(np.maximum(energy, 1e-300)), -1.0)

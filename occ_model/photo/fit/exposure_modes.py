@@ -183,7 +183,7 @@ def exposure_modes(
 def _other_starts(
     found: Possible, explanation: Explanation, is_possible: Callable[[Timing], bool]
 ) -> list[FloatArray]:
-    """Return the parameters to start from, for other exposures than the one found."""
+    """Return the first parameters of fits, for other exposures than the one found."""
     model = found.model
     if len(explanation.chips) != 2:
         return scanned_starts(model, found.fit.values, is_possible)

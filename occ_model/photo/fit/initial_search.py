@@ -57,7 +57,6 @@ class Search:
         self._lines = lines * np.sinc(self._harmonics / self._period)
 
     def steps(self) -> FloatArray:
-        """Return all steps to try, in chips per column."""
         slowest = max(1.5, 0.75 * self._period) / self._columns
         count = int(np.ceil((_MOST_STEP - slowest) * self._columns * _STEPS_PER_CHIP))
         return slowest + np.arange(max(1, count)) / (self._columns * _STEPS_PER_CHIP)

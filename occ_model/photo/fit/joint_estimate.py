@@ -201,7 +201,7 @@ def _rounding(model: StripeModel, timing: Timing) -> float:
 
 
 def _doubts(unusual: float) -> tuple[str, ...]:
-    """Say why nothing that was found may hold: the model explains the stripes by odd values."""
+    """Return why nothing that was found may hold: the model explains the stripes by odd values."""
     if unusual <= _MOST_UNUSUAL:
         return ()
     return (

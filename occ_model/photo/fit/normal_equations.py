@@ -26,7 +26,7 @@ class LitColumns:
         return np.asarray(dark + self.lit * self.swing(levels))
 
     def swing(self, levels: FloatArray) -> FloatArray:
-        """Return the light that being lit adds."""
+        """Return the additional light of lit columns."""
         return np.asarray(levels[..., len(self.shapes) :] @ self.shapes)
 
     def sums(self, values: FloatArray) -> FloatArray:

@@ -70,7 +70,7 @@ class BlurredLight:
         return blurred(self.sharp(timing, longer), blur_kernel(blur, tails, shape))
 
     def sharp(self, timing: Timing, longer: float) -> FloatArray:
-        """Return the fractions without blur, also of the columns beside that blur reaches."""
+        """Return the fractions without blur, also of neighbouring columns that blur reaches."""
         return self._integrated(timing, self._edges_of(longer))
 
     def slopes(
@@ -203,7 +203,7 @@ class SeenStripes:
         return self._last(tuple(values.tolist()), tails, shape)
 
     def slopes(self, values: FloatArray, shape: BlurShape, of_tone: bool = True) -> SeenSlopes:
-        """Return its slopes, those of the tone over gamma itself, and none of them if not asked."""
+        """Return the slopes of what is seen, those of the tone over gamma itself, or none."""
         timing, curve, blur, longer = self._parts(values.tolist())
         table = self.by(values, 0.0, shape).table
         sharp = self._light.sharp_slopes(timing, longer) if self._values_blurred else None

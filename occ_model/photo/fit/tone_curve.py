@@ -40,7 +40,7 @@ class ToneCurve:
         return ToneTable(light, 1.0 / np.gradient(light, _STEP))
 
     def slopes(self, table: "ToneTable") -> "ToneSlopes":
-        """Tabulate the slopes of its table over gamma, offset, shoulder and contrast."""
+        """Tabulate the slopes over gamma, offset, shoulder and contrast."""
         bent, rises = self._bent()
         # The toe is a tangent: by gamma it changes as the point and the slope that it touches.
         steady, below = np.maximum(bent, _TOE), np.minimum(bent / _TOE - 1.0, 0.0)

@@ -203,7 +203,7 @@ def _is_lamp(timing: LampTiming) -> bool:
 
 
 def _without_glow(blinking: Sequence[Blinking]) -> list[Blinking]:
-    """Leave out low strips of faint stripes right above or below a lamp: its scattered light."""
+    """Leave out low strips of faint stripes directly above or below a lamp: its scattered light."""
     return [
         one for one in blinking
         if not any(one.light < _GLOW * other.light and _lies_at(one.lamp, other.lamp)

@@ -192,9 +192,9 @@ def chip_of(edges: Edges) -> float | None:
 
 
 def groups_of(segments: Sequence[Segment]) -> list[list[Segment]]:
-    """Put together the segments of each lamp, in order of the strips.
+    """Join the segments of each lamp, in order of the strips.
 
-    What stands in a single strip is texture or the border of two lamps, and is left out.
+    A segment in a single strip is texture or the border of two lamps, and is left out.
     """
     if not segments:
         return []
@@ -235,7 +235,7 @@ def _agree(one: Segment, other: Segment) -> bool:
 
 
 def common_edges(group: Sequence[Segment]) -> tuple[Edges, np.ndarray]:
-    """Return the edges that several segments of a group share, and how many share each.
+    """Return the edges common to several segments of a group, and the number of segments of each.
 
     The rim of a round lamp lies at other columns in each strip, and so is not among them.
     """

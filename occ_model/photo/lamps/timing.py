@@ -73,7 +73,7 @@ class LampTiming:
 
 
 def timings_of(edges: Edges, weights: FloatArray, codes: bool = True) -> list[LampTiming]:
-    """Find the period or the chip of edges that some rows share.
+    """Find the period or the chip of edges common to some rows.
 
     There are several where lamps beside each other are as high as each other.
 

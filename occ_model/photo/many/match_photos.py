@@ -136,7 +136,7 @@ def checked_photos(photos: Iterable[str | Path | Photo]) -> list[Source]:
 def matched_rows(
     sources: Sequence[Source], settings: MatchSettings, jobs: int, heartbeat: Heartbeat
 ) -> Generator[tuple[int, PhotoRow], None, None]:
-    """Match photos, and give each row with its place as soon as it is ready."""
+    """Match photos, and yield each row with its index as soon as it is ready."""
     files = [(place, one) for place, one in enumerate(sources) if isinstance(one, Path)]
     for place, one in enumerate(sources):
         if isinstance(one, Photo):
@@ -192,7 +192,7 @@ def rows_by_workers(files: Files, settings: MatchSettings, jobs: int, heartbeat:
 
 
 def _has_workers(settings: MatchSettings, heartbeat: Heartbeat) -> bool:
-    """Whether a worker can do anything at all: it is given a path that is not a file."""
+    """Whether a worker can do anything at all, tried with a path that is not a file."""
     try:
         return any(True for _ in _finished(iter([(0, Path())]), {}, settings, 1, heartbeat))
     except WorkersLostError:

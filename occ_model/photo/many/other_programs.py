@@ -104,12 +104,12 @@ def lines_of_frame(seconds: float, deviation: float, scanned_along: str) -> dict
 
 
 def note_on(lines: Mapping[str, str]) -> str:
-    """Say what lines for other programs state that was not measured; empty where there is none."""
+    """State what lines for other programs assume without a measurement; empty for no lines."""
     return DIRECTION_NOTE if "Gyroflow" in lines else ""
 
 
 def stated_lines(table: PhotoTable, condition: str) -> list[str]:
-    """Write the lines to paste of a table after their programs' names, with what they rest on."""
+    """Format a table's lines to paste, after their programs' names, with their condition."""
     lines = lines_to_paste(table)
     written = [f"{program}: {condition}{line}" for program, line in lines.items()]
     return [text for text in (*written, note_on(lines)) if text]

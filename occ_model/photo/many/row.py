@@ -36,7 +36,6 @@ class MatchSettings:
         return replace(self, scene=self.scene.replace(**{known_beside(self.estimate): own}))
 
     def check(self) -> None:
-        """Refuse settings that are not allowed, before any photo is read."""
         check_words(self.scene, self.estimate, self.sent, self.averaging)
         check_choice("scan_axis", self.scan_axis, SCAN_AXES)
         check_choice("channel", self.channel, CHANNELS)
@@ -47,10 +46,7 @@ class MatchSettings:
 def row_of(
     place: int, source: Path | Photo, settings: MatchSettings, heartbeat: Heartbeat
 ) -> tuple[int, PhotoRow]:
-    """Match the file or photo at a place of the table, and give its row with its place.
-
-    A sentence stands in the row where that fails.
-    """
+    """Match the file or photo at an index of the table; a failure becomes a sentence in its row."""
 
     def report(_fraction: float) -> None:
         heartbeat()

@@ -1,14 +1,15 @@
-"""Combine the rows of several photos: their mean, outliers, and what is to be said of them.
+"""Combine the rows of several photos: their mean, outliers, and remarks.
 
 The mean is weighted by the inverse variances. The Birge ratio R is the root of chi-square over its
 degrees of freedom (R. T. Birge, "The calculation of errors by the method of least squares",
 Physical Review 40, 207, 1932). With s the standard deviation of a mean of n independent estimates:
 
 * R >= 1: the estimates scatter by more than their deviations say. That of the mean is R s, as the
-  Particle Data Group takes it.
-* R < 1: they scatter by less. What their deviations hold besides the scatter, a variance of
-  (1 - R^2) n s^2, may be the same error in all of them, as of photos of one scene, and does not
-  average out. The variance of the mean is (R^2 + n (1 - R^2)) s^2.
+Particle Data Group takes it.
+
+* R < 1: they scatter by less. What their deviations hold besides the scatter, a variance of (1 -
+R^2) n s^2, may be the same error in all of them, as of photos of one scene, and does not average
+out. The variance of the mean is (R^2 + n (1 - R^2)) s^2.
 """
 
 import math
@@ -60,7 +61,7 @@ def _combined(
 
 
 def _notes(table: PhotoTable, exposures: Sequence[float]) -> list[str]:
-    """Say what of the photos together keeps from one answer."""
+    """Return what keeps the photos together from one answer."""
     counted = [row for place, row in enumerate(table.rows) if table.is_counted(place)]
     label = quantity(table.estimate).label.lower()
     notes = []

@@ -39,7 +39,8 @@ _OTHER_BYTE = {
     for colours in ("RGB", "RGBA", "RGBX")
     for order, other in (("16B", "16L"), ("16L", "16B"), ("16N", _SWAPPED))
 }
-"""Pillow keeps the upper byte of 16-bit colours; read in the other order it keeps the lower."""
+"""Pillow keeps the upper byte of 16-bit colours; read in the other byte order it keeps the
+lower."""
 
 _Take: TypeAlias = Callable[[Samples], Samples]  # extracts a channel from some pixels
 
@@ -207,7 +208,6 @@ def no_stderr() -> Iterator[None]:
 
 
 def white_of(samples: Samples) -> int:
-    """Return the sample value of white."""
     return int(np.iinfo(samples.dtype).max)
 
 

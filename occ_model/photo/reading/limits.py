@@ -62,10 +62,7 @@ _ORIENTATION, _ROWS_PER_STRIP, _TILE_WIDTH, _TILE_LENGTH = 274, 278, 322, 323
 
 
 def check_size(path: Path, width: int, height: int, max_pixels: int) -> None:
-    """Refuse a picture of more pixels than were asked for, or of a side longer than any camera's.
-
-    That is before any of it is decoded.
-    """
+    """Refuse a picture of too many pixels, or of a side longer than any camera's, undecoded."""
     has = f"{one_line(str(path))} has {width:,} x {height:,} pixels"
     if width * height > max_pixels:
         raise PhotoError(
@@ -77,19 +74,19 @@ def check_size(path: Path, width: int, height: int, max_pixels: int) -> None:
 
 
 def allowed_pixels(max_pixels: int) -> str:
-    """Write the largest number of pixels, and how to allow more."""
+    """Format the largest number of pixels, and how to allow more."""
     return f"{count_of_pixels(max_pixels)}; raise max_pixels to read it."
 
 
 def count_of_pixels(pixels: int) -> str:
-    """Write a number of pixels, in millions where two decimals suffice."""
+    """Format a number of pixels, in millions where two decimals suffice."""
     if pixels >= 1_000_000 and pixels % 10_000 == 0:
         return f"{pixels / 1e6:,.10g} million"
     return f"{pixels:,}"
 
 
 def check_bytes(path: Path, width: int, height: int, decoding: float, kept: int) -> None:
-    """Refuse a picture that would take too much memory, by the bytes that it takes.
+    """Refuse a picture that takes too much memory.
 
     ``decoding``: bytes that decoding takes, in proportion to the pixels. ``kept``: bytes of the
     file that are kept in memory meanwhile.
@@ -173,7 +170,7 @@ def check_scans(
 ) -> None:
     """Refuse a JPEG of too many scans, before any of them is decoded.
 
-    ``content``: gives the bytes of the file; called only for a JPEG in several scans.
+    ``content`` returns the bytes of the file; called only for a JPEG in several scans.
     """
     if picture.format != "JPEG" or _is_in_one_scan(picture, scan_header):
         return
@@ -209,7 +206,7 @@ def _bytes_a_pixel(picture: "ImageFile", scan_header: int) -> float:
     kept = 2 if deep_colours or picture.mode.startswith(("I", "F")) else 1
     # Finally the channel is transposed, and there is a copy in whole grey levels.
     turning = 5 if kept == 2 else 2
-    return max(decoded + _bytes_beside(picture, scan_header), decoded + kept, turning)
+    return max(decoded + _decoder_bytes_a_pixel(picture, scan_header), decoded + kept, turning)
 
 
 def _bytes_decoded(mode: str) -> int:
@@ -218,8 +215,8 @@ def _bytes_decoded(mode: str) -> int:
     return 2 if mode.startswith("I;16") else 4
 
 
-def _bytes_beside(picture: "ImageFile", scan_header: int) -> float:
-    """Return the bytes that a format's decoder allocates besides for each pixel."""
+def _decoder_bytes_a_pixel(picture: "ImageFile", scan_header: int) -> float:
+    """Return the bytes that a format's decoder allocates for each pixel beyond its own."""
     bands = len(picture.getbands())
     kind = picture.format
     if kind == "JPEG":

@@ -220,7 +220,7 @@ def stripes_are_lines(samples: Samples, lying: bool) -> bool:
 
 
 def roughness_along(samples: Samples | ByteArray, axis: int) -> float:
-    """Average samples along an axis, and give the mean difference of neighbours.
+    """Average samples along an axis; return the mean difference of neighbours.
 
     The largest differences are left out: those are a panel's edges.
     """
@@ -231,14 +231,14 @@ def roughness_along(samples: Samples | ByteArray, axis: int) -> float:
 
 
 def means_along(samples: Samples | ByteArray, axis: int) -> FloatArray:
-    """Average samples along an axis, many times faster than numpy."""
+    """Average samples along an axis, many times faster than NumPy."""
     sums = cv2.reduce(samples, axis, cv2.REDUCE_SUM, dtype=cv2.CV_64F)
     means: FloatArray = np.asarray(sums, dtype=np.float64).ravel() / samples.shape[axis]
     return means
 
 
 def region_within(photo: Photo, corners: Corners) -> Region:
-    """Return the rectangle of a photo that its corners name."""
+    """Return the rectangle of a photo given by its corners."""
     rows, columns = photo.samples.shape
     region = corners if isinstance(corners, Region) else _region_of(corners)
     if region is not None:

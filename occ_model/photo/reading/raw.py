@@ -75,7 +75,6 @@ class Mosaic:
 
     @property
     def channel(self) -> str:
-        """The name of the channel that is taken."""
         return "grey" if self.is_green.all() else "green"
 
     def one_plane(self) -> Samples:

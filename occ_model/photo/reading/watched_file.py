@@ -22,7 +22,6 @@ class Reporter:
         self.ended_by: BaseException | None = None
 
     def __call__(self, fraction: float) -> None:
-        """Report the fraction of the work that is done, from 0 to 1."""
         if self._progress is None:
             return
         try:

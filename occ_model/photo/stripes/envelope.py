@@ -38,10 +38,7 @@ def envelope(profile: FloatArray, width: int) -> tuple[FloatArray, FloatArray]:
 
 @lru_cache(maxsize=8)  # a film's frames ask for the same
 def smooth_shapes(count: int, freedom: int) -> FloatArray:
-    """Return Chebyshev polynomials, of which slowly varying levels are linear combinations.
-
-    Shape (columns, freedom).
-    """
+    """Return Chebyshev polynomials, shape (columns, freedom), as a basis of slow changes."""
     place = np.linspace(-1.0, 1.0, count)
     vander = np.polynomial.chebyshev.chebvander(place, freedom - 1)
     shapes: FloatArray = np.asarray(vander, dtype=np.float64)

@@ -47,7 +47,7 @@ class EvenProfile:
 
     @property
     def information(self) -> float:
-        """Its information: its columns times the fraction of noise that its rows average out."""
+        """Number of columns times the fraction of noise that the rows average out."""
         return float(self.kept.sum()) * self.rows / (self.rows + _HALF_WEIGHT_ROWS)
 
 

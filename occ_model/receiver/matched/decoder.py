@@ -116,7 +116,7 @@ def _start_bins(columns: int, scene: Scene, period: int) -> IndexArray:
 
 
 def _widest_gap(counts: IndexArray) -> int:
-    """Return the most bins of a packet from one in which an exposure starts to the next."""
+    """Return the most bins between two bins of a packet in which an exposure starts."""
     seen = np.flatnonzero(counts)
     return int(np.diff(seen, append=seen[0] + len(counts)).max())
 

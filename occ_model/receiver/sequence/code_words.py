@@ -1,7 +1,7 @@
 """The words of any scheme, found by encoding: what chips its line code and framing can send.
 
-A line code is asked for the chips of every block after each of its states, which show in the chips
-that follow. What is at the start of every frame, whatever the payload, is one word more.
+A line code is tried with every block after each of its states, which show in the chips that follow.
+What is at the start of every frame, whatever the payload, is one word more.
 """
 
 from collections.abc import Iterable
@@ -27,8 +27,6 @@ _SAMPLES = 8  # random payloads beside those of zeros and of ones
 
 @dataclass(frozen=True, slots=True)
 class CodeWords:
-    """What a scheme can send."""
-
     words: tuple[Word, ...]
     # The chips at the start of every frame; empty where they are not known
     header: tuple[int, ...] = ()

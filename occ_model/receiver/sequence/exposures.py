@@ -1,4 +1,4 @@
-"""What the rows say of the chips: each row is the mean of the chips that its exposure covers.
+"""What the rows show of the chips: each row is the mean of the chips that its exposure covers.
 
 Row i is exposed over [i s + p, i s + p + T] in chips, with s = t_r f, T = t f and a phase p. The
 fraction of chip k in it is the overlap of the exposure with [k, k + 1], over T: the taps of a
@@ -25,7 +25,7 @@ class Timing:
 
     @property
     def memory(self) -> int:
-        """Chips that an exposure can reach back to, from the one that it ends in; at least one."""
+        """Number of chips that an exposure reaches back over, at least 1."""
         return max(1, int(np.ceil(self.exposure - 1e-9)))
 
     def starts(self, rows: int) -> FloatArray:
@@ -60,7 +60,7 @@ class ChipStatistics:
 
 
 def features_of(words: FloatArray) -> FloatArray:
-    """Return what each feature counts in the distance of some chips, shape (..., features)."""
+    """Return the weight of each feature in the distance of some chips, shape (..., features)."""
     upper, lower = _pairs(words.shape[-1])
     return np.concatenate([-2.0 * words, words, words[..., upper] * words[..., lower]], axis=-1)
 
@@ -72,7 +72,7 @@ def _pairs(count: int) -> tuple[IndexArray, IndexArray]:
 
 @lru_cache(maxsize=32)
 def _kinds(reach: int) -> tuple[IndexArray, IndexArray, IndexArray, IndexArray]:
-    """Return how the chips of an exposure share their sums over rows.
+    """Return which chips of an exposure have the same sums over rows.
 
     Between its first chips and its last ones all have the same fraction. Returns a chip of each
     kind, the pairs of kinds whose fractions are multiplied, and which sum each feature is: first

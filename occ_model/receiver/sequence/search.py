@@ -202,7 +202,7 @@ def _quadratic(features: FloatArray, reach: int) -> FloatArray:
 
 
 def _best_ways(places: IndexArray, chips: ByteArray, distance: FloatArray) -> IndexArray:
-    """Return the best ways, the best first; of ways that end in one state only the better."""
+    """Return the best ways, in order; of ways that end in one state only the better one."""
     order = np.argsort(distance, kind="stable")
     numbers = np.ascontiguousarray(places[order, None]).view(np.uint8)
     state = np.concatenate([numbers, chips[order]], axis=1)

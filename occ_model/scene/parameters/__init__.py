@@ -44,7 +44,7 @@ def parameter_named(name: str, among: Iterable[str] = PARAMETERS) -> Parameter:
 
 
 def _of_kind(name: str, kind: type[_Kind]) -> _Kind:
-    """Return a declaration, or raise a TypeError where it is of another kind."""
+    """Return a declaration of this kind, or raise a TypeError."""
     declared = PARAMETERS[name]
     if not isinstance(declared, kind):
         raise TypeError(f"{name} is declared as a {type(declared).__name__}, not a {kind.__name__}")

@@ -61,7 +61,7 @@ class Camera(Group):
 
     @property
     def focal_length_pixels(self) -> float:
-        """Focal length in pixels; it does not depend on the size of a pixel."""
+        """Focal length in pixels, independent of a pixel's size."""
         diagonal: float = (self.rows**2 + self.columns**2) ** 0.5
         return self.equivalent_focal_length / DIAGONAL_35MM * diagonal
 
@@ -108,7 +108,6 @@ class Lens(Group):
 
     @property
     def distorts(self) -> bool:
-        """Whether it bends straight lines."""
         return any((self.radial_k1, self.radial_k2, self.tangential_p1, self.tangential_p2))
 
 

@@ -51,8 +51,6 @@ class Pose(Group):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Receiver(Group):
-    """Settings of the receiver."""
-
     # fmt: off
     bright_fraction: float = quantity_field(
         "Brightest pixels", "",

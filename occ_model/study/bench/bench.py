@@ -84,7 +84,6 @@ def _errors(scene: Scene, decoder: str, wrong: list[int], right: int) -> BitErro
 
 
 def check_bench(request: BenchRequest) -> None:
-    """Check a request; errors as :func:`bench`."""
     for name in request.decoders:
         decoder_named(name)
     check_count("bits", request.bits, 1, MOST_BITS)

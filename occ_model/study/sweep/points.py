@@ -82,7 +82,6 @@ class Counts:
             self._notes[point.index] = point.note
 
     def table(self) -> SweepTable:
-        """Make the table, in the order of the axes."""
         shape = self._request.shape
         return SweepTable(
             self._request,

@@ -41,7 +41,7 @@ def checked_request(scene: Scene, axes: object, settings: RateSettings) -> Sweep
 
 
 def check_points(axes: Mapping[str, Sequence[ParameterValue]]) -> None:
-    """Refuse axes whose combinations are too many."""
+    """Refuse axes with too many combinations."""
     sizes = [len(values) for values in axes.values()]
     points = math.prod(sizes)
     if points > MOST_POINTS:
@@ -54,7 +54,6 @@ def check_points(axes: Mapping[str, Sequence[ParameterValue]]) -> None:
 
 
 def processes_for(jobs: int, points: int) -> int:
-    """Return the number of processes to start."""
     check_count("jobs", jobs, 1, MOST_JOBS)
     return max(1, min(jobs, points, JOBS_A_CORE * (os.cpu_count() or 1)))
 

@@ -32,27 +32,27 @@ Point = TypeVar("Point", bound=Indexed)
 
 
 class TableText(Protocol[Point]):
-    """How the points of a study are written."""
+    """The text form of a study's points."""
 
     what: str
-    """What the study is called: a sweep."""
+    """Name of the study, such as a sweep."""
 
     title: str
-    """The beginning of the header of every such table."""
+    """Start of the header of every such table."""
 
     header: str
     """All that determines the numbers, and the names of the columns."""
 
     points: int
-    """Points of the whole study."""
+    """Number of points of the whole study."""
 
     lines_a_point: int
 
     def read(self, lines: Sequence[str]) -> Point | None:
-        """Read a point, None where the lines are none of this study."""
+        """Parse a point, None where the lines are not of this study."""
 
     def text(self, point: Point) -> str:
-        """Write a point."""
+        """Format a point."""
 
 
 class ResultsFile(Generic[Point]):

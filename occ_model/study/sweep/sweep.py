@@ -167,7 +167,7 @@ def measure_study(  # noqa: PLR0913 - what a study is, and how it is measured
 
 
 class _SweepText:
-    """How a sweep's points are written."""
+    """The text form of a sweep's points."""
 
     what, title = "sweep", TITLE
 
@@ -178,7 +178,7 @@ class _SweepText:
         self.read = PointReader(request).read
 
     def text(self, point: SweepPoint) -> str:
-        """Write a point with the intervals of its rates."""
+        """Format a point with the intervals of its rates."""
         intervals = rate_intervals(point, images=self._request.settings.images)
         return point_text(self._request, point, intervals)
 
@@ -193,14 +193,13 @@ class Clock:
         self._started = self._told = perf_counter()
 
     def start(self, found: int) -> None:
-        """Begin with some points that the results file held."""
+        """Begin with the points that the results file held."""
         self._done = self._found = found
         self._started = self._told = perf_counter()
         if found:
             self._tell()
 
     def count(self) -> None:
-        """Count a point."""
         self._done += 1
         self._tell()
 

@@ -57,7 +57,6 @@ class GivenExecutor:
         self.count: int = getattr(executor, "_max_workers", _UNKNOWN_WORKERS)
 
     def submit(self, job: Job, channel: int, run: int) -> "Future[JobResult]":  # noqa: ARG002
-        """Queue a job."""
         future = self._executor.submit(do_job_apart, job)
         self._futures.add(future)
         future.add_done_callback(self._futures.discard)
@@ -67,7 +66,7 @@ class GivenExecutor:
         """Do nothing: these workers share no memory with this process."""
 
     def counted(self, counter: int) -> int:  # noqa: ARG002
-        """Return none: these workers share no memory with this process."""
+        """Return 0: these workers share no memory with this process."""
         return 0
 
     def renew(self) -> None:

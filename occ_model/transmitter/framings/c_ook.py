@@ -26,7 +26,7 @@ _PART_BITS = 16  # most bits of the payload in a sub-packet: two characters
 
 @dataclass(frozen=True, slots=True)
 class _Division:
-    """The division of a payload in sub-packets."""
+    """The division of a payload into sub-packets."""
 
     parts: int
     part_bits: int
@@ -42,13 +42,12 @@ class _Division:
         return self.part_bits + 2 * self.asynchronous
 
     def number(self, part: int) -> ByteArray:
-        """Return the asynchronous bits of a sub-packet."""
         places = reversed(range(self.asynchronous))
         return np.array([part >> place & 1 for place in places], dtype=np.uint8)
 
 
 def sub_packets(bits: int) -> int:
-    """Return how many sub-packets carry a payload of some bits; all have as many chips."""
+    """Return the number of sub-packets of a payload; all have as many chips."""
     return _Division.of(bits).parts
 
 

@@ -106,7 +106,7 @@ def own_preamble(line_code: LineCode) -> ByteArray:
 
 
 def preamble_of(form: FrameFormat) -> ByteArray:
-    """Return the preamble given, else the line code's own."""
+    """Return the given preamble, else the line code's own."""
     if form.preamble:
         return _chips_of(form.preamble)
     if form.line_code.longest_run is None and not form.line_code.preamble:

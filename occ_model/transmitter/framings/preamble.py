@@ -131,7 +131,7 @@ def _wrapped(chips: ByteArray, preamble: ByteArray, length: int) -> Iterator[Byt
 
 
 def too_few(chips: int, length: int) -> str:
-    """Say that less than one period is seen."""
+    """Return the failure that less than one period is seen."""
     return (
         f"Less than one packet: {chips} of {length} chips fit the panel's image; come closer, "
         "raise the frequency or send fewer bits."

@@ -31,7 +31,7 @@ def _encode(bits: ByteArray, form: FrameFormat) -> ByteArray:
 
 
 def length_bits(bits: int) -> int:
-    """Return how many bits state the number of bits of a payload."""
+    """Return the number of bits that state a payload's length."""
     return len(_length_field(bits))
 
 

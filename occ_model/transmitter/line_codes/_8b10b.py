@@ -48,7 +48,7 @@ def _disparity(word: str) -> int:
 
 
 def _chosen(word: str, disparity: int) -> str:
-    """Return a word or its complement, as the running disparity asks for."""
+    """Return a word or its complement, as the running disparity requires."""
     # Two balanced words have two forms as well: they would make long runs otherwise.
     has_two = _disparity(word) != 0 or word in ("111000", "1100")
     return word.translate(_COMPLEMENT) if has_two and disparity > 0 else word

@@ -93,7 +93,7 @@ class _Answering:
         return self._source is not None
 
     def answer(self, request: dict[str, Any]) -> tuple[dict[str, Any], Any]:
-        """Return the answer and the pixels, if there are any."""
+        """Return the answer, and the pixels, if any."""
         from occ_model.errors import VideoError
 
         try:
@@ -164,7 +164,7 @@ def _data_of_this_process() -> int:
 
 
 def _is_memory_full(source: Any) -> bool:
-    """Say whether a few more frames do not fit into the memory: FFmpeg gives no reason."""
+    """Return whether a few more frames exceed the memory: FFmpeg gives no reason."""
     import numpy as np
 
     try:

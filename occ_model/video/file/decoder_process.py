@@ -35,7 +35,7 @@ OpenedFilm = tuple[float | None, int | None]
 
 
 class DecoderStoppedError(Exception):
-    """The decoder's process has ended; the text says why, to end a sentence."""
+    """The decoder's process has ended; the text is the reason, as the end of a sentence."""
 
 
 class DecoderProcess:
@@ -85,7 +85,7 @@ class DecoderProcess:
         return frame
 
     def skip(self, frames: int) -> int:
-        """Pass over some frames; give how many there were. Raises as :meth:`read` does."""
+        """Skip some frames; return how many there were. Raises as :meth:`read` does."""
         passed = 0
         if frames > 0 and self._ahead:
             self._ahead = False
@@ -102,7 +102,7 @@ class DecoderProcess:
         return passed
 
     def seek(self, index: int, time: float, within: float) -> StoredFrame | None:
-        """Return the frame of a number within some seconds of a time; None where not found."""
+        """Return a frame by its number, within some seconds of a time; None where not found."""
         self._forget()
         return _frame(*self._ask({"do": "seek", "index": index, "time": time, "within": within}))
 
@@ -119,7 +119,7 @@ class DecoderProcess:
         return self._end.alive and self._process.poll() is None
 
     def _forget(self) -> None:
-        """Take the answer that was asked for ahead."""
+        """Discard the answer that was requested ahead."""
         if self._ahead:
             self._ahead = False
             self._receive(refuses=False)

@@ -1,4 +1,4 @@
-"""Keep OpenCV and its FFmpeg from printing: what they find wrong is said in sentences."""
+"""Keep OpenCV and its FFmpeg from printing: their errors are reported in sentences."""
 
 import os
 from collections.abc import Iterator

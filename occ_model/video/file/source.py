@@ -1,4 +1,4 @@
-"""What a film's file gives, whatever reads it: pictures with their times, in order."""
+"""A film's file as pictures with their times, in order, whatever reads it."""
 
 import math
 import warnings
@@ -29,7 +29,7 @@ class StoredFrame:
 
 
 class FrameSource(ABC):
-    """A film's file, opened: gives its frames in order, each once."""
+    """An open film's file: yields its frames in order, each once."""
 
     pixels: int = 0  # Pixels of a frame
     # As the container states them; None where it does not
@@ -46,7 +46,7 @@ class FrameSource(ABC):
 
     @abstractmethod
     def skip(self) -> bool:
-        """Pass over the next frame; return whether there was one."""
+        """Skip the next frame; return whether there was one."""
 
     def seek(self, index: int, time: float, within: float) -> StoredFrame | None:  # noqa: ARG002
         """Return a frame anywhere in the film, None where this source cannot find it surely."""
@@ -67,7 +67,7 @@ def one_channel(pixels: ByteArray, channel: str) -> ByteArray:
 
 
 def too_large(width: float, height: float) -> str | None:
-    """Say in a sentence's end that frames are too large, before any is decoded; None if not."""
+    """Return, as a sentence's end, why frames are too large, before any is decoded; else None."""
     if 0 < width * height <= MAX_PIXELS:
         return None
     return (

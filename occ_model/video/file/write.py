@@ -42,7 +42,7 @@ def write_frames(path: Path, pictures: Iterable[ByteArray], rate: float, note: s
 
     ``pictures``: uint8 of one shape: (lines, columns), or (lines, columns, 3) with red, green and
     blue. MP4 and MKV files have an even number of both: a last odd one is left out. OpenCV reports
-    no error: its file's frames are counted before it takes the place of another.
+    no error: its file's frames are counted before it replaces another.
     """
     check_film_path(path, rate)
     name, ending = one_line(path.name), path.suffix.lower()
@@ -96,7 +96,7 @@ def check_film_path(path: Path, rate: float, size: tuple[int, int] | None = None
 
 
 def _frames_in(path: Path) -> int:
-    """Count the frames of a film that was written here; they are not decoded."""
+    """Count the frames of a film that was written here, without decoding."""
     with quiet_opencv():
         capture = cv2.VideoCapture(str(path), cv2.CAP_FFMPEG, (cv2.CAP_PROP_FORMAT, -1))
         count = 0
@@ -132,7 +132,7 @@ def _by_opencv(path: Path, pictures: Iterator[ByteArray], rate: float, note: str
 
 
 def _check_space(path: Path) -> None:
-    """Refuse to go on where the disk is full: OpenCV says nothing of it."""
+    """Raise an error where the disk is full, which OpenCV does not report."""
     if shutil.disk_usage(path.parent).free == 0:
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 

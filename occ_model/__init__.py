@@ -229,10 +229,8 @@ _NAMES = {
     "video.render": "render_video",
 }
 _MODULES = {name: module for module, names in _NAMES.items() for name in names.split()}
-"""The module of each public name, imported when the name is first used.
-
-Ctrl-C, ``--help`` and worker processes are thus answered before numpy is imported.
-"""
+"""The module of each public name, imported at the first use: Ctrl-C and ``--help`` need no
+numpy."""
 
 __all__ = sorted(["__version__", *_MODULES])
 

@@ -102,10 +102,7 @@ class ToleranceSlider(QWidget):
         self._place(tolerance)
 
     def show_marks(self, marks: tuple[float, ...]) -> None:
-        """Let the slider stop where another plan begins.
-
-        ``marks``: the tolerances between infinity and zero at which plans begin, the largest first.
-        """
+        """Let the slider stop where plans begin: at ``marks``, tolerances in descending order."""
         if marks == self.marks:
             return
         self.marks = marks

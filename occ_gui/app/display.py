@@ -17,10 +17,7 @@ _MISSING = re.compile(r"^(\S+): cannot open shared object file")
 
 _LARGEST, _LEAST = QSize(1680, 1050), QSize(1280, 800)
 _FRACTION = 0.92
-"""Fraction of the screen that the first window takes.
-
-Where that is less than the sliders and the story need, the window takes the whole screen.
-"""
+"""Fraction of the screen that the first window takes; all of it where that is too little."""
 
 
 def reason_for_no_window() -> str:

@@ -49,10 +49,7 @@ class LastMessages(logging.Handler):
 
 
 class ErrorReports(QObject):
-    """Logs every unhandled exception and reports it in a sentence, so that the window works on.
-
-    An exception that recurs at the same line, as at every repaint of a pane, is reported once.
-    """
+    """Logs every unhandled exception, and reports it once for each line that raises it."""
 
     reported = Signal(str)
 

@@ -39,10 +39,7 @@ if TYPE_CHECKING:
 
 
 def picture(store: Store, about_photo: Callable[[], str]) -> Feature[Any]:
-    """Declare the pane, which takes the place of the story's rows.
-
-    ``about_photo`` returns the caption of a figure with the photo.
-    """
+    """Declare the pane in place of the story's rows; ``about_photo`` returns the caption."""
 
     def part(workspace: Workspace, results: Results) -> tuple[object, ...]:
         there = (results.before, results.picture, results.snapshot, results.reading)

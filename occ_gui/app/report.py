@@ -23,10 +23,7 @@ _SIZE = (640, 480)
 
 
 def report_text(scene: Scene, settings: SimulationSettings, messages: Iterable[str]) -> str:
-    """Return the report.
-
-    The user's own folder is written as ``~`` in it; a message may still name a file.
-    """
+    """Return the report, with ``~`` for the user's folder; a message may still name a file."""
     screen = QGuiApplication.primaryScreen()
     home = str(Path.home())
     logged = [line.replace(home, "~") for line in messages] or ["nothing was logged"]

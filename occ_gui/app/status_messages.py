@@ -17,10 +17,7 @@ _CHANGE, _PICTURE, _PHOTO, _MATCH = "a change of the scene", "a picture", "a pho
 
 
 class StatusMessages(QObject):
-    """Shows messages in the status line of a window until an event makes them obsolete.
-
-    The message on a refused value is shown at its field, too.
-    """
+    """Shows messages in the status line until an event ends them; refusals at fields, too."""
 
     def __init__(self, window: MainWindow, controls: ControlPanel) -> None:
         super().__init__(window)

@@ -12,10 +12,7 @@ from occ_model.errors import one_line
 
 
 class FileWriter(QObject, Generic[Request]):
-    """Writes one file at a time; a new request cancels the running one.
-
-    ``write`` writes what a request asks for and returns the file; a cancelled one leaves no file.
-    """
+    """Writes one file at a time; a new request cancels the running one, which leaves no file."""
 
     status_message = Signal(str)
     written = Signal(Path)

@@ -67,11 +67,7 @@ class Selection(QObject, Generic[T]):
 
 
 class Store(QObject):
-    """Holds the workspace and announces its changes.
-
-    Listeners are notified in the order of their selection, of one change after the other: a change
-    made by a listener is announced after the present one.
-    """
+    """Holds the workspace; announces changes one by one, to listeners in order of selection."""
 
     step_begun = Signal(object)
     """The workspace before a new step, an undo or a redo; emitted before the change is

@@ -70,7 +70,6 @@ class BitStrip(QWidget):
         self.setToolTip(text)
 
     def wrong_places(self) -> list[int]:
-        """Return the indices of received bits that are wrong."""
         return wrong_places(self._sent, self._received)
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name

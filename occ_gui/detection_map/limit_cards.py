@@ -185,10 +185,7 @@ class LimitCard(QFrame):
         self.set_outdated(False)
 
     def show_limit(self, end: RangeEnd | None, text: str, rate: float) -> None:
-        """Show the upper end of the working range, None if the decoder reads nowhere.
-
-        ``rate``: the least success rate, in percent, at which a decoder counts as reading.
-        """
+        """Show the upper end, None if nothing is read; ``rate``: least success rate in percent."""
         if end is None:
             self._show("none", text, None)
             return

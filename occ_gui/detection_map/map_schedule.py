@@ -90,10 +90,7 @@ def table_of(
 def map_stages(
     requests: tuple[SweepRequest, ...], images: IndexArray, with_theory: bool, slow: bool
 ) -> Iterator[Stage]:
-    """Yield the stages of a map.
-
-    ``images``: shape (points along x, points along y): images read at each point so far.
-    """
+    """Yield the stages of a map; ``images``: numbers read so far, shape (along x, along y)."""
     first, *others = requests
     order = list(first.in_order_of_work())
     done = images.ravel()

@@ -28,10 +28,7 @@ _ENDING = "export/ending"  # under this key the ending of the last exported file
 
 
 class ExportController(Service):
-    """Draws figures on a background thread, one job after another, and saves or copies them.
-
-    A figure is drawn of the scene that the controls show, once its results are there.
-    """
+    """Draws figures of the controls' scene one by one, on a thread, to save or copy them."""
 
     def __init__(
         self,
@@ -93,7 +90,6 @@ class ExportController(Service):
         self._present.ask(partial(self._draw, name, path))
 
     def ask_for_folder(self) -> None:
-        """Ask for a folder, and write all figures to it."""
         folder = QFileDialog.getExistingDirectory(
             self._window, "Export all figures into a folder", self._preferences.export_folder
         )

@@ -16,10 +16,7 @@ _LONGEST_PATH = 4096  # most characters of a stored path; no system allows longe
 
 
 class Preferences(QObject):
-    """The recent files, their last folder, and texts by key.
-
-    ``settings``: the storage; None to keep them only while the window is open.
-    """
+    """Recent files, their last folder, and texts by key; stored in ``settings``, if given."""
 
     changed = Signal()  # the list of recent files has changed
 
@@ -32,10 +29,7 @@ class Preferences(QObject):
 
     @property
     def folder(self) -> str:
-        """The first folder of dialogs that open files, at first that of figures.
-
-        Empty for the system's.
-        """
+        """First folder of open dialogs, at first that of figures; empty: the system's."""
         return self._there(_FOLDER) or self._there(_EXPORTS)
 
     @property

@@ -135,10 +135,7 @@ LONGEST_WAIT_MS = 1000
 def restored(
     file: SessionFile, first: Workspace, *, is_scene_asked: bool, are_settings_asked: bool
 ) -> Workspace:
-    """Return the first workspace: the last session's, but for what the command line gives.
-
-    ``first``: what the command line asks for.
-    """
+    """Return the first workspace: the last session's, but for what the command line asks for."""
     last = file.last
     if last is None:
         return first

@@ -161,10 +161,7 @@ def _search_field(name: str, tip: str) -> QLineEdit:
 
 
 class Manual(Service):
-    """The window of the manual, made when a page is first shown.
-
-    ``pages`` maps panes to page and heading; ``current_pane`` returns a pane.
-    """
+    """The manual's window, made when first shown; ``pages`` maps panes to page and heading."""
 
     def __init__(
         self, window: QMainWindow, current_pane: Callable[[], str], pages: Mapping[str, str]

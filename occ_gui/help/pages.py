@@ -15,10 +15,7 @@ _LISTED = re.compile(r"^\* \[([^\]]+)\]\(([\w-]+\.md)\)", re.MULTILINE)
 
 
 def docs_folder() -> Path:
-    """Return the folder of the pages; the pictures they show are in a folder beside it.
-
-    Raises OSError where the program was installed without its pages.
-    """
+    """Return the folder of the pages; raises OSError where the program has none installed."""
     # From an archive, both are copied.
     resource_path("pictures")
     return resource_path("docs")

@@ -11,10 +11,7 @@ from occ_model.scene.scene import Scene
 
 
 class BeforeController(QObject):
-    """Keeps the results from before each step of the scene, and shows them.
-
-    A step is what one undo takes back, such as a whole drag of a slider; an undo is a step too.
-    """
+    """Keeps the results from before each step that one undo takes back, and shows them."""
 
     def __init__(self, store: Store, show: Callable[[Snapshot], None]) -> None:
         super().__init__()

@@ -65,10 +65,7 @@ _NAMES = ("A", "B")
 
 
 class PinController(QObject):
-    """Keeps up to two states, A and B.
-
-    What is pinned is the present state: while it is being computed, the pin waits for it.
-    """
+    """Keeps up to two states, A and B; a pin waits until the present state is computed."""
 
     status_message = Signal(str)  # what was done, or why it could not be done
     changed = Signal()  # something else is pinned

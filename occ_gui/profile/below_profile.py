@@ -104,10 +104,7 @@ class ResidualPlot(QWidget):
 
 
 class ChipStrip(QWidget):
-    """Cells of the chips, lit ones filled, and a button that copies them as text.
-
-    ``left``: width of the plot's axis in pixels, where the button stands.
-    """
+    """Chips as cells, lit ones filled, and a button to copy them in the ``left`` pixels."""
 
     copied = Signal(str)  # a text was copied: a sentence that says so
 

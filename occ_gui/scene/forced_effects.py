@@ -21,10 +21,7 @@ def forced_text(force: Mapping[str, bool], labels: Mapping[str, str]) -> str:
 
 
 class ForcedEffects(QWidget):
-    """The effects that are switched by hand, with a button that leaves them to the plan again.
-
-    It is hidden while there are none.
-    """
+    """The effects switched by hand, and a button that resets them; hidden without any."""
 
     released = Signal()  # the user leaves all effects to the plan
 

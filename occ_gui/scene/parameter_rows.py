@@ -222,10 +222,7 @@ class OpenChoiceRow(ChoiceRow):
 
 
 class PatternRow(ParameterRow):
-    """A text field for a pattern of chips or a payload.
-
-    What cannot be read stays in it, with the reason, until it is typed anew.
-    """
+    """A text field for a pattern or payload; unreadable text stays, with the reason."""
 
     def __init__(self, declared: ChipPattern | Payload) -> None:
         super().__init__(declared)

@@ -41,11 +41,7 @@ class PlayButton(IconButton):
 
 
 class Player(QObject):
-    """Runs one slider at a time, until its value is changed by anything else.
-
-    ``rows``, ``buttons``: the rows of the sliders and the buttons that run them, by the names of
-    their parameters.
-    """
+    """Runs one slider at a time, until its value is changed by anything else."""
 
     film_asked = Signal(str)  # the parameter whose run is to be written as an animation
     run_changed = Signal(str)  # the parameter whose slider runs from now on; empty for none

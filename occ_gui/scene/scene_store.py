@@ -141,10 +141,7 @@ def new_gesture() -> int:
 
 
 class Gestures:
-    """Assigns the changes of one control to gestures.
-
-    Changes in quick succession, as by keys, arrows or the wheel, are one gesture.
-    """
+    """Numbers the gestures of a control: changes in quick succession are one."""
 
     def __init__(self) -> None:
         self._number = NO_GESTURE

@@ -89,10 +89,7 @@ class Service(QObject):
 
 
 class Pane(Service, Generic[Part]):
-    """A widget with its connections, made when its pane is first seen.
-
-    A pane without background work only has to show its part.
-    """
+    """A widget with its connections, made when its pane is first seen."""
 
     made_of: Mapping[QWidget, MadeOf] = MappingProxyType({})
     """Widgets that are marked while their results are of an earlier scene."""

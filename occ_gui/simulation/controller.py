@@ -55,19 +55,12 @@ def _go_on() -> None:
 
 
 def simulate(scene: Scene, settings: SimulationSettings = FIRST_SETTINGS) -> Snapshot:
-    """Simulate a scene and decode its picture.
-
-    Raises ParameterError where a setting is invalid.
-    Raises ProjectionError where the panel has no picture in this pose.
-    """
+    """Simulate a scene and decode its picture; raises ParameterError or ProjectionError."""
     return snapshot_of(SimulationRequest(scene, settings), render_with(scene, settings))
 
 
 class SimulationController(QObject):
-    """Connects the stores, the thread of the simulation and the panes.
-
-    ``scenes``: the store of the scene, which is simulated at once and after every change.
-    """
+    """Connects stores, thread and panes; simulates the scene after every change."""
 
     picture_ready = Signal(object)
     """The Picture of a scene, before it is decoded; its Reading, if any, is shown already."""

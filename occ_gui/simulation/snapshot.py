@@ -67,10 +67,7 @@ class ColumnView:
 
     @property
     def panel_origin(self) -> tuple[float, float]:
-        """Column and row of the panel's upper left corner in the picture.
-
-        Those of the picture's corner where the panel reaches beyond it.
-        """
+        """The panel's upper left corner as (column, row); the picture's where it lies beyond."""
         left, top = self.corners.min(axis=0).tolist()
         return max(left, 0.0), max(top, 0.0)
 

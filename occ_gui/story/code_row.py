@@ -31,10 +31,7 @@ _MISSING = "·"  # in place of a letter that was not received
 
 
 class CodeRow(StoryRow):
-    """Chips as cells, and under them header and bits, right ones ticked, wrong ones crossed out.
-
-    The letters of a text, or the bytes, stand above their bits.
-    """
+    """Chips as cells above letters, header and bits, right ones ticked, wrong ones crossed out."""
 
     def __init__(self, axis: ColumnAxis, crosshair: Crosshair) -> None:
         super().__init__("Code", axis, crosshair)

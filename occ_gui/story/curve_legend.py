@@ -16,10 +16,7 @@ _SPACING = 6  # pixels between the legend and what stands beside it
 
 
 class CurveLegend(QWidget):
-    """Samples of lines with their names, in further lines where they do not fit into one.
-
-    ``usual``: keys whose room is reserved, so that nothing moves when they come or go.
-    """
+    """Samples of lines with names, in lines as needed; ``usual`` keys have reserved room."""
 
     def __init__(self, lines: Mapping[str, tuple[QPen, str]], usual: tuple[str, ...] = ()) -> None:
         super().__init__()

@@ -17,10 +17,7 @@ _WHOLE, _WHOLE_TIP = "Whole picture", "Show the whole picture in place of the fo
 
 
 class _Held(QWidget):
-    """Holds a widget whose contents change often, without passing on its size requests.
-
-    A label makes one with each text, and the whole window would be laid out anew.
-    """
+    """Holds a widget without passing on its size requests, which would lay the window out anew."""
 
     def __init__(self, content: QWidget) -> None:
         super().__init__()

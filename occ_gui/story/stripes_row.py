@@ -40,19 +40,13 @@ class StripesRow(StoryRow):
         self.redraw()
 
     def rows_per_pixel(self) -> float:
-        """Return how many rows of the picture fall on a pixel of the screen.
-
-        Independent of the draft that is shown, so that successive drafts have the same rows.
-        """
+        """Return the rows of the picture on a pixel of the screen, the same for any draft."""
         first, last = (0, 0) if self._corners is None else _showing(self._corners, self._all_rows)
         pixels = max(1.0, self.height() * self.devicePixelRatioF())
         return (last - first) / pixels
 
     def rows_shown(self) -> tuple[int, int]:
-        """Return the panel's first row in the picture, and the one after its last.
-
-        Counted in the whole picture, of which a draft has only some rows.
-        """
+        """Return the panel's first row in the whole picture and the one after its last."""
         return (0, 0) if self._corners is None else _showing(self._corners, self._rows)
 
     def draw(self, painter: QPainter, area: QRectF) -> None:

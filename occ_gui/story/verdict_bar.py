@@ -135,10 +135,7 @@ class VerdictBar(StateBar):
             self._write()
 
     def show_run(self, value: str, pictured: str) -> None:
-        """Show for which value of a running slider the verdict is.
-
-        ``value``: the value with its label; empty while no slider runs.
-        """
+        """Show which value of a running slider the verdict is for; empty while none runs."""
         if (value, pictured) != (self._run, self._pictured):
             self._run, self._pictured = value, pictured
             self._write()

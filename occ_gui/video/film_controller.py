@@ -178,10 +178,7 @@ class FilmController(QObject):
             self.player.pause()
 
     def open(self, path: Path, axis: str = SCAN_AXES[0]) -> None:
-        """Open a film; the present one stays until it can be shown.
-
-        ``axis``: the axis that the shutter scanned, one of SCAN_AXES.
-        """
+        """Open a film along one of SCAN_AXES; the present one stays until it can be shown."""
         self.edit(lambda choice: choice.opened(path, axis))
 
     def edit(self, change: Callable[[FilmChoice], FilmChoice]) -> None:

@@ -45,10 +45,7 @@ class Marks:
 
 
 def frame_marks(times: Sequence[float] | FloatArray, states: ByteArray, last: float) -> Marks:
-    """Return a mark for each frame, which lasts until the next one, if that is soon.
-
-    ``states``: shape (frames,). ``last``: duration of the last frame, in seconds.
-    """
+    """Return a mark for each frame until the next, if soon; ``last``: the last one's seconds."""
     starts = np.asarray(times, dtype=np.float64)
     if not len(starts):
         return Marks()

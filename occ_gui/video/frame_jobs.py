@@ -120,10 +120,7 @@ def _shown(image: ByteArray, story: FrameStory, caption: str) -> ShownPicture:
 
 
 def _story(frame: VideoFrame, scene: Scene, request: FrameRequest | None, whose: str) -> FrameStory:
-    """Read one frame by itself.
-
-    ``scene``: what is known of it; of a simulated frame its own scene, with its ``request``.
-    """
+    """Read one frame by its scene, which is a simulated frame's own, with its request."""
     image = frame.image
     step = 1
     if request is not None and image.shape[0] != scene.camera.rows:

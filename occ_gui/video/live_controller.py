@@ -90,10 +90,7 @@ class LiveVideo(Video):
             self._orders.append(lambda: answer(self.source.lock_exposure(on)))
 
     def frames(self, first: int = 0) -> Iterator[VideoFrame]:  # noqa: ARG002 - as of any film
-        """Yield the newest picture at each request, until there are no more.
-
-        Each is yielded once; ``first`` is ignored: past pictures are not kept.
-        """
+        """Yield the newest picture at each request, once each; ``first`` is ignored."""
         while (frame := self._next()) is not None:
             yield frame
 
@@ -199,10 +196,7 @@ class LiveController(QObject):
         self.start(CameraSource(device))
 
     def start(self, source: FrameSource, axis: str = "") -> None:
-        """Read a source in place of the open film.
-
-        ``axis``: the axis that the shutter scans; by default that of the source.
-        """
+        """Read a source in place of the open film, along ``axis``, by default the source's own."""
         self.stop_filming()
         self.video = LiveVideo(source, axis or source.axis, self._last)
         self._shown = -1

@@ -26,10 +26,7 @@ def _digit(value: int) -> QStaticText:
 def draw_digits(
     painter: QPainter, cells: Sequence[tuple[int, QRectF]], within: QRectF | None = None
 ) -> None:
-    """Write each chip's digit into its cell, where there is room.
-
-    ``within``: the visible area; a digit that it cuts off is left out.
-    """
+    """Write each chip's digit into its cell, where there is room ``within`` the visible area."""
     size = painter.fontMetrics().size(0, "0")
     width, height = size.width(), size.height()
     for chip, cell in cells:

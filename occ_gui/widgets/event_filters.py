@@ -24,10 +24,7 @@ class _WheelFilter(QObject):
 
 
 def keep_wheel_for_scrolling(control: QWidget) -> None:
-    """Let the wheel change a control's value only while the control has the focus.
-
-    Without the focus, which a click gives, the wheel scrolls the page.
-    """
+    """Let the wheel change a control's value only while it has the focus; else scroll the page."""
     control.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
     control.installEventFilter(_WheelFilter(control))
 

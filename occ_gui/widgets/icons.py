@@ -61,10 +61,7 @@ def pixmap(name: str, colour: QColor, size: int, ratio: float) -> QPixmap:
 
 
 class IconButton(QToolButton):
-    """A flat button that shows an icon.
-
-    ``size``: width and height, independent of the screen.
-    """
+    """A flat button with an icon of ``size`` pixels, independent of the screen."""
 
     def __init__(self, drawing: str, size: int) -> None:
         super().__init__()

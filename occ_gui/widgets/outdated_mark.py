@@ -30,10 +30,7 @@ class OutdatedMark(QWidget):
         pane.installEventFilter(self)
 
     def show_age(self, age: float, text: str) -> None:
-        """Mark the pane once its result has been outdated for a moment.
-
-        ``age``: seconds since it was outdated; zero if it is not.
-        """
+        """Mark the pane once its result is outdated for a moment; ``age`` in seconds, or 0."""
         if age == 0.0 and self.isHidden() and not self._waiting.isActive():
             return
         self._set_text(text)

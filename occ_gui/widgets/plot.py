@@ -104,10 +104,7 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph has no types
         dress(self.palette())
 
     def add_curve(self, pen: QPen, *, is_crowded: bool = False) -> pg.PlotDataItem:
-        """Add an empty curve, in a colour with sufficient contrast to the background.
-
-        A crowded one, of many columns in a small plot, is as thin as its pen.
-        """
+        """Add an empty curve of sufficient contrast; a crowded one is as thin as its pen."""
         curve = self.plot(pen=pen)
         width = QPen if is_crowded else self.stroke
         self.dress_with(lambda palette: curve.setPen(width(pen_on(palette, pen))))

@@ -196,11 +196,7 @@ class MainWindow(QMainWindow):
         self.menus.show_photo_open(name is not None)
 
     def say(self, sentence: str, until: str = "") -> None:
-        """Show a sentence in the status line.
-
-        ``until``: the event that removes it, which :meth:`happened` reports; by default the next
-        sentence.
-        """
+        """Show a sentence in the status line until the next one, or until this event."""
         self._message_until = until
         self._status_line.showMessage(sentence)
 

@@ -101,10 +101,7 @@ _ELSEWHERE = {
 
 
 def arrange(window: QMainWindow, docks: Mapping[str, QDockWidget], mode: Mode) -> None:
-    """Show the panes of a mode at their places, and hide all others.
-
-    Other panes open at the right or below.
-    """
+    """Show the panes of a mode at their places, and hide all others."""
     for dock in docks.values():
         window.removeDockWidget(dock)
     corner = _AREA.BottomDockWidgetArea if mode.is_bottom_wide else _AREA.LeftDockWidgetArea

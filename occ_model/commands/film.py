@@ -92,7 +92,6 @@ def _recording(options: argparse.Namespace) -> Recording:
 
 
 def _waypoint(text: str) -> Waypoint:
-    """Parse a waypoint of a command line."""
     start, _, rest = text.partition(":")
     time = SECOND.parse(start)
     if time is None or not rest:

@@ -98,10 +98,7 @@ class FileEffect(Effect):
 
     @abstractmethod
     def apply(self, scene: Scene, image: ByteArray) -> ByteArray:
-        """Return the picture as it is read back from the file.
-
-        Rows of whole blocks, eight rows each, give the same as they do in a larger picture.
-        """
+        """Return the picture as read back; rows of whole 8-row blocks do not depend on others."""
 
     @abstractmethod
     def check_size(self, scene: Scene, shape: tuple[int, ...]) -> None:

@@ -56,10 +56,7 @@ class EffectSets:
         return cls(estimates, subsets.effects[0], float(subsets.seconds[0]), ways)
 
     def errors_of(self, ways: Sequence[Way]) -> list[float]:
-        """Return the least tolerance at which each set may be simulated.
-
-        The changes of its effects need not add, and are tried together.
-        """
+        """Return each set's least tolerance, for its effects together: changes need not add."""
         found = self.estimates.errors_of([self.names - way.effects for way in ways])
         return [max(own, way.error / _MOST_EXCESS) for own, way in zip(found, ways, strict=True)]
 

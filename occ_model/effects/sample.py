@@ -82,7 +82,6 @@ class Sample:
 
     @property
     def arrays(self) -> tuple[FloatArray, ...]:
-        """All arrays of the sample."""
         covers = tuple(cover for cover in self.covers.values() if cover is not None)
         gains = (*self.emission.values(), *self.transmission.values())
         return (self.rows, self.row_weights, self.weights, *covers, *gains)

@@ -285,7 +285,6 @@ class SampledPixels:
         return None if gain is None else self.mean_of_rows(fast_power(gain, power))
 
     def mean_of_rows(self, seen: FloatArray) -> FloatArray:
-        """Return the mean of each column over its rows."""
         return np.asarray(np.einsum("...cn,cn->...c", seen, self.sample.row_weights))
 
     def mean_of_columns(self, seen: FloatArray) -> float:

@@ -43,10 +43,7 @@ def _inches(line: str, font: FontProperties) -> float:
 
 
 def fit_texts(figure: Figure) -> None:
-    """Break the lines of texts that are too wide for their room, and enlarge the page for them.
-
-    Legends get fewer columns where their entries have no room side by side.
-    """
+    """Break the lines of texts too wide for their room, narrow legends, and enlarge the page."""
     for text in _all(figure, Text):
         drawn, font = with_letters(text.get_text(), text.get_fontproperties())
         text.set_text(drawn)

@@ -99,10 +99,7 @@ def _unwritable(path: Path, error: OSError | ValueError) -> OutputError:
 
 @contextmanager
 def written_whole(path: Path) -> Iterator[Path]:
-    """Return a temporary file beside the path, which replaces it when the context ends well.
-
-    Where the context is left by an exception it is removed, and an older file is unchanged.
-    """
+    """Return a temporary file beside the path, which replaces it unless an exception is raised."""
     permissions = check_replaceable(path)
     try:
         with _replacement(path.resolve(), permissions) as temporary:

@@ -54,10 +54,7 @@ def _sending(scene: Scene, chips: ByteArray) -> Scene | None:
 
 
 def at_the_photo(scene: Scene, photo: Photo, region: Region) -> Scene:
-    """Set the picture's size to the photo's, and the panel so that it fills a region of it.
-
-    The panel keeps its distance, level and upright.
-    """
+    """Fit the picture's size to the photo, and the panel, level and upright, to a region of it."""
     rows, columns = photo.samples.shape
     try:
         scene = scene.replace(rows=rows, columns=columns, yaw=0.0, pitch=0.0, roll=0.0)

@@ -43,10 +43,7 @@ _SHIFTS = np.arange(-PER_CHIP, PER_CHIP + 1)  # up to a chip: of a packet's star
 
 
 def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
-    """Read the code from a signal whose exposure is undone.
-
-    The result holds the deconvolved light and the threshold decoder's steps.
-    """
+    """Read the code from the deconvolved light, with the threshold decoder's steps."""
     result = DecodeResult(DECODER.name, signal=signal, failure=why_flat(signal))
     if result.failure is not None:
         return result

@@ -39,10 +39,7 @@ def is_curve_known(scene: Scene) -> bool:
 
 
 def in_light(signal: FloatArray, scene: Scene) -> Light:
-    """Return a signal of grey levels in light, by the averaging, gamma and enhancement of a scene.
-
-    Where the curve is estimated, exposure time, frequency and number of bits are used too.
-    """
+    """Return grey levels in light; an estimated curve also uses exposure, frequency and bits."""
     model = scene.model
     # Above white, the signal's levels are not those of a picture, and none is the largest.
     clipped = (signal >= WHITE - 0.5) & (signal.max() <= WHITE)

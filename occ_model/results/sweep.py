@@ -256,10 +256,7 @@ class PointReader:
         ]
 
     def read(self, lines: Sequence[str]) -> SweepPoint | None:
-        """Read the rows of a point, one line a decoder; None where they cannot be read.
-
-        The caller writes the point again and compares.
-        """
+        """Parse a point's rows, one a decoder; the caller checks by writing it again."""
         first = len(self._axes) + 3
         try:
             rows = [next(csv.reader([line], strict=True)) for line in lines]

@@ -65,10 +65,7 @@ _LIMIT_DIGITS = 12  # digits up to which a limit is written without a power of t
 
 @dataclass(frozen=True, slots=True)
 class Quantity(Declaration):
-    """A real number with a unit.
-
-    ``low`` and ``high`` bound it; a ``slider`` offers a part of that on a ``scale``.
-    """
+    """A real number with a unit, from ``low`` to ``high``, of which a slider offers a part."""
 
     unit: Unit
     low: float

@@ -124,10 +124,7 @@ class NoiseSpread:
         return place
 
     def scale(self, normal: Pixels, rows: Rows, each_row: Rows) -> None:
-        """Multiply numbers by the deviations of the pixels of some rows.
-
-        ``rows``, ``each_row``: the mean values, with and without weights.
-        """
+        """Multiply numbers by the deviations of rows, given with weights and as ``each_row``."""
         known, spread = self._known
         if rows.nodes is not known:  # most rows are like the previous rows
             spread = self(rows.nodes)

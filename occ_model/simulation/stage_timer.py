@@ -7,10 +7,7 @@ from typing import Self
 
 
 class StageTimer:
-    """Adds up the seconds of each stage: every moment since the timer was made belongs to one.
-
-    ``before``: seconds of stages that ended before the timer was made, which count too.
-    """
+    """Adds up seconds by stage, without gaps; ``before``: stages that ended earlier."""
 
     def __init__(self, before: Mapping[str, float] | None = None) -> None:
         self.timings: dict[str, float] = dict(before or {})
@@ -27,10 +24,7 @@ class StageTimer:
         self._last = perf_counter()
 
     def parallel_stages_ended(self, timers: Sequence[Self]) -> None:
-        """Divide the time since the last stage among stages that ran at the same time.
-
-        Each counts in proportion to the time that it took in all threads together.
-        """
+        """Divide the time since the last stage among parallel ones, by their time in threads."""
         now = perf_counter()
         passed, self._last = now - self._last, now
         taken: dict[str, float] = {}

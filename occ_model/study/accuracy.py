@@ -75,7 +75,6 @@ def accuracy(
 
 
 def point_count(scene: Scene, settings: SimulationSettings | None = None) -> int:
-    """Count the points that :func:`accuracy` measures."""
     settings = settings or SimulationSettings()
     complete = plan(scene, 0.0, settings.observable)
     noise = 2 if planned(complete, NoiseEffect) else 0

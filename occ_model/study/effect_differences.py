@@ -179,7 +179,6 @@ def _amplification(difference: Pixels) -> int:
 
 
 def forecast(scene: Scene, settings: SimulationSettings, costs: MeasuredCosts) -> Forecast:
-    """Predict a simulation."""
     chosen = plan_with(scene, settings)
     seconds = _seconds(chosen.included, costs)
     force = tuple(sorted(settings.force.items()))

@@ -64,7 +64,6 @@ class Observation:
     region: Region | None
 
     def read(self, scene: Scene, decoder: str) -> DecodeResult:
-        """Decode the signal."""
         result = decode(self.signal, scene, decoder)
         return result if self.region is None else replace(result, region=self.region)
 
@@ -168,10 +167,7 @@ def read_profile(
     decoders: Sequence[str] = QUICK_DECODERS,
     view: PaperView | None = None,
 ) -> ProfileReading | None:
-    """Read a scene by the profile path; None where only pixels show what is read there.
-
-    ``settings``: of its picture; the effects are planned for the signal all the same.
-    """
+    """Read a scene by the profile path, planned for the signal; None where pixels are needed."""
     check_scene(scene)
     check_size(scene.camera)
     span = panel_span(scene)

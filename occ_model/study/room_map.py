@@ -212,10 +212,7 @@ def room_map(
     progress: Progress | None = None,
     results: str | Path | None = None,
 ) -> tuple[RoomPoint, ...]:
-    """Measure the places of a map, in their order.
-
-    ``executor``, ``jobs``, ``progress``, ``results`` and errors: as for :func:`occ_model.sweep`.
-    """
+    """Measure the places of a map in order; arguments and errors as for :func:`occ_model.sweep`."""
     found: list[RoomPoint] = []
     text = RoomMapText(request)
 

@@ -46,10 +46,7 @@ def working_range(
     settings: RateSettings,
     heartbeat: Heartbeat = lambda: None,
 ) -> WorkingRange:
-    """Find the intervals of values of a parameter at which a decoder reads a scene.
-
-    ``settings``: checked, with one decoder; the images are those of each value reported.
-    """
+    """Find a parameter's intervals that a decoder reads; ``settings``: checked, of one decoder."""
     return _Search(scene, name, rate, settings, heartbeat).working_range()
 
 

@@ -119,10 +119,7 @@ def _described(
 
 
 def _unseen(timing: Timing, values: ByteArray, count: int) -> FloatArray:
-    """Return the covariance of middle and step by edges that fall between two exposures.
-
-    With exposures shorter than the time between columns, columns do not show where edges lie.
-    """
+    """Return the covariance of middle and step by edges that fall between short exposures."""
     left_out = max(timing.step - timing.exposure, 0.0)
     edges = max(1, int(np.count_nonzero(np.diff(values.astype(np.int64)))))
     variance = left_out**2 / 12.0 / edges

@@ -129,10 +129,7 @@ def _followed(phases: Phases, turned: FloatArray, frequency: float) -> ClockFit:
 def fits_of(
     phases: Phases, readout_time: float, tolerance: float, columns: int, period: float
 ) -> tuple[ClockFit, ...]:
-    """Fit the clock to phases, by a rough readout time in seconds that is wrong by a fraction.
-
-    ``period``: the frame period in seconds: reading out a frame takes no longer.
-    """
+    """Fit the clock by a rough readout time, wrong by ``tolerance``; ``period`` of frames in s."""
     if len(phases.times) < _MIN_FRAMES:
         return ()
     step, _ = mean_step(phases)

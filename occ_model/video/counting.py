@@ -43,10 +43,7 @@ class ShutterTiming:
         return (self.last - self.first) * self.readout_time + self.exposure_time
 
     def whole_chips(self, start: Fraction) -> tuple[int, int]:
-        """Return the first chip that a frame shows whole, and the one after the last.
-
-        ``start``: when the exposure of column 0 starts, in seconds; chip 0 starts at 0.
-        """
+        """Return the chips shown whole, first and after the last; ``start`` of column 0 in s."""
         begin = (start + self.first * self.readout_time) * self.frequency
         return ceil(begin), floor(begin + self.view * self.frequency)
 

@@ -62,7 +62,6 @@ class PhotoRowsModel(QAbstractTableModel):
         return tuple(sorted(self._given.get(name, {}).items()))
 
     def show_open(self, path: Path | None) -> None:
-        """Highlight the row of the open photo."""
         self._open = path
         self._redraw()
 

@@ -118,10 +118,7 @@ def _unexplained(flattened: FloatArray, edges: Edges, frequency: float) -> float
 
 
 def in_phase(edges: Edges) -> Edges:
-    """Move bursts until all lie on one lattice, unless one lattice explains edges as well already.
-
-    A pause that is not a whole number of chips is lengthened or shortened by up to half a chip.
-    """
+    """Move bursts by up to half a chip until all lie on one lattice, unless they do already."""
     bursts = _bursts(edges)
     if len(bursts) < 2:
         return edges

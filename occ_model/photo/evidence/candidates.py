@@ -65,10 +65,7 @@ class Candidates:
         return self._fitted("what the scene sends", chips, [*near, None], bits=0.0, was_read=False)
 
     def read(self, as_sent: Hypothesis | None = None) -> list[Hypothesis]:
-        """Fit the chips that are read from the stripes, in each way of reading them.
-
-        Those that ``as_sent`` explains well already are left out.
-        """
+        """Fit the chips read in each way, but not those that ``as_sent`` explains well already."""
         period = self.stripes.period
         if period is None:
             return []

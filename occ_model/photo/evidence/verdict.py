@@ -146,10 +146,7 @@ class Judge:
         ]
 
     def _of_wave(self, found: Hypothesis, independent: float) -> float:
-        """Return the log-likelihood of any wave that repeats as often as a hypothesis' chips do.
-
-        Its amplitude and mean follow the levels of the hypothesis' fit.
-        """
+        """Return the log-likelihood of any wave of the same period, in the levels of the fit."""
         profile, columns = self._stripes.profile, len(self._stripes.profile)
         period = len(found.chips) / found.fit.timing.step
         flattened = (profile - found.fit.low) / found.fit.swing

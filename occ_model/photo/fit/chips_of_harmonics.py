@@ -82,10 +82,7 @@ def best_chips(lines: Harmonics, count: int) -> ReadPattern | None:
 def boxes_of(
     harmonics: int, count: int, exposures: FloatArray, phases: FloatArray
 ) -> NDArray[np.complex128]:
-    """Return what multiplies the harmonics of chips: the boxes of a chip and of an exposure.
-
-    Shape (trials, harmonics).
-    """
+    """Return the boxes of chip and exposure that multiply harmonics, shape (trials, harmonics)."""
     order = np.arange(1, harmonics + 1)
     boxes = np.sinc(order / count) * np.sinc(np.outer(exposures, order / count)) / count
     return np.asarray(boxes * np.exp(-2j * np.pi / count * np.outer(phases, order)), complex)
@@ -209,10 +206,7 @@ def chips_by_descent(
 def _ascended(
     first: ByteArray, towards: FloatArray, products: FloatArray
 ) -> tuple[ByteArray, float]:
-    """Change chips while their likeness c'a / sqrt(c'Qc) rises.
-
-    One is changed, or two neighbours are, the way that raises it most.
-    """
+    """Change one chip, or two neighbours, while the likeness c'a / sqrt(c'Qc) rises."""
     one = np.eye(len(first), dtype=np.uint8)
     changes = np.concatenate([one, one ^ np.roll(one, 1, axis=1)])
     chips, best = first, float(_chip_likeness(first[None], towards, products)[0])

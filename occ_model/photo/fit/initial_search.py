@@ -64,10 +64,7 @@ class Search:
     def candidates(
         self, steps: FloatArray, gamma: float, check: Callable[[], object] = lambda: None
     ) -> list[Candidate]:
-        """Find the best timing of each exposure among some steps, best first.
-
-        ``check`` is called every few hundredths of a second; what it raises ends the search.
-        """
+        """Find each exposure's best timing, best first; what ``check`` raises ends the search."""
         rough = np.zeros(len(steps))
         together = max(1, _AT_ONCE // (_PHASES_A_CHIP * self._period))
         slow = self._harmonics[: self._period]
@@ -112,10 +109,7 @@ class Search:
         return scores, best / phases_a_chip + 0.5
 
     def _sampled(self, steps: FloatArray, harmonics: IndexArray) -> NDArray[np.complex64]:
-        """Sample the profile's spectrum at some of the chips' harmonics, phases about its middle.
-
-        Shape (steps, harmonics).
-        """
+        """Sample the spectrum at chip harmonics about the middle, shape (steps, harmonics)."""
         rounds = len(self._turned)
         nearest = np.rint(np.outer(steps, harmonics * (rounds / 2 / self._period)))
         return np.asarray(self._turned[nearest.astype(np.int64) % rounds])

@@ -256,10 +256,7 @@ class JointModel:
         return np.concatenate([*self._whitened([p.residual(seen) for p in self._parts]), unusual])
 
     def _slopes(self, values: FloatArray, shape: BlurShape, of_tone: bool = True) -> FloatArray:
-        """Return the residual's slopes over all nine parameters, shape (residuals, 9).
-
-        Those over the tone curve's are 0 unless they are wanted.
-        """
+        """Return the residual's slopes, shape (residuals, 9); the tone's are 0 unless wanted."""
         self._check()
         seen, rates = self._seen.by(values, 0.0, shape), self._seen.slopes(values, shape, of_tone)
         found = np.hstack(self._whitened([part.slopes(seen, rates) for part in self._parts]))

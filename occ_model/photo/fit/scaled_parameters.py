@@ -49,10 +49,7 @@ class ScaledParameters:
         return np.where(self._index == 1, self._scale * values[1], self._scale)
 
     def slopes(self, scaled: FloatArray) -> FloatArray:
-        """Return the slope of each parameter that is fitted; 0 beyond its bounds.
-
-        At a bound it is the slope upwards: from the upper one nothing can change that way.
-        """
+        """Return each fitted parameter's slope: 0 beyond its bounds, and upwards at a bound."""
         unbounded = self._unbounded(scaled)
         inside = (unbounded >= self._low) & (unbounded < self._high)
         inside[1] &= unbounded[1] < self._first[1] * math.exp(_MOST_LOG_CHANGE)

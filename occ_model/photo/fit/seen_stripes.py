@@ -76,10 +76,7 @@ class BlurredLight:
     def slopes(
         self, timing: Timing, blur: float, longer: float, shape: BlurShape = "normal"
     ) -> FloatArray:
-        """Return the lit fractions' slopes over step, exposure, middle, blur and longer.
-
-        Shape (5, columns).
-        """
+        """Return slopes over step, exposure, middle, blur and longer, shape (5, columns)."""
         slopes = blurred(self.sharp_slopes(timing, longer), blur_kernel(blur, 0.0, shape))
         slopes[BLUR] = blurred(self.sharp(timing, longer), kernel_slope(blur, shape))
         return slopes

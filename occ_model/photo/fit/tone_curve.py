@@ -114,10 +114,7 @@ class ToneTable:
 
 
 class ToneSlopes:
-    """The slopes of a tabulated tone curve over its parameters.
-
-    ``light``: shape (parameters, grey levels), those of the light of each tabulated pixel value.
-    """
+    """Slopes of a tone curve over its parameters; ``light``: shape (parameters, grey levels)."""
 
     def __init__(self, table: ToneTable, light: FloatArray = _NO_SLOPES) -> None:
         self.parameters = len(light)

@@ -192,10 +192,7 @@ def chip_of(edges: Edges) -> float | None:
 
 
 def groups_of(segments: Sequence[Segment]) -> list[list[Segment]]:
-    """Join the segments of each lamp, in order of the strips.
-
-    A segment in a single strip is texture or the border of two lamps, and is left out.
-    """
+    """Join the segments of each lamp; a single strip's is texture or a border, and left out."""
     if not segments:
         return []
     # Imported only when lamps are searched: it is slow.

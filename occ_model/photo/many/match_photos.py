@@ -119,7 +119,6 @@ def match_photos(  # noqa: PLR0913 - how photos are read and matched, all of it 
 
 
 def checked_photos(photos: Iterable[str | Path | Photo]) -> list[Source]:
-    """Check what is to be matched: at least one file or photo."""
     given = [photos] if isinstance(photos, str | Path | Photo) else photos
     sources: list[Source] = []
     for photo in given:

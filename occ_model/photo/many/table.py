@@ -95,10 +95,7 @@ def _notes(table: PhotoTable, exposures: Sequence[float]) -> list[str]:
 def combine(
     values: Sequence[float] | FloatArray, deviations: Sequence[float] | FloatArray
 ) -> CombinedEstimate | None:
-    """Combine estimates of one quantity.
-
-    ``deviations``: their standard deviations, above 0.
-    """
+    """Combine estimates of one quantity with standard deviations above 0."""
     if not len(values):
         return None
     x, sigma = np.asarray(values, dtype=np.float64), np.asarray(deviations, dtype=np.float64)

@@ -101,10 +101,7 @@ def check_bytes(path: Path, width: int, height: int, decoding: float, kept: int)
 
 
 def count_scans(content: bytes | bytearray, most: int, most_segments: int) -> int:
-    """Count the scans of a JPEG as its decoder meets them, without decoding any.
-
-    The number of scans; ``most + 1`` for more, or where there are too many segments.
-    """
+    """Count a JPEG's scans without decoding; ``most + 1`` for more, or too many segments."""
     scans, place = 0, 2
     for _ in range(most_segments):
         found = _MARKER.search(content, place)
@@ -168,10 +165,7 @@ def check_memory(path: Path, picture: "ImageFile", bytes_read: int, scan_header:
 def check_scans(
     path: Path, picture: "ImageFile", scan_header: int, content: Callable[[], bytes | bytearray]
 ) -> None:
-    """Refuse a JPEG of too many scans, before any of them is decoded.
-
-    ``content`` returns the bytes of the file; called only for a JPEG in several scans.
-    """
+    """Refuse a JPEG of too many scans; only one in several scans is read by ``content``."""
     if picture.format != "JPEG" or _is_in_one_scan(picture, scan_header):
         return
     most = min(_MOST_SCANS, _MOST_PIXELS_OF_SCANS // (picture.width * picture.height))

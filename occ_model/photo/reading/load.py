@@ -160,10 +160,7 @@ def _path(path: str | Path) -> Path:
 
 
 def column_means(photo: Photo, first_row: int, last_row: int) -> FloatArray:
-    """Average the columns of a photo over some of its rows.
-
-    In grey levels of the file's full depth; ``last_row`` is the one after the last.
-    """
+    """Average columns from ``first_row`` to before ``last_row``, in grey levels of full depth."""
     return means_along(photo.samples[first_row:last_row], 0) * (WHITE / photo.white)
 
 
@@ -220,10 +217,7 @@ def stripes_are_lines(samples: Samples, lying: bool) -> bool:
 
 
 def roughness_along(samples: Samples | ByteArray, axis: int) -> float:
-    """Average samples along an axis; return the mean difference of neighbours.
-
-    The largest differences are left out: those are a panel's edges.
-    """
+    """Return the mean difference of neighbouring means, without the largest: a panel's edges."""
     means = means_along(samples, axis)
     steps = np.sort(np.abs(np.diff(means)))
     usual = steps[: math.ceil(_USUAL_FRACTION * len(steps))]
@@ -238,7 +232,6 @@ def means_along(samples: Samples | ByteArray, axis: int) -> FloatArray:
 
 
 def region_within(photo: Photo, corners: Corners) -> Region:
-    """Return the rectangle of a photo given by its corners."""
     rows, columns = photo.samples.shape
     region = corners if isinstance(corners, Region) else _region_of(corners)
     if region is not None:

@@ -14,11 +14,7 @@ _MOST_ITERATIONS = 8  # maximum number of Gauss-Newton iterations
 
 
 def repeat_period(flattened: FloatArray) -> tuple[float, float] | None:
-    """Find the shortest period of stripes.
-
-    ``period``, ``uncertainty``: the period in columns, and its standard deviation; None where
-    nothing repeats.
-    """
+    """Return the shortest period of stripes in columns and its deviation; None for none."""
     rough = _rough_period(flattened)
     return None if rough is None else _refined(flattened, rough)
 

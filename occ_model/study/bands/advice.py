@@ -189,10 +189,7 @@ _SAMPLES = 65  # exposures within the error at which the depth is sampled
 
 
 def cure_of(scene: Scene, exposure_error: float = 0.0) -> Cure:
-    """Return the shutter speeds without bars, and the scene at the shortest of them.
-
-    ``exposure_error``: standard deviation of the scene's exposure time in s.
-    """
+    """Return speeds without bars, and the scene at the shortest; ``exposure_error`` in s."""
     over, frequency = DepthOver.of(scene), scene.transmitter.switching_frequency
     repeats = frequency / over.period
 

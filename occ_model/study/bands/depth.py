@@ -79,7 +79,6 @@ def light_fractions(scene: Scene) -> tuple[float, float]:
 
 
 def exposure_in_chips(scene: Scene) -> Fraction:
-    """Return the exposure time in chips, exactly."""
     return Fraction(scene.camera.exposure_time) * Fraction(scene.transmitter.switching_frequency)
 
 

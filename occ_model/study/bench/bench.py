@@ -36,7 +36,6 @@ _MAX_DECIBELS = 100.0
 def bench(
     request: BenchRequest, progress: Callable[[int, int], object] = lambda _done, _all: None
 ) -> tuple[BenchPoint, ...]:
-    """Measure all points of a request."""
     check_bench(request)
     found: list[BenchPoint] = []
     for done, place in enumerate(request.points):

@@ -104,7 +104,6 @@ def read_samples(
     line_code: str = "manchester",
     progress: Callable[[int, int], object] = lambda _done, _all: None,
 ) -> Iterator[SampleReading]:
-    """Decode the pictures of a data set."""
     for done, sample in enumerate(samples):
         progress(done, len(samples))
         image = load_photo(sample.path, "lines").image

@@ -23,7 +23,6 @@ from occ_model.study.success_rate import check_rate
 
 
 def checked_request(scene: Scene, axes: object, settings: RateSettings) -> SweepRequest:
-    """Check the arguments of a sweep, and make its request."""
     check_scene(scene)
     check_rate(scene, settings)
     FRAME_RATE.check(settings.frames_a_second)

@@ -235,10 +235,7 @@ else:
 
 
 def is_locked_by_us(file: BinaryIO) -> bool:
-    """Lock a file until it is closed; return False where another process has locked it.
-
-    On file systems without locks no process is kept out.
-    """
+    """Lock a file until closed; False if another process has; always True without file locks."""
     try:
         _lock(file)
     except OSError as error:

@@ -58,10 +58,7 @@ class DecoderProcess:
         self._end = weakref.finalize(self, _end, process)
 
     def open(self, path: Path, reader: str, channel: str) -> OpenedFilm:
-        """Open a film, and return its frame rate and count; the one that was open is closed.
-
-        Raises VideoError: there is no film in the file, or too large a one: the end of a sentence.
-        """
+        """Open a film; return its frame rate and count. Raises VideoError with a sentence's end."""
         self._forget()
         answer, _ = self._ask(
             {"do": "open", "path": str(path.resolve()), "reader": reader, "channel": channel}

@@ -17,7 +17,7 @@ from occ_model.errors import OccError, ParameterError, shown
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 
-_MADE_BY = {  # what gives a value of a class, for its sentence
+_MADE_BY = {  # what returns a value of a class, for its sentence
     "Scene": "load_preset('phone-136us')",
     "Photo": "load_photo",
     "Video": "load_video",

@@ -30,7 +30,7 @@ COLOURS: dict[str, QColor] = dict(
 _GLYPHS = {"o": "●", "s": "■", "t1": "▲", "t": "▼", "d": "◆"}  # the symbols as characters
 _WORDS = ("exposure", "effects", "path", "draft", "noise")  # the parts in the legend
 _FLOOR = round(math.log10(LEAST_ERROR))  # power of ten at which all smaller errors are drawn
-_LEAST_HEIGHT = 56  # pixels: in a low window all panes share the height
+_LEAST_HEIGHT = 56  # pixels: in a low window the panes divide the height
 
 _LEGEND_HEIGHT = 220
 

@@ -81,7 +81,7 @@ def _fit(parts: Parts) -> None:
         pane.view.fit()
 
 
-# What is asked for rarely is imported when it is: it would take a part of the start.
+# Rarely used features are imported when needed: they would slow down the start.
 
 
 def _show_report(parts: Parts) -> None:

@@ -1,11 +1,11 @@
-"""Cyclic garbage collection on the window's thread only, and memory given back at rest.
+"""Cyclic garbage collection on the window's thread only, and memory returned at rest.
 
 By default Python collects on the thread that happens to allocate. If a worker thread so destroys a
 widget, it waits for Qt's lock, while the window's thread, which may hold that lock, waits for the
 interpreter: a deadlock.
 
 What pictures have taken and freed, the C library keeps: a hundred megabytes after a few minutes of
-work. It gives them back when it is asked to, which takes some milliseconds.
+work. It returns them on request, which takes some milliseconds.
 """
 
 import ctypes
@@ -17,11 +17,11 @@ from PySide6.QtCore import QObject, QTimer
 
 _INTERVAL_MS = 250
 
-_REST_S = 2.0  # how long the program is idle before memory is given back
+_REST_S = 2.0  # how long the program is idle before memory is returned
 _IDLE_FRACTION = 0.1  # fraction of a processor that an idle program takes at most
 
 _WORTH_S = 1.0
-"""Seconds of processor time that work takes at least before memory is given back after it."""
+"""Least processor time of work, in seconds, after which memory is returned."""
 
 
 def give_memory_back() -> None:

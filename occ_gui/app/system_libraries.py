@@ -42,7 +42,7 @@ APT_INSTALL = ("apt-get", "install", "-y", "--no-install-recommends")
 
 
 def loads(library: str) -> bool:
-    """Return whether the dynamic linker finds a shared library and its dependences."""
+    """Return whether the dynamic linker finds a shared library and its dependencies."""
     try:
         ctypes.CDLL(library)
     except OSError:

@@ -73,7 +73,7 @@ class Superseded(Exception):  # noqa: N818 - no error: nobody waits for it any m
 
 
 class _Run:
-    """A running request, with what the window tells its worker."""
+    """A running request, with the flags that the window sets for its worker."""
 
     def __init__(self, request: Any) -> None:
         self.request = request
@@ -187,7 +187,7 @@ class Task(QObject, Generic[Request, Result]):
 
     @Slot(object)
     def _on_paint_awaited(self, run: _Run) -> None:
-        # After the paint that the report has asked for, and that which panes ask for in their
+        # After the paint that the report has requested, and that which panes request in their
         # next turn.
         QTimer.singleShot(0, self, lambda: QTimer.singleShot(0, self, run.painted.set))
 

@@ -86,7 +86,7 @@ class Store(QObject):
 
     def select(self, of: Callable[[Workspace], T]) -> Selection[T]:
         selection = Selection(of, self.workspace)
-        self._selections.append(selection)  # type: ignore[arg-type]  # it gives what it was given
+        self._selections.append(selection)  # type: ignore[arg-type]  # it returns what it was given
         return selection
 
     def put(self, workspace: Workspace, title: str = "", gesture: int = NO_GESTURE) -> None:

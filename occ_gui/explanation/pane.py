@@ -100,7 +100,7 @@ class ExplanationPane(Pane[Snapshot]):
     def __init__(self, scenes: SceneStore, plot: Plot) -> None:
         self.view = view = ExplanationView()
         super().__init__(view)
-        # It tells a level; the equations need no picture.
+        # It shows a level; the equations need no picture.
         self.made_of = {view.exposure: of_snapshot}
         self.picker = ColumnPicker(plot)
         self._equations = EquationController(scenes, view.equations.show_equations)

@@ -56,7 +56,7 @@ def condition_of(match: Match, certain: Mapping[str, float]) -> str:
 
 
 def _grid(parent: QWidget | None = None) -> QGridLayout:
-    # A form would not give lines that wrap their height.
+    # A form would not reserve the height of wrapped lines.
     grid = QGridLayout(parent)
     grid.setContentsMargins(0, 0, 0, 0)
     grid.setVerticalSpacing(2)
@@ -90,7 +90,7 @@ class MatchValues(QWidget):
         """Show a match; ``noted``: the exposure time in seconds recorded by the camera, if any."""
         condition = condition_of(match, certain)
         facts = match_facts(match, condition, noted)
-        # What they rest on is said once, above them.
+        # Their condition stands once, above them.
         shown = [(fact.key, str(fact).replace(condition, "")) for fact in facts]
         others = [f"• {text}" for key, text in shown if key == "alternative"]
         texts = dict(shown) | {"alternative": "\n".join(others)}

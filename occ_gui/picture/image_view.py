@@ -86,7 +86,7 @@ class ImageView(QWidget):
 
     def _make_controls(self) -> None:
         self.mode = KeyedComboBox("How photo and simulation are shown", _MEANINGS, _MODES)
-        # Its words must not be cut off: some begin alike.
+        # Its words must not be cut off: some have the same beginning.
         self.mode.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
         self.mode.chosen.connect(self.mode_chosen)
         self.opacity = QSlider(Qt.Orientation.Horizontal)

@@ -69,7 +69,7 @@ class PinController(QObject):
 
     status_message = Signal(str)  # what was done, or why it could not be done
     changed = Signal()  # something else is pinned
-    both_pinned = Signal()  # there are two states to compare, as the user has just asked for
+    both_pinned = Signal()  # the user has just pinned the second of two states to compare
 
     def __init__(
         self, scenes: SceneStore, is_present: Callable[[Snapshot], bool] = lambda _snapshot: True

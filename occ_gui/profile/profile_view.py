@@ -18,7 +18,7 @@ from occ_gui.widgets.columns import PACKETS_IN_VIEW, first_periods
 from occ_gui.widgets.plot import LineLegend, new_plot
 from occ_model.arrays import FloatArray
 
-_LEAST_HEIGHT = 76  # pixels: in a low window all panes share the height
+_LEAST_HEIGHT = 76  # pixels: in a low window the panes divide the height
 
 _AXIS_WIDTH = 52
 _LONGEST_LEVEL, _AXIS_GAPS = "-200", 14

@@ -47,7 +47,7 @@ class Results:
 
     chips: "ChipReading | None" = None
 
-    match: "FoundMatch | None" = None  # what the match that was asked for last has come to
+    match: "FoundMatch | None" = None  # the outcome of the last requested match
     listed: "ListedRows | None" = None  # what was found in the photos of the table
 
     photo_profile: "PhotoProfile | None" = None

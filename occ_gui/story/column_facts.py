@@ -1,4 +1,4 @@
-"""What the model gives for the story: light, packets, threshold, readers, why none reads.
+"""Results of the model for the story: light, packets, threshold, readers, why none reads.
 
 The rows draw it; they compute nothing themselves.
 """

@@ -16,7 +16,7 @@ from occ_model.scene.units import SECOND
 
 _COMPUTING = "computing"  # the chip of results that are still to come
 _READS = 0.99  # fraction of the bits from which a decoder counts as reading
-_MOST_FORCED = 2  # effects switched by hand that have a chip each; more share one
+_MOST_FORCED = 2  # effects switched by hand that have a chip each; more have one together
 
 
 def chips_of(reading: Reading, decoder: str) -> Iterator[Chip]:

@@ -1,4 +1,4 @@
-"""Transmitter controller: asks the model what a board makes of the scene, and writes its files."""
+"""Transmitter controller: asks the model how a board sends the scene, and writes its files."""
 
 from dataclasses import dataclass
 from pathlib import Path

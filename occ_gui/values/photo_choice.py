@@ -75,7 +75,7 @@ class PhotoFrame:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Asked:
-    """What was asked for once of a photo; asked for again, it is another."""
+    """A request about a photo; each compares as different, also when it is repeated."""
 
     source: PhotoSource
 
@@ -112,7 +112,7 @@ class PhotoChoice:
     certain: Mapping[str, float] = field(default_factory=dict)
     forgotten: Mapping[str, float] = field(default_factory=dict)
     listed: tuple[Path, ...] = ()
-    # Where a photo was put by hand, and the search for lamps and the match that were asked for
+    # Where a photo was put by hand, and the search for lamps and the match that were requested
     # last; None for none
     placed: Placed | None = None
     lamps_asked: Asked | None = None

@@ -38,7 +38,7 @@ class FoundMatch:
     part: "Lamp | Region | None"
     # The match; that of before where there is a refusal, None where there was none
     match: "Match | None"
-    given: float  # the known value of the scene when it was asked for, in SI units
+    given: float  # the known value of the scene at the request, in SI units
     # The reasons why there is no match, each a sentence, and the part that they are about
     refusal: tuple[str, ...] = ()
     refused_part: "Lamp | Region | None" = None

@@ -161,7 +161,7 @@ def _find(_request: None, report: Report) -> tuple[CameraDevice, ...]:
 class LiveController(QObject):
     devices_found = Signal(object)
 
-    ended = Signal(str)  # why the camera gives no more pictures; empty where it was stopped
+    ended = Signal(str)  # why there are no more pictures; empty where the camera was stopped
     exposure_refused = Signal(str)  # why the exposure is not held
 
     _answered = Signal(bool, bool)

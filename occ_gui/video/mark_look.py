@@ -14,7 +14,7 @@ from occ_gui.widgets.state_look import State, colours_of
 class MarkLook:
     state: State
     pattern: Qt.BrushStyle
-    height: float  # in parts of its row: it tells states apart where patterns are too fine
+    height: float  # in parts of its row: it distinguishes states where patterns are too fine
     name: str
     meaning: str
     heard: str  # what a screen reader says of a frame

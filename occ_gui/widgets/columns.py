@@ -2,7 +2,7 @@
 
 import math
 
-_ROUNDING = 1e-9  # by how much, of its size, a step may be smaller than is asked for
+_ROUNDING = 1e-9  # by how much, of its size, a step may be smaller than requested
 PACKETS_IN_VIEW = 2  # packets in the first view of a plot over columns
 
 

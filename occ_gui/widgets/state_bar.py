@@ -83,7 +83,7 @@ class StateBar(QWidget):
         self.chips.setGeometry(beside, top, max(0, left + room - beside), height)
         for label in (self.sentence, self.wrapped):
             label.setGeometry(left, _MARGIN + first, room, second)
-        # A widget that is not shown yet is not told of its size.
+        # A widget that is not shown yet gets no event of its size.
         self.title.set_full_text(self._title)
         self.sentence.set_full_text(text)
         self.wrapped.setText(text)

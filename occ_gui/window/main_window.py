@@ -92,7 +92,7 @@ class MainWindow(QMainWindow):
         return dock
 
     def bring_to_front(self, name: str) -> None:
-        """Show a pane in front of those that share its place, in the mode that is about it.
+        """Show a pane in front of the others in its place, in the mode that is about it.
 
         A pane that is open in the present mode stays there.
         """

@@ -38,7 +38,7 @@ class ToolButton(QToolButton):
 
     def _follow(self) -> None:
         action = self.shown
-        if not isValid(action):  # Qt tells of changes while it deletes the window
+        if not isValid(action):  # Qt reports changes while it deletes the window
             return
         name = plain(action.text()).rstrip("…")
         keys = action.shortcut().toString(_NATIVE)

@@ -42,7 +42,7 @@ UNO = Board(
 """Chips are counted in 16 bits: their table takes a third of the flash memory at most.
 
 The interrupt was measured in simavr: it takes up to 99 cycles, and below 90 edges are lost. The
-rest is left for waking up and for what another compiler makes of it.
+rest is left for waking up and for the code of another compiler.
 """
 
 NANO = replace(UNO, name="arduino-nano", title="Arduino Nano")

@@ -29,7 +29,7 @@ class ChipTiming:
     clock: int  # Frequency of the board's clock in Hz
     prescaler: int
     count: int  # How many divided cycles a chip lasts
-    asked: Fraction  # The switching frequency asked for, in Hz
+    asked: Fraction  # The requested switching frequency, in Hz
 
     @property
     def cycles(self) -> int:
@@ -51,7 +51,7 @@ class ChipTiming:
 
     @property
     def is_as_asked(self) -> bool:
-        """Whether the frequency is the one asked for, as exactly as a scene can hold it."""
+        """Whether the frequency is the requested one, as exactly as a scene can hold it."""
         return float(self.frequency) == float(self.asked)
 
 

@@ -28,7 +28,7 @@ class CoveredPart:
 
 
 def _divided(columns: slice, fraction: Pixels) -> list[CoveredPart]:
-    """Divide a rim whose rows are all alike into columns that are covered wholly or not at all."""
+    """Divide a rim whose rows are equal into columns that are covered wholly or not at all."""
     first = fraction[0]
     if not ((first == 0.0) | (first == 1.0)).all() or (fraction != first).any():
         return [CoveredPart(columns, fraction)]

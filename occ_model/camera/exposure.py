@@ -31,7 +31,7 @@ def column_phases(
     starts. The result is read-only.
     """
     wanted = scene.camera.columns if columns is None else columns
-    # Parts of a picture are read more often than more than a picture: all share its columns.
+    # Parts of a picture are read more often than more than a picture: all have its columns.
     known = _column_starts(
         scene.transmitter.switching_frequency,
         scene.camera.readout_time,

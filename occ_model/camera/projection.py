@@ -124,7 +124,7 @@ def row_spans(corners: FloatArray, rows: int, columns: int) -> tuple[IndexArray,
             continue
         crossed = slice(_row_from(min(y0, y1), rows), _row_from(max(y0, y1), rows))
         # Interpolated from both ends, exact at each, however steep the edge; clipped, so that all
-        # rows of an upright edge are alike.
+        # rows of an upright edge are equal.
         along = (row[crossed] - y0) / (y1 - y0)
         x = np.clip(x0 * (1.0 - along) + x1 * along, min(x0, x1), max(x0, x1))
         np.minimum(left[crossed], x, out=left[crossed])

@@ -1,4 +1,4 @@
-"""The options that commands share (scene, simulated effects, noise), and their parser."""
+"""The common options of commands (scene, simulated effects, noise), and their parser."""
 
 import argparse
 import sys

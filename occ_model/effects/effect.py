@@ -16,7 +16,7 @@ from occ_model.results.plan import Stage
 from occ_model.scene.scene import Scene
 
 Kind: TypeAlias = Literal["column", "noise", "image"]
-"""Whether an effect leaves all rows alike, alike but for independent noise, or not alike."""
+"""Whether an effect leaves all rows equal, equal but for independent noise, or different."""
 
 Values = TypeVar("Values", FloatArray, Pixels)  # pixel values of either precision
 

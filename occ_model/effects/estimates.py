@@ -111,7 +111,7 @@ def estimates_of(view: PaperView, settings: SimulationSettings) -> Estimates:
         found = replace(own, sizes=sizes, limits=limits)
     if view.swing > FLAT_SPAN:
         return found
-    # Far above the tolerance, or hidden to a sample: it cannot tell.
+    # Far above the tolerance, or hidden to a sample, which then determines nothing.
     limits = dict.fromkeys(found.sizes, math.inf)
     why = "the stripes span less than a grey level"
     return replace(found, seen=None, limits=limits, unknown=why)

@@ -58,7 +58,7 @@ def _read_back(steps: bytes) -> FloatArray:
 
 
 class FileChange:
-    """What a file with steps, (8, 8), makes of a sample's pixels with all effects and without some.
+    """Change by a file with steps, (8, 8), of a sample's pixels with all effects and without some.
 
     These are the stack, (sets, columns, nodes); the spread is the root mean square of their noise.
     """
@@ -70,7 +70,7 @@ class FileChange:
         self._step = steps[0][:, None]
         self._others = steps[1:].ravel()
         self._all = steps.ravel()
-        # Full pixels are rounded alike, which is no noise.
+        # Full pixels are rounded equally, which is not noise.
         inner = stack[0][:, sample.inner]
         full = float(inner.max())
         fraction = float((inner == full).mean())
@@ -208,7 +208,7 @@ class FileChange:
         return float(np.exp(-DAMPING * self._s**2).mean())
 
     def undithered(self) -> float:
-        """Return the mean square that no sample shows: rounding alike in all blocks.
+        """Return the mean square that no sample shows: equal rounding in all blocks.
 
         Where noise does not spread a block's mean over the steps, the smallest change may round the
         blocks of an even picture otherwise, many at once: half of them are counted.

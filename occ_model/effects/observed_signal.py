@@ -21,7 +21,7 @@ _DOUBTED_RIM, _DOUBTED_RIM_OF_FEW = 0.5, 1.0
 many columns, and in few."""
 
 _ROUNDING_MARGIN = 0.02
-"""Grey levels from the middle between two levels within which rounding cannot be foretold."""
+"""Grey levels from the middle between two levels within which rounding cannot be predicted."""
 
 _LARGE_STEP = 32.0
 """Step between neighbouring levels after the enhancement above which a single column matters."""
@@ -92,7 +92,7 @@ def _doubt_sharp_steps(pixels: SampledPixels, found: Observed) -> None:
     """Add doubt about the rounding of pixels that no noise spreads over the enhancement's steps.
 
     Whole plateaus of values that lie between two levels may be rounded otherwise; in a file
-    whatever its own error reaches, since that is alike in blocks of equal rows.
+    whatever its own error reaches, since that is the same in blocks of equal rows.
     """
     spread = pixels.spread(pixels.names)
     if float(spread.min()) >= LEAST_SMOOTHING_NOISE:

@@ -73,7 +73,7 @@ class Rims:
         """Return the mean square of the error of a column's fraction of an upright rim.
 
         Where an effect moves the rim in some of a column's nodes within the panel and not in the
-        others, the nodes tell the fraction of its rows to a third.
+        others, the nodes show the fraction of its rows to a third.
         """
         moved = self._moved(name)
         if moved is None:

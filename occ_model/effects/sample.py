@@ -1,4 +1,4 @@
-"""A sample of a scene's pixels: where they lie, and what the lens makes of them.
+"""A sample of a scene's pixels: where they lie, and how the lens changes them.
 
 The sample is small enough to be computed with each of the effects and without it, while a scene is
 planned. Rows are taken by quadrature: the light changes smoothly between the panel's rims. The
@@ -97,7 +97,7 @@ def sample_of(
 ) -> Sample:
     """Choose the pixels of a sample in the observed region, which a level panel fills.
 
-    ``optics``: what each effect alone makes of the ``plain`` ones. ``in_blocks``: columns are taken
+    ``optics``: the ``plain`` ones with each effect alone. ``in_blocks``: columns are taken
     by whole blocks of a file.
     """
     moved = {name: own.outline for name, own in optics.items() if own.outline is not plain.outline}

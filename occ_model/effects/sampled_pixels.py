@@ -206,7 +206,7 @@ class SampledPixels:
 
     @cached_property
     def file(self) -> FileChange | None:
-        """What the file makes of the pixels, None where the scene has none."""
+        """Change of the pixels by the file, None where the scene has none."""
         if not self.files:
             return None
         return FileChange(

@@ -1,4 +1,4 @@
-"""What no sample of the pixels shows of the panel's rims, and what a file makes of it."""
+"""Changes at the panel's rims that no sample of the pixels shows, and those by a file."""
 
 from occ_model.effects.sampled_pixels import SampledPixels
 

@@ -233,7 +233,7 @@ def _is_log(name: str, at: FloatArray) -> bool:
 
 
 def _shown_unit(name: str, values: tuple[ParameterValue, ...]) -> tuple[str, float]:
-    """Choose the unit that suits the median of some values, and give its size in SI units."""
+    """Choose the unit that suits the median of some values; return it with its SI value."""
     parameter = PARAMETERS[name]
     if not isinstance(parameter, Quantity):
         return "", 1.0

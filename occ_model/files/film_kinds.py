@@ -64,7 +64,7 @@ _START = 4096
 
 
 def is_film(path: Path) -> bool:
-    """Whether a file holds a film, as far as its first bytes tell; not whether it can be read."""
+    """Whether a file holds a film, by its first bytes; not whether it can be read."""
     try:
         start = read_start(path, _START)
     except SceneFileError:

@@ -9,7 +9,7 @@ from typing import Any, Protocol, TypeAlias
 from occ_model.errors import OccError
 
 Heartbeat: TypeAlias = Callable[[], object]  # called by long work; ends it by raising
-CHANNELS = 8  # most channels that can share workers, and most counters of heartbeats
+CHANNELS = 8  # most channels to the same workers, and most counters of heartbeats
 
 NO_PROCESSES = (OSError, ImportError, NotImplementedError)
 """Raised where the system cannot start processes: no semaphores (a /dev/shm that cannot be written
@@ -51,9 +51,9 @@ class JobResult:
 @dataclass(frozen=True, slots=True)
 class Stage:
     rank: int  # The jobs of the stage with the lowest rank go first
-    # The jobs, in the order in which they are begun. Each is asked for only when it is needed.
+    # The jobs, in the order in which they are begun. Each is taken only when it is needed.
     jobs: Iterable[Job]
-    # Whether the stage, once begun, is completed although something newer is asked for
+    # Whether the stage, once begun, is completed in spite of a newer request
     uninterruptible: bool = False
 
 

@@ -1,4 +1,4 @@
-"""Do jobs by workers, and give their results here as they become ready."""
+"""Do jobs by workers, and yield their results here as they become ready."""
 
 from collections.abc import Callable, Generator, Iterator
 from typing import Any

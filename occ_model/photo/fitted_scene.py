@@ -94,7 +94,7 @@ def described(
     unknown = uncertainties["exposure_time"] / scene.camera.exposure_time
     scene = _rounded(scene, uncertainties)
     if was_read and is_single_pulse(explanation.chips):
-        # The duty stated is that of whole chips, and so off by what the fit makes of it, too.
+        # The duty stated is that of whole chips, and so off by its change in the fit, too.
         least = min(runs_of(explanation.chips))  # of which no more can be missing
         uncertainties["duty"] = min(math.hypot(*fit.longer), least) / len(explanation.chips)
     camera = scene.camera
@@ -214,7 +214,7 @@ def _uncertainties(
         begin = scene.model.start_time * frequency
         slopes = {
             "switching_frequency": step / readout,
-            # In seconds these are chips times t_r / step: they share the step's uncertainty.
+            # In seconds these are chips times t_r / step, and have the step's uncertainty.
             "exposure_time": (exposure - step * (timing.exposure / timing.step)) / frequency,
             "start_time": (start - step * (begin / timing.step)) / frequency,
         }

@@ -26,7 +26,7 @@ from occ_model.transmitter.registry import (
 
 
 def _read_sequence(signal: FloatArray, scene: Scene) -> DecodeResult:
-    # Its search is imported when it is asked for: most signals are read without it.
+    # Its search is imported when first needed: most signals are read without it.
     from occ_model.receiver.sequence.decoder import read_signal
 
     return read_signal(signal, scene)

@@ -73,7 +73,7 @@ def otsu_threshold(signal: FloatArray) -> float:
 def unexplained_fraction(signal: FloatArray, residual: FloatArray) -> float:
     """Return the fraction of a signal's variance that its model leaves, without the noise.
 
-    Noise differs from each value to the next; what neighbours of the residual share is not noise.
+    Noise differs from each value to the next; what is common to neighbours is not noise.
     """
     left, seen = residual - residual.mean(), signal - signal.mean()
     return float(left[1:] @ left[:-1]) / max(float(seen @ seen), _MIN_VARIANCE * len(signal))

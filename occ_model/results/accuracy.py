@@ -127,7 +127,7 @@ class MeasuredCosts:
 
     picture: TimeFractions
     # Of pictures simulated alternately, among them one with all effects, which times those omitted,
-    # and one with none, which times everything else where all rows are alike
+    # and one with none, which times everything else where all rows are equal
     others: tuple[TimeFractions, ...] = ()
     differences: Mapping[str, EffectDifference] = field(default_factory=dict)
     # Measured total errors, by set of included effects

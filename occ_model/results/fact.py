@@ -1,4 +1,4 @@
-"""Facts: results as rows that window, command line and files print alike."""
+"""Facts: results as rows, in the same words in window, command line and files."""
 
 from dataclasses import dataclass
 
@@ -9,7 +9,7 @@ class Fact:
 
     key: str  # Identifier; for a parameter of a scene its name
     label: str  # Its name in words
-    text: str  # Value with unit and error, preceded by the condition it rests on
+    text: str  # Value with unit and error, preceded by its condition
     note: str = ""  # Qualification such as "assumed" or "doubtful"
     meaning: str = ""  # Explanatory sentence where the label is not enough
 

@@ -165,7 +165,7 @@ _COLUMNS = (
 
 
 def csv_text(table: PhotoTable, more: Sequence[str] = (), condition: str = "") -> str:
-    """Write a table; ``condition``: what estimates rest on, as ``"if f = 10 kHz: "``, or empty."""
+    """Write a table; ``condition``: that of estimates, as ``"if f = 10 kHz: "``, or empty."""
     counts = ", ".join(
         f"{table.count(v)} {v}" for v in dict.fromkeys(r.verdict for r in table.rows)
     )

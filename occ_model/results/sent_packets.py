@@ -78,7 +78,7 @@ class FilmPart:
 class SentPackets(Sequence[PacketReading]):
     """The packets that were sent while a film ran, in the order of their numbers.
 
-    One that no frame shows is made when it is asked for: a film of hours has millions of them.
+    One that no frame shows is made on demand: a film of hours has millions of them.
     """
 
     parts: tuple[FilmPart, ...] = ()

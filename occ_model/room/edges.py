@@ -19,7 +19,7 @@ from occ_model.scene.scene import Scene
 from occ_model.transmitter.packet import sent_chips
 
 _EDGE_REACH = 7  # pixels on either side of an edge that is expected: its light is summed there
-_LEVEL_PIXELS = 10  # further pixels that give the light of the lamp, and of its surroundings
+_LEVEL_PIXELS = 10  # further pixels, from which lamp and surroundings have their light
 _MIN_RELATIVE_LIGHT = 0.5  # fraction of the lamp's brightest light from which an edge is measured
 
 _EXCLUDED_END_FRACTION = 0.06  # fraction of an edge's length, and pixels, left out at its ends

@@ -21,10 +21,10 @@ _MAX_DEVIATION_EXCESS = 9.0  # of chi-squared, within which another place explai
 _MIN_EDGES = 4
 """Edges of lamps below which there is no place.
 
-Each gives two numbers; what three give, many places explain exactly."""
+Each has two numbers; those of three are explained exactly by many places."""
 
 _MAX_MEAN_SQUARE = 4.0  # in standard errors squared; above it a place does not explain the edges
-_MAX_ANCHORS = 3  # maximum number of lamps whose corners give starting values
+_MAX_ANCHORS = 3  # maximum number of lamps whose corners are starting values
 _MAX_EXCLUDED_EDGES = 3  # maximum edges left out, one after the other, where no place explains all
 _ONE_LAMP = "Only one lamp determines the place: it can be farther off than the stated errors."
 

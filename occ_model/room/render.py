@@ -155,7 +155,7 @@ def _extreme(views: Sequence[PaperView]) -> list[PaperView]:
         )  # fmt: skip
 
     table = np.array([features(view) for view in views])
-    # Numbers that are alike but for rounding make no other lamp an extreme one.
+    # Numbers that differ by rounding alone do not make another lamp an extreme one.
     table = np.round(table / np.maximum(np.abs(table).max(axis=0), 1e-30), 6)
     places = {*table.argmin(axis=0).tolist(), *table.argmax(axis=0).tolist()}
     return [views[place] for place in sorted(places)]

@@ -155,7 +155,7 @@ class Quantity(Declaration):
             value = low * (high / low) ** fraction
         else:
             value = low + (high - low) * fraction
-        # Through its text, so that typing the text shown gives the very same value.
+        # Through its text, so that the shown text, typed again, is the same value.
         rounded = self.unit.parse(self.unit.format(value, digits=4))
         return min(max(value if rounded is None else rounded, low), high)
 

@@ -26,7 +26,7 @@ class Preset:
     title: str
     scene: Scene
     sources: Mapping[str, str]  # Where a parameter's value comes from, by the parameter's name
-    assumed: Mapping[str, str]  # The reason for a parameter's value where no source gives one
+    assumed: Mapping[str, str]  # The reason for a parameter's value without a source
 
 
 def preset_from(name: str, text: str) -> Preset:

@@ -42,7 +42,7 @@ TRANSMITTER_DRIFT = Quantity(
 DECLARED: tuple[Quantity, ...] = (FRAME_RATE, FRAME_JITTER, CAMERA_DRIFT, TRANSMITTER_DRIFT)
 """The quantities of a recording, each declared once: unit, range, slider, default."""
 
-MOTIONS = tuple(Pose.declarations())  # the parameters that a waypoint gives: those of the pose
+MOTIONS = tuple(Pose.declarations())  # the parameters of a waypoint: those of the pose
 _PREFIX = "recording."  # before the name of a setting in the note of a film
 _JITTERS_IN_GAP = 6  # the gap holds three standard deviations of jitter on either side
 

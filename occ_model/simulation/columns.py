@@ -1,4 +1,4 @@
-"""The columns' pixel values, as far as all rows are alike: light, exposure, the pixel's limits.
+"""The columns' pixel values, as far as all rows are equal: light, exposure, the pixel's limits.
 
 Where nothing in the plan makes rows differ, this is the whole simulation: the profile path. Of a
 picture whose rows differ, the columns' means are added up some rows at a time.

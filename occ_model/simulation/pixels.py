@@ -40,7 +40,7 @@ class ExposedRows:
 class Pictures:
     """The camera's picture and the receiver's, with their column means."""
 
-    # Shape (rows, columns): as the camera gives it, and enhanced within the panel
+    # Shape (rows, columns): the camera's, and enhanced within the panel
     camera_image: ByteArray
     image: ByteArray
     # Shape (columns,): mean of the panel's pixels in each column, before enhancement and after it;
@@ -96,7 +96,7 @@ class PixelExposure:
             self._optics = effect.apply(scene, self._optics)
             timer.stage_ended(effect.name)
         if self._optics.is_plain and not self._files and view.sides:
-            # All rows of a band are alike then.
+            # All rows of a band are equal then.
             ends = self._region.first_row, self._region.last_row
             self._bands = [part for band in self._bands for part in split_at(band, ends)]
         self._mean = mean or PictureRows(

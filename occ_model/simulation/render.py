@@ -146,7 +146,7 @@ def render_plan(
     timer.stage_ended("enhancement")
     around, corners = to_bytes(columns.around), view.corners
     rows = every_row(scene.camera.rows, rows_step)
-    errors: Callable[[], Mapping[str, float]] | None = None  # none where all rows are alike
+    errors: Callable[[], Mapping[str, float]] | None = None  # none where all rows are equal
     if chosen.kinds <= {"column"}:
         profile, signal = columns.profile, enhanced.astype(np.float64)
         image = paint(enhanced, corners, rows, around)

@@ -113,7 +113,7 @@ class SystematicNoise:
 
     At a row of a band and a column, the bands have quantiles in equal steps from a random first one
     (systematic sampling), each also with the opposite sign (antithetic variates). Within a band the
-    numbers are independent, as drawn ones are, so that what a file makes of a block is not changed.
+    numbers are independent, as drawn ones are, so that a file changes a block as it would.
     Effects use the same numbers, scaled to their total deviation.
     """
 

@@ -24,7 +24,7 @@ from occ_model.study.sweep.sweep import Progress
 from occ_model.transmitter.packet import sent_chips
 
 MOST_CODES = 4096  # lamps beyond which codes are not compared with each other
-_EXTRA_BITS = (0, 2, 4)  # bits beyond the minimum that gives each lamp a code
+_EXTRA_BITS = (0, 2, 4)  # bits beyond the minimum for a code of each lamp's own
 
 
 @dataclass(frozen=True, slots=True)

@@ -67,7 +67,7 @@ class CompleteSimulation:
         error = rms(difference) * self._stretch
         self._errors[others] = error
         change = difference[self._places].astype(np.float64) * self._stretch
-        # Of a change that few pixels show, a sample may have more or less than its share.
+        # Of a change that few pixels show, a sample may have too many or too few.
         change *= error / max(rms(change), np.finfo(float).tiny)
         alone, bare = self._alone(effect, timer)
         crop, icon = telling_crop(alone, bare), telling_crop(alone, bare, ICON)

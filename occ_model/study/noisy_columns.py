@@ -92,7 +92,7 @@ class NoisyColumns:
     def _beside(self, columns: slice) -> tuple[FloatArray, FloatArray]:
         """Return mean and standard deviation of pixels beside the panel in some columns."""
         values = self._columns.surroundings[columns]
-        # All alike where the surroundings do not flicker.
+        # All equal where the surroundings do not flicker.
         levels = values[:1] if np.ptp(values) == 0.0 else values
         plain = Enhancement(levels, "none")
         mean, deviation = plain.moments(*self._distribution(levels))

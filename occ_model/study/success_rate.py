@@ -162,7 +162,7 @@ class _Pictures:
 
 @lru_cache(maxsize=4)
 def _plan(pictures: _Pictures) -> Plan:
-    """Choose the effects; the pictures differ in phase and noise alone: all are planned alike."""
+    """Choose the effects of all pictures, which differ in phase and noise alone."""
     return plan_of_images([pictures.scene], pictures.settings)
 
 

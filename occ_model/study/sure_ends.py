@@ -1,7 +1,7 @@
 """How surely the ends of a working range are known.
 
 An end lies between a value beyond it that surely fails and a value inside that is surely read:
-their 95 % intervals lie on either side of the rate asked for. At a rate of 99 % the latter takes
+their 95 % intervals lie on either side of the required rate. At a rate of 99 % the latter takes
 381 images, all of them read. So values inside are tried in growing steps from the end, each until a
 first image is not read. The search has found a value that fails in twenty images, which is far out
 where the rate falls slowly: values between it and the end are tried with more images, each until it
@@ -12,7 +12,7 @@ is lost are taken to grow as
 
 o(u) = o_0 (1 + b (u - u_0) / m)^m, and to be nothing where the base is negative,
 
-with the logarithm u of the value, u_0 that of the end, and the odds o_0 at the rate asked for. The
+with the logarithm u of the value, u_0 that of the end, and the odds o_0 at the required rate. The
 power m tells how losses set in: suddenly (1/2), linearly (1), accelerating (2, 4), or logistically
 (infinite). An end is in the interval if, with the slope b and the power m that suit it best, it is
 not refuted by the ratio of its likelihood to the greatest of all (S. S. Wilks, Ann. Math. Statist.

@@ -22,7 +22,7 @@ def check_answer(
     That is of the scene which the student sees, of the question's scene while nothing has been
     changed (a prediction), or of the ``match`` where the step is about a photo of the student's.
     Where the question names values and the student has set others, nothing is judged: they are to
-    be set first. A wrong answer does not give the value away.
+    be set first. A wrong answer does not reveal the value.
     """
     text = text.strip()
     check = step.check

@@ -48,7 +48,7 @@ def _period(scene: Scene) -> float:
         return float(DepthOver.of(scene).period)
     sent = scene.transmitter
     if not (LINE_CODES.is_built_in(sent.line_code) and FRAMINGS.is_built_in(sent.framing)):
-        return 0.0  # marks are asked for while a slider moves: a plug-in may take any time
+        return 0.0  # marks are drawn while a slider moves: a plug-in may take any time
     try:
         return float(len(sent_chips(sent)))
     except OccError:  # which the picture's failure names

@@ -31,7 +31,7 @@ def packet_fields(scene: Scene) -> tuple[PacketField, ...]:
     check_scene(scene)
     sent = scene.transmitter
     code = scheme_of(sent).line_code
-    # A plug-in's may take any time, and the fields are asked for while the window is drawn.
+    # A plug-in's may take any time, and the fields are needed while the window is drawn.
     is_known = LINE_CODES.is_built_in(code.name) and code.block_bits == 1
     if sent.pattern or sent.error_correction != "none" or not is_known:
         return ()

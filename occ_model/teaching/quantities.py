@@ -33,7 +33,7 @@ class LessonQuantity:
     meaning: str
     unit: Unit
     asked_in: str  # The unit of an answer that is a number alone
-    of_scene: Callable[[Scene], float]  # Function of a scene that gives the value in SI units
+    of_scene: Callable[[Scene], float]  # Returns the value in SI units
     of_photo: bool = False  # Whether the scene is the one that is matched to a photo
     # What a number is called that is a name, as a code is: no other one is near it. Empty for a
     # quantity.

@@ -3,7 +3,7 @@
 A frame shows the phase of the chips at its time only up to whole periods of what is sent. So
 frequencies that differ by a whole number of periods between frames fit alike (aliases). The rough
 frequency, from the chips a column and a rough readout time, says which of them it is. The phase is
-then counted on over longer and longer parts of the film, each of which foretells the next one.
+then counted on over longer and longer parts of the film, each of which predicts the next one.
 """
 
 import math

@@ -13,7 +13,7 @@ from occ_model.results.video_reading import FrameReading
 from occ_model.video.period import SentPeriod
 
 _MAX_FRAME_RATIO = 8.0
-"""Largest log-likelihood ratio that one frame gives to a chip: a frame may be misplaced."""
+"""Largest log-likelihood ratio of a chip by one frame: a frame may be misplaced."""
 
 _FIXED_CHIP_RATIO = 30.0  # log-likelihood ratio of a chip that is the same in every packet
 

@@ -89,7 +89,7 @@ class VideoFile(Video):
         self.time_step = self._container.time_step
         self._problem: str | None = None
         self._times: list[float] = []
-        # The decoder that stands behind the frame asked for last, and that frame.
+        # The decoder that stands behind the last requested frame, and that frame.
         self._stepping: tuple[DecoderProcess, VideoFrame] | None = None
         self._lock = threading.Lock()
         self._look(scan_axis)
@@ -138,7 +138,7 @@ class VideoFile(Video):
         return frame
 
     def close(self) -> None:
-        """Close the file; it is opened again when a frame is asked for."""
+        """Close the file; it is opened again for the next requested frame."""
         if self._stepping is not None:
             put_back(self._stepping[0])
             self._stepping = None

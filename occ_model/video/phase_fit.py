@@ -82,7 +82,7 @@ class ClockFit:
         return np.asarray(phase)
 
     def phase_error(self, time: float) -> float:
-        """Return the standard deviation of a foretold phase at a time, in chips."""
+        """Return the standard deviation of a predicted phase at a time, in chips."""
         later = time - self.middle
         drifted = 0.5 * self.drift_error * later**2
         error = np.hypot(np.hypot(self.noise, self.frequency_error * later), drifted)
@@ -156,7 +156,7 @@ def _solve(phases: Phases, counted: FloatArray, kept: BoolArray, jumps: list[int
         )
         if abs(jitter - before) <= 1e-3 * max(jitter, _MIN_DEVIATION):
             break
-    # Frames agree better than each by itself is sure where they share a part of their errors, such
+    # Frames agree better than each by itself is sure where a part of their errors is common, such
     # as the sensor's fixed pattern; that part moves the fit all the same.
     scatter = max(1.0, excess)
     if jitter > 0.0 and free > 2:

@@ -42,7 +42,7 @@ class TimedFrame:
     # Chips from one column to the next
     step: float = 0.0
     step_error: float = 0.0
-    # Why the frame by itself gives no payload, as of a single picture; None where it does
+    # Why the frame by itself has no payload, as of a single picture; None where it has
     problem: str | None = None
 
     @property
@@ -132,7 +132,7 @@ class FrameReader:
 def _timing(
     result: DecodeResult, signal: FloatArray, light: FloatArray, before: int, scene: Scene
 ) -> tuple[ChipTiming | None, str | None]:
-    """Fit the timing of a decoder's chips; else return why they alone give no payload."""
+    """Fit the timing of a decoder's chips; else return why they alone are no payload."""
     if result.signal is None or result.chip_starts is None:
         return None, result.failure or "The decoder gives no chips, which joining frames needs."
     lattice = first_lattice(result, signal, before, scene)

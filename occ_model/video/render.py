@@ -70,7 +70,7 @@ def render_video(
 
 
 class SimulatedVideo(Video):
-    """A film that is simulated as its frames are asked for: see :func:`render_video`."""
+    """A film whose frames are simulated on demand: see :func:`render_video`."""
 
     scene: Scene
     recording: Recording

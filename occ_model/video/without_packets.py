@@ -18,7 +18,7 @@ from occ_model.video.clock import fits_of, state
 from occ_model.video.frame_times import FrameTimes
 from occ_model.video.phase_fit import Phases
 
-_MIN_PERIODS = 3.0  # in a frame from which stripes repeat, and are not by chance alike twice
+_MIN_PERIODS = 3.0  # fewest in a frame of repeated stripes: two may be equal by chance
 _MAX_UNREPEATED = 0.1  # maximum fraction of the stripes' variance that no repeated wave explains
 _MIN_CHANGE = 0.2  # of the brightest frames' light by which dark frames that blink are darker
 _MIN_SAME_FRACTION = 0.9  # minimum fraction of equal frames from which all count as equal
@@ -78,7 +78,7 @@ class WithoutPackets:
         if not fits:
             return None
         clock = state(fits, phases, times, times.parts[0], columns)
-        # The shape of the lamp shifts the stripes of all frames alike: that does not scatter.
+        # The shape of the lamp shifts the stripes of all frames equally: that does not scatter.
         readout, shared = clock.readout_time, self._period_error(seen)
         error = math.hypot(readout.error, shared * readout.value)
         gap_error = math.hypot(clock.gap.error, columns * shared * readout.value)

@@ -58,7 +58,7 @@ class Judge:
             # What holds but is decidedly less likely than what was refused explains nothing.
             if not why and likelihoods[i] > best - _DECISIVE_LOG_LIKELIHOOD:
                 return hypotheses[i]
-        # What a user can do about it stands first, with what it rests on.
+        # What a user can do about it stands first, with its reason.
         reasons.sort(key=lambda why: PLAIN_STRIPES not in why)
         sentences = [sentence for why in reasons for sentence in why]
         raise MatchError(*dict.fromkeys(sentences))

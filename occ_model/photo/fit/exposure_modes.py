@@ -107,7 +107,7 @@ def possible_near(models: Sequence[JointModel], values: FloatArray) -> list[Poss
         others = [_with_blur(here, blur) for blur in _BLURS]
         if not model.is_wide:
             # Each blur starts from what is usual of all else: tone and switching can make up for
-            # it. Where gamma is asked for, it must not start anew.
+            # it. Where gamma is to be fitted, it must not start anew.
             others = [model.with_usual(other) for other in others]
         starts = [here, *others]
         fits = [model.fit(start, rounds=5) for start in starts]

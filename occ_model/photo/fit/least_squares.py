@@ -50,7 +50,7 @@ _LEAST_DARK_LEVEL = -0.1  # minimum dark level relative to the swing: pixel valu
 
 @dataclass(frozen=True, eq=False, slots=True)
 class StripeFit:
-    """A fitted timing with its uncertainty, and the profile that it gives."""
+    """A fitted timing with its uncertainty and its profile."""
 
     timing: Timing
     # Shape (4, 4); the covariance of the timing's fields in their order; 0 for gamma where it was
@@ -99,7 +99,7 @@ class StripeModel:
         self._kept_shapes = np.ascontiguousarray(self._shapes[:, self._kept])
         self._kept_profile = profile[self._kept]
         self._weight = np.ones(len(self._kept_profile))
-        # Slopes are asked for where the residual has just been.
+        # Slopes are needed where the residual has just been computed.
         self._at = lru_cache(maxsize=1)(self._fitted_at)
 
     def levels(self, timing: Timing) -> tuple[FloatArray, FloatArray, FloatArray]:

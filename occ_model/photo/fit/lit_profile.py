@@ -58,7 +58,7 @@ class LitProfile:
         self._wide_shapes = np.pad(self._shapes, ((0, 0), (BLUR_REACH, BLUR_REACH)), mode="edge")
         self._equations = NormalEquations(shapes[self.kept], freedom)
         self._kept_shapes = np.ascontiguousarray(self._shapes[:, self.kept])
-        # Slopes are asked for where the residual has just been.
+        # Slopes are needed where the residual has just been computed.
         self._fitted = lru_cache(maxsize=1)(self._fitted_to)
 
     def residual(self, seen: Seen) -> FloatArray:

@@ -178,7 +178,7 @@ def _unexplained(read: ReadPattern) -> float:
 
 
 def _shortened(read: ReadPattern) -> ReadPattern:
-    """Join chips that only come several at a time to longer ones, and give the canonical form."""
+    """Join chips that only come several at a time to longer ones; return the canonical form."""
     once = canonical(read.chips)
     changes = np.flatnonzero(once != np.roll(once, 1))
     shared = int(np.gcd.reduce(np.diff(changes, append=changes[0] + len(once))))

@@ -192,7 +192,7 @@ class SeenStripes:
     ) -> None:
         self._light = BlurredLight(chips, columns)
         self._gamma, self._values_blurred = gamma, values_blurred
-        # Slopes are asked for where the residual has just been.
+        # Slopes are needed where the residual has just been computed.
         self._last = lru_cache(maxsize=1)(self._by)
 
     def by(self, values: FloatArray, tails: float = 0.0, shape: BlurShape = "normal") -> Seen:

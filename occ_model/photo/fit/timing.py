@@ -1,4 +1,4 @@
-"""The timing of the columns' exposures over the chips, and the lit fractions that it gives."""
+"""The timing of the columns' exposures over the chips, and its lit fractions."""
 
 from dataclasses import dataclass
 from fractions import Fraction

@@ -26,7 +26,7 @@ from occ_model.photo.stripes.period import repeat_period
 from occ_model.results.decoding import Region
 from occ_model.results.lamp import Lamp
 
-_MOST_REFLECTED = 0.45  # brightness over a lamp's below which what blinks alike is its reflection
+_MOST_REFLECTED = 0.45  # brightness over a lamp's below which what blinks in time is its reflection
 _FAINT_BRIGHTNESS = 0.25
 """Brightness relative to the brightest lamp below which a lamp may be a reflection."""
 _FAINTEST, _FEW_PERIODS = 0.1, 3.0  # relative brightness and periods of what is not reported

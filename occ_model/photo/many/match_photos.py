@@ -160,9 +160,9 @@ def rows_by_workers(files: Files, settings: MatchSettings, jobs: int, heartbeat:
     """Match files in processes, in the order in which they are ready.
 
     Where processes end again and again, the files that they had are matched alone, and one that
-    ends its process even then becomes a row that says so. Where the system has no processes to
-    give, a thread of this one matches the files; where they cannot work, this process does, with
-    a ``RuntimeWarning``.
+    ends its process even then becomes a row that says so. Where the system cannot start processes,
+    a thread of this one matches the files; where they cannot work, this process does, with a
+    ``RuntimeWarning``.
     """
     waiting = iter(files)
     while True:

@@ -51,7 +51,7 @@ def frame_readout_time(table: PhotoTable) -> tuple[float, float] | None:
 def lines_to_paste(table: PhotoTable) -> dict[str, str]:
     """Write the readout time as other programs take it.
 
-    A line for each program, by its name; empty where :func:`frame_readout_time` gives none, or
+    A line for each program, by its name; empty where :func:`frame_readout_time` returns None, or
     where the photos contradict each other.
     """
     frame = frame_readout_time(table)

@@ -30,7 +30,7 @@ _CLIPPED_GROUPS = 2  # number of groups of pixels that are clipped while the lam
 _MOST_GROUPS = 3
 _HALF_WEIGHT_ROWS = 16.0
 """Number of rows that contain half of the information of arbitrarily many: more rows average noise,
-but not the errors that all rows share."""
+but not the errors that are common to all rows."""
 
 _LEAST_COLUMNS = 24
 _LEAST_CELLS = 0.15  # minimum number of pixels in a column relative to the group's median

@@ -24,7 +24,7 @@ from occ_model.receiver.signal import unexplained_fraction
 _PHASES = 8  # phases of the chips that are tried, evenly over one chip
 TRIED_CHIPS = 96  # chips in the middle of the picture that the phases are tried on
 
-_LAG_ROWS = 3  # rows apart whose products give the contrast without the noise: no two share it
+_LAG_ROWS = 3  # rows apart whose products have the contrast without the noise, which is independent
 _MIN_NOISE = 1e-8  # minimum variance, in fractions of full light squared: no model is more exact
 _SINGULAR = 1e-10  # fraction of the largest singular value below which one is rounding error
 _MAX_STEP = 0.1  # largest change of the phase in one improvement, in chips
@@ -62,7 +62,7 @@ class Fit:
     def noise_of_sums(self) -> float:
         """Variance a row of the residual's sum over rows, up to an exposure apart.
 
-        It exceeds the noise where the residual is alike in neighbours and does not average out.
+        It exceeds the noise where neighbouring residuals are equal and do not average out.
         """
         reach = min(round(self.timing.exposure / self.timing.step), len(self.residual) // 4)
         own = _autocorrelation(self.residual, reach)

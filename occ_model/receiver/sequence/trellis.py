@@ -53,7 +53,7 @@ def places_of(words: tuple[Word, ...]) -> tuple[tuple[tuple[int, int], ...], ...
     """Return the steps out of each place within the words, as pairs of a chip and a place.
 
     The places are the encoder's states, between words, and those within words. Words that begin
-    alike share places, and so do places from which the same chips can follow.
+    alike have common places, as have places from which the same chips can follow.
     """
     count = 1 + max(max(word.before, word.after) for word in words)
     steps: list[dict[tuple[int, int], int]] = [{} for _ in range(count)]
@@ -82,7 +82,7 @@ def _merged(steps: list[tuple[tuple[int, int], ...]]) -> tuple[tuple[tuple[int, 
             break
         classes, count = finer, len(seen)
     merged = {own: sorted(key[1]) for key, own in zip(seen, range(count), strict=True)}
-    # The classes are numbered alike in both rounds: each by the first of its places.
+    # The classes have the same numbers in both rounds: each of the first of its places.
     return tuple(tuple(merged[own]) for own in range(count))
 
 

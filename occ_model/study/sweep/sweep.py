@@ -99,7 +99,7 @@ def run_sweep(
     as ``ProcessPoolExecutor(2)`` or, with dask, ``client.get_executor()``. When it breaks, this
     process finishes the sweep, with a ``RuntimeWarning``. Without one, ``jobs`` processes are
     started, and again where they die, at most one a point and a few a core; with one job, or with a
-    ``RuntimeWarning`` where the system has no processes to give, the sweep runs in this process.
+    ``RuntimeWarning`` where the system cannot start processes, the sweep runs in this process.
     The module that calls this must not do so when it is imported
     (``if __name__ == "__main__":``). ``progress``: called after each point, and several times a
     second while a point takes longer, with the points done, of all, and seconds left (not a number

@@ -1,4 +1,4 @@
-"""The decoder's own process: opens a film and sends the frames that it is asked for.
+"""The decoder's own process: opens a film and sends the requested frames.
 
 FFmpeg takes what memory and time a file makes it take: a small damaged film can declare a huge
 frame anywhere. Only a process of its own can be limited and ended, whatever is in a file; and its

@@ -66,7 +66,7 @@ class DecoderProcess:
         return answer["rate"], answer["count"]
 
     def read(self) -> StoredFrame | None:
-        """Return the next frame, None after the last; the one after it is asked for ahead.
+        """Return the next frame, None after the last; the one after it is requested ahead.
 
         Raises VideoError: it cannot be decoded: the end of a sentence.
         """

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from amount import amount
 
-from occ_model.room.edges import _BLOCK, _alike, _Line
+from occ_model.room.edges import _BLOCK, _variance_ratio, _Line
 
 _POINTS = 640
 _SLOPE, _MIDDLE = 0.03, 250.0
@@ -34,7 +34,7 @@ def test_a_line_is_as_far_off_as_the_scatter_within_blocks_tells(reach: int) -> 
     squares, rooms = [], amount(60, 150)
     for _ in range(rooms):
         lines = [line(random, reach) for _ in range(4)]
-        alike = _alike(lines)
+        alike = _variance_ratio(lines)
         for each in lines:
             edge = each.edge(alike)
             true = _MIDDLE + _SLOPE * edge.points[:, 0]

@@ -45,13 +45,14 @@ class Application(Parts):
 
     def _connect_parts(self) -> None:
         window, story = self.window, self.story
-        for said in (
-            self.presets.status_message, self.files.status_message, self.present.status_message,
-            self.editor.brightness.status_message, self.shell.said, self.error_reports.reported,
-            self.session.status_message,
-        ):  # fmt: skip
+        # What concerns more than the present scene stays until the next sentence.
+        for said in (self.error_reports.reported, self.session.status_message):
             said.connect(window.say)
-        for noted in (self.lessons.noted, self.pins.status_message):
+        for noted in (
+            self.presets.status_message, self.files.status_message, self.present.status_message,
+            self.editor.brightness.status_message, self.shell.said, self.lessons.noted,
+            self.pins.status_message,
+        ):  # fmt: skip
             noted.connect(self.messages.show_note)
         window.leave_messages_to(story.verdict.sentence, story.verdict.wrapped)
         for end in (self._begin_to_end, self.session.end, self.stop):

@@ -39,6 +39,7 @@ class SceneInWindow(QObject):
         editor.edit_started.connect(messages.end_refusal)
         editor.input_refused.connect(messages.show_note)
         store.changed.connect(self._show_scene)
+        store.store.select(lambda workspace: workspace.room).changed.connect(messages.end_refusal)
         store.refused.connect(self._refuse)
         store.refused_for.connect(messages.show_refusal_for)
         store.settings.changed.connect(self._show_settings)

@@ -4,6 +4,8 @@ import gc
 import logging
 import math
 import re
+from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -199,6 +201,26 @@ def test_the_status_line_says_what_the_plan_switches_and_what_its_pane_refuses(
     assert user.message == "Tolerance cannot be little."
     application.settings.set_tolerance(-1.0)
     assert user.message.startswith("Tolerance cannot be -1")
+
+
+def test_what_was_refused_goes_with_the_next_accepted_change(
+    application: Application, user: User, tmp_path: Path
+) -> None:
+    damaged = tmp_path / "damaged.toml"
+    damaged.write_text("format = ", encoding="utf-8")
+    application.editor.brightness.switch(True)
+    user.enter("exposure_time", "10 us")
+    user.enter("exposure_time", "2 ms")
+    assert user.message.startswith("The brightness cannot be held")
+    user.enter("distance", "1.3 m")
+    assert user.message == ""
+    application.files.open_dropped([damaged])
+    assert "damaged.toml" in user.message
+    room = application.store.store.workspace.room
+    application.store.store.put(
+        replace(application.store.store.workspace, room=replace(room, focal_length=0.03))
+    )
+    assert user.message == ""
 
 
 @pytest.mark.whole

@@ -21,6 +21,11 @@ _LONGEST_PAYLOAD = 40  # characters of a payload in the title
 _SIGNAL: dict[str, Any] = {"color": colours.SIMULATION, "linestyle": "-"}
 _MODEL: dict[str, Any] = {"color": colours.PHOTO, "linestyle": ":"}
 
+_SPLITS: tuple[dict[str, Any], ...] = (
+    {"color": "0.4", "linestyle": "--"},
+    {"color": colours.SIMULATION, "linestyle": "-."},
+)  # of the dark runs and of the lit ones, in the colours of their bars
+
 
 def decode_drawing(scene: Scene, result: DecodeResult) -> Drawing:
     """Draw the steps of decoding, up to the code or to the step that failed."""
@@ -91,7 +96,8 @@ def _legend(ax: Axes, columns: int) -> None:
 
 def _draw_folded(ax: Axes, folded: FloatArray, model: FloatArray) -> None:
     ax.plot(folded, linewidth=1.0, label="signal, folded over one packet", **_SIGNAL)
-    ax.plot(model, linewidth=1.0, label="the code's forward model", **_MODEL)
+    # Its dots are wider than the signal's line, which lies on it where the code is read.
+    ax.plot(model, linewidth=2.5, label="the code's forward model", **_MODEL)
     ax.set_xlabel("eighth of a chip")
     ax.set_ylabel("lit fraction")
     _legend(ax, 2)
@@ -105,11 +111,13 @@ def _draw_runs(ax: Axes, result: DecodeResult) -> None:
     hatches = ("", "////")
     for value, histogram in enumerate(result.histograms):
         lengths = np.flatnonzero(histogram.counts)
+        runs = ("dark runs", "lit runs")[value]
         ax.bar(
-            lengths + (0.2 if value else -0.2), histogram.counts[lengths], width=0.4,
-            label=("dark runs", "lit runs")[value], hatch=hatches[value], edgecolor="0.2",
-            linewidth=0.4, color=("0.6", colours.SIMULATION)[value],
+            lengths + (0.2 if value else -0.2), histogram.counts[lengths], width=0.4, label=runs,
+            hatch=hatches[value], edgecolor="0.2", linewidth=0.4,
+            color=("0.6", colours.SIMULATION)[value],
         )  # fmt: skip
         if histogram.split is not None:
-            ax.axvline(histogram.split + (0.5 if value else 0.4), **THRESHOLD)
-    _legend(ax, 2)
+            place = histogram.split + (0.5 if value else 0.4)
+            ax.axvline(place, label=f"split of the {runs}", linewidth=0.9, **_SPLITS[value])
+    _legend(ax, 4)

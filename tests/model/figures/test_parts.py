@@ -5,10 +5,19 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from matplotlib.axis import Axis
+from matplotlib.text import Annotation
 from model.figures.test_as_stored import table_of
 
+import occ_model as occ
+from occ_model.figures.decoding import decode_drawing
+from occ_model.figures.drawing import house_style
+from occ_model.figures.page import fit_texts
 from occ_model.figures.paper import _padded, _shown_columns
+from occ_model.figures.room import room_drawing
 from occ_model.figures.sweep import sweep_drawing
+from occ_model.results.decoding import Region
+from occ_model.room.locate import RoomReading
+from occ_model.room.reading import ReadLamp
 from occ_model.scene.scene import Scene
 
 
@@ -52,3 +61,48 @@ def test_numbers_are_round_and_stand_where_their_values_are() -> None:
     microseconds = values_at(ax.yaxis, (np.array(EXPOSURES) * 1e6).tolist())
     assert list(microseconds) == [40.0, 50.0, 60.0, 70.0, 80.0, 90.0]
     assert list(microseconds.values()) == pytest.approx(list(microseconds), rel=1e-9)
+
+
+def test_the_split_of_each_kind_of_run_has_a_line_and_a_name_of_its_own() -> None:
+    scene = occ.load_preset("phone-68us")
+    result = occ.decode(occ.column_profile(scene), scene)
+    with house_style():
+        runs = decode_drawing(scene, result).draw().axes[1]
+    styles = {
+        str(line.get_label()): (line.get_color(), line.get_linestyle()) for line in runs.lines
+    }
+    assert set(styles) == {"split of the dark runs", "split of the lit runs"}
+    assert all(len(set(each)) == 2 for each in zip(*styles.values(), strict=True))
+
+
+@pytest.mark.parametrize(
+    "name", ["office", "hall", pytest.param("corridor", marks=pytest.mark.whole)]
+)
+def test_the_names_of_a_rooms_lamps_lie_within_its_picture_and_on_no_other_lamp(name: str) -> None:
+    room = occ.load_room(name)
+    rows, columns = room.scene.camera.rows, room.scene.camera.columns
+    corners = ((0, 0), (columns - 9, 0), (0, rows - 9), (columns - 9, rows - 9))
+    lamps = tuple(
+        ReadLamp(
+            "H12", 0, Region(row, row + 8, column, column + 8),
+            np.array([[column, row], [column + 8.0, row], [column, row + 8.0]]), True, "",
+        )
+        for column, row in corners
+    )  # fmt: skip
+    reading = RoomReading(lamps, None, (), ("Too few edges.",))
+    with house_style():
+        figure = room_drawing(room, np.zeros((rows, columns), np.uint8), reading).draw()
+        fit_texts(figure)
+        figure.draw_without_rendering()
+    plan, picture = figure.axes
+    for text in picture.texts:
+        box = text.get_bbox_patch()
+        assert box is not None
+        place, inside = box.get_window_extent(), picture.get_window_extent().padded(0.5)
+        assert inside.x0 <= place.x0 < place.x1 <= inside.x1
+        assert inside.y0 <= place.y0 < place.y1 <= inside.y1
+    names = [text for text in plan.texts if isinstance(text, Annotation)]
+    assert len(names) == len(room.lamps)
+    outlines = [patch.get_window_extent() for patch in plan.patches[: len(names)]]
+    for place in [text.get_window_extent() for text in names]:
+        assert place.count_overlaps(outlines) == 0

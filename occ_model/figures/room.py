@@ -1,6 +1,6 @@
 """Draw a room for print: its plan, and the camera's picture with the names of its lamps."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -15,6 +15,9 @@ from occ_model.room.view import room_outline, seen_outline
 from occ_model.scene.provenance import Provenance
 
 _TITLE = "Room, its picture and the place found"
+_EDGE = 0.07  # fraction of a picture's side that half a name takes
+_PADDING = 5  # points from a name's letters to the edge of its box and of the picture
+_MAX_SPACED_LAMPS = 40  # lamps of a plan up to which their names have room beside them
 _NUMBERS = tuple(Place.__dataclass_fields__)
 
 
@@ -58,26 +61,59 @@ def _draw(room: Room, image: ByteArray, reading: RoomReading, is_photo: bool) ->
     )  # fmt: skip
     for read in reading.lamps:
         colour = colours.RIGHT if read.name else colours.WRONG
-        column, row = read.hull.mean(axis=0).tolist()
-        picture.text(
-            column, row, read.name or "?", color="white", fontsize=6, ha="center", va="center",
-            backgroundcolor=colour, parse_math=False,
-        )  # fmt: skip
+        _write_name(picture, read.name or "?", read.hull.mean(axis=0).tolist(), image.shape, colour)
     picture.set_xlabel("column")
     picture.set_ylabel("row")
+    if reading.located is None and reading.reasons:
+        picture.set_title(f"No place found: {reading.reasons[0]}", fontsize=7, parse_math=False)
+    figure.legend(loc="outside upper left", ncols=4, frameon=False, fontsize=7)
     return figure
 
 
+def _write_name(
+    ax: Axes, name: str, middle: Sequence[float], shape: tuple[int, ...], colour: str
+) -> None:
+    """Write a lamp's name at its middle, or beside the picture's edge where that is near."""
+    rows, columns = shape
+    (column, across), (row, down) = (
+        _from_the_edge(middle[0], columns - 1), _from_the_edge(middle[1], rows - 1)
+    )  # fmt: skip
+    ax.annotate(
+        name, (column, row), (_PADDING * across, -_PADDING * down), textcoords="offset points",
+        color="white", fontsize=6, backgroundcolor=colour, parse_math=False,
+        ha=("center", "left", "right")[across], va=("center", "top", "bottom")[down],
+    )  # fmt: skip
+
+
+def _from_the_edge(place: float, last: int) -> tuple[float, int]:
+    """Return where a name stands, and whether it goes on from the first (1) or last (-1) edge."""
+    if place < _EDGE * last:
+        return 0.0, 1
+    if place > (1.0 - _EDGE) * last:
+        return float(last), -1
+    return place, 0
+
+
 def _draw_plan(ax: Axes, room: Room, reading: RoomReading, is_photo: bool) -> None:
-    for lamp in room.lamps:
+    size = 6 if len(room.lamps) <= _MAX_SPACED_LAMPS else 5
+    for number, lamp in enumerate(room.lamps):
         outline = room_outline(lamp)[:, :2]
-        ax.fill(outline[:, 0], outline[:, 1], facecolor="none", edgecolor=colours.SIMULATION)
-        x, y = outline.mean(axis=0).tolist()
-        ax.text(x, y, lamp.name, fontsize=6, ha="center", va="center", parse_math=False)
+        ax.fill(
+            outline[:, 0], outline[:, 1], facecolor="none", edgecolor=colours.SIMULATION,
+            label="" if number else "lamp",
+        )  # fmt: skip
+        beside = (outline[:, 0].max(), outline[:, 1].mean())
+        ax.annotate(
+            lamp.name, beside, (1, 0), textcoords="offset points", fontsize=size, va="center",
+            parse_math=False,
+        )  # fmt: skip
     height = float(np.mean([lamp.z for lamp in room.lamps]))
     seen = seen_outline(room, height)
-    if len(seen):
-        ax.fill(seen[:, 0], seen[:, 1], fill=False, linestyle="--", edgecolor=colours.PHOTO)
+    if len(seen) and not is_photo:
+        ax.fill(
+            seen[:, 0], seen[:, 1], fill=False, linestyle="--", edgecolor=colours.PHOTO,
+            label="in view",
+        )  # fmt: skip
     camera = room.camera
     if not is_photo:
         ax.plot(
@@ -89,7 +125,7 @@ def _draw_plan(ax: Axes, room: Room, reading: RoomReading, is_photo: bool) -> No
             [found.x], [found.y], [2.0 * errors[1]], [2.0 * errors[0]], fmt="x",
             color=colours.BAND, label="found, two standard deviations",
         )  # fmt: skip
-    ax.set_aspect("equal")
+    # A corridor's plan gets wider than its lamps: its numbers need the room.
+    ax.set_aspect("equal", adjustable="datalim")
     ax.set_xlabel("x (m)")
     ax.set_ylabel("y (m)")
-    ax.legend(fontsize=7)

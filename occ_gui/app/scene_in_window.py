@@ -6,6 +6,7 @@ from PySide6.QtCore import QObject
 
 from occ_gui.accuracy.plan_changes import PlanNews, switch_sentence
 from occ_gui.app.parts import Parts
+from occ_gui.core.workspace import Workspace
 from occ_gui.picture.before_controller import BeforeController
 from occ_gui.scene.control_panel import MAIN
 from occ_gui.scene.forced_effects import forced_text
@@ -39,7 +40,8 @@ class SceneInWindow(QObject):
         editor.edit_started.connect(messages.end_refusal)
         editor.input_refused.connect(messages.show_note)
         store.changed.connect(self._show_scene)
-        store.store.select(lambda workspace: workspace.room).changed.connect(messages.end_refusal)
+        others = store.store.select(_of_other_panes)
+        others.changed.connect(messages.end_refusal)
         store.refused.connect(self._refuse)
         store.refused_for.connect(messages.show_refusal_for)
         store.settings.changed.connect(self._show_settings)
@@ -106,3 +108,9 @@ class SceneInWindow(QObject):
         preferences, files = self._parts.preferences, self._parts.files
         menus = self._parts.window.menus
         menus.show_recent(preferences.files, files.open_recent, preferences.clear)
+
+
+def _of_other_panes(workspace: Workspace) -> tuple[object, ...]:
+    """Return what is entered in panes of their own, beside the scene and the settings."""
+    film = workspace.film
+    return (workspace.room, film.recording, film.frames, workspace.frame_rate)

@@ -125,7 +125,7 @@ def _story(frame: VideoFrame, scene: Scene, request: FrameRequest | None, whose:
     step = 1
     if request is not None and image.shape[0] != scene.camera.rows:
         step = request.draft_step
-    decoded = read_by_itself(image, scene)
+    decoded, is_enhanced = read_by_itself(image, scene)
     region = decoded.region or Region(0, image.shape[0], 0, image.shape[1])
     profile = column_means(image, Region(region.first_row, region.last_row, 0, image.shape[1]))
     shown = _with_size(scene, image, step)
@@ -142,7 +142,9 @@ def _story(frame: VideoFrame, scene: Scene, request: FrameRequest | None, whose:
     )  # fmt: skip
     rows, size = range(0, shown.camera.rows, step), (shown.camera.rows, shown.camera.columns)
     picture = PictureView(image, rows, size, corners, image)
-    title = f"{whose}, frame {frame.index + 1}, by itself: {_in_words(decoded)}"
+    # The threshold is another one than that of a picture, which a receiver always enhances.
+    how = "enhanced" if is_enhanced else "not enhanced"
+    title = f"{whose}, frame {frame.index + 1}, read by itself, {how}: {_in_words(decoded)}"
     return FrameStory(picture, reading, request is not None, title)
 
 

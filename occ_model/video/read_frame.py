@@ -56,17 +56,22 @@ def enhanced_picture(image: ByteArray, region: Region, method: str) -> ByteArray
     return enhancement.of_bytes(np.ascontiguousarray(region.crop(image)))
 
 
-def read_by_itself(image: ByteArray, scene: Scene, decoder: str = PAPER_DECODER) -> DecodeResult:
-    """Read a frame as the camera gives it, or enhanced where that alone shows the payload."""
+def read_by_itself(
+    image: ByteArray, scene: Scene, decoder: str = PAPER_DECODER
+) -> tuple[DecodeResult, bool]:
+    """Read a frame as the camera gives it, or enhanced where that alone shows the payload.
+
+    Return whether it was enhanced, too: the threshold is one of the picture that was read.
+    """
     plain = decode(image, scene.replace(enhancement="none"), decoder)
     method, region = scene.model.enhancement, plain.region
     if plain.failure is None or region is None or method == "none":
-        return plain
+        return plain, False
     signal = enhanced_picture(image, region, method).mean(axis=0)
     enhanced = decoder_named(decoder).read(signal, scene)
     if enhanced.failure is not None:
-        return plain
-    return replace(enhanced, region=region, location=plain.location)
+        return plain, False
+    return replace(enhanced, region=region, location=plain.location), True
 
 
 class FrameReader:

@@ -202,6 +202,14 @@ def test_without_a_film_the_simulated_frame_is_shown_and_read(
     assert shown.story.knows_light
     assert reading.scene == film.frame(3).scene
     assert tuple(reading.decoded.bits.tolist()) == reading.sent != ()
+    # The rows say whether the frame was enhanced: the threshold depends on it.
+    camera = occ.decode(film.frame(3).image, request_of.scene.replace(enhancement="none"))
+    assert reading.decoded.threshold == camera.threshold
+    assert "frame 4, read by itself, not enhanced: code " in shown.story.title
+    dim = occ.load_preset("phone-136us").replace(switching_frequency=14.21e3, rows=1152)
+    enhanced = shown_frame(replace(request_of, index=0, scene=dim))
+    assert enhanced.story is not None
+    assert "read by itself, enhanced: code " in enhanced.story.title
 
 
 def test_a_film_stands_beside_its_simulation_and_its_rows_are_its_own(

@@ -340,10 +340,11 @@ def test_where_the_enhanced_picture_is_read_the_film_is() -> None:
     assert occ.decode(occ.render(scene).image, scene).code == scene.transmitter.code
     assert occ.decode(occ.render(as_the_camera_gives_it).image, scene).code is None
     frames = recorded(scene, 2)
-    alone = read_by_itself(frames[0].image, scene)
-    assert alone.code == scene.transmitter.code
+    alone, is_enhanced = read_by_itself(frames[0].image, scene)
+    assert (alone.code, is_enhanced) == (scene.transmitter.code, True)
     assert alone.region is not None
-    assert read_by_itself(frames[0].image, as_the_camera_gives_it).code is None
+    alone, is_enhanced = read_by_itself(frames[0].image, as_the_camera_gives_it)
+    assert (alone.code, is_enhanced) == (None, False)
     assert reading_of(frames, scene).payload == str(scene.transmitter.code)
     assert reading_of(frames, as_the_camera_gives_it).failure is not None
 

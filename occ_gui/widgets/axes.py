@@ -4,9 +4,9 @@ import math
 from typing import Any
 
 import pyqtgraph as pg
-from PySide6.QtCore import QRectF
-from PySide6.QtGui import QPainter
-from PySide6.QtWidgets import QStyleOptionGraphicsItem, QWidget
+from PySide6.QtCore import QRectF, Qt
+from PySide6.QtGui import QFontMetricsF, QPainter
+from PySide6.QtWidgets import QGraphicsSceneResizeEvent, QStyleOptionGraphicsItem, QWidget
 
 from occ_gui.widgets.columns import round_step
 from occ_gui.widgets.guarded_paint import guarded
@@ -24,11 +24,46 @@ _LARGEST_POWER = 300  # powers of ten with a larger exponent, of either sign, ar
 class Axis(pg.AxisItem):  # type: ignore[misc]  # pyqtgraph has no types
     """A linear axis that stays empty where its range cannot be numbered."""
 
+    def __init__(self, side: str) -> None:
+        super().__init__(side)
+        # Of values below 1 pyqtgraph would write thousandths, as 800 and "light (x0.001)".
+        self.enableAutoSIPrefix(False)
+
     @guarded
     def paint(
         self, painter: QPainter, option: QStyleOptionGraphicsItem, widget: QWidget | None
     ) -> None:
         super().paint(painter, option, widget)
+
+    def resizeEvent(  # noqa: N802 - Qt's name
+        self, event: QGraphicsSceneResizeEvent | None = None
+    ) -> None:
+        self._fit_name()
+        super().resizeEvent(event)
+
+    def _updateLabel(self) -> None:  # noqa: N802 - pyqtgraph's name
+        super()._updateLabel()
+        self.resizeEvent()
+
+    def _fit_name(self) -> None:
+        """Shorten the name by dots where the plot is too low or narrow; its tip holds the whole."""
+        label, name = self.label, self.labelText
+        if label is None or not name:  # None once the plot is closed
+            return
+        is_upright = self.orientation in {"left", "right"}
+        # Up to the same distance on both sides of the axis the plot has room, too.
+        place = self.scenePos()
+        room = self.height() + 2.0 * place.y() if is_upright else self.width()
+        label.setHtml(self.labelString())
+        label.setToolTip("")
+        missing = label.boundingRect().width() - room
+        if missing <= 0.0 or room <= 0.0:
+            return
+        metrics = QFontMetricsF(label.font())
+        width = metrics.horizontalAdvance(name) - missing
+        short = metrics.elidedText(name, Qt.TextElideMode.ElideRight, max(width, 0.0))
+        label.setHtml(self.labelString().replace(name, short, 1))
+        label.setToolTip(name)
 
     def generateDrawSpecs(  # noqa: N802 - pyqtgraph's name
         self, painter: QPainter

@@ -3,7 +3,7 @@
 import sys
 
 import pytest
-from gui.kinds import add_widget
+from gui.kinds import add_widget, show_widget
 from hypothesis import given
 from hypothesis import strategies as st
 from PySide6.QtCore import QEvent, Qt
@@ -25,6 +25,36 @@ def test_a_curve_is_two_pixels_wide_on_every_screen(
     monkeypatch.setattr(plot, "devicePixelRatioF", lambda: ratio)
     QApplication.sendEvent(plot, QEvent(QEvent.Type.DevicePixelRatioChange))
     assert curve.opts["pen"].widthF() == 2.0 * ratio
+
+
+@pytest.mark.parametrize(
+    ("size", "is_whole"), [((360, 200), True), ((360, 86), False), ((150, 86), False)], ids=str
+)
+def test_the_name_of_an_axis_is_whole_or_shortened_by_dots_with_its_tip_and_never_cut_off(
+    qtbot: QtBot, size: tuple[int, int], is_whole: bool
+) -> None:
+    names = {"left": "root mean square error", "bottom": "column of the region, from its left edge"}
+    plot = show_widget(qtbot, new_plot("name", names["bottom"], names["left"], QPalette()), *size)
+    for _ in range(2):  # set anew in a plot of this size, too
+        QApplication.processEvents()
+        for side, name in names.items():
+            label = plot.getAxis(side).label
+            place = label.mapRectToScene(label.boundingRect())
+            inside = plot.viewport().rect().toRectF().adjusted(-6, -6, 6, 6)  # margins of the text
+            assert inside.contains(place)
+            shown, tip = label.toPlainText().strip(), label.toolTip()
+            assert (shown, tip) == (name, "") or (shown[-1], tip) == ("…", name)
+            assert side != "left" or (shown == name) == is_whole
+            plot.setLabel(side, name)
+
+
+def test_the_numbers_of_an_axis_stand_as_they_are(qtbot: QtBot) -> None:
+    plot = show_widget(qtbot, new_plot("name", "x", "light", QPalette()), 360, 200)
+    plot.setYRange(0.0, 0.8)
+    QApplication.processEvents()
+    axis = plot.getAxis("left")
+    assert axis.label.toPlainText().strip() == "light"
+    assert axis.autoSIPrefixScale == 1.0
 
 
 @pytest.fixture

@@ -8,6 +8,7 @@ from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.plain_text import LONGEST_TEXT
 from occ_gui.widgets.work_bar import WorkBar
 from occ_model.errors import one_line
+from occ_model.scene.units import SECOND
 
 _MESSAGE_FRACTION, _POINTED_FRACTION, _TIMING_FRACTION = 0.3, 0.4, 0.3
 """Fractions of the width: least for the message, most for the readouts."""
@@ -79,7 +80,8 @@ class StatusLine(QStatusBar):
 
     def show_timing(self, simulation: float, reading: float) -> None:
         """Show the seconds of the last simulation and of its decoding."""
-        self._times = f"simulated in {1e3 * simulation:.1f} ms, read in {1e3 * reading:.1f} ms"
+        simulated, read = (SECOND.format(seconds, 3) for seconds in (simulation, reading))
+        self._times = f"simulated in {simulated}, read in {read}"
         self.show_times(self._shows_times)
 
     def show_times(self, shown: bool) -> None:

@@ -91,12 +91,12 @@ def test_a_readout_is_whole_where_there_is_space(line: StatusLine) -> None:
         assert line.pointed.text() == text
 
 
-def test_times_are_shown_in_milliseconds(line: StatusLine) -> None:
+def test_times_are_shown_to_three_digits(line: StatusLine) -> None:
     line.resize(1600, 24)
     line.show_times(False)
-    line.show_timing(0.01234, 2.5)
+    line.show_timing(0.01234, 1.28971)
     assert line._timing.isHidden()
     line.show_times(True)
     QApplication.processEvents()
     texts = [label.text() for label in line.findChildren(QLabel)]
-    assert "simulated in 12.3 ms, read in 2500.0 ms" in texts
+    assert "simulated in 12.3 ms, read in 1.29 s" in texts

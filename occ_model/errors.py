@@ -168,6 +168,12 @@ def printable(text: str) -> str:
     return one_line(" ".join(text.split()), _LONGEST_TEXT)
 
 
+def counted(number: float, noun: str) -> str:
+    """Write a number with its noun: 1 frame, 2 frames, 0.5 frames."""
+    text = str(number) if isinstance(number, int) else f"{number:g}"
+    return f"{text} {noun}{'s' * (text != '1')}"
+
+
 def one_line(text: str, longest: int = _LONGEST_NAME) -> str:
     """Format a name, title or path in one line, with control characters escaped."""
     start = text[: longest + 1]

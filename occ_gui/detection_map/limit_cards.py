@@ -10,6 +10,7 @@ from occ_gui.detection_map.advice_sentences import line_on_highest_frequency
 from occ_gui.widgets.building import filled, named, paragraph, push_button
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.text_scale import TextSize, scaled
+from occ_model.errors import counted
 from occ_model.results.advice import Advice, gaps_text, own_text, searched_to, written
 from occ_model.results.bit_errors import FRAMES_A_SECOND, MostBits
 from occ_model.results.limits import RangeEnd, WorkingRange
@@ -262,7 +263,7 @@ class MostBitsCard(QFrame):
         self._show()
 
     def show_tried(self, decoder: str, pictures: int) -> None:
-        self._state = f"searching with {decoder}, {pictures} pictures tried"
+        self._state = f"searching with {decoder}, {counted(pictures, 'picture')} tried"
         self._show()
 
     def show_found(self, found: MostBits) -> None:

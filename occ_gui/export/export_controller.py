@@ -18,7 +18,7 @@ from occ_gui.shell.shell import Shell
 from occ_gui.simulation.present_results import PresentResults
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.window.docks import PICTURE
-from occ_model.errors import one_line
+from occ_model.errors import counted, one_line
 from occ_model.scene.provenance import ENDINGS
 
 _WITH_FIGURE = ("profile", "accuracy", "map", "bench", "bands", "room")
@@ -153,7 +153,9 @@ class ExportController(Service):
         job = done.job
         if job.folder is not None:
             self._preferences.visit_export(job.folder / "figure")
-            message = f"Exported {len(done.files)} files into {one_line(job.folder.name)}."
+            message = (
+                f"Exported {counted(len(done.files), 'file')} into {one_line(job.folder.name)}."
+            )
             left_out = f"Left out: {self._left_out}"
             self.status_message.emit(f"{message} {left_out}" if self._left_out else message)
         elif job.path is not None:

@@ -16,6 +16,7 @@ from occ_gui.lessons.step_page import LEAST_SIZE, StepPage, heading, paragraph
 from occ_gui.widgets.building import filled, named, push_button
 from occ_gui.widgets.plain_text import in_menu
 from occ_gui.widgets.scroll_pane import ScrollPane
+from occ_model.errors import counted
 from occ_model.results.teaching import CheckedAnswer, Lesson
 
 _LONGEST_NAME = 120
@@ -127,7 +128,7 @@ class LessonList(QWidget):
     def _add(self, lesson: Lesson, reached: int | None) -> None:
         count = len(lesson.steps)
         title = in_menu(lesson.title)
-        words = {None: f"{title}  ({count} steps)", count: f"✓  {title}"}
+        words = {None: f"{title}  ({counted(count, 'step')})", count: f"✓  {title}"}
         text = words.get(reached, f"{title}  (step {(reached or 0) + 1} of {count})")
         choice = push_button(text, "Set the scene of its step and show its question.")
         choice.setAccessibleDescription(lesson.summary)

@@ -11,7 +11,7 @@ from occ_gui.room.jobs import FloorMap, RoomPlan, ShownRoom
 from occ_gui.room.room_plots import PicturePlot, PlanPlot
 from occ_gui.widgets.building import filled, paragraph, push_button
 from occ_gui.widgets.text_scale import TextSize, scaled
-from occ_model.errors import one_line
+from occ_model.errors import counted, one_line
 from occ_model.room.locate import RoomReading
 from occ_model.room.room import Room
 from occ_model.scene.parameters import quantity
@@ -176,7 +176,7 @@ def _floor(found: FloorMap) -> str:
     )
     text = (
         f"Map of the floor: {len(sure)} of {len(points)} places determined (blue, else orange), "
-        f"{named} of {shown} whole lamps named, {wrong} lamps named wrongly."
+        f"{named} of {shown} whole lamps named, {counted(wrong, 'lamp')} named wrongly."
     )
     if sure:
         text += f" In the median {_length(float(np.median([p.error for p in sure])))} off."

@@ -10,7 +10,7 @@ from occ_gui.scene.number_edits import CountEdit
 from occ_gui.scene.refusal_notice import RefusalNotice
 from occ_gui.scene.scene_store import Gestures
 from occ_gui.widgets.event_filters import leave_undo_to_window
-from occ_model.errors import ParameterError, one_line, shown
+from occ_model.errors import ParameterError, counted, one_line, shown
 from occ_model.scene.parameters import count, payload_parameter
 from occ_model.scene.payload import form_of
 from occ_model.scene.refusal import refusal_of
@@ -80,7 +80,7 @@ class CodeEntry(QWidget):
         elif scene is not None and scene.transmitter.payload:
             form = form_of(scene.transmitter.payload)
             form = "bytes" if form == "hex" else form
-            text = f"Sent as {form}: {scene.transmitter.payload_length} bits"
+            text = f"Sent as {form}: {counted(scene.transmitter.payload_length, 'bit')}"
         else:
             text = "Code, as a number and as bits"
         if text != self.title.text():

@@ -13,7 +13,7 @@ from occ_gui.story.curve_lines import lines_of
 from occ_gui.story.story_row import StoryRow
 from occ_gui.widgets.chip_cell import draw_digits, have_room_for_digits
 from occ_gui.widgets.state_look import is_dark
-from occ_model.errors import one_line
+from occ_model.errors import counted, one_line
 from occ_model.results.teaching import LightCurve
 from occ_model.scene.payload import Piece, compared
 from occ_model.scene.scene import Scene
@@ -205,11 +205,11 @@ class LightRow(StoryRow):
             return ""
         sent = self._scene.transmitter
         if sent.pattern:
-            return f"a raw pattern of {len(sent.pattern)} chips"
+            return f"a raw pattern of {counted(len(sent.pattern), 'chip')}"
         what = f"code {sent.code}"
         if sent.payload:
             what = f"“{one_line(sent.payload.partition(':')[2], _MOST_LETTERS)}”"
-        return f"{what}, {len(self._sent)} bits"
+        return f"{what}, {counted(len(self._sent), 'bit')}"
 
     def draw_beside(self, painter: QPainter, area: QRectF) -> None:
         light = self._light_area(area)

@@ -10,6 +10,7 @@ from PySide6.QtCore import QObject, Signal
 import occ_model as occ
 from occ_gui.background.task import Report, Task
 from occ_gui.video.film_reading import FilmReading, Marks, MarkState
+from occ_model.errors import counted
 from occ_model.results.sent_packets import PacketReading, SentPackets
 from occ_model.results.video import Video, VideoFrame
 from occ_model.results.video_reading import FilmProgress, FrameReading, VideoReading
@@ -171,7 +172,7 @@ def _losses(known: FilmProgress, whole: VideoReading) -> str:
     """Explain lost packets, whose bits do not count as wrong."""
     where = "they were sent in the gap between two frames, or cut off by a frame's edge"
     if unplaced := known.frames - known.placed:
-        where += f", or in one of {unplaced} frames that were not placed"
+        where += f", or in {counted(unplaced, 'frame')} without a known place"
     text = f"{whole.cut_off} of {whole.lost} lost packets are not whole in any frame: {where}."
     if misread := whole.lost - whole.cut_off:
         text += f" {misread} were in view and misread."

@@ -19,7 +19,7 @@ from occ_gui.video.frame_jobs import ShownFrame
 from occ_gui.video.live_controller import LiveController
 from occ_gui.video.reading_controller import ReadingController
 from occ_gui.video.video_view import VideoView
-from occ_model.errors import OccError, one_line
+from occ_model.errors import OccError, counted, one_line
 from occ_model.results.video import USUAL_RATE, Video
 from occ_model.scene.scene import Scene
 
@@ -229,7 +229,10 @@ class VideoWiring(Pane[FilmChoice]):
     def _show_bar(self) -> None:
         film, form = self.films.film, self.view.form
         if film is None:
-            title = f"Simulated film: {form.frames} frames, {form.recording.frame_rate:g} a second"
+            title = (
+                f"Simulated film: {counted(form.frames, 'frame')}, "
+                f"{form.recording.frame_rate:g} a second"
+            )
         elif self.films.is_live:
             title = f"{one_line(film.title)}, {'live' if self.live.is_filming else 'stopped'}"
         else:
@@ -297,7 +300,7 @@ def _title_of(film: Video) -> str:
     rows, columns = film.shape
     parts = [one_line(film.title), f"{columns} x {rows}"]
     if film.frame_count:
-        parts.append(f"{film.frame_count} frames")
+        parts.append(f"{counted(film.frame_count, 'frame')}")
     if film.frame_rate:
         parts.append(f"{film.frame_rate:.4g} a second")
     return ", ".join(parts)

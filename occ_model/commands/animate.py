@@ -13,7 +13,7 @@ from occ_model.commands.options import (
 )
 from occ_model.commands.progress_bar import progress_bar
 from occ_model.commands.vary import SYNTAX, axes_of
-from occ_model.errors import ParameterError, one_line
+from occ_model.errors import ParameterError, counted, one_line
 from occ_model.receiver.decoders import DECODERS, PAPER_DECODER
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import parameter_named
@@ -51,5 +51,5 @@ def _run(options: argparse.Namespace) -> int:
             options.out, scene, name, run, settings=simulation_settings_of(options),
             rate=options.rate, decoder=options.decoder, progress=lambda _done: bar.update(),
         )  # fmt: skip
-    print(f"{one_line(str(options.out))}: {len(run)} frames")
+    print(f"{one_line(str(options.out))}: {counted(len(run), 'frame')}")
     return 0

@@ -13,7 +13,7 @@ from occ_model.commands.options import (
     scene_of,
 )
 from occ_model.commands.progress_bar import progress_bar
-from occ_model.errors import ParameterError
+from occ_model.errors import ParameterError, counted
 from occ_model.files.film_kinds import is_film
 from occ_model.photo.reading.choices import CHANNELS, SCAN_AXES
 from occ_model.photo.reading.load import load_photo
@@ -161,7 +161,10 @@ def _channel(name: str) -> str:
 def _film_line(known: FilmProgress) -> str:
     """Describe in one line what is known after a frame."""
     frame = known.frame
-    what = frame.failure or f"{len(frame.chips)} chips from chip {frame.place} of the packet on"
+    what = (
+        frame.failure
+        or f"{counted(len(frame.chips), 'chip')} from chip {frame.place} of the packet on"
+    )
     payload = f"  {known.payload}" if known.payload else ""
     return (
         f"frame {frame.index:5d}  {SECOND.format(frame.time):>10}  {100.0 * known.known:3.0f} %"
@@ -180,7 +183,8 @@ def _film_report(reading: VideoReading, video: Video) -> list[str]:
             f"certainty         {reading.certainty:.4f}",
         ]
     lines.append(
-        f"frames            {len(reading.frames)} of {columns} columns, {rows} rows; {placed} of "
+        f"frames            {len(reading.frames)} of {columns} columns, {counted(rows, 'row')}; "
+        f"{placed} of "
         "them placed in the packet"
     )
     facts = [*packet_facts(reading), *(() if reading.clock is None else clock_facts(reading.clock))]

@@ -14,7 +14,7 @@ from occ_model.commands.options import (
     simulation_settings_of,
 )
 from occ_model.commands.progress_bar import progress_bar
-from occ_model.errors import ParameterError, one_line, shown
+from occ_model.errors import ParameterError, counted, one_line, shown
 from occ_model.results.video import Video
 from occ_model.scene.parameters import quantity
 from occ_model.scene.recording import DECLARED, MOTIONS, Recording, Waypoint
@@ -73,7 +73,8 @@ def _run(options: argparse.Namespace) -> int:
     gap = recording.gap(film.scene)
     name = one_line(str(options.out))
     print(
-        f"{name}: {count} frames of {columns} columns, {rows} rows; "
+        f"{name}: {counted(count, 'frame')} of {counted(columns, 'column')}, "
+        f"{counted(rows, 'row')}; "
         f"gap {SECOND.format(gap)}, {100 * recording.gap_ratio(film.scene):.3g} % of a frame"
     )
     if options.out.suffix.lower() not in LOSSLESS:

@@ -10,6 +10,7 @@ from occ_model.commands.options import (
     scene_of,
 )
 from occ_model.commands.progress_bar import progress_bar
+from occ_model.errors import counted
 from occ_model.program import EXIT_FAILURE
 from occ_model.results.bit_errors import FRAMES_A_SECOND, MostBits
 from occ_model.scene.parameters import quantity
@@ -51,7 +52,9 @@ def _run(options: argparse.Namespace) -> int:
         )  # fmt: skip
     exposure = SECOND.format(scene.camera.exposure_time)
     distance = quantity("distance").format(scene.pose.distance)
-    print(f"At an exposure of {exposure} and {distance}, {options.fps:g} pictures a second:")
+    print(
+        f"At an exposure of {exposure} and {distance}, {counted(options.fps, 'picture')} a second:"
+    )
     for one in found:
         print(f"  {_sentence(one)}")
     null = HERTZ.format(theory.null_frequency(scene), 4)
@@ -74,7 +77,9 @@ def _sentence(found: MostBits) -> str:
         else "no combination carries more"
     )
     return (
-        f"{found.decoder}: {found.bits_a_second:,.0f} bits a second, {sent.payload_length} bits a "
-        f"picture in {sent.line_code} at {frequency}; every bit of {found.pictures} pictures was "
+        f"{found.decoder}: {found.bits_a_second:,.0f} bits a second, "
+        f"{counted(sent.payload_length, 'bit')} a "
+        f"picture in {sent.line_code} at {frequency}; every bit of "
+        f"{counted(found.pictures, 'picture')} was "
         f"read, and {rest}."
     )

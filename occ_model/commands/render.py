@@ -12,7 +12,7 @@ from occ_model.commands.options import (
     simulation_settings_of,
     whole_number,
 )
-from occ_model.errors import one_line
+from occ_model.errors import counted, one_line
 from occ_model.files.writing import check_image_path, write_image
 from occ_model.results.frame import PICTURES
 from occ_model.scene.from_text import write_scene_file
@@ -55,7 +55,9 @@ def _run(options: argparse.Namespace) -> int:
     milliseconds = 1e3 * sum(frame.timings.values())
     name = one_line(str(options.out))
     what = f"{title[:1].lower()}{title[1:]}"
-    of_all = "" if frame.rows_step == 1 else f" of {scene.camera.rows}"
-    size = f"{columns} columns, {rows}{of_all} rows"
+    lines = counted(rows, "row")
+    if frame.rows_step > 1:
+        lines = f"{rows} of {counted(scene.camera.rows, 'row')}"
+    size = f"{counted(columns, 'column')}, {lines}"
     print(f"{name}: {size}, simulated in {milliseconds:.1f} ms, {what}")
     return 0

@@ -19,7 +19,7 @@ from occ_model.commands.options import (
     whole_number,
 )
 from occ_model.commands.sweep import add_work_options, add_worker_options, run_with_bar
-from occ_model.errors import one_line
+from occ_model.errors import counted, one_line
 from occ_model.files.writing import check_image_path, write_image
 from occ_model.photo.reading.load import load_photo
 from occ_model.program import EXIT_FAILURE, EXIT_INTERRUPTED
@@ -178,8 +178,10 @@ def _map(options: argparse.Namespace) -> int:
     errors = [point.error for point in points if point.sure]
     median = f", in the median {1e3 * float(np.median(errors)):.3g} mm off" if errors else ""
     print(
-        f"{one_line(str(options.out))}: {request.points} places, {pictures} pictures: "
-        f"{named} of {shown} whole lamps named, {wrong} lamps named wrongly; {sure} places "
+        f"{one_line(str(options.out))}: {counted(request.points, 'place')}, "
+        f"{counted(pictures, 'picture')}: "
+        f"{named} of {shown} whole lamps named, {counted(wrong, 'lamp')} named wrongly; "
+        f"{counted(sure, 'place')} "
         f"sure{median}"
     )
     return 0
@@ -207,7 +209,7 @@ def _codes(options: argparse.Namespace) -> int:
     gains = [one.named - one.named_wrongly(options.lamps) for one in found]
     best = found[gains.index(max(gains))]
     print(
-        f"Of these, {best.bits} bits serve {options.lamps} lamps best: {best.named} of "
+        f"Of these, {best.bits} bits serve {counted(options.lamps, 'lamp')} best: {best.named} of "
         f"{best.whole} whole lamps named rightly in these pictures."
     )
     alike = [f"{one.bits}" for one, gain in zip(found, gains, strict=True) if gain == max(gains)]

@@ -23,7 +23,7 @@ from occ_model.commands.options import (
 from occ_model.commands.progress_bar import print_above_bar, progress_bar
 from occ_model.commands.vary import SYNTAX, axes_of
 from occ_model.effects.registry import NAMES
-from occ_model.errors import OccError, ParameterError, one_line, shown
+from occ_model.errors import OccError, ParameterError, counted, one_line, shown
 from occ_model.files.writing import check_replaceable
 from occ_model.program import EXIT_INTERRUPTED
 from occ_model.receiver.decoders import DECODERS, PAPER_DECODER, QUICK_DECODERS
@@ -138,7 +138,10 @@ def _run(options: argparse.Namespace) -> int:
         return EXIT_INTERRUPTED
     if options.out:
         name = one_line(str(options.out))
-        print(f"{name}: {request.points} points, {len(settings.decoders)} rates each")
+        print(
+            f"{name}: {counted(request.points, 'point')}, "
+            f"{counted(len(settings.decoders), 'rate')} each"
+        )
     elif not options.plot:
         sys.stdout.writelines(table.csv())
     if options.plot:

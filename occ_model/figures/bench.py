@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from occ_model.errors import counted
 from occ_model.figures.drawing import Drawing
 from occ_model.results.bench import HEADER, BenchBounds, BenchPoint, BenchRequest, written
 from occ_model.scene.provenance import Provenance
@@ -59,12 +60,13 @@ def bench_drawing(
 
 def _notes(request: BenchRequest, frames_a_second: float) -> tuple[str, ...]:
     return (
-        f"{request.rows_a_symbol:g} rows a symbol (the row rate allows 1 or more), "
-        f"{request.rows} rows a picture, payloads of {request.payload_bits} bits, at least "
-        f"{request.bits} bits a point",
+        f"{counted(request.rows_a_symbol, 'row')} a symbol (the row rate allows 1 or more), "
+        f"{counted(request.rows, 'row')} a picture, payloads of "
+        f"{counted(request.payload_bits, 'bit')}, at least "
+        f"{counted(request.bits, 'bit')} a point",
         f"over the exposure at {request.at_decibels:g} dB, over the noise at an exposure of "
-        f"{request.at_exposure:g} symbols",
-        f"{frames_a_second:g} pictures a second, one payload each",
+        f"{counted(request.at_exposure, 'symbol')}",
+        f"{counted(frames_a_second, 'picture')} a second, one payload each",
     )
 
 
@@ -106,7 +108,7 @@ def _name_axes(figure: Figure, panels: Sequence[Sequence[Axes]], request: BenchR
     bits.set_xlabel("exposure (symbols)")
     below.set_xlabel("signal-to-noise ratio (dB)")
     rates.set_title(f"{request.at_decibels:g} dB", fontsize=9)
-    right.set_title(f"exposure of {request.at_exposure:g} symbols", fontsize=9)
+    right.set_title(f"exposure of {counted(request.at_exposure, 'symbol')}", fontsize=9)
     curves = dict(zip(*reversed(rates.get_legend_handles_labels()), strict=True))
     curves |= dict(zip(*reversed(right.get_legend_handles_labels()), strict=True))
     lines = {

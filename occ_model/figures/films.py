@@ -8,6 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from occ_model import colours
+from occ_model.errors import counted
 from occ_model.figures.drawing import Drawing, write_all
 from occ_model.scene.provenance import Provenance
 from occ_model.scene.units import HERTZ
@@ -30,7 +31,10 @@ def write_films_figure(folder: Path, request: FilmRequest, points: Sequence[Film
         _TITLE,
         {"scene": request.scene},
         request.seed,
-        (f"{request.frames} frames a film, {request.frame_rate:g} a second", request.decoder),
+        (
+            f"{counted(request.frames, 'frame')} a film, {request.frame_rate:g} a second",
+            request.decoder,
+        ),
     )
     write_all(folder, [films_drawing(points)], lambda _drawing: provenance)
 
@@ -58,11 +62,11 @@ def _draw(points: Sequence[FilmPoint]) -> Figure:
             "marker": _MARKERS[number // len(_COLOURS) % len(_MARKERS)],
         }
         gaps = [100.0 * point.gap for point in line]
-        label = f"{HERTZ.format(frequency)}, {bits} bits"
+        label = f"{HERTZ.format(frequency)}, {counted(bits, 'bit')}"
         read = [100.0 * point.reception for point in line]
         received.plot(gaps, read, linestyle="", markersize=4, label=label, **style)
-        counted = [100.0 * point.counted_reception for point in line]
-        received.plot(gaps, counted, linewidth=0.8, color=style["color"])
+        exact = [100.0 * point.counted_reception for point in line]
+        received.plot(gaps, exact, linewidth=0.8, color=style["color"])
         rates = [point.bits_per_second for point in line]
         carried.plot(gaps, rates, linewidth=0.8, markersize=4, **style)
     received.plot([], [], color="black", linewidth=0.8, label="by exact counting")

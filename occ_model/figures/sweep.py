@@ -15,7 +15,7 @@ from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
 
 from occ_model import colours
 from occ_model.arrays import FloatArray
-from occ_model.errors import ParameterError
+from occ_model.errors import ParameterError, counted
 from occ_model.figures.drawing import Drawing, figure_format, house_style, write_figure
 from occ_model.results.sweep import SweepTable, column_title, written
 from occ_model.results.sweep_request import Shown, SweepPoint
@@ -73,7 +73,10 @@ def sweep_drawing(table: SweepTable, shown: Shown = "rate") -> Drawing:
         *map(column_title, names), "decoder", "right bits", "sent bits",
         "success rate (%)", "95 % from (%)", "95 % to (%)", "bits a second", "note",
     )  # fmt: skip
-    title = f"{_TITLES[shown]} over {' and '.join(names)}, {table.request.settings.images} images"
+    title = (
+        f"{_TITLES[shown]} over {' and '.join(names)}, "
+        f"{counted(table.request.settings.images, 'image')}"
+    )
     draw = _curves if len(names) == 1 else _maps
     return Drawing("map", title, lambda: draw(table, shown), header, rows)
 
@@ -82,8 +85,8 @@ def _provenance(table: SweepTable, shown: Shown) -> Provenance:
     settings = table.request.settings
     title = f"{_TITLES[shown]} over {' and '.join(table.axes)}"
     notes = (
-        f"{settings.images} images a point",
-        f"{settings.frames_a_second:g} images a second, or as many as can be read out",
+        f"{counted(settings.images, 'image')} a point",
+        f"{counted(settings.frames_a_second, 'image')} a second, or as many as can be read out",
         *(f"{name}: {', '.join(map(written, values))}" for name, values in table.axes.items()),
     )
     return Provenance(title, {"at hand": table.request.scene}, settings.seed, notes)

@@ -114,8 +114,8 @@ def how_tried(found: Limits) -> list[str]:
     if not found.frequency.intervals and not found.exposure.intervals:
         return [missed]
     return [
-        f"Each end was confirmed with at least {found.images} images that were not used to find "
-        "it; the 95 % intervals count images.",
+        "Each end was confirmed with images that were not used to find it, with at least "
+        f"{found.images}; the 95 % intervals count images.",
         missed,
     ]
 

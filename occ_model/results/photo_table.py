@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from occ_model.errors import one_line, printable
+from occ_model.errors import counted, one_line, printable
 from occ_model.results.match import Match
 from occ_model.results.sweep import csv_row
 from occ_model.scene.parameter_kinds import Quantity
@@ -170,7 +170,7 @@ def csv_text(table: PhotoTable, more: Sequence[str] = (), condition: str = "") -
         f"{table.count(v)} {v}" for v in dict.fromkeys(r.verdict for r in table.rows)
     )
     lines = [
-        f"# Match of {len(table.rows)} photos: {counts}",
+        f"# Match of {counted(len(table.rows), 'photo')}: {counts}",
         f"# occ_model {__version__}",
         f"# measured: {table.estimate}",
         *_mean(table.estimate, table.estimated, condition),
@@ -213,22 +213,18 @@ def _mean(name: str, found: CombinedEstimate | None, condition: str) -> list[str
     if found is None:
         return [f"# no mean of {name}"]
     value = quantity(name).unit.rounded_estimate(found.value, found.uncertainty)
-    photos, left_out = _counted(found.count, f"{SURE} photo"), len(found.outliers)
+    photos, left_out = counted(found.count, f"{SURE} photo"), len(found.outliers)
     lines = [
         f"# mean of {name}: {condition}{value!r} +- {_error(found.uncertainty)}, from "
-        f"{photos}, {_counted(left_out, 'outlier')}"
+        f"{photos}, {counted(left_out, 'outlier')}"
     ]
     if found.count > 1:
         lines.append(
             f"# chi-square of {name}: {found.chi_square:.4g} of "
-            f"{_counted(found.degrees_of_freedom, 'degree')} of freedom, probability "
+            f"{counted(found.degrees_of_freedom, 'degree')} of freedom, probability "
             f"{found.probability:.3g}, error widened {found.scale:.3g} times"
         )
     return lines
-
-
-def _counted(number: int, what: str) -> str:
-    return f"{number} {what}" if number == 1 else f"{number} {what}s"
 
 
 def _error(deviation: float | None) -> str | None:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from occ_model.arrays import FloatArray
 from occ_model.camera.projection import image_rays
-from occ_model.errors import ParameterError
+from occ_model.errors import ParameterError, counted
 from occ_model.room.edges import Edge, EdgeFinder
 from occ_model.room.pose_fit import LampEdges, Located
 from occ_model.room.reading import ReadLamp, check_picture, find_and_name
@@ -135,8 +135,8 @@ def _located(
     edges = sum(len(one.edges) for one in measured)
     if edges < _MIN_EDGES:
         return [], (
-            f"Only {edges} edges of named lamps are bright enough to be measured; "
-            f"allowed: from {_MIN_EDGES}.",
+            f"{counted(edges, 'edge')} of named lamps can be measured, as bright enough; allowed: "
+            f"from {_MIN_EDGES}.",
         )
     table = LampEdges.of([(one.lamp, one.edges) for one in measured], room, focal_share)
     starts = [start for anchor in whole[:_MAX_ANCHORS] for start in _starts(anchor, room)]

@@ -9,7 +9,7 @@ import cv2
 import numpy as np
 
 from occ_model.arrays import ByteArray
-from occ_model.errors import ParameterError, SceneFileError, VideoError, one_line, shown
+from occ_model.errors import ParameterError, SceneFileError, VideoError, counted, one_line, shown
 from occ_model.files.film_kinds import FIRST_BYTES, container_of
 from occ_model.files.reading import read_start
 from occ_model.photo.reading.choices import SCAN_AXES
@@ -181,7 +181,9 @@ class VideoFile(Video):
         if stored is None:
             self._note_end(index)
             if self._problem is not None and decoder.is_full:
-                self._problem = f"{self._shown} ends early, after {index} frames: {NO_MEMORY}"
+                self._problem = (
+                    f"{self._shown} ends early, after {counted(index, 'frame')}: {NO_MEMORY}"
+                )
             return None
         if stored.pixels.shape != self._stored_shape:
             lines, columns = stored.pixels.shape

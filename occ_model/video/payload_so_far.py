@@ -6,6 +6,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from occ_model.arrays import BoolArray, ByteArray, IndexArray
+from occ_model.errors import counted
 from occ_model.receiver.sequence.soft_frame import SoftFrame
 from occ_model.scene.payload import form_of, payload_of_bits
 from occ_model.scene.scene import Scene
@@ -106,14 +107,17 @@ def why_unplaced(frames: Sequence[TimedFrame]) -> str:
     read = [frame for frame in frames if frame.is_read]
     if not read:
         why = frames[0].reading.failure
-        return f"None of {len(frames)} frames shows chips; of the first one: {why}"
+        return f"None of {counted(len(frames), 'frame')} shows chips; of the first one: {why}"
     why = read[0].problem
     rest = (
         "no header shows it, and the chips fit no place."
         if why is None
         else f"of the first one: {why}"
     )
-    return f"The place in the packet of none of {len(read)} frames with chips is known; {rest}"
+    return (
+        f"The place in the packet of none of {counted(len(read), 'frame')} with chips is "
+        f"known; {rest}"
+    )
 
 
 def why_not_read(soft: SoftFrame | None, joined: Joined, period: SentPeriod) -> str | None:

@@ -4,7 +4,7 @@ import pickle
 
 import pytest
 
-from occ_model.errors import OccError, ParameterError, one_line, shown
+from occ_model.errors import OccError, ParameterError, counted, one_line, shown
 from occ_model.scene.parameter_kinds import Parameter
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.refusal import labelled, refusal_of
@@ -29,6 +29,20 @@ def test_a_value_is_quoted_in_few_characters(value: object) -> None:
 @pytest.mark.parametrize("value", [718, 1.5, "10 kHz", None, True, [1, 2], {"a": 1}])
 def test_a_short_value_is_quoted_as_repr_does(value: object) -> None:
     assert shown(value) == repr(value)
+
+
+@pytest.mark.parametrize(
+    ("number", "text"),
+    [
+        (0, "0 frames"),
+        (1, "1 frame"),
+        (1.0, "1 frame"),
+        (0.5, "0.5 frames"),
+        (12345678, "12345678 frames"),
+    ],
+)
+def test_a_number_agrees_with_its_noun(number: float, text: str) -> None:
+    assert counted(number, "frame") == text
 
 
 def test_an_object_that_cannot_be_written_is_quoted_all_the_same() -> None:

@@ -13,6 +13,7 @@ from occ_gui.widgets.building import filled, named, paragraph, push_button
 from occ_gui.widgets.plain_text import copy_text
 from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_gui.widgets.work_bar import WorkBar
+from occ_model.errors import counted
 from occ_model.photo.many.other_programs import frame_readout_time, lines_to_paste, stated_lines
 from occ_model.photo.match_facts import LABELS, estimate_text
 from occ_model.results.photo_table import (
@@ -175,7 +176,7 @@ class ManyPhotosView(QWidget):
         self.work.show_progress(done / count)
 
     def _show_title(self) -> None:
-        text = f"{len(self.rows.paths)} photos"
+        text = f"{counted(len(self.rows.paths), 'photo')}"
         if not self.rows.paths:
             text = "Open several photos together, or drop them, to match them all."
         elif self._asked is None:

@@ -11,7 +11,7 @@ import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray
 from occ_model.camera.photometry import FLAT_SPAN, WHITE
-from occ_model.errors import MatchError, ParameterError
+from occ_model.errors import MatchError, ParameterError, counted
 from occ_model.photo.reading.load import Corners, Photo, column_means, part_of, region_within
 from occ_model.photo.stripes.envelope import envelope
 from occ_model.photo.stripes.period import repeat_period
@@ -85,7 +85,8 @@ def _stripes_of(photo: Photo) -> Stripes:
     columns = photo.samples.shape[1]
     if columns < _LEAST_COLUMNS:
         raise MatchError(
-            f"No stripes: the photo has {columns} columns; at least {_LEAST_COLUMNS} are needed."
+            f"No stripes: the photo has {counted(columns, 'column')}; at least {_LEAST_COLUMNS} "
+            f"are needed."
         )
     first_row, last_row = _striped_rows(photo)
     rows = Region(first_row, last_row, 0, columns)
@@ -232,8 +233,9 @@ def lamp_profile(photo: Photo, lamp: Lamp) -> FloatArray:
     if region.last_row > rows or region.last_column > columns:
         raise ParameterError(
             f"The lamp lies at rows up to {region.last_row - 1} and columns up to "
-            f"{region.last_column - 1}; allowed: a lamp of this photo, which has {rows} rows and "
-            f"{columns} columns."
+            f"{region.last_column - 1}; allowed: a lamp of this photo, which has "
+            f"{counted(rows, 'row')} and "
+            f"{counted(columns, 'column')}."
         )
     sums, counts = np.zeros(region.columns), np.zeros(region.columns)
     spans = lamp.spans[1:-1] if len(lamp.spans) > _LEAST_STRIPS else lamp.spans

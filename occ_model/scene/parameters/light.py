@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass
 
 from occ_model import plugins
-from occ_model.errors import ParameterError
+from occ_model.errors import ParameterError, counted
 from occ_model.scene.parameters.group import (
     Group,
     choice_field,
@@ -94,7 +94,7 @@ class Transmitter(Group):
                 "code",
                 f"{self.code}",
                 f"0 to {2**self.bits - 1}",
-                condition=f"with {self.bits} bits",
+                condition=f"with {counted(self.bits, 'bit')}",
                 parameters=("code", "bits"),
             )
 

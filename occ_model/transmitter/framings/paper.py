@@ -3,6 +3,7 @@
 import numpy as np
 
 from occ_model.arrays import ByteArray
+from occ_model.errors import counted
 from occ_model.transmitter.framings.framing import Framed, FrameFormat, Framing
 from occ_model.transmitter.framings.preamble import read_after, read_repeated
 
@@ -39,8 +40,8 @@ def _decode(chips: ByteArray, form: FrameFormat) -> Framed:
     first, second = headers[:2]
     if second - first != length:
         return Framed.nothing(
-            f"The first two headers are {second - first} chips apart, a packet of "
-            f"{form.bits} bits has {length}: some chips were misread.",
+            f"The first two headers are {counted(second - first, 'chip')} apart, a packet of "
+            f"{counted(form.bits, 'bit')} has {length}: some chips were misread.",
             headers,
         )
     read = read_after(chips[first + len(HEADER) : second], HEADER[-1], form)
@@ -55,7 +56,8 @@ def _too_few(headers: int, chips: int, packet: int) -> str:
             "come closer or raise the frequency."
         )
     return (
-        f"{found} found among {chips} chips, two needed: the stripes show no runs as long as a "
+        f"{found} found among {counted(chips, 'chip')}, two needed: the stripes show no runs as "
+        f"long as a "
         "header's."
     )
 

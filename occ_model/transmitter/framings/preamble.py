@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from occ_model.arrays import ByteArray
+from occ_model.errors import counted
 from occ_model.transmitter.framings.framing import (
     Framed,
     FrameFormat,
@@ -81,7 +82,8 @@ def read_repeated(
     if failed:
         return Framed(headers, failed[0].bits, failed[0].failure)
     return Framed.nothing(
-        f"No preamble found among {len(chips)} chips, of which a frame has {length}.", headers
+        f"No preamble found among {counted(len(chips), 'chip')}, of which a frame has {length}.",
+        headers,
     )
 
 

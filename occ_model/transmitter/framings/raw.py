@@ -10,6 +10,7 @@ import binascii
 import numpy as np
 
 from occ_model.arrays import ByteArray
+from occ_model.errors import counted
 from occ_model.transmitter.framings.framing import (
     Framed,
     FrameFormat,
@@ -66,7 +67,8 @@ def _read(data: ByteArray, level: int, form: FrameFormat) -> Framed:
     whole = start + count + _CRC_BITS
     if code.chips_for(whole) > len(data):
         return Framed.nothing(
-            f"The frame says that it holds {count} bits, for which {len(data)} chips are too few: "
+            f"The frame says that it holds {counted(count, 'bit')}, for which {len(data)} chips "
+            f"are too few: "
             "some chips were misread."
         )
     read = code.decode(data[: code.chips_for(whole)], level).bits

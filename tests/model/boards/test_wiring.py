@@ -54,6 +54,7 @@ def test_flicker_is_warned_of_where_it_may_be_seen_only() -> None:
     assert steady == "The light does not change: all chips are equal."
 
 
+@pytest.mark.usefixtures("plain_figures")
 def test_the_figure_says_pin_resistors_and_caution() -> None:
     board, sent = PICO, transmission(PAPER, PICO)
     values = wiring(board)

@@ -100,6 +100,7 @@ def test_axes_are_refused_before_all_their_points_are_made() -> None:
     )
 
 
+@pytest.mark.usefixtures("plain_figures")
 def test_the_command_writes_the_sweeps_table_and_draws_it(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -222,6 +223,7 @@ def table_of(**axes: object) -> occ.SweepTable:
     return occ.sweep(occ.load_preset("phone-136us"), axes, 1, ("threshold", "matched"))  # type: ignore[arg-type]
 
 
+@pytest.mark.usefixtures("plain_figures")
 def test_what_the_model_refuses_is_grey_in_a_map(tmp_path: Path) -> None:
     path = tmp_path / "f.png"
     small = occ.load_preset("phone-136us").replace(rows=60, panel_height=0.01)

@@ -22,6 +22,7 @@ def run(*words: str | Path) -> int:
     return main(["transmit", *map(str, words)])
 
 
+@pytest.mark.usefixtures("plain_figures")
 def test_the_folder_has_sketch_waveform_wiring_and_scene(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

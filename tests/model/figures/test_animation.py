@@ -15,6 +15,8 @@ from occ_model.figures.animation import ENDINGS, write_animation
 from occ_model.scene.provenance import scene_inside
 from occ_model.scene.scene import Scene
 
+pytestmark = pytest.mark.usefixtures("plain_figures")
+
 VALUES = [4e3, 8e3]
 
 

@@ -16,16 +16,15 @@ from occ_model.study import paper_grid
 
 
 def write_all_figures(folder: Path, patch: pytest.MonkeyPatch) -> None:
-    """Write all figures, with rates of 12 of the 80 points, from one image each."""
+    """Write all figures, with rates of 4 of the 80 points, from one image each."""
     for module in (paper, paper_grid):
-        patch.setattr(module, "FREQUENCIES", paper_grid.FREQUENCIES[::3])
-        patch.setattr(module, "DISTANCES", paper_grid.DISTANCES[::3])
+        patch.setattr(module, "FREQUENCIES", paper_grid.FREQUENCIES[::5])
+        patch.setattr(module, "DISTANCES", paper_grid.DISTANCES[::5])
     written = drawing._fitted_bytes
     if not amount(0, 1):  # every day without PDFs
         patch.setattr(
             drawing, "_fitted_bytes", lambda *each: b"" if each[1] == "pdf" else written(*each)
         )
-    patch.setitem(drawing._STYLE, "figure.dpi", amount(30, 200))
     assert main(["figures", "--out", str(folder), "--images", "1", "--seed", "3"]) == 0
 
 
@@ -39,6 +38,7 @@ def rows(path: Path) -> list[dict[str, str]]:
     return list(csv.DictReader(line for line in lines if not line.startswith("#")))
 
 
+@pytest.mark.usefixtures("plain_figures")
 def test_the_figures_carry_their_scene_and_the_numbers_that_are_drawn(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -89,6 +89,7 @@ def assert_rates_can_be_had_again(folder: Path) -> None:
     assert again == float(one["success rate (%)"])
 
 
+@pytest.mark.usefixtures("plain_figures")
 def test_a_photo_is_drawn_beside_the_simulation(tmp_path: Path) -> None:
     photo = tmp_path / "photo.png"
     Image.fromarray(occ.render(Scene().replace(rows=20)).image).save(photo)

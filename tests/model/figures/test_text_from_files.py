@@ -22,6 +22,8 @@ from occ_model.scene.provenance import Provenance, first_scene_in, scene_inside
 from occ_model.scene.scene import Scene
 from occ_model.teaching.lessons import read_lesson
 
+pytestmark = pytest.mark.usefixtures("plain_figures")
+
 EVIL = "<img src=x onerror=y> & $\\frac$ ]]> --> \x1b[31m\x00\u202egnp \udce9 (a) Tj"
 SCENE = occ.load_preset("phone-68us").replace(rows=60, columns=600)
 FORGED = "Title\nscene forged:\n" + SCENE.replace(iso=3333.0).to_toml()

@@ -6,11 +6,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 from amount import amount
+from matplotlib.figure import Figure
 
 import occ_model as occ
-from occ_model.figures import drawing as drawing_module
 from occ_model.figures.decoding import decode_drawing
-from occ_model.figures.drawing import Drawing, house_style, write_all
+from occ_model.figures.drawing import ENDINGS, Drawing, house_style, write_all
 from occ_model.figures.window_panes import picture_drawing, profile_drawing
 from occ_model.scene.provenance import Provenance, scene_inside
 
@@ -41,19 +41,14 @@ def rows(path: Path) -> list[dict[str, str]]:
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Write all drawings; every day the first as figures, and of the others the tables alone."""
-    folder = tmp_path_factory.mktemp("report") / "deep"
-    count = amount(1, len(drawings()))
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setitem(drawing_module._STYLE, "figure.dpi", amount(30, 200))
-        written = write_all(folder, drawings()[:count], provenance)
-    assert sorted(written) == sorted(folder.iterdir())
-    for drawing in drawings()[count:]:
+    """Write the table of each drawing."""
+    folder = tmp_path_factory.mktemp("report")
+    for drawing in drawings():
         drawing.write(folder / f"{drawing.name}.csv", provenance(drawing))
     return folder
 
 
-def test_every_file_gives_the_scene_back(folder: Path) -> None:
+def test_every_table_gives_the_scene_back(folder: Path) -> None:
     assert all(scene_inside(path) == SCENE for path in folder.iterdir())
 
 
@@ -79,15 +74,16 @@ def test_the_tables_hold_what_is_drawn(folder: Path) -> None:
     assert len(first) == 1 + FRAME.image.shape[1] // 4
 
 
-def test_a_file_is_the_same_alone_and_among_others(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setitem(drawing_module._STYLE, "figure.dpi", 30)
-    for path in write_all(tmp_path, drawings()[:1], provenance):
-        alone = path.with_stem("alone")
-        drawing = drawings()[0]
+def test_a_file_is_the_same_alone_and_among_others(tmp_path: Path) -> None:
+    drawing = Drawing("line", "A line", lambda: Figure((2.0, 1.0)), ("a",), lambda: [(1,)])
+    folder = tmp_path / "deep" / "folder"
+    written = write_all(folder, [drawing, *drawings()[: amount(0, 4)]], provenance)
+    assert sorted(written) == sorted(folder.iterdir())
+    for path in written[: len(ENDINGS)]:
+        alone = tmp_path / f"alone{path.suffix}"
         drawing.write(alone, provenance(drawing))
         assert alone.read_bytes() == path.read_bytes()
+        assert scene_inside(path) == SCENE
 
 
 def test_a_decoding_that_failed_is_drawn_as_far_as_it_came() -> None:

@@ -17,6 +17,8 @@ from occ_model.figures.drawing import FORMATS, house_style, write_figure, write_
 from occ_model.scene.from_text import read_scene_file
 from occ_model.scene.provenance import ENDINGS, Provenance, first_scene_in, scene_inside
 
+pytestmark = pytest.mark.usefixtures("plain_figures")
+
 SCENE = occ.load_preset("tablet-122us-real").replace(pattern="10110", start_time=-0.125)
 OTHER = occ.load_preset("phone-68us")
 # All that a format might stumble over.

@@ -85,6 +85,7 @@ def test_the_rule_of_the_published_simulator_is_within_two_points_of_counting() 
     assert abs(float(published_rule() - by_hand)) < 0.02
 
 
+@pytest.mark.usefixtures("plain_figures")
 def test_the_command_writes_the_numbers_that_it_prints(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

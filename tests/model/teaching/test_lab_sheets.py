@@ -80,6 +80,7 @@ def test_every_step_stands_on_one_page(match: Match) -> None:
         ]
 
 
+@pytest.mark.usefixtures("plain_figures")
 def test_a_report_of_several_pages_is_a_document(match: Match, tmp_path: Path) -> None:
     steps = answered(SHEETS[1], match)
     path = tmp_path / "report.pdf"
@@ -92,6 +93,7 @@ def test_a_report_of_several_pages_is_a_document(match: Match, tmp_path: Path) -
     assert not (tmp_path / "report.png").exists()
 
 
+@pytest.mark.usefixtures("plain_figures")
 def test_a_report_as_text_has_the_measurement_and_its_figures(match: Match, tmp_path: Path) -> None:
     path = tmp_path / "report.md"
     steps = answered(SHEETS[1], match)[3:]  # from the photo on

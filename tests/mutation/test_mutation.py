@@ -217,6 +217,7 @@ def test_results_and_equivalents_make_the_table(
     assert ledger.table()[-1] == "| all | 4 | 2 | 1 | 0 | 1 | 67 % |"
 
 
+@pytest.mark.whole
 def test_every_equivalent_is_still_a_mutant_of_its_file() -> None:
     keys = {
         mutant.key

@@ -1,7 +1,9 @@
 """The command ``match`` with one photo and with several."""
 
 import csv
+from collections.abc import Callable
 from pathlib import Path
+from typing import NoReturn
 
 import numpy as np
 import pytest
@@ -87,9 +89,29 @@ def test_no_sure_photo_is_a_failure(folder: Path, capsys: pytest.CaptureFixture[
     assert "No photo is sure" in capsys.readouterr().out
 
 
-@pytest.mark.parametrize(
-    "delay", [*(pytest.param(late, marks=pytest.mark.whole) for late in (0.0, 0.8, 3.0)), 1.6]
-)
+def test_an_interrupt_is_one_line_and_leaves_no_table(
+    folder: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    def stopped(*_: object, progress: Callable[[int, int], None], **__: object) -> NoReturn:
+        progress(2, 3)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(match_many, "match_photos", stopped)
+    out = tmp_path / "readout.csv"
+    assert main(words(folder, "--out", str(out))) == 130
+    said = capsys.readouterr()
+    assert (said.out, said.err) == (
+        "",
+        "occ-model: stopped after 2 of 3 photos; nothing was written.\n",
+    )
+    assert not out.exists()
+
+
+@pytest.mark.whole
+@pytest.mark.parametrize("delay", [0.0, 0.8, 1.6, 3.0])
 def test_interrupts_end_all_processes_with_one_line(
     folder: Path, tmp_path: Path, delay: float
 ) -> None:

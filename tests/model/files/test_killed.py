@@ -12,9 +12,6 @@ PROGRAM = """
 import os, signal, sys
 from pathlib import Path
 import occ_model as occ
-from occ_model.boards.sketch import DEFAULT_BOARD, board_named
-from occ_model.boards.transmission import transmission
-from occ_model.figures.transmitter_files import write_transmitter_files
 
 SCENE = occ.load_preset("phone-68us").replace(rows=40, columns=400)
 
@@ -22,6 +19,10 @@ def film(folder):
     occ.write_video(occ.render_video(SCENE, 3), folder / "film.mkv")
 
 def sketch(folder):
+    from occ_model.boards.sketch import DEFAULT_BOARD, board_named
+    from occ_model.boards.transmission import transmission
+    from occ_model.figures.transmitter_files import write_transmitter_files
+
     write_transmitter_files(folder, transmission(SCENE, board_named(DEFAULT_BOARD)))
 
 def main():

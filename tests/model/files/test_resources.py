@@ -19,9 +19,8 @@ ROOT = Path(occ.__file__).parent.parent
 def archive(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Put the package into an archive, with its resources inside as a wheel has them."""
     path = tmp_path_factory.mktemp("archive") / "occ.zip"
-    with zipfile.ZipFile(path, "w") as packed:
-        for file in sorted((ROOT / "occ_model").rglob("*.py")):
-            packed.write(file, file.relative_to(ROOT))
+    with zipfile.PyZipFile(path, "w") as packed:
+        packed.writepy(str(ROOT / "occ_model"))  # compiled already
         for folder in ("docs", "lessons", "photos", "pictures", "presets", "rooms"):
             for file in sorted((ROOT / "resources" / folder).rglob("*.*")):
                 packed.write(file, Path("occ_model", file.relative_to(ROOT)))

@@ -1,6 +1,6 @@
 """A sweep that is killed goes on; an interruption is one line and leaves no process.
 
-``OCC_INTERRUPTS=200`` interrupts a command as often; every day it is three, with ``--whole`` five.
+``OCC_INTERRUPTS=200`` interrupts a command as often; every day it is once, with ``--whole`` five.
 """
 
 import os
@@ -72,12 +72,14 @@ COMMANDS = {
     "workers": "sweep --vary iso=100:4000:1 --jobs 2 --out {folder}/r.csv",
 }
 
+EVERYDAY = {("render", 1), ("workers", MOMENTS - 1)}
+
 
 @pytest.mark.parametrize(
     ("command", "place"),
     [
-        # Every day a picture is interrupted once: what differs is where workers are.
-        pytest.param(*each, marks=pytest.mark.whole if each[0] == "render" and each[1] != 1 else ())
+        # Every day each is interrupted once: a picture at its start, a sweep while workers are.
+        pytest.param(*each, marks=() if each in EVERYDAY else pytest.mark.whole)
         for each in product(COMMANDS, range(MOMENTS))
     ],
 )

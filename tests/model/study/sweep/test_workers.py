@@ -10,7 +10,8 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Callable
-from concurrent.futures import Future, ProcessPoolExecutor, ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 
 import pytest
@@ -131,15 +132,23 @@ def test_a_cluster_gives_the_same_table_also_where_a_worker_dies(
 def test_when_a_given_executor_breaks_this_process_finishes(
     scene: Scene, table: SweepTable
 ) -> None:
-    killed: list[int] = []
-    spawn = multiprocessing.get_context("spawn")
+    class Breaking(ThreadPoolExecutor):
+        def submit(self, *args: object) -> "Future[JobResult]":  # type: ignore[override]
+            future: Future[JobResult] = super().submit(*args)  # type: ignore[arg-type]
+            submitted.append(future)
+            if len(submitted) < 3:
+                return future
+            broken: Future[JobResult] = Future()
+            broken.set_exception(BrokenProcessPool("A worker was killed."))
+            return broken
+
+    submitted: list[Future[JobResult]] = []
     with (
-        ProcessPoolExecutor(1, spawn) as executor,
+        Breaking(1) as executor,
         pytest.warns(RuntimeWarning, match=r"workers are gone .*; this process finishes it alone"),
     ):
-        found = occ.sweep(scene, AXES, 3, BOTH, 7, executor=executor, progress=kill_once(killed))
-    assert len(killed) == 1
-    assert found == table
+        assert occ.sweep(scene, AXES, 3, BOTH, 7, executor=executor) == table
+    assert len(submitted) >= 3
 
 
 def test_when_an_executor_takes_no_work_this_process_does_it(

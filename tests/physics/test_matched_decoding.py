@@ -25,7 +25,7 @@ from occ_model.transmitter.packet import packet_length, packets
 HIGH_CONFIDENCE = 0.5
 
 
-@pytest.mark.parametrize("frequency", range(4000, 40001, amount(4000, 2000)))
+@pytest.mark.parametrize("frequency", range(4000, 40001, amount(9000, 2000)))
 def test_every_noisy_code_is_read_at_136_us_from_4_to_40_khz(frequency: int) -> None:
     scene = occ.load_preset("phone-136us").replace(switching_frequency=frequency, distance=1.0)
     rng = np.random.default_rng(frequency)
@@ -36,7 +36,7 @@ def test_every_noisy_code_is_read_at_136_us_from_4_to_40_khz(frequency: int) -> 
 def test_it_reads_a_single_packet_and_says_where_none_fits() -> None:
     scene = occ.load_preset("phone-136us").replace(distance=0.6)
     # 3456 columns of 8 us: at 1 kHz they last 27.6 chips, a packet has 24.
-    assert success_rate(scene.replace(switching_frequency=1e3), 5, "matched") == 100.0
+    assert success_rate(scene.replace(switching_frequency=1e3), 2, "matched") == 100.0
     slow = scene.replace(switching_frequency=850.0)
     result = occ.decode(occ.render(slow).image, slow, "matched")
     assert "Less than one packet" in result.failure
@@ -104,7 +104,7 @@ def _signals(templates: CodeTemplates, rng: np.random.Generator) -> list[FloatAr
     return [profile, profile + np.ptp(profile) * noise, noise]
 
 
-@pytest.mark.parametrize("bits", range(2, 11))
+@pytest.mark.parametrize("bits", range(2, 11, amount(2, 1)))
 def test_the_search_finds_the_codes_that_an_exhaustive_one_finds(bits: int) -> None:
     rng = np.random.default_rng(bits)
     every = np.arange(2**bits)
@@ -123,7 +123,7 @@ def test_the_search_finds_the_codes_that_an_exhaustive_one_finds(bits: int) -> N
             )
 
 
-@pytest.mark.parametrize("exposure", _exposures(16)[:: amount(2, 1)])
+@pytest.mark.parametrize("exposure", _exposures(16)[1 :: amount(4, 1)])
 def test_no_16_bit_code_that_correlates_better_is_missed(exposure: Fraction) -> None:
     rng = np.random.default_rng(16)
     templates = code_templates(16, exposure)
@@ -141,7 +141,7 @@ def test_no_16_bit_code_that_correlates_better_is_missed(exposure: Fraction) -> 
         )
 
 
-@pytest.mark.parametrize("bits", range(2, 12))
+@pytest.mark.parametrize("bits", range(2, 12, amount(3, 1)))
 def test_a_sum_over_a_packet_is_that_over_its_halves(bits: int) -> None:
     values = np.random.default_rng(bits).normal(size=(packet_length(bits), 3))
     first, second = sums_of_halves(values, bits)
@@ -149,7 +149,7 @@ def test_a_sum_over_a_packet_is_that_over_its_halves(bits: int) -> None:
     np.testing.assert_allclose(sums, packets(codes_by_levels(bits), bits) @ values, atol=1e-12)
 
 
-@pytest.mark.parametrize("bits", range(2, 12))
+@pytest.mark.parametrize("bits", range(2, 12, amount(3, 1)))
 def test_energies_are_those_of_the_profiles(bits: int) -> None:
     for exposure in _exposures(bits):
         templates = code_templates(bits, exposure)
@@ -177,7 +177,7 @@ def test_confidence_is_near_1_when_clear_and_near_0_for_noise() -> None:
     clear = occ.decode(occ.render(scene).image, scene, "matched")
     assert clear.confidence > 0.9
     rng = np.random.default_rng(5)
-    for _ in range(amount(30, 200)):
+    for _ in range(amount(15, 200)):
         noise = occ.decode(rng.normal(100.0, 5.0, 1730), scene, "matched")
         assert noise.code is None
         assert noise.failure is not None

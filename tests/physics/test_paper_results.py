@@ -21,7 +21,7 @@ from occ_model.study.sweep.sweep import run_sweep
 from occ_model.transmitter.framings.paper import HEADER
 from occ_model.transmitter.packet import packet_length
 
-TRIED = amount((0.6, 1.0, 1.4, 1.8, 2.0), DISTANCES)
+TRIED = amount((0.6, 1.2, 1.6, 2.0), DISTANCES)
 """Distances of the paper's at which rates are measured."""
 
 

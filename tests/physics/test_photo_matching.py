@@ -6,7 +6,7 @@ from photo_trials import Found, round_trip
 
 pytestmark = pytest.mark.first
 
-SAMPLE, WHOLE = range(1, 4), range(1, 11)
+SAMPLE, WHOLE = range(1, 3), range(1, 11)
 """Photos that are tried; tests/benchmarks/matching.py tries hundreds."""
 
 

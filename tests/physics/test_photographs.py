@@ -65,7 +65,8 @@ def test_a_photographs_stripes_repeat_after_the_chips_that_are_told(seed: int) -
     assert several * abs(best - period) < 1.0
 
 
-@pytest.mark.parametrize("seed", [91003, pytest.param(91005, marks=pytest.mark.whole)])
+@pytest.mark.whole
+@pytest.mark.parametrize("seed", [91003, 91005])
 def test_a_sure_readout_time_is_within_four_stated_deviations(seed: int) -> None:
     found = foreign_trial_of(seed)
     assert found.is_sure
@@ -91,11 +92,9 @@ def test_a_picture_shows_what_its_truth_says() -> None:
         assert found == pytest.approx(0.5 / sent.chip, abs=1.0 / len(line))
 
 
-@pytest.mark.parametrize(
-    "seeds", [(101,), pytest.param((100, *range(102, 110)), marks=pytest.mark.whole)]
-)
-def test_no_lamp_is_surely_wrong(seeds: tuple[int, ...]) -> None:
-    sure = [one for one in map(hot_trial_of, seeds) if one.is_sure]
+@pytest.mark.whole
+def test_no_lamp_is_surely_wrong() -> None:
+    sure = [one for one in map(hot_trial_of, range(100, 110)) if one.is_sure]
     assert sure
     assert [one.seed for one in sure if abs(one.readout) > 0.01] == []
     assert [one.seed for one in sure if one.readout_deviation > 0.03] == []

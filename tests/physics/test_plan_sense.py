@@ -100,7 +100,7 @@ def test_profile_and_image_paths_decode_alike_on_the_papers_grid(
     exposure: str, light: dict[str, float]
 ) -> None:
     random = np.random.default_rng(1)
-    for frequency in FREQUENCIES:
+    for frequency in FREQUENCIES[:: amount(2, 1)]:
         for distance in DISTANCES[:: amount(3, 1)]:
             scene = occ.load_preset(exposure)
             scene = scene.replace(switching_frequency=frequency, distance=distance)

@@ -14,7 +14,7 @@ import occ_model as occ
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import Observable
 
-SCENES = amount(6, 40)
+SCENES = amount(4, 40)
 
 Case: TypeAlias = Any  # pytest has no public name for what `pytest.param` gives
 WHOLE = pytest.mark.whole
@@ -133,7 +133,7 @@ def some_every_day(cases: Sequence[Case], apart: int) -> list[Case]:
     ]
 
 
-@pytest.mark.parametrize(("number", "observable"), some_every_day(_BROKEN, 2))
+@pytest.mark.parametrize(("number", "observable"), some_every_day(_BROKEN, 4))
 def test_the_promise_holds_where_it_was_once_broken(number: int, observable: Observable) -> None:
     assert max(changes(number, observable)[1]) <= 1.0
 
@@ -148,7 +148,7 @@ _SAMPLED = [
 ]
 
 
-@pytest.mark.parametrize(("number", "observable"), some_every_day(_SAMPLED, 3))
+@pytest.mark.parametrize(("number", "observable"), some_every_day(_SAMPLED, 5))
 def test_the_promise_holds_in_pictures_of_which_columns_are_sampled(
     number: int, observable: Observable
 ) -> None:

@@ -41,14 +41,15 @@ def wrong_bits(exposure: float, decibels: float, bits: int, seed: int) -> tuple[
 def test_bit_errors_of_manchester_stay_below_the_rates(
     exposure: float, decibels: float, most: float
 ) -> None:
-    wrong, bits = wrong_bits(exposure, decibels, 20_000, seed=1)
-    assert bits >= 19_990
+    sent = amount(10_000, 20_000)
+    wrong, bits = wrong_bits(exposure, decibels, sent, seed=1)
+    assert bits >= sent - 10
     assert wrong / bits <= most
 
 
 def test_4_chips_at_15_db_have_a_rate_near_6_in_10000() -> None:
     # The best detector errs at 5.5e-4: see test_best_detector.py.
-    wrong, bits = wrong_bits(4, 15, 60_000, seed=1)
+    wrong, bits = wrong_bits(4, 15, amount(30_000, 60_000), seed=1)
     assert 3e-4 < wrong / bits < 9e-4
 
 
@@ -170,8 +171,18 @@ def test_stated_likelihoods_are_those_of_the_errors() -> None:
         assert wrong[some].mean() == pytest.approx(stated[some].mean(), rel=0.35, abs=0.002)
 
 
-@pytest.mark.parametrize("enhancement", ["none", "stretch", "equalization"])
-@pytest.mark.parametrize("averaging", ["pixel-value", "light"])
+@pytest.mark.parametrize(
+    ("averaging", "enhancement"),
+    [
+        ("pixel-value", "none"),
+        ("light", "stretch"),
+        ("pixel-value", "equalization"),
+        *(
+            pytest.param(*both, marks=pytest.mark.whole)
+            for both in (("light", "none"), ("pixel-value", "stretch"), ("light", "equalization"))
+        ),
+    ],
+)
 @pytest.mark.parametrize("frequency", [4e3, 14.7e3, 40e3])
 def test_codes_are_read_on_both_sides_of_the_null(
     frequency: float, averaging: str, enhancement: str
@@ -192,7 +203,7 @@ def test_what_no_chips_explain_is_refused() -> None:
     noise = random.normal(100.0, 5.0, 3456)
     smooth = np.convolve(random.normal(100.0, 20.0, 3472), np.ones(17) / 17.0, "valid")
     for signal in (noise, smooth, np.resize(np.repeat([0.0, 255.0], 9), 3456)):
-        for frequency in amount((5e3, 40e3), (5e3, 10e3, 20e3, 40e3)):
+        for frequency in amount((40e3,), (5e3, 10e3, 20e3, 40e3)):
             scene = Scene().replace(switching_frequency=frequency, enhancement="none")
             result = occ.decode(signal, scene, "sequence")
             assert result.code is None
@@ -202,7 +213,7 @@ def test_what_no_chips_explain_is_refused() -> None:
 def test_codes_given_in_heavy_noise_are_right() -> None:
     random = np.random.default_rng(8)
     given, right = 0, 0
-    for _ in range(amount(20, 40)):
+    for _ in range(amount(12, 40)):
         code, noise = int(random.integers(1024)), float(random.uniform(5.0, 80.0))
         scene = occ.load_preset("phone-136us").replace(
             switching_frequency=25e3, code=code, enhancement="none",
@@ -212,7 +223,7 @@ def test_codes_given_in_heavy_noise_are_right() -> None:
         read = occ.decode(signal, scene, "sequence").code
         given += read is not None
         right += read == code
-    assert amount(5, 10) <= given < amount(20, 40)
+    assert amount(3, 10) <= given < amount(12, 40)
     assert right == given
 
 

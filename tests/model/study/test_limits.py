@@ -82,7 +82,7 @@ def ends(range_end: RangeEnd) -> tuple[float, float]:
 
 
 @hypothesis_settings(
-    max_examples=amount(20, 60), suppress_health_check=[HealthCheck.function_scoped_fixture]
+    max_examples=amount(10, 60), suppress_health_check=[HealthCheck.function_scoped_fixture]
 )
 @given(low=st.floats(600.0, 40e3), ratio=st.floats(1.2, 2.0), own=st.floats(500.0, 100e3))
 def test_both_ends_of_an_interval_are_found_to_the_stated_ratio(

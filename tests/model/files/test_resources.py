@@ -19,7 +19,7 @@ ROOT = Path(occ.__file__).parent.parent
 def archive(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Put the package into an archive, with its resources inside as a wheel has them."""
     path = tmp_path_factory.mktemp("archive") / "occ.zip"
-    with zipfile.PyZipFile(path, "w") as packed:
+    with zipfile.PyZipFile(str(path), "w") as packed:
         packed.writepy(str(ROOT / "occ_model"))  # compiled already
         for folder in ("docs", "lessons", "photos", "pictures", "presets", "rooms"):
             for file in sorted((ROOT / "resources" / folder).rglob("*.*")):

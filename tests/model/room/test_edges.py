@@ -31,7 +31,7 @@ def cut(reach: int) -> float:
 @pytest.mark.parametrize("reach", [1, 8])
 def test_a_line_is_as_far_off_as_the_scatter_within_blocks_tells(reach: int) -> None:
     random = np.random.default_rng(9107 + reach)
-    squares, rooms = [], amount(60, 150)
+    squares, rooms = [], amount(30, 150)
     for _ in range(rooms):
         lines = [line(random, reach) for _ in range(4)]
         alike = _variance_ratio(lines)

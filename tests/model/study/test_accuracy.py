@@ -45,7 +45,9 @@ def test_every_part_is_measured_and_counted_before(points: list[AccuracyPoint]) 
     assert all(point.seconds > 0.0 for point in points)
 
 
-@pytest.mark.parametrize("preset", ["phone-68us", "tablet-122us"])
+@pytest.mark.parametrize(
+    "preset", ["phone-68us", pytest.param("tablet-122us", marks=pytest.mark.whole)]
+)
 def test_points_are_counted_right_where_effects_are_few(preset: str) -> None:
     scene = small(preset).replace(gain_variation=0.0)
     settings = SimulationSettings(tolerance=np.inf)
@@ -71,7 +73,7 @@ def test_the_ladder_ends_at_the_complete_simulation(points: list[AccuracyPoint])
     assert current.error <= 0.5
 
 
-@pytest.mark.parametrize("tolerance", [0.0, 5.0])
+@pytest.mark.parametrize("tolerance", [pytest.param(0.0, marks=pytest.mark.whole), 5.0])
 def test_the_present_setting_is_marked_exactly_once(tolerance: float) -> None:
     scene, settings = small("phone-136us-real"), SimulationSettings(tolerance, noise="reused")
     (current,) = [point for point in accuracy(scene, settings) if point.current]

@@ -93,8 +93,8 @@ def test_any_payload_is_sent_in_its_own_length(payload: str) -> None:
 def test_errors_and_success_rate_are_complements() -> None:
     # The same counting by two ways: one payload, over many start times.
     at = SCENE.replace(switching_frequency=12.5e3, bits=2, code=0)
-    wrong = occ.bit_error_rate(at, bits=200, seed=2).rate
-    right = [occ.success_rate(at.replace(code=code), images=25, seed=code) for code in range(4)]
+    wrong = occ.bit_error_rate(at, bits=100, seed=2).rate
+    right = [occ.success_rate(at.replace(code=code), images=13, seed=code) for code in range(4)]
     assert 100.0 * (1.0 - wrong) == pytest.approx(np.mean(right), abs=8.0)
 
 

@@ -92,7 +92,7 @@ def test_a_picture_too_large_to_be_made_is_not_read_by_its_profile() -> None:
 
 ROWS, COLUMNS = 400, 1100
 SPAN = Region(60, 320, 303, 800)
-TRIALS = amount(12, 25)
+TRIALS = amount(8, 25)
 
 
 def of_pixels(panel: float, around: float, random: np.random.Generator) -> Region:
@@ -132,10 +132,10 @@ def test_a_dark_noisy_picture_is_read_by_a_study_as_by_its_pictures() -> None:
     # Its brightest 5 % of pixels lie everywhere, and so does the region.
     scene = occ.load_preset("phone-136us").replace(
         line_code="manchester", framing="preamble", payload="hex:5a5a5a5a5a5a5a5a",
-        switching_frequency=15e3, enhancement="none", distance=1.0, rows=400, luminance=150.0,
+        switching_frequency=15e3, enhancement="none", distance=1.0, rows=200, luminance=150.0,
         illuminance=290.0,
     )  # fmt: skip
     study, pictures = (
-        occ.bit_error_rate(scene, "sequence", bits=4 * 64, path=path) for path in ("auto", "image")
+        occ.bit_error_rate(scene, "sequence", bits=2 * 64, path=path) for path in ("auto", "image")
     )
     assert study.pictures_right == pictures.pictures_right == 0

@@ -77,7 +77,7 @@ def test_light_without_noise_whose_exposure_no_column_shows_has_errors() -> None
 
 def test_an_exposure_shorter_than_a_column_has_an_error_that_is_not_understated() -> None:
     found = []
-    for seed in range(amount(30, 60)):
+    for seed in range(amount(15, 60)):
         lattice, fitted = _fit(0.02, 1e-6, seed)
         found.append((fitted.middle - lattice.middle(1200)) / fitted.middle_error)
     # How much of it edges hide depends on where they lie: the error is for the worst places.
@@ -86,7 +86,7 @@ def test_an_exposure_shorter_than_a_column_has_an_error_that_is_not_understated(
 
 def test_stated_errors_of_phase_and_step_cover_68_percent() -> None:
     found = []
-    for seed in range(amount(60, 120)):
+    for seed in range(amount(40, 120)):
         lattice, fitted = _fit(0.5, 0.05, seed)
         found.append((fitted.middle - lattice.middle(1200)) / fitted.middle_error)
         found.append((fitted.lattice.step - lattice.step) / fitted.step_error)
@@ -98,7 +98,7 @@ def test_light_that_falls_off_as_a_lens_s_shifts_no_edges_of_all_frames_alike() 
     place = np.linspace(-1.0, 1.0, 1200)
     fall = np.cos(np.arctan(0.9 * (place - 0.3))) ** 4
     found = []
-    for seed in range(amount(30, 60)):
+    for seed in range(amount(16, 60)):
         lattice = _lattice(0.5, seed)
         fraction = _lit(lattice, 1200)
         noise = 0.01 * np.random.default_rng(seed).standard_normal(1200)

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from amount import amount
 
 from occ_model.video.clock import fit_clock
 from occ_model.video.frame_times import frame_times
@@ -64,7 +65,7 @@ def test_the_errors_of_a_few_frames_hold_also_far_out(count: int) -> None:
     """So few may agree by chance: without Student's t a sixth lay beyond two errors."""
     random, times = np.random.default_rng(count), np.arange(count) / 30.0
     off = []
-    for _ in range(200):
+    for _ in range(amount(100, 200)):
         (fit, *_) = fit_clock(_phases(8e3, times, 52.0, random, 1e-5), 7960.0, 8040.0)
         off.append([fit.drift / fit.drift_error, (fit.frequency - 8e3) / fit.frequency_error])
     fractions = np.mean(np.abs(off) < 2.0, axis=0)

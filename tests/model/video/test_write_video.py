@@ -203,6 +203,7 @@ def test_a_note_that_says_nothing_is_passed_over(tmp_path: Path, note: str) -> N
     assert len(list(back)) == 2
 
 
+@pytest.mark.usefixtures("plain_figures")
 def test_the_animation_of_a_slider_opens_as_a_film(tmp_path: Path) -> None:
     path = tmp_path / "play.mp4"
     small = occ.load_preset("phone-136us").replace(rows=200, columns=600)

@@ -53,7 +53,7 @@ def test_code_and_flicker_add_up_where_they_meet_at_all_phases() -> None:
 
 
 @pytest.mark.parametrize("averaging", ["light", "pixel-value"])
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", range(amount(3, 6)))
 def test_pictures_with_noise_have_bars_of_this_depth(seed: int, averaging: str) -> None:
     rng = np.random.default_rng(seed)
     chips = int(rng.integers(2, 9))
@@ -184,7 +184,7 @@ def _scene(random: np.random.Generator) -> Scene:
 def test_the_depth_with_slow_edges_is_exact_to_1e_13_of_the_mean() -> None:
     random = np.random.default_rng([24, 0])
     worst = 0.0
-    for _ in range(amount(6, 20)):
+    for _ in range(amount(3, 20)):
         scene = _scene(random)
         sent = scene.transmitter
         frequency = Fraction(sent.switching_frequency)

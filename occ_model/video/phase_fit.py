@@ -91,18 +91,20 @@ class ClockFit:
 
 
 def mean_step(phases: Phases) -> tuple[float, float]:
-    """Return the weighted mean of the chips a column, and its deviation by the frames' scatter."""
+    """Return the weighted mean of the chips a column, and its deviation.
+
+    It is that of the frames' scatter, but no less than the frames' own errors imply: an error that
+    all frames share does not scatter.
+    """
     weights = 1.0 / np.maximum(phases.step_errors, 1e-12) ** 2
     # A single frame that is surer than all others may be so by mistake.
     weights = np.minimum(weights, 4.0 * float(np.median(weights)))
     total = float(weights.sum())
     mean = float(weights @ phases.steps / total)
-    squares = float(weights**2 @ (phases.steps - mean) ** 2) / total**2
     count = len(weights)
-    stated = float(weights**2 @ phases.step_errors**2) / total**2
-    if count < 4:
-        return mean, float(math.sqrt(max(stated, squares)))
-    return mean, float(math.sqrt(squares * count / (count - 1)))
+    scatter = float(weights**2 @ (phases.steps - mean) ** 2) * count / max(count - 1, 1)
+    stated = float(weights**2 @ phases.step_errors**2)
+    return mean, math.sqrt(max(scatter, stated)) / total
 
 
 def fit_parabola(phases: Phases, counted: FloatArray) -> ClockFit:

@@ -188,7 +188,7 @@ def phases_of(steps: list[float], errors: list[float]) -> Phases:
 
 
 def test_the_mean_step_is_weighted_and_its_error_that_of_the_scatter() -> None:
-    steps, errors = [1.0, 1.2, 0.9, 1.1, 1.0], [0.1, 0.15, 0.12, 0.1, 0.2]
+    steps, errors = [1.0, 1.4, 0.7, 1.2, 1.0], [0.1, 0.15, 0.12, 0.1, 0.2]
     weights = 1.0 / np.square(errors)
     mean, deviation = mean_step(phases_of(steps, errors))
     assert mean == pytest.approx(np.average(steps, weights=weights))
@@ -197,17 +197,16 @@ def test_the_mean_step_is_weighted_and_its_error_that_of_the_scatter() -> None:
     assert deviation == pytest.approx(scatter)
 
 
+@pytest.mark.parametrize("frames", [1, 2, 25])
+def test_frames_that_agree_know_no_more_than_they_state(frames: int) -> None:
+    """An error that all of them share does not scatter."""
+    agree = mean_step(phases_of([1.0] * frames, [0.1] * frames))
+    assert agree == (1.0, pytest.approx(0.1 / math.sqrt(frames)))
+
+
 def test_a_single_frame_that_states_no_error_does_not_decide_alone() -> None:
     mean, _ = mean_step(phases_of([1.0, 1.0, 1.0, 1.0, 2.0], [0.1, 0.1, 0.1, 0.1, 1e-9]))
     assert mean == pytest.approx((4.0 + 4.0 * 2.0) / 8.0)
-
-
-def test_of_few_frames_the_larger_error_is_taken() -> None:
-    """Two that agree by chance know no more than they state."""
-    agree = mean_step(phases_of([1.0, 1.0], [0.1, 0.1]))
-    differ = mean_step(phases_of([0.0, 2.0], [0.1, 0.1]))
-    assert agree == (1.0, pytest.approx(0.1 / math.sqrt(2.0)))
-    assert differ == (1.0, pytest.approx(1.0 / math.sqrt(2.0)))
 
 
 def test_phases_scatter_by_the_median_of_their_steps_and_no_less_than_they_state() -> None:

@@ -22,7 +22,7 @@ from occ_model.scene.units import SECOND
 
 _DIGITS = 4
 
-_ROOM = 6  # pixels above and below the text of a row, together
+_PADDING = 6  # pixels above and below the text of a row, together
 
 _LEAST_HEIGHT = 260
 
@@ -65,7 +65,7 @@ class BandsView(QWidget):
             "A double click, or Enter, sets a speed; ISO speed and aperture follow.",
         )
         self.table.setHorizontalHeaderLabels(["Shutter", "as written", "power of two", "Bars"])
-        self.table.verticalHeader().setDefaultSectionSize(self.fontMetrics().height() + _ROOM)
+        self.table.verticalHeader().setDefaultSectionSize(self.fontMetrics().height() + _PADDING)
         header = self.table.horizontalHeader()
         header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
         header.setResizeContentsPrecision(-1)  # of all rows, not of those in view

@@ -26,7 +26,7 @@ COLOURS: tuple[QColor, ...] = (SIMULATION, BAND, PHOTO, REGION, NOISE)
 
 _FLOOR = {RATES: -6, BITS: 0}  # powers of ten at which all that is smaller is drawn
 _MARGIN = 0.06  # margin beside the points, as a fraction of their range
-_TOP = 0.3  # margin above the points, in powers of ten
+_TOP_MARGIN = 0.3  # margin above the points, in powers of ten
 
 _SIZE = 8
 _FARTHEST_POWER, _LEAST_POWERS = 12.0, 0.01
@@ -178,7 +178,7 @@ class BenchPlots(QWidget):
         shown = values if self._what == BITS else [value for value in values if value > floor]
         for plot in self.plots.values():
             low, high = min(shown, default=floor), max(shown, default=floor + 1.0)
-            plot.setYRange(low - _TOP, high + _TOP, padding=0)
+            plot.setYRange(low - _TOP_MARGIN, high + _TOP_MARGIN, padding=0)
 
 
 def _draw(curve: _Curve, points: Sequence[Drawn]) -> None:

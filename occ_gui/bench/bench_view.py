@@ -20,7 +20,7 @@ from occ_model.errors import counted
 from occ_model.results.bench import BenchBounds, BenchPoint, BenchRequest
 from occ_model.scene.recording import FRAME_RATE
 
-_LEAST_WITH_TABLE = 420  # pixels of height from which the table stands below the plots
+_LEAST_HEIGHT_WITH_TABLE = 420  # pixels of height from which the table stands below the plots
 
 _SAMPLE = QSize(14, 14)
 
@@ -144,7 +144,7 @@ class BenchView(QWidget):
         """Show plots and table, or their purpose before the first measurement."""
         there = bool(self._setting)
         self._pages.setCurrentWidget(self.plots[self.what.key()] if there else self.invitation)
-        self.table.setVisible(there and self.height() >= _LEAST_WITH_TABLE)
+        self.table.setVisible(there and self.height() >= _LEAST_HEIGHT_WITH_TABLE)
 
     def show_begun(self, request: BenchRequest) -> None:
         self._points, self._bounds, self._ended = [], None, ""

@@ -27,7 +27,7 @@ from occ_model.scene.recording import FRAME_RATE
 _SCALES = {RATES: (0.0, 100.0), DIFFERENCES: (-100.0, 100.0)}
 """Limits of each colour map, in percent."""
 
-_MOST_IN_A_ROW, _LEAST_OF_TWO_ROWS = 2, 360
+_MOST_IN_A_ROW, _LEAST_HEIGHT_OF_TWO_ROWS = 2, 360
 """Most maps in a row, and the least height in pixels of two rows."""
 
 
@@ -61,7 +61,7 @@ class MapPlots(QWidget):
 
     def _place_plots(self) -> None:
         shown = [plot for plot in self.plots if not plot.isHidden()]
-        in_rows = len(shown) > _MOST_IN_A_ROW and self.height() >= _LEAST_OF_TWO_ROWS
+        in_rows = len(shown) > _MOST_IN_A_ROW and self.height() >= _LEAST_HEIGHT_OF_TWO_ROWS
         columns = -(-len(shown) // 2) if in_rows else max(len(shown), 1)
         if columns == self._columns:
             return

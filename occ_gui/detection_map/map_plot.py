@@ -83,7 +83,7 @@ Point = tuple[float, float]  # positions along both axes, from 0 to 1
 
 _INK, _PAPER = QColor("black"), QColor("white")
 _CASING = QColor(255, 255, 255, 210)
-_AT_END = 1e-6
+_END_TOLERANCE = 1e-6
 """Distance from an end of an axis, in axis lengths, within which a line is cut off there."""
 
 _TICK = 4
@@ -262,7 +262,7 @@ class MapPlot(QWidget):
         steps = []
         for from_, to, count in zip(before, end, self._shape, strict=True):
             way, margin = to - from_, 0.5 / max(count - 1, 1)
-            is_at_end = min(abs(to), abs(1.0 - to)) < _AT_END
+            is_at_end = min(abs(to), abs(1.0 - to)) < _END_TOLERANCE
             if is_at_end and way and (way > 0.0) == (to > 0.5):
                 steps.append(margin / abs(way))
         if not steps:

@@ -20,7 +20,7 @@ from occ_model.scene.parameters import quantity
 from occ_model.scene.recording import FRAME_RATE
 from occ_model.scene.scene import Scene
 
-_LEAST_WITH_CARDS = 480  # pixels of height from which the cards of the limits stand above the map
+_LEAST_HEIGHT_WITH_CARDS = 480  # pixels from which cards of the limits stand above the map
 
 
 class MapView(QWidget):
@@ -106,7 +106,7 @@ class MapView(QWidget):
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         super().resizeEvent(event)
-        with_cards = self.height() >= _LEAST_WITH_CARDS
+        with_cards = self.height() >= _LEAST_HEIGHT_WITH_CARDS
         for card in (self.cards, self.most_bits):
             card.setVisible(with_cards)
         # In a low pane it needs no line of its own.

@@ -42,7 +42,7 @@ SCALE = Quantity(
     unit=NONE, low=LEAST_SCALE, high=LARGEST_SCALE, slider=(0.1, 10.0), scale="log", default=1.0,
 )  # fmt: skip
 
-_FIELD = 12  # digits for which a field has room at the least, its arrows and frame among them
+_FIELD_DIGITS = 12  # digits for which a field has room at least, with arrows and frame
 
 
 class _PlaceField(DecimalEdit):
@@ -52,7 +52,7 @@ class _PlaceField(DecimalEdit):
         return QSize(self.minimumSizeHint().width(), super().sizeHint().height())
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        width = _FIELD * self.fontMetrics().horizontalAdvance("0")
+        width = _FIELD_DIGITS * self.fontMetrics().horizontalAdvance("0")
         return QSize(width, super().minimumSizeHint().height())
 
 

@@ -46,7 +46,7 @@ _REST_TIME = 0.05  # seconds without a change after which the exact picture is b
 _LONGEST_PAINT = 0.1
 """Longest time, in seconds, for which work waits for the window to paint."""
 
-_LOOK, _MOST_LOOKS = 0.005, 20
+_CHECK_SECONDS, _MOST_CHECKS = 0.005, 20
 """Seconds between two checks whether the exact picture may begin, and the most checks."""
 
 
@@ -158,10 +158,10 @@ class SimulationController(QObject):
 
     def _wait_for_others(self, report: Reporter) -> None:
         """Leave both cores to short work for a while, unless a newer request comes."""
-        for _ in range(_MOST_LOOKS):
+        for _ in range(_MOST_CHECKS):
             if not self._others_first():
                 return
-            report.give_way(_LOOK)
+            report.give_way(_CHECK_SECONDS)
 
     def _show_early(self, part: Picture | Reading) -> None:
         reading = part.reading if isinstance(part, Picture) else part

@@ -8,7 +8,7 @@ from PySide6.QtGui import QColor, QPainter, QPalette, QPen, QStaticText
 
 from occ_gui.widgets.colours import seen_on
 
-_LEAST_FOR_DIGIT = 7.5
+_LEAST_DIGIT_WIDTH = 7.5
 
 _MIN_FITTING_FRACTION = 0.6
 """Least fraction of the cells with room for a digit: those at the edges are cut off."""
@@ -32,14 +32,14 @@ def draw_digits(
     for chip, cell in cells:
         left = cell.left() + (cell.width() - width) / 2
         is_whole = within is None or within.left() <= left <= within.right() - width
-        if cell.width() >= _LEAST_FOR_DIGIT and is_whole:
+        if cell.width() >= _LEAST_DIGIT_WIDTH and is_whole:
             top = cell.top() + (cell.height() - height) / 2
             painter.drawStaticText(QPointF(left, top), _digit(chip))
 
 
 def have_room_for_digits(cells: Sequence[tuple[int, QRectF]]) -> bool:
     """Return whether most cells have room for their digits; else none gets one."""
-    wide = sum(cell.width() >= _LEAST_FOR_DIGIT for _, cell in cells)
+    wide = sum(cell.width() >= _LEAST_DIGIT_WIDTH for _, cell in cells)
     return wide >= _MIN_FITTING_FRACTION * len(cells)
 
 

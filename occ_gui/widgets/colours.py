@@ -7,7 +7,7 @@ from PySide6.QtGui import QBrush, QColor, QPalette, QPen
 
 from occ_model import colours
 
-_CONTRAST = 4.5  # least contrast of text to its background by WCAG 2.1 (success criterion 1.4.3)
+_LEAST_CONTRAST = 4.5  # of text to its background by WCAG 2.1 (success criterion 1.4.3)
 _LIGHTNESS_STEP = 108  # step of the lightness, in percent
 
 
@@ -34,7 +34,7 @@ def seen_on(palette: QPalette, colour: QColor) -> QColor:
 @lru_cache(maxsize=256)
 def _seen(paper_rgba: int, ink_rgba: int) -> QColor:
     paper, ink = QColor.fromRgba(paper_rgba), QColor.fromRgba(ink_rgba)
-    while luminance(paper) < luminance(ink) < 1.0 and contrast(ink, paper) < _CONTRAST:
+    while luminance(paper) < luminance(ink) < 1.0 and contrast(ink, paper) < _LEAST_CONTRAST:
         # By the lightness of HSL, towards white; the value of HSV ends at pure blue.
         ink = QColor.fromHslF(
             ink.hslHueF(), ink.hslSaturationF(), min(1.0, ink.lightnessF() * _LIGHTNESS_STEP / 100)

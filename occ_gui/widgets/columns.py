@@ -2,7 +2,7 @@
 
 import math
 
-_ROUNDING = 1e-9  # by how much, of its size, a step may be smaller than requested
+_STEP_TOLERANCE = 1e-9  # by how much, of its size, a step may be smaller than requested
 PACKETS_IN_VIEW = 2  # packets in the first view of a plot over columns
 
 
@@ -10,7 +10,7 @@ def round_step(least: float) -> float:
     """Return the smallest of 1, 2 and 5 times a power of ten that is not below a number."""
     power = 10.0 ** math.floor(math.log10(least))
     steps = (factor * power for factor in (1.0, 2.0, 5.0, 10.0))
-    return next(step for step in steps if step >= least * (1.0 - _ROUNDING))
+    return next(step for step in steps if step >= least * (1.0 - _STEP_TOLERANCE))
 
 
 def first_periods(has_packets: bool) -> tuple[str, str]:

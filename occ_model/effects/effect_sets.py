@@ -22,7 +22,7 @@ from occ_model.effects.registry import EFFECTS
 from occ_model.results.plan import Way
 from occ_model.scene.simulation_settings import NoiseSource, SimulationSettings
 
-_MOST_EXCESS = 1.15
+_SUM_RATIO = 1.15
 """Largest ratio of the sum of changes to the tolerance at which the changes are tried together."""
 
 
@@ -58,14 +58,14 @@ class EffectSets:
     def errors_of(self, ways: Sequence[Way]) -> list[float]:
         """Return each set's least tolerance, for its effects together: changes need not add."""
         found = self.estimates.errors_of([self.names - way.effects for way in ways])
-        return [max(own, way.error / _MOST_EXCESS) for own, way in zip(found, ways, strict=True)]
+        return [max(own, way.error / _SUM_RATIO) for own, way in zip(found, ways, strict=True)]
 
     def chosen(self, tolerance: float) -> tuple[Way, float]:
         """Return the fastest set within a tolerance, and its error."""
         if tolerance == math.inf:
             return Way(frozenset(), self.ways[0].seconds, math.inf), math.inf
         near = (
-            [way for way in self.ways if way.error <= tolerance * _MOST_EXCESS] if tolerance else []
+            [way for way in self.ways if way.error <= tolerance * _SUM_RATIO] if tolerance else []
         )
         for some in (near[:1], near[1:5], near[5:]):  # mostly the first one is within it
             for way, error in zip(some, self.errors_of(some) if some else (), strict=True):
@@ -115,12 +115,12 @@ def _errors_of(estimates: Estimates, free: tuple[Effect, ...], left_out: FloatAr
     return np.asarray(errors)
 
 
-_PIXELS = 1.1e-3  # seconds for a million pixels whose rows differ
+_PIXEL_SECONDS = 1.1e-3  # seconds for a million pixels whose rows differ
 
-_NOISE: dict[NoiseSource, float] = {"exact": 10e-3, "reused": 0.9e-3}
+_NOISE_SECONDS: dict[NoiseSource, float] = {"exact": 10e-3, "reused": 0.9e-3}
 """Seconds to draw a million random numbers, or to fetch them."""
 
-_NOISY_FILE = 6e-3  # seconds by which a million noisy pixels take longer in a file
+_NOISY_FILE_SECONDS = 6e-3  # seconds by which a million noisy pixels take longer in a file
 
 
 def seconds_of(
@@ -135,6 +135,6 @@ def seconds_of(
     drawn = sets[:, noises].sum(axis=1)
     if noise == "reused":
         drawn = np.minimum(drawn, 1.0)
-    shared = _PIXELS * (sets[:, by_pixel] > 0.0).any(axis=1) + _NOISE[noise] * drawn
-    shared = shared + _NOISY_FILE * ((drawn > 0.0) & (sets[:, files] > 0.0).any(axis=1))
+    shared = _PIXEL_SECONDS * (sets[:, by_pixel] > 0.0).any(axis=1) + _NOISE_SECONDS[noise] * drawn
+    shared = shared + _NOISY_FILE_SECONDS * ((drawn > 0.0) & (sets[:, files] > 0.0).any(axis=1))
     return np.asarray(sets @ each + shared * millions)

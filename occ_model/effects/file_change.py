@@ -44,14 +44,14 @@ _LEAST_SPREAD = 1e-3
 _DITHERING_NOISE = 0.25
 """Noise in steps from which it spreads a coefficient evenly over the steps (dithering)."""
 
-_ROUNDING = 1.0 / 12.0  # mean square error of rounding to whole grey levels
+_ROUNDING_VARIANCE = 1.0 / 12.0  # mean square error of rounding to whole grey levels
 
 
 @lru_cache(maxsize=4)
 def _read_back(steps: bytes) -> FloatArray:
     """Tabulate the deviation of noise as it is read back from the file."""
     step, q = np.split(np.frombuffer(steps), [8])
-    noise = np.sqrt(_NOISES**2 + _ROUNDING)[:, None]
+    noise = np.sqrt(_NOISES**2 + _ROUNDING_VARIANCE)[:, None]
     s = noise / step
     along = step**2 * (s * s + 1.0 / 12.0) * -np.expm1(-((s / 0.3) ** 2))
     return np.asarray(np.sqrt((along.sum(axis=1) + rounded_noise(noise / q) @ q**2) / 64.0))
@@ -74,7 +74,7 @@ class FileChange:
         inner = stack[0][:, sample.inner]
         full = float(inner.max())
         fraction = float((inner == full).mean())
-        rounding = _ROUNDING * (1.0 - fraction)
+        rounding = _ROUNDING_VARIANCE * (1.0 - fraction)
         self._noise = math.sqrt(spread**2 + rounding)
         self._rounding = rounding + fraction * (full - round(full)) ** 2
         self._s = self._noise / self._step
@@ -116,7 +116,7 @@ class FileChange:
         x = self._coefficients(self._in_blocks(values))
         middle = x.mean(axis=3, keepdims=True)
         varied = np.square(x - middle).mean(axis=3, keepdims=True)
-        noise = (spread * spread + _ROUNDING)[:, None, None, None]
+        noise = (spread * spread + _ROUNDING_VARIANCE)[:, None, None, None]
         wide = np.sqrt(noise / self._step**2 + varied)
         shift = rounding_mean(middle, wide) * (self._step / math.sqrt(8.0))
         back = np.matmul(_transform().T, shift)
@@ -237,7 +237,7 @@ class FileChange:
 
         Each noise is left out while all other noise stays.
         """
-        rest = np.sqrt(left**2 + _ROUNDING)
+        rest = np.sqrt(left**2 + _ROUNDING_VARIANCE)
         own = np.sqrt(own**2 + moved_steps_of_noise(own))
         step, q = self._step[:, 0], self._others
         spreads = np.append(rest, np.hypot(own[:1], rest[:1]))[:, None]

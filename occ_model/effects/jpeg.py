@@ -23,7 +23,7 @@ _LUMINANCE_STEPS = (
 )
 """Steps of the 8 x 8 cosine coefficients at quality 50 (ITU-T T.81, table K.1)."""
 
-_ROUNDING = 0.5  # largest change in grey levels by rounding the pixels once
+_LARGEST_ROUNDING = 0.5  # largest change in grey levels by rounding the pixels once
 
 
 class Jpeg(FileEffect):
@@ -55,7 +55,7 @@ class Jpeg(FileEffect):
         if not self.is_present(scene):
             return 0.0, 0.0
         steps = quantization_steps(scene.camera.jpeg_quality)
-        most = math.sqrt(float((steps**2).mean())) / 2.0 + 2.0 * _ROUNDING
+        most = math.sqrt(float((steps**2).mean())) / 2.0 + 2.0 * _LARGEST_ROUNDING
         return math.sqrt(float((steps[0] ** 2).sum()) / 12.0) / 8.0, most
 
     def check_size(self, scene: Scene, shape: tuple[int, ...]) -> None:

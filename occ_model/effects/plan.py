@@ -21,7 +21,7 @@ from occ_model.scene.simulation_settings import (
 )
 from occ_model.scene.units import NONE
 
-_ROUNDING = 1.0 + 1e-9
+_ROUNDING_FACTOR = 1.0 + 1e-9
 """Factor on an error in comparisons with one whose sums were rounded otherwise."""
 
 _CLEAR_RATIO = 1.3  # ratio of limit to estimate from which both are stated
@@ -173,7 +173,7 @@ def ways_of(scene: Scene, settings: SimulationSettings) -> tuple[Way, ...]:
     found: list[Way] = []
     for way, error in zip(sets.ways, sets.errors_of(sets.ways), strict=True):
         if error < (found[-1].error if found else math.inf):
-            found.append(Way(way.effects, way.seconds, error * _ROUNDING))
+            found.append(Way(way.effects, way.seconds, error * _ROUNDING_FACTOR))
     return tuple(found)
 
 

@@ -28,11 +28,11 @@ ESTIMATES = ("readout_time", "switching_frequency")
 _MOST_DEVIATIONS = 3.0  # standard deviations above which two exposure times contradict each other
 _NOTE_ERROR = 0.012  # relative deviation of a noted exposure time: 1/500 stands for 1/512 s
 
-_MOST_UNSURE, _MOST_UNKNOWN = 0.03, 0.1
+_DOUBTFUL_DEVIATION, _REFUSED_DEVIATION = 0.03, 0.1
 """Relative standard deviations of the readout time, or the frequency, above which a match is
 doubtful, and above which it is refused."""
 
-_MOST_UNSURE_EXPOSURE = 0.5
+_DOUBTFUL_EXPOSURE_DEVIATION = 0.5
 """Relative standard deviation of the exposure time above which it is doubtful: two of them reach
 from it to nothing."""
 
@@ -117,7 +117,7 @@ def described(
         reasons=(*better.doubts, *unsure),
         exposure_reasons=(
             *better.exposure_doubts,
-            *_doubts_by_fraction("exposure_time", unknown, _MOST_UNSURE_EXPOSURE),
+            *_doubts_by_fraction("exposure_time", unknown, _DOUBTFUL_EXPOSURE_DEVIATION),
             *_doubts_by_others(photo, explanation),
             *_doubts_by_note(photo, camera.exposure_time, uncertainties["exposure_time"]),
         ),
@@ -126,9 +126,9 @@ def described(
 
 def _doubts_by_error(estimate: str, value: float, deviation: float) -> list[str]:
     fraction = deviation / value
-    if refusal := _doubts_by_fraction(estimate, fraction, _MOST_UNKNOWN):
+    if refusal := _doubts_by_fraction(estimate, fraction, _REFUSED_DEVIATION):
         raise MatchError(*refusal)
-    return _doubts_by_fraction(estimate, fraction, _MOST_UNSURE)
+    return _doubts_by_fraction(estimate, fraction, _DOUBTFUL_DEVIATION)
 
 
 def _doubts_by_fraction(name: str, fraction: float, limit: float) -> list[str]:

@@ -42,7 +42,7 @@ PATTERN_SOURCES = ("auto", "scene", "read")
 _EXPLAINED_CORRELATION = 0.998
 """Correlation of the scene's pulse above which no other duty is searched for."""
 _SAME_DUTY = 2.0  # standard deviations within which a measured duty is the scene's
-_SECONDS = 0.05  # minimum time between two reports of progress
+_REPORT_INTERVAL = 0.05  # minimum time between two reports of progress
 
 
 def match_photo(  # noqa: PLR0913 - all but the first two are words with defaults
@@ -194,7 +194,7 @@ class _Progress:
 
     def again(self) -> None:
         """Report the same fraction, if some time has passed: the receiver may end the work so."""
-        if time.monotonic() - self._last > _SECONDS:
+        if time.monotonic() - self._last > _REPORT_INTERVAL:
             self(self._fraction)
 
 

@@ -15,7 +15,7 @@ from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import SECOND
 
-_SAME_SHAPE = 0.01  # relative difference of the sides' ratio for one picture to be another, scaled
+_SHAPE_ERROR = 0.01  # relative difference of aspect ratios for another picture, not scaled
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -57,7 +57,7 @@ def read_room_photo(photo: Photo, room: Room, focal_length: float | None = None)
 def _camera_of(photo: Photo, image: ByteArray, scene: Scene) -> tuple[Scene, list[str]]:
     camera, (rows, columns) = scene.camera, image.shape
     readout, scaled = camera.readout_time, ""
-    is_scaled = math.isclose(rows / columns, camera.rows / camera.columns, rel_tol=_SAME_SHAPE)
+    is_scaled = math.isclose(rows / columns, camera.rows / camera.columns, rel_tol=_SHAPE_ERROR)
     if is_scaled and columns != camera.columns:
         readout *= camera.columns / columns
         scaled = f", for a picture of {columns} columns in place of {camera.columns}"

@@ -11,7 +11,7 @@ from occ_model.teaching.quantities import QUANTITIES, result_text
 
 _NEAR_TOLERANCES = 3.0  # an answer within this many tolerances is near
 _MIN_NEAR_DIFFERENCE = 0.02  # relative difference that is near however small the tolerance is
-_ROUNDING = 1e-9  # relative difference of two values that are the same
+_SAME_DIFFERENCE = 1e-9  # relative difference of two values that are the same
 
 
 def check_answer(
@@ -46,7 +46,7 @@ def check_answer(
         hint = f" in {quantity.asked_in}" if quantity.asked_in else ""
         return CheckedAnswer(text, "unreadable", f"“{one_line(text, 40)}” is not a number{hint}.")
     difference = abs(given - expected) / abs(expected) if expected else abs(given)
-    if difference <= check.tolerance * (1.0 + _ROUNDING):
+    if difference <= check.tolerance * (1.0 + _SAME_DIFFERENCE):
         value = result_text(quantity.unit, expected)
         source = "The match" if own else "The model"
         return CheckedAnswer(text, "right", f"Right. {source} gives {value}.")
@@ -66,7 +66,7 @@ def _to_set_first(check: Check, scene: Scene) -> str:
     for name in check.named:
         now, asked = scene.value(name), check.scene.value(name)
         if isinstance(now, float) and isinstance(asked, float):
-            allowed = max(check.tolerance, _ROUNDING) * abs(asked)
+            allowed = max(check.tolerance, _SAME_DIFFERENCE) * abs(asked)
             is_set = abs(now - asked) <= allowed
         else:
             is_set = now == asked

@@ -13,7 +13,7 @@ from occ_model.scene.argument_checks import check_count
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.transmitter.packet import sent_chips
 
-_ROUNDING = 1e-12  # relative error of a whole ratio, by how its parts are written
+_RELATIVE_ERROR = 1e-12  # relative error of a whole ratio, by how its parts are written
 
 
 def light_over_columns(
@@ -78,7 +78,7 @@ def chips_in_exposure(scene: Scene) -> int:
     ratio = Fraction(scene.camera.exposure_time) * Fraction(scene.transmitter.switching_frequency)
     # 100 us at 10 kHz are one chip, though no binary fraction is 100 us.
     nearest = round(ratio)
-    return nearest if math.isclose(ratio, nearest, rel_tol=_ROUNDING) else math.ceil(ratio)
+    return nearest if math.isclose(ratio, nearest, rel_tol=_RELATIVE_ERROR) else math.ceil(ratio)
 
 
 _MAX_CHIPS = 400  # largest number of chips that a drawing resolves

@@ -22,7 +22,7 @@ from occ_model.results.match import ChipReading
 
 _EXPOSURES = np.array([0.05, 0.2, 0.4, 0.6, 0.8, 1.0])  # in chips, tried to explain the profile
 
-_SURELY_RIGHT, _SURELY_WRONG = 0.02, 0.08
+_RIGHT_BELOW, _WRONG_ABOVE = 0.02, 0.08
 """Unexplained fractions of the variance below which nearly all readings are right, and above which
 none is; half-way about half of them are (1,300 simulated messages)."""
 
@@ -77,7 +77,7 @@ def read_chips(photo: Photo, region: Corners | Lamp | None = None) -> ChipReadin
     chips, first = found
     start = (first + 0.5 * (lattice.rising + lattice.falling)) / lattice.frequency
     unexplained = _unexplained(stripes.flattened, seen, lattice.frequency)
-    trust = np.clip((_SURELY_WRONG - unexplained) / (_SURELY_WRONG - _SURELY_RIGHT), 0.0, 1.0)
+    trust = np.clip((_WRONG_ABOVE - unexplained) / (_WRONG_ABOVE - _RIGHT_BELOW), 0.0, 1.0)
     return ChipReading(
         chips=chips,
         columns_per_chip=1.0 / lattice.frequency,

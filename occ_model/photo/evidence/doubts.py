@@ -22,7 +22,7 @@ LEAST_INFORMATION = {False: 40.0, True: 100.0}
 
 _MOST_UNEXPLAINED = 0.035  # maximum unexplained fraction of the variance for chips that were read
 _MOST_RATIO_TO_WAVE = 2.0  # maximum ratio of it to what the best periodic wave leaves
-_WELL_EXPLAINED = 0.02  # unexplained fraction that is always allowed: cameras differ
+_ALLOWED_UNEXPLAINED = 0.02  # unexplained fraction that is always allowed: cameras differ
 _LEAST_ROW_CORRELATION = 0.85  # minimum correlation between the stripes of different rows
 _MOST_SATURATED = 0.5  # saturated fraction above which chips that were read are doubtful
 
@@ -171,7 +171,7 @@ def _doubts_by_reading(found: Hypothesis, stripes: Stripes) -> list[str]:
         return reasons
     left = 1.0 - max(found.fit.correlation, 0.0) ** 2
     repeated = unrepeated_fraction(stripes.flattened, stripes.period)
-    most = max(_MOST_RATIO_TO_WAVE * repeated, _WELL_EXPLAINED)
+    most = max(_MOST_RATIO_TO_WAVE * repeated, _ALLOWED_UNEXPLAINED)
     allowed = min(most, _MOST_UNEXPLAINED)
     if left > allowed:
         shown, limit = distinct_texts(100.0 * left, 100.0 * allowed)

@@ -21,9 +21,9 @@ _DECISIVE_LOG_LIKELIHOOD = 10.0  # difference of log-likelihoods that decides: a
 _MODEL_ERROR = 0.02  # error in heights of the stripes that every explanation may have
 _COSINES_PER_CHIP = 2.0  # maximum number of cosines of a smooth curve per chip in view
 
-_LEAST_GIVEN, _LEAST_READ = 0.8, 0.9  # minimum correlations of chips given and read
+_LEAST_CORRELATION_GIVEN, _LEAST_CORRELATION_READ = 0.8, 0.9  # of chips given and read
 
-_LEAST_OF_OBJECTS = 0.975
+_LEAST_CORRELATION_OF_OBJECTS = 0.975
 """Minimum correlation of chips that were read where no lamp is known to blink: some chips explain
 the stripes of any regular object about as well."""
 
@@ -90,9 +90,9 @@ class Judge:
 
     def _refusals(self, found: Hypothesis, likelihood: float, independent: float) -> list[str]:
         """Return why a hypothesis is refused: something else explains the stripes, or chance."""
-        least = _LEAST_GIVEN
+        least = _LEAST_CORRELATION_GIVEN
         if found.was_read:
-            least = _LEAST_READ if self._blinks else _LEAST_OF_OBJECTS
+            least = _LEAST_CORRELATION_READ if self._blinks else _LEAST_CORRELATION_OF_OBJECTS
         what = found.sent[0].upper() + found.sent[1:]
         if found.fit.correlation < least:
             return [

@@ -25,7 +25,7 @@ _REGULARIZATION = 1e-6  # regularization of the normal equations relative to a h
 
 _MOST_EVALUATIONS = 120
 
-_MOST_LONGER = 0.5  # maximum change, in chips, of bright runs by gamma and saturation
+_MOST_WIDENING = 0.5  # maximum change, in chips, of bright runs by gamma and saturation
 
 Harmonics = NDArray[np.complex128]
 
@@ -131,7 +131,7 @@ def refined(lines: Harmonics, found: ReadPattern, column: float | None = None) -
         },
     )
     exposure, phase, longer = best.x.tolist()
-    most = _MOST_LONGER if column is None else min(_MOST_LONGER, abs(exposure) + column)
+    most = _MOST_WIDENING if column is None else min(_MOST_WIDENING, abs(exposure) + column)
     if abs(longer) > most:
         return found
     return ReadPattern(found.chips, -float(best.fun), abs(exposure), phase + 0.5)

@@ -35,11 +35,11 @@ columns to 1 %."""
 
 _LEAST_EDGES = 0.1  # minimum fraction of the edges' columns that is seen without clipping
 
-_MOST_UNUSUAL = 3.55
+_MOST_UNUSUAL_DEVIATIONS = 3.55
 """Distance of the camera's and the LED's six unknowns from their means, in standard deviations,
 that five of a hundred usual ones exceed (chi-square distribution)."""
 
-_MOST_LOSS = 0.02
+_MOST_CORRELATION_LOSS = 0.02
 """Loss of correlation by which a refined fit contradicts the first one: exposures of 0.4 and 8.9
 columns, where 5.4 was right, had correlations of 0.944 and 0.988."""
 
@@ -50,7 +50,7 @@ _CONTRADICTION = (
 
 
 _ROUNDS = 6  # number of iterations after which the rims are seen in the residual
-_COLUMNS = 16  # number of columns that are left out together
+_COLUMNS_LEFT_OUT = 16  # number of columns that are left out together
 _MOST_RATIO = 3.0  # root mean square of their residual over the median above which they are
 _LEAST_KEPT = 24  # minimum number of columns of a profile
 
@@ -109,7 +109,7 @@ def refined(
         for mode in found
     ]
     # The mean of all pixels is fitted without blur, which is then a part of the exposure.
-    if fits[0].correlation < explanation.correlation - _MOST_LOSS:
+    if fits[0].correlation < explanation.correlation - _MOST_CORRELATION_LOSS:
         first = tuple(replace(fit, longer=fits[0].longer) for fit in explanation.fits)
         return Refined(first, _doubts(unusual), (_CONTRADICTION, *_exposure_doubts(seen, alike)))
     possible = [fit for fit in fits if fit.is_possible] or fits[:1]
@@ -202,12 +202,12 @@ def _rounding(model: StripeModel, timing: Timing) -> float:
 
 def _doubts(unusual: float) -> tuple[str, ...]:
     """Return why nothing that was found may hold: the model explains the stripes by odd values."""
-    if unusual <= _MOST_UNUSUAL:
+    if unusual <= _MOST_UNUSUAL_DEVIATIONS:
         return ()
     return (
         "Only an unusual camera or lamp explains the stripes: its tone curve, blur and "
         f"switching are {unusual:.1f} standard deviations from what is usual; at most "
-        f"{_MOST_UNUSUAL} are allowed.",
+        f"{_MOST_UNUSUAL_DEVIATIONS} are allowed.",
     )
 
 
@@ -247,7 +247,7 @@ def without_rims(
 
 def within_rims(misfit: FloatArray) -> NDArray[np.bool_]:
     """Return which columns lie between the rims, by the misfit of each; NaN where none is seen."""
-    starts = np.arange(0, max(1, len(misfit) - _COLUMNS + 1), _COLUMNS)
+    starts = np.arange(0, max(1, len(misfit) - _COLUMNS_LEFT_OUT + 1), _COLUMNS_LEFT_OUT)
     seen = ~np.isnan(misfit)
     count = np.add.reduceat(seen.astype(np.float64), starts)
     squares = np.add.reduceat(np.where(seen, misfit, 0.0), starts) / np.maximum(count, 1.0)

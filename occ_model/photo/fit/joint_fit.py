@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from occ_model.arrays import FloatArray
 from occ_model.photo.fit.timing import SHORTEST_EXPOSURE
 
-_UNMODELLED = 0.05
+_UNMODELLED_FRACTION = 0.05
 """Fraction of the data's misfit by which explanations must differ: effects outside the model change
 the misfit of each by chance. Without it, a blur of the wrong shape is often the only one left. The
 misfit of the priors has no such error and counts in full."""
@@ -114,7 +114,7 @@ def averaged(fits: Sequence[JointFit]) -> JointFit:
     likeliest = min(fits, key=lambda fit: fit.misfit)
     likely = np.cumsum(_weights(np.array([fit.misfit for fit in fits])))
     middle = fits[int(np.searchsorted(likely, 0.5))].values
-    trust = max(1.0, _UNMODELLED * (likeliest.misfit - likeliest.prior))
+    trust = max(1.0, _UNMODELLED_FRACTION * (likeliest.misfit - likeliest.prior))
     weights = _weights(np.array([(fit.misfit - fit.prior) / trust + fit.prior for fit in fits]))
     covariance = sum(
         weight * (fit.covariance + np.outer(fit.values - middle, fit.values - middle))

@@ -36,7 +36,7 @@ PRIORS = {
 """Mean and standard deviation of the priors: gamma's logarithm over the scene's gamma, the tone
 curve's bends, the blur in columns, and the chips by which the LED is on longer."""
 
-_KURTOSIS = 1.6
+_KURTOSIS_DEVIATION = 1.6
 """Standard deviation of the blur's excess kurtosis: its root mean square if half of all blur is
 normal (0), a quarter a box from resizing (-1.2), and a quarter has exponential tails (3). It is not
 fitted, since it would absorb what the model leaves unexplained."""
@@ -56,7 +56,7 @@ _MOST_SLOW_SHAPES = 32
 combination of a few of them. The rest would count as noise of many columns, and the priors would
 outweigh the data."""
 
-_EDGE = 0.05  # distance from both levels, relative to the swing, at which a column is on an edge
+_EDGE_BAND = 0.05  # from both levels, relative to the swing, at which a column is on an edge
 _GAMMA_BOUNDS = (-0.9, 0.9)  # bounds of gamma's logarithm where it is roughly known
 
 
@@ -151,7 +151,7 @@ class JointModel:
         moved = np.zeros_like(residual)
         if shape is None:
             moved = (self._residual(values, _KURTOSIS_CHANGE) - residual) * (
-                _KURTOSIS / _KURTOSIS_CHANGE
+                _KURTOSIS_DEVIATION / _KURTOSIS_CHANGE
             )
         covariance[np.ix_(index, index)] = covariance_of(
             slopes, residual, moved, self._block
@@ -236,7 +236,7 @@ class JointModel:
         """Return the largest unclipped fraction of the edges' columns in a profile."""
         lit = self._seen.by(values).lit
         low, high = float(lit.min()), float(lit.max())
-        edges = (lit > low + _EDGE * (high - low)) & (lit < high - _EDGE * (high - low))
+        edges = (lit > low + _EDGE_BAND * (high - low)) & (lit < high - _EDGE_BAND * (high - low))
         count = max(1, int(edges.sum()))
         return max(float(edges[part.kept].sum()) / count for part in self._parts)
 

@@ -34,7 +34,7 @@ MOST_CHIPS = 128
 _LEAST_COHERENCE = 0.6  # minimum coherence of edges with the best lattice of chips
 _LONGEST_FOR_EDGES = 1.5  # exposure in chips above which edges may not show the lattice
 _MOST_COUNTS = 12  # maximum number of lattices that are tried
-_WELL_EXPLAINED = 0.04  # unexplained fraction of the harmonics' power at which the search ends
+_LEAST_UNEXPLAINED = 0.04  # fraction of the harmonics' power at which the search ends
 _MOST_EQUAL_RATIO = 1.5  # ratio to the least unexplained power at which fewer chips do
 
 _LEAST_CROSSINGS = 4
@@ -77,7 +77,7 @@ def read_patterns(
     by_edges = found[0]
     if (
         by_edges is None
-        or _unexplained(by_edges) > _WELL_EXPLAINED
+        or _unexplained(by_edges) > _LEAST_UNEXPLAINED
         or by_edges.exposure > _LONGEST_FOR_EDGES
     ):
         found.append(_chips_by_lines(lines, most, column, check))
@@ -124,7 +124,7 @@ def _fewest(
         rough = best_chips(lines, count)
         if rough is not None:
             read.append(refined(lines, rough, column and count * column))
-            if _unexplained(read[-1]) <= _WELL_EXPLAINED:
+            if _unexplained(read[-1]) <= _LEAST_UNEXPLAINED:
                 return read[-1]
     left = [_unexplained(one) for one in read]
     enough = _enough(left)
@@ -133,7 +133,9 @@ def _fewest(
 
 def _enough(left: Sequence[float]) -> float:
     """Return the fraction of the power that the fewest chips may leave unexplained."""
-    return min(_MOST_UNEXPLAINED, max(_WELL_EXPLAINED, _MOST_EQUAL_RATIO * min(left, default=1.0)))
+    return min(
+        _MOST_UNEXPLAINED, max(_LEAST_UNEXPLAINED, _MOST_EQUAL_RATIO * min(left, default=1.0))
+    )
 
 
 def _counts_by_edges(edges: Edges, period: float, most: int) -> list[int]:

@@ -11,7 +11,7 @@ _LEAST_HEIGHT = 6.0  # minimum height of a step in grey levels
 _LEAST_STEP_RATIO = 0.15  # minimum height of a step over its neighbours'; less is ringing
 
 
-_CHAIN, _LEAST_CHAIN_RATIO = 5, 0.2
+_CHAIN_STEPS, _LEAST_CHAIN_RATIO = 5, 0.2
 """Number of consecutive steps, and minimum ratio of neighbouring ones, of a chain that is kept even
 beside a steep rim: exposures longer than a chip leave faint stripes."""
 
@@ -100,7 +100,7 @@ def _in_chain(steps: FloatArray) -> np.ndarray:
     """Whether each step is one of several that follow each other and are about as large."""
     ratio = np.minimum(steps[1:], steps[:-1]) / np.maximum(steps[1:], steps[:-1])
     chains = np.append(0, np.cumsum(ratio < _LEAST_CHAIN_RATIO))
-    return np.asarray(np.bincount(chains)[chains] >= _CHAIN)
+    return np.asarray(np.bincount(chains)[chains] >= _CHAIN_STEPS)
 
 
 def _middles(turns: IndexArray, levels: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -26,25 +26,25 @@ from occ_model.photo.stripes.period import repeat_period
 from occ_model.results.decoding import Region
 from occ_model.results.lamp import Lamp
 
-_MOST_REFLECTED = 0.45  # brightness over a lamp's below which what blinks in time is its reflection
+_REFLECTED_BRIGHTNESS = 0.45  # of a lamp's reflection that blinks in time, over the lamp's
 _FAINT_BRIGHTNESS = 0.25
 """Brightness relative to the brightest lamp below which a lamp may be a reflection."""
 _FAINTEST, _FEW_PERIODS = 0.1, 3.0  # relative brightness and periods of what is not reported
 _GAMMA = 2.2  # exponent that converts grey levels to light for comparison
-_MOST_LIT = 0.65  # maximum duty of two stripes; two panes of a window have a larger one
+_MOST_DUTY = 0.65  # maximum duty of two stripes; two panes of a window have a larger one
 _FEW_EDGES = 4  # number of edges of two bright objects side by side
 _LEAST_SPACING = 3.0  # minimum number of columns of a period or a chip
 _LEAST_COLUMNS, _LEAST_PERIODS = 16, 2.0  # minimum width of a lamp in columns, and in periods
 _LEAST_STRIP_FRACTION = 0.3  # minimum fraction of strips that show the period by themselves
 _CHIP_TOLERANCE = 0.02  # maximum relative difference of a chip between a lamp and its segments
 
-_BLURRED, _HARDLY_STRIPED = 0.15, 0.3
+_BLURRED_RATIO, _HARDLY_STRIPED_RATIO = 0.15, 0.3
 """Light between the stripes relative to that of the stripes above which the exposure may be longer
 than a chip, and above which it is."""
 
 _PERIOD_TOLERANCE = 0.03  # maximum relative difference of periods by edges and autocorrelation
-_MOST_SHARED = 0.5  # fraction of a lamp inside another one above which it is a part of that one
-_GLOW, _GLOW_STRIPS = 0.5, 4  # relative brightness, and strips, of a lamp's glow at its rim
+_MOST_COMMON_FRACTION = 0.5  # of a lamp inside another one, above which it is a part of that
+_GLOW_BRIGHTNESS, _GLOW_STRIPS = 0.5, 4  # relative brightness, and strips, of a lamp's glow
 
 
 def find_lamps(photo: Photo, progress: Callable[[float], object] | None = None) -> tuple[Lamp, ...]:
@@ -180,8 +180,8 @@ def _counts_some(one: Blinking, means: FloatArray) -> bool:
     Light that an exposure longer than a chip has gathered never falls to that of the surroundings.
     """
     fraction = one.dark / max(one.light + one.dark, 1e-9)
-    if not _BLURRED < fraction < _HARDLY_STRIPED:
-        return fraction >= _HARDLY_STRIPED
+    if not _BLURRED_RATIO < fraction < _HARDLY_STRIPED_RATIO:
+        return fraction >= _HARDLY_STRIPED_RATIO
     region, period = one.lamp.region, one.lamp.period
     quarter = len(means) // 4
     inner = means[quarter : len(means) - quarter, region.first_column : region.last_column]
@@ -199,14 +199,14 @@ def _is_lamp(timing: LampTiming) -> bool:
     if timing.is_code or len(edges) > _FEW_EDGES or not edges.rises[0]:
         return True
     lit = (timing.fall - timing.rise) / timing.spacing % 1.0
-    return lit <= _MOST_LIT
+    return lit <= _MOST_DUTY
 
 
 def _without_glow(blinking: Sequence[Blinking]) -> list[Blinking]:
     """Leave out low strips of faint stripes directly above or below a lamp: its scattered light."""
     return [
         one for one in blinking
-        if not any(one.light < _GLOW * other.light and _lies_at(one.lamp, other.lamp)
+        if not any(one.light < _GLOW_BRIGHTNESS * other.light and _lies_at(one.lamp, other.lamp)
                    for other in blinking)
     ]  # fmt: skip
 
@@ -231,8 +231,8 @@ def _without_parts(blinking: Sequence[Blinking]) -> list[Blinking]:
     kept: list[Blinking] = []
     for one in ordered:
         # A lamp may lie within the light that another one scatters.
-        near = [other for other in kept if other.light > _GLOW * one.light]
-        if all(_shared(one.lamp, other.lamp) < _MOST_SHARED for other in near):
+        near = [other for other in kept if other.light > _GLOW_BRIGHTNESS * one.light]
+        if all(_shared(one.lamp, other.lamp) < _MOST_COMMON_FRACTION for other in near):
             kept.append(one)
     return kept
 
@@ -263,7 +263,7 @@ def _without_reflections(blinking: Sequence[Blinking]) -> list[Lamp]:
         source = next(
             (
                 number for number, lamp in enumerate(kept)
-                if one.light < _MOST_REFLECTED * lamp.light and lamp.timing.agrees(one.timing)
+                if one.light < _REFLECTED_BRIGHTNESS * lamp.light and lamp.timing.agrees(one.timing)
             ),
             None,
         )  # fmt: skip

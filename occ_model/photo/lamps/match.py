@@ -13,7 +13,7 @@ from occ_model.scene.scene import Scene
 
 MatchedLamp: TypeAlias = tuple[Lamp, Match | MatchError]
 
-_SEARCH = 0.2  # fraction of the work that finding the lamps takes
+_SEARCH_FRACTION = 0.2  # fraction of the work that finding the lamps takes
 
 
 def match_lamps(
@@ -47,9 +47,9 @@ def match_lamps(
         ``estimate``, ``sent`` or ``averaging`` is not one of its words.
     """
     report = progress or (lambda _fraction: None)
-    lamps = find_lamps(photo, lambda fraction: report(_SEARCH * fraction))
+    lamps = find_lamps(photo, lambda fraction: report(_SEARCH_FRACTION * fraction))
     matched: list[MatchedLamp] = []
-    each = (1.0 - _SEARCH) / max(len(lamps), 1)
+    each = (1.0 - _SEARCH_FRACTION) / max(len(lamps), 1)
 
     def match(lamp: Lamp, begin: float) -> Match:
         return match_photo(
@@ -68,7 +68,7 @@ def match_lamps(
             matched.append((lamp, MatchError("No stripes: its light does not change.")))
             continue
         try:
-            matched.append((lamp, match(lamp, _SEARCH + each * number)))
+            matched.append((lamp, match(lamp, _SEARCH_FRACTION + each * number)))
         except MatchError as error:
             matched.append((lamp, error))
     report(1.0)

@@ -22,7 +22,7 @@ _LEAST_EDGES = 4  # minimum number of edges of a lamp: two rising and two fallin
 _LEAST_MORE_EDGES = 4  # edges by which a code must exceed a progression: a rim has two
 _MOST_GAP_RATIO = 5.0  # ratio to the median distance of edges of a gap between lamps
 
-_LONG_EDGES, _NEARLY_ALL = 6, 0.9
+_LONG_PROGRESSION, _LEAST_EXPLAINED_FRACTION = 6, 0.9
 """Number of edges of a long progression, and fraction of a code's edges above which progressions
 explain all of them."""
 
@@ -33,7 +33,7 @@ _LEAST_COHERENCE, _COLUMN_COHERENCE = 0.9, 0.5
 """Minimum coherence of edges with the lattice of a code of long chips, and its decrease in columns
 per chip: pixels and blur shift the edges of short ones."""
 
-_SHORTEST, _LONGEST, _STEPS = 0.72, 1.4, 200
+_SHORTEST_CHIP_RATIO, _LONGEST_CHIP_RATIO, _CHIP_LENGTHS = 0.72, 1.4, 200
 """Chip lengths that are tried, relative to the distances of near edges, and their number."""
 
 _MOST_OFF = 0.2  # maximum distance of a code's edge from its lattice in chips
@@ -102,8 +102,8 @@ def _repeated(edges: Edges, chip: float) -> float | None:
 def _are_pulses(progressions: list[tuple[int, int, float]], first: int, last: int) -> bool:
     """Whether a few long progressions explain edges as well: lamps of about the same period."""
     inside = _clipped(progressions, first, last)
-    long = sum(end - begin for begin, end, _ in inside if end - begin >= _LONG_EDGES)
-    return long >= _NEARLY_ALL * (last - first)
+    long = sum(end - begin for begin, end, _ in inside if end - begin >= _LONG_PROGRESSION)
+    return long >= _LEAST_EXPLAINED_FRACTION * (last - first)
 
 
 def _clipped(
@@ -182,7 +182,7 @@ def chip_of(edges: Edges) -> float | None:
     if len(edges) < _LEAST_CODE_EDGES:
         return None
     near, usual = np.quantile(np.diff(edges.place[1:-1]), [0.1, 0.25]).tolist()
-    chips = np.geomspace(_SHORTEST * near, _LONGEST * usual, _STEPS)
+    chips = np.geomspace(_SHORTEST_CHIP_RATIO * near, _LONGEST_CHIP_RATIO * usual, _CHIP_LENGTHS)
     inner = edges.part(1, len(edges) - 1)
     kinds = ChipEdges(inner.place[inner.rises], inner.place[~inner.rises])
     coherent = coherence(kinds, 1.0 / chips)

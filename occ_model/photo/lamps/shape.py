@@ -11,7 +11,7 @@ from occ_model.photo.lamps.timing import LampTiming
 from occ_model.results.decoding import Region
 
 _LEAST_SWING = 0.4  # minimum swing over the lamp's, or an edge's; less is scattered light
-_LEAST_OWN = 0.7  # minimum fraction of the edges between a lamp's outermost ones that are its own
+_LEAST_OWN_FRACTION = 0.7  # of the edges between a lamp's outermost ones that are its own
 _CUT_TOLERANCE = 0.3  # maximum distance in chips of an edge whose stripe the rim cuts
 _MOST_WIDTH = 1.15  # maximum width of a stripe that the rim cuts, relative to a whole one
 _SMOOTHING_STRIPS = 2  # strips on either side over which the median of a rim is taken
@@ -20,7 +20,7 @@ _CELL = 8  # columns over which levels are averaged, about as many as a strip ha
 _PADDING = 3  # cells around a shape within which its rim may lie
 _LEVELS = np.linspace(0.08, 0.92, 15)  # between the darkest and the brightest cell
 _ADDED_LEVEL = 10.0  # grey levels added before ratios are formed: lower levels are noise
-_MOST_FALL = 0.65  # maximum ratio of levels outside and inside a rim; a halo falls less
+_MOST_LEVEL_RATIO = 0.65  # maximum ratio of levels outside and inside a rim; a halo falls less
 _LEAST_AREA = 0.2  # minimum area within the rim relative to the shape; less is a hot spot
 
 
@@ -75,7 +75,7 @@ def _span(edges: Edges, timing: LampTiming, columns: int) -> tuple[float, float]
     if len(shared) < 2 or edges.rises[shared].all() or not edges.rises[shared].any():
         return None
     begin, end = int(shared[0]), int(shared[-1])
-    if len(shared) < _LEAST_OWN * np.count_nonzero(swing[begin : end + 1] > least):
+    if len(shared) < _LEAST_OWN_FRACTION * np.count_nonzero(swing[begin : end + 1] > least):
         return None
     begin, end = _with_cut_stripes(edges, begin, end, timing)
     first, last = float(edges.place[begin]), float(edges.place[end])
@@ -181,7 +181,7 @@ def _within_rim(levels: FloatArray, least: float) -> np.ndarray | None:
     """Find the place around the brightest cell at whose rim the level falls most, if it falls."""
     top = np.unravel_index(int(levels.argmax()), levels.shape)
     low, high = float(levels.min()), float(levels.max())
-    best, found = _MOST_FALL, None
+    best, found = _MOST_LEVEL_RATIO, None
     ring = np.ones((3, 3), dtype=np.uint8)
     for level in low + (high - low) * _LEVELS:
         _, labels = cv2.connectedComponents((levels > level).astype(np.uint8), connectivity=4)

@@ -14,13 +14,13 @@ from occ_model.results.lamp import Lamp
 _MOST_STRIPS = 160
 _LEAST_ROWS = 8
 
-_FINE, _CELL = 2000, 4
+_FINE_COLUMNS, _CELL_COLUMNS = 2000, 4
 """Number of columns above which columns are averaged in cells of so many: sensors with many pixels
 have colour filters of 2 by 2 or 4 by 4 pixels of one colour, and what is interpolated from them
 leaves a pattern that repeats after 4 columns on the steep edges of a lamp."""
 
 _BRIGHT_FRACTION = 0.6  # fraction of white above which a place is bright
-_ABOVE_MEDIAN = 1.6  # ratio to the picture's median above which a place is bright
+_BRIGHT_RATIO = 1.6  # ratio to the picture's median above which a place is bright
 _LEAST_AREA = 3e-4  # minimum area of a lamp relative to the picture
 _MOST_COLUMNS = 512  # to which a picture is reduced: there are no fine stripes
 
@@ -38,8 +38,8 @@ def strips_of(photo: Photo, report: Callable[[float], object]) -> tuple[FloatArr
     for strip in range(count):
         means[strip] = column_means(photo, int(bounds[strip]), int(bounds[strip + 1]))
         report((strip + 1) / count)
-    if columns >= _FINE:
-        smooth = cv2.blur(means, (_CELL, 1), borderType=cv2.BORDER_REPLICATE)
+    if columns >= _FINE_COLUMNS:
+        smooth = cv2.blur(means, (_CELL_COLUMNS, 1), borderType=cv2.BORDER_REPLICATE)
         means = np.asarray(smooth, dtype=np.float64)
     return means, bounds
 
@@ -50,7 +50,7 @@ def steady_lamps(means: FloatArray, bounds: IndexArray, blinking: Sequence[Lamp]
     narrow = min(columns, _MOST_COLUMNS)
     levels = cv2.resize(means, (narrow, strips), interpolation=cv2.INTER_AREA)
     least = max(
-        _BRIGHT_FRACTION * WHITE, min(_ABOVE_MEDIAN * float(np.median(levels)), 0.98 * WHITE)
+        _BRIGHT_FRACTION * WHITE, min(_BRIGHT_RATIO * float(np.median(levels)), 0.98 * WHITE)
     )
     taken = np.zeros((strips, narrow), dtype=bool)
     for lamp in blinking:

@@ -11,8 +11,8 @@ from occ_model.photo.lamps.segments import Segment, segments_of
 _LATTICE_TOLERANCE = 0.12  # maximum distance of an edge from a lattice relative to the spacing
 
 
-_CODE_OFF, _CODE_COLUMN = 0.045, 0.12
-_PULSE_OFF, _PULSE_COLUMN = 0.08, 0.4
+_CODE_CHIPS_OFF, _CODE_COLUMNS_OFF = 0.045, 0.12
+_PULSE_CHIPS_OFF, _PULSE_COLUMNS_OFF = 0.08, 0.4
 """Maximum root mean square distance of the edges of a code, and of a pulse, from their lattices: in
 chips and, besides, in columns."""
 
@@ -46,8 +46,8 @@ class LampTiming:
     def most_off(self) -> float:
         """Largest ``off`` of edges that are those of one lamp."""
         if self.is_code:
-            return _CODE_OFF + _CODE_COLUMN / self.chip
-        return _PULSE_OFF + _PULSE_COLUMN / self.chip
+            return _CODE_CHIPS_OFF + _CODE_COLUMNS_OFF / self.chip
+        return _PULSE_CHIPS_OFF + _PULSE_COLUMNS_OFF / self.chip
 
     @property
     def longest_stripe(self) -> float:

@@ -35,7 +35,7 @@ from occ_model.transmitter.scheme import scheme_of
 
 _MIN_CORRELATION = 0.7  # of a code that is read: half of the signal's variance is explained
 _MIN_CONFIDENCE = 0.05  # of a code that is read; below it the best code may be so by chance
-_FULLY_EXPLAINED = 1e-3
+_NEGLIGIBLE_UNEXPLAINED = 1e-3
 """Fraction of the variance below which a code explains all: bins and ranks are no more exact.
 
 Where two codes do, either can be the one that is sent.
@@ -143,7 +143,7 @@ def _best_code(
         likely, shifts = most_likely(templates.levels[rank], templates)
     else:
         likely, shifts = templates.most_likely(
-            rank, _CANDIDATE_CODES, math.sqrt(1.0 - _FULLY_EXPLAINED)
+            rank, _CANDIDATE_CODES, math.sqrt(1.0 - _NEGLIGIBLE_UNEXPLAINED)
         )
     models = templates.profiles(likely)
     # The levels of each code itself are more exact than those of all codes.
@@ -242,7 +242,7 @@ def _level_correlations(folded: FloatArray, models: FloatArray) -> FloatArray:
 
 def _unexplained(correlation: float) -> float:
     """Return the fraction of the signal's variance that a code leaves unexplained."""
-    return max(1.0 - correlation**2, _FULLY_EXPLAINED)
+    return max(1.0 - correlation**2, _NEGLIGIBLE_UNEXPLAINED)
 
 
 def _row_correlations(a: FloatArray, b: FloatArray) -> FloatArray:

@@ -132,7 +132,7 @@ def _energies(bits: int, response: FloatArray) -> FloatArray:
 
 
 MOST_BITS = 12  # bits up to which all payloads are compared: 4,096 of them
-_AT_ONCE = 512  # payloads whose correlations are held at once
+_PAYLOADS_AT_ONCE = 512  # payloads whose correlations are held at once
 
 _ROUNDING_OF_SPECTRA = 1e-6  # the same of payloads' profiles, in single precision
 
@@ -167,8 +167,8 @@ class PayloadTemplates:
         """
         scores = np.empty(len(self.spectra))
         phases = np.empty(len(self.spectra), dtype=np.int64)
-        for start in range(0, len(scores), _AT_ONCE):
-            part = slice(start, start + _AT_ONCE)
+        for start in range(0, len(scores), _PAYLOADS_AT_ONCE):
+            part = slice(start, start + _PAYLOADS_AT_ONCE)
             spectra = np.fft.rfft(self.levels[part][:, rank], axis=1)
             matches = np.fft.irfft(spectra * self.spectra[part].conj(), len(rank), axis=1)
             phases[part] = matches.argmax(axis=1)
@@ -199,8 +199,8 @@ def payload_templates(scheme: Scheme, exposure: Fraction) -> PayloadTemplates:
     energy = (2.0 * power.sum(axis=1) - power[:, -1]) / len(impulses)
     energy = np.where(energy > _ROUNDING_OF_SPECTRA * len(impulses), energy, np.inf)
     levels = np.empty((len(codes), len(impulses)), dtype=np.float32)
-    for start in range(0, len(codes), _AT_ONCE):
-        part = slice(start, start + _AT_ONCE)
+    for start in range(0, len(codes), _PAYLOADS_AT_ONCE):
+        part = slice(start, start + _PAYLOADS_AT_ONCE)
         levels[part] = np.sort(np.fft.irfft(spectra[part], len(impulses), axis=1), axis=1)
     for array in (spectra, means, energy, levels):
         array.flags.writeable = False  # it is cached and shared

@@ -21,7 +21,7 @@ _LARGEST_SIDE = 65_535
 _BLOCK = 255  # bytes of a block of data
 
 _LOOP_EXTENSION = b"\x21\xff\x0bNETSCAPE2.0\x03\x01\x00\x00\x00"  # begin again at the end
-_HEAD, _DESCRIPTION = 13, 10
+_HEAD_BYTES, _DESCRIPTION_BYTES = 13, 10
 """Bytes before the first table of colours, and those that describe a picture."""
 
 _SIGNATURE = b"\x89PNG\r\n\x1a\n"
@@ -66,16 +66,16 @@ def _gif_of(picture: ByteArray) -> bytes:
     (shown if picture.ndim == 2 else shown.quantize()).save(buffer, "GIF")
     content = buffer.getvalue()
     colours = 3 * 2 ** ((content[10] & 7) + 1) if content[10] & 0x80 else 0
-    table, place = content[_HEAD : _HEAD + colours], _HEAD + colours
+    table, place = content[_HEAD_BYTES : _HEAD_BYTES + colours], _HEAD_BYTES + colours
     while content[place] == 0x21:  # extensions
         place = _after_blocks(content, place + 2)
-    description = bytearray(content[place : place + _DESCRIPTION])
+    description = bytearray(content[place : place + _DESCRIPTION_BYTES])
     if not description[9] & 0x80:
         description[9] |= 0x80 | (content[10] & 7)
     else:
         table = b""
     # What follows is the picture's own table, if it has one, and its compressed pixels.
-    return bytes(description) + table + content[place + _DESCRIPTION : -1]
+    return bytes(description) + table + content[place + _DESCRIPTION_BYTES : -1]
 
 
 def _after_blocks(content: bytes, place: int) -> int:

@@ -18,14 +18,14 @@ from typing import IO, Any
 
 DECODER_OPTION = "--decoder-of-films"  # makes a bundled program a decoder
 MOST_MEMORY = 400_000_000  # bytes that decoding may take, beyond those at the process's start
-_FRAMES_LEFT = 12  # bytes a pixel that a decoder which goes on has left: four frames in colours
+_BYTES_A_PIXEL_LEFT = 12  # of memory for a decoder to go on: four frames in colours
 LONGEST_REQUEST = 4.0  # seconds of processor time that one request may take
 TOOK_TOO_LONG = 21  # exit code of a process that took too long
 
 HEADER = struct.Struct("<II")  # before each answer: the bytes of its JSON and of its pixels
 NO_MEMORY = "decoding it takes more memory than is allowed."  # end of a sentence
 _NO_MEMORY_LEFT = -4  # OpenCV's code of an error where memory lacks: ``cv2.Error.StsNoMem``
-_CHECK = 0.2  # seconds between looks at the processor time
+_CHECK_SECONDS = 0.2  # seconds between looks at the processor time
 
 
 _IDLE_SECONDS = 60.0  # seconds that a process without a film waits for the next one
@@ -47,7 +47,7 @@ class _Watch:
 
     def _look(self) -> None:
         while True:
-            time.sleep(_CHECK)
+            time.sleep(_CHECK_SECONDS)
             since = self._since
             if since is not None and time.process_time() - since > LONGEST_REQUEST:
                 os._exit(TOOK_TOO_LONG)
@@ -168,7 +168,7 @@ def _is_memory_full(source: Any) -> bool:
     import numpy as np
 
     try:
-        np.empty(_FRAMES_LEFT * source.pixels, np.uint8)
+        np.empty(_BYTES_A_PIXEL_LEFT * source.pixels, np.uint8)
     except MemoryError:
         return True
     return False

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from amount import amount
 
-from occ_model.room.edges import _BLOCK, _variance_ratio, _Line
+from occ_model.room.edges import _BLOCK, _Line, _variance_ratio
 
 _POINTS = 640
 _SLOPE, _MIDDLE = 0.03, 250.0

@@ -26,6 +26,8 @@ _MARGIN = 0.8  # metres around the lamps
 
 _DASHES = Qt.PenStyle.DashLine
 
+_ROOM_FOR_NUMBERS = 0.02  # fraction of a picture's height beside it: its first row's number is seen
+
 _NAME = 0.025  # fraction of the picture's height that half a name takes
 
 
@@ -161,7 +163,7 @@ class PicturePlot(QWidget):
         self.image.setImage(shown.picture, levels=(0, 255))
         self.image.setRect(QRectF(-0.5, -0.5, columns, rows))
         self.plot.setXRange(0, columns, padding=0)
-        self.plot.setYRange(0, rows, padding=0)
+        self.plot.setYRange(0, rows, padding=_ROOM_FOR_NUMBERS)
         for item in self._over:
             self.plot.removeItem(item)
         self._over = []

@@ -40,7 +40,7 @@ def write_lesson_report(
         raise OutputError(f"The lesson {one_line(lesson.title)} has no answers to report.")
     scenes = {f"step {place}": each.scene for place, each in enumerate(steps, 1)}
     provenance = Provenance(f"Report of the lesson: {lesson.title}", scenes, date=date)
-    about = "   ".join(text for text in (author, date) if text) or lesson.summary
+    about = ", ".join(text for text in (author, date) if text) or lesson.summary
     with house_style():
         if path.suffix.lower() == ".md":
             _write_markdown(path, lesson, steps, about)
@@ -168,7 +168,7 @@ def _draw_step(figure: Figure, number: int, each: AnsweredStep, top: float, bott
     answer = each.answer
     given = _NO_ANSWER if answer is None else each.step.with_unit(answer.text)
     outcome = "" if answer is None else answer.sentence
-    matched = "" if each.match is None else "; ".join(match_lines(each.match, each.photo))
+    matched = "" if each.match is None else _in_sentences(each.match, each.photo)
     texts = (
         (f"{number}. {each.step.question}", 10, "bold", "0.0"),
         (f"Answer: {given}", 10, "normal", "0.0"),
@@ -187,7 +187,9 @@ def _write(
     figure: Figure, top: float, text: str, font: FontProperties, colour: str, most: int = 5
 ) -> int:
     """Write a text below a height of the page, in at most so many lines; return their number."""
-    text, font = with_letters(printable(text), font)
+    # No line ends between a value and its error.
+    unbroken = printable(text).replace(" ± ", "\xa0±\xa0")
+    text, font = with_letters(unbroken, font)
     lines = lines_within(text, (_RIGHT - _LEFT) * _PAGE[0], font, most) if text else []
     figure.text(
         _LEFT, top, "\n".join(lines), fontproperties=font, color=colour,
@@ -206,6 +208,13 @@ def _draw_seen(figure: Figure, each: AnsweredStep, top: float, bottom: float) ->
     below = figure.add_axes((0.12, bottom, 0.8, room * 0.3))
     above = figure.add_axes((0.12, bottom + room * 0.36, 0.8, room * 0.64), sharex=below)
     draw_match((above, below), each.match)
+
+
+def _in_sentences(match: Match, photo: str) -> str:
+    """Say what a match found in one paragraph."""
+    lines, reasons = match_lines(match, photo), match.all_reasons
+    found = "; ".join(lines[: len(lines) - len(reasons)])
+    return " ".join((f"{found}.", *reasons))
 
 
 def match_lines(match: Match, photo: str) -> list[str]:

@@ -114,6 +114,21 @@ def test_a_report_as_text_has_the_measurement_and_its_figures(match: Match, tmp_
     assert Scene.from_toml(toml) == few_rows(SHEETS[1], len(SHEETS[1].steps) - 1)
 
 
+def test_a_report_has_author_and_date_apart_and_a_match_in_sentences_with_whole_values(
+    match: Match, tmp_path: Path
+) -> None:
+    steps = answered(SHEETS[1], match)[3:]
+    path = tmp_path / "report.md"
+    write_lesson_report(path, SHEETS[1], steps, author="A. Student", date="2026-11-22")
+    assert "\nA. Student, 2026-11-22\n" in path.read_text(encoding="utf-8")
+    doubtful = replace(match, reasons=("Only 2 periods are in view.",))
+    (step, *_) = [each for each in steps if each.match is not None]
+    page = draw_page("title", "about", "foot", [replace(step, match=doubtful)], 1)
+    (found,) = [text for each in page.texts if "residual" in (text := each.get_text())]
+    assert found.replace("\n", " ").endswith(" levels. Only 2 periods are in view.")
+    assert re.search(r"readout time 12\.8\d*\xa0±\xa00\.0", found.replace("\n", " "))
+
+
 def test_a_match_is_told_with_verdict_errors_and_reasons(match: Match) -> None:
     doubtful = replace(match, reasons=("Only 2 periods are in view.",))
     assert match_lines(match, "")[0] == "sure"

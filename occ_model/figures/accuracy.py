@@ -85,7 +85,8 @@ def _draw_part(ax: Axes, part: str, points: Sequence[AccuracyPoint]) -> None:
         side = -1 if number % 2 else 1
         align = "left" if side > 0 else "right"
         name = point.name if part != "effects" else str(number)
-        if part != "integration" or number % 4 == 0 or point.current:
+        is_last = number == len(points) - 1  # the closed form, of the integrations
+        if part != "integration" or number % 4 == 0 or is_last or point.current:
             ax.annotate(
                 name, (x, y), (6 * side, 4), textcoords="offset points", fontsize=6, ha=align
             )

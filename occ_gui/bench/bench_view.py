@@ -20,6 +20,8 @@ from occ_model.errors import counted
 from occ_model.results.bench import BenchBounds, BenchPoint, BenchRequest
 from occ_model.scene.recording import FRAME_RATE
 
+_GAP = 8  # pixels between a box with its name and the next
+
 _LEAST_HEIGHT_WITH_TABLE = 420  # pixels of height from which the table stands below the plots
 
 _SAMPLE = QSize(14, 14)
@@ -111,9 +113,8 @@ class BenchView(QWidget):
 
     def _lay_out(self) -> None:
         head = filled(QHBoxLayout(), (self.whose, 3), (self.effort, 2), self.measure)
-        second = filled(
-            QHBoxLayout(), *self.decoders.values(), (None, 1), self.frame_rate, (self.what, 1)
-        )
+        boxes = (part for box in self.decoders.values() for part in (box, _GAP))
+        second = filled(QHBoxLayout(), *boxes, (None, 1), self.frame_rate, (self.what, 1))
         self._legend_place = filled(QHBoxLayout(), self.legend, (None, 1))
         foot = filled(QHBoxLayout(), (self.state, 1), self.work)
         filled(

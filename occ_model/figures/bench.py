@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from occ_model import colours
 from occ_model.errors import counted
 from occ_model.figures.drawing import Drawing
 from occ_model.results.bench import HEADER, BenchBounds, BenchPoint, BenchRequest, written
@@ -19,6 +20,9 @@ from occ_model.study.bit_error_rate import check_frame_rate
 
 _TITLE = "Bit error rates and bits a second over exposure and noise"
 _MARKERS = ("o", "s", "^", "D", "v", "P", "X")
+
+# As in the window
+_COLOURS = (colours.SIMULATION, colours.BAND, colours.PHOTO, colours.REGION, colours.NOISE)
 
 _ARROW = 0.5  # length of the arrow down from an upper end, as a fraction of it
 
@@ -157,4 +161,5 @@ def _draw_bits(ax: Axes, number: int, points: Sequence[BenchPoint], frames_a_sec
 
 def _look(number: int) -> dict[str, Any]:
     marker = _MARKERS[number % len(_MARKERS)]
-    return {"color": f"C{number}", "marker": marker, "markersize": 4, "capsize": 2}
+    colour = _COLOURS[number % len(_COLOURS)]
+    return {"color": colour, "marker": marker, "markersize": 4, "capsize": 2}

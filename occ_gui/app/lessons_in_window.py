@@ -9,7 +9,7 @@ from occ_gui.shell.shell import Shell
 from occ_gui.window.main_window import MainWindow
 
 _ENTRY_OF_ACTION = {"transmitter": "transmitter", "photo": "open_photo", "match": "match"}
-"""The menu entries that the buttons of lessons stand for."""
+"""Menu entries of the lessons' buttons."""
 
 
 class LessonsInWindow(QObject):

@@ -39,7 +39,7 @@ class Start:
 
     @property
     def is_new(self) -> bool:
-        """Whether neither the command line nor an earlier session says what to show."""
+        """Whether neither the command line nor an earlier session determines what to show."""
         is_left = self.session_file is not None and self.session_file.last is not None
         return not self.is_scene_asked and (self.fresh or not is_left)
 

@@ -87,7 +87,7 @@ class _Run:
 
 
 class Reporter:
-    """What running work reports to its task, and asks of it, on the worker's thread."""
+    """Reports of running work, and its questions to its task, on the worker's thread."""
 
     def __init__(self, worker: "_Worker", run: _Run) -> None:
         self._worker, self._run = worker, run

@@ -39,7 +39,7 @@ class Document(QObject):
         return self._store.store.workspace.scene_file
 
     def save(self) -> None:
-        """Save the scene to its file, or ask for one."""
+        """Save the scene to its file, which the user chooses where there is none."""
         if self.path is None:
             self._files.ask_to_save_scene()
         else:

@@ -1,1 +1,1 @@
-"""Pane of the room: plan, picture, and where the picture says that it was taken."""
+"""Pane of the room: plan, picture, and the place of the camera by the picture."""

@@ -1,4 +1,4 @@
-"""View of a room: its plan, the camera's picture, where the picture says that it was taken."""
+"""View of a room: its plan, the camera's picture, and the camera's place by the picture."""
 
 import math
 from collections.abc import Sequence

@@ -51,7 +51,7 @@ Part = TypeVar("Part")
 
 
 class VerdictView(Protocol):
-    """A part of a pane that says whether the code was read."""
+    """A part of a pane that shows whether the code was read."""
 
     def show_outdated(self, outdated: bool) -> None: ...
 

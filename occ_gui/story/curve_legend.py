@@ -49,7 +49,7 @@ class CurveLegend(QWidget):
         self._take_lines()
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        """Take as many lines as text of another size asks for."""
+        """Lay out again in as many lines as the text's size needs."""
         super().changeEvent(event)
         if event.type() == QEvent.Type.FontChange and hasattr(self, "shown"):
             self._take_lines()

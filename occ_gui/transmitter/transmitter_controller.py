@@ -1,4 +1,4 @@
-"""Transmitter controller: asks the model how a board sends the scene, and writes its files."""
+"""Transmitter controller: writes a board's files that send the scene."""
 
 from dataclasses import dataclass
 from pathlib import Path

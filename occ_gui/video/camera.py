@@ -1,4 +1,4 @@
-"""Cameras of this computer, and the pictures of a live source such as one of them."""
+"""Cameras of this computer, and the pictures of one or another live source."""
 
 import platform
 from collections.abc import Iterator

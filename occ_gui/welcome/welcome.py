@@ -55,7 +55,7 @@ _TITLE = 1.5
 
 
 class WelcomeDialog(QDialog):
-    """Asks what the user wants to do first; closing it means to explore freely."""
+    """The choice of what the user wants to do first; closing it means to explore freely."""
 
     chosen = Signal(str)  # the door: ``learn``, ``photo`` or ``explore``
 

@@ -16,7 +16,7 @@ _PADDING = 8
 
 
 class OutdatedMark(QWidget):
-    """Dims a pane while its result belongs to an earlier scene, and says so."""
+    """Dims a pane while its result belongs to an earlier scene, and names the reason."""
 
     def __init__(self, pane: QWidget) -> None:
         super().__init__(pane)

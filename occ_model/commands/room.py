@@ -1,4 +1,4 @@
-"""The command ``occ-model room``: draw a room's picture, or say where a picture was taken."""
+"""The command ``occ-model room``: draw a room's picture, or find where a picture was taken."""
 
 import argparse
 import math

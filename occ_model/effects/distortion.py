@@ -95,11 +95,7 @@ def _outlines(scene: Scene, corners: FloatArray) -> tuple[FloatArray, FloatArray
 
 
 def _traced(scene: Scene, corners: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Trace both outlines.
-
-    Parts so far outside that none of their light reaches the picture are cut off first: the
-    equations need not be valid there.
-    """
+    """Trace both outlines, cut off beyond all light in the picture, where equations may fail."""
     camera = scene.camera
     rays = image_rays(corners, camera)
     focal = camera.focal_length_pixels

@@ -52,7 +52,7 @@ class Sample:
     rows: FloatArray  # Those that are sampled in each column, (columns, nodes), as all that follows
 
     row_weights: FloatArray
-    """Fraction of the region's rows that each stands for; their sum is 1 in each column."""
+    """Fraction of the region's rows by which each is weighted; their sum is 1 in each column."""
 
     covers: Mapping[frozenset[str], FloatArray | None]
     """The panel's fraction of each pixel's light, by the effects on the outline that are simulated.
@@ -88,7 +88,7 @@ class Sample:
 
     @cached_property
     def pixel_weights(self) -> FloatArray:
-        """The fraction of the region's pixels that each stands for, shape as ``rows``."""
+        """Weight of each pixel, as a fraction of the region's pixels, shape as ``rows``."""
         return self.weights[:, None] * self.row_weights
 
 

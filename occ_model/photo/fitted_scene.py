@@ -40,7 +40,7 @@ _MOST_EDGE_ERROR = 0.25  # maximum error of the outermost edges in shortest puls
 
 
 def at_rate(scene: Scene, rate: float) -> Scene:
-    """Return a scene that sends so many chips in the time of one of its own."""
+    """Return a scene at ``rate`` times its switching frequency."""
     if rate == 1.0:
         return scene
     frequency = scene.transmitter.switching_frequency * rate

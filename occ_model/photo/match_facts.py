@@ -146,12 +146,10 @@ def _alternative(other: Alternative, estimated: str, condition: str) -> str:
 
 
 def estimate_text(quantity: Quantity, value: float, deviation: float | None) -> str:
-    """Write an estimate with its standard deviation, to the digits that are significant.
+    """Format an estimate in SI units, with its deviation if any, to the significant digits.
 
     An exposure time that is hardly known is stated as an upper limit, since the value less its
     error would be negative.
-
-    ``value``, ``deviation``: in SI units; without a deviation the value alone is written.
     """
     text = quantity.unit.format_estimate(value, deviation)
     if quantity.name != "exposure_time" or deviation is None or deviation <= _LARGEST_ERROR * value:

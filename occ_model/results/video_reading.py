@@ -1,4 +1,4 @@
-"""Results of reading a film: its frames, its packets, and what its clock says."""
+"""Results of reading a film: its frames, its packets, and its clock."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field

@@ -33,9 +33,8 @@ def read_room_photo(photo: Photo, room: Room, focal_length: float | None = None)
 
     Exposure time, ISO speed, aperture and, unless given, the equivalent focal length (in metres)
     are those of the EXIF data, else the room's; an error includes its rounding. A photo is turned
-    by a right angle where the stripes lie, and by half a turn where no lamp is named.
-
-    Raises ParameterError, ProjectionError: the focal length is out of range; too large a photo.
+    by a right angle where the stripes lie, and by half a turn where no lamp is named. Raises
+    ParameterError for a focal length out of range, ProjectionError for too large a photo.
     """
     check_room(room)
     upright: ByteArray = np.ascontiguousarray(photo.image[::-1] if photo.turned else photo.image)

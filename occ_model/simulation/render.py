@@ -188,7 +188,7 @@ def _drafted(made: Pictures, columns: Columns, enhancement: Enhancement) -> dict
 
 
 def every_row(rows: int, step: int) -> range:
-    """Return every ``step``-th of a picture's rows, each near the middle of those it stands for."""
+    """Return every ``step``-th of a picture's rows, each near the middle of those around it."""
     return range(min(step // 2, (rows - 1) % step), rows, step)
 
 

@@ -17,7 +17,7 @@ _ITEMS_AHEAD = 2  # items for each thread that are prepared before their turn
 
 
 def threads() -> int:
-    """Return how many threads compute: one a core, or fewer if OMP_NUM_THREADS says so."""
+    """Return how many threads compute: one a core, or fewer by OMP_NUM_THREADS."""
     cores = os.cpu_count() or 1
     wanted = os.environ.get("OMP_NUM_THREADS", "")
     return max(1, min(cores, int(wanted))) if wanted.isdecimal() else cores

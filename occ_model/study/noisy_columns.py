@@ -34,7 +34,7 @@ def _noise_of(effects: tuple[NoiseEffect, ...], camera: Camera, sensor: Sensor) 
 
 
 class NoisyColumns:
-    """The columns of a level panel, their pixels noisy and enhanced as a plan says."""
+    """The columns of a level panel, with noise and enhancement by a plan."""
 
     def __init__(
         self, scene: Scene, columns: Columns, plan: Plan, span: Region, enhancement: Enhancement

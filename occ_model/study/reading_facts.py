@@ -83,7 +83,7 @@ def packet_facts(reading: VideoReading) -> Iterator[Fact]:
 
 
 def clock_facts(clock: Clock) -> Iterator[Fact]:
-    """List what a film says of the clocks of the camera and of the transmitter."""
+    """List what a film shows of the clocks of the camera and of the transmitter."""
     doubt = "" if clock.is_sure else ", not sure"
     for key, label, unit, measured, mark, meaning in (
         (

@@ -149,7 +149,7 @@ class SentPeriod:
         return tuple((part * length - found[0]) % self.length for part in range(self.parts))
 
     def part_bits(self, chips: ByteArray) -> tuple[int, ByteArray] | None:
-        """Read one part by itself: which it says it is, and its bits; None where it is not read."""
+        """Read one part by itself: its number and its bits; None where it is not read."""
         if self.scheme is None:
             return None
         if self.parts > 1:

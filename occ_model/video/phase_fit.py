@@ -23,7 +23,7 @@ _MIN_DEVIATION = 1e-5  # least standard deviation of a phase in chips that is be
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Phases:
-    """What frames say of the clock, in the order of time."""
+    """What frames show of the clock, in the order of time."""
 
     times: FloatArray  # Shape (frames,): the frames' times in seconds
     columns: FloatArray  # Shape (frames,): the column that each phase is that of

@@ -64,9 +64,8 @@ def explain(
     """Find the timings with which given chips fit a photo's stripes best.
 
     There are none where the chips never change, or where no fit has the levels of a picture.
-
-    ``steps``: chips per column to try, in groups; None stands for all that are possible. A group is
-    tried where none before it surely fits. What ``check`` raises ends the search.
+    ``steps``: chips per column to try, in groups, None for all that are possible; a group is tried
+    where none before it surely fits. What ``check`` raises ends the search.
     """
     if chips.min() == chips.max():
         return None

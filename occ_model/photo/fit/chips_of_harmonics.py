@@ -138,12 +138,10 @@ def refined(lines: Harmonics, found: ReadPattern, column: float | None = None) -
 
 
 def _levels(lines: Harmonics, weights: NDArray[np.complex128], count: int) -> FloatArray:
-    """Solve for the chips' levels: harmonics that are equal modulo their number give one.
+    """Solve for the chips' levels, shape (trials, chips).
 
-    ``weights``: shape (trials, harmonics), what multiplies the chips' own harmonics, for each
-    exposure and phase.
-
-    Shape (trials, chips).
+    Harmonics that are equal modulo the number of chips give one equation. ``weights``: shape
+    (trials, harmonics), what multiplies the chips' own harmonics, for each exposure and phase.
     """
 
     def folded(values: Harmonics) -> Harmonics:

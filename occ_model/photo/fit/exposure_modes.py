@@ -221,9 +221,7 @@ def scanned_starts(
     """Return the parameters of the best other exposures of all, the camera being as usual.
 
     The first search compares exposures by a profile without blur and by one tone curve: it may keep
-    only a wrong one, whose errors look small.
-
-    ``model``: the model, its noise being that of the exposure found.
+    only a wrong one, whose errors look small. The noise of ``model`` is that of the exposure found.
     """
     usual = model.with_usual(found)
 

@@ -126,11 +126,9 @@ class StripeModel:
         return np.asarray(np.linalg.solve(matrix, kept.sums(data).T).T)
 
     def _slopes(self, timing: Timing) -> FloatArray:
-        """Return the residual's slopes over step, exposure and middle where the tone is linear.
+        """Return the slopes over step, exposure and middle for a linear tone, shape (columns, 3).
 
         What has the residual as a factor is left out (Kaufman, BIT 15:49, 1975).
-
-        Shape (columns, 3).
         """
         lit, _, swing = self._at(timing)
         changes = swing * timing.lit_slopes(lit, self._chips)

@@ -70,12 +70,10 @@ class LitProfile:
         return self._less_blurred(seen, picture.light(fitted.shown))
 
     def slopes(self, seen: Seen, rates: SeenSlopes) -> FloatArray:
-        """Return the residual's slopes over the parameters of the light, then over the tone's.
+        """Return the residual's slopes over the light's parameters, then the tone's: (any, kept).
 
         Where pixel values are blurred, what has the residual as a factor is left out (Kaufman, BIT
         15:49, 1975).
-
-        Shape (parameters, kept).
         """
         if seen.sharp is not None and rates.sharp is not None:
             return self._slopes_of_blurred(seen, rates, seen.sharp, rates.sharp)

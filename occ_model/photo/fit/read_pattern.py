@@ -62,12 +62,10 @@ def read_patterns(
 ) -> list[ReadPattern]:
     """Read repeating sequences of chips that explain the stripes, with as few chips as possible.
 
-    ``is_clipped``: white pixels may lengthen bright runs by more than an edge's ramp. The sequences
-    are those of different ways of reading, by edges first; none where no sequence explains the
-    stripes.
-
-    Chips may be misread, or not be read, where the exposure is shorter than a column's readout: the
-    position of an edge within a column is then unknown.
+    Those of different ways of reading, by edges first; none where no sequence explains the stripes.
+    ``is_clipped``: white pixels may lengthen bright runs by more than an edge's ramp. Chips may be
+    misread, or not be read, where the exposure is shorter than a column's readout: the position of
+    an edge within a column is then unknown.
     """
     lines = harmonics_of(without_trend(profile), period)
     most = min(MOST_CHIPS, int(period / LEAST_COLUMNS))

@@ -25,13 +25,12 @@ class Blinking:
 def with_codes_joined(
     blinking: Sequence[Blinking], means: FloatArray, bounds: IndexArray
 ) -> list[Blinking]:
-    """Put the parts of one lamp together between which it is lit, too.
+    """Join the parts of one lamp between which it is lit, too.
 
     Where a code alternates, its stripes look like those of a pulse that repeats. Such parts lie in
     line and blink in time, as lamps of one driver do, but those are dark between each other.
-
-    ``means``: shape (strips, columns), the strips' profiles. ``bounds``: the rows at which the
-    strips begin.
+    ``means``: profiles of the strips, shape (strips, columns). ``bounds``: first rows of the
+    strips.
     """
     kept: list[Blinking] = []
     for one in sorted(blinking, key=lambda one: one.lamp.region.first_column):

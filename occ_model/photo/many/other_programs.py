@@ -34,11 +34,8 @@ _MOST_SCATTER = 0.01  # maximum relative error of the mean of photos that scatte
 def frame_readout_time(table: PhotoTable) -> tuple[float, float] | None:
     """Return the readout time of the whole frame and its standard deviation in seconds.
 
-    ``table``: the photos. They must be as the camera stored them: of a photo that was cut or made
-    smaller the lines are others.
-
-    None where the readout time was not measured, or the photos in the mean have different numbers
-    of lines.
+    None where it was not measured, or the photos differ in their numbers of lines. They must be as
+    the camera stored them: one that was cut or made smaller has other lines.
     """
     counted = _counted(table)
     lines = {row.lines for row in counted}
@@ -49,11 +46,7 @@ def frame_readout_time(table: PhotoTable) -> tuple[float, float] | None:
 
 
 def lines_to_paste(table: PhotoTable) -> dict[str, str]:
-    """Write the readout time as other programs take it.
-
-    A line for each program, by its name; empty where :func:`frame_readout_time` returns None, or
-    where the photos contradict each other.
-    """
+    """Return a line for each program, by name; none without a readout time or agreement."""
     frame = frame_readout_time(table)
     if frame is None or table.estimated is None:
         return {}
@@ -64,12 +57,9 @@ def lines_to_paste(table: PhotoTable) -> dict[str, str]:
 
 
 def lines_of_match(match: Match, *, turned: bool) -> dict[str, str]:
-    """Write the readout time of one photo as other programs take it.
+    """Return the lines of one match for other programs; none where it is doubtful.
 
-    ``match``: its match, with the size of the photo in its scene. ``turned``: whether the photo's
-    columns are the file's lines.
-
-    As of :func:`lines_to_paste`; empty where the match is doubtful.
+    ``turned``: whether the photo's columns are the file's lines.
     """
     frame = frame_of_match(match)
     if frame is None or match.verdict != SURE:
@@ -87,11 +77,9 @@ def frame_of_match(match: Match) -> tuple[float, float] | None:
 
 
 def lines_of_frame(seconds: float, deviation: float, scanned_along: str) -> dict[str, str]:
-    """Write the readout time of a frame as other programs take it.
+    """Return a line for each program, by name, from a frame's readout time in seconds.
 
-    ``seconds``, ``deviation``: the readout time of the whole frame, and its standard deviation.
-    ``scanned_along``: ``"lines"`` or ``"columns"`` of the upright picture; empty where it is not
-    one of them.
+    ``scanned_along``: ``"lines"`` or ``"columns"`` of the upright picture; else no line.
     """
     written = _milliseconds(seconds, deviation)
     lines = {"OpenDroneMap": f"--rolling-shutter --rolling-shutter-readout {written}"}

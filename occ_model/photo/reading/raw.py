@@ -83,12 +83,10 @@ class Mosaic:
         return np.ascontiguousarray(self.photosites[row::2, column::2])
 
     def samples(self, along_lines: bool) -> Samples:
-        """Return the light as a picture of the sensor's size, in proportion, 65535 being white.
+        """Return the light as a picture, shape (lines, columns), in proportion; 65535 is white.
 
         ``along_lines``: whether photosites of a line are of one time, else those of a column. A
         photosite of another colour has the value of its green neighbour of the same time.
-
-        Shape (lines, columns).
         """
         photosites, is_green, levels = self.photosites, self.is_green, self.levels
         if not along_lines:

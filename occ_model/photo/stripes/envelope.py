@@ -18,11 +18,10 @@ _LEAST_VARIANCE = 1e-18  # variance below which a profile is constant but for ro
 
 
 def envelope(profile: FloatArray, width: int) -> tuple[FloatArray, FloatArray]:
-    """Return the low and the high level around each column.
+    """Return the low and the high level around each column, smoothed.
 
-    A grey-scale opening removes bright stripes, a closing dark ones; both are smoothed.
-
-    ``width``: number of columns within which the stripes reach both levels.
+    A grey-scale opening removes bright stripes, a closing dark ones. ``width``: number of columns
+    within which the stripes reach both levels.
     """
     width = max(3, min(width, 2 * len(profile) - 1)) | 1
     # As one row: OpenCV 4 and 5 give a one-dimensional array different shapes.

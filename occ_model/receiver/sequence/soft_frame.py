@@ -94,5 +94,5 @@ def _sureness(
 
 
 def probability(ratio: FloatArray) -> FloatArray:
-    """Return the probability that a log-likelihood ratio stands for."""
+    """Convert a log-likelihood ratio to a probability."""
     return np.asarray(1.0 / (1.0 + np.exp(-np.clip(ratio, -_MAX_LOG_RATIO, _MAX_LOG_RATIO))))

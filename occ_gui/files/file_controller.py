@@ -45,7 +45,7 @@ def _has_scene(path: Path) -> bool:
 
 
 def _is_film(path: Path) -> bool:
-    """Return whether a file is a film: by its ending, or as it has several pictures."""
+    """Return whether a file is a film: by its ending, or by several pictures in it."""
     ending = path.suffix.lower()
     if ending not in _MOVING:
         return ending in _FILM_ENDINGS

@@ -76,7 +76,7 @@ def _vcd_unit(cycle: Fraction) -> tuple[str, int]:
 
 @dataclass(frozen=True, slots=True)
 class WavTiming:
-    """Sample rate in Hz and samples a chip of a WAV file, and its frequency."""
+    """Sample rate in Hz and samples a chip of a WAV file, and the error of its frequency."""
 
     sample_rate: int
     samples_a_chip: int

@@ -67,7 +67,7 @@ def read_stripes(signal: FloatArray, scene: Scene) -> DecodeResult:
 
 
 def _knows_length(scene: Scene) -> bool:
-    """Return whether the decoder may know a chip's length; also reports one that is too short."""
+    """Return whether a chip's length is known, so that a failure names one that is too short."""
     return bool(scene.transmitter.pattern) or not scheme_of(scene.transmitter).is_papers
 
 

@@ -137,7 +137,7 @@ class FrameReader:
 def _timing(
     result: DecodeResult, signal: FloatArray, light: FloatArray, before: int, scene: Scene
 ) -> tuple[ChipTiming | None, str | None]:
-    """Fit the timing of a decoder's chips; else return why they alone are no payload."""
+    """Fit the timing of a decoder's chips; else return why they alone hold no payload."""
     if result.signal is None or result.chip_starts is None:
         return None, result.failure or "The decoder gives no chips, which joining frames needs."
     lattice = first_lattice(result, signal, before, scene)

@@ -181,7 +181,7 @@ def _likeness(lines: Harmonics, models: Harmonics) -> FloatArray:
 def chips_by_descent(
     lines: Harmonics, count: int, check: Callable[[], object] = lambda: None
 ) -> list[ReadPattern]:
-    """Find sequences of chips whose harmonics are like those given, the likeliest first."""
+    """Find sequences of chips whose harmonics are like those given, the most similar first."""
     exposures, phases = (part.ravel() for part in np.meshgrid(_DENSE_EXPOSURES, _DENSE_PHASES))
     boxes = boxes_of(len(lines), count, exposures, phases)
     order = np.arange(1, len(lines) + 1)

@@ -1,5 +1,6 @@
 """What all tests share."""
 
+import builtins
 import gc
 import os
 import shutil
@@ -75,6 +76,9 @@ NEW_EXAMPLES = "OCC_NEW_EXAMPLES" in os.environ
 
 _PHOTOS = Path(__file__).parents[2] / "shared" / "photos"
 
+_IMPORT = builtins.__import__
+"""What carries out an import before Qt is there."""
+
 
 def pytest_unconfigure() -> None:
     """Remove what the windows of the tests have stored."""
@@ -102,8 +106,11 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     )  # fmt: skip
 
 
+@pytest.hookimpl(trylast=True)  # when pytest-qt has imported Qt
 def pytest_configure(config: pytest.Config) -> None:
     """Tell the modules with tests, before they are imported, how much is tried."""
+    # PySide's own reads the source of each module that is imported, as the program says too.
+    builtins.__import__ = _IMPORT
     if config.getoption("--whole"):
         os.environ[VARIABLE] = "1"
     examples = 100 if NEW_EXAMPLES else amount(30, 40)

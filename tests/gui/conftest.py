@@ -167,7 +167,6 @@ def application(
         with kept_window.lent(qtbot, small_scene) as application:
             yield application
         return
-    kept_window.close()
     before = QApplication.topLevelWidgets()
     application = new_window(qtbot, small_scene)
     yield application

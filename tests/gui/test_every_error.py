@@ -288,7 +288,6 @@ def lines_and_notices(application: Application) -> dict[str, tuple[QLineEdit, QL
     return found
 
 
-@pytest.mark.own_window
 def test_every_wrong_value_is_refused_at_its_field_with_unit_and_range(
     stage: Stage, small_scene: Scene
 ) -> None:

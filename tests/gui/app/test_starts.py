@@ -108,49 +108,23 @@ slow = ("contourpy", "matplotlib", "scipy", "skimage", "occ_gui.video.wiring",
         "occ_gui.spectrum.pane", "occ_model.photo.chips", "occ_model.photo.evidence",
         "occ_model.photo.fit", "occ_model.photo.lamps")
 print([name for name in slow if name in sys.modules])
+place = application.view("photo").placement.column
+print(place.textFromValue(1234.5), place.valueFromText("2.5"))
 application.window.close()
 """
 
 
-def test_the_first_picture_is_there_before_any_pane_is_made_and_what_is_slow_to_import_later() -> (
-    None
-):
+def test_what_is_slow_follows_the_first_picture_and_numbers_are_alike_in_any_locale() -> None:
+    # Qt takes the way of writing numbers from the name alone, whether there is such a locale or
+    # not.
+    here = {**os.environ, "QT_QPA_PLATFORM": "offscreen", "LC_ALL": "de_DE.UTF-8"}
     done = subprocess.run(
-        [sys.executable, "-c", BEGIN],
-        env={**os.environ, "QT_QPA_PLATFORM": "offscreen"}, capture_output=True, text=True,
-        check=True,
-    )  # fmt: skip
-    assert done.stdout.split() == ["[]", "[]", "[]"]
+        [sys.executable, "-c", BEGIN], env=here, capture_output=True, text=True, check=True
+    )
+    assert done.stdout.splitlines() == ["[]", "[]", "[]", "1234.50 2.5"]
 
 
 PROJECT = Path(__file__).resolve().parents[3]
-
-NUMBERS = """
-import sys
-from PySide6.QtCore import QTimer
-import occ_gui.app.command_line as app
-
-begin = app.start
-
-def start(*arguments):
-    qt, application = begin(*arguments)
-    def look():
-        place = application.view("photo").placement.column
-        print(place.textFromValue(1234.5), place.valueFromText("2.5"))
-        application.window.close()
-    QTimer.singleShot(0, look)
-    return qt, application
-
-app.start = start
-sys.exit(app.main(["--fresh", "--set", "rows=100"]))
-"""
-
-
-def test_the_window_writes_numbers_alike_in_any_locale(starts: Starts, tmp_path: Path) -> None:
-    # Qt takes the way of writing numbers from the name alone, whether there is such a locale or
-    # not.
-    ended = starts.run(program=NUMBERS, LC_ALL="de_DE.UTF-8", OCC_STATE=str(tmp_path))
-    assert (ended.returncode, ended.stdout) == (0, "1234.50 2.5\n")
 
 
 def test_no_property_of_qt_is_set_by_a_keyword_starting_with_i() -> None:

@@ -108,10 +108,9 @@ def scene_of(decoder: str) -> Scene:
 
 
 EACH_DECODER = [
-    "threshold", "sequence",
-    pytest.param("matched", marks=pytest.mark.whole),
-    pytest.param("equalizer", marks=pytest.mark.whole),
-]  # fmt: skip
+    "threshold",
+    *(pytest.param(name, marks=pytest.mark.whole) for name in ("sequence", "matched", "equalizer")),
+]
 
 
 @pytest.mark.parametrize("decoder", EACH_DECODER)

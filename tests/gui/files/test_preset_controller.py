@@ -4,7 +4,6 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
-from gui.shared_window import SharedWindow
 from gui.stores import show
 from gui.user import User
 from PySide6.QtCore import Qt
@@ -24,34 +23,24 @@ from occ_model.scene.scene import Scene
 Answer = Callable[[str, bool], None]
 
 
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory, kept_window: SharedWindow) -> Iterator[Path]:
-    """Let windows read the user's own presets from a folder of the tests, none but these."""
-    folder = tmp_path_factory.mktemp("own")
-    kept_window.close()
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv(USER_FOLDER, str(folder))
-        yield folder
-    kept_window.close()
-
-
 @pytest.fixture
-def rubbish(folder: Path) -> Path:
-    """Write a file of rubbish among the presets, before there is a window."""
-    path = folder / "rubbish.toml"
-    path.write_bytes(b"\xff no preset")
-    return path
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Let new windows read the user's own presets from a folder with one file of rubbish."""
+    folder = tmp_path / "own"
+    folder.mkdir()
+    (folder / "rubbish.toml").write_bytes(b"\xff no preset")
+    monkeypatch.setenv(USER_FOLDER, str(folder))
+    return folder
 
 
 @pytest.fixture(autouse=True)
-def own(rubbish: Path, application: Application) -> Iterator[Path]:
-    """Give the folder of the user's presets, and leave it to the next test as it was."""
-    folder = rubbish.parent
+def own(folder: Path, application: Application) -> Iterator[Path]:
+    """Let the window list the presets of the folder, and none of them after."""
+    application.presets._update()
     yield folder
     for path in folder.iterdir():
         path.unlink()
-    rubbish.write_bytes(b"\xff no preset")
-    application.presets.load(rubbish.stem)  # reads the folder again
+    application.presets._update()
 
 
 @pytest.fixture
@@ -86,6 +75,7 @@ def names(application: Application) -> list[str]:
     return [combo.itemData(place) or combo.itemText(place) for place in range(combo.count())]
 
 
+@pytest.mark.own_window
 def test_the_window_starts_in_spite_of_rubbish_among_presets(application: Application) -> None:
     assert names(application) == [*occ.presets(), "rubbish: cannot be read"]
     place = len(occ.presets())
@@ -95,36 +85,27 @@ def test_the_window_starts_in_spite_of_rubbish_among_presets(application: Applic
     assert "rubbish.toml cannot be read" in tip
 
 
-@pytest.mark.parametrize(
-    "text",
-    ["format = 1\n[camera]\niso" + ".a" * 1500 + " = 1", "title = 0x" + "f" * 5000, "title = 1\n"],
-    ids=["deep", "many digits", "no title"],
-)
 def test_whatever_stands_in_a_preset_the_others_can_be_used(
-    application: Application, user: User, own: Path, text: str
+    application: Application, user: User, own: Path
 ) -> None:
-    (own / "bad.toml").write_text(text)
+    bad = {
+        "deep": "format = 1\n[camera]\niso" + ".a" * 1500 + " = 1",
+        "long": "title = 0x" + "f" * 5000,
+        "no title": "title = 1\n",
+    }
+    for name, text in bad.items():
+        (own / f"{name}.toml").write_text(text)
     save_preset("good", Scene(), title="good")
-    application.presets.load("bad")
-    assert "bad.toml" in user.message
+    for name in bad:
+        application.presets.load(name)
+        assert f"{name}.toml" in user.message
     listed = [name for name in names(application) if name not in occ.presets()]
-    assert listed == ["bad: cannot be read", "rubbish: cannot be read"]
+    assert listed == [f"{name}: cannot be read" for name in (*bad, "rubbish")]
     assert "good" in names(application)
 
 
-def test_an_unreadable_preset_is_replaced_on_request_only(
+def test_a_saved_match_is_listed_last_and_can_be_loaded_and_replaces_rubbish_on_request_only(
     matched: Application, user: User, answer: Answer, own: Path
-) -> None:
-    answer("rubbish", False)
-    matched.view("photo").result.save.click()
-    assert (own / "rubbish.toml").read_bytes() == b"\xff no preset"
-    user.choose("D&elete preset")
-    assert not (own / "rubbish.toml").exists()
-    assert "rubbish: cannot be read" not in names(matched)
-
-
-def test_a_saved_match_is_listed_last_and_can_be_loaded(
-    matched: Application, user: User, answer: Answer
 ) -> None:
     shown = user.choose_next_preset()
     answer("my phone", False)
@@ -139,10 +120,16 @@ def test_a_saved_match_is_listed_last_and_can_be_loaded(
     assert matched.shell.pane("photo").matching.match is not None
     assert matched.store.scene == matched.shell.pane("photo").matching.match.scene
     assert matched.controls.preset.currentText() == "my phone"
+    answer("rubbish", False)
+    matched.view("photo").result.save.click()
+    assert (own / "rubbish.toml").read_bytes() == b"\xff no preset"
+    user.choose("D&elete preset")
+    assert not (own / "rubbish.toml").exists()
+    assert "rubbish: cannot be read" not in names(matched)
 
 
-def test_a_preset_is_replaced_on_request_a_name_refused_and_a_cancelled_dialog_does_nothing(
-    matched: Application, user: User, answer: Answer
+def test_a_preset_is_replaced_and_deleted_on_request_and_a_missing_one_gives_a_sentence(
+    matched: Application, user: User, answer: Answer, own: Path
 ) -> None:
     answer("phone-136us", False)
     matched.view("photo").result.save.click()
@@ -157,14 +144,7 @@ def test_a_preset_is_replaced_on_request_a_name_refused_and_a_cancelled_dialog_d
         answer("mine", replace)
         matched.view("photo").result.save.click()
         assert (preset_named("mine").scene != Scene()) == replace
-
-
-def test_a_deleted_preset_is_listed_no_more_and_a_missing_one_gives_a_sentence(
-    matched: Application, user: User, answer: Answer, own: Path
-) -> None:
     (own / "rubbish.toml").unlink()
-    answer("mine", False)
-    matched.view("photo").result.save.click()
     assert "mine" in names(matched)
     user.choose("D&elete preset")
     assert "mine" not in names(matched)

@@ -98,37 +98,9 @@ def test_a_room_outlives_a_kill_with_the_steps_of_its_camera(qapp: object, tmp_p
     again.close()
 
 
-def test_scene_settings_photo_and_options_are_there_again(
+def test_scene_settings_photo_options_and_layouts_are_there_again_and_layouts_can_be_reset(
     start: Starting, photo_file: Path, qtbot: QtBot
 ) -> None:
-    with start() as application:
-        application.store.change(iso=321.0)
-        application.settings.set_tolerance(2.5)
-        application.store.force("vignetting", True)
-        application.open_photo(photo_file)
-        qtbot.waitUntil(lambda: application.is_idle)
-        application.window.actions_by_name["hold_brightness"].trigger()
-        application.options.theme.choose("dark")
-        application.options.choose_overlay("blend")
-        application.view("picture").choose_picture("receiver")
-        scene, settings = application.store.scene, application.settings.settings
-    with start() as application:
-        assert application.store.scene == scene
-        assert not application.store.undo_stack.canUndo()
-        assert application.settings.settings == settings
-        assert application.view("picture").mode.key() == "blend"
-        assert (
-            application.view("picture").switch.key()
-            == application.view("picture").whose
-            == "receiver"
-        )
-        assert not application.view("picture").photo.isVisible()  # it lies on the picture
-        assert application.options.brightness.is_on
-        assert application.options.theme.theme == "dark"
-        application.options.theme.choose("system")
-
-
-def test_mode_and_layouts_are_there_again_and_can_be_reset(start: Starting, qtbot: QtBot) -> None:
     first_mode = next(iter(MODES))
     with start() as application:
         window = application.window
@@ -137,10 +109,30 @@ def test_mode_and_layouts_are_there_again_and_can_be_reset(start: Starting, qtbo
         window.docks["controls"].hide()
         window.addDockWidget(LEFT, window.docks["decode"])
         QApplication.processEvents()
+        application.store.change(iso=321.0)
+        application.settings.set_tolerance(2.5)
+        application.store.force("vignetting", True)
+        window.actions_by_name["hold_brightness"].trigger()
+        application.options.theme.choose("dark")
+        application.options.choose_overlay("blend")
+        application.view("picture").choose_picture("receiver")
+        application.open_photo(photo_file)
         window.modes.switch("photo")
+        qtbot.waitUntil(lambda: application.is_idle)
         window.docks["controls"].hide()
         window.modes.switch("limits")
+        scene, settings = application.store.scene, application.settings.settings
     with start() as application:
+        assert application.store.scene == scene
+        assert not application.store.undo_stack.canUndo()
+        assert application.settings.settings == settings
+        assert application.board.results.photo is not None
+        picture = application.view("picture")
+        assert picture.mode.key() == "blend"
+        assert picture.switch.key() == picture.whose == "receiver"
+        assert application.options.brightness.is_on
+        assert application.options.theme.theme == "dark"
+        application.options.theme.choose("system")
         window, modes = application.window, application.window.modes
         assert modes.mode == "limits"
         assert window.toolbar.modes.currentIndex() == [*MODES].index("limits")
@@ -151,6 +143,7 @@ def test_mode_and_layouts_are_there_again_and_can_be_reset(start: Starting, qtbo
             modes.switch(mode)
             assert {name for name, dock in window.docks.items() if not dock.isHidden()} == panes
         modes.switch(first_mode)
+        assert not picture.photo.isVisible()  # it lies on the picture
         assert window.docks["controls"].isHidden()
         assert window.dockWidgetArea(window.docks["decode"]) == LEFT
         assert abs(window.height() - 777) < 9
@@ -160,15 +153,11 @@ def test_mode_and_layouts_are_there_again_and_can_be_reset(start: Starting, qtbo
         assert window.dockWidgetArea(window.docks["decode"]) != LEFT
         assert window.saveState().size() == first.size()
         window.docks["controls"].hide()
-    with start(fresh=True) as application:
+        modes.version += 1  # as if this window had other panes than the next
+    with start() as application:
         assert not application.window.docks["controls"].isHidden()
-
-
-def test_a_layout_of_other_panes_is_left_alone(start: Starting, kept: QSettings) -> None:
-    with start() as application:
         application.window.docks["controls"].hide()
-        application.window.modes.version += 1
-    with start() as application:
+    with start(fresh=True) as application:
         assert not application.window.docks["controls"].isHidden()
 
 

@@ -24,7 +24,7 @@ from occ_model.receiver.decoders import QUICK_DECODERS
 from occ_model.scene.scene import Scene
 from occ_model.study.confidence import interval_of_pictures
 
-SHAPE = (7, 7)
+SHAPE = (4, 4)
 IMAGES = (1, 2)
 FREQUENCY, DISTANCE = "switching_frequency", "distance"
 
@@ -101,8 +101,8 @@ def test_a_coarse_map_comes_first_and_no_point_is_measured_again(
         if job.function.__name__ == "measure_points"
         for index, _ in job.arguments[2]
     ]
-    assert sorted(points) == sorted((i, n) for n in IMAGES for i in range(49))
-    assert {index for index, _ in points[:4]} == {7 * x + y for x in (0, 6) for y in (0, 6)}
+    assert sorted(points) == sorted((i, n) for n in IMAGES for i in range(16))
+    assert {index for index, _ in points[:4]} == {4 * x + y for x in (0, 3) for y in (0, 3)}
     before = len(bench.workers.jobs)
     bench.controller.set_seen(False)
     bench.look()

@@ -29,7 +29,7 @@ from occ_gui.scene.parameter_rows import QuantityRow
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 
-POSITIONS = 9
+POSITIONS = 5
 NAMES = ("switching_frequency", "iso")
 Fractions = tuple[float | None, ...]
 

@@ -25,7 +25,7 @@ _MOST_EQUAL_RATIO = 1.05  # maximum ratio of residuals of fits that are equally 
 _EQUALIZED_RATIO = 0.5  # ratio of residuals below which a picture was equalized
 
 EXPLAINED_CORRELATION = 0.98
-"""Correlation of a fit above which no other chips, and no equalized picture, are tried."""
+"""Correlation of a fit above which no other chips are tried."""
 
 SAME_EXPOSURE = 0.04
 """Difference in chips below which two exposures are the same."""
@@ -89,22 +89,22 @@ def explain_from(
     cameras: Sequence[CameraTone],
     with_gamma: bool = False,
 ) -> Explanation | None:
-    """Fit each camera's response from some timings, and keep the one with the least residual."""
-    best: tuple[list[StripeFit], CameraTone] | None = None
-    for camera in sorted(cameras, key=lambda one: one.enhancement == "equalization"):
-        is_equalized = camera.enhancement == "equalization"
-        if best is not None and is_equalized and best[0][0].correlation > EXPLAINED_CORRELATION:
-            continue
+    """Fit each camera's response from some timings, and keep the one with the least residual.
+
+    That of an equalized picture must have half the least residual of the others.
+    """
+    found: list[tuple[float, list[StripeFit], CameraTone]] = []
+    for camera in cameras:
         model = StripeModel(
             stripes.profile, chips, camera.tone, starts[0].step, camera.rank_resolution
         )
         fits = _fits(model, starts, with_gamma)
-        ratio = _EQUALIZED_RATIO if is_equalized else 1.0
-        if fits and (best is None or fits[0].residual < ratio * best[0][0].residual):
-            best = fits, camera
-    if best is None:
+        ratio = _EQUALIZED_RATIO if camera.enhancement == "equalization" else 1.0
+        if fits:
+            found.append((fits[0].residual / ratio, fits, camera))
+    if not found:
         return None
-    fits, camera = best
+    _, fits, camera = min(found, key=lambda one: one[0])
     least = min(fit.residual for fit in fits)
     good = [fit for fit in fits if fit.residual <= _MOST_EQUAL_RATIO * least]
     good.sort(key=lambda fit: fit.timing.exposure)

@@ -6,15 +6,18 @@ from typing import Any
 
 import numpy as np
 import pytest
+from simulated_photos import photo_of
 
 import occ_model as occ
-from occ_model.photo.fit.camera_response import camera_tones
+from occ_model.photo.fit import best_timing
+from occ_model.photo.fit.camera_response import CameraTone, camera_tones
 from occ_model.photo.fit.exposure_modes import alike_among, alike_starts, scanned_starts
 from occ_model.photo.fit.initial_search import Search
 from occ_model.photo.fit.timing import Timing
 from occ_model.transmitter.waveform import Waveform
 
 CHIPS = np.array([1, 0, 0, 1, 1, 0, 1, 0, 1, 1], dtype=np.uint8)
+TIMING = Timing(0.07, 1.3, 0.3, 2.2)
 
 
 @pytest.mark.parametrize("exposure", [0.3, 0.9, 1.3, 1.9])
@@ -129,6 +132,44 @@ def test_of_an_equalized_picture_a_column_shows_its_rank() -> None:
     constant = tones[1].tone(np.full(4, 0.3), 2.2)
     assert np.ptp(constant) == 0.0
     assert math.isfinite(constant[0])
+
+
+@pytest.mark.parametrize(
+    ("residuals", "kept"),
+    [
+        ({"p": 10.0, "e": 6.0}, "p"),
+        ({"p": 10.0, "e": 4.0}, "e"),
+        ({"e": 4.0, "p": 10.0, "E": 3.0, "P": 9.0}, "E"),  # of either averaging, in any order
+        ({"p": 10.0, "P": 7.0, "E": 4.0}, "P"),
+        ({"p": 10.0, "E": None}, "p"),  # no possible fit
+        ({"e": None}, None),
+    ],
+)
+def test_a_picture_is_equalized_where_that_halves_the_residual(
+    monkeypatch: pytest.MonkeyPatch, residuals: dict[str, float | None], kept: str | None
+) -> None:
+    def fits(tone: str, *_: object) -> list[Any]:
+        residual = residuals[tone]
+        return [] if residual is None else [SimpleNamespace(residual=residual, timing=TIMING)]
+
+    monkeypatch.setattr(best_timing, "StripeModel", lambda _profile, _chips, tone, *_: tone)
+    monkeypatch.setattr(best_timing, "_fits", fits)
+    cameras: Any = [
+        CameraTone("any", "equalization" if name in "eE" else "none", name)  # type: ignore[arg-type]
+        for name in residuals
+    ]
+    stripes: Any = SimpleNamespace(profile=np.zeros(9))
+    found = best_timing.explain_from([TIMING], stripes, CHIPS, cameras)
+    assert (found and found.camera.tone) == kept
+
+
+def test_of_an_equalized_picture_the_exposure_is_that_of_its_ranks() -> None:
+    """Its stripes look much like those of 130 µs that are not equalized."""
+    scene = occ.load_preset("phone-136us").replace(rows=600, switching_frequency=11e3)
+    image = occ.render(scene, tolerance=math.inf).image
+    match = occ.match_photo(photo_of(image), scene, sent="scene")
+    assert match.scene.model.enhancement == "equalization"
+    assert abs(match.exposure_time - 136e-6) < 2.0 * match.uncertainties["exposure_time"] < 2e-6
 
 
 @pytest.mark.parametrize(

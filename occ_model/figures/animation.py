@@ -39,6 +39,7 @@ _MAX_GIF_RATE = 50.0  # frames a second; players of GIF files show none faster
 
 _HEADROOM, _HIGHEST = 1.2, 260.0  # end of the level axis: a factor of the brightest level, at most
 _MAX_TITLE_LETTERS = 110  # maximum letters of a title
+_BAND_MODEL = "band model"
 
 
 def write_animation(  # noqa: PLR0913 - a film's settings, most of them optional
@@ -110,11 +111,12 @@ class _Drawing:
         self._title = upper.set_title("", loc="left", fontsize=11, parse_math=False)
         self._lower: Axes = lower
         (self._simulation,) = lower.plot([], [], linewidth=1.4, label="simulation", **SIMULATION)
-        (self._band,) = lower.plot([], [], linewidth=1.0, label="band model", **BAND)
+        (self._band,) = lower.plot([], [], linewidth=1.0, label=_BAND_MODEL, **BAND)
         lower.set_ylim(0.0, highest)
         lower.set_xlabel("column")
         lower.set_ylabel("grey level")
-        lower.legend(loc="upper right", fontsize=8, ncols=2, frameon=False)
+        legend = lower.legend(loc="upper right", fontsize=8, ncols=2, frameon=False)
+        _, self._band_name = legend.get_texts()
 
     def draw(self, frame: Frame, decoder: str) -> ByteArray:
         result = decode(frame.image, frame.scene, decoder=decoder)
@@ -131,7 +133,8 @@ class _Drawing:
         self._picture.set_extent((first - 0.5, last - 0.5, 1.0, 0.0))
         columns = np.arange(first, last)
         self._simulation.set_data(columns, frame.profile[first:last])
-        _show_band(self._band, frame.scene, first, last)
+        is_defined = _show_band(self._band, frame.scene, first, last)
+        self._band_name.set_text(_BAND_MODEL if is_defined else f"{_BAND_MODEL} (undefined here)")
         self._lower.set_xlim(first, last)
         value = self._parameter.format(frame.scene.value(self._parameter.name), 4)  # type: ignore[arg-type]
         read = result.failure or f"code {result.code} read"
@@ -143,8 +146,11 @@ class _Drawing:
         return pixels[:, :, :3].copy()
 
 
-def _show_band(line: Line2D, scene: Scene, first: int, last: int) -> None:
+def _show_band(line: Line2D, scene: Scene, first: int, last: int) -> bool:
+    """Show the band model's profile, and return whether there is one."""
     try:
         line.set_data(np.arange(first, last), band_profile(scene)[first:last])
     except BandModelUndefined:
         line.set_data([], [])
+        return False
+    return True

@@ -12,6 +12,7 @@ import occ_model as occ
 from occ_model.cli import main
 from occ_model.figures import animation
 from occ_model.figures.animation import ENDINGS, write_animation
+from occ_model.scene.parameters import quantity
 from occ_model.scene.provenance import scene_inside
 from occ_model.scene.scene import Scene
 
@@ -87,3 +88,12 @@ def test_the_command_runs_there_and_back(monkeypatch: pytest.MonkeyPatch) -> Non
     axis = ["--vary", "switching_frequency=4kHz:16kHz:x3", "--back"]
     assert main(["animate", *axis, "-o", "a.gif"]) == 0
     assert asked == ["switching_frequency", [4e3, 8e3, 16e3, 8e3]]
+
+
+def test_the_legend_says_where_the_band_model_is_undefined(scene: Scene) -> None:
+    drawing = animation._Drawing(quantity("switching_frequency"), 200.0)
+    names = []
+    for frequency in (8e3, 4e3):
+        drawing.draw(occ.render(scene.replace(switching_frequency=frequency)), "threshold")
+        names.append(drawing._band_name.get_text())
+    assert names == ["band model (undefined here)", "band model"]

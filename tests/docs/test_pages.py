@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from documents import FOLDER, PAGES, README, ROOT, blocks, links, text_of, without_code
+from each_case import each_case
 
 import occ_model as occ
 from occ_gui.app.command_line import read_command_line as read_gui_line
@@ -18,8 +19,8 @@ from occ_model.commands.listing import framing_table, line_code_table, parameter
 from occ_model.effects.registry import EFFECTS
 from occ_model.scene.preset_file import preset_from
 
-every_page = pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
-every_document = pytest.mark.parametrize("page", [README, *PAGES], ids=lambda page: page.name)
+every_page = each_case(PAGES)
+every_document = each_case([README, *PAGES])
 
 _README = text_of(README)
 

@@ -6,6 +6,7 @@ from itertools import product
 import mpmath
 import numpy as np
 import pytest
+from each_case import each_case
 
 import occ_model as occ
 from hard_cases.laws import cases, record
@@ -170,7 +171,7 @@ PICTURED: dict[str, dict[str, float]] = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("name", PICTURED)
+@each_case(PICTURED)
 def test_a_panel_in_a_hard_place_is_pictured_pixel_by_pixel(name: str) -> None:
     scene = Scene().replace(**(SMALL | PICTURED[name]))
     frame = occ.render(scene, tolerance=math.inf)

@@ -2,9 +2,10 @@
 
 import math
 from fractions import Fraction
+from itertools import product
 
 import numpy as np
-import pytest
+from each_case import each_case
 from hypothesis import strategies as st
 
 from hard_cases.laws import cases, record
@@ -107,8 +108,7 @@ EDGES: dict[str, dict[str, float | str]] = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("start", [0.0, 1e9 - 1 / 7])
-@pytest.mark.parametrize("name", EDGES)
+@each_case(product(EDGES, (0.0, 1e9 - 1 / 7)))
 def test_edged_light_of_hard_scenes_is_that_of_exact_arithmetic(name: str, start: float) -> None:
     scene = edged(0.0, 1.7, **({"start_time": start} | EDGES[name]))
     error = edge_error(scene)

@@ -6,8 +6,8 @@ from fractions import Fraction
 from itertools import accumulate
 
 import numpy as np
-import pytest
 from amount import amount
+from each_case import each_case
 from hypothesis import strategies as st
 
 from hard_cases.laws import cases, record
@@ -85,7 +85,7 @@ HISTOGRAMS: dict[str, tuple[list[int], int | None]] = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("name", HISTOGRAMS)
+@each_case(HISTOGRAMS)
 def test_otsus_split_of_a_hard_histogram(name: str) -> None:
     counts, expected = HISTOGRAMS[name]
     assert otsu_split(np.array(counts)) == expected

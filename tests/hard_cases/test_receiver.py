@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 from amount import amount
+from each_case import each_case
 from hypothesis import strategies as st
 
 import occ_model as occ
@@ -280,7 +281,7 @@ NOT_IMAGES: dict[str, tuple[object, str]] = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("name", NOT_IMAGES)
+@each_case(NOT_IMAGES)
 def test_what_is_no_image_is_refused_with_a_sentence(name: str) -> None:
     image, word = NOT_IMAGES[name]
     for decoder in BOTH:

@@ -5,6 +5,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from each_case import each_case
 from hypothesis import strategies as st
 
 import occ_model as occ
@@ -242,7 +243,7 @@ NAMED: dict[str, dict[str, float | str]] = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("name", NAMED)
+@each_case(NAMED)
 def test_on_time_of_a_hard_scene_is_that_of_rational_arithmetic(name: str) -> None:
     scene = Scene().replace(**({"columns": 2000} | NAMED[name]))
     error = error_of(scene)

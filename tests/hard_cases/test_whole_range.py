@@ -2,10 +2,11 @@
 
 import math
 from collections.abc import Callable
+from itertools import product
 from typing import TypeVar
 
 import numpy as np
-import pytest
+from each_case import each_case
 from hypothesis import strategies as st
 from scene_values import PAYLOADS
 
@@ -138,8 +139,7 @@ SCENES: dict[str, dict[str, float | int | str]] = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("observable", OBSERVABLES)
-@pytest.mark.parametrize("name", SCENES)
+@each_case(product(SCENES, OBSERVABLES))
 def test_a_hard_scene_is_planned_and_pictured(name: str, observable: Observable) -> None:
     scene = Scene().replace(**({"rows": 24, "columns": 48} | SCENES[name]))
     frame = occ.render(scene, tolerance=0, observable=observable, force=dict.fromkeys(NAMES, True))

@@ -9,6 +9,7 @@ from typing import Any, cast
 
 import numpy as np
 import pytest
+from each_case import each_case
 from simulated_photos import photo_of
 
 import occ_model as occ
@@ -59,7 +60,7 @@ def is_right(value: object, said: str) -> bool:
     return ("None" in said and value is None) or ("Callable" in said and callable(value))
 
 
-@pytest.mark.parametrize(("name", "argument"), list(of_objects()))
+@each_case(list(of_objects()))
 def test_an_object_of_a_wrong_kind_is_refused_before_any_work(name: str, argument: str) -> None:
     function = getattr(occ, name)
     parameters = inspect.signature(function).parameters

@@ -3,6 +3,7 @@
 import pickle
 
 import pytest
+from each_case import each_case
 
 from occ_model.errors import OccError, ParameterError, counted, one_line, shown
 from occ_model.scene.parameter_kinds import Parameter
@@ -71,7 +72,7 @@ def refused(declared: Parameter, value: object) -> ParameterError:
     return caught.value
 
 
-@pytest.mark.parametrize("declared", PARAMETERS.values(), ids=lambda declared: declared.name)
+@each_case(PARAMETERS.values())
 def test_every_parameters_refusal_is_its_data_in_words(declared: Parameter) -> None:
     for wrong in WRONG:
         error = refused(declared, wrong)

@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from each_case import each_case
 from simulated_photos import photo_of
 
 import occ_model as occ
@@ -310,7 +311,7 @@ def names() -> Iterator[str]:
         yield f"{number}-{parameter}-{value[:20]}"
 
 
-@pytest.mark.parametrize(("call", "parameter", "value", "allowed"), ROWS, ids=list(names()))
+@each_case(ROWS)
 def test_what_is_not_allowed_is_refused_with_parameter_value_and_range(
     call: Callable[[], object], parameter: str, value: str, allowed: str
 ) -> None:

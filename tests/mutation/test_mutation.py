@@ -5,6 +5,7 @@ from collections import Counter
 from pathlib import Path
 
 import pytest
+from each_case import each_case
 
 from mutation import trial
 from mutation.copied import ROOT, Copy
@@ -44,8 +45,7 @@ def found(source: str, kind: str) -> list[str]:
     return [one.after for one in mutants("a.py", source) if one.kind == kind]
 
 
-@pytest.mark.parametrize(
-    ("kind", "source", "expected"),
+@each_case(
     [
         ("comparison", "a < b", ["a <= b", "a >= b"]),
         ("comparison", "a is  not b", ["a is b"]),
@@ -69,7 +69,7 @@ def found(source: str, kind: str) -> list[str]:
         ("branch", "for a in b: break", ["pass"]),
         ("extreme", "a.maximum.reduce(b)", ["a.minimum.reduce(b)"]),
         ("extreme", "any(a)", ["all(a)"]),
-    ],
+    ]
 )
 def test_each_kind_is_made(kind: str, source: str, expected: list[str]) -> None:
     assert found(source, kind) == expected

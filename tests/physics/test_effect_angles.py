@@ -1,9 +1,11 @@
 """Laws of a panel that bundles its light, and of a lens that darkens the corners."""
 
 import math
+from itertools import product
 
 import numpy as np
 import pytest
+from each_case import each_case
 from physics.pictured_luminance import pictured_luminance
 
 import occ_model as occ
@@ -28,9 +30,7 @@ def steady(**changes: float | str) -> Scene:
     ).replace(**changes)  # fmt: skip
 
 
-@pytest.mark.parametrize("order", [1.5, 2.0, 3.0, 10.0])
-@pytest.mark.parametrize("turn", ["yaw", "pitch"])
-@pytest.mark.parametrize("degrees", [0.0, 20.0, -45.0, 60.0])
+@each_case(product((1.5, 2.0, 3.0, 10.0), ("yaw", "pitch"), (0.0, 20.0, -45.0, 60.0)))
 def test_a_turned_panel_is_darker_by_the_cosine_of_its_turn(
     order: float, turn: str, degrees: float
 ) -> None:

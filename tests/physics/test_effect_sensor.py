@@ -1,9 +1,11 @@
 """Laws of a full well, and of photon transfer in electrons counted by hand."""
 
 import math
+from itertools import product
 
 import numpy as np
 import pytest
+from each_case import each_case
 
 import occ_model as occ
 from occ_model.effects.sensor_effects import FullWell
@@ -28,9 +30,7 @@ def value_of_full(scene: Scene) -> float:
     return float(118.0 * meter ** (1 / camera.gamma))
 
 
-@pytest.mark.parametrize("gamma", [1.0, 2.22])
-@pytest.mark.parametrize("iso", [5.0, 15.0, 25.0])
-@pytest.mark.parametrize("pitch", [1e-6, 2e-6])
+@each_case(product((5.0, 15.0, 25.0), (1.0, 2.22), (1e-6, 2e-6)))
 def test_the_picture_saturates_at_the_value_of_a_full_pixel(
     iso: float, gamma: float, pitch: float
 ) -> None:

@@ -1,8 +1,10 @@
 """The text of sketches: whatever the payload is, the comment at the head stays a comment."""
 
 import ast
+from itertools import product
 
 import pytest
+from each_case import each_case
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -29,8 +31,7 @@ def head_of(source: str) -> list[str]:
     return source.partition("\n\n")[0].splitlines()
 
 
-@every_board
-@pytest.mark.parametrize("payload", HOSTILE)
+@each_case(product(BOARDS, HOSTILE))
 def test_no_payload_leaves_the_comment(board: str, payload: str) -> None:
     source = occ.transmitter_sketch(PAPER.replace(payload=payload), board)
     mark = "#" if board == "raspberry-pi-pico" else "//"

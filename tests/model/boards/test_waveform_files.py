@@ -4,10 +4,11 @@ import re
 import wave
 from fractions import Fraction
 from io import BytesIO
-from itertools import pairwise
+from itertools import pairwise, product
 
 import numpy as np
 import pytest
+from each_case import each_case
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -33,11 +34,10 @@ def sent_by(board: str, **changes: float | str) -> Transmission:
 
 
 every_board = pytest.mark.parametrize("board", BOARDS)
-patterns = pytest.mark.parametrize("pattern", ["", "0011", "10", "1", "0110"])
+every_sent = each_case(product(BOARDS, ("", "0011", "10", "1", "0110")))
 
 
-@every_board
-@patterns
+@every_sent
 def test_the_table_gives_the_packet_back(board: str, pattern: str) -> None:
     sent = sent_by(board, switching_frequency=14.7e3, pattern=pattern)
     rows = list(edge_rows(sent))
@@ -52,8 +52,7 @@ def test_the_table_gives_the_packet_back(board: str, pattern: str) -> None:
         assert abs(Fraction(time) - chip * sent.timing.period) <= Fraction(1, 2 * 10**18)
 
 
-@every_board
-@patterns
+@every_sent
 def test_the_value_change_dump_has_exact_edges(board: str, pattern: str) -> None:
     sent = sent_by(board, switching_frequency=14.7e3, pattern=pattern)
     text = vcd_text(sent)

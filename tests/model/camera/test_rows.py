@@ -1,10 +1,12 @@
 """Rows of a picture: interpolated within a band, divided into bands, and remembered."""
 
 import math
+from itertools import product
 
 import numpy as np
 import pytest
 from amount import amount
+from each_case import each_case
 
 import occ_model as occ
 from occ_model.camera.picture_rows import BLOCK_ROWS, Rim, Rows, split_at
@@ -21,8 +23,7 @@ from occ_model.simulation.render import observe
 STILL = {"sensor-noise": False, "fixed-pattern": False, "jpeg": False}
 
 
-@pytest.mark.parametrize("rows", [range(64), range(128, 192), range(5, 581, 9), range(100, 110)])
-@pytest.mark.parametrize("degree", range(NODES))
+@each_case(product((range(64), range(128, 192), range(5, 581, 9), range(100, 110)), range(NODES)))
 def test_a_polynomial_of_few_terms_is_exact(rows: range, degree: int) -> None:
     def curve(row: np.ndarray) -> np.ndarray:
         return 100.0 * ((row - rows[0]) / (rows[-1] - rows[0])) ** degree

@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable
 
 import pytest
+from each_case import each_case
 
 import occ_model as occ
 from occ_model.cli import main
@@ -24,7 +25,7 @@ def test_the_table_names_every_command_in_the_order_of_the_help() -> None:
     assert _commands(make_parser("no-command")) == list(_MODULES)
 
 
-@pytest.mark.parametrize("name", _MODULES)
+@each_case(_MODULES)
 def test_a_command_is_declared_by_its_own_module(name: str) -> None:
     assert name in _commands(make_parser(name))
     assert set(_commands(make_parser(name))) == {

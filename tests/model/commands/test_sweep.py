@@ -11,6 +11,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from each_case import each_case
 from PIL import Image
 
 import occ_model as occ
@@ -26,8 +27,7 @@ from occ_model.study.sweep.sweep import Progress
 VARY = ("--vary", "switching_frequency=4kHz:14kHz:10kHz", "--vary", "distance=0.8m,120cm")
 
 
-@pytest.mark.parametrize(
-    ("text", "values"),
+@each_case(
     [
         ("switching_frequency=2kHz:20kHz:2kHz", [2000.0 * step for step in range(1, 11)]),
         ("distance=0.6:1.2:0.2", [0.6, 0.8, 1.0, 1.2]),
@@ -43,7 +43,7 @@ VARY = ("--vary", "switching_frequency=4kHz:14kHz:10kHz", "--vary", "distance=0.
         ("edge_time=0:2us:x3", [0.0, 1e-6, 2e-6]),
         # From zero no ratios are even, on a logarithmic scale either.
         ("luminance=0:2000:x3", [0.0, 1000.0, 2000.0]),
-    ],
+    ]
 )
 def test_axes_are_read_as_people_write_them(text: str, values: list[object]) -> None:
     ((_, found),) = axes_of([text]).items()
@@ -58,8 +58,7 @@ def test_steps_that_meet_the_end_end_there_exactly() -> None:
         assert len(values) == round(21.0 / eval(step)) + 1
 
 
-@pytest.mark.parametrize(
-    ("text", "words"),
+@each_case(
     [
         ("distance", "'distance' is not an axis; allowed: NAME=a,b,c"),
         ("distnce=1", "did you mean distance"),
@@ -82,7 +81,7 @@ def test_steps_that_meet_the_end_end_there_exactly() -> None:
         ("distance=1:1e9:1", "distance is 1e"),
         ("distance=1,,2", "distance is '', which is not a number in m"),
         ("bits=2:9:0.5", "a step above 0"),
-    ],
+    ]
 )
 def test_axes_that_cannot_be_are_refused_with_a_sentence(text: str, words: str) -> None:
     with pytest.raises(ParameterError) as refusal:

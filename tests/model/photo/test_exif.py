@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from each_case import each_case
 from photo_files import PICTURE, saved
 from PIL import Image
 from PIL.TiffImagePlugin import IFDRational
@@ -97,7 +98,7 @@ NONSENSE = [
 ]
 
 
-@pytest.mark.parametrize("value", NONSENSE, ids=repr)
+@each_case(NONSENSE)
 def test_nonsense_is_none_and_the_rest_is_read(value: object) -> None:
     names = {EXPOSURE_TIME: "exposure_time", F_NUMBER: "f_number", ISO: "iso"}
     good = {EXPOSURE_TIME: IFDRational(1, 100), F_NUMBER: IFDRational(2), ISO: 100}
@@ -138,8 +139,7 @@ def test_an_iso_beyond_sixteen_bits_is_read_from_its_other_tag() -> None:
         assert notes_of(tags).iso == iso
 
 
-@pytest.mark.parametrize(
-    ("make", "model", "camera"),
+@each_case(
     [
         ("Google", "Pixel 6", "Google Pixel 6"),
         ("Canon", "Canon EOS 5D", "Canon EOS 5D"),
@@ -152,7 +152,7 @@ def test_an_iso_beyond_sixteen_bits_is_read_from_its_other_tag() -> None:
         ("\0\0", " \n ", None),
         (b"Maker", 5, None),
         ("\ud800", "x", "x"),
-    ],
+    ]
 )
 def test_the_cameras_name_is_one_clean_line(
     make: object, model: object, camera: str | None

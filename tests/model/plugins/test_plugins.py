@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 import pytest
 from documents import FOLDER, blocks, text_of
+from each_case import each_case
 from model.plugins.installed_package import install
 
 import occ_model as occ
@@ -114,7 +115,7 @@ RUBBISH: tuple[Any, ...] = (
 )  # fmt: skip
 
 
-@pytest.mark.parametrize("name", [field.name for field in fields(occ.DecodeResult)])
+@each_case([field.name for field in fields(occ.DecodeResult)])
 def test_a_part_of_a_result_is_of_its_kind_or_refused(name: str) -> None:
     reasons = []
     for value in RUBBISH:

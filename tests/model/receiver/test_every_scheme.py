@@ -5,6 +5,7 @@ import itertools
 import numpy as np
 import pytest
 from amount import amount
+from each_case import each_case
 
 import occ_model as occ
 from occ_model.receiver.decoders import DECODERS
@@ -61,9 +62,13 @@ def test_every_scheme_is_read_or_refused_with_a_sentence(
             assert tuple(result.bits.tolist()) == scene.transmitter.payload_bits
 
 
-@pytest.mark.parametrize("correction", ["none", "reed-solomon"])
-@pytest.mark.parametrize("code", ["manchester", "4b6b", "8b10b"])
-@pytest.mark.parametrize("decoder", [name for name in DECODERS if name != "matched"])
+@each_case(
+    itertools.product(
+        ("manchester", "4b6b", "8b10b"),
+        ("none", "reed-solomon"),
+        [name for name in DECODERS if name != "matched"],
+    )
+)
 def test_a_text_comes_back_as_a_text(code: str, correction: str, decoder: str) -> None:
     scene = SCENE.replace(
         line_code=code, framing="raw", payload="text:HELLO", error_correction=correction,
@@ -132,7 +137,7 @@ def test_the_threshold_gives_no_wrong_payload_of_long_exposures(
         assert result.failure is not None
 
 
-@pytest.mark.parametrize(("code", "framing"), SCHEMES)
+@each_case(SCHEMES)
 def test_a_payload_is_refused_or_right_at_any_exposure(code: str, framing: str) -> None:
     random = np.random.default_rng(7)
     for chips in np.linspace(0.5, 3.0, 12)[:: amount(8, 1)]:
@@ -146,8 +151,7 @@ def test_a_payload_is_refused_or_right_at_any_exposure(code: str, framing: str) 
             assert occ.decode(levels, scene, decoder).code in (None, scene.transmitter.code)
 
 
-@pytest.mark.parametrize("code", [0, 1, 4, 6, 15, 79, 255])
-@pytest.mark.parametrize("chips", [0.5, 1.5, 2.5])
+@each_case(itertools.product((0, 1, 4, 6, 15, 79, 255), (0.5, 1.5, 2.5)))
 def test_payloads_that_light_many_or_few_chips_are_not_taken_for_others(
     code: int, chips: float
 ) -> None:

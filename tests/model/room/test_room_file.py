@@ -1,6 +1,7 @@
 """Room files: what is read is what was written, and a mistake ends in a sentence."""
 
 import pytest
+from each_case import each_case
 
 import occ_model as occ
 from occ_model.room.room import Room, RoomLamp
@@ -27,8 +28,7 @@ def test_a_scene_s_pose_is_no_part_of_a_room() -> None:
         room.replace(distance=2.0)
 
 
-@pytest.mark.parametrize(
-    ("text", "words"),
+@each_case(
     [
         ("format = 1", "list of lamps"),
         ("format = 1\nlamps = []", "0 lamps; allowed: 1 to 200"),
@@ -42,7 +42,7 @@ def test_a_scene_s_pose_is_no_part_of_a_room() -> None:
         ("format = 1\nlamps = [{name = 'a'}, {name = 'a'}]", "Two lamps have the name a"),
         ("format = 1\nlamps = 7", "list of lamps"),
         ("format = 1\nbased_on = 7\nlamps = [{name = 'a'}]", "no preset 7"),
-    ],
+    ]
 )
 def test_a_mistake_in_a_room_file_ends_in_a_sentence(text: str, words: str) -> None:
     with pytest.raises(occ.OccError, match=words):

@@ -4,6 +4,7 @@ import os
 from pathlib import Path
 
 import pytest
+from each_case import each_case
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -25,8 +26,7 @@ def test_a_setting_changes_its_parameter_and_nothing_else(
     assert scene == Scene().replace(**{quantity.name: value})
 
 
-@pytest.mark.parametrize(
-    ("setting", "name", "value"),
+@each_case(
     [
         ("switching_frequency=14kHz", "switching_frequency", 14e3),
         ("exposure_time = 68 us", "exposure_time", 68e-6),
@@ -46,7 +46,7 @@ def test_a_setting_changes_its_parameter_and_nothing_else(
         ("averaging=light", "averaging", "light"),
         ("pattern=0101 1100", "pattern", "01011100"),
         ("pattern=", "pattern", ""),
-    ],
+    ]
 )
 def test_a_setting_is_read_as_its_kind_of_parameter_is_written(
     setting: str, name: str, value: float | str

@@ -5,6 +5,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from each_case import each_case
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -25,9 +26,9 @@ COUNTS = [p for p in PARAMETERS.values() if isinstance(p, Count)]
 CHOICES = [p for p in PARAMETERS.values() if isinstance(p, Choice)]
 PATTERN = ChipPattern("pattern", "Pattern", "", "Chips.", "")
 
-every_quantity = pytest.mark.parametrize("quantity", QUANTITIES, ids=lambda p: p.name)
-every_count = pytest.mark.parametrize("count", COUNTS, ids=lambda p: p.name)
-every_choice = pytest.mark.parametrize("choice", CHOICES, ids=lambda p: p.name)
+every_quantity = each_case(QUANTITIES)
+every_count = each_case(COUNTS)
+every_choice = each_case(CHOICES)
 
 NO_NUMBERS = [True, False, None, "1", b"1", 1j, [1.0], np.array([1.0]), np.True_, {"x": 1}]
 
@@ -66,9 +67,7 @@ def test_a_comma_of_two_readings_is_refused_with_both() -> None:
     assert quantity.parse("0,136 ms") == quantity.parse("136 us")
 
 
-every_declaration = pytest.mark.parametrize(
-    "declaration", PARAMETERS.values(), ids=lambda p: p.name
-)
+every_declaration = each_case(PARAMETERS.values())
 
 
 @every_declaration

@@ -4,6 +4,7 @@ import re
 from typing import Any
 
 import pytest
+from each_case import each_case
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -12,9 +13,9 @@ from occ_model.scene.parameter_kinds import Count, Parameter, Quantity
 from occ_model.scene.parameters import PARAMETERS, parameter_named
 from occ_model.scene.parameters.light import MAX_BITS
 
-every_parameter = pytest.mark.parametrize("parameter", PARAMETERS.values(), ids=lambda p: p.name)
+every_parameter = each_case(PARAMETERS.values())
 QUANTITIES = [p for p in PARAMETERS.values() if isinstance(p, Quantity)]
-every_quantity = pytest.mark.parametrize("quantity", QUANTITIES, ids=lambda p: p.name)
+every_quantity = each_case(QUANTITIES)
 positions = st.floats(0.0, 1.0)
 
 

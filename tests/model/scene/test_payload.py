@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from each_case import each_case
 from hypothesis import given
 from hypothesis import strategies as st
 from scene_values import PAYLOADS
@@ -49,8 +50,7 @@ def test_spaces_and_capitals_do_not_count_in_digits() -> None:
     assert canonical("text: a ") == "text: a "
 
 
-@pytest.mark.parametrize(
-    ("typed", "payload"),
+@each_case(
     [
         ("HELLO", "text:HELLO"),
         ("😀", "text:😀"),
@@ -65,7 +65,7 @@ def test_spaces_and_capitals_do_not_count_in_digits() -> None:
         ("Hex:4A", "hex:4a"),
         ("text:0x48", "text:0x48"),
         ("  ", ""),
-    ],
+    ]
 )
 def test_what_people_type_is_a_payload_and_shown_as_it_was_typed(typed: str, payload: str) -> None:
     declared = payload_parameter()

@@ -4,6 +4,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from each_case import each_case
 
 from occ_model.cli import main
 from occ_model.errors import ParameterError, PresetError, SceneFileError
@@ -14,7 +15,7 @@ from occ_model.scene.scene import Scene
 
 PAPER = ("phone-136us", "phone-68us", "tablet-122us", "tablet-61us")
 
-every_preset = pytest.mark.parametrize("name", presets())
+every_preset = each_case(presets())
 papers_presets = pytest.mark.parametrize("name", PAPER)
 
 

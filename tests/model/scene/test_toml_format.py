@@ -1,6 +1,7 @@
 """Scene files: TOML out and in."""
 
 import pytest
+from each_case import each_case
 from hypothesis import given
 from hypothesis import strategies as st
 from scene_values import values_of
@@ -79,8 +80,7 @@ def test_a_code_and_its_bits_may_stand_in_either_order() -> None:
         assert (scene.value("code"), scene.value("bits")) == (4095, 12)
 
 
-@pytest.mark.parametrize(
-    ("text", "sentence"),
+@each_case(
     [
         ("", r"^This is not a scene file: it has no line 'format = 1'\.$"),
         ("[camera]\niso = 100", r"^This is not a scene file: it has no line 'format = 1'\.$"),
@@ -120,15 +120,14 @@ def test_a_code_and_its_bits_may_stand_in_either_order() -> None:
         ("format = 1\nx = {a" + ".a" * 100 + " = 1}", r"^This is not a scene file: a key has "),
         ("format = 1\n[" + "a" * 10**5 + "]", r"^A scene file has no table \[a{100,200}…\]; known"),
         ('format = 1\n["\\u001b[31m"]', r"^A scene file has no table \[\\x1b\[31m\]; known are "),
-    ],
+    ]
 )
 def test_what_is_no_scene_file_is_refused_in_a_sentence(text: str, sentence: str) -> None:
     with pytest.raises(SceneFileError, match=sentence):
         Scene.from_toml(text)
 
 
-@pytest.mark.parametrize(
-    "text",
+@each_case(
     [
         'title = "' + "e.g. a sentence. And another. " * 100 + '"',
         "# " + "." * 1000,
@@ -137,8 +136,7 @@ def test_what_is_no_scene_file_is_refused_in_a_sentence(text: str, sentence: str
         "x = [" + "1.5, " * 1000 + "]",
         "x = [" + "'a', " * 1000 + "]",
         *(f"x = {quote}{'1.' * 60}{quote}  # {'1.' * 60}" for quote in ('"', "'", '"""', "'''")),
-    ],
-    ids=lambda text: text[:20],
+    ]
 )
 def test_dots_in_texts_and_numbers_make_no_long_key(text: str) -> None:
     parse_toml(text)

@@ -2,8 +2,10 @@
 
 import math
 import re
+from itertools import product
 
 import pytest
+from each_case import each_case
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
@@ -44,8 +46,7 @@ def test_a_fraction_is_python_s_own_quotient(above: int, below: int) -> None:
     assert SECOND.parse(f"{above}/{below} s") == above / below
 
 
-@pytest.mark.parametrize(
-    ("unit", "text", "value"),
+@each_case(
     [
         (SECOND, "68us", 68e-6),
         (SECOND, "136 µs", 136e-6),
@@ -72,7 +73,7 @@ def test_a_fraction_is_python_s_own_quotient(above: int, below: int) -> None:
         (NIT, "3.6 kcd/m²", 3600.0),
         (NIT, "3600 nits", 3600.0),
         (NONE, "+12.5", 12.5),
-    ],
+    ]
 )
 def test_a_quantity_as_people_write_it_is_exactly_its_si_value(
     unit: Unit, text: str, value: float
@@ -102,7 +103,7 @@ NONSENSE = (
 # fmt: on
 
 
-@pytest.mark.parametrize("text", NONSENSE)
+@each_case(NONSENSE)
 def test_what_is_no_quantity_is_not_understood(text: str) -> None:
     for unit in UNITS:
         assert unit.parse(text) is None
@@ -153,8 +154,7 @@ def test_any_text_is_a_number_or_not_understood(text: str, unit: Unit) -> None:
     assert value is None or any(character.isdecimal() for character in text)
 
 
-@pytest.mark.parametrize(
-    ("unit", "value", "text"),
+@each_case(
     [
         (SECOND, 136e-6, "136 µs"),
         (SECOND, 1e-3, "1 ms"),
@@ -177,7 +177,7 @@ def test_any_text_is_a_number_or_not_understood(text: str, unit: Unit) -> None:
         (NIT, 3600.0, "3600 cd/m²"),
         (LUX, 290.0, "290 lx"),
         (NONE, 2.48, "2.48"),
-    ],
+    ]
 )
 def test_a_value_is_shown_in_the_unit_that_suits_its_size(
     unit: Unit, value: float, text: str
@@ -197,8 +197,7 @@ def test_where_a_prefix_fits_the_number_shown_is_from_1_to_1000(
     assert 1 - 1e-9 <= value / factor < 1000
 
 
-@pytest.mark.parametrize(
-    ("value", "deviation", "text"),
+@each_case(
     [
         (12.7933e-6, 0.0161e-6, "12.793 ± 0.016 µs"),
         (66.3425e-6, 24.9e-6, "66 ± 25 µs"),
@@ -213,7 +212,7 @@ def test_where_a_prefix_fits_the_number_shown_is_from_1_to_1000(
         (68e-6, None, "68 µs"),
         (68e-6, 0.0, "68 µs"),
         (68e-6, math.inf, "68 µs"),
-    ],
+    ]
 )
 def test_two_digits_of_the_deviation_are_shown(
     value: float, deviation: float | None, text: str
@@ -221,8 +220,7 @@ def test_two_digits_of_the_deviation_are_shown(
     assert SECOND.format_estimate(value, deviation) == text
 
 
-@pytest.mark.parametrize("size", range(-11, 13))
-@pytest.mark.parametrize("error", [0.123, 0.9951, 9.96, 45.0])
+@each_case(product(range(-11, 13), (0.123, 0.9951, 9.96, 45.0)))
 def test_an_error_has_two_digits_whatever_its_size(size: int, error: float) -> None:
     for unit in (SECOND, HERTZ, NONE):
         for value in (error * 10.0**size, 1.0):

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from amount import amount
+from each_case import each_case
 
 import occ_model as occ
 from occ_model.files.resources import resource_path
@@ -205,7 +206,7 @@ CHECKED = [
 ]
 
 
-@pytest.mark.parametrize("asked", CHECKED, ids=lambda step: step.question[:40])
+@each_case(CHECKED)
 def test_a_value_that_a_question_names_is_named_in_its_check(asked: Step) -> None:
     scene = asked.check.scene
     named = {PARAMETERS[name].format(scene.value(name)) for name in asked.check.named}  # type: ignore[arg-type]
@@ -303,7 +304,7 @@ def test_an_answer_in_words_is_compared_with_the_explanation() -> None:
     assert (checked.text, checked.outcome) == ("the matched one", None)
 
 
-@pytest.mark.parametrize("name", QUANTITIES)
+@each_case(QUANTITIES)
 def test_each_quantity_is_asked_in_one_of_its_own_units(name: str) -> None:
     quantity = QUANTITIES[name]
     assert quantity.meaning

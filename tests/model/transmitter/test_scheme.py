@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 from amount import amount
+from each_case import each_case
 
 import occ_model as occ
 from occ_model.arrays import ByteArray, IndexArray
@@ -33,7 +34,7 @@ PAIRS = [
 AMBIGUOUS = [(code, "paper") for code in ("nrz", "4b6b", "8b10b", "fsk")]
 """Their payloads may hold the header; so the chips do not always tell where one starts."""
 
-every_pair = pytest.mark.parametrize(("code", "framing"), PAIRS)
+every_pair = each_case(PAIRS)
 
 
 def scheme(code: str, framing: str, bits: int, correction: str = "none") -> Scheme:
@@ -56,8 +57,8 @@ def has_another_reading(one: Scheme, payload: IndexArray) -> bool:
     )
 
 
-@every_pair
 @pytest.mark.parametrize("correction", CORRECTIONS)
+@pytest.mark.parametrize(("code", "framing"), PAIRS)
 def test_two_periods_from_any_start_give_the_payload(
     code: str, framing: str, correction: str
 ) -> None:

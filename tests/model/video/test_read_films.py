@@ -8,6 +8,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from each_case import each_case
 from simulated_films import Judged, film, judge
 
 import occ_model as occ
@@ -259,8 +260,7 @@ def test_times_that_tell_no_clock_give_none_and_a_sentence(times: FloatArray, sa
     assert any(said in problem for problem in reading.problems)
 
 
-@pytest.mark.parametrize(
-    ("change", "said"),
+@each_case(
     [
         ({"time": math.nan}, "time of frame 3 is nan s; allowed: -1e+08 to 1e+08 s"),
         ({"time": -math.inf}, "time of frame 3 is -inf s"),
@@ -276,7 +276,7 @@ def test_times_that_tell_no_clock_give_none_and_a_sentence(times: FloatArray, sa
         ({"image": np.zeros((32, 720))}, r"image of frame 3 is float64 \(32, 720\)"),
         ({"image": None}, "image of frame 3 is None"),
         ({"exposure_time": math.nan}, "exposure_time is "),
-    ],
+    ]
 )
 def test_a_frame_that_cannot_be_read_is_refused_and_those_before_are_kept(
     change: dict[str, object], said: str

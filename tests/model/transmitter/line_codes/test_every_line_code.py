@@ -1,10 +1,12 @@
 """The laws of every line code, and the properties that each declares."""
 
 from collections.abc import Iterator
+from itertools import product
 
 import numpy as np
 import pytest
 from amount import amount
+from each_case import each_case
 
 from occ_model.arrays import ByteArray
 from occ_model.scene.payload import MAX_PAYLOAD_BITS
@@ -14,7 +16,7 @@ from occ_model.transmitter.registry import LINE_CODES as REGISTRY
 
 LINE_CODES = REGISTRY.built_in()
 
-every_code = pytest.mark.parametrize("code", LINE_CODES.values(), ids=lambda code: code.name)
+every_code = each_case(LINE_CODES.values())
 
 
 def all_payloads(most: int) -> Iterator[ByteArray]:
@@ -56,8 +58,7 @@ def check_round_trip(code: LineCode, bits: ByteArray, level: int) -> None:
     assert len(read.bits) - len(bits) < code.block_bits
 
 
-@every_code
-@pytest.mark.parametrize("level", [0, 1])
+@each_case(product(LINE_CODES.values(), (0, 1)))
 def test_short_payloads_are_read_as_they_were_sent(code: LineCode, level: int) -> None:
     for bits in all_payloads(7):
         check_round_trip(code, bits, level)

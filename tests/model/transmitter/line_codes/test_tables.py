@@ -5,6 +5,7 @@ from itertools import product
 
 import numpy as np
 import pytest
+from each_case import each_case
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -72,8 +73,7 @@ def test_8b10b_words_begin_with_their_bits_but_for_nine() -> None:
     assert changed == [0, 1, 2, 4, 8, 15, 16, 24, 31]
 
 
-@pytest.mark.parametrize(
-    ("low", "high", "negative", "positive"),
+@each_case(
     [
         (0, 0, "1001110100", "0110001011"),  # D0.0
         (21, 5, "1010101010", "1010101010"),  # D21.5
@@ -88,7 +88,7 @@ def test_8b10b_words_begin_with_their_bits_but_for_nine() -> None:
         (7, 3, "1110001100", "0001110011"),  # D7.3: balanced, and still two forms
         (16, 2, "0110110101", "1001000101"),  # D16.2, an idle of 1000BASE-X
         (5, 6, "1010010110", "1010010110"),  # D5.6, the other
-    ],
+    ]
 )
 def test_8b10b_words_are_those_of_ieee_802_3(
     low: int, high: int, negative: str, positive: str

@@ -208,7 +208,6 @@ def _discard_unwritten_output() -> None:
 
 
 def _place(trace: TracebackType | None) -> str:
-    """Name the line that an error came from."""
     while trace is not None and trace.tb_next is not None:
         trace = trace.tb_next
     if trace is None:

@@ -19,8 +19,6 @@ _RUNS, _PATIENCE = 5, 1.0  # pictures are made so often in turn; no more often a
 
 @dataclass(frozen=True, slots=True)
 class SceneCosts:
-    """What has been measured of a scene's effects."""
-
     request: SimulationRequest
     # The times of pictures that were made in turn: with the effects of the request's plan, with all
     # of the scene, with none

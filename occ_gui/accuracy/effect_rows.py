@@ -110,7 +110,6 @@ def _row(
 
 
 def _error(decision: Decision, difference: EffectDifference | None, unit: str) -> tuple[str, str]:
-    """Return the error without an effect, and its explanation."""
     if not decision.estimate:
         return "none", "The scene does not have this effect."
     is_known = decision.limit < math.inf

@@ -35,7 +35,6 @@ class VideoPane(QObject):
 
     @property
     def wiring(self) -> "VideoWiring":
-        """The pane, which is made if needed."""
         pane: VideoWiring = self._shell.pane("video")
         return pane
 

@@ -20,8 +20,6 @@ _left: list[QThread] = []
 
 
 class WorkerThread:
-    """A thread for one worker, started when first needed."""
-
     _waited_ms = 0
 
     def __init__(self, worker: QObject, name: str) -> None:

@@ -63,5 +63,4 @@ class Workspace:
         return Step(self.scene, dict(self.settings.force), self.room, self.preset)
 
     def with_force(self, force: Mapping[str, bool]) -> Self:
-        """Return a workspace with exactly these effects forced."""
         return replace(self, settings=replace(self.settings, force=dict(force)))

@@ -61,7 +61,6 @@ class Measuring(QObject):
         return WorkQueue(len(CHANNELS), lambda: new_workers())
 
     def channel(self, of: str) -> "JobChannel":
-        """Return a channel, by its name in CHANNELS."""
         return self.queue.channels[CHANNELS.index(of)]
 
     @cached_property

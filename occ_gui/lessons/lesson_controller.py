@@ -232,7 +232,6 @@ class LessonController(QObject):
             self._pane.step.animation.show_shutter(rolling_shutter(scene))
 
     def _mark_answer(self) -> None:
-        """Mark an answer that was checked at another scene."""
         lesson = self._current
         if lesson is not None:
             place = self._places[lesson.name]

@@ -48,7 +48,6 @@ class LessonReports(QObject):
 
     @property
     def author(self) -> str:
-        """The student's name as last entered; empty before."""
         return self._preferences.recall(_AUTHOR)
 
     def keep_author(self, author: str) -> None:

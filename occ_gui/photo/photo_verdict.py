@@ -208,7 +208,6 @@ class PhotoVerdictBar(StateBar):
         return state, (title, f"{row.note} {here}".strip(), row.note or here)
 
     def _found(self, match: Match) -> str:
-        """Summarize a match in one sentence."""
         parts = []
         for name in (known_beside(known_of(match)), "exposure_time"):
             declared, spread = quantity(name), match.uncertainties.get(name)

@@ -74,7 +74,6 @@ class ControlPanel(QWidget):
 
     @property
     def panels(self) -> dict[str, ParameterPanel]:
-        """Controls of all pages by title, made if needed."""
         return {title: page.panel() for title, page in self._pages.items()}
 
     @property
@@ -177,7 +176,6 @@ class ControlPanel(QWidget):
             field.end_refusal()
 
     def _needed(self, names: Iterable[str]) -> list[CodeEntry | ParameterRow]:
-        """Return the controls of some parameters, made if needed."""
         wanted = set(names)
         for page in self._pages.values():
             if wanted.intersection(page.names):
@@ -189,7 +187,6 @@ class ControlPanel(QWidget):
         return [fields[name] for name in names if name in fields]
 
     def _fields(self) -> dict[str, CodeEntry | ParameterRow]:
-        """Return the existing controls, by parameter."""
         fields: dict[str, CodeEntry | ParameterRow] = {"code": self.code}
         for panel in self._made:
             fields.update(panel.rows)

@@ -52,7 +52,6 @@ class OutdatedMarks(QObject):
         return not self._settling.isActive()
 
     def marks(self, *made_of: MadeOf) -> list[OutdatedMark]:
-        """Return the marks of these results, by default all."""
         return [mark for mark, of in self._marks if of in made_of or not made_of]
 
     def mark(self, widget: QWidget, made_of: MadeOf) -> None:

@@ -16,8 +16,6 @@ from occ_gui.widgets.event_filters import leave_drops_to_window
 
 
 class DockWindow(Protocol):
-    """A window that panes can be added to."""
-
     @property
     def actions_by_name(self) -> Mapping[str, QAction]: ...
 
@@ -123,8 +121,6 @@ class Shell(QObject):
 
 
 class _Place(QWidget):
-    """The place of a pane, empty until first seen."""
-
     shown = Signal(bool)
 
     def __init__(self, feature: Feature[Any], shell: Shell) -> None:

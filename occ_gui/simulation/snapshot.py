@@ -119,8 +119,6 @@ class PictureView:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Picture:
-    """A simulated picture that has not been decoded yet."""
-
     frame: Frame
     whose: str  # whose picture of the frame it is, the ``"camera"``'s or the ``"receiver"``'s
     # The picture at a half of its size, at a quarter and so on; each pixel is the

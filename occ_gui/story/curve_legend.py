@@ -62,7 +62,6 @@ class CurveLegend(QWidget):
 
     @property
     def widest(self) -> int:
-        """The width of the widest of the usual entries."""
         return max(map(self._width, self._usual), default=0)
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name

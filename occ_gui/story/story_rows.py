@@ -171,7 +171,6 @@ class StoryRows(QWidget):
         self.fit()
 
     def fit(self) -> None:
-        """Follow the last chosen range again."""
         self.axis.fit()
         self._mark_range()
 

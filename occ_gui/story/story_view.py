@@ -70,7 +70,6 @@ class StoryView(QWidget):
         )  # fmt: skip
 
     def offer(self, decoders: Sequence[str]) -> None:
-        """Add decoders to the choice."""
         for name in decoders:
             if self.decoder.findData(name) < 0:
                 self.decoder.addItem(f"Decoder: {name}", name)

@@ -38,14 +38,11 @@ class MatchChoice:
 
 @dataclass(frozen=True, slots=True)
 class Placement:
-    """Where a photo lies on the simulated picture."""
-
     column: float = 0.0  # the pixel of the simulated picture under the photo's first pixel
     row: float = 0.0
     scale: float = 1.0  # pixels of the simulated picture per pixel of the photo
 
     def within_limits(self) -> Self:
-        """Clamp the scale."""
         return replace(self, scale=min(max(self.scale, LEAST_SCALE), LARGEST_SCALE))
 
 

@@ -88,7 +88,6 @@ class FilmPlayer(QObject):
         self.seek(self.index + frames)
 
     def advance(self) -> None:
-        """Show the frame that is due."""
         passed = 1e-3 * self._clock.elapsed()
         index = min(self._began_at + int(passed * self._rate), self.count - 1)
         if index > self.index:
@@ -222,7 +221,6 @@ class FilmController(QObject):
             self.show()
 
     def show(self) -> None:
-        """Show the player's frame, if the pane is visible."""
         if not self._is_seen or (self.is_live and self.last_live is None):
             return
         is_fast = self.player.is_playing or self.is_live

@@ -34,8 +34,6 @@ class FrameRequest:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ShownFrame:
-    """A frame of the film beside the simulated one."""
-
     request: FrameRequest
     time: float | None  # when the frame began, in seconds; None where there is none
     film: ShownPicture | None

@@ -91,7 +91,6 @@ def read_only(table: Table, name: str, tip: str = "") -> Table:
 
 
 def paragraph(text: str = "", *, name: str = "", is_selectable: bool = False) -> QLabel:
-    """Make a label of plain text with wrapping."""
     label = named(QLabel(text, wordWrap=True, textFormat=Qt.TextFormat.PlainText), name)
     if is_selectable:
         label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)

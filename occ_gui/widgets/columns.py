@@ -14,7 +14,6 @@ def round_step(least: float) -> float:
 
 
 def first_periods(has_packets: bool) -> tuple[str, str]:
-    """Return the text of the button and its tooltip."""
     whose, periods = ("panel", "packets") if has_packets else ("pattern", "cycles")
     tip = f"Show the {whose}'s first {periods}, and follow them."
     return f"{PACKETS_IN_VIEW} {periods}", tip

@@ -78,7 +78,6 @@ class MainWindow(QMainWindow):
         return dock
 
     def _on_opened(self) -> None:
-        """Make room for a pane opened by the menu."""
         dock = self.sender()
         if isinstance(dock, Dock):
             self._share_place(dock)
@@ -205,7 +204,6 @@ class MainWindow(QMainWindow):
         self._status_line.leave_to(*labels)
 
     def happened(self, what: str) -> None:
-        """Remove the message that is shown until this event."""
         if self._message_until == what:
             self._status_line.clearMessage()
 

@@ -155,5 +155,4 @@ def _equalization(rounded: ByteArray) -> ByteArray:
 
 
 def enhance(profile: FloatArray, method: str) -> ByteArray:
-    """Enhance the contrast of column values and round them."""
     return Enhancement(profile, method)(profile)

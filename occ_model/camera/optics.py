@@ -10,8 +10,6 @@ from occ_model.camera.row_memory import MEMORY
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Gain:
-    """A factor of each pixel's light."""
-
     stage: str
     # Gives the factors at some rows, which may lie between pixels, and in some columns
     at: Callable[[FloatArray, slice], Pixels]

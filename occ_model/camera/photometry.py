@@ -68,8 +68,6 @@ def level_values(scene: Scene) -> FloatArray:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ColumnLight:
-    """The light that reaches each column during its exposure."""
-
     # Shape (columns,): mean light of the panel in the exposure, relative to the fully lit panel's
     lit: FloatArray
     # Shape (columns,) or (1,): the external light, as a multiple of its mean over time

@@ -37,8 +37,6 @@ def split_at(band: range, rows: Sequence[int]) -> list[range]:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Rim:
-    """Columns near a rim of the panel."""
-
     columns: slice
     values: Pixels  # Shape (rows, columns): mean pixel values before saturation
     inside: NDArray[np.bool_]  # Shape (rows, columns): where the panel is
@@ -97,8 +95,6 @@ class LitPanel:
 
 
 class _Panel:
-    """A panel's own light, and where it falls."""
-
     def __init__(self, panel: LitPanel, camera: Camera, dark: FloatArray) -> None:
         optics = panel.optics
         self.coverage = Coverage(optics.outline, camera.rows, camera.columns, optics.blur)
@@ -186,7 +182,6 @@ class PictureRows:
         return Rows(place, nodes, weights, tuple(rims), tuple(columns for _, columns in inside))
 
     def _shared(self, lit: Sequence[_Lit]) -> list[slice]:
-        """Return the columns lit by more than one panel."""
         if len(self._panels) == 1:
             return []
         steps = np.zeros(self._columns + 1, dtype=np.int64)

@@ -148,7 +148,6 @@ def read_film(options: argparse.Namespace, scene: Scene) -> int:
 
 
 def _channel(name: str) -> str:
-    """Return a film's channel for that of a photo."""
     if name == "brightest":
         return "luma"
     if name not in FILM_CHANNELS:

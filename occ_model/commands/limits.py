@@ -127,7 +127,6 @@ def range_cells(found: WorkingRange) -> tuple[str, str, str]:
 
 
 def _end_text(found: WorkingRange, end: RangeEnd) -> str:
-    """Format an end, and whether the search ended there."""
     value = written(found.parameter, end.value)
     return f"{value} (searched to)" if end.fails is None else value
 

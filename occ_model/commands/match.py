@@ -106,7 +106,6 @@ def _run(options: argparse.Namespace) -> int:
 
 
 def _check(options: argparse.Namespace) -> None:
-    """Refuse options that exclude each other."""
     if options.out and (options.lamps or options.chips):
         what = "--lamps" if options.lamps else "--chips"
         raise ParameterError(f"--out is given with {what}; allowed: the scene of one match.")

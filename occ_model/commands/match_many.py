@@ -156,7 +156,6 @@ def _report(table: PhotoTable, known: str) -> list[str]:
 
 
 def _found(row: PhotoRow, name: str) -> str:
-    """Format what was found in a photo, in columns."""
     texts = []
     for each in (name, "exposure_time"):
         value, error = getattr(row, each), row.uncertainty(each)

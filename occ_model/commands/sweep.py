@@ -96,7 +96,6 @@ def add_to(commands: Commands) -> None:
 
 
 def add_worker_options(parser: argparse.ArgumentParser) -> None:
-    """Add the options for where a study runs."""
     work = parser.add_mutually_exclusive_group()
     add_option(work, "--jobs", 1, "processes", metavar="N")
     work.add_argument("--cluster", metavar="ADDRESS", help="workers of a dask scheduler instead")

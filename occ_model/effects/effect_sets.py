@@ -76,8 +76,6 @@ class EffectSets:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Subsets:
-    """All subsets of some effects, the full set first."""
-
     effects: tuple[frozenset[str], ...]
     left_out: FloatArray  # 1 where a subset does not have an effect: (subsets, effects)
 

@@ -34,7 +34,6 @@ _READ_FRACTION = 0.15  # fraction of a chip from its middle at which it is read
 
 
 def observed(pixels: SampledPixels, observable: Observable) -> Observed:
-    """Return the observable of the sample, and its changes."""
     if observable == "image":
         found = observed_image(pixels)
     else:

@@ -48,7 +48,6 @@ class Emission(OpticsEffect):
 
 
 def _normal(scene: Scene) -> FloatArray:
-    """Return the panel's normal, of length 1."""
     return rotation_of(scene.pose)[:, 2]
 
 

@@ -77,8 +77,6 @@ def paper_view_of(
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Outline:
-    """What follows from the panel's corners: see :class:`PaperView`."""
-
     sides: tuple[float, float, float, float] | None
     is_seen: bool
     region: Region

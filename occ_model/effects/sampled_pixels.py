@@ -154,7 +154,6 @@ class SampledPixels:
 
     @cached_property
     def variances(self) -> dict[str, FloatArray]:
-        """The variance of each noise at the levels."""
         return {
             e.name: e.spread(self.scene, np.maximum(self.levels, 0.0)) ** 2 for e in self.noises
         }

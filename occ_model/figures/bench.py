@@ -41,7 +41,6 @@ def write_bench(
 
 
 def bench_provenance(request: BenchRequest, frames_a_second: float, date: str = "") -> Provenance:
-    """Describe how the points were measured."""
     scenes = {scheme: bench_scene(request, scheme) for scheme in request.schemes}
     return Provenance(_TITLE, scenes, request.seed, _notes(request, frames_a_second), date)
 

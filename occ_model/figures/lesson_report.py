@@ -112,7 +112,6 @@ def _write_step_figure(path: Path, each: AnsweredStep) -> None:
 
 
 def _plain(text: str) -> str:
-    """Escape a text for Markdown."""
     text = printable(text)
     for sign in "\\`*_[]<>#|&":
         text = text.replace(sign, f"\\{sign}")
@@ -211,7 +210,6 @@ def _draw_seen(figure: Figure, each: AnsweredStep, top: float, bottom: float) ->
 
 
 def _in_sentences(match: Match, photo: str) -> str:
-    """Say what a match found in one paragraph."""
     lines, reasons = match_lines(match, photo), match.all_reasons
     found = "; ".join(lines[: len(lines) - len(reasons)])
     return " ".join((f"{found}.", *reasons))

@@ -126,7 +126,6 @@ def _headings(ax: Axes) -> Iterator[Text]:
 
 
 def _across(ax: Axes) -> int:
-    """Return the number of axes side by side."""
     place = ax.get_subplotspec()
     return 1 if place is None else place.get_gridspec().ncols // len(place.colspan)
 

@@ -64,7 +64,6 @@ def wiring_bytes(sent: Transmission, format_name: str) -> bytes:
 
 
 def provenance(sent: Transmission) -> Provenance:
-    """State which scene, with which frequency, is sent."""
     return Provenance(f"Transmitter: {sent.board.title}", {"sent": sent.sent_scene})
 
 

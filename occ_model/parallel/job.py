@@ -140,7 +140,6 @@ def counting_heartbeat(
 
 
 def reason_of(error: BaseException) -> str:
-    """Format an exception's type and text in one line."""
     text = " ".join(str(error).split()).rstrip(".")
     name = type(error).__name__
     return f"{name}: {text}" if text else name

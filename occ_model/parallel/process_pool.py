@@ -52,7 +52,6 @@ class ProcessPool:
 
     @property
     def processes(self) -> list[int]:
-        """Identifiers of the processes that were started."""
         return [process.pid for process in self._started()]
 
     def _started(self) -> list[Any]:

@@ -83,7 +83,6 @@ def at_the_photo(scene: Scene, photo: Photo, region: Region) -> Scene:
 
 
 def with_levels(scene: Scene, fit: StripeFit) -> Scene:
-    """Set the light of the photo's grey levels."""
     low, high = float(np.median(fit.low)), float(np.median(fit.low + fit.swing))
     levels = np.array([max(low, 0.0), max(high, low, 0.0)])
     dark, bright = luminance_of(levels, scene.camera).tolist()

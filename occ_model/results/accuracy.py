@@ -27,8 +27,6 @@ LEAST_ERROR = 1e-3
 
 @dataclass(frozen=True, slots=True)
 class AccuracyPoint:
-    """Time and error of one simulation method."""
-
     part: str  # The part of the study: a name from ``ACCURACY_PARTS``
     name: str
     seconds: float
@@ -123,8 +121,6 @@ class EffectDifference:
 
 @dataclass(frozen=True, slots=True)
 class MeasuredCosts:
-    """Measured times and errors of a scene's effects."""
-
     picture: TimeFractions
     # Of pictures simulated alternately, among them one with all effects, which times those omitted,
     # and one with none, which times everything else where all rows are equal

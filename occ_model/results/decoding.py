@@ -45,8 +45,6 @@ class Region:
 
 @dataclass(frozen=True, slots=True)
 class Location:
-    """Location of the panel in an image."""
-
     region: Region
     bright_level: int  # Grey level from which a pixel counts as bright
     contours: int

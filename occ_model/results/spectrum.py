@@ -12,8 +12,6 @@ SATURATED_FROM = 0.01  # fraction of white pixels from which light is said to be
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Spectrum:
-    """The amplitudes of a profile's frequencies."""
-
     # Shape (n,): in Hz, from 0 to half the rate of the columns, 1 / (2 t_r)
     frequencies: FloatArray
     amplitudes: FloatArray  # Shape (n,): of a sine of each frequency, in grey levels

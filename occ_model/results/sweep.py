@@ -23,8 +23,6 @@ from occ_model.version import __version__
 
 @dataclass(frozen=True, slots=True)
 class SweepRow:
-    """One success rate."""
-
     point: Mapping[str, ParameterValue]  # The varied parameters, in SI units
     decoder: str
     right: int

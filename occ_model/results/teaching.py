@@ -21,8 +21,6 @@ class Term:
 
 @dataclass(frozen=True, slots=True)
 class Equation:
-    """An equation, in symbols and in numbers."""
-
     name: str  # The name by which a lesson refers to it
     source: str  # Its number in the paper, or where else it is from
     meaning: str  # A short description of the result, as HTML like a term's
@@ -183,8 +181,6 @@ class Lesson:
 
 @dataclass(frozen=True, slots=True)
 class CheckedAnswer:
-    """A student's answer to a step, checked."""
-
     text: str
     # None where the answer is in words
     outcome: Outcome | None

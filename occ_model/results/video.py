@@ -119,5 +119,4 @@ class Video(ABC):
         """
 
     def __iter__(self) -> Iterator[VideoFrame]:
-        """Yield all frames in order."""
         return self.frames()

@@ -221,8 +221,6 @@ def _places(start: float, end: float, size: int) -> "np.ndarray[tuple[int], np.d
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Line:
-    """A straight line through the points of an edge."""
-
     side: int
     level: bool  # Whether ``x`` counts columns; rows else
     # Shape (points,): the points along the edge's axis and across it

@@ -21,8 +21,6 @@ from occ_model.simulation.stage_timer import StageTimer
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Columns:
-    """The pixel values of each column."""
-
     # Shape (columns,): pixel values of the panel and beside it before saturation, which a lens may
     # still darken
     panel: FloatArray
@@ -50,8 +48,6 @@ def expose_columns(view: PaperView, chosen: Plan, timer: StageTimer | None = Non
 
 
 class ColumnMeans:
-    """The mean of the panel's pixels in each column."""
-
     def __init__(self, columns: int) -> None:
         self._sums = np.zeros(columns)
         self._counts = np.zeros(columns, dtype=np.int64)

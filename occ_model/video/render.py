@@ -156,7 +156,6 @@ class SimulatedVideo(Video):
         return scene.replace(**changes)
 
     def _moved(self, index: int) -> dict[str, float]:
-        """Return the pose's parameters that the path changes."""
         pose = self.scene.pose
         motion = self.recording.motion(float(self._clock(index) - self._clock(0)))
         changes = {name: getattr(pose, name) + moved for name, moved in motion.items()}

@@ -39,7 +39,6 @@ class Hypothesis:
 
     @property
     def periods(self) -> float:
-        """Number of periods of the chips in view."""
         return self.chips_in_view / len(self.chips)
 
     @property

@@ -32,8 +32,6 @@ with 6 one covers 81 %, with 2 two cover 87 %."""
 
 @dataclass(frozen=True, eq=False, slots=True)
 class JointFit:
-    """A timing with its covariance."""
-
     # Shape (9,); step, exposure and middle as of a timing, and the six unknowns in the order of
     # ``USUAL``.
     values: FloatArray

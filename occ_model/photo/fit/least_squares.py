@@ -50,8 +50,6 @@ _LEAST_DARK_LEVEL = -0.1  # minimum dark level relative to the swing: pixel valu
 
 @dataclass(frozen=True, eq=False, slots=True)
 class StripeFit:
-    """A fitted timing with its uncertainty and its profile."""
-
     timing: Timing
     # Shape (4, 4); the covariance of the timing's fields in their order; 0 for gamma where it was
     # given.

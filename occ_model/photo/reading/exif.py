@@ -86,7 +86,6 @@ def orientation_of(picture: "PillowImage") -> int:
 
 
 def turns_of(orientation: int) -> tuple[bool, bool, bool]:
-    """Return the steps that undo an EXIF orientation."""
     mirror_rows = orientation in (3, 4, 7, 8)
     mirror_columns = orientation in (2, 3, 6, 7)
     return orientation >= _FIRST_LYING, mirror_rows, mirror_columns

@@ -60,7 +60,6 @@ def quantity(name: str) -> Quantity:
 
 
 def open_choice(name: str) -> OpenChoice:
-    """Return the declaration of a choice that plug-ins extend."""
     return _of_kind(name, OpenChoice)
 
 

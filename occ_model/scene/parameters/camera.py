@@ -14,8 +14,6 @@ DIAGONAL_35MM = 0.04327  # metres of a 24 mm x 36 mm frame: of equivalent focal 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Camera(Group):
-    """The rolling-shutter camera and its settings."""
-
     # fmt: off
     exposure_time: float = quantity_field(
         "Exposure time", "t", "How long one column gathers light.",

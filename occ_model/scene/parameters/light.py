@@ -24,8 +24,6 @@ MAX_PREAMBLE_CHIPS = 64
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Transmitter(Group):
-    """The LED panel, its light and its code."""
-
     # fmt: off
     code: int = count_field(
         "Code", "", "The number sent, from 0 to 2^bits - 1.", 0, 2**MAX_BITS - 1, 718

@@ -35,7 +35,6 @@ class DepthOver:
 
     @classmethod
     def of(cls, scene: Scene) -> Self:
-        """Return the depth for a scene's code and light."""
         check_scene(scene)
         of_lamp, around = light_fractions(scene)
         surroundings = scene.surroundings

@@ -21,8 +21,6 @@ PointValues: TypeAlias = tuple[int, dict[str, ParameterValue]]  # a point's inde
 
 @dataclass(frozen=True, slots=True)
 class MeasuredPoints:
-    """Points that were measured together."""
-
     points: tuple[SweepPoint, ...]
     images: int
     seconds: float

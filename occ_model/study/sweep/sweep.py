@@ -167,8 +167,6 @@ def measure_study(  # noqa: PLR0913 - what a study is, and how it is measured
 
 
 class _SweepText:
-    """The text form of a sweep's points."""
-
     what, title = "sweep", TITLE
 
     def __init__(self, request: SweepRequest) -> None:
@@ -178,7 +176,6 @@ class _SweepText:
         self.read = PointReader(request).read
 
     def text(self, point: SweepPoint) -> str:
-        """Format a point with the intervals of its rates."""
         intervals = rate_intervals(point, images=self._request.settings.images)
         return point_text(self._request, point, intervals)
 
@@ -193,7 +190,6 @@ class Clock:
         self._started = self._told = perf_counter()
 
     def start(self, found: int) -> None:
-        """Begin with the points that the results file held."""
         self._done = self._found = found
         self._started = self._told = perf_counter()
         if found:

@@ -40,7 +40,6 @@ class Work(Generic[Point]):
         return Job(self.function, self.arguments(indices))
 
     def here(self, indices: Iterable[int], heartbeat: Heartbeat) -> Generator[Point, None, None]:
-        """Measure points in this process."""
         for index in indices:
             yield from self.function(*self.arguments((index,)), heartbeat).points
 

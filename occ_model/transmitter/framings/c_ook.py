@@ -26,8 +26,6 @@ _PART_BITS = 16  # most bits of the payload in a sub-packet: two characters
 
 @dataclass(frozen=True, slots=True)
 class _Division:
-    """The division of a payload into sub-packets."""
-
     parts: int
     part_bits: int
     asynchronous: int  # asynchronous bits before and after each part

@@ -93,7 +93,6 @@ class _Answering:
         return self._source is not None
 
     def answer(self, request: dict[str, Any]) -> tuple[dict[str, Any], Any]:
-        """Return the answer, and the pixels, if any."""
         from occ_model.errors import VideoError
 
         try:

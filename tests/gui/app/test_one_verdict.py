@@ -65,6 +65,7 @@ def _frontier_scene(name: str, random: np.random.Generator) -> Scene:
     return scene.replace(**changes)
 
 
+@pytest.mark.whole
 def test_the_study_says_what_the_pictures_show() -> None:
     """Where all or none of 40 images are read, another picture differs once in some dozens."""
     scenes = frontier_scenes(amount(4, 12))

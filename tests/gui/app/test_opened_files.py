@@ -60,7 +60,7 @@ def test_a_sample_is_opened_with_its_scene_and_not_remembered_and_without_any_no
     assert not menu.isEnabled()
 
 
-def test_files_that_were_opened_are_listed_and_opened_again(
+def test_files_that_were_opened_are_listed_and_opened_again_and_missing_ones_are_removed(
     application: Application, user: User, taken: Path, photo_file: Path, tmp_path: Path
 ) -> None:
     recent = application.window.menus.recent
@@ -83,11 +83,6 @@ def test_files_that_were_opened_are_listed_and_opened_again(
     assert application.window.windowTitle().startswith("taken.png")
     user.choose("&Clear this list")
     assert not recent.isEnabled()
-
-
-def test_a_missing_recent_file_is_reported_and_removed(
-    application: Application, user: User, photo_file: Path
-) -> None:
     application.open_photo(photo_file)
     user.wait_until_idle()
     photo_file.unlink()
@@ -101,8 +96,9 @@ def test_a_missing_recent_file_is_reported_and_removed(
 
 
 def test_a_dropped_photo_and_scene_are_opened_and_what_is_not_shown_is_reported(
-    application: Application, user: User, photo_file: Path, tmp_path: Path
-) -> None:
+    application: Application, user: User, photo_file: Path, taken: Path, qtbot: QtBot,
+    tmp_path: Path,
+) -> None:  # fmt: skip
     scenes = [tmp_path / "one.toml", tmp_path / "other.toml"]
     saved = application.store.scene.replace(iso=99.0)
     for scene in scenes:
@@ -112,11 +108,7 @@ def test_a_dropped_photo_and_scene_are_opened_and_what_is_not_shown_is_reported(
     user.wait_until_idle()
     assert application.store.scene == saved
     assert application.window.windowTitle().startswith("stripes.png")
-
-
-def test_photos_dropped_together_become_a_table_and_the_first_opens(
-    application: Application, user: User, photo_file: Path, taken: Path, qtbot: QtBot
-) -> None:
+    # Photos that are dropped together become a table.
     application.window.dropped.emit([photo_file, taken])
     user.wait_until_idle()
     assert application.view("photo").many.rows.paths == (photo_file, taken)

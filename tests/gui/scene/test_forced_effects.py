@@ -36,8 +36,8 @@ def test_each_forced_effect_is_named_in_the_order_of_light() -> None:
     assert everything.split(", ") == [f"{effect.label} on by hand" for effect in EFFECTS]
 
 
-def test_the_list_is_seen_while_effects_are_forced_and_a_click_gives_all_back_to_the_plan(
-    by_hand: Application, user: User
+def test_forced_effects_are_listed_and_end_by_a_click_another_preset_and_a_reset_in_one_step(
+    by_hand: Application, user: User, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     listed = by_hand.controls.forced
     assert listed.isVisible()
@@ -49,11 +49,6 @@ def test_the_list_is_seen_while_effects_are_forced_and_a_click_gives_all_back_to
     assert by_hand.view("accuracy").table._force == {}
     user.choose("&Undo")
     assert forced(by_hand) == {"jpeg": False, "vignetting": True}
-
-
-def test_another_preset_and_a_reset_end_the_forced_effects_in_one_step(
-    by_hand: Application, user: User, monkeypatch: pytest.MonkeyPatch
-) -> None:
     chosen: list[str] = []
 
     def small(name: str) -> Scene:

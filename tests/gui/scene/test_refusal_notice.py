@@ -81,7 +81,7 @@ def test_a_refused_change_names_the_parameters_at_fault() -> None:
     assert at_fault == [("distance",), ("bits",)]
 
 
-def test_a_scene_without_a_picture_says_so_at_its_fields(
+def test_a_scene_without_a_picture_says_so_at_its_fields_and_mending_it_leaves_other_refusals(
     application: Application, user: User
 ) -> None:
     application.store.change(distance=0.1, yaw=1.2)
@@ -93,11 +93,6 @@ def test_a_scene_without_a_picture_says_so_at_its_fields(
     assert all("behind" in user.row(name).notice.text() for name in named)
     user.enter("yaw", "0")
     assert not any(user.row(name).notice.text() for name in named)
-
-
-def test_the_mending_of_a_picture_leaves_other_refusals(
-    application: Application, user: User
-) -> None:
     application.store.change(distance=0.1, yaw=1.2)
     user.wait_until_idle()
     application.messages.show_refusal_for("iso is 0; allowed: 1 to 2.", ("iso",))

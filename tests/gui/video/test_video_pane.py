@@ -42,13 +42,16 @@ def states(pane: VideoWiring) -> list[int]:
     return pane.view.timeline.frames.states.tolist()
 
 
-def test_a_film_is_opened_read_and_seen_beside_the_simulation_along_either_axis(
-    application: Application, user: User, film_file: Path
+def test_a_film_is_opened_read_seen_along_either_axis_and_closed_and_stays_where_the_next_is_none(
+    application: Application, user: User, film_file: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    application.window.dropped.emit([film_file])
-    user.wait_until_idle()
+    monkeypatch.setattr(QFileDialog, "getOpenFileName", lambda *_: (str(film_file), ""))
+    close = application.window.actions_by_name["close_film"]
+    assert not close.isEnabled()
+    user.choose("Open &film")
     pane = application.video.wiring
     user.wait_until_idle()
+    assert close.isEnabled()
     assert application.window.modes.mode == "video"
     assert pane.view.pictures.shown == (True, True)
     assert pane.view.bar.title.toolTip() == "stripes.avi, 1600 x 60, 6 frames, 30 a second"
@@ -64,17 +67,6 @@ def test_a_film_is_opened_read_and_seen_beside_the_simulation_along_either_axis(
     user.wait_until_idle()
     assert pane.view.bar.title.toolTip().startswith("stripes.avi, 60 x 1600")
     assert axis.key() == "lines"
-
-
-def test_the_menu_opens_and_closes_a_film_which_stays_open_where_the_next_is_none(
-    application: Application, user: User, film_file: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(QFileDialog, "getOpenFileName", lambda *_: (str(film_file), ""))
-    close = application.window.actions_by_name["close_film"]
-    assert not close.isEnabled()
-    user.choose("Open &film")
-    user.wait_until_idle()
-    assert close.isEnabled()
     damaged = film_file.with_name("damaged.mp4")
     damaged.write_bytes(b"no film")
     application.files.open_film(damaged)
@@ -85,6 +77,8 @@ def test_the_menu_opens_and_closes_a_film_which_stays_open_where_the_next_is_non
     assert not close.isEnabled()
     assert application.video.path is None
     assert application.video.wiring.view.pictures.shown == (False, True)
+    application.window.dropped.emit([film_file])
+    assert application.video.path == film_file
 
 
 def test_a_camera_is_read_live_and_released_with_the_mode(
@@ -102,16 +96,6 @@ def test_a_camera_is_read_live_and_released_with_the_mode(
     qtbot.waitUntil(lambda: not video._thread.is_alive())
 
 
-def test_the_window_closes_while_a_film_plays_and_is_read(
-    pane: VideoWiring, application: Application
-) -> None:
-    pane.view.bar.read.click()
-    pane.films.player.play()
-    application.window.close()
-    assert not pane.films.player.is_playing
-    assert not pane.readings.is_running
-
-
 @pytest.mark.own_window
 def test_a_film_of_the_last_session_can_be_closed_unseen_and_opens_when_the_mode_is_first_shown(
     application: Application, user: User, film_file: Path
@@ -127,4 +111,12 @@ def test_a_film_of_the_last_session_can_be_closed_unseen_and_opens_when_the_mode
     assert application.shell.made_pane("video") is None
     application.window.modes.switch("video")
     user.wait_until_idle()
-    assert application.video.wiring.path == film_file
+    pane = application.video.wiring
+    assert pane.path == film_file
+    pane.view.bar.read.click()
+    pane.films.player.play()
+    assert pane.films.player.is_playing
+    assert pane.readings.is_running
+    application.window.close()
+    assert not pane.films.player.is_playing
+    assert not pane.readings.is_running

@@ -21,8 +21,7 @@ from occ_model.results.accuracy import Forecast, MeasuredCosts, TimeFractions
 from occ_model.results.plan import Decision
 from occ_model.scene.simulation_settings import SimulationSettings, unit_of
 
-_TABLE_WIDTH, _PLOT_WIDTH, _DETAIL_WIDTH = 560, 344, 312
-"""Pixels that the parts need side by side."""
+_TABLE_WIDTH, _PLOT_WIDTH, _DETAIL_WIDTH = 560, 344, 312  # pixels that the parts need side by side
 
 
 class AccuracyView(QWidget):
@@ -31,8 +30,7 @@ class AccuracyView(QWidget):
     tolerance_edited = Signal(float)
     refused = Signal(str)  # why an entered value is refused
 
-    mended = Signal()
-    """A valid tolerance was entered, whether or not it differs from the last one."""
+    mended = Signal()  # a valid tolerance was entered, whether or not it differs from the last one
 
     def __init__(self) -> None:
         super().__init__()

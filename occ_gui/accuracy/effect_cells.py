@@ -88,8 +88,7 @@ class TimeCell(_Cell):
         painter.restore()
 
 
-_LEAST_LEVELS, _MOST_LEVELS = 0.01, 300.0
-"""Limits of the logarithmic axis of errors, in levels."""
+_LEAST_LEVELS, _MOST_LEVELS = 0.01, 300.0  # limits of the logarithmic axis of errors, in levels
 
 _NUMBER_WIDTH = 44  # pixels of the number beside the axis
 

@@ -42,8 +42,7 @@ _TINT.setAlpha(48)
 
 LOWEST_ROW, HIGHEST_ROW = 16, 28  # pixels of a row in a low pane and in a high one
 
-_LEAST_ROWS = 4
-"""Fewest visible rows: the others scroll, so that no window grows beyond its screen."""
+_LEAST_ROWS = 4  # fewest visible rows: the others scroll, so that no window grows beyond its screen
 
 _ROWS = 11  # rows that the table has room for before it has any
 

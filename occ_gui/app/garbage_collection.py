@@ -20,8 +20,7 @@ _INTERVAL_MS = 250
 _REST_S = 2.0  # how long the program is idle before memory is returned
 _IDLE_FRACTION = 0.1  # fraction of a processor that an idle program takes at most
 
-_WORTH_S = 1.0
-"""Least processor time of work, in seconds, after which memory is returned."""
+_WORTH_S = 1.0  # least processor time of work, in seconds, after which memory is returned
 
 
 def give_memory_back() -> None:

@@ -10,8 +10,7 @@ Request = TypeVar("Request")
 
 PAUSE = 0.15  # seconds: changes that follow each other faster are one movement, such as a drag
 
-_REMEMBERED_REQUESTS = 64
-"""Number of replaced requests whose time is remembered."""
+_REMEMBERED_REQUESTS = 64  # number of replaced requests whose time is remembered
 
 
 class ResultAges(Generic[Request]):

@@ -54,8 +54,7 @@ class Workspace:
     film: FilmChoice = field(default_factory=FilmChoice)
     room: RoomChoice = field(default_factory=RoomChoice)
     pins: Pins = (None, None)
-    preset: str = ""
-    """The preset that the scene is or was changed from; empty for none."""
+    preset: str = ""  # the preset that the scene is or was changed from; empty for none
     scene_file: Path | None = None
 
     @property

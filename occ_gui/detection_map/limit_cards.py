@@ -229,8 +229,7 @@ class MostBitsCard(QFrame):
     asked = Signal()
     cancelled = Signal()
 
-    chosen = Signal(object)
-    """The user goes to the result, a :class:`~occ_model.results.MostBits`."""
+    chosen = Signal(object)  # the user goes to the result, a :class:`~occ_model.results.MostBits`
 
     def __init__(self) -> None:
         super().__init__()

@@ -105,8 +105,7 @@ class MapPlot(QWidget):
 
     picked = Signal(int, int)  # the point that the user chose, by its indices along both axes
 
-    pointed = Signal(object)
-    """The point under the mouse or chosen by the arrow keys, None for none."""
+    pointed = Signal(object)  # the point under the mouse or chosen by the arrow keys, None for none
 
     def __init__(self) -> None:
         super().__init__()

@@ -31,8 +31,7 @@ _USUAL_IMAGES = len(SEARCHED) * usual_images(IMAGES, READ_RATE)
 """Usual number of images in a decoder's search, from which its progress is estimated."""
 
 _ADVICE_COUNTERS = range(1, len(DECODERS) + 1)
-_MOST_COUNTER = len(DECODERS) + 1
-"""Number of counters of tried pictures, one for each search."""
+_MOST_COUNTER = len(DECODERS) + 1  # number of counters of tried pictures, one for each search
 
 _LOOK_MS = 100
 

@@ -43,8 +43,7 @@ class SliderStrip(QWidget):
         self._slider = slider
         self._label = label
         self.fractions: tuple[float | None, ...] = ()
-        self.present: OwnRate | None = None
-        """The success rate at the scene's own value."""
+        self.present: OwnRate | None = None  # the success rate at the scene's own value
         slider.valueChanged.connect(self.update)
         self._is_outdated = self._is_faded = False
         self._fading = QTimer(self, singleShot=True)

@@ -204,8 +204,7 @@ OWN_RANK = 1  # after a first answer of the map, before all else
 class OwnRateController(RestingController):
     """Measures the rate of the present scene once it rests, while it is visible."""
 
-    changed = Signal(object)
-    """The rate, an :class:`OwnRate`; None where unknown."""
+    changed = Signal(object)  # the rate, an :class:`OwnRate`; None where unknown
 
     def __init__(self, scenes: SceneStore, channel: JobChannel) -> None:
         super().__init__(scenes, channel)

@@ -80,8 +80,7 @@ class FileController(QObject):
     status_message = Signal(str)
     scene_opened = Signal(Path)
 
-    several_opened = Signal(list)
-    """Photos dropped together, of which the first is opened."""
+    several_opened = Signal(list)  # photos dropped together, of which the first is opened
 
     film_asked = Signal(Path)
     film_save_asked = Signal(Path)

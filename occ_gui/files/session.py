@@ -19,8 +19,7 @@ from occ_model.files.writing import make_folder, write_whole
 
 LARGEST_FILE = 4_000_000  # bytes of a session file that is read; one has thousands
 
-STATE_FOLDER = "OCC_STATE"
-"""Environment variable with another folder for the program's own files."""
+STATE_FOLDER = "OCC_STATE"  # environment variable with another folder for the program's own files
 
 _FORMAT = 1
 

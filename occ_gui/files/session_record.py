@@ -44,8 +44,7 @@ from occ_model.scene.square_wave import SQUARE_FREQUENCY
 
 T = TypeVar("T")
 
-_MOST_OF_HISTORY = 1_000_000
-"""Longest record of steps, in characters; the oldest ones are left out."""
+_MOST_OF_HISTORY = 1_000_000  # longest record of steps, in characters; the oldest ones are left out
 
 _VIEW: Mapping[str, tuple[object, ...]] = {
     "decoder": tuple(DECODERS),

@@ -35,8 +35,7 @@ class LessonAnswers(QObject):
     def __init__(self) -> None:
         super().__init__()
         self._given: dict[tuple[str, int], tuple[CheckedAnswer, Scene, MatchedPhoto]] = {}
-        self._waiting: list[_Asked] = []
-        """The answer that is being checked, then those that wait."""
+        self._waiting: list[_Asked] = []  # the answer that is being checked, then those that wait
         self.runner: Task[_Asked, tuple[_Asked, CheckedAnswer]] = Task(
             lambda request, _: _check(request), "lesson"
         )

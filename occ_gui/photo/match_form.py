@@ -41,8 +41,7 @@ class MatchForm(QWidget):
         self._scene: Scene | None = None
         self._shown = MatchChoice()
         self._certain: Mapping[str, float] = {}
-        self._forgotten: Mapping[str, float] = {}
-        """Values that were confirmed for earlier photos."""
+        self._forgotten: Mapping[str, float] = {}  # values that were confirmed for earlier photos
         self.sent = KeyedComboBox(
             "What was sent",
             "What the LED in the photo sent: what the scene sends, a square wave of so many "

@@ -17,8 +17,7 @@ _PREFIXES = {"exposure_time": "", "iso": "ISO ", "f_number": "f/"}
 
 
 class PhotoFacts(QWidget):
-    settings_asked = Signal()
-    """The user applies the camera's recorded settings to the scene."""
+    settings_asked = Signal()  # the user applies the camera's recorded settings to the scene
 
     channel_chosen = Signal(str)
     scan_axis_chosen = Signal(str)

@@ -153,8 +153,7 @@ class PhotoPart:
         return self.elsewhere or refused, not self.elsewhere
 
 
-_INSET = 4
-"""A first rectangle leaves out the photo's size divided by this at each side."""
+_INSET = 4  # a first rectangle leaves out the photo's size divided by this at each side
 
 
 class PartEdits(QObject):

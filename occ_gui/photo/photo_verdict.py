@@ -26,8 +26,7 @@ STEPS = {
 }
 """The steps in their order, each with its word and its meaning."""
 
-EARLIER = "earlier"
-"""Verdict on a match of something other than what is to be matched now."""
+EARLIER = "earlier"  # verdict on a match of something other than what is to be matched now
 
 
 class PhotoSteps(QWidget):

@@ -31,8 +31,7 @@ AskedOfPhoto = tuple[Photo, Asked]
 
 MatchRequest = tuple[Photo, MatchAsked]
 
-_LEAST_SWING = 0.5
-"""Least swing, in grey levels, of simulated columns with stripes."""
+_LEAST_SWING = 0.5  # least swing, in grey levels, of simulated columns with stripes
 
 
 def lamp_search(store: Store, board: Board) -> Work[AskedOfPhoto, tuple[Lamp, ...]]:

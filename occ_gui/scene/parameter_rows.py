@@ -33,8 +33,7 @@ class ParameterRow(QWidget):
 
     refused = Signal(str)  # the reason why an input is not valid
 
-    value: ParameterValue | None = None
-    """The value shown or entered; None before the first."""
+    value: ParameterValue | None = None  # the value shown or entered; None before the first
 
     notice: RefusalNotice
     """Notice under the field: why the last input was refused, or what is wrong with the value."""

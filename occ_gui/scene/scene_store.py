@@ -67,8 +67,7 @@ class SceneStore(QObject):
 
     refused = Signal(str)  # the reason why a change was not made; the scene is unchanged
 
-    refused_for = Signal(str, object)
-    """The refusal, and the names of the refused parameters."""
+    refused_for = Signal(str, object)  # the refusal, and the names of the refused parameters
 
     def __init__(self, store: Store, effect_labels: Mapping[str, str] | None = None) -> None:
         super().__init__()

@@ -19,8 +19,7 @@ if TYPE_CHECKING:
     from occ_model.figures.drawing import Drawing
 
 
-Draw: TypeAlias = "Callable[[], Drawing]"
-"""Makes a drawing on a background thread, without widgets."""
+Draw: TypeAlias = "Callable[[], Drawing]"  # makes a drawing on a background thread, without widgets
 
 
 def later(name: str, *arguments: Any, **named: Any) -> Callable[..., Any]:

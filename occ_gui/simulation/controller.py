@@ -43,8 +43,7 @@ from occ_model.simulation.render import plan_scene, render_with
 
 _REST_TIME = 0.05  # seconds without a change after which the exact picture is begun
 
-_LONGEST_PAINT = 0.1
-"""Longest time, in seconds, for which work waits for the window to paint."""
+_LONGEST_PAINT = 0.1  # longest time, in seconds, for which work waits for the window to paint
 
 _CHECK_SECONDS, _MOST_CHECKS = 0.005, 20
 """Seconds between two checks whether the exact picture may begin, and the most checks."""
@@ -73,8 +72,7 @@ class SimulationController(QObject):
     failed = Signal(str)  # the reason why a scene has no picture; the panes keep the last one
     failed_for = Signal(str, object)  # the same, and the names of the parameters that it is about
 
-    submitted = Signal()
-    """The scene or a setting has changed: the last results are outdated."""
+    submitted = Signal()  # the scene or a setting has changed: the last results are outdated
 
     def __init__(self, scenes: SceneStore) -> None:
         super().__init__()

@@ -24,8 +24,7 @@ LONGEST_DRAFT = 0.016
 
 THINNEST_ROW = 4  # rows of the screen that a row of a draft fills at most
 
-LEAST_ROWS = 64
-"""Fewest rows of a thinned draft: still fewer save no time, and show too little."""
+LEAST_ROWS = 64  # fewest rows of a thinned draft: still fewer save no time, and show too little
 
 _SPEED_MARGIN = 3.0
 """Factor by which a thinned draft must beat its time limit before its rows are doubled.
@@ -70,8 +69,7 @@ class DraftRows:
         self._seconds.clear()
 
 
-SMALL_PICTURE = 1_000_000
-"""Most pixels of a picture that is there at once, with whatever effects."""
+SMALL_PICTURE = 1_000_000  # most pixels of a picture that is there at once, with whatever effects
 
 
 def reading_by_profile(

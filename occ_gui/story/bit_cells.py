@@ -7,8 +7,7 @@ from PySide6.QtGui import QFontMetrics, QPainter, QPalette, QPen
 
 from occ_gui.widgets.state_look import State, colours_of
 
-HEADER = ("header", "H")
-"""Names of a header, the shorter one for narrow cells."""
+HEADER = ("header", "H")  # names of a header, the shorter one for narrow cells
 
 _MARKS = {State.GOOD: " ✓", State.BAD: " ✗"}
 _PADDING = 4  # pixels of a cell that no text covers

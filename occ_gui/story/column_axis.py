@@ -13,8 +13,7 @@ from occ_gui.widgets.guarded_paint import guarded
 LEFT = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter
 RIGHT = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
 
-GUTTER = 104
-"""Pixels at the left of each row for its name and levels, in text of the usual size."""
+GUTTER = 104  # pixels at the left of each row for its name and levels, in text of the usual size
 
 MARGIN = 12  # pixels at the right of each row
 _LEAST_SPAN = 4.0  # fewest columns in view

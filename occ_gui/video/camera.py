@@ -42,8 +42,7 @@ class FrameSource(Protocol):
 
     title: str
 
-    axis: str
-    """Axis that the rolling shutter usually scans: ``"lines"`` or ``"columns"``."""
+    axis: str  # axis that the rolling shutter usually scans: ``"lines"`` or ``"columns"``
 
     def open(self) -> None: ...
 

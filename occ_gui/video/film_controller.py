@@ -108,8 +108,7 @@ def _open(source: FilmSource, report: Report) -> Video:
 class FilmController(QObject):
     """The film that is open, the frame that is shown of it, and the simulated film beside it."""
 
-    opened = Signal(object)
-    """The open Video, None for the simulated one."""
+    opened = Signal(object)  # the open Video, None for the simulated one
 
     failed = Signal(str)  # why a film cannot be opened; what was open stays
 
@@ -122,8 +121,7 @@ class FilmController(QObject):
         self._scenes, self._store = scenes, scenes.store
         self._settled = replace(self.choice, path=None)
         """The choices of the film that is shown; one chosen since is not shown yet."""
-        self.film: Video | None = None
-        """The open film; None for the simulated one."""
+        self.film: Video | None = None  # the open film; None for the simulated one
         self.is_live = False  # whether the film is a camera's, which keeps no frames
         self.last_live: VideoFrame | None = None
         """The last frame of a camera, which stays when the camera is gone."""

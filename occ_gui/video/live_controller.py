@@ -23,8 +23,7 @@ from occ_model.errors import OccError, VideoError
 from occ_model.results.video import Video, VideoFrame
 from occ_model.scene.scene import Scene
 
-_JOIN_SECONDS = 5.0
-"""Longest wait, in seconds, for a device that does not answer."""
+_JOIN_SECONDS = 5.0  # longest wait, in seconds, for a device that does not answer
 
 _TURN_MS = 30  # milliseconds between two pictures on the screen
 

@@ -27,8 +27,7 @@ _LEAST_GUTTER, _NAME_PADDING, _MARGIN = 64, 6, 10
 
 _FRAMES, _PACKETS, _TICKS, _GAP = 24, 18, 18, 4
 _LEAST_SPACING = 80.0  # fewest pixels between two ticks
-_LEAST_MARK = 3.0
-"""Least width in pixels of a single mark; narrower ones are counted in bins."""
+_LEAST_MARK = 3.0  # least width in pixels of a single mark; narrower ones are counted in bins
 
 _STEPS = {
     Qt.Key.Key_Left: -1, Qt.Key.Key_Right: 1,

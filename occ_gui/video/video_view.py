@@ -30,8 +30,7 @@ _MOST_TEXT = 200_000  # most characters of the text that are kept on the screen:
 
 _LEAST_HEIGHT = 40
 
-_LARGE_PICTURE_PERCENT = 80
-"""Height of large pictures, in percent of the pane."""
+_LARGE_PICTURE_PERCENT = 80  # height of large pictures, in percent of the pane
 
 _LEAST_FORM = QSize(240, 80)
 

@@ -13,8 +13,7 @@ from occ_gui.widgets.guarded_paint import guarded
 
 _NUMBER_LENGTH = {"left": 18.0, "bottom": 36.0}  # pixels that a number occupies along the axis
 
-_LEAST_SPACING = 3.0
-"""Least distance, in pixels, of unnumbered ticks at powers of ten."""
+_LEAST_SPACING = 3.0  # least distance, in pixels, of unnumbered ticks at powers of ten
 
 _LEAST_NUMBERS = 2  # powers of ten in view below which other round values are numbered
 

@@ -7,8 +7,7 @@ from PySide6.QtWidgets import QComboBox, QSizePolicy
 
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
 
-_POPUP_MARGIN = 36
-"""Pixels of a list besides its words: margins and scroll bar."""
+_POPUP_MARGIN = 36  # pixels of a list besides its words: margins and scroll bar
 
 
 class KeyedComboBox(QComboBox):

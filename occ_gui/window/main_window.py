@@ -25,8 +25,7 @@ _LEAST_BELOW = 530  # pixels of width that each pane below the middle may need
 
 _FIRST_SIZE = QSize(1280, 800)
 _PROPAGATED = Qt.ApplicationAttribute.AA_UseStyleSheetPropagationInWidgetStyles
-_WITH_PICTURE = "photo"
-"""The pane that goes with the whole picture: the photo stands beside that."""
+_WITH_PICTURE = "photo"  # the pane that goes with the whole picture: the photo stands beside that
 
 _IN_STORY = ("profile", "decode")  # panes that show in detail what the story shows, too
 

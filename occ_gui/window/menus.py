@@ -22,8 +22,7 @@ _WITH_PHOTO = (
 )  # fmt: skip
 """Entries enabled while a photo is open."""
 
-_WITH_MATCH = ("apply_match", "save_match")
-"""Entries enabled while there is the result of a match."""
+_WITH_MATCH = ("apply_match", "save_match")  # entries enabled while there is the result of a match
 
 _SEARCH_WORDS = "search_words"  # the property of an action in which they stand
 

@@ -41,8 +41,7 @@ class Observed:
         """Mean square of what the sample may not show of an effect."""
         self.known: dict[str, float] = {}
         """Factor on the root of ``alone`` for the largest change, where its law is known."""
-        self.unsure = 0.0
-        """Fraction by which any mean square may be larger."""
+        self.unsure = 0.0  # fraction by which any mean square may be larger
         found = seen([names, *(names - {name} for name in changing)])
         self.complete = found[0]
         self._moved = moved = found[1:] - found[0]

@@ -33,8 +33,7 @@ class CompleteSimulation:
         self._scene, self._observable, self._seed = scene, observable, seed
         complete = plan(scene, 0.0, observable)
         self._stretch = complete.stretch
-        self.effects = complete.included
-        """The names of all effects of the scene."""
+        self.effects = complete.included  # the names of all effects of the scene
         self._seen = self._simulated(self.effects, observable, timer)
         self._bare = self._simulated((), "image", timer)
         size = self._seen.size

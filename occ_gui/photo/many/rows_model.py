@@ -32,8 +32,7 @@ _NUMBERS = (KNOWN, ESTIMATE, EXPOSURE, NOTED, CORRELATION)
 class PhotoRowsModel(QAbstractTableModel):
     """The photos, with what was found in each so far and what is known of each."""
 
-    known_given = Signal(int)
-    """The known value of the photo at this index was entered or removed."""
+    known_given = Signal(int)  # the known value of the photo at this index was entered or removed
 
     refused = Signal(str)  # why a known value is refused; the last one stays
 

@@ -21,8 +21,7 @@ LEAST_COHERENCE_RATIO = 0.93
 
 _SHORTENING = 0.7  # minimum ratio of the mean shortest run to a chip: noise shortens runs
 
-LEAST_COLUMNS = 2.0
-"""Minimum number of columns per chip."""
+LEAST_COLUMNS = 2.0  # minimum number of columns per chip
 
 _STEPS_PER_CHIP = 6.0  # lattices tried while the last edge moves by a chip against the first
 _RIM_DISTANCE = 0.2  # chips off the lattice beyond which an outermost edge is the panel's rim

@@ -24,11 +24,9 @@ _MOST_FINISHED = 6
 _MOST_EQUAL_RATIO = 1.05  # maximum ratio of residuals of fits that are equally good
 _EQUALIZED_RATIO = 0.5  # ratio of residuals below which a picture was equalized
 
-EXPLAINED_CORRELATION = 0.98
-"""Correlation of a fit above which no other chips are tried."""
+EXPLAINED_CORRELATION = 0.98  # correlation of a fit above which no other chips are tried
 
-SAME_EXPOSURE = 0.04
-"""Difference in chips below which two exposures are the same."""
+SAME_EXPOSURE = 0.04  # difference in chips below which two exposures are the same
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -10,8 +10,7 @@ import numpy as np
 
 from occ_model.arrays import FloatArray
 
-DIFFERENCE = 0.02
-"""Finite difference of the scaled parameters."""
+DIFFERENCE = 0.02  # finite difference of the scaled parameters
 
 _LEAST_GAIN = 0.05  # minimum decrease of the sum of squares for a further iteration
 _MOST_TRIES = 6  # maximum number of shorter steps after one without a gain

@@ -28,8 +28,7 @@ from occ_model.photo.fit.chips_of_harmonics import (
 )
 from occ_model.photo.stripes.envelope import without_trend
 
-MOST_CHIPS = 128
-"""Maximum number of chips in a period."""
+MOST_CHIPS = 128  # maximum number of chips in a period
 
 _LEAST_COHERENCE = 0.6  # minimum coherence of edges with the best lattice of chips
 _LONGEST_FOR_EDGES = 1.5  # exposure in chips above which edges may not show the lattice

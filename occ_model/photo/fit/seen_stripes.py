@@ -18,14 +18,12 @@ from occ_model.arrays import ByteArray, FloatArray
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.fit.tone_curve import ToneCurve, ToneSlopes, ToneTable
 
-BLUR_REACH = 8
-"""Maximum distance in columns over which blur acts."""
+BLUR_REACH = 8  # maximum distance in columns over which blur acts
 
 _LEAST_BLUR = 0.05  # blur in columns below which a picture is sharp
 _CHANGE = 1e-5  # finite difference of the blur in columns
 
-BLUR = 3
-"""The blur's index among the parameters of slopes: step, exposure, middle, blur and longer."""
+BLUR = 3  # the blur's index among the parameters of slopes: step, exposure, middle, blur and longer
 
 BlurShape = Literal["normal", "box", "exponential"]
 """Blur's distribution: of processing; a box, as resizing blurs; or one with long tails."""

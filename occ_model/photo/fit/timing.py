@@ -8,8 +8,7 @@ import numpy as np
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.transmitter.waveform import Duration, Phases, Waveform
 
-SHORTEST_EXPOSURE = 1e-3
-"""Shortest exposure in chips: shorter ones make the same stripes."""
+SHORTEST_EXPOSURE = 1e-3  # shortest exposure in chips: shorter ones make the same stripes
 
 
 @dataclass(frozen=True, slots=True)

@@ -46,8 +46,7 @@ LEAST_EQUAL_FRACTION = 0.65
 """Minimum fraction of equal edges of two segments, relative to the longer one: in a strip, noise or
 a rim can join the edges of two lamps, and such a segment must not join the lamps."""
 
-LEAST_STRIPS = 2
-"""Minimum number of strips of a lamp: in one, noise makes edges equal."""
+LEAST_STRIPS = 2  # minimum number of strips of a lamp: in one, noise makes edges equal
 
 _LEAST_STRIP_FRACTION = 0.2  # minimum fraction of a group's strips that show an edge
 

@@ -30,8 +30,7 @@ MOST_JOBS = 64
 
 Source: TypeAlias = Path | Photo
 
-PRELOAD = "occ_model.photo.many.row"
-"""The module that a worker process needs."""
+PRELOAD = "occ_model.photo.many.row"  # the module that a worker process needs
 
 Files: TypeAlias = Iterable[tuple[int, Path]]
 """The files to match, each with its place in the table."""

@@ -20,14 +20,12 @@ if TYPE_CHECKING:
     from PIL.Image import Image as PillowImage
     from PIL.ImageFile import ImageFile
 
-Samples: TypeAlias = NDArray[np.uint8 | np.uint16]
-"""8 bits or 16, white being the largest number."""
+Samples: TypeAlias = NDArray[np.uint8 | np.uint16]  # 8 bits or 16, white being the largest number
 
 Box: TypeAlias = tuple[int, int, int, int]
 """A rectangle of a picture: its first column and row, and the column and row after its last."""
 
-DECODED_FRACTION = 0.8
-"""Fraction of the work that is done when a picture is decoded."""
+DECODED_FRACTION = 0.8  # fraction of the work that is done when a picture is decoded
 
 _GREY_LEVEL = 257  # one grey level in samples of 16 bits: 65535 / 255
 _PART = 1 << 20  # number of pixels that are converted at once: some megabytes

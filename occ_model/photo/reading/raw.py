@@ -54,8 +54,7 @@ _NO_COLOUR = 6  # LibRaw's colour of a sensor without filters
 _ORIENTATIONS = {0: 1, 1: 2, 2: 4, 3: 3, 4: 5, 5: 8, 6: 6, 7: 7}
 """The EXIF orientation for LibRaw's flip: bit 0 mirrors columns, bit 1 rows, bit 2 transposes."""
 
-WHITE_SAMPLE = 65535
-"""The sample value of the sensor's white level."""
+WHITE_SAMPLE = 65535  # the sample value of the sensor's white level
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -37,11 +37,9 @@ class WatchedFile(io.BufferedReader):
         self._report = report
         self._from, self._to, self._size = 0.0, 0.0, 1
         self._next = _STEP
-        self.total = 0
-        """Number of bytes read, including those read again."""
+        self.total = 0  # number of bytes read, including those read again
 
-        self.last = 0
-        """Number of bytes of the last read."""
+        self.last = 0  # number of bytes of the last read
 
     def watch(self, size: int, first: float, last: float) -> None:
         """Report from now on progress between two fractions, while ``size`` bytes are read."""

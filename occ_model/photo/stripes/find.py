@@ -19,8 +19,7 @@ from occ_model.results.decoding import Region
 from occ_model.results.lamp import Lamp
 from occ_model.results.match import Stripes
 
-BANDS = 64
-"""Maximum number of bands into which rows are gathered."""
+BANDS = 64  # maximum number of bands into which rows are gathered
 
 _LEAST_STRENGTH = 0.25  # minimum strength of the common stripes in a row relative to the median
 _LEAST_SLOPE = 0.3  # minimum slope of an edge relative to a steep one; lenses darken the rim

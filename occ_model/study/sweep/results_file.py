@@ -34,17 +34,13 @@ Point = TypeVar("Point", bound=Indexed)
 class TableText(Protocol[Point]):
     """The text form of a study's points."""
 
-    what: str
-    """Name of the study, such as a sweep."""
+    what: str  # name of the study, such as a sweep
 
-    title: str
-    """Start of the header of every such table."""
+    title: str  # start of the header of every such table
 
-    header: str
-    """All that determines the numbers, and the names of the columns."""
+    header: str  # all that determines the numbers, and the names of the columns
 
-    points: int
-    """Number of points of the whole study."""
+    points: int  # number of points of the whole study
 
     lines_a_point: int
 

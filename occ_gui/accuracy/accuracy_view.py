@@ -30,7 +30,7 @@ class AccuracyView(QWidget):
     tolerance_edited = Signal(float)
     refused = Signal(str)  # why an entered value is refused
 
-    mended = Signal()  # a valid tolerance was entered, whether or not it differs from the last one
+    accepted = Signal()  # a valid tolerance was entered, also the same as before
 
     def __init__(self) -> None:
         super().__init__()
@@ -43,7 +43,7 @@ class AccuracyView(QWidget):
         self._marked: tuple[Decision, ...] = ()
         self._selected = self._slowest = ""
         self.tolerance = ToleranceSlider()
-        self.tolerance.edited.connect(self.mended)
+        self.tolerance.edited.connect(self.accepted)
         self.tolerance.edited.connect(self.tolerance_edited)
         self.tolerance.refused.connect(self.refused)
         self.observable = KeyedComboBox(

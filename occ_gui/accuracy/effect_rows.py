@@ -169,7 +169,7 @@ def arranged(
     known = [row for row in effects if _value(row, column) is not None]
     if column == TIME and {row.effect for row in known} <= set(present):
         known.sort(key=lambda row: present.index(row.effect))
-        _mend(known, falls)
+        _swap_neighbours(known, falls)
     else:
         known.sort(key=lambda row: _value(row, column) or 0.0, reverse=falls)
     return (*known, *unknown, *kept)
@@ -196,7 +196,7 @@ def _value(row: EffectRow, column: int) -> float | None:
     return row.seconds if column == TIME else row.levels
 
 
-def _mend(rows: list[EffectRow], falls: bool) -> None:
+def _swap_neighbours(rows: list[EffectRow], falls: bool) -> None:
     """Swap neighbours that are out of order by more than the scatter."""
     swapped = True
     while swapped:

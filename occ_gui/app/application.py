@@ -32,7 +32,7 @@ class Application(Parts):
         self._offer_exports()
         connect_story(self)
         self.scene = SceneInWindow(self)
-        self.session = Session(self.store.store, self._users_own)
+        self.session = Session(self.store.store, self._user_workspace)
         self._connect_parts()
 
     def _offer_exports(self) -> None:
@@ -102,16 +102,16 @@ class Application(Parts):
 
     def resume(self, workspace: Workspace) -> None:
         """Restore what an earlier window left, without a step to undo."""
-        self.photo.stay_behind(workspace.photo.path)
+        self.photo.keep_in_background(workspace.photo.path)
         self.store.store.put(workspace)
 
-    def _users_own(self) -> Workspace:
+    def _user_workspace(self) -> Workspace:
         """Return what the user has set, without what a lesson shows in its place."""
-        return self.lessons.users_own() or self.store.store.workspace
+        return self.lessons.user_workspace() or self.store.store.workspace
 
     def _keep_view(self) -> None:
         """Store how the window looks, unless a lesson has its own panes in it."""
-        if self.lessons.users_own() is None:
+        if self.lessons.user_workspace() is None:
             self.options.keep()
 
     def _animate(self, name: str) -> None:

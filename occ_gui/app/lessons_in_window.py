@@ -40,7 +40,7 @@ class LessonsInWindow(QObject):
 
     def _show_pane_of_step(self, name: str) -> None:
         if self._brought not in {"", name}:  # beside it the next one might need a larger screen
-            self._window.put_away(self._brought)
+            self._window.hide_pane(self._brought)
             self._brought = ""
         if name:
             is_new = self._window.is_put_away(name)
@@ -49,9 +49,9 @@ class LessonsInWindow(QObject):
                 self._brought = name
         self.photo_explained.emit(name == "photo")
 
-    def users_own(self) -> Workspace | None:
+    def user_workspace(self) -> Workspace | None:
         pane = self._shell.made_pane("lessons")
-        own: Workspace | None = None if pane is None else pane.controller.users_own()
+        own: Workspace | None = None if pane is None else pane.controller.user_workspace()
         return own
 
     def end(self) -> None:

@@ -49,7 +49,7 @@ class PhotoInWindow(QObject):
         self._match_next, self._front_next = match, front
         self._parts.photos.open(path)
 
-    def stay_behind(self, path: Path | None) -> None:
+    def keep_in_background(self, path: Path | None) -> None:
         """Do not bring to the front the photo that is about to be opened, if any."""
         self._front_next = path is None
 

@@ -52,7 +52,7 @@ class SceneInWindow(QObject):
     def _connect_simulation(self) -> None:
         parts, simulation = self._parts, self._parts.simulation
         self._news.changed.connect(parts.board.show_switched)
-        self._news.changed.connect(self._tell_switched)
+        self._news.changed.connect(self._report_switched)
         # What the pictures are compared with comes before them.
         for view in (self.before, parts.pins, self._news, parts.board):
             simulation.snapshot_ready.connect(view.show_snapshot)
@@ -71,7 +71,7 @@ class SceneInWindow(QObject):
         pane = self._parts.shell.made_pane("map")
         return pane is not None and pane.map.is_first_answer_awaited
 
-    def _tell_switched(self, switched: tuple[Decision, ...]) -> None:
+    def _report_switched(self, switched: tuple[Decision, ...]) -> None:
         # Not at the start: it imports all of the accuracy study's results.
 
         self._parts.window.show_plan_change(switch_sentence(switched) if switched else "")

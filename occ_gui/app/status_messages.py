@@ -28,7 +28,7 @@ class StatusMessages(QObject):
         """Show refusals of these forms, each until a valid value is entered there."""
         for form in forms:
             form.refused.connect(self.show_note)
-            form.mended.connect(self.end_refusal)
+            form.accepted.connect(self.end_refusal)
 
     def show_note(self, sentence: str) -> None:
         """Show a remark on the present scene, until the next change of scene or settings."""

@@ -28,7 +28,7 @@ def connect_story(parts: Parts) -> None:
 
     def share(name: str, pane: Any) -> None:  # holds no part that holds the shell
         if name == "equations":
-            _share_column(crosshair, pane.exposure)
+            _link_columns(crosshair, pane.exposure)
         elif name == "picture":
             from occ_gui.window.cursor_readout import follow_pictures
 
@@ -82,7 +82,7 @@ class _SimulationNaming(QObject):
         parts.window.modes.changed.connect(self.show)
         parts.photos.opened.connect(self.show)
         parts.lessons.photo_explained.connect(self.note_step)
-        parts.story.verdict.changed.connect(self._tell_photo)
+        parts.story.verdict.changed.connect(self._show_simulation)
         parts.shell.made.connect(self.take)
 
     def take(self, name: str, pane: Any) -> None:
@@ -91,10 +91,10 @@ class _SimulationNaming(QObject):
             return
         self._photo = pane.view
         self._story.take_photo_verdict(pane.view.verdict)
-        self._tell_photo()
+        self._show_simulation()
         self.show()
 
-    def _tell_photo(self) -> None:
+    def _show_simulation(self) -> None:
         verdict = self._story.verdict
         if self._photo is not None:
             self._photo.verdict.show_simulation(verdict.state, verdict.heading)
@@ -111,7 +111,7 @@ class _SimulationNaming(QObject):
         self._story.verdict.name_simulation(is_about_photo or has_photo)
 
 
-def _share_column(crosshair: Crosshair, exposure: "ExposureController") -> None:
+def _link_columns(crosshair: Crosshair, exposure: "ExposureController") -> None:
     """Keep equal the column chosen in the story and the one whose exposure is explained."""
 
     def follow() -> None:

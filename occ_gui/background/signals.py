@@ -67,7 +67,7 @@ class JobChannel(QObject):
         for number in [number for number in self._requests if number < run]:
             del self._requests[number]
 
-    def _give(self, run: int, results: list[Any]) -> None:
+    def _emit_results(self, run: int, results: list[Any]) -> None:
         if run in self._requests:
             self._forget_before(run)
             self.results_ready.emit(self._requests[run], results)
@@ -162,7 +162,7 @@ class WorkQueue(QObject):
 
     @Slot(int, int, list)
     def _on_results(self, channel: int, run: int, results: list[Any]) -> None:
-        self.channels[channel]._give(run, results)
+        self.channels[channel]._emit_results(run, results)
 
     @Slot(int, int, str)
     def _on_end(self, channel: int, run: int, failure: str) -> None:

@@ -64,7 +64,7 @@ class SearchController(QObject):
         self._done = self._counted = 0
         self._look = QTimer(self)
         self._look.setInterval(_LOOK_MS)
-        self._look.timeout.connect(self._look_at_it)
+        self._look.timeout.connect(self._check_progress)
         channel.results_ready.connect(self._take)
         channel.finished.connect(self._finish)
         channel.failed.connect(self._end)
@@ -102,7 +102,7 @@ class SearchController(QObject):
     def _count(self) -> int:
         return sum(map(self._queue.counted, self._counters))
 
-    def _look_at_it(self) -> None:
+    def _check_progress(self) -> None:
         if self.channel.is_idle:
             self._look.stop()
         else:
@@ -221,7 +221,7 @@ class MostBitsController(SearchController):
         request = self._request()
         self._pane.show_begun()
         self._begin(request, request.stages)
-        self._look_at_it()
+        self._check_progress()
 
     def go(self, found: MostBits) -> None:
         scene = most_bits.example_of(found)

@@ -146,7 +146,7 @@ class LessonController(QObject):
         self.restore_user()
         self._list()
 
-    def users_own(self) -> Workspace | None:
+    def user_workspace(self) -> Workspace | None:
         """Return what the end of the lesson restores; None if none is under way."""
         user, present = self._user, self._store.workspace
         if user is None:
@@ -158,7 +158,7 @@ class LessonController(QObject):
 
     def restore_user(self) -> None:
         """Restore the user's own work; the scene in one step to undo."""
-        user, self._user = self.users_own(), None
+        user, self._user = self.user_workspace(), None
         self.columns_held.emit(None)
         if user is not None:
             self._store.put(user, "end of the lesson", new_gesture())
@@ -182,7 +182,7 @@ class LessonController(QObject):
         self._follow_scene()
 
     def _set(self, lesson: Lesson, place: int) -> None:
-        step, user = lesson.steps[place], self.users_own()
+        step, user = lesson.steps[place], self.user_workspace()
         if user is None:
             return
         self._user = user
@@ -210,7 +210,7 @@ class LessonController(QObject):
         if wanted is None:
             return replace(users, path=None)
         sample = present if present.path == wanted else users.opened(wanted)
-        return sample.shown_by(step.scene.transmitter.switching_frequency)
+        return sample.with_known_frequency(step.scene.transmitter.switching_frequency)
 
     def _step(self) -> Step | None:
         lesson = self._current

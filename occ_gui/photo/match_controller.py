@@ -59,7 +59,7 @@ class MatchController(QObject):
         self._scenes, self._store, self._board = scenes, scenes.store, board
         self.work = match_work(scenes.store, board)
         self.work.failed.connect(self.failed)
-        self.work.found.connect(self._tell_refusal)
+        self.work.found.connect(self._report_refusal)
         self._settled: MatchAsked | None = None
         """The match that is shown, which may have been restored with its photo."""
         board.select(lambda results: results.match).changed.connect(self._settle)
@@ -67,7 +67,7 @@ class MatchController(QObject):
     def _settle(self) -> None:
         self._settled = self._store.workspace.photo.match_asked
 
-    def _tell_refusal(self, found: FoundMatch) -> None:
+    def _report_refusal(self, found: FoundMatch) -> None:
         if found.refusal:
             self.failed.emit(found.refusal[0])  # which the verdict shows, however short it is
 

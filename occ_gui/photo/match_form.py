@@ -34,7 +34,7 @@ class MatchForm(QWidget):
 
     cancelled = Signal()
     refused = Signal(str)  # why an entered value is refused
-    mended = Signal()  # an allowed value was entered, whether or not it differs from the last one
+    accepted = Signal()  # an allowed value was entered, whether or not it differs from the last one
 
     def __init__(self) -> None:
         super().__init__()
@@ -106,7 +106,7 @@ class MatchForm(QWidget):
             field.refused.connect(notice.show_problem)
             field.refused.connect(self.refused)
             field.edited.connect(notice.end)
-            field.edited.connect(self.mended)
+            field.edited.connect(self.accepted)
 
     def match_square(self) -> None:
         """Match with a square wave, whose frequency is assumed until it is entered."""

@@ -68,8 +68,8 @@ class PhotoPane(Pane[PhotoPart]):
         view, image, photos, matching = self.view, self._image, self.photos, self.matching
         for placing in (image.overlay, view.placement):
             placing.placed.connect(self._place)
-        view.placement.reset_asked.connect(self._lie_by_itself)
-        view.placement.moving_chosen.connect(self._let_move)
+        view.placement.reset_asked.connect(self._reset_placement)
+        view.placement.moving_chosen.connect(self._set_movable)
         view.facts.channel_chosen.connect(photos.take_channel)
         view.facts.scan_axis_chosen.connect(photos.scan_along)
         view.facts.settings_asked.connect(matching.use_notes)
@@ -150,7 +150,7 @@ class PhotoPane(Pane[PhotoPart]):
         if found.refusal:
             self.verdict.show_ended(found.refusal)
         else:
-            self._lie_by_itself()  # a placement by hand belongs to the picture before the match
+            self._reset_placement()  # a placement by hand belongs to the picture before the match
 
     def _show_part_of_photo(self) -> None:
         lamps, part = self._shown.lamps, self._shown.part
@@ -182,7 +182,7 @@ class PhotoPane(Pane[PhotoPart]):
             placed = None if placement is None else Placed(opened.source, placement)
             self.photos.edit(lambda choice: replace(choice, placed=placed))
 
-    def _lie_by_itself(self) -> None:
+    def _reset_placement(self) -> None:
         self._place(None)
 
     def _cure(self) -> None:
@@ -193,7 +193,7 @@ class PhotoPane(Pane[PhotoPart]):
     def _lay(self, mode: str) -> None:
         self._store.put(replace(self._store.workspace, overlay=mode))
 
-    def _let_move(self, by_mouse: bool) -> None:
+    def _set_movable(self, by_mouse: bool) -> None:
         self._image.overlay.set_movable(by_mouse)
         if by_mouse and self._store.workspace.overlay == MODES[0]:
             # A photo beside the picture cannot be moved over it.

@@ -34,7 +34,7 @@ class PhotoView(QWidget):
     open_asked = Signal()
     sample_chosen = Signal(Path)  # the user opens one of the sample photos
     refused = Signal(str)  # why a value that was entered in a form is refused
-    mended = Signal()  # an allowed value was entered in a form
+    accepted = Signal()  # an allowed value was entered in a form
 
     def __init__(self) -> None:
         super().__init__()
@@ -62,7 +62,7 @@ class PhotoView(QWidget):
         self.many.rows_changed.connect(self._show_row)
         for form in (self.form, self.placement):
             form.refused.connect(self.refused)
-            form.mended.connect(self.mended)
+            form.accepted.connect(self.accepted)
 
     def _make_invitation(self) -> QWidget:
         text = paragraph(

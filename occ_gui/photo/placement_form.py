@@ -62,7 +62,7 @@ class PlacementForm(QWidget):
     placed = Signal(object)  # the user moved or scaled the photo: a Placement
     reset_asked = Signal()
     refused = Signal(str)  # why an entered value is refused
-    mended = Signal()  # an allowed value was entered, whether or not it differs from the last one
+    accepted = Signal()  # an allowed value was entered, whether or not it differs from the last one
     moving_chosen = Signal(bool)  # whether the user moves and scales the photo by the mouse
 
     def __init__(self) -> None:
@@ -97,7 +97,7 @@ class PlacementForm(QWidget):
         field.refused.connect(notice.show_problem)
         field.refused.connect(self.refused)
         field.accepted.connect(notice.end)
-        field.accepted.connect(self.mended)
+        field.accepted.connect(self.accepted)
         return field
 
     def _lay_out(self) -> None:

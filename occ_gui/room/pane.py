@@ -67,7 +67,7 @@ class RoomPane(Pane[RoomChoice]):
         is_new = last is None or room.lamps != last.room.lamps
         self.view.show_name(part.name)
         self.view.show_plan(room, plan_of(room), is_new=is_new)
-        if self._mapped is not None and not _have_one_map(room, self._mapped):
+        if self._mapped is not None and not _have_same_map(room, self._mapped):
             self._map.cancel()
             self._mapped = None
             self.view.show_map(None)
@@ -131,7 +131,7 @@ class RoomPane(Pane[RoomChoice]):
             self.shown = shown
 
 
-def _have_one_map(now: Room, then: Room) -> bool:
+def _have_same_map(now: Room, then: Room) -> bool:
     """Compare rooms by what a map depends on: the camera's turn and height, not its place."""
     return now.replace(x=then.camera.x, y=then.camera.y) == then
 

@@ -149,7 +149,7 @@ class ControlPanel(QWidget):
 
     def show_scene(self, scene: Scene) -> None:
         self._scene = scene
-        self.player.heed(scene)
+        self.player.follow_scene(scene)
         self.code.show_scene(scene)
         for panel in self._made:
             panel.show_scene(scene)

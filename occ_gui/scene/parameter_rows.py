@@ -133,9 +133,9 @@ class QuantityRow(ParameterRow):
     def _place_slider(self, value: float) -> None:
         with QSignalBlocker(self.slider):
             self.slider.setValue(round(self._quantity.fraction(value) * _SLIDER_STEPS))
-        self._tell_value(value)
+        self._announce_value(value)
 
-    def _tell_value(self, value: float) -> None:
+    def _announce_value(self, value: float) -> None:
         """Announce the value to a screen reader: that of the slider itself is a number of steps."""
         self.slider.setAccessibleDescription(self._quantity.format(value, _DIGITS))
 
@@ -143,7 +143,7 @@ class QuantityRow(ParameterRow):
         self.value = value = self._quantity.at(position / _SLIDER_STEPS)
         self.end_refusal()
         self.field.set_value(value)
-        self._tell_value(value)
+        self._announce_value(value)
         held = self.slider.isSliderDown() or self._is_running
         gesture = self._gestures.of_change(held=held)
         self.edited.emit(self.name, value, gesture)

@@ -87,7 +87,7 @@ class Player(QObject):
             self.playing = ""
             self.run_changed.emit("")
 
-    def heed(self, scene: Scene) -> None:
+    def follow_scene(self, scene: Scene) -> None:
         if not self.playing or self._set is None:
             return
         value = float(scene.value(self.playing))

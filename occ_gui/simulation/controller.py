@@ -136,7 +136,7 @@ class SimulationController(QObject):
         heartbeat: Callable[[], None] = _go_on
         if draft is not None:
             reading = reading or reading_of_draft(request, draft)
-            self._draft_rows.took(perf_counter() - begun)
+            self._draft_rows.record_time(perf_counter() - begun)
             report(Picture.of(draft, request.whose, request, reading))
             report.wait_for_paint(_LONGEST_PAINT)
             reading, heartbeat = None, report.give_way

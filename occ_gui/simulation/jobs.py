@@ -54,7 +54,7 @@ class DraftRows:
         wanted = shown * self._thinned
         return min(max(shown, min(wanted, rows // LEAST_ROWS)), rows)
 
-    def took(self, seconds: float) -> None:
+    def record_time(self, seconds: float) -> None:
         """Record the seconds that the last draft and its reading have taken."""
         self._seconds.append(seconds)
         if len(self._seconds) < 2:

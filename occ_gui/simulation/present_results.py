@@ -38,10 +38,10 @@ class PresentResults(QObject):
         self._waiting.append(use)
         if self._is_refused:
             self._give_up()
-        elif not self._serve():
+        elif not self._deliver():
             self.status_message.emit("Waiting for the picture of this scene…")
 
-    def _serve(self) -> bool:
+    def _deliver(self) -> bool:
         """Deliver the latest results to all requests, if they are those of the present scene."""
         snapshot = self.latest
         if snapshot is None or not self.is_present(snapshot):
@@ -56,7 +56,7 @@ class PresentResults(QObject):
 
     def _on_snapshot(self, snapshot: Snapshot) -> None:
         self.latest, self._is_refused = snapshot, False
-        self._serve()
+        self._deliver()
 
     def _on_failure(self, _sentence: str) -> None:
         # A failure of an earlier request says nothing about the present one.

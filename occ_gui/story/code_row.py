@@ -116,7 +116,7 @@ class CodeRow(StoryRow):
             for top, bottom in self._lines()
         )
         if self.edges is None:
-            self._say_instead(painter, chips, decoded)
+            self._draw_reason(painter, chips, decoded)
             self._draw_letters(painter, letters, self._list_bits(painter, bits, decoded))
             return
         edges = self.xs_of(self.edges).tolist()
@@ -174,7 +174,7 @@ class CodeRow(StoryRow):
             draw_field(painter, cell, texts, self.palette(), state=self.state_of(bit),
                        is_marked=is_marked, has_text=has_text)  # fmt: skip
 
-    def _say_instead(self, painter: QPainter, place: QRectF, decoded: DecodeResult) -> None:
+    def _draw_reason(self, painter: QPainter, place: QRectF, decoded: DecodeResult) -> None:
         """Explain why there are no chips: none were read, or the decoder reads whole packets."""
         text = "No chips were read."
         if decoded.code is not None:

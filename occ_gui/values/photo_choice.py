@@ -136,7 +136,7 @@ class PhotoChoice:
     def closed(self) -> Self:
         return replace(self, path=None, parts={}).uncertain()
 
-    def shown_by(self, frequency: float) -> Self:
+    def with_known_frequency(self, frequency: float) -> Self:
         """Reset the form, with the switching frequency in Hz being certain."""
         certain = {"switching_frequency": frequency}
         return replace(self, form=MatchChoice(), certain=certain, forgotten={})

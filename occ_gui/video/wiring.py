@@ -165,7 +165,7 @@ class VideoWiring(Pane[FilmChoice]):
         self.view.timeline.show_index(0)
         self._take_rate(film)
         self._show_bar()
-        self.view.pictures.show_film(None, self._instead_of_film())
+        self.view.pictures.show_film(None, self._placeholder())
         self._show_reading()
         if film is not None and not self.films.is_live:
             self.readings.start(film, self._scenes.scene)
@@ -254,14 +254,14 @@ class VideoWiring(Pane[FilmChoice]):
         if self._is_frame_missing:
             self._is_frame_missing = False
             view.show_message("")
-        view.pictures.show_film(shown.film, self._instead_of_film())
+        view.pictures.show_film(shown.film, self._placeholder())
         view.pictures.show_simulated(shown.simulated, shown.instead)
         view.rows.show_story(shown.story, shown.instead)
         count = None if self.films.is_live else self.films.player.count
         index = shown.request.index if shown.request.live is None else shown.request.live.index
         view.transport.show_place(index, count, shown.time)
 
-    def _instead_of_film(self) -> str:
+    def _placeholder(self) -> str:
         """Return the text in place of a film's frame while there is none."""
         if self.films.film is not None or self.films.is_live:
             return "The frame is on its way."

@@ -79,7 +79,7 @@ class MainWindow(QMainWindow):
     def _on_opened(self) -> None:
         dock = self.sender()
         if isinstance(dock, Dock):
-            self._share_place(dock)
+            self._join_tabs(dock)
             QTimer.singleShot(0, dock, lambda: self._give_place(dock, True))
 
     def add_pane(self, name: str, title: str, content: QWidget) -> Dock:
@@ -105,11 +105,11 @@ class MainWindow(QMainWindow):
         QApplication.sendPostedEvents(None, QEvent.Type.LayoutRequest.value)
         dock.show()
         if is_new:
-            self._share_place(dock)
+            self._join_tabs(dock)
         # A window that has just been shown arranges its docks once more, in another order.
         QTimer.singleShot(0, dock, lambda: self._give_place(dock, is_new))
 
-    def _share_place(self, dock: Dock) -> None:
+    def _join_tabs(self, dock: Dock) -> None:
         """Let a pane that has just opened be a tab of another one where both have no room.
 
         Qt would widen the window beyond the screen, and draw one pane over the other.
@@ -146,9 +146,9 @@ class MainWindow(QMainWindow):
         if now < least:
             self.resizeDocks([dock], [least], orientation)
         if orientation == Qt.Orientation.Horizontal:
-            self._share_height(dock)
+            self._give_half_height(dock)
 
-    def _share_height(self, dock: Dock) -> None:
+    def _give_half_height(self, dock: Dock) -> None:
         """Give a pane at a side half of the height, if those above it can spare it."""
         above = [
             other
@@ -176,7 +176,7 @@ class MainWindow(QMainWindow):
             self._story.show_whole_picture(True)
         self._raise(name)
 
-    def put_away(self, name: str) -> None:
+    def hide_pane(self, name: str) -> None:
         """Hide a pane that the present mode does not show."""
         if name not in MODES[self.modes.mode].panes:
             self.docks[name].hide()

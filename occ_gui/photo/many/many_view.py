@@ -183,7 +183,7 @@ class ManyPhotosView(QWidget):
             text += ", not matched yet: say in the pane Photo what is known."
         else:
             text += f": {self._counts}" if self._counts else ""
-            rests_on = self._rests_on(*self._asked)
+            rests_on = self._condition(*self._asked)
             self.rows.show_condition(rests_on)
             if rests_on:
                 text += f". What is measured holds only {rests_on.removesuffix(': ')}."
@@ -235,7 +235,7 @@ class ManyPhotosView(QWidget):
         self.stale.setText(f"{stale}match all again.")
         self.stale.setVisible(bool(stale))
 
-    def _rests_on(self, estimate: str, scene: Scene) -> str:
+    def _condition(self, estimate: str, scene: Scene) -> str:
         """Name the value that an estimate depends on, unless the user is certain of it."""
         if self._found is not None and not self._found.rests_on_the_scene:
             return ""  # each photo has a value that was entered for it
@@ -253,7 +253,7 @@ class ManyPhotosView(QWidget):
             button.setEnabled(table is not None)
         texts = {self.mean: "", self.exposure: "", self.frame: "", self.notes: ""}
         if table is not None:
-            rests_on = self._rests_on(table.estimate, table.scene)
+            rests_on = self._condition(table.estimate, table.scene)
             texts[self.mean] = self._mean(table.estimate, table.estimated, rests_on)
             texts[self.exposure] = self._mean("exposure_time", table.exposure_time, rests_on)
             frame = frame_readout_time(table)
@@ -290,5 +290,5 @@ class ManyPhotosView(QWidget):
         table = self._found
         if table is None:
             return ""
-        rests_on = self._rests_on(table.estimate, table.scene)
+        rests_on = self._condition(table.estimate, table.scene)
         return csv_text(table, stated_lines(table, rests_on), rests_on)

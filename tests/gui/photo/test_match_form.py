@@ -166,7 +166,7 @@ def test_a_refused_known_value_says_why_at_its_field_until_mended(
             assert notice.isVisible()
             assert sentence in notice.text()
             assert field.text() == shown
-        with qtbot.waitSignal(view.mended):
+        with qtbot.waitSignal(view.accepted):
             field.selectAll()
             qtbot.keyClicks(field, "1,5 kHz")
             qtbot.keyClick(field, Qt.Key.Key_Return)

@@ -18,7 +18,7 @@ ROWS = 4608
 def step_after(*seconds: float, rows: int = ROWS, shown: float = 11.3) -> int:
     chosen = DraftRows()
     for each in seconds:
-        chosen.took(each)
+        chosen.record_time(each)
     return chosen.step(rows, shown)
 
 
@@ -56,7 +56,8 @@ def test_the_rows_settle(whole: float, fraction_of_rows: float) -> None:
     for _ in range(30):
         steps.append(chosen.step(ROWS, 11.0))
         thinned = steps[-1] / 11
-        chosen.took(whole * LONGEST_DRAFT * (1.0 - fraction_of_rows + fraction_of_rows / thinned))
+        fraction = 1.0 - fraction_of_rows + fraction_of_rows / thinned
+        chosen.record_time(whole * LONGEST_DRAFT * fraction)
     assert len(set(steps[10:])) == 1
 
 

@@ -33,6 +33,7 @@ class Dock(QDockWidget):
         self.setObjectName(name)
         self.setWidget(content)
         self._place = QRect()
+        self.height_before = 0  # of the window, before the pane was shown
         self.topLevelChanged.connect(self._on_floated)
         self.toggleViewAction().triggered.connect(self._on_switched)
         self.hide()  # until a mode lays it out
@@ -40,6 +41,11 @@ class Dock(QDockWidget):
     def _on_switched(self, shown: bool) -> None:
         if shown:
             self.opened_by_user.emit()
+
+    def setVisible(self, visible: bool) -> None:  # noqa: N802 - Qt's name
+        if visible:
+            self.height_before = self.window().height()
+        super().setVisible(visible)
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         super().resizeEvent(event)

@@ -136,6 +136,8 @@ class MainWindow(QMainWindow):
         dock.raise_()
         if not is_new or dock.isFloating():
             return
+        if self._fit_height(dock):
+            dock.raise_()
         area = self.dockWidgetArea(dock)
         if area == Qt.DockWidgetArea.BottomDockWidgetArea:
             least, now = round(_OPENED_BELOW * self.height()), dock.height()
@@ -147,6 +149,30 @@ class MainWindow(QMainWindow):
             self.resizeDocks([dock], [least], orientation)
         if orientation == Qt.Orientation.Horizontal:
             self._give_half_height(dock)
+
+    def _fit_height(self, dock: Dock) -> bool:
+        """Let a pane be a tab of another one where panes above each other have no room.
+
+        Qt would make the window higher than the screen. Return whether the pane has moved.
+        """
+        QApplication.sendPostedEvents(None, QEvent.Type.LayoutRequest.value)
+        if self.minimumSizeHint().height() <= dock.height_before:
+            return False
+        area, mode = self.dockWidgetArea(dock), MODES[self.modes.mode]
+        others = [
+            other
+            for name, other in self.docks.items()
+            if other not in {dock, *self.tabifiedDockWidgets(dock)}
+            and name not in {"controls", mode.main}
+            and not (other.isFloating() or other.isHidden())
+        ]
+        if not others:
+            return False
+        near = [other for other in others if self.dockWidgetArea(other) == area]
+        self.tabifyDockWidget((near or others)[-1], dock)
+        QApplication.sendPostedEvents(None, QEvent.Type.LayoutRequest.value)
+        self.resize(self.width(), dock.height_before)
+        return True
 
     def _give_half_height(self, dock: Dock) -> None:
         """Give a pane at a side half of the height, if those above it can spare it."""

@@ -154,3 +154,23 @@ def test_panes_that_have_no_room_side_by_side_share_a_place_and_the_window_stays
     seen = [dock for dock in window.docks.values() if not dock.visibleRegion().isEmpty()]
     for one, other in combinations(seen, 2):
         assert not one.geometry().intersects(other.geometry()), (one.objectName(), other)
+
+
+@pytest.mark.own_window  # each pane is made when it is first seen
+@pytest.mark.parametrize("by_menu", [False, True])
+def test_panes_that_have_no_room_above_one_another_share_a_place_and_the_window_stays_as_high(
+    application: Application, qtbot: QtBot, by_menu: bool
+) -> None:
+    window = application.window
+    window.resize(1280, 800)
+    window.modes.switch("effects")
+    QApplication.processEvents()
+    for pane in ("decode", "photo", "equations"):
+        if by_menu:
+            window.docks[pane].toggleViewAction().trigger()
+        else:
+            window.bring_into_view(pane)
+        qtbot.waitUntil(partial(in_front, application, pane))
+        qtbot.wait(SETTLED_MS)
+        assert window.height() == 800, pane
+    assert not window.docks["accuracy"].visibleRegion().isEmpty()  # the mode's own is not covered

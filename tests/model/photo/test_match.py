@@ -18,7 +18,6 @@ from occ_model.photo.evidence.candidates import Candidates
 from occ_model.program import EXIT_MISUSE
 
 SCENE = random_scene(3)
-PHOTO = replace(take(SCENE), iso=640.0, f_number=1.8)
 KNOWN = SCENE.replace(readout_time=1e-6, exposure_time=1e-3, start_time=0.0)
 
 
@@ -26,9 +25,14 @@ FRACTIONS: list[float] = []
 
 
 @cache
+def the_photo() -> occ.Photo:
+    return replace(take(SCENE), iso=640.0, f_number=1.8)
+
+
+@cache
 def matched() -> occ.Match:
     """Match the photo once for all who only look at what was found, or at the progress."""
-    return occ.match_photo(PHOTO, KNOWN, progress=FRACTIONS.append)
+    return occ.match_photo(the_photo(), KNOWN, progress=FRACTIONS.append)
 
 
 def test_a_clear_photo_of_the_scene_is_sure_and_gives_no_reason() -> None:
@@ -42,8 +46,8 @@ def test_a_clear_photo_of_the_scene_is_sure_and_gives_no_reason() -> None:
 
 def test_the_start_time_is_that_of_the_photo_not_of_the_region() -> None:
     inner = matched().region
-    part = (0, PHOTO.samples.shape[0], inner.first_column + 130, inner.last_column)
-    late = occ.match_photo(PHOTO, KNOWN, region=part).start_time - matched().start_time
+    part = (0, the_photo().samples.shape[0], inner.first_column + 130, inner.last_column)
+    late = occ.match_photo(the_photo(), KNOWN, region=part).start_time - matched().start_time
     period = 24.0 / SCENE.transmitter.switching_frequency
     assert abs((late + period / 2) % period - period / 2) < 0.01 * period
 
@@ -51,7 +55,7 @@ def test_the_start_time_is_that_of_the_photo_not_of_the_region() -> None:
 def test_the_fitted_scene_shows_the_photo_pixel_on_pixel() -> None:
     match = matched()
     frame = occ.render(match.scene, tolerance=math.inf)
-    assert frame.image.shape == PHOTO.samples.shape
+    assert frame.image.shape == the_photo().samples.shape
     assert frame.corners.min(axis=0) == pytest.approx(
         (match.region.first_column - 0.5, match.region.first_row - 0.5), abs=0.01
     )
@@ -80,7 +84,7 @@ def test_frequency_or_readout_time_is_estimated_from_the_other() -> None:
     readout, frequency = SCENE.camera.readout_time, SCENE.transmitter.switching_frequency
     one = matched()
     other = occ.match_photo(
-        PHOTO,
+        the_photo(),
         KNOWN.replace(readout_time=readout, switching_frequency=1e3),
         estimate="switching_frequency",
     )
@@ -92,7 +96,7 @@ def test_frequency_or_readout_time_is_estimated_from_the_other() -> None:
 
 def test_an_unknown_code_is_read_as_the_packet_it_is() -> None:
     other = (SCENE.transmitter.code + 321) % 1024
-    match = occ.match_photo(PHOTO, KNOWN.replace(code=other))
+    match = occ.match_photo(the_photo(), KNOWN.replace(code=other))
     assert match.pattern_was_read
     assert match.scene.transmitter.code == SCENE.transmitter.code
     assert match.scene.transmitter.pattern == ""
@@ -104,12 +108,12 @@ def test_an_unknown_code_is_read_as_the_packet_it_is() -> None:
 def test_only_what_the_scene_sends_is_tried_where_that_is_asked() -> None:
     other = KNOWN.replace(code=(SCENE.transmitter.code + 321) % 1024)
     with pytest.raises(occ.MatchError, match="What the scene sends does not explain"):
-        occ.match_photo(PHOTO, other, sent="scene")
+        occ.match_photo(the_photo(), other, sent="scene")
 
 
 def test_what_never_changes_is_no_explanation() -> None:
     with pytest.raises(occ.MatchError, match="never changes"):
-        occ.match_photo(PHOTO, KNOWN.replace(pattern="1111"), sent="scene")
+        occ.match_photo(the_photo(), KNOWN.replace(pattern="1111"), sent="scene")
 
 
 def test_chips_without_a_possible_fit_are_not_said_never_to_change(
@@ -117,7 +121,7 @@ def test_chips_without_a_possible_fit_are_not_said_never_to_change(
 ) -> None:
     monkeypatch.setattr(Candidates, "as_sent", lambda _: None)
     with pytest.raises(occ.MatchError, match="explains the stripes at no timing"):
-        occ.match_photo(PHOTO, KNOWN, sent="scene")
+        occ.match_photo(the_photo(), KNOWN, sent="scene")
 
 
 @pytest.mark.whole
@@ -132,13 +136,13 @@ def test_gamma_is_estimated_with_an_uncertainty_on_request() -> None:
 
 def test_what_the_camera_noted_goes_into_the_scene() -> None:
     camera = matched().scene.camera
-    assert (camera.iso, camera.f_number) == (PHOTO.iso, PHOTO.f_number)
+    assert (camera.iso, camera.f_number) == (the_photo().iso, the_photo().f_number)
     assert (camera.iso, camera.f_number) != (KNOWN.camera.iso, KNOWN.camera.f_number)
 
 
 def test_the_averaging_that_explains_the_photo_is_found_or_given() -> None:
     assert matched().scene.model.averaging == SCENE.model.averaging
-    given = occ.match_photo(PHOTO, KNOWN, averaging="pixel-value")
+    given = occ.match_photo(the_photo(), KNOWN, averaging="pixel-value")
     assert given.scene.model.averaging == "pixel-value"
 
 
@@ -152,12 +156,12 @@ def test_progress_rises_to_1_and_what_it_raises_ends_the_match() -> None:
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        occ.match_photo(PHOTO, KNOWN, progress=stop)
+        occ.match_photo(the_photo(), KNOWN, progress=stop)
 
 
 def test_stripes_that_no_parameter_explains_are_refused() -> None:
     with pytest.raises(occ.MatchError, match="not allowed: readout_time is"):
-        occ.match_photo(PHOTO, KNOWN.replace(switching_frequency=1e9))
+        occ.match_photo(the_photo(), KNOWN.replace(switching_frequency=1e9))
 
 
 @pytest.mark.parametrize("seed", range(8))
@@ -182,7 +186,7 @@ class TestCommand:
     @pytest.fixture
     def file(self, tmp_path: Path) -> Path:
         path = tmp_path / "photo.png"
-        write_image(path, PHOTO.image)
+        write_image(path, the_photo().image)
         return path
 
     @pytest.fixture

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from amount import amount
 from photo_world.messages import message
 from simulated_photos import photo_of
 
@@ -80,7 +81,7 @@ def test_no_chips_are_read_from_noise() -> None:
 
 
 def test_nine_of_ten_readings_that_are_nine_tenths_sure_are_right() -> None:
-    read, messages = [], 60
+    read, messages = [], amount(40, 60)
     for seed in range(messages):
         sent = message(seed)
         try:

@@ -151,6 +151,7 @@ def profile_of(columns: int, **changes: float | int | str) -> np.ndarray:
 
 
 MANY = amount(5_000, 100_000)  # columns of the longest of these signals
+LONGEST = amount(100, 200)  # columns of the longest run of a chirp
 
 SIGNALS: dict[str, np.ndarray] = {
     # No swing to divide by.
@@ -180,7 +181,7 @@ SIGNALS: dict[str, np.ndarray] = {
     # The swing is one ulp in the histogram's last bin.
     "a ramp": np.linspace(0.0, 255.0, MANY),
     # A chirp: each run is a column longer than the one before, and none fits whole chips.
-    "runs of all lengths": np.repeat(np.resize([0.0, 255.0], 200), np.arange(1, 201)),
+    "runs of all lengths": np.repeat(np.resize([0.0, 255.0], LONGEST), np.arange(1, LONGEST + 1)),
 }  # fmt: skip
 
 

@@ -26,7 +26,7 @@ pytestmark = pytest.mark.usefixtures("plain_figures")
 
 EVIL = "<img src=x onerror=y> & $\\frac$ ]]> --> \x1b[31m\x00\u202egnp \udce9 (a) Tj"
 SCENE = occ.load_preset("phone-68us").replace(rows=60, columns=600)
-FORGED = "Title\nscene forged:\n" + SCENE.replace(iso=3333.0).to_toml()
+FORGED = "Title\nscene forged:\nformat = 1\n[camera]\niso = 3333.0\n"
 
 
 def lesson_saying(text: str) -> tuple[Lesson, list[AnsweredStep]]:

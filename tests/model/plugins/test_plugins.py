@@ -26,6 +26,7 @@ PAGE = text_of(FOLDER / "extending.md")
 USE = """
 import sys
 import occ_model as occ
+from occ_model.cli import main
 
 print(occ.decoders()[-1], "occ_sampler" in sys.modules)
 scene = occ.load_preset("phone-68us").replace(
@@ -33,6 +34,7 @@ scene = occ.load_preset("phone-68us").replace(
 )
 result = occ.decode(occ.column_profile(scene), scene, decoder="sampler")
 print(result.code == scene.transmitter.code, result.failure)
+sys.exit(main(sys.argv[1:]) if sys.argv[1:] else 0)
 """
 
 
@@ -58,26 +60,27 @@ def run(python: Path, *words: str) -> str:
     return done.stdout
 
 
+SEEN = "sampler False\nTrue None\n"
+
+
+@pytest.mark.whole
 @pytest.mark.parametrize(
-    "changes",
-    [
-        "",
-        pytest.param("line_code='manchester', framing='c-ook'", marks=pytest.mark.whole),
-        pytest.param("line_code='4b6b', framing='raw'", marks=pytest.mark.whole),
-    ],
+    "changes", ["line_code='manchester', framing='c-ook'", "line_code='4b6b', framing='raw'"]
 )
-def test_its_decoder_is_imported_once_it_is_named_and_reads_what_is_sent(
-    python: Path, changes: str
+def test_its_decoder_reads_what_is_sent_by_any_scheme(python: Path, changes: str) -> None:
+    assert run(python, "-c", USE.format(changes=changes)) == SEEN
+
+
+def test_its_decoder_is_imported_once_it_is_named_also_on_the_command_line(
+    python: Path, tmp_path: Path
 ) -> None:
-    assert run(python, "-c", USE.format(changes=changes)) == "sampler False\nTrue None\n"
-
-
-def test_the_command_line_takes_its_name(python: Path, tmp_path: Path) -> None:
     settings = ["--set", "rows=300", "--set", "distance=60cm", "--set", "switching_frequency=4kHz"]
     settings += ["--set", "enhancement=none", "--set", "payload=text:HI"]
     picture = tmp_path / "picture.png"
     assert main(["render", *settings, "-o", str(picture)]) == 0
-    said = run(python, "-m", "occ_model", "decode", str(picture), *settings, "--decoder", "sampler")
+    words = ("decode", str(picture), *settings, "--decoder", "sampler")
+    said = run(python, "-c", USE.format(changes=""), *words)
+    assert said.startswith(SEEN)
     assert "payload      HI\n" in said
 
 

@@ -97,7 +97,7 @@ def test_no_part_of_what_is_sent_gives_another_payload(code: str, framing: str) 
         one = scheme(code, framing, bits)
         payload = random.integers(0, 2, bits)
         chips = one.encode(payload)
-        for _ in range(40):
+        for _ in range(amount(15, 40)):
             count = int(random.integers(1, 3 * one.length))
             start = int(random.integers(0, one.length))
             read = one.decode(seen(chips, start, count))

@@ -46,7 +46,10 @@ def checked(function: _Function) -> _Function:
 
     @wraps(function)
     def call(*arguments: Any, **named: Any) -> Any:
-        given = form.bind(*arguments, **named).arguments
+        try:
+            given = form.bind(*arguments, **named).arguments
+        except TypeError as error:
+            raise TypeError(f"{function.__name__}() {error}") from None
         hints = _hints(function)
         # What fails later, while it is iterated over, is not seen to fail here.
         is_lazy = _class_of(hints.get("return")) is Iterator

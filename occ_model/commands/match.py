@@ -128,7 +128,10 @@ def _run_lamps(photo: Photo, scene: Scene, options: argparse.Namespace) -> int:
             progress=lambda fraction: bar.update(fraction - bar.n),
         )
     if not matched:
-        raise MatchError("No lamp: nothing in the photo is bright or has stripes.")
+        raise MatchError(
+            "No lamp was found: nothing in the photo is bright, or has stripes with sharp edges; "
+            "without --lamps the stripes of the whole photo are matched."
+        )
     for number, (lamp, match) in enumerate(matched, 1):
         lines = lamp_lines(number, lamp)
         if isinstance(match, Match):

@@ -19,7 +19,8 @@ from occ_model.scene.parameters.pose_receiver_model import Pose as Pose
 from occ_model.scene.parameters.pose_receiver_model import Receiver as Receiver
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+# Without slots, with which Python 3.11 says "super(type, obj)" of ``scene.code = 5``.
+@dataclass(frozen=True, kw_only=True)
 class Scene:
     """Everything that one simulated picture depends on.
 

@@ -113,6 +113,12 @@ def test_no_argument_ends_in_an_error_that_says_nothing(
                 assert str(error)[-1] in ".)", (argument, wrong)  # noqa: PT017 - any of ours
 
 
+def test_an_argument_that_there_is_not_is_named_with_its_function() -> None:
+    accuracy: Callable[..., Any] = occ.accuracy
+    with pytest.raises(TypeError, match=r"^accuracy\(\) got an unexpected .* 'seeds'"):
+        accuracy(SCENE, seeds=1)
+
+
 class Alias:
     """An alias of arrays, as numpy has one from its version 2.5 on."""
 

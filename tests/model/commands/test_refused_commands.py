@@ -51,6 +51,7 @@ READING = {
     "decode --follow film.mp4": "film.mp4 ",
     "match text.txt": "text.txt is not an image that can be read.",
     "match grey.png": "No stripes",
+    "match black.png --lamps": "No lamp was found: nothing in the photo is bright, or has stripes",
     "bench --data no-such-table.csv": "no-such-table.csv cannot be read",
     **{
         f"decode p.png {kind} --readout-tolerance={percent}": f"--readout-tolerance is {percent} "
@@ -137,7 +138,8 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
             Path(name).write_text(scene.to_toml())
         for name in ("text.txt", "film.mp4"):
             Path(name).write_text("no picture\n")
-        write_image(Path("grey.png"), np.full((60, 90), 128, np.uint8))
+        for name, level in (("grey.png", 128), ("black.png", 0)):
+            write_image(Path(name), np.full((60, 90), level, np.uint8))
         Path("link.toml").symlink_to("p.png")
         Path("hard.toml").hardlink_to("p.png")
         Path("dangling.toml").symlink_to("q.png")

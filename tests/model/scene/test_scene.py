@@ -34,6 +34,12 @@ def test_replace_changes_what_it_names_and_nothing_else(changes: dict[str, float
     assert before == Scene()
 
 
+@pytest.mark.parametrize("name", ["transmitter", "code"])
+def test_what_a_scene_holds_cannot_be_assigned(name: str) -> None:
+    with pytest.raises(dataclasses.FrozenInstanceError, match=f"cannot assign to field '{name}'"):
+        setattr(Scene(), name, 5)
+
+
 @given(first=changes, second=changes)
 def test_scenes_are_equal_when_all_their_values_are(
     first: dict[str, float], second: dict[str, float]

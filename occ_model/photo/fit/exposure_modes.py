@@ -29,8 +29,8 @@ only: an exposure of 2.2 chips had 1.5 to 2.4 times the misfit of 0.23, where 2.
 _MOST_COLUMNS = 12.0  # exposure in columns below which blur may be taken for it
 _BLURS = (0.2, 0.7, 1.1, 1.5)  # standard deviations of blur, in columns, that are tried
 
-_BLUR_FRACTIONS: dict[BlurShape | None, tuple[float, ...]] = {
-    None: (0.9,),
+_BLUR_FRACTIONS: dict[BlurShape, tuple[float, ...]] = {
+    "normal": (0.9,),
     "box": (0.1, 0.5, 0.75),
     "exponential": (0.1, 0.5, 0.75),
 }
@@ -67,7 +67,7 @@ class Possible:
             return [free]
         found = {shape: self._shared(free.values, shape) for shape in _BLUR_FRACTIONS}
         found["box"] += self._exchanged(found["box"])
-        found[None].append(free)
+        found["normal"].append(free)
         best = min((fit for fits in found.values() for fit in fits), key=lambda fit: fit.misfit)
         for shape, fits in found.items():
             # A blur of the wrong shape bends the tone curve: each begins from the best one, too.
@@ -86,7 +86,7 @@ class Possible:
             starts.append(values)
         return [self.model.fit(one, rounds=_LAST_ROUNDS, shape="box") for one in starts]
 
-    def _shared(self, values: FloatArray, shape: BlurShape | None) -> list[JointFit]:
+    def _shared(self, values: FloatArray, shape: BlurShape) -> list[JointFit]:
         """Fit with another shape of the blur, starting from its fractions of the edges' width."""
         columns = float(values[1] / values[0])
         width = columns**2 / 12.0 + float(values[7]) ** 2

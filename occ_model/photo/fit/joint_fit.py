@@ -60,23 +60,19 @@ class JointFit:
         return math.sqrt(float(self.covariance[1, 1]))
 
 
-def covariance_of(
-    slopes: FloatArray, residual: FloatArray, tails: FloatArray, block: NDArray[np.int64]
-) -> FloatArray:
+def covariance_of(slopes: FloatArray, residual: FloatArray, block: NDArray[np.int64]) -> FloatArray:
     """Return the parameters' covariance.
 
     Of two estimates the larger one is taken: the inverse of the information, and the sandwich with
     the scores summed over blocks of columns (White, Econometrica 50:1, 1982; Newey and West,
     Econometrica 55:703, 1987), times n/(n-1) for n blocks. For the step the information is that of
     noise alone, as if every column counted: what repeats with the stripes makes the edges wider or
-    narrower, and leaves their distances as they are. Added is what one standard deviation of the
-    blur's tails changes (a parameter that is considered, and not estimated: Jazwinski, Stochastic
-    Processes and Filtering Theory, 8.4).
+    narrower, and leaves their distances as they are.
 
     ``slopes``: shape (residuals, parameters); the first parameter is the step. ``residual``: in
-    standard deviations; after the data's come those of what is usual. ``tails``: its change by one
-    standard deviation of the blur's tails. ``block``: that of each of the data. All profiles show
-    the same stripes with the same errors of compression: a block holds the columns of all of them.
+    standard deviations; after the data's come those of what is usual. ``block``: that of each
+    of the data. All profiles show the same stripes with the same errors of compression: a block
+    holds the columns of all of them.
     """
     information = slopes.T @ slopes
     information[np.diag_indices_from(information)] += 1e-9
@@ -88,8 +84,7 @@ def covariance_of(
     sandwich = inverse @ (scores.T @ scores + prior) @ inverse * (blocks / max(1, blocks - 1))
     ratio = np.diag(sandwich) / np.diag(inverse)
     ratio = np.maximum(ratio, np.append(1.0 / CORRELATED_COLUMNS, np.ones(len(ratio) - 1)))
-    moved = inverse @ (slopes.T @ tails)
-    return np.asarray(inverse * np.sqrt(np.outer(ratio, ratio)) + np.outer(moved, moved))
+    return np.asarray(inverse * np.sqrt(np.outer(ratio, ratio)))
 
 
 def averaged(fits: Sequence[JointFit]) -> JointFit:

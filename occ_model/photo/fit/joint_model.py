@@ -36,12 +36,6 @@ PRIORS = {
 """Mean and standard deviation of the priors: gamma's logarithm over the scene's gamma, the tone
 curve's bends, the blur in columns, and the chips by which the LED is on longer."""
 
-_KURTOSIS_DEVIATION = 1.6
-"""Standard deviation of the blur's excess kurtosis: its root mean square if half of all blur is
-normal (0), a quarter a box from resizing (-1.2), and a quarter has exponential tails (3). It is not
-fitted, since it would absorb what the model leaves unexplained."""
-
-_KURTOSIS_CHANGE = 0.2  # finite difference of the excess kurtosis
 _ANY_GAMMA = 0.5  # standard deviation of gamma's logarithm where nothing is known of it
 _EDGE_SHIFT = 0.4  # deviation in columns of edges' distances where pixel values are blurred
 
@@ -140,28 +134,23 @@ class JointModel:
         self,
         first: FloatArray,
         rounds: int = 12,
-        shape: BlurShape | None = None,
+        shape: BlurShape = "normal",
     ) -> JointFit:
-        """Fit from a first guess; the blur's shape None: normal, of unknown tails."""
-        index, blur = np.flatnonzero(self._free), shape or "normal"
-        scaled, found, residual, slopes = self._minimized(first, index, rounds, blur)
+        """Fit from a first guess, by a shape of the blur."""
+        index = np.flatnonzero(self._free)
+        scaled, found, residual, slopes = self._minimized(first, index, rounds, shape)
         values = scaled.values(found)
         rates = scaled.rates(values)
         covariance = np.zeros((9, 9))
-        moved = np.zeros_like(residual)
-        if shape is None:
-            moved = (self._residual(values, _KURTOSIS_CHANGE) - residual) * (
-                _KURTOSIS_DEVIATION / _KURTOSIS_CHANGE
-            )
-        covariance[np.ix_(index, index)] = covariance_of(
-            slopes, residual, moved, self._block
-        ) * np.outer(rates, rates)
+        covariance[np.ix_(index, index)] = covariance_of(slopes, residual, self._block) * np.outer(
+            rates, rates
+        )
         prior = residual[-len(PRIORS) :]
         shift = np.zeros(9)
         # Where pixel values are blurred, the model itself blurs the product.
         if not self._values_blurred:
             by_middle = slopes[:, np.searchsorted(index, 2)] / self._scale[2]
-            shift[index] = rates * _explained(slopes, by_middle * self._displacement(values, blur))
+            shift[index] = rates * _explained(slopes, by_middle * self._displacement(values, shape))
         return JointFit(values, covariance, float(residual @ residual), float(prior @ prior), shift)
 
     def rough(
@@ -181,7 +170,7 @@ class JointModel:
         scaled = ScaledParameters(first, index, self._scale, self._step, self._gammas())
         of_tone = bool(np.isin(index, OF_TONE).any())
         found = minimized(
-            lambda place: self._residual(scaled.values(place), 0.0, blur),
+            lambda place: self._residual(scaled.values(place), blur),
             np.zeros(len(index)),
             rounds,
             slopes=lambda place: (
@@ -197,7 +186,7 @@ class JointModel:
         the swing E changes along the columns, a blur of variance s^2 thus moves an edge towards the
         darker side by s^2 (ln E)': an exponential times a normal distribution is one that is moved.
         """
-        seen = self._seen.by(values, 0.0, shape)
+        seen = self._seen.by(values, shape)
         slopes = [part.relative_slope(seen) for part in self._parts]
         moved = float(values[0] * values[7] ** 2) * np.concatenate(slopes)
         return np.concatenate([moved, np.zeros(len(PRIORS))])
@@ -247,18 +236,16 @@ class JointModel:
         low, high = np.log(self._allowed * inside / self.gamma).tolist()
         return low, high
 
-    def _residual(
-        self, values: FloatArray, tails: float = 0.0, shape: BlurShape = "normal"
-    ) -> FloatArray:
+    def _residual(self, values: FloatArray, shape: BlurShape) -> FloatArray:
         self._check()
-        seen = self._seen.by(values, tails, shape)
+        seen = self._seen.by(values, shape)
         unusual = (values[3:] - self._mean) / self._deviation
         return np.concatenate([*self._whitened([p.residual(seen) for p in self._parts]), unusual])
 
     def _slopes(self, values: FloatArray, shape: BlurShape, of_tone: bool = True) -> FloatArray:
         """Return the residual's slopes, shape (residuals, 9); the tone's are 0 unless wanted."""
         self._check()
-        seen, rates = self._seen.by(values, 0.0, shape), self._seen.slopes(values, shape, of_tone)
+        seen, rates = self._seen.by(values, shape), self._seen.slopes(values, shape, of_tone)
         found = np.hstack(self._whitened([part.slopes(seen, rates) for part in self._parts]))
         slopes = np.zeros((9, found.shape[1] + len(PRIORS)))
         slopes[IN_ORDER[: len(found)], : -len(PRIORS)] = found

@@ -57,15 +57,14 @@ class BlurredLight:
         timing: Timing,
         blur: float,
         longer: float,
-        tails: float = 0.0,
         shape: BlurShape = "normal",
     ) -> FloatArray:
         """Return the fraction of each column's exposure in which the LED is on, shape (columns,).
 
         ``blur``: its standard deviation in columns. ``longer``: chips by which each time on is
-        longer than the chips say. ``tails``: excess kurtosis of a blur that is about normal.
+        longer than the chips say.
         """
-        return blurred(self.sharp(timing, longer), blur_kernel(blur, tails, shape))
+        return blurred(self.sharp(timing, longer), blur_kernel(blur, shape))
 
     def sharp(self, timing: Timing, longer: float) -> FloatArray:
         """Return the fractions without blur, also of neighbouring columns that blur reaches."""
@@ -75,7 +74,7 @@ class BlurredLight:
         self, timing: Timing, blur: float, longer: float, shape: BlurShape = "normal"
     ) -> FloatArray:
         """Return slopes over step, exposure, middle, blur and longer, shape (5, columns)."""
-        slopes = blurred(self.sharp_slopes(timing, longer), blur_kernel(blur, 0.0, shape))
+        slopes = blurred(self.sharp_slopes(timing, longer), blur_kernel(blur, shape))
         slopes[BLUR] = blurred(self.sharp(timing, longer), kernel_slope(blur, shape))
         return slopes
 
@@ -130,14 +129,11 @@ def blurred(rows: FloatArray, kernel: FloatArray) -> FloatArray:
     return np.asarray(found, dtype=np.float64).reshape(*rows.shape[:-1], -1)
 
 
-def blur_kernel(blur: float, tails: float = 0.0, shape: BlurShape = "normal") -> FloatArray:
+def blur_kernel(blur: float, shape: BlurShape = "normal") -> FloatArray:
     """Return the weights of blur of the standard deviation ``blur``, in columns, around a column.
 
-    A normal distribution is multiplied by 1 + k/24 He4, which gives it the excess kurtosis
-    k = ``tails`` (Gram and Charlier's series; Kendall and Stuart, The Advanced Theory of
-    Statistics, 6.17); sharpening makes weights negative. A box of the half width sqrt(3) blur gives
-    each column the fraction of it that the column covers; exponential tails decay by the same ratio
-    from column to column.
+    A box of the half width sqrt(3) blur gives each column the fraction of it that the column
+    covers; exponential tails decay by the same ratio from column to column.
     """
     off = np.abs(np.arange(-BLUR_REACH, BLUR_REACH + 1)).astype(np.float64)
     blur = max(blur, _LEAST_BLUR)
@@ -149,14 +145,13 @@ def blur_kernel(blur: float, tails: float = 0.0, shape: BlurShape = "normal") ->
         middle = 1.0 + 1.0 / blur**2
         kernel = (middle - math.sqrt(middle**2 - 1.0)) ** off
     else:
-        square = (off / blur) ** 2
-        kernel = np.exp(-0.5 * square) * (1.0 + tails / 24.0 * (square**2 - 6.0 * square + 3.0))
+        kernel = np.exp(-0.5 * (off / blur) ** 2)
     return np.asarray(kernel / kernel.sum())
 
 
 def kernel_slope(blur: float, shape: BlurShape = "normal") -> FloatArray:
     """Return the slope of the weights of blur over its standard deviation."""
-    more, less = (blur_kernel(blur + change, 0.0, shape) for change in (_CHANGE, -_CHANGE))
+    more, less = (blur_kernel(blur + change, shape) for change in (_CHANGE, -_CHANGE))
     return np.asarray((more - less) / (2.0 * _CHANGE))
 
 
@@ -193,14 +188,14 @@ class SeenStripes:
         # Slopes are needed where the residual has just been computed.
         self._last = lru_cache(maxsize=1)(self._by)
 
-    def by(self, values: FloatArray, tails: float = 0.0, shape: BlurShape = "normal") -> Seen:
-        """Return what is seen by nine parameters, and the blur's excess kurtosis and shape."""
-        return self._last(tuple(values.tolist()), tails, shape)
+    def by(self, values: FloatArray, shape: BlurShape = "normal") -> Seen:
+        """Return what is seen by nine parameters, and the blur's shape."""
+        return self._last(tuple(values.tolist()), shape)
 
     def slopes(self, values: FloatArray, shape: BlurShape, of_tone: bool = True) -> SeenSlopes:
         """Return the slopes of what is seen, those of the tone over gamma itself, or none."""
         timing, curve, blur, longer = self._parts(values.tolist())
-        table = self.by(values, 0.0, shape).table
+        table = self.by(values, shape).table
         sharp = self._light.sharp_slopes(timing, longer) if self._values_blurred else None
         return SeenSlopes(
             self._light.slopes(timing, blur, longer, shape),
@@ -213,14 +208,14 @@ class SeenStripes:
         """Return the gamma, of which the parameters hold the logarithm over the usual one."""
         return self._gamma * math.exp(values[GAMMA])
 
-    def _by(self, values: Sequence[float], tails: float, shape: BlurShape) -> Seen:
+    def _by(self, values: Sequence[float], shape: BlurShape) -> Seen:
         timing, curve, blur, longer = self._parts(values)
         sharp = self._light.sharp(timing, longer) if self._values_blurred else None
         return Seen(
-            self._light.lit_fraction(timing, blur, longer, tails, shape),
+            self._light.lit_fraction(timing, blur, longer, shape),
             curve.table(),
             sharp,
-            blur_kernel(blur, tails, shape),
+            blur_kernel(blur, shape),
         )
 
     def _parts(self, values: Sequence[float]) -> tuple[Timing, ToneCurve, float, float]:

@@ -51,7 +51,7 @@ def light_of(parameters: np.ndarray, shape: BlurShape = "normal") -> np.ndarray:
     """Return the lit fractions of step, exposure, middle, blur and longer."""
     step, exposure, middle, blur, longer = parameters.tolist()
     timing = Timing(step, exposure, middle, 2.2)
-    return BlurredLight(CHIPS, COLUMNS).lit_fraction(timing, blur, longer, 0.0, shape)
+    return BlurredLight(CHIPS, COLUMNS).lit_fraction(timing, blur, longer, shape)
 
 
 @pytest.mark.parametrize("shape", SHAPES)
@@ -178,7 +178,7 @@ def test_the_residuals_slopes_are_limits_of_differences(
     slopes = (model._slopes(here, shape) * model._scale).T
 
     def residual(scaled: np.ndarray) -> np.ndarray:
-        return model._residual(here + scaled * model._scale, 0.0, shape)
+        return model._residual(here + scaled * model._scale, shape)
 
     coarse, fine = (
         off(slopes, central(residual, np.zeros(9), change)).max() for change in (0.1, 1e-4)
@@ -201,7 +201,7 @@ def test_half_of_blurred_values_slopes_are_off_by_less_than_the_residuals_fracti
     model = model_of(true, noise, brightest, values_blurred=True)
 
     def residual(scaled: np.ndarray) -> np.ndarray:
-        return model._residual(true + scaled * model._scale)
+        return model._residual(true + scaled * model._scale, "normal")
 
     slopes = (model._slopes(true, "normal") * model._scale).T
     wrong = off(slopes, central(residual, np.zeros(9), 1e-3), 0.5)

@@ -2,16 +2,17 @@
 
 import gc
 import math
+import pickle
 from collections.abc import Iterator
 from concurrent.futures import BrokenExecutor, Future
 from itertools import count
 from pathlib import Path
 from threading import Event
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import pytest
-from gui.kinds import Grey, GreyPicture, SnapshotOf
+from gui.kinds import Grey, GreyPicture, SnapshotOf, simulated
 from gui.shared_window import SharedWindow, end, new_window
 from gui.starts import Starts
 from gui.user import PatientQtBot, User
@@ -26,7 +27,6 @@ from occ_gui.app.application import Application
 from occ_gui.app.garbage_collection import give_memory_back
 from occ_gui.detection_map import wiring
 from occ_gui.simulation import controller
-from occ_gui.simulation.controller import simulate
 from occ_model.parallel.job import Job, JobResult, do_job
 from occ_model.photo.reading.load import Photo
 from occ_model.results.match import Match
@@ -68,6 +68,18 @@ class InlineWorkers:
 
     def close(self) -> None:
         self.closed += 1
+
+
+class RememberingWorkers(InlineWorkers):
+    """Workers that keep what they have done: most tests of a pane ask for the same first."""
+
+    _done: ClassVar[dict[bytes, JobResult]] = {}
+
+    def result(self, job: Job) -> JobResult:
+        asked = pickle.dumps((job.function, job.arguments))
+        if asked not in self._done:
+            self._done[asked] = super().result(job)
+        return self._done[asked]
 
 
 class LazyWorkers(InlineWorkers):
@@ -133,14 +145,14 @@ def small_scene() -> Scene:
 @pytest.fixture
 def snapshot_of(small_scene: Scene) -> SnapshotOf:
     """Simulate the small scene with some parameters changed."""
-    return lambda **changes: simulate(small_scene.replace(**changes))
+    return lambda **changes: simulated(small_scene.replace(**changes))
 
 
 @pytest.fixture
 def bare_snapshot_of(small_scene: Scene) -> SnapshotOf:
     """Simulate the small scene as above, without any effect."""
     bare = SimulationSettings(tolerance=math.inf)
-    return lambda **changes: simulate(small_scene.replace(**changes), bare)
+    return lambda **changes: simulated(small_scene.replace(**changes), bare)
 
 
 @pytest.fixture(scope="session")

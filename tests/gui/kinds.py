@@ -1,6 +1,8 @@
 """Kinds of what many tests of the window are given, and widgets that close with their test."""
 
+import pickle
 from collections.abc import Callable
+from functools import lru_cache
 from typing import Any, TypeAlias, TypeVar
 
 import numpy as np
@@ -8,7 +10,12 @@ from numpy.typing import NDArray
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
+from occ_gui.core.workspace import FIRST_SETTINGS
+from occ_gui.simulation.controller import simulate
 from occ_gui.simulation.snapshot import Snapshot
+from occ_model.results.frame import PICTURES
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import SimulationSettings
 
 Grey: TypeAlias = NDArray[np.uint8]
 GreyPicture: TypeAlias = Callable[[QWidget], Grey]
@@ -31,6 +38,19 @@ def show_widget(qtbot: QtBot, widget: Widget, width: int = 0, height: int = 0) -
         widget.resize(width, height)
     widget.show()
     return widget
+
+
+@lru_cache(maxsize=4)  # pictures take much memory
+def _simulated(asked: bytes) -> Snapshot:
+    snapshot = simulate(*pickle.loads(asked))
+    for whose in PICTURES:  # others show them, too
+        snapshot.frame.picture(whose).flags.writeable = False
+    return snapshot
+
+
+def simulated(scene: Scene, settings: SimulationSettings = FIRST_SETTINGS) -> Snapshot:
+    """Simulate a scene as the window does, once for the tests that want the same."""
+    return _simulated(pickle.dumps((scene, settings)))
 
 
 def not_none(value: T | None) -> T:

@@ -7,6 +7,7 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
+from gui.kinds import simulated
 from gui.stores import store_of
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction
@@ -25,7 +26,6 @@ from occ_gui.scene.scene_editor import SceneEditor
 from occ_gui.shell.feature import Feature
 from occ_gui.shell.results import Board
 from occ_gui.shell.shell import Shell
-from occ_gui.simulation.controller import simulate
 from occ_gui.simulation.present_results import Use
 from occ_gui.simulation.snapshot import Picture, Snapshot
 from occ_gui.window.docks import CurrentPane
@@ -105,7 +105,7 @@ class PaneBench:
         if changes:
             self.scenes.change(**changes)
         workspace = self.store.workspace
-        snapshot = simulate(workspace.scene, workspace.settings)
+        snapshot = simulated(workspace.scene, workspace.settings)
         for hear in self.hear_first:
             hear(snapshot)
         self.board.show_picture(Picture.of(snapshot.frame, workspace.whose, snapshot.request))

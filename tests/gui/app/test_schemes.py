@@ -62,7 +62,7 @@ PAPER, C_OOK = dict[str, str](), {"line_code": "4b6b", "framing": "c-ook"}
     [
         ("Hi😀", "Hi😀", C_OOK),
         ("718", "718", PAPER),
-        ("0x48 69", ["48", "69"], C_OOK),
+        pytest.param("0x48 69", ["48", "69"], C_OOK, marks=pytest.mark.whole),
     ],
     ids=["emoji", "digits", "hex"],
 )

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from gui.conftest import InlineWorkers
+from gui.conftest import InlineWorkers, RememberingWorkers
 from gui.kinds import not_none
 from gui.pane_bench import PaneBench
 from gui.stores import show, store_of
@@ -65,8 +65,8 @@ class Measuring:
 
 
 @pytest.fixture
-def measuring(qtbot: QtBot, small_scene: Scene, inline_workers: InlineWorkers) -> Measuring:
-    made = Measuring(qtbot, small_scene, inline_workers)
+def measuring(qtbot: QtBot, small_scene: Scene) -> Measuring:
+    made = Measuring(qtbot, small_scene, RememberingWorkers())
     qtbot.addWidget(made.pane, before_close_func=lambda _: made.queue.stop())
     return made
 

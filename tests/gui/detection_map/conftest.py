@@ -1,12 +1,11 @@
 """The pane of the map without the window around it, with workers that a test chooses."""
 
-import pickle
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import Any, ClassVar
+from typing import Any
 
 import pytest
-from gui.conftest import InlineWorkers, LazyWorkers
+from gui.conftest import LazyWorkers
 from gui.pane_bench import PaneBench
 from pytestqt.qtbot import QtBot
 
@@ -14,20 +13,7 @@ from occ_gui.app.panes import detection_map
 from occ_gui.detection_map import wiring
 from occ_gui.detection_map.map_view import MapView
 from occ_gui.detection_map.pane import MapPane
-from occ_model.parallel.job import Job, JobResult
 from occ_model.scene.scene import Scene
-
-
-class RememberingWorkers(InlineWorkers):
-    """Workers that keep what they have done: most tests ask for the same first map or strips."""
-
-    _done: ClassVar[dict[bytes, JobResult]] = {}
-
-    def result(self, job: Job) -> JobResult:
-        asked = pickle.dumps((job.function, job.arguments))
-        if asked not in self._done:
-            self._done[asked] = super().result(job)
-        return self._done[asked]
 
 
 class MapBench(PaneBench):

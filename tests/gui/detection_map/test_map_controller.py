@@ -6,7 +6,7 @@ from unittest.mock import Mock, create_autospec
 
 import numpy as np
 import pytest
-from gui.detection_map.conftest import RememberingWorkers
+from gui.conftest import RememberingWorkers
 from gui.kinds import not_none
 from gui.stores import show, store_of
 from pytestqt.qtbot import QtBot

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from gui.detection_map.conftest import RememberingWorkers
+from gui.conftest import RememberingWorkers
 from gui.kinds import add_widget
 from gui.pane_bench import ControlsBench, handle_middle
 from gui.stores import store_of

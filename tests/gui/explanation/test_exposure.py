@@ -110,7 +110,9 @@ def test_mouse_click_and_keys_over_the_profile_choose_a_column(seen: Bench, qtbo
     assert not exposure.hold.isChecked()
 
 
-def test_a_number_typed_chooses_and_holds_a_column(seen: Bench, qtbot: QtBot) -> None:
+def test_a_number_typed_holds_a_column_which_is_marked_while_it_is_explained(
+    seen: Bench, qtbot: QtBot
+) -> None:
     exposure = seen.view
     exposure.column.selectAll()
     qtbot.keyClicks(exposure.column, "1100")
@@ -120,9 +122,7 @@ def test_a_number_typed_chooses_and_holds_a_column(seen: Bench, qtbot: QtBot) ->
     qtbot.keyClick(exposure.hold, Qt.Key.Key_Space)
     seen.pane.exposure.hover(5)
     assert seen.shown == (5, False)
-
-
-def test_the_profiles_mark_stays_while_the_exposure_is_visible(seen: Bench, qtbot: QtBot) -> None:
+    # The profile's mark stays while the exposure is visible.
     marker, sentence = seen.pane.picker.marker, seen.view.sentence
     assert marker.isVisible()
     seen.see("equations", False)
@@ -133,11 +133,25 @@ def test_the_profiles_mark_stays_while_the_exposure_is_visible(seen: Bench, qtbo
     assert sentence.text() == said
 
 
-def test_the_exposure_follows_the_scene(seen: Bench) -> None:
+def test_the_exposure_follows_the_scene_and_no_column_outside_of_the_picture_is_shown(
+    seen: Bench,
+) -> None:
     exposure = seen.view
     levels = seen.simulate(exposure_time=136e-6).profile
     assert "136 µs exposure" in exposure.sentence.text()
     assert f"{levels[exposure.column.value()]:.1f} grey levels" in exposure.sentence.text()
+    controller = seen.pane.exposure
+    controller.hover(-5)
+    assert seen.shown[0] == 0
+    controller.hover(10**9)
+    assert seen.shown[0] == len(not_none(seen.board.results.snapshot).profile) - 1
+    seen.simulate(columns=500)
+    assert seen.shown[0] == 499
+    seen.see("equations", False)
+    controller.hover(5)
+    assert seen.shown[0] == 499, "nothing is worked out unseen"
+    seen.see("equations")
+    assert seen.shown[0] == 5
 
 
 def test_a_column_that_is_held_stays_until_it_is_let_go(seen: Bench) -> None:
@@ -157,21 +171,6 @@ def test_a_column_that_is_held_stays_until_it_is_let_go(seen: Bench) -> None:
     controller.hold(False)
     controller.hover(60)
     assert seen.shown == (60, False)
-
-
-def test_no_column_outside_of_the_picture_is_shown(seen: Bench) -> None:
-    controller = seen.pane.exposure
-    controller.hover(-5)
-    assert seen.shown[0] == 0
-    controller.hover(10**9)
-    assert seen.shown[0] == len(not_none(seen.board.results.snapshot).profile) - 1
-    seen.simulate(columns=500)
-    assert seen.shown[0] == 499
-    seen.see("equations", False)
-    controller.hover(5)
-    assert seen.shown[0] == 499, "nothing is worked out unseen"
-    seen.see("equations")
-    assert seen.shown[0] == 5
 
 
 def test_the_column_shown_first_is_in_the_panels_first_packet(

@@ -1,5 +1,6 @@
 """What was there before the latest gesture stays to be compared with what is there now."""
 
+from copy import deepcopy
 from dataclasses import replace
 
 import numpy as np
@@ -140,10 +141,11 @@ def pane_with_wipe(qtbot: QtBot) -> tuple[PicturePane, BeforeWipe]:
 
 
 def flat(snapshot: Snapshot, level: int) -> Snapshot:
-    """Paint the pictures of a snapshot all over with one level."""
+    """Paint the pictures of a copy of a snapshot all over with one level."""
+    painted = deepcopy(snapshot)
     for whose in PICTURES:
-        snapshot.frame.picture(whose)[...] = level
-    return snapshot
+        painted.frame.picture(whose)[...] = level
+    return painted
 
 
 def picture(pane: PicturePane) -> Grey:

@@ -93,10 +93,9 @@ class Judge:
         least = _LEAST_CORRELATION_GIVEN
         if found.was_read:
             least = _LEAST_CORRELATION_READ if self._blinks else _LEAST_CORRELATION_OF_OBJECTS
-        what = found.sent[0].upper() + found.sent[1:]
         if found.fit.correlation < least:
             return [
-                f"{what} does not explain the stripes: the best correlation is "
+                f"The stripes are not explained by {found.sent}: the best correlation is "
                 f"{found.fit.correlation:.2f}; at least {least} is needed."
             ]
         reasons = []
@@ -115,9 +114,9 @@ class Judge:
             )
         if found.information < _LEAST_INFORMATION:
             reasons.append(
-                f"{what} explains the stripes hardly better than chance: {found.chips_in_view:.1f} "
-                f"chips are in view, and the exposure is {found.fit.timing.exposure:.1f} chips "
-                "long."
+                f"The stripes are hardly better explained by {found.sent} than by chance: "
+                f"{found.chips_in_view:.1f} chips are in view, and the exposure is "
+                f"{found.fit.timing.exposure:.1f} chips long."
             )
         if likelihood < self._of_curve(found, independent):
             reasons.append(

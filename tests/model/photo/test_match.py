@@ -107,7 +107,7 @@ def test_an_unknown_code_is_read_as_the_packet_it_is() -> None:
 
 def test_only_what_the_scene_sends_is_tried_where_that_is_asked() -> None:
     other = KNOWN.replace(code=(SCENE.transmitter.code + 321) % 1024)
-    with pytest.raises(occ.MatchError, match="What the scene sends does not explain"):
+    with pytest.raises(occ.MatchError, match="are not explained by what the scene sends"):
         occ.match_photo(the_photo(), other, sent="scene")
 
 

@@ -150,13 +150,14 @@ def _doubts_by_note(photo: Photo, exposure: float, deviation: float) -> list[str
     noted = photo.exposure_time
     if noted is None:
         return []
-    off = abs(exposure - noted)
-    if off <= _MOST_DEVIATIONS * math.hypot(deviation, _NOTE_ERROR * noted):
+    # Of both: the camera rounds what it notes.
+    deviations = abs(exposure - noted) / math.hypot(deviation, _NOTE_ERROR * noted)
+    if deviations <= _MOST_DEVIATIONS:
         return []
     unit = quantity("exposure_time")
     return [
         f"The exposure time found, {unit.format(exposure)}, and the one that the camera noted, "
-        f"{unit.format(noted)}, are {off / deviation:.1f} standard deviations apart."
+        f"{unit.format(noted)}, are {deviations:.1f} standard deviations apart."
     ]
 
 

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from occ_model.photo.fit.timing import Timing
 from occ_model.photo.fitted_scene import (
     ESTIMATES,
     _doubts_by_error,
+    _doubts_by_note,
     _rounded,
     _uncertainties,
     _within_pulse,
@@ -123,3 +125,10 @@ def test_values_out_of_range_are_left_as_they_are() -> None:
     changed = with_allowed(scene, iso=1e12, gamma=2.0)
     assert changed.camera.iso == scene.camera.iso
     assert changed.camera.gamma == 2.0
+
+
+def test_a_noted_exposure_is_apart_by_the_deviations_by_which_it_is_judged() -> None:
+    photo = SimpleNamespace(exposure_time=100e-6)  # noted to 1.2 %
+    assert _doubts_by_note(photo, 103.5e-6, 0.1e-6) == []  # type: ignore[arg-type]
+    (why,) = _doubts_by_note(photo, 112e-6, 0.1e-6)  # type: ignore[arg-type]
+    assert why.endswith("are 10.0 standard deviations apart.")

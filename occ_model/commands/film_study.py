@@ -97,7 +97,7 @@ def _request(options: argparse.Namespace) -> FilmRequest:
     frequency = quantity("switching_frequency")
     return FilmRequest(
         scene_of_films(scene_of(options)),
-        frequencies=tuple(frequency.parse(text) for text in _listed(options.frequencies)),
+        frequencies=tuple(frequency.parse(text) for text in options.frequencies.split(",")),
         gaps=tuple(gap / 100.0 for gap in _numbers("gaps", options.gaps, float, "numbers")),
         bits=_numbers("bits", options.bits, int, "whole numbers"),
         frame_rate=options.frame_rate,
@@ -107,13 +107,9 @@ def _request(options: argparse.Namespace) -> FilmRequest:
     )
 
 
-def _listed(text: str) -> list[str]:
-    return [part.strip() for part in text.split(",") if part.strip()]
-
-
 def _numbers(name: str, text: str, kind: type[Number], what: str) -> tuple[Number, ...]:
     numbers = []
-    for part in _listed(text):
+    for part in text.split(","):
         try:
             numbers.append(kind(part))
         except ValueError:

@@ -25,6 +25,8 @@ WITHOUT_FILES = {
     "room locate --set distance=2m": "A room has no distance: ",
     "sweep --vary distance=1 --vary distance=2": "distance is varied twice",
     "sweep --vary distance=1 --jobs 100000": "allowed: a whole number from 1 to 1,024.",
+    "film-study --frequencies ,": "switching_frequency is '', which is not a number in kHz",
+    "film-study --gaps 10,": "gaps holds ''; allowed: numbers",
     "limits --jobs 3": "jobs is 3; allowed: a whole number from 1 to 2.",
     f"sweep --vary distance=1 --images {'9' * 4000}": "a whole number from 1 to 1,000,000.",
     "sweep --vary iso=100:4000:1 --vary distance=1:2:x300": "1,170,300 points; allowed",

@@ -46,7 +46,7 @@ def test_codes_are_read_at_three_chips_an_exposure() -> None:
     scene = occ.load_preset("phone-136us").replace(
         switching_frequency=3.2 / 136e-6, distance=0.1, rows=16
     )
-    for code in range(0, 1024, amount(29, 7)):
+    for code in range(0, 1024, amount(61, 7)):
         signal = occ.render(scene.replace(code=code)).signal
         assert occ.decode(signal, scene, "matched").code == code
 

@@ -4,6 +4,7 @@ from io import BytesIO
 
 import numpy as np
 import pytest
+from amount import amount
 from photo_world.foreign import foreign
 from photo_world.hot_lamps import hot_lamps
 from photo_world.trials import foreign_trial_of, hot_trial_of
@@ -76,7 +77,7 @@ def test_a_sure_readout_time_is_within_four_stated_deviations(seed: int) -> None
 
 def test_a_picture_shows_what_its_truth_says() -> None:
     """In the lamp's rows a square wave's strongest frequency is one cycle each two chips."""
-    for seed in range(100, 110):
+    for seed in range(100, amount(105, 110)):
         drawn = hot_lamps(seed)
         (sent,), (thing,) = drawn.sent, drawn.lamps
         if sent.chips != "10" or sent.pauses or drawn.exposure > sent.chip:

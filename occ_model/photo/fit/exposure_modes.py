@@ -202,7 +202,8 @@ def _other_starts(
 def alike_starts(best: Timing) -> list[Timing]:
     """Return the timings of other exposures by which a square wave's stripes look the same."""
     t = best.exposure
-    alike = [2.0 * turns + sign * t for turns in (0, 1, 2) for sign in (-1.0, 1.0)]
+    width = abs(math.remainder(t, 2.0))  # of an edge, in chips
+    alike = [2.0 * turns + sign * width for turns in (0, 1, 2) for sign in (-1.0, 1.0)]
     # From one such exposure to the next the stripes are turned about: shifted by a chip.
     return [
         replace(

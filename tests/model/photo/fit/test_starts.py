@@ -20,7 +20,7 @@ CHIPS = np.array([1, 0, 0, 1, 1, 0, 1, 0, 1, 1], dtype=np.uint8)
 TIMING = Timing(0.07, 1.3, 0.3, 2.2)
 
 
-@pytest.mark.parametrize("exposure", [0.3, 0.9, 1.3, 1.9])
+@pytest.mark.parametrize("exposure", [0.3, 0.9, 1.3, 1.9, 2.6, 4.73])
 def test_other_exposures_of_a_square_wave_show_the_same_stripes(exposure: float) -> None:
     """Not turned about: bright where the first ones are bright."""
     wave = np.array([1, 0], dtype=np.uint8)

@@ -118,6 +118,7 @@ def described(
         exposure_reasons=(
             *better.exposure_doubts,
             *_doubts_by_fraction("exposure_time", unknown, _DOUBTFUL_EXPOSURE_DEVIATION),
+            *_doubts_by_enhancement(photo),
             *_doubts_by_others(photo, explanation),
             *_doubts_by_note(photo, camera.exposure_time, uncertainties["exposure_time"]),
         ),
@@ -138,6 +139,16 @@ def _doubts_by_fraction(name: str, fraction: float, limit: float) -> list[str]:
     shown, most = distinct_texts(100.0 * fraction, 100.0 * limit)
     what = PARAMETERS[name].label.lower()
     return [f"The {what} is known only to {shown} %; at most {most} % are allowed."]
+
+
+def _doubts_by_enhancement(photo: Photo) -> list[str]:
+    """Doubt what was fitted to equalized levels: the noise decides how they are spread."""
+    if photo.enhancement != "equalization":
+        return []
+    return [
+        "The file says that its picture is a receiver's, equalized: the match has no model of how "
+        "noise spreads equalized levels. Match the camera's picture instead."
+    ]
 
 
 def _doubts_by_others(photo: Photo, explanation: Explanation) -> list[str]:

@@ -11,6 +11,9 @@ from occ_model.scene.scene import Scene
 
 PICTURES = ("camera", "receiver")  # as taken, and as enhanced by the receiver
 
+ENHANCED = "Receiver's picture, enhanced by "
+"""Before the enhancement's name in the title of an enhanced picture, which its file states."""
+
 
 @dataclass(frozen=True, eq=False)
 class Frame:
@@ -91,6 +94,5 @@ class Frame:
         if whose == "camera":
             return "Camera's picture"
         enhancement = self.scene.model.enhancement
-        return "Receiver's picture, " + (
-            "not enhanced" if enhancement == "none" else f"enhanced by {enhancement}"
-        )
+        is_enhanced = enhancement != "none"
+        return ENHANCED + enhancement if is_enhanced else "Receiver's picture, not enhanced"

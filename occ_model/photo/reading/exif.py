@@ -3,10 +3,11 @@
 import math
 from collections.abc import Mapping
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from occ_model.errors import ParameterError
+from occ_model.results.frame import ENHANCED
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.parameters.camera import DIAGONAL_35MM
 
@@ -14,7 +15,7 @@ if TYPE_CHECKING:
     from PIL.Image import Image as PillowImage
 
 EXIF_IFD = 0x8769
-_MAKE, _MODEL, _ORIENTATION = 0x010F, 0x0110, 0x0112
+_DESCRIPTION, _MAKE, _MODEL, _ORIENTATION = 0x010E, 0x010F, 0x0110, 0x0112
 EXPOSURE_TIME, F_NUMBER, ISO = 0x829A, 0x829D, 0x8827
 _SHUTTER_SPEED_APEX, _APERTURE_APEX = 0x9201, 0x9202
 _ISO_SPEED, _ISO_RECOMMENDED, _ISO_OUTPUT = 0x8833, 0x8832, 0x8831
@@ -46,6 +47,7 @@ class CameraNotes:
     camera: str | None = None
     equivalent_focal_length: float | None = None
     focal_length_step: float = 0.0  # what the equivalent focal length is rounded to, in metres
+    enhancement: str | None = None  # by which a receiver of this program enhanced its picture
 
 
 def camera_notes(picture: "PillowImage") -> CameraNotes:
@@ -55,11 +57,14 @@ def camera_notes(picture: "PillowImage") -> CameraNotes:
     """
     # A picture can be read although its tags are damaged.
     tags: dict[int, Any] = {}
+    title = ""
     with suppress(Exception):
         exif = picture.getexif()
         tags = dict(exif)
+        title = _text(picture.info.get("Description") or tags.get(_DESCRIPTION))
         tags |= exif.get_ifd(EXIF_IFD)
-    return notes_of(tags)
+    enhancement = title.removeprefix(ENHANCED) if title.startswith(ENHANCED) else None
+    return replace(notes_of(tags), enhancement=enhancement)
 
 
 def notes_of(tags: Mapping[int, Any]) -> CameraNotes:

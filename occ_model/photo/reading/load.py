@@ -66,6 +66,8 @@ class Photo:
         has not applied its gamma.
     equivalent_focal_length, focal_length_step
         From the EXIF data, None where it is missing, and what it is rounded to, in metres.
+    enhancement
+        How a receiver has enhanced it, by what a picture of this program notes; None for others.
     """
 
     path: Path
@@ -82,6 +84,7 @@ class Photo:
     is_linear: bool = False
     equivalent_focal_length: float | None = None
     focal_length_step: float = 0.0
+    enhancement: str | None = None
 
 
 def load_photo(

@@ -2,11 +2,13 @@
 
 from functools import cache
 from pathlib import Path
+from threading import Event
 
 import numpy as np
 import pytest
 from gui.kinds import show_widget
 from gui.pane_bench import PaneBench
+from gui.user import PATIENCE_MS
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
@@ -75,16 +77,24 @@ def bench(qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) -> PaneBench:
 
 
 def test_a_speed_that_is_taken_becomes_the_exposure_at_the_same_brightness(
-    bench: PaneBench, qtbot: QtBot
+    bench: PaneBench, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    was_marked = Event()
+
+    def shown_late(scene: Scene) -> ShownBands:
+        assert was_marked.wait(PATIENCE_MS / 1e3)
+        return _shown(scene)
+
     view, scenes = bench.add(bands(bench.scenes)).view, bench.scenes
     bench.wait_until_idle()
     assert view.headline.text().startswith("Bars of")
     row = list(_rows(view)).index("1/60 s")
+    monkeypatch.setattr(pane, "shown_bands", shown_late)
     view.table.itemActivated.emit(view.table.item(row, 0))
     assert scenes.scene.camera.exposure_time == pytest.approx(1 / 60)
     assert view.outdated.isHidden()
     qtbot.waitUntil(view.outdated.isVisible)
+    was_marked.set()
     qtbot.waitUntil(lambda: view.headline.text().startswith("No bars"))
     assert view.outdated.isHidden()
     scenes.undo_stack.undo()

@@ -2,12 +2,14 @@
 
 import math
 from dataclasses import replace
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import occ_model as occ
+from occ_model.files.writing import write_image
 from occ_model.photo.fit.least_squares import StripeFit
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.fitted_scene import (
@@ -132,3 +134,19 @@ def test_a_noted_exposure_is_apart_by_the_deviations_by_which_it_is_judged() -> 
     assert _doubts_by_note(photo, 103.5e-6, 0.1e-6) == []  # type: ignore[arg-type]
     (why,) = _doubts_by_note(photo, 112e-6, 0.1e-6)  # type: ignore[arg-type]
     assert why.endswith("are 10.0 standard deviations apart.")
+
+
+@pytest.mark.parametrize("ending", ["png", "jpg", "tif"])
+def test_the_exposure_of_a_receivers_equalized_picture_is_doubtful(
+    tmp_path: Path, ending: str
+) -> None:
+    scene = occ.load_preset("phone-136us").replace(rows=200)
+    frame = occ.render(scene)
+    verdicts = []
+    for whose in ("camera", "receiver"):
+        write_image(tmp_path / f"a.{ending}", frame.picture(whose), frame.picture_title(whose))
+        photo = occ.load_photo(tmp_path / f"a.{ending}", "columns")
+        match = occ.match_photo(photo, scene, sent="scene")
+        verdicts.append((photo.enhancement, match.verdict, match.exposure_verdict))
+        assert match.readout_time == pytest.approx(scene.camera.readout_time, rel=1e-3)
+    assert verdicts == [(None, "sure", "sure"), ("equalization", "sure", "doubtful")]

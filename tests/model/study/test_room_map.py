@@ -99,7 +99,7 @@ def test_the_command_measures_a_room_file_with_other_settings(
     out = tmp_path / "map.csv"
     words = ("room", "map", "--room", str(room), "--side", "1", "--out", str(out))
     assert main((*words, "--set", "switching_frequency=7kHz", "--set", "bits=12")) == 0
-    assert "1 places, 1 pictures: 1 of 1 whole lamps named, 0 lamps named wrongly" in (
+    assert "1 place, 1 picture: 1 of 1 whole lamps named, 0 lamps named wrongly" in (
         capsys.readouterr().out
     )
     assert "switching_frequency = 7000.0" in out.read_text()

@@ -94,7 +94,7 @@ def test_nine_of_ten_readings_that_are_nine_tenths_sure_are_right() -> None:
     assert sure.sum() > 0.5 * messages
     assert right[sure].mean() >= 0.9
     # A probability is right on average, within three deviations of a fraction of as many.
-    scatter = np.sqrt(right.mean() * (1.0 - right.mean()) / len(right))
+    scatter = np.sqrt(np.sum(confidence * (1.0 - confidence))) / len(right)
     assert confidence.mean() == pytest.approx(right.mean(), abs=3.0 * scatter)
 
 

@@ -120,7 +120,7 @@ class AccuracyPlot(QWidget):
             (_GLYPHS[SYMBOLS[part]], seen_on(palette, COLOURS[part]), word)
             for part, word in zip(ACCURACY_PARTS, _WORDS, strict=True)
         ]
-        entries.append(("+", seen_on(palette, COLOURS["effects"]), "plans"))
+        entries.append(("+", seen_on(palette, COLOURS["effects"]), "limit"))
         entries.append(("○", palette.color(QPalette.ColorRole.Text), "now"))
         self.legend.setText(
             "&nbsp; ".join(
@@ -153,7 +153,8 @@ class AccuracyPlot(QWidget):
         xs, ys = _places(self._front)
         self.front.setData(xs, ys)
         tips = [
-            f"{p.name}: {1e3 * p.seconds:.3g} ms, ≈ {p.error:.3g} {p.unit}" for p in self._front
+            f"{p.name}: {1e3 * p.seconds:.3g} ms, at most {p.error:.3g} {p.unit}"
+            for p in self._front
         ]
         self.front_points.setData(xs, ys, data=tips)
         self.front_ring.setData(*_places([point for point in self._front if point.current]))

@@ -1,5 +1,6 @@
 """A fit in SI units: its values, and their uncertainties as they follow from the fit's."""
 
+import itertools
 import math
 from dataclasses import replace
 from pathlib import Path
@@ -136,17 +137,18 @@ def test_a_noted_exposure_is_apart_by_the_deviations_by_which_it_is_judged() -> 
     assert why.endswith("are 10.0 standard deviations apart.")
 
 
-@pytest.mark.parametrize("ending", ["png", "jpg", "tif"])
-def test_the_exposure_of_a_receivers_equalized_picture_is_doubtful(
-    tmp_path: Path, ending: str
-) -> None:
-    scene = occ.load_preset("phone-136us").replace(rows=200)
+def test_the_exposure_of_a_receivers_equalized_picture_is_doubtful(tmp_path: Path) -> None:
+    scene = occ.load_preset("phone-136us").replace(rows=200, columns=1600)
     frame = occ.render(scene)
+    photos = {}
+    for ending, whose in itertools.product(("png", "jpg", "tif"), ("camera", "receiver")):
+        path = tmp_path / f"{whose}.{ending}"
+        write_image(path, frame.picture(whose), frame.picture_title(whose))
+        photo = photos[path.name] = occ.load_photo(path, "columns")
+        assert photo.enhancement == (None if whose == "camera" else "equalization")
     verdicts = []
-    for whose in ("camera", "receiver"):
-        write_image(tmp_path / f"a.{ending}", frame.picture(whose), frame.picture_title(whose))
-        photo = occ.load_photo(tmp_path / f"a.{ending}", "columns")
-        match = occ.match_photo(photo, scene, sent="scene")
-        verdicts.append((photo.enhancement, match.verdict, match.exposure_verdict))
+    for name in ("camera.png", "receiver.png"):
+        match = occ.match_photo(photos[name], scene, sent="scene")
+        verdicts.append((match.verdict, match.exposure_verdict))
         assert match.readout_time == pytest.approx(scene.camera.readout_time, rel=1e-3)
-    assert verdicts == [(None, "sure", "sure"), ("equalization", "sure", "doubtful")]
+    assert verdicts == [("sure", "sure"), ("sure", "doubtful")]

@@ -3,25 +3,27 @@
 python tests/benchmarks/uneven_light.py [films of each kind, default 20]
 
 A film has 25 frames of random chips, 30 to 150 of them in view, exposed for 0.2 to 1.5 chips. Its
-chips are lit by closed forms that the program does not use, and their frequency is known.
+lit fractions are computed apart from the program, and their frequency is known.
 """
 
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
-from occ_model.arrays import ByteArray, FloatArray
+sys.path.insert(0, str(Path(__file__).parents[1]))
+
+from lit_fractions import lit_fractions
+
+from occ_model.arrays import FloatArray
 from occ_model.video.chip_timing import ChipLattice, fit_timing
 from occ_model.video.phase_fit import Phases, mean_step
 
 Random = np.random.Generator
 
 _COLUMNS, _FRAMES, _FIRST_SEED = 1080, 25, 100
-_SIDE = 9
-"""Chips before the first and after the last one, which are as these."""
-
 _PLACE = np.linspace(-1.0, 1.0, _COLUMNS)
 
 
@@ -55,13 +57,6 @@ LIGHT: dict[str, Callable[[float, Random], FloatArray]] = {
 """The light of the lit lamp along the columns, by a centre from -0.4 to 0.4."""
 
 
-def _lit(chips: ByteArray, starts: FloatArray, exposure: float) -> FloatArray:
-    values = np.pad(chips.astype(float), _SIDE, mode="edge")
-    running, places = np.concatenate([[0.0], np.cumsum(values)]), np.arange(len(values) + 1.0)
-    first, last = (np.interp(starts + _SIDE + end, places, running) for end in (0.0, exposure))
-    return np.asarray((last - first) / exposure)
-
-
 @dataclass(frozen=True)
 class Measured:
     error: float  # of the chips a column, relative
@@ -78,7 +73,7 @@ def measured(kind: str, seed: int) -> Measured:
     for _ in range(_FRAMES):
         chips = random.integers(0, 2, int(step * _COLUMNS) + 10, dtype=np.uint8)
         phase = 2.0 + random.uniform()
-        lit = _lit(chips, phase + step * np.arange(_COLUMNS), exposure)
+        lit = lit_fractions(chips, phase + step * np.arange(_COLUMNS), exposure)
         columns = dark + light * lit + noise * random.standard_normal(_COLUMNS)
         roughly = step * (1.0 + 1e-3 * random.standard_normal())
         shifted = phase + random.uniform(-0.3, 0.3)

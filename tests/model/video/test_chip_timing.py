@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from amount import amount
+from lit_fractions import lit_fractions
 
 import occ_model as occ
 from occ_model.photo.fit.least_squares import StripeModel
@@ -20,13 +21,8 @@ LENGTH = 20.0
 
 
 def _lit(lattice: ChipLattice, columns: int) -> np.ndarray:
-    """Lit fractions by the chips' running sum; beside them the outermost ones go on."""
-    values = np.pad(lattice.values.astype(float), 9, mode="edge")
-    starts = lattice.phase - lattice.first + 9.0 + lattice.step * np.arange(columns)
-    running, places = np.concatenate([[0.0], np.cumsum(values)]), np.arange(len(values) + 1.0)
-    ends = starts + lattice.exposure
-    lit = np.interp(ends, places, running) - np.interp(starts, places, running)
-    return np.asarray(lit / lattice.exposure)
+    starts = lattice.phase - lattice.first + lattice.step * np.arange(columns)
+    return lit_fractions(lattice.values, starts, lattice.exposure)
 
 
 def _light(lattice: ChipLattice, columns: int, noise: float, seed: int) -> np.ndarray:

@@ -11,7 +11,7 @@ from occ_gui.widgets.building import filled, push_button
 from occ_gui.widgets.chip_row import Chip
 from occ_gui.widgets.state_bar import StateBar
 from occ_gui.widgets.state_look import State
-from occ_model.errors import one_line
+from occ_model.errors import counted, one_line
 from occ_model.photo.match_facts import estimate_text, known_of
 from occ_model.photo.reading.load import Photo
 from occ_model.results.match import PLAIN_STRIPES, Match
@@ -222,6 +222,4 @@ class PhotoVerdictBar(StateBar):
 
 def _first_of(reasons: Sequence[str]) -> str:
     more = len(reasons) - 1
-    return reasons[0] + (
-        f" And {more} more {'reason' if more == 1 else 'reasons'}." if more else ""
-    )
+    return reasons[0] + (f" And {counted(more, 'more reason')}." if more else "")

@@ -94,8 +94,8 @@ class PlanPlot(QWidget):
             self.plot.setXRange(float(low[0]), float(high[0]), padding=0)
             self.plot.setYRange(float(low[1]), float(high[1]), padding=0)
         self.plot.setAccessibleDescription(
-            f"{counted(len(plan.outlines), 'lamp')}; the camera is at x {place.x:.2f} m, y "
-            f"{place.y:.2f} m"
+            f"{counted(len(plan.outlines), 'lamp')}; "
+            f"the camera is at x {place.x:.2f} m, y {place.y:.2f} m"
         )
 
     def _show_names(self, outlines: dict[str, FloatArray]) -> None:

@@ -140,7 +140,7 @@ def _story(frame: VideoFrame, scene: Scene, request: FrameRequest | None, whose:
     )  # fmt: skip
     rows, size = range(0, shown.camera.rows, step), (shown.camera.rows, shown.camera.columns)
     picture = PictureView(image, rows, size, corners, image)
-    # The threshold is another one than that of a picture, which a receiver always enhances.
+    # Else its threshold would seem to contradict that of Explore, which is of an enhanced picture.
     how = "enhanced" if is_enhanced else "not enhanced"
     title = f"{whose}, frame {frame.index + 1}, read by itself, {how}: {_in_words(decoded)}"
     return FrameStory(picture, reading, request is not None, title)

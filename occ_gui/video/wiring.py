@@ -300,7 +300,7 @@ def _title_of(film: Video) -> str:
     rows, columns = film.shape
     parts = [one_line(film.title), f"{columns} x {rows}"]
     if film.frame_count:
-        parts.append(f"{counted(film.frame_count, 'frame')}")
+        parts.append(counted(film.frame_count, "frame"))
     if film.frame_rate:
         parts.append(f"{film.frame_rate:.4g} a second")
     return ", ".join(parts)

@@ -160,10 +160,8 @@ def _channel(name: str) -> str:
 def _film_line(known: FilmProgress) -> str:
     """Describe in one line what is known after a frame."""
     frame = known.frame
-    what = (
-        frame.failure
-        or f"{counted(len(frame.chips), 'chip')} from chip {frame.place} of the packet on"
-    )
+    chips = counted(len(frame.chips), "chip")
+    what = frame.failure or f"{chips} from chip {frame.place} of the packet on"
     payload = f"  {known.payload}" if known.payload else ""
     return (
         f"frame {frame.index:5d}  {SECOND.format(frame.time):>10}  {100.0 * known.known:3.0f} %"
@@ -183,8 +181,7 @@ def _film_report(reading: VideoReading, video: Video) -> list[str]:
         ]
     lines.append(
         f"frames            {len(reading.frames)} of {columns} columns, {counted(rows, 'row')}; "
-        f"{placed} of "
-        "them placed in the packet"
+        f"{placed} of them placed in the packet"
     )
     facts = [*packet_facts(reading), *(() if reading.clock is None else clock_facts(reading.clock))]
     for fact in facts:

@@ -78,8 +78,6 @@ def _sentence(found: MostBits) -> str:
     )
     return (
         f"{found.decoder}: {found.bits_a_second:,.0f} bits a second, "
-        f"{counted(sent.payload_length, 'bit')} a "
-        f"picture in {sent.line_code} at {frequency}; every bit of "
-        f"{counted(found.pictures, 'picture')} was "
-        f"read, and {rest}."
+        f"{counted(sent.payload_length, 'bit')} a picture in {sent.line_code} at {frequency}; "
+        f"every bit of {counted(found.pictures, 'picture')} was read, and {rest}."
     )

@@ -179,10 +179,8 @@ def _map(options: argparse.Namespace) -> int:
     median = f", in the median {1e3 * float(np.median(errors)):.3g} mm off" if errors else ""
     print(
         f"{one_line(str(options.out))}: {counted(request.points, 'place')}, "
-        f"{counted(pictures, 'picture')}: "
-        f"{named} of {shown} whole lamps named, {counted(wrong, 'lamp')} named wrongly; "
-        f"{counted(sure, 'place')} "
-        f"sure{median}"
+        f"{counted(pictures, 'picture')}: {named} of {shown} whole lamps named, "
+        f"{counted(wrong, 'lamp')} named wrongly; {counted(sure, 'place')} sure{median}"
     )
     return 0
 

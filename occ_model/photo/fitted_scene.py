@@ -133,7 +133,7 @@ def _doubts_by_error(estimate: str, value: float, deviation: float) -> list[str]
 
 
 def _doubts_by_fraction(name: str, fraction: float, limit: float) -> list[str]:
-    """Return whether a relative standard deviation is beyond its limit, as a sentence."""
+    """Return a sentence where a relative standard deviation is beyond its limit, else none."""
     if fraction <= limit:
         return []
     shown, most = distinct_texts(100.0 * fraction, 100.0 * limit)

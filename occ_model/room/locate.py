@@ -135,8 +135,8 @@ def _located(
     edges = sum(len(one.edges) for one in measured)
     if edges < _MIN_EDGES:
         return [], (
-            f"{counted(edges, 'edge')} of named lamps can be measured, as bright enough; allowed: "
-            f"from {_MIN_EDGES}.",
+            f"Of named lamps only {counted(edges, 'edge')} can be measured, the others being too "
+            f"faint; allowed: from {_MIN_EDGES}.",
         )
     table = LampEdges.of([(one.lamp, one.edges) for one in measured], room, focal_share)
     starts = [start for anchor in whole[:_MAX_ANCHORS] for start in _starts(anchor, room)]

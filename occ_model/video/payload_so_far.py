@@ -114,10 +114,8 @@ def why_unplaced(frames: Sequence[TimedFrame]) -> str:
         if why is None
         else f"of the first one: {why}"
     )
-    return (
-        f"The place in the packet of none of {counted(len(read), 'frame')} with chips is "
-        f"known; {rest}"
-    )
+    frames_read = counted(len(read), "frame")
+    return f"The place in the packet of none of {frames_read} with chips is known; {rest}"
 
 
 def why_not_read(soft: SoftFrame | None, joined: Joined, period: SentPeriod) -> str | None:

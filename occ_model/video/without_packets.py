@@ -131,8 +131,7 @@ class WithoutPackets:
         return (
             f"Whole frames are bright or dark: {int(bright.sum())} of {len(levels)} are bright, "
             f"and that changes {counted(changes, 'time')} in {SECOND.format(lasts, 3)}. So the "
-            f"lamp blinks "
-            "more slowly than a frame is read out, and no frame shows stripes of it."
+            "lamp blinks more slowly than a frame is read out, and no frame shows stripes of it."
         )
 
 

@@ -176,7 +176,7 @@ class ManyPhotosView(QWidget):
         self.work.show_progress(done / count)
 
     def _show_title(self) -> None:
-        text = f"{counted(len(self.rows.paths), 'photo')}"
+        text = counted(len(self.rows.paths), "photo")
         if not self.rows.paths:
             text = "Open several photos together, or drop them, to match them all."
         elif self._asked is None:

@@ -5,11 +5,10 @@ degrees of freedom (R. T. Birge, "The calculation of errors by the method of lea
 Physical Review 40, 207, 1932). With s the standard deviation of a mean of n independent estimates:
 
 * R >= 1: the estimates scatter by more than their deviations say. That of the mean is R s, as the
-Particle Data Group takes it.
-
-* R < 1: they scatter by less. What their deviations hold besides the scatter, a variance of (1 -
-R^2) n s^2, may be the same error in all of them, as of photos of one scene, and does not average
-out. The variance of the mean is (R^2 + n (1 - R^2)) s^2.
+  Particle Data Group takes it.
+* R < 1: they scatter by less. What their deviations hold besides the scatter, a variance of
+  (1 - R^2) n s^2, may be the same error in all of them, as of photos of one scene, and does not
+  average out. The variance of the mean is (R^2 + n (1 - R^2)) s^2.
 """
 
 import math

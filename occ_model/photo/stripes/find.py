@@ -84,8 +84,8 @@ def _stripes_of(photo: Photo) -> Stripes:
     columns = photo.samples.shape[1]
     if columns < _LEAST_COLUMNS:
         raise MatchError(
-            f"No stripes: the photo has {counted(columns, 'column')}; at least {_LEAST_COLUMNS} "
-            f"are needed."
+            f"No stripes: the photo has {counted(columns, 'column')}; "
+            f"at least {_LEAST_COLUMNS} are needed."
         )
     first_row, last_row = _striped_rows(photo)
     rows = Region(first_row, last_row, 0, columns)
@@ -233,8 +233,7 @@ def lamp_profile(photo: Photo, lamp: Lamp) -> FloatArray:
         raise ParameterError(
             f"The lamp lies at rows up to {region.last_row - 1} and columns up to "
             f"{region.last_column - 1}; allowed: a lamp of this photo, which has "
-            f"{counted(rows, 'row')} and "
-            f"{counted(columns, 'column')}."
+            f"{counted(rows, 'row')} and {counted(columns, 'column')}."
         )
     sums, counts = np.zeros(region.columns), np.zeros(region.columns)
     spans = lamp.spans[1:-1] if len(lamp.spans) > _LEAST_STRIPS else lamp.spans

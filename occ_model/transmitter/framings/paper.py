@@ -56,9 +56,8 @@ def _too_few(headers: int, chips: int, packet: int) -> str:
             "come closer or raise the frequency."
         )
     return (
-        f"{found} found among {counted(chips, 'chip')}, two needed: the stripes show no runs as "
-        f"long as a "
-        "header's."
+        f"{found} found among {counted(chips, 'chip')}, two needed: "
+        "the stripes show no runs as long as a header's."
     )
 
 

@@ -68,8 +68,7 @@ def _read(data: ByteArray, level: int, form: FrameFormat) -> Framed:
     if code.chips_for(whole) > len(data):
         return Framed.nothing(
             f"The frame says that it holds {counted(count, 'bit')}, for which {len(data)} chips "
-            f"are too few: "
-            "some chips were misread."
+            "are too few: some chips were misread."
         )
     read = code.decode(data[: code.chips_for(whole)], level).bits
     body, check = read[: start + count], read[start + count : whole]

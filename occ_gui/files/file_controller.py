@@ -14,6 +14,7 @@ from occ_gui.scene.scene_store import SceneStore
 from occ_gui.simulation.present_results import Use
 from occ_gui.simulation.snapshot import Snapshot
 from occ_model.errors import OccError, one_line
+from occ_model.files.film_kinds import is_film
 from occ_model.files.resources import resource_path
 from occ_model.files.writing import PICTURE_ENDINGS, write_image, write_whole
 from occ_model.scene.from_text import SCENE_ENDING, read_scene_file, write_scene_file
@@ -28,9 +29,6 @@ _FILMS = "*.mp4 *.mov *.m4v *.avi *.mkv *.webm *.gif *.png *.apng"
 _RAW = "*.dng *.nef *.cr2 *.cr3 *.arw *.raf *.rw2 *.orf *.pef"
 _PHOTOS = f"{_PICTURES} *.heic *.heif *.avif *.gif *.ppm *.pgm *.jp2 {_RAW}"
 
-_MOVING = (".gif", ".png", ".apng")  # endings of pictures, and of films
-_FILM_ENDINGS = tuple(f".{name}" for name in ("mp4", "mov", "m4v", "avi", "mkv", "webm", "3gp"))
-
 
 def _has_scene(path: Path) -> bool:
     """Return whether a file is a scene, or a figure or table that contains one."""
@@ -42,21 +40,6 @@ def _has_scene(path: Path) -> bool:
     except OccError:
         return False
     return True
-
-
-def _is_film(path: Path) -> bool:
-    """Return whether a file is a film: by its ending, or by several pictures in it."""
-    ending = path.suffix.lower()
-    if ending not in _MOVING:
-        return ending in _FILM_ENDINGS
-    # Not at the start of the program.
-    from PIL import Image
-
-    try:
-        with Image.open(path) as picture:
-            return bool(getattr(picture, "is_animated", False))
-    except Exception:  # noqa: BLE001 - whoever opens it says what is wrong with it
-        return False
 
 
 def _is_file(path: Path) -> bool:
@@ -136,7 +119,7 @@ class FileController(QObject):
         """Open a scene file, an exported figure, a film or a photo."""
         if _has_scene(path):
             self.open_scene(path)
-        elif _is_film(path):
+        elif is_film(path):
             self.open_film(path)
         else:
             self._photos.open(path)
@@ -159,7 +142,7 @@ class FileController(QObject):
         """Open the first dropped scene, film and photo, or several photos as a table."""
         files = [path for path in paths if _is_file(path)]
         scenes = [path for path in files if _has_scene(path)]
-        films = [path for path in files if path not in scenes and _is_film(path)]
+        films = [path for path in files if path not in scenes and is_film(path)]
         photos = [path for path in files if path not in (*scenes, *films)]
         if not files:
             what = f"{one_line(str(paths[0]))} is not a file" if paths else ""

@@ -58,18 +58,28 @@ def kind_of_film(start: bytes) -> Container | None:
     return None
 
 
-_PICTURES = (b"heic", b"heix", b"heim", b"heis", b"mif1", b"avif", b"crx ")  # HEIC, AVIF, CR3
-_ANIMATED = b"acTL"  # the chunk that an animated PNG has before its first picture
-_START = 4096
+HEIC_BRANDS = (b"heic", b"heix", b"heim", b"heis", b"hevc", b"hevx", b"hevm", b"hevs")
+HEIF_BRANDS = (b"mif1", b"msf1")  # of HEIC and of AVIF
+_PICTURES = (*HEIC_BRANDS, *HEIF_BRANDS, b"avif", b"avis", b"crx ")  # the last is Canon's CR3
 
 
 def is_film(path: Path) -> bool:
-    """Whether a file holds a film, by its first bytes; not whether it can be read."""
+    """Whether a file holds a film, by its content; not whether it can be read.
+
+    A GIF or PNG file of one picture is none.
+    """
     try:
-        start = read_start(path, _START)
+        start = read_start(path, FIRST_BYTES)
     except SceneFileError:
         return False
     kind = kind_of_film(start)
-    if kind is _PNG:
-        return _ANIMATED in start.partition(b"IDAT")[0]
-    return kind is not None and not (start[4:8] == b"ftyp" and start[8:12] in _PICTURES)
+    if kind is None or kind.reader == "opencv":
+        return kind is not None and not (start[4:8] == b"ftyp" and start[8:12] in _PICTURES)
+    # Slow to import, and only needed for these.
+    from PIL import Image
+
+    try:
+        with Image.open(path) as picture:
+            return bool(getattr(picture, "is_animated", False))
+    except Exception:  # noqa: BLE001 - whoever opens it says what is wrong with it
+        return False

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import IO, TYPE_CHECKING, TypeAlias
 
 from occ_model.errors import PhotoError, one_line
-from occ_model.files.film_kinds import kind_of_film
+from occ_model.files.film_kinds import HEIC_BRANDS, HEIF_BRANDS, kind_of_film
 from occ_model.photo.reading.limits import (
     allowed_pixels,
     check_decoder,
@@ -47,9 +47,6 @@ _pillow_lock = threading.Lock()
 
 _FORMATS = ("JPEG", "PNG", "TIFF", "WEBP", "BMP", "GIF", "PPM", "QOI", "JPEG2000", "AVIF")
 """The formats that are read. Pillow reads more, and starts other programs for some of them."""
-
-_HEIC_BRANDS = (b"heic", b"heix", b"heim", b"heis", b"hevc", b"hevx", b"hevm", b"hevs")
-_ANY_HEIF_BRANDS = (b"mif1", b"msf1")
 
 
 @contextmanager
@@ -239,7 +236,7 @@ def _is_heic(start: bytes) -> bool:
     if start[4:8] != b"ftyp":
         return False
     brand, others = start[8:12], start[12:]
-    return brand in _HEIC_BRANDS or (brand in _ANY_HEIF_BRANDS and b"avif" not in others)
+    return brand in HEIC_BRANDS or (brand in HEIF_BRANDS and b"avif" not in others)
 
 
 def _heic_factory(path: Path) -> "Factory":

@@ -9,12 +9,11 @@ import numpy as np
 import pytest
 from gui.kinds import SnapshotOf, not_none
 from gui.stores import store_of
-from PIL import Image
 from PySide6.QtCore import QSettings
 from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
 
-from occ_gui.files.file_controller import FileController, _is_film
+from occ_gui.files.file_controller import FileController
 from occ_gui.files.preferences import Preferences
 from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.shell.results import Board
@@ -306,25 +305,11 @@ def test_what_is_nothing_usable_is_answered_by_a_sentence(bench: Bench, tmp_path
         assert ("computer" in bench.status_message[-1]) == (not dropped)
 
 
-PICTURES = [Image.fromarray(np.full((4, 6), 40 * n, dtype=np.uint8)) for n in range(3)]
-
-
-@pytest.mark.parametrize("name", ["a.gif", "a.png"])
-def test_a_picture_that_moves_is_a_film_and_one_that_stands_is_a_photo(
-    tmp_path: Path, name: str
-) -> None:
-    path = tmp_path / name
-    PICTURES[0].save(path, save_all=True, append_images=PICTURES[1:], duration=40)
-    assert _is_film(path)
-    PICTURES[0].save(path)
-    assert not _is_film(path)
-
-
-def test_films_are_known_by_their_endings_and_damaged_pictures_are_photos(tmp_path: Path) -> None:
-    assert _is_film(Path("a.MP4"))
-    assert _is_film(Path("b.mkv"))
-    assert not _is_film(Path("c.jpg"))
-    damaged = tmp_path / "damaged.gif"
-    damaged.write_bytes(b"GIF89a")
-    assert not _is_film(damaged)
-    assert not _is_film(tmp_path / "missing.png")
+def test_a_film_is_known_by_its_content_and_opened_as_one(bench: Bench, tmp_path: Path) -> None:
+    path = tmp_path / "without an ending"
+    path.write_bytes(b"\x00\x00\x00\x18ftypisom")
+    asked: list[Path] = []
+    bench.files.film_asked.connect(asked.append)
+    bench.files.open_dropped([path])
+    bench.files.open_recent(path)
+    assert asked == [path, path]

@@ -7,7 +7,6 @@ import pytest
 
 import occ_model as occ
 from occ_model.cli import main
-from occ_model.files.film_kinds import is_film
 
 SCENE = [
     "--preset", "phone-68us", "--set", "columns=720", "--set", "rows=32",
@@ -48,21 +47,6 @@ def test_a_film_of_another_scheme_fails_with_a_sentence(
     words = capsys.readouterr().err.splitlines()[-1]
     assert "none of" in words
     assert "chips" in words
-
-
-def test_a_film_is_told_from_a_picture_by_its_content(film: Path, tmp_path: Path) -> None:
-    assert is_film(film)
-    for name, start in (
-        ("photo.heic", b"\x00\x00\x00\x18ftypheic\x00\x00\x00\x00"),
-        ("photo.png", b"\x89PNG\r\n\x1a\n\x00\x00\x00\rIHDR....IDAT...acTL"),
-        ("photo.jpg", b"\xff\xd8\xff\xe0"),
-    ):
-        (tmp_path / name).write_bytes(start + bytes(64))
-        assert not is_film(tmp_path / name)
-    animated = tmp_path / "animated.png"
-    animated.write_bytes(b"\x89PNG\r\n\x1a\n\x00\x00\x00\rIHDR....acTL....IDAT" + bytes(64))
-    assert is_film(animated)
-    assert not is_film(tmp_path / "missing.mkv")
 
 
 SMALL = [

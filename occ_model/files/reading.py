@@ -8,7 +8,6 @@ from pathlib import Path
 from occ_model.errors import SceneFileError, one_line
 
 LARGEST_TEXT = 1_000_000  # bytes allowed in a scene, preset or lesson; ours have a few thousand
-_CHUNK = 1 << 20  # bytes read at a time: a file may hold more, or less, than its size says
 
 _NO_FILE = "it is a device, pipe or socket"
 
@@ -44,7 +43,8 @@ def read_start(path: Path, count: int) -> bytes:
     try:
         _check_kind(path, os.fstat(descriptor).st_mode)
         chunks, left = [], count
-        while left > 0 and (chunk := os.read(descriptor, min(left, _CHUNK))):
+        # A file may hold more, or less, than its size says.
+        while left > 0 and (chunk := os.read(descriptor, left)):
             chunks.append(chunk)
             left -= len(chunk)
     except OSError as error:

@@ -36,7 +36,10 @@ def test_there_is_a_frame_for_each_value(tmp_path: Path, scene: Scene, ending: s
         frames = [film.read() for _ in range(3)]
         film.release()
         assert [read for read, _ in frames] == [True, True, False]
-        assert np.ptp(frames[0][1]) > 200
+        image = frames[0][1]
+        assert np.ptp(image) > 200
+        dark_rows = np.mean(image[:, 200:800] < 128, axis=(1, 2)) > 0.9  # those of the picture
+        assert 100 < np.count_nonzero(dark_rows) < 200
     else:
         with Image.open(path) as pictures:
             assert getattr(pictures, "n_frames", 1) == 2

@@ -63,6 +63,12 @@ def test_numbers_are_round_and_stand_where_their_values_are() -> None:
     assert list(microseconds.values()) == pytest.approx(list(microseconds), rel=1e-9)
 
 
+def test_an_axis_of_bits_a_second_reaches_as_far_as_its_best_point_can() -> None:
+    table = table_of({"readout_time": (40e-6, 8e-6, 20e-6)})
+    _, top = sweep_drawing(table, "bits").draw().axes[0].get_ylim()
+    assert top == pytest.approx(1.03 * 30.0 * 10)
+
+
 def test_the_split_of_each_kind_of_run_has_a_line_and_a_name_of_its_own() -> None:
     scene = occ.load_preset("phone-68us")
     result = occ.decode(occ.column_profile(scene), scene)

@@ -75,17 +75,16 @@ def _write_all(folder: Path, requests: Sequence[FigureRequest]) -> list[Path]:
     make_folder(folder)
     try:
         with TemporaryDirectory(prefix=".export-", dir=folder, ignore_cleanup_errors=True) as aside:
-            pairs = [(request.draw(), request) for request in requests]
-            drawn = {id(drawing): (drawing, request) for drawing, request in pairs}
+            drawn = [(request.draw(), request) for request in requests]
             # Refused in a moment what takes seconds to draw.
-            for drawing, _ in drawn.values():
+            for drawing, _ in drawn:
                 for path in files_of(drawing, folder):
                     check_replaceable(path)
-            written = write_all(
-                Path(aside),
-                [drawing for drawing, _ in drawn.values()],
-                lambda drawing: drawn[id(drawing)][1].provenance(drawing),
-            )
+            written = [
+                path
+                for drawing, request in drawn
+                for path in write_all(Path(aside), [drawing], request.provenance)
+            ]
             return [path.replace(folder / path.name) for path in written]
     except OSError as error:
         raise OutputError(f"{folder} cannot be written to: {error.strerror or error}.") from None

@@ -172,8 +172,3 @@ class ExportController(Service):
         # made in Python that is still on the clipboard at the end would crash the program.
         QGuiApplication.clipboard().setImage(QImage.fromData(png))
         self.status_message.emit("Copied the figure.")
-
-    def stop(self) -> None:
-        """Drop the waiting jobs and stop after the one being written."""
-        self._waiting.clear()
-        super().stop()

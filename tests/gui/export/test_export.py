@@ -1,6 +1,7 @@
 """Figures of what is shown, in files that open again, and never half of one."""
 
 import sys
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -21,9 +22,10 @@ from occ_gui.files.file_controller import FileController
 from occ_gui.files.preferences import Preferences
 from occ_gui.photo.photo_controller import PhotoController
 from occ_model.figures import drawing
+from occ_model.figures.drawing import Drawing
 from occ_model.results.accuracy import AccuracyPoint
 from occ_model.results.sweep_request import SweepPoint
-from occ_model.scene.provenance import ENDINGS, scene_inside
+from occ_model.scene.provenance import ENDINGS, Provenance, scene_inside
 from occ_model.scene.scene import Scene
 
 
@@ -269,14 +271,23 @@ def test_a_write_protected_figure_stops_the_export_of_all_before_any_is_drawn(
 def test_all_figures_are_moved_into_the_folder_and_nothing_temporary_stays(
     bench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def write(aside: Path, *_asked: object) -> list[Path]:
-        (path := aside / "a.svg").write_bytes(b"whole")
+    def write(
+        aside: Path, drawings: list[Drawing], provenance: Callable[[Drawing], Provenance]
+    ) -> list[Path]:
+        (drawn,) = drawings
+        (path := aside / f"{drawn.name}.svg").write_text(provenance(drawn).title, encoding="utf-8")
         return [path]
 
     monkeypatch.setattr(drawing, "write_all", write)
     bench.exporter.export_all(tmp_path)
     bench.wait_until_idle()
-    assert {file.name: file.read_bytes() for file in tmp_path.iterdir()} == {"a.svg": b"whole"}
+    first_words = {
+        file.name: file.read_text(encoding="utf-8").split()[0] for file in tmp_path.iterdir()
+    }
+    assert first_words == {
+        "picture.svg": "Camera's", "profile.svg": "Column", "decoding-threshold.svg": "Decoding,",
+        "decoding-matched.svg": "Decoding,", "bands.svg": "Least", "flicker.svg": "Flicker",
+    }  # fmt: skip
 
 
 def test_an_error_while_drawing_is_a_sentence_and_exports_go_on(

@@ -122,9 +122,9 @@ class Store(QObject):
             self.undo_stack.undo()  # only removes the obsolete step
 
     def _last_step(self) -> "_Command | None":
-        """Return the step that led to this workspace, None at a saved state or without one."""
+        """Return the step that led to this workspace, None without one or after an undo."""
         index = self.undo_stack.index()
-        if index == 0 or index != self.undo_stack.count() or self.undo_stack.isClean():
+        if index != self.undo_stack.count():
             return None
         step = self.undo_stack.command(index - 1)
         return step if isinstance(step, _Command) else None

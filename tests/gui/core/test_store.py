@@ -112,6 +112,16 @@ def test_a_step_says_what_it_has_left_before_anybody_hears_of_it(store: Store) -
     ]  # fmt: skip
 
 
+def test_a_gesture_that_goes_on_after_an_undo_is_a_step_of_its_own(store: Store) -> None:
+    for value, gesture in ((200.0, 1), (300.0, 2)):
+        put_iso(store, value, gesture)
+    store.undo_stack.undo()
+    put_iso(store, 400.0, gesture=1)
+    assert not store.undo_stack.canRedo()
+    store.undo_stack.undo()
+    assert iso(store) == 200.0
+
+
 def test_a_listener_that_fails_keeps_nobody_from_hearing_later_changes(
     store: Store, capfd: pytest.CaptureFixture[str]
 ) -> None:

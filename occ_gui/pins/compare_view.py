@@ -1,6 +1,5 @@
 """Pane of the comparison: the differences of two pinned states, and both profiles."""
 
-import numpy as np
 from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtWidgets import (
     QAbstractItemView,
@@ -119,12 +118,7 @@ class CompareView(QWidget):
         for name, pin in pins.items():
             self.returns[name].setEnabled(pin is not None)
             self.legend.show_line(name, pin is not None)
-            if pin is None:
-                self.curves[name].setData([], [])
-            else:
-                self.curves[name].setData(
-                    np.arange(len(pin.profile), dtype=np.float64), pin.profile
-                )
+            self.curves[name].setData([] if pin is None else pin.profile)
         present = [pin for pin in pins.values() if pin is not None]
         self.clear.setEnabled(bool(present))
         self.hint.setText(self._hint(pinned))

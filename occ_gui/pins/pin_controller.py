@@ -47,7 +47,7 @@ class ComparedRow:
     what: str
     a: str
     b: str
-    meaning: str = ""
+    meaning: str
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -277,8 +277,7 @@ class PinController(QObject):
                 sure = result.confidence
                 text = "none" if sure is None else f"{sure:.3f}"
                 meaning = "Lead of the best code over the second best, 0 to 1."
-                rows.append((f"Confidence, “{result.decoder}”", text,
-                             meaning))  # fmt: skip
+                rows.append((f"Confidence, “{result.decoder}”", text, meaning))
         return rows
 
     def _reading(self, result: DecodeResult, snapshot: Snapshot) -> str:

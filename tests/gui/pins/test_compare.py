@@ -162,12 +162,15 @@ def test_the_view_requests_what_is_missing_then_lists_and_draws(
     view.show_pinned(Pinned())
     assert "press Pin A" in view.hint.text()
     assert not view.clear.isEnabled()
+    assert all(curve.getOriginalDataset() == (None, None) for curve in view.curves.values())
 
 
+@pytest.mark.parametrize("iso", [100.0, 1.0])
 def test_the_plot_shows_the_first_packets_of_both_up_to_their_brightest_columns(
-    view: CompareView, pins: PinController, bare_snapshot_of: SnapshotOf
+    view: CompareView, pins: PinController, bare_snapshot_of: SnapshotOf, iso: float
 ) -> None:
-    pin_two(pins, bare_snapshot_of(), bare_snapshot_of(switching_frequency=16e3, iso=200.0))
+    dark = bare_snapshot_of(iso=iso)
+    pin_two(pins, dark, bare_snapshot_of(switching_frequency=16e3, iso=2.0 * iso))
     view.show_pinned(pins.pinned)
     both = [pin for pin in (pins.pinned.a, pins.pinned.b) if pin is not None]
     (first, last), (low, high) = view.plot.getViewBox().viewRange()

@@ -31,7 +31,7 @@ from occ_model.scene.parameters import PARAMETERS
 
 _NATIVE = QKeySequence.SequenceFormat.NativeText
 
-_WIDTH, _HEIGHT = 520, 380
+_WIDTH, _HEIGHT = 560, 560  # of either dialog at first, in pixels
 
 _MOVES = (Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_PageUp, Qt.Key.Key_PageDown)
 """Keys that move the selection in the list while the text field has the focus."""
@@ -157,9 +157,6 @@ def _jump(
 
     symbol = f" {declared.symbol}" if declared.symbol else ""
     return Command(f"{page}: {declared.label}{symbol}", "", jump, declared.meaning)
-
-
-_WIDTH, _HEIGHT = 560, 560
 
 
 class ShortcutSheet(QDialog):

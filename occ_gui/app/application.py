@@ -26,8 +26,8 @@ class Application(Parts):
             self.shell.add(feature, self.window)
         # After the panes: what they show comes before what is said of it.
         self.outdated = OutdatedMarks(self.board, self.simulation, self.window)
-        self.outdated.mark_pane(self.shell.pane("story"))
-        self.shell.made.connect(self.outdated.take)
+        self.outdated.mark_pane("story", self.shell.pane("story"))
+        self.shell.made.connect(self.outdated.mark_pane)
         self.current_pane = CurrentPane(self.window, self.window.docks)
         self._offer_exports()
         connect_story(self)

@@ -84,9 +84,8 @@ class PhotoInWindow(QObject):
         self._parts.window.reading.begin()
 
     def _on_photo(self, photo: "Photo | None") -> None:
-        window = self._parts.window
         self._parts.messages.end_photo_failure()
-        window.show_photo_name(None if photo is None else photo.path.name)
+        self._parts.window.menus.show_photo_open(photo is not None)
         if photo is None:
             self._path = None
         if self._match_next:

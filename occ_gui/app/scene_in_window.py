@@ -43,7 +43,7 @@ class SceneInWindow(QObject):
         others = store.store.select(_of_other_panes)
         others.changed.connect(messages.end_refusal)
         store.refused.connect(self._refuse)
-        store.refused_for.connect(messages.show_refusal_for)
+        store.refused_for.connect(controls.show_problem)
         store.settings.changed.connect(self._show_settings)
         store.settings.refused.connect(messages.show_note)
         parts.presets.changed.connect(self._list_presets)
@@ -72,8 +72,6 @@ class SceneInWindow(QObject):
         return pane is not None and pane.map.is_first_answer_awaited
 
     def _report_switched(self, switched: tuple[Decision, ...]) -> None:
-        # Not at the start: it imports all of the accuracy study's results.
-
         self._parts.window.show_plan_change(switch_sentence(switched) if switched else "")
 
     def _on_snapshot(self, snapshot: Snapshot) -> None:

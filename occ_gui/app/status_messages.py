@@ -34,10 +34,6 @@ class StatusMessages(QObject):
         """Show a remark on the present scene, until the next change of scene or settings."""
         self._window.say(sentence, until=_CHANGE)
 
-    def show_refusal_for(self, sentence: str, parameters: Sequence[str]) -> None:
-        """Show at the fields of parameters why their values were refused."""
-        self._controls.show_problem(sentence, parameters)
-
     def show_failure(self, sentence: str, parameters: Sequence[str] = ()) -> None:
         """Show why a scene has no picture, also at the fields concerned, until the next picture."""
         self._window.say(sentence, until=_PICTURE)

@@ -7,7 +7,7 @@ from typing import Any
 from PySide6.QtCore import QSize
 from PySide6.QtWidgets import QFileDialog
 
-from occ_gui.background.task import Reporter, Task
+from occ_gui.background.task import Task
 from occ_gui.core.store import NO_GESTURE, Store
 from occ_gui.room.jobs import FloorMap, Look, ShownRoom, map_room, plan_of, show_room
 from occ_gui.room.room_view import RoomView
@@ -37,7 +37,7 @@ class RoomPane(Pane[RoomChoice]):
         self._look.reported.connect(self._show)
         self._look.finished.connect(self._show)
         self._look.failed.connect(self.view.show_failure)
-        self._map: Task[Room, FloorMap] = Task(_map, "room map", impatient=True)
+        self._map: Task[Room, FloorMap] = Task(map_room, "room map", impatient=True)
         self._map.reported.connect(self.view.show_progress)
         self._map.finished.connect(self.view.show_map)
         self._map.failed.connect(self.view.show_no_map)
@@ -134,7 +134,3 @@ class RoomPane(Pane[RoomChoice]):
 def _have_same_map(now: Room, then: Room) -> bool:
     """Compare rooms by what a map depends on: the camera's turn and height, not its place."""
     return now.replace(x=then.camera.x, y=then.camera.y) == then
-
-
-def _map(room: Room, report: Reporter) -> FloorMap:
-    return map_room(room, report)

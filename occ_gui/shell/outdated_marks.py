@@ -58,10 +58,7 @@ class OutdatedMarks(QObject):
         self._marks.append((OutdatedMark(widget), made_of))
         self._update()
 
-    def take(self, _name: str, pane: Pane[Any]) -> None:
-        self.mark_pane(pane)
-
-    def mark_pane(self, pane: Pane[Any]) -> None:
+    def mark_pane(self, _name: str, pane: Pane[Any]) -> None:
         self._verdicts += pane.verdicts
         for widget, made_of in pane.made_of.items():
             self.mark(widget, made_of)

@@ -216,9 +216,6 @@ class MainWindow(QMainWindow):
         if page:
             self._story.show_whole_picture(page == PICTURE)
 
-    def show_photo_name(self, name: str | None) -> None:
-        self.menus.show_photo_open(name is not None)
-
     def say(self, sentence: str, until: str = "") -> None:
         """Show a sentence in the status line until the next one, or until this event."""
         self._message_until = until

@@ -158,7 +158,7 @@ class Drag:
         self.outdated = OutdatedMarks(board, self.simulation, pane)  # type: ignore[arg-type]
         shown: Pane[None] = Pane(pane)
         shown.made_of, shown.verdicts = {pane: of_snapshot}, (self.verdict,)
-        self.outdated.mark_pane(shown)
+        self.outdated.mark_pane("pane", shown)
         self.outdated.mark(pane, of_picture)
         self.simulation.deliver(self.snapshots[0])
 

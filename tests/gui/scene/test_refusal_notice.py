@@ -95,7 +95,7 @@ def test_a_scene_without_a_picture_says_so_at_its_fields_and_mending_it_leaves_o
     assert not any(user.row(name).notice.text() for name in named)
     application.store.change(distance=0.1, yaw=1.2)
     user.wait_until_idle()
-    application.messages.show_refusal_for("iso is 0; allowed: 1 to 2.", ("iso",))
+    application.controls.show_problem("iso is 0; allowed: 1 to 2.", ("iso",))
     application.messages.end_failure()
     assert user.row("iso").notice.text()
     assert user.row("yaw").notice.text() == ""

@@ -16,7 +16,7 @@ from occ_gui.bands.bands_plots import DepthPlot, RiskPlot
 from occ_gui.bands.jobs import ShownBands
 from occ_gui.widgets.building import filled, paragraph, read_only
 from occ_gui.widgets.outdated_mark import OutdatedMark
-from occ_gui.widgets.text_scale import TextSize, scaled
+from occ_gui.widgets.text_scale import heading_font
 from occ_model.results.bands import SpeedDepth, percent
 from occ_model.scene.units import SECOND
 
@@ -35,7 +35,7 @@ class BandsView(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self.headline, self.sentences = (paragraph(is_selectable=True) for _ in range(2))
-        self.headline.setFont(scaled(self.font(), TextSize.HEADING, bold=True))
+        self.headline.setFont(heading_font(self.font()))
         self.map = DepthPlot()
         self.map.chosen.connect(self.exposure_chosen)
         self._make_table()

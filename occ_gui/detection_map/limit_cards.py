@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QWidget
 from occ_gui.detection_map.advice_sentences import line_on_highest_frequency
 from occ_gui.widgets.building import filled, named, paragraph, push_button
 from occ_gui.widgets.elided_label import ElidedLabel
-from occ_gui.widgets.text_scale import TextSize, scaled
+from occ_gui.widgets.text_scale import heading_font
 from occ_model.errors import counted
 from occ_model.results.advice import Advice, gaps_text, own_text, searched_to, written
 from occ_model.results.bit_errors import FRAMES_A_SECOND, MostBits
@@ -120,7 +120,7 @@ class LimitCard(QFrame):
         self.value = QLabel()
         self.range = ElidedLabel()  # not a gap's end
         self.range.setAccessibleName(f"Frequencies read, {decoder}")
-        self.value.setFont(scaled(self.font(), TextSize.HEADING, bold=True))
+        self.value.setFont(heading_font(self.font()))
         self.value.setAccessibleName(f"Highest frequency, {decoder}")
         self.go = push_button("Go", do=self._choose, name=f"Go to the highest frequency, {decoder}")
         grid = self._grid = QGridLayout(self)
@@ -136,7 +136,7 @@ class LimitCard(QFrame):
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
         super().changeEvent(event)
         if event.type() == QEvent.Type.FontChange:
-            self.value.setFont(scaled(self.font(), TextSize.HEADING, bold=True))
+            self.value.setFont(heading_font(self.font()))
             self._place_button()
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name

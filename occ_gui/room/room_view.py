@@ -7,10 +7,10 @@ import numpy as np
 from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtWidgets import QComboBox, QDoubleSpinBox, QHBoxLayout, QVBoxLayout, QWidget
 
-from occ_gui.room.jobs import FloorMap, RoomPlan, ShownRoom
+from occ_gui.room.jobs import SIDE, FloorMap, RoomPlan, ShownRoom
 from occ_gui.room.room_plots import PicturePlot, PlanPlot
 from occ_gui.widgets.building import filled, paragraph, push_button
-from occ_gui.widgets.text_scale import TextSize, scaled
+from occ_gui.widgets.text_scale import heading_font
 from occ_model.errors import counted, one_line
 from occ_model.room.locate import RoomReading
 from occ_model.room.room import Room
@@ -69,11 +69,11 @@ class RoomView(QWidget):
             widget.hide()
         self.measure = push_button(
             "&Measure the floor",
-            "Take a picture at each of 25 places below the lamps, and see which place is found.",
+            f"Take a picture at each of {SIDE**2} places below the lamps, and see which is found.",
             self.map_asked,
         )
         self.headline, self.sentences, self.floor = paragraph(), paragraph(), paragraph()
-        self.headline.setFont(scaled(self.font(), TextSize.HEADING, bold=True))
+        self.headline.setFont(heading_font(self.font()))
         self.plan, self.picture = PlanPlot(), PicturePlot()
         for plot in (self.plan, self.picture):
             plot.setMinimumHeight(_LEAST_HEIGHT)

@@ -12,7 +12,7 @@ from occ_gui.scene.player import PlayButton
 from occ_gui.scene.slider_scale import SliderScale
 from occ_gui.widgets.building import filled
 from occ_gui.widgets.event_filters import leave_drops_to_window
-from occ_gui.widgets.text_scale import TextSize, scaled
+from occ_gui.widgets.text_scale import emboldened
 from occ_model.results.teaching import MarkedValue
 from occ_model.scene.parameter_kinds import Parameter, Quantity
 from occ_model.scene.parameters import PARAMETERS
@@ -78,8 +78,7 @@ class ParameterPanel(QWidget):
 
 
 def _heading(text: str) -> QLabel:
-    label = QLabel(text)
-    label.setFont(scaled(label.font(), TextSize.BODY, bold=True))
+    label = emboldened(QLabel(text))
     label.setContentsMargins(0, 8, 0, 4)
     return label
 

@@ -1,6 +1,5 @@
-"""Text scale: four sizes of text, all relative to the application's font."""
+"""Text scale: sizes of text, all relative to the application's font."""
 
-from enum import Enum
 from typing import TypeVar
 
 from PySide6.QtGui import QFont
@@ -9,13 +8,7 @@ from PySide6.QtWidgets import QLabel
 Label = TypeVar("Label", bound=QLabel)
 
 
-class TextSize(Enum):
-    """A size, as a factor of the application's font: 11, 13, 16 and 20 pixels of 13."""
-
-    SMALL = 11 / 13
-    BODY = 1.0
-    HEADING = 16 / 13
-    TITLE = 20 / 13
+_HEADING = 16 / 13  # size of a heading, as a factor: 16 pixels where text has 13
 
 
 def resized(font: QFont, factor: float) -> QFont:
@@ -27,9 +20,9 @@ def resized(font: QFont, factor: float) -> QFont:
     return found
 
 
-def scaled(font: QFont, size: TextSize, *, bold: bool = False) -> QFont:
-    found = resized(font, size.value)
-    found.setBold(bold)
+def heading_font(font: QFont) -> QFont:
+    found = resized(font, _HEADING)
+    found.setBold(True)
     return found
 
 
@@ -38,6 +31,6 @@ def emboldened(label: Label, factor: float = 1.0) -> Label:
     font = label.font()
     font.setBold(True)
     if factor != 1.0:  # a size that is set no longer follows that of the application
-        font.setPointSizeF(factor * font.pointSizeF())
+        font = resized(font, factor)
     label.setFont(font)
     return label

@@ -14,7 +14,7 @@ from pytestqt.qtbot import QtBot
 from occ_gui.app.application import Application
 from occ_gui.widgets.colours import contrast
 from occ_gui.widgets.state_look import State, colours_of
-from occ_gui.widgets.text_scale import TextSize, scaled
+from occ_gui.widgets.text_scale import heading_font
 from occ_gui.window.docks import beside
 from occ_gui.window.style_sheet import _SHEET, style_sheet
 from occ_gui.window.text_size import SIZES
@@ -100,15 +100,13 @@ def test_each_icon_of_the_sheet_is_a_file() -> None:
     assert named == set(resource_names("icons/style", ".svg"))
 
 
-def test_sizes_of_text_follow_the_font() -> None:
+def test_headings_follow_the_font() -> None:
     font = QFont("DejaVu Sans")
-    font.setPixelSize(13)
-    assert [scaled(font, size).pixelSize() for size in TextSize] == [11, 13, 16, 20]
     font.setPixelSize(26)
-    assert [scaled(font, size).pixelSize() for size in TextSize] == [22, 26, 32, 40]
+    assert heading_font(font).pixelSize() == 32
     font.setPointSizeF(9.0)
-    assert scaled(font, TextSize.TITLE, bold=True).pointSizeF() == pytest.approx(9 * 20 / 13, 0.05)
-    assert scaled(font, TextSize.TITLE, bold=True).bold()
+    assert heading_font(font).pointSizeF() == pytest.approx(9 * 16 / 13, 0.05)
+    assert heading_font(font).bold()
 
 
 @pytest.mark.parametrize("corner", [QPoint(0, 0), QPoint(900, 500), QPoint(-300, -200)], ids=str)

@@ -73,9 +73,7 @@ class TransmitterDialog(QDialog):
 
     def show_wiring(self, png: bytes, text: str) -> None:
         image = QImage.fromData(png)
-        image.setDevicePixelRatio(
-            max(image.width() / _FIGURE.width(), image.height() / _FIGURE.height())
-        )
+        image.setDevicePixelRatio(image.width() / _FIGURE.width())
         self.wiring.setPixmap(QPixmap.fromImage(image))
         self.wiring.setAccessibleDescription(text)
 

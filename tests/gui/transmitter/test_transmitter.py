@@ -9,6 +9,7 @@ from gui.kinds import add_widget, collect, not_none
 from gui.pane_bench import PaneBench
 from gui.stores import store_of
 from PIL import Image
+from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFileDialog, QWidget
 from pytestqt.qtbot import QtBot
 
@@ -100,6 +101,8 @@ def test_it_states_the_frequency_that_is_sent_and_its_error_and_each_control_wha
     assert not dialog.wiring.pixmap().isNull()
     assert dialog.board.accessibleName() == "Board"
     assert all(control.toolTip() for control in (dialog.save, dialog.take, dialog.board))
+    selectable = Qt.TextInteractionFlag.TextSelectableByMouse
+    assert all(text.textInteractionFlags() & selectable for text in (dialog.facts, dialog.note))
 
 
 def test_another_board_sends_another_frequency_and_is_there_again(

@@ -96,4 +96,4 @@ def _controls() -> ControlPanel:
     """Make the controls; those of the effects in the order that light passes them."""
     effects = dict.fromkeys(name for effect in EFFECTS for name in effect.parameters)
     stages = {name: e.stage for e in reversed(EFFECTS) for name in e.parameters}
-    return ControlPanel([], [*effects], {name: stages[name] for name in effects})
+    return ControlPanel([*effects], {name: stages[name] for name in effects})

@@ -79,8 +79,8 @@ class LessonList(QWidget):
     chosen = Signal(str)  # the name of the lesson to begin or continue
     folder_asked = Signal()  # the folder of the user's own lessons is to be opened
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.choices: list[QPushButton] = []
         self._boxes: list[QWidget] = []
         self.message = paragraph()

@@ -36,7 +36,6 @@ class ControlPanel(QWidget):
 
     def __init__(
         self,
-        presets: Sequence[tuple[str, str]],
         effects: Sequence[str] = (),
         stages: Mapping[str, str] = MappingProxyType({}),
     ) -> None:
@@ -48,7 +47,6 @@ class ControlPanel(QWidget):
         self.preset.setSizeAdjustPolicy(
             QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon
         )
-        self.list_presets(presets)
         self.preset.activated.connect(
             lambda index: self.preset_chosen.emit(self.preset.itemData(index))
         )
@@ -116,7 +114,7 @@ class ControlPanel(QWidget):
         unreadable: Sequence[tuple[str, str]] = (),
         own: Collection[str] = (),
     ) -> None:
-        """List these presets in place of the former ones.
+        """List these presets, by name and title, in place of the former ones.
 
         ``unreadable``: presets that cannot be loaded or chosen, with the reasons. ``own``: presets
         of the user, which are listed by name.

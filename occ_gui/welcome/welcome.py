@@ -19,10 +19,8 @@ _LEAST_SIDE = 208
 
 
 class Door(QPushButton):
-    def __init__(
-        self, picture: str, title: str, sentence: str, parent: QWidget | None = None
-    ) -> None:
-        super().__init__(parent)
+    def __init__(self, picture: str, title: str, sentence: str) -> None:
+        super().__init__()
         self._name = picture
         self._picture, self._sentence = QLabel(), QLabel(sentence)
         self._title = emboldened(QLabel(title), _DOOR_TITLE)

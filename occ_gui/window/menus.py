@@ -357,7 +357,6 @@ class FullScreen(QObject):
     def __init__(self, window: QMainWindow, action: QAction) -> None:
         super().__init__(window)
         self._window, self._action = window, action
-        action.setCheckable(True)
         action.toggled.connect(self._show)
         window.installEventFilter(self)
 

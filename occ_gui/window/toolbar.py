@@ -48,7 +48,6 @@ class ToolButton(QToolButton):
         if meaning != name:  # where none is given, Qt takes the name
             text = f"{text}\n{meaning}"
         self.setToolTip(in_tool_tip(text))
-        self.setStatusTip("")
         self.setEnabled(action.isEnabled())
         self.setCheckable(action.isCheckable())
         self.setChecked(action.isChecked())
@@ -134,9 +133,8 @@ class ToolBar(QToolBar):
         actions: Mapping[str, QAction],
         menus: Mapping[str, QMenu],
         modes: QActionGroup,
-        parent: QWidget | None = None,
     ) -> None:
-        super().__init__(parent)
+        super().__init__()
         self.setObjectName("toolbar")
         self.setWindowTitle("Toolbar")
         self.setAccessibleName("Toolbar")

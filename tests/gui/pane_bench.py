@@ -148,7 +148,7 @@ class ControlsBench(PaneBench):
 
     def __init__(self, qtbot: QtBot, scene: Scene) -> None:
         super().__init__(qtbot, scene)
-        self.controls, self.editor = ControlPanel([]), SceneEditor(self.scenes)
+        self.controls, self.editor = ControlPanel(), SceneEditor(self.scenes)
         self.controls.connect_editor(self.editor)
         self.controls.show_scene(scene)
         self.scenes.changed.connect(self.controls.show_scene)

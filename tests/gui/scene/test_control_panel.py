@@ -24,7 +24,8 @@ PRESETS = [("small", "A small scene"), ("large", "A large scene")]
 
 @pytest.fixture
 def panel(qtbot: QtBot) -> ControlPanel:
-    panel = ControlPanel(PRESETS, EFFECTS)
+    panel = ControlPanel(EFFECTS)
+    panel.list_presets(PRESETS)
     panel.show_scene(Scene())
     qtbot.addWidget(panel)
     return panel
@@ -144,7 +145,7 @@ def test_other_presets_replace_the_last_ones_without_a_signal_by_their_titles(
 
 def test_effects_have_a_heading_for_each_stage_of_the_light(qtbot: QtBot) -> None:
     stages = {"edge_time": "light", "flicker_depth": "light", "full_well": "sensor"}
-    panel = add_widget(qtbot, ControlPanel([], list(stages), stages))
+    panel = add_widget(qtbot, ControlPanel(list(stages), stages))
     page = panel.panels["Effects"]
     bold = [label for label in page.findChildren(QLabel) if label.font().bold()]
     assert [label.text() for label in bold] == ["Light: LED and room", "Sensor"]

@@ -88,7 +88,7 @@ def window(qtbot: QtBot) -> QMainWindow:
 def test_the_window_is_as_before_after_full_screen(window: QMainWindow, maximized: bool) -> None:
     if maximized:
         window.showMaximized()
-    action = QAction()
+    action = QAction(checkable=True)
     FullScreen(window, action)
     action.setChecked(True)
     assert window.isFullScreen()
@@ -98,7 +98,7 @@ def test_the_window_is_as_before_after_full_screen(window: QMainWindow, maximize
 
 
 def test_the_entry_follows_the_desktop(window: QMainWindow) -> None:
-    action = QAction()
+    action = QAction(checkable=True)
     FullScreen(window, action)
     window.setWindowState(Qt.WindowState.WindowFullScreen)
     assert action.isChecked()

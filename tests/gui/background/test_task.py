@@ -177,6 +177,7 @@ def test_reports_arrive_in_order_and_of_a_run_that_is_replaced_none_that_is_on_i
     def work(request: str, report: Reporter) -> None:
         for number in range(3):
             assert allowed.acquire(timeout=PATIENCE_S)
+            report()  # of nothing that would be passed on
             report(f"{request} {number}")
             made.append(request)
 

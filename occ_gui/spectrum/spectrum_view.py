@@ -66,22 +66,24 @@ class SpectrumView(QWidget):
         self.histogram.setXRange(-2, 257, padding=0)
 
     def show_spectrum(self, spectrum: Spectrum | None) -> None:
+        for line in self._zeros:
+            self.spectrum.removeItem(line)
+        zeros = [] if spectrum is None else spectrum.zeros[:12]
+        self._zeros = [pg.InfiniteLine(zero * _KILO, pen=thin(BAND)) for zero in zeros]
+        for line in self._zeros:
+            self.spectrum.addItem(line, ignoreBounds=True)
         if spectrum is not None:
             self._draw_spectrum(spectrum)
             return
         for curve in (self.amplitudes, self.response):
             curve.setData([], [])
+        self.spectrum.setAccessibleDescription("")
 
     def _draw_spectrum(self, found: Spectrum) -> None:
         frequencies = found.frequencies * _KILO
         highest = max(_HEADROOM * float(found.amplitudes.max()), _LEAST_TOP)
         self.amplitudes.setData(frequencies, found.amplitudes)
         self.response.setData(frequencies, found.response * highest / _HEADROOM)
-        for line in self._zeros:
-            self.spectrum.removeItem(line)
-        self._zeros = [pg.InfiniteLine(zero * _KILO, pen=thin(BAND)) for zero in found.zeros[:12]]
-        for line in self._zeros:
-            self.spectrum.addItem(line, ignoreBounds=True)
         last = float(frequencies[-1])
         self.spectrum.setXRange(0.0, last, padding=0)
         self.spectrum.setYRange(0.0, highest, padding=0)

@@ -28,8 +28,16 @@ def test_the_strongest_line_of_an_alternating_pattern_is_half_its_frequency(
     measured(view, snapshot_of(pattern="10", switching_frequency=8e3, exposure_time=50e-6))
     frequencies, amplitudes = view.amplitudes.getData()
     assert frequencies[amplitudes.argmax()] == pytest.approx(4.0, rel=0.05)
+    (first, last), (_, top) = view.spectrum.viewRange()
+    assert (first, last) == pytest.approx((0.0, frequencies[-1]))
+    assert view.response.getData()[1].max() == pytest.approx(amplitudes.max())
+    assert amplitudes.max() < top
     assert "first zero of the exposure's response: 20 kHz" in view.spectrum.accessibleDescription()
     assert len(view._zeros) == 3
+    measured(view, snapshot_of(columns=1))
+    assert view.spectrum.listDataItems() == [view.amplitudes, view.response]
+    assert [curve.getData() for curve in (view.amplitudes, view.response)] == 2 * [(None, None)]
+    assert (view._zeros, view.spectrum.accessibleDescription()) == ([], "")
 
 
 def test_a_bright_panel_is_told_to_lose_light_and_every_grey_level_is_in_view(
@@ -40,6 +48,7 @@ def test_a_bright_panel_is_told_to_lose_light_and_every_grey_level_is_in_view(
     measured(view, snapshot_of(iso=6400.0, f_number=1.0))
     assert view.sentence.text().startswith("⚠")
     assert np.sum(view.bars.opts["height"]) == pytest.approx(100.0)
+    assert np.max(view.bars.opts["height"]) < view.histogram.viewRange()[1][1]
     low, high = view.histogram.viewRange()[0]
     assert low <= -0.5
     assert high >= 255.5

@@ -49,25 +49,33 @@ def test_the_pane_shows_the_depth_and_the_speeds_of_the_model(view: BandsView) -
     view.show_bands(_shown(_LAMP))
     depth = occ.band_depth(_LAMP)
     assert f"{100 * depth.peak_to_peak:.3g} %" in view.headline.text()
+    assert "peak to peak: they are seen." in view.sentences.text()
     assert "whole multiples of 520.8 µs" in view.sentences.text()
     rows = _rows(view)
     assert rows["1/60 s"] == ["0 %", "0 %", "none"]
     assert rows["1/125 s"][2] == "depends"
     assert rows["1/500 s"][2] == "yes"
     assert rows["1/1000 s"][2] == "yes"
+    view.show_bands(_shown(_LAMP.replace(exposure_time=1 / 1920)))
+    assert "peak to peak: they are not seen." in view.sentences.text()
 
 
-def test_the_map_is_dark_along_the_valleys() -> None:
+def test_the_map_is_dark_along_the_valleys_which_are_marked(view: BandsView) -> None:
     found = _shown(_LAMP)
     depths = found.map
+    view.show_bands(found)
     for order in (1, 2, 3):
         middles = np.sqrt(depths.frequencies[:-1] * depths.frequencies[1:])
         exposures = order * depths.period / middles
+        marked = np.interp(np.log10(middles), *view.map.valleys[order - 1].getData())
+        assert marked == pytest.approx(np.log10(exposures))
         cells = np.searchsorted(depths.exposures, exposures) - 1
         inside = (cells >= 0) & (cells < depths.least.shape[1])
         assert inside.any()
         assert depths.least[np.flatnonzero(inside), cells[inside]].max() < 1e-9
-    assert depths.least[:, 0].max() > 0.5
+        assert view.map.image.image[np.flatnonzero(inside), cells[inside]].max() == 0.0
+    assert depths.least[:, 0].max() > 0.99
+    assert view.map.image.image.max() > 254.0
 
 
 @pytest.fixture

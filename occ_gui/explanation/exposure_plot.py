@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QSpinBox, QVBoxL
 
 from occ_gui.widgets.building import check_box, filled, named, paragraph
 from occ_gui.widgets.colours import BAND, REGION, SIMULATION, pen_on, thin
+from occ_gui.widgets.columns import KEY_STEPS
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
 from occ_gui.widgets.plot import Plot, new_plot
 from occ_model.results.teaching import ExposureWindow
@@ -19,9 +20,6 @@ _SHADE = 60
 _LEAST_HEIGHT = 92
 
 _LEAST_SPAN = 1e-6  # smallest range of the time axis, as a fraction of the time that is drawn
-
-
-_STEPS = {Qt.Key.Key_Left: -1, Qt.Key.Key_Right: 1, Qt.Key.Key_PageDown: -10, Qt.Key.Key_PageUp: 10}
 
 
 class ColumnPicker(QObject):
@@ -83,8 +81,8 @@ class ColumnPicker(QObject):
         """Move from column to column by the arrow keys, and release the held one by Escape."""
         if self._active and event.type() == QEvent.Type.KeyPress and isinstance(event, QKeyEvent):
             key = Qt.Key(event.key())
-            if key in _STEPS:
-                self.stepped.emit(_STEPS[key])
+            if key in KEY_STEPS:
+                self.stepped.emit(KEY_STEPS[key])
                 return True
             if key == Qt.Key.Key_Escape:
                 self.released.emit()

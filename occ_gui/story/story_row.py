@@ -18,10 +18,9 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from occ_gui.story.column_axis import CURSOR_NAMES, GAPS, ColumnAxis, Crosshair, needed_by
+from occ_gui.widgets.columns import KEY_STEPS
 from occ_gui.widgets.guarded_paint import guarded
 from occ_model.arrays import FloatArray
-
-_STEPS = {Qt.Key.Key_Left: -1, Qt.Key.Key_Right: 1, Qt.Key.Key_PageDown: -10, Qt.Key.Key_PageUp: 10}
 
 _ZOOMS = {Qt.Key.Key_Plus: 0.8, Qt.Key.Key_Equal: 0.8, Qt.Key.Key_Minus: 1.25}
 
@@ -260,8 +259,8 @@ class StoryRow(QWidget):
         """Choose the next column by the arrows, zoom by plus and minus, fit by Home."""
         key = Qt.Key(event.key())
         column = self.crosshair.column
-        if key in _STEPS and column is not None:
-            self.crosshair.choose(column + _STEPS[key])
+        if key in KEY_STEPS and column is not None:
+            self.crosshair.choose(column + KEY_STEPS[key])
             chosen = float(self.crosshair.column or 0)
             self.axis.reveal(chosen, chosen)
         elif key in _ZOOMS:

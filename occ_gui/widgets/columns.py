@@ -1,6 +1,16 @@
-"""Common to axes over columns, without a plot: round steps, and the periods first in view."""
+"""Common to axes over columns, without a plot: steps, and the periods first in view."""
 
 import math
+
+from PySide6.QtCore import Qt
+
+KEY_STEPS = {
+    Qt.Key.Key_Left: -1,
+    Qt.Key.Key_Right: 1,
+    Qt.Key.Key_PageDown: -10,
+    Qt.Key.Key_PageUp: 10,
+}
+"""Keys that choose another column, and how many columns further to the right it lies."""
 
 _STEP_TOLERANCE = 1e-9  # by how much, of its size, a step may be smaller than requested
 PACKETS_IN_VIEW = 2  # packets in the first view of a plot over columns

@@ -45,14 +45,10 @@ class LimitCards(QWidget):
         self._is_complete = self._is_running = self._is_outdated = False
         self._waiting = QTimer(self, singleShot=True)
         self._waiting.setInterval(_REST_MS)
-        self._waiting.timeout.connect(self._ask)
+        self._waiting.timeout.connect(self.asked)
 
     def _go(self, frequency: float, decoder: str) -> None:
         self.destination_chosen.emit(_PARAMETER, frequency, decoder)
-
-    @property
-    def is_waiting(self) -> bool:
-        return self._waiting.isActive()
 
     def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 - Qt's name
         super().showEvent(event)
@@ -62,17 +58,10 @@ class LimitCards(QWidget):
         super().hideEvent(event)
         self._waiting.stop()
 
-    @property
-    def _is_wanted(self) -> bool:
-        return not self._is_running and (self._is_outdated or not self._is_complete)
-
     def _plan(self) -> None:
-        if self.isVisible() and self._is_wanted:
+        is_wanted = self._is_outdated or not self._is_complete
+        if is_wanted and not self._is_running and self.isVisible():
             self._waiting.start()
-
-    def _ask(self) -> None:
-        if self._is_wanted:
-            self.asked.emit()
 
     def show_begun(self) -> None:
         self._waiting.stop()

@@ -70,15 +70,15 @@ def test_limits_are_asked_for_once_while_cards_are_seen_and_not_for_a_scene_that
     cards: LimitCards, small_scene: Scene, qtbot: QtBot
 ) -> None:
     cards.show_outdated(True)
-    assert not cards.is_waiting
+    assert not cards._waiting.isActive()
     cards.show()
-    assert cards.is_waiting
+    assert cards._waiting.isActive()
     cards.hide()
-    assert not cards.is_waiting
+    assert not cards._waiting.isActive()
     cards.show()
     with qtbot.waitSignal(cards.asked):
         pass
-    assert not cards.is_waiting
+    assert not cards._waiting.isActive()
     card = cards.cards["threshold"]
     cards.show_begun()
     assert card.value.text() == "…"
@@ -86,11 +86,11 @@ def test_limits_are_asked_for_once_while_cards_are_seen_and_not_for_a_scene_that
     cards.show_ended()
     assert card.go.isEnabled()
     cards.show_outdated(True)
-    assert cards.is_waiting
+    assert cards._waiting.isActive()
     assert not card.go.isEnabled()
     assert "earlier scene" in card.name.text()
     cards.show_outdated(False)
-    assert not cards.is_waiting
+    assert not cards._waiting.isActive()
     with qtbot.waitSignal(cards.asked):
         cards.show_outdated(True)
     cards.show_outdated(False)
@@ -99,7 +99,7 @@ def test_limits_are_asked_for_once_while_cards_are_seen_and_not_for_a_scene_that
     cards.show_ended("The scene has changed; ask again.")
     cards.show_outdated(True)
     cards.show_outdated(False)
-    assert cards.is_waiting
+    assert cards._waiting.isActive()
 
 
 def test_a_search_without_a_limit_says_why(cards: LimitCards, small_scene: Scene) -> None:

@@ -96,7 +96,7 @@ class RestingController(QObject):
 POSITIONS = 29
 
 STRIDES = (4, 1)  # distances between measured positions: a coarse strip first, then all positions
-RANKS = (3, 3)  # after all points of a map that is seen, before further images of them
+RANK = 3  # after all points of a map that is seen, before further images of them
 
 
 def strip_stages(
@@ -110,7 +110,7 @@ def strip_stages(
     """
     slow = bool(left_out(present.scene, present.settings))
     done: set[int] = set()
-    for stride, rank in zip(STRIDES, RANKS, strict=True):
+    for stride in STRIDES:
         now = set(range(0, POSITIONS, stride)) - done
         done |= now
         jobs = tuple(
@@ -118,7 +118,7 @@ def strip_stages(
             for name, (request, places) in missing.items()
             for part in _parts(sorted(now & places), slow)
         )
-        yield Stage(rank, jobs, uninterruptible=stride == STRIDES[0] and not slow)
+        yield Stage(RANK, jobs, uninterruptible=stride == STRIDES[0] and not slow)
 
 
 def _parts(places: list[int], slow: bool) -> list[list[int]]:

@@ -23,7 +23,7 @@ from occ_gui.bench import bench_results
 from occ_gui.bench.bench_results import BITS, RATES, cell_text, drawn
 from occ_gui.bench.bench_view import OF_SCENE, PUBLISHED, BenchChoice, BenchView
 from occ_gui.bench.pane import BenchController, request_of
-from occ_gui.detection_map.slider_strip_controller import RANKS
+from occ_gui.detection_map.slider_strip_controller import RANK
 from occ_model.errors import ParameterError
 from occ_model.parallel.job import Job, JobResult, Stage
 from occ_model.results.bench import BenchPoint, BenchRequest
@@ -259,4 +259,4 @@ def test_each_number_of_bits_is_one_of_whole_payloads_and_is_measured_before_the
     measuring.controller.choose(BenchChoice(PUBLISHED, ("threshold",), 64))
     measuring.pane.measure.click()
     assert put
-    assert all(stage.rank < min(0, *RANKS) for stage in put)
+    assert all(stage.rank < min(0, RANK) for stage in put)

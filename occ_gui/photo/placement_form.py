@@ -82,7 +82,7 @@ class PlacementForm(QWidget):
         self.reset = push_button(
             "&Reset",
             "Place the photo automatically: pixel on pixel if both pictures have the same "
-            "size, else at the panel's corner.",
+            "size, else with its lamp on the panel.",
             self.reset_asked,
         )
         self._lay_out()

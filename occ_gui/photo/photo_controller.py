@@ -56,10 +56,6 @@ class PhotoController(QObject):
     def choice(self) -> PhotoChoice:
         return self._store.workspace.photo
 
-    @property
-    def awaited(self) -> Path | None:
-        return None if self.work.task.is_idle else self.choice.path
-
     def edit(self, change: Callable[[PhotoChoice], PhotoChoice]) -> None:
         if self.work.task.is_idle:
             self._settled = self.choice

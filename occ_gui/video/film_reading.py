@@ -60,13 +60,10 @@ def frame_marks(times: Sequence[float] | FloatArray, states: ByteArray, last: fl
 @dataclass(frozen=True, eq=False, slots=True)
 class FilmReading:
     # Shape (frames,): when the frames that were looked at began, in seconds
-    times: FloatArray
-    states: ByteArray  # shape (frames,): A :class:`~occ_gui.video.film_reading.MarkState` each
+    times: FloatArray = field(default_factory=lambda: np.zeros(0))
+    # Shape (frames,): A :class:`MarkState` each
+    states: ByteArray = field(default_factory=lambda: np.zeros(0, dtype=np.uint8))
     packets: Marks = field(default_factory=Marks)
     text: str = ""
     facts: tuple[Fact, ...] = ()
     sentences: tuple[str, ...] = ()
-
-    @classmethod
-    def nothing(cls) -> "FilmReading":
-        return cls(np.zeros(0, dtype=np.float64), np.zeros(0, dtype=np.uint8))

@@ -96,18 +96,15 @@ class _Collected:
         known = self._known
         if known is None:
             problem = self._request.film.problem
-            return FilmReading(
-                np.zeros(0), np.zeros(0, dtype=np.uint8), sentences=(problem,) if problem else ()
-            )
-        whole = self._whole
-        is_whole = whole is not None and len(whole.frames) == known.frames
+            return FilmReading(sentences=(problem,) if problem else ())
+        whole, text = self._whole, known.payload
+        if whole is not None and whole.payload and len(whole.frames) == known.frames:
+            text = whole.payload
         return FilmReading(
             times=np.array(self._times, dtype=np.float64),
             states=np.array(self._states, dtype=np.uint8),
             packets=self._packets,
-            text=whole.payload
-            if is_whole and whole is not None and whole.payload
-            else known.payload,
+            text=text,
             facts=film_facts(known, whole),
             sentences=sentences_of(known, whole, self._request.film.problem),
         )
@@ -187,7 +184,7 @@ class ReadingController(QObject):
 
     def __init__(self) -> None:
         super().__init__()
-        self.reading = FilmReading.nothing()
+        self.reading = FilmReading()
         self._request: ReadingRequest | None = None
         self.is_done = False
         self.runner: Task[ReadingRequest, FilmReading] = Task(
@@ -207,7 +204,7 @@ class ReadingController(QObject):
 
     def start(self, film: Video, scene: Scene, is_live: bool = False) -> None:
         self._request, self.is_done = ReadingRequest(film, scene, is_live), False
-        self.reading = FilmReading.nothing()
+        self.reading = FilmReading()
         self.runner.ask(self._request)
         self.changed.emit()
 
@@ -219,7 +216,7 @@ class ReadingController(QObject):
     def forget(self) -> None:
         self.runner.cancel()
         self._request, self.is_done = None, False
-        self.reading = FilmReading.nothing()
+        self.reading = FilmReading()
         self.changed.emit()
 
     def _on_report(self, reading: FilmReading) -> None:

@@ -53,7 +53,7 @@ class DataView(QWidget):
         self._grid.setRowStretch(100, 1)
         line = filled(QHBoxLayout(), (self.text, 1), self._grid, margins=0, spacing=12)
         filled(QVBoxLayout(self), (line, 1), self.sentences, margins=(6, 6, 6, 4))
-        self.show_reading(FilmReading.nothing())
+        self.show_reading(FilmReading())
 
     def show_reading(self, reading: FilmReading) -> None:
         self._show_text(reading.text[-_MOST_TEXT:])

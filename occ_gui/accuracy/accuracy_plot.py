@@ -79,10 +79,10 @@ class AccuracyPlot(QWidget):
         self._fit()
 
     def _make_items(self) -> None:
-        self.lines = {part: pg.PlotCurveItem(pen=thin(COLOURS[part])) for part in _CURVES}
+        self.lines = {part: pg.PlotCurveItem() for part in _CURVES}
         self.scatters = {
             part: pg.ScatterPlotItem(
-                symbol=SYMBOLS[part], size=8, brush=COLOURS[part], pen=None,
+                symbol=SYMBOLS[part], size=8, pen=None,
                 hoverable=True, tip=lambda data, **_: _describe(data),
             )
             for part in ACCURACY_PARTS

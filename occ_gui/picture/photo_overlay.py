@@ -169,7 +169,6 @@ class PhotoOverlay(QObject):
         self._movable = False
         self._updating_frame = False
         self._over, self.difference = AveragedImage(), DifferenceImage()
-        self._over.setOpacity(0.5)
         self.line = pg.InfiniteLine(angle=0, movable=True, pen=_LINE_PEN)
         self.line.sigPositionChanged.connect(self._split)
         self.line.sigDragged.connect(self._keep_line)

@@ -96,8 +96,7 @@ class StoryView(QWidget):
         kinds = QSizePolicy.Policy
         for page in (self.rows, self._picture):
             kind = kinds.Expanding if page is self._pages.currentWidget() else kinds.Ignored
-            if page is not None:
-                page.setSizePolicy(kind, kind)
+            page.setSizePolicy(kind, kind)
         # At once: who is shown beside it next would else find the width of the page before.
         self._pages.updateGeometry()
         self.updateGeometry()

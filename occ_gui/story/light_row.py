@@ -195,8 +195,7 @@ class LightRow(StoryRow):
                            has_text=has_text if top == low else None, within=area)  # fmt: skip
 
     def _say_sent(self, painter: QPainter, area: QRectF) -> None:
-        strip = self._strip_height()
-        place = QRectF(area.left() + 8, area.bottom() - strip, area.width() - 8, strip)
+        place = area.adjusted(8, area.height() - self._strip_height(), 0, 0)
         painter.setPen(self.colour(QPalette.ColorRole.Text))
         painter.drawText(place, LEFT, self.sent_in_words())
 

@@ -1,5 +1,6 @@
 """All rows share one axis and one crosshair, and what they say there is the model's."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
 from math import floor
@@ -15,6 +16,7 @@ from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.simulation.snapshot import Picture, Snapshot
+from occ_gui.story import code_row, light_row
 from occ_gui.story.column_axis import GUTTER, Crosshair
 from occ_gui.story.column_values import ColumnValues, in_words
 from occ_gui.story.story_row import StoryRow
@@ -273,6 +275,39 @@ def test_wrong_bits_are_marked_bits_without_columns_listed_and_refused_ones_not_
         rows.code.show_reading(snapshot, replace(decoded, bits=bits))
         assert rows.code.state_of(min(received, 10)) is State.NEUTRAL
         assert not rows.code.grab().isNull()
+
+
+def test_bits_stand_side_by_side_and_each_letter_over_its_own(
+    rows: StoryRows, bare_snapshot_of: SnapshotOf, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    drawn = list[tuple[str, QRectF, dict[str, Any]]]()
+
+    def note(_painter: object, cell: QRectF, texts: Sequence[str], _: object, **look: Any) -> None:
+        drawn.append((texts[0], cell, look))
+
+    monkeypatch.setattr(code_row, "draw_field", note)
+    monkeypatch.setattr(light_row, "draw_field", note)
+    snapshot = bare_snapshot_of(payload="text:Hi", distance=0.4)
+    rows.show_reading(snapshot)
+    listed = replace(snapshot.decoded, headers=())
+    for row, decoded in (
+        (rows.light, snapshot.decoded), (rows.code, snapshot.decoded), (rows.code, listed),
+    ):  # fmt: skip
+        rows.code.show_reading(snapshot, decoded)
+        drawn.clear()
+        row.redraw()
+        row.grab()
+        area, found = row.plot_area(), set[str]()
+        bits = [cell for text, cell, _ in drawn if text in "01"]
+        for text, letter, look in drawn:
+            if text in "Hi" and area.left() <= letter.left() and letter.right() <= area.right():
+                own = [bit for bit in bits if letter.left() - 1 < bit.left() < letter.right() - 1]
+                assert (len(own), look.get("has_text")) == (8, None)
+                edges = [letter.left(), *(bit.right() for bit in own)]
+                assert edges == pytest.approx([*(bit.left() for bit in own), letter.right()])
+                found.add(text)
+        assert found == {"H", "i"}
+        assert all(look["has_text"] for text, _, look in drawn if text in "01")
 
 
 def test_a_decoder_without_chips_lists_its_bits(rows: StoryRows) -> None:

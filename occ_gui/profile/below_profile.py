@@ -116,7 +116,7 @@ class ChipStrip(QWidget):
         self.copy.setFixedWidth(left)
         self.copy.clicked.connect(self._copy)
         self.cells = _Cells(plot)
-        filled(QHBoxLayout(self), self.copy, (self.cells, 1), margins=0, spacing=0)
+        filled(QHBoxLayout(self), self.copy, self.cells, margins=0, spacing=0)
         self.hide()
 
     def show_chips(self, reading: ChipReading | None) -> None:

@@ -5,12 +5,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from gui.kinds import Grey, GreyPicture, SnapshotOf, show_widget
+from gui.kinds import Grey, GreyPicture, SnapshotOf
 from gui.pane_bench import PaneBench
 from gui.stores import store_of
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QImage
-from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.panes import picture as picture_pane
@@ -18,7 +17,6 @@ from occ_gui.app.panes import profile
 from occ_gui.picture.before_controller import BeforeController
 from occ_gui.picture.before_wipe import BeforeWipe
 from occ_gui.picture.picture_pane import PicturePane
-from occ_gui.profile.profile_view import ProfileView
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.values.room_choice import RoomChoice
@@ -111,22 +109,6 @@ def test_before_the_first_picture_there_is_nothing_before(
     store.change(1, iso=300.0)
     assert shown == []
     assert before.before is None
-
-
-def test_the_profile_before_is_drawn_named_and_in_view(
-    qtbot: QtBot, snapshot_of: SnapshotOf
-) -> None:
-    view = show_widget(qtbot, ProfileView(), 900, 300)
-    brighter, now = snapshot_of(iso=1600.0), snapshot_of()
-    view.show_reading(now)
-    names = [label for label in view.legend.findChildren(QLabel) if label.text() == "before"]
-    assert not names[0].isVisible()
-    view.show_before(brighter)
-    assert names[0].isVisible()
-    assert np.array_equal(view.before.getOriginalDataset()[1], brighter.frame.profile)
-    assert view.plot.getViewBox().viewRange()[1][1] >= brighter.frame.profile.max()
-    qtbot.keyClick(view.enhanced, Qt.Key.Key_Space)
-    assert np.array_equal(view.before.getOriginalDataset()[1], brighter.frame.signal)
 
 
 @pytest.fixture

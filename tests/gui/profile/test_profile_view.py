@@ -107,6 +107,8 @@ def test_the_enhanced_band_model_is_so_by_its_own_histogram(
 def test_an_incomparable_photo_is_drawn_as_it_is_with_the_reason(
     view: ProfileView, photo: Photo
 ) -> None:
+    view.show_photo_profile(PhotoProfile(None, photo.profile, 12.5, 2.0))
+    assert view.residual.numbers.text() == "Searching for stripes…"
     view.show_photo_profile(PhotoProfile(None, photo.profile, 12.5, 2.0, "No stripes."))
     x, y = drawn(view.photo)
     assert x[:3] == [12.5, 14.5, 16.5]
@@ -195,6 +197,19 @@ def test_after_enhancement_shows_picture_levels_and_threshold(
     view.show_reading(replace(snapshot, decoded=DecodeResult("threshold", failure="None.")))
     assert not view.threshold.isVisible()
     assert "threshold" not in legend_texts(view)
+
+
+def test_the_profile_before_is_drawn_named_and_in_view(
+    view: ProfileView, qtbot: QtBot, snapshot_of: SnapshotOf
+) -> None:
+    assert "before" not in legend_texts(view)
+    brighter = snapshot_of(iso=1600.0)
+    view.show_before(brighter)
+    assert "before" in legend_texts(view)
+    assert drawn(view.before)[1] == brighter.frame.profile.tolist()
+    assert view.plot.viewRange()[1][1] >= brighter.frame.profile.max()
+    qtbot.keyClick(view.enhanced, Qt.Key.Key_Space)
+    assert drawn(view.before)[1] == brighter.frame.signal.tolist()
 
 
 @pytest.mark.parametrize("tolerance", [0.0, math.inf])

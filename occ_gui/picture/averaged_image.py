@@ -87,9 +87,7 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
     def _visible_part(self) -> QRect:
         rows, columns = self._image.shape
         view = self.viewRect()
-        if view is None or not rows or not columns or self._rect.isEmpty():
-            return QRect()
-        seen = view.intersected(self._rect)
+        seen = QRectF() if view is None else view.intersected(self._rect)
         if seen.isEmpty():
             return QRect()
         x_scale, y_scale = columns / self._rect.width(), rows / self._rect.height()

@@ -79,6 +79,10 @@ def test_the_mean_is_taken_along_rows_too_and_along_one_axis_while_the_other_is_
     screen.item.set_image(np.ascontiguousarray(fine_stripes.T))
     picture = inner(screen.shown(HEIGHT, 250, QRectF(-0.5, -0.5, HEIGHT, COLUMNS)))
     assert np.abs(picture - 127.5).max() <= 3
+    wide_stripes = fine_stripes[:, np.arange(COLUMNS) // 32]  # of four pixels of the screen
+    screen.item.set_image(np.ascontiguousarray(wide_stripes.T))
+    picture = inner(screen.shown(HEIGHT, 250, QRectF(-0.5, -0.5, HEIGHT, COLUMNS)))
+    assert set(np.unique(picture).tolist()) == {0, 255}
     screen.item.set_image(fine_stripes[:2])
     picture = inner(screen.shown(500, 80, QRectF(-0.5, -0.5, COLUMNS, 2)))
     assert np.abs(picture - 127.5).max() <= 3

@@ -112,7 +112,7 @@ class Application(Parts):
     def _keep_view(self) -> None:
         """Store how the window looks, unless a lesson has its own panes in it."""
         if self.lessons.user_workspace() is None:
-            self.options.keep()
+            self.options.layout.keep()
 
     def _animate(self, name: str) -> None:
         self.shell.pane("animation").ask(name)

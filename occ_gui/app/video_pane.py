@@ -38,11 +38,6 @@ class VideoPane(QObject):
         pane: VideoWiring = self._shell.pane("video")
         return pane
 
-    @property
-    def path(self) -> Path | None:
-        """The film that is open, or will be when the pane is first shown."""
-        return self._store.workspace.film.path
-
     def open(self, path: Path) -> None:
         if self._shell.made_pane("video") is None:
             self._choose(path)

@@ -44,10 +44,6 @@ class ViewOptions(QObject):
             self.text_size.choose(int(percent))
         self.brightness.switch(recall(_HOLD) == _YES)
 
-    def keep(self) -> None:
-        """Store the layout, which changes without a signal of its own."""
-        self.layout.keep()
-
     def choose_overlay(self, mode: str) -> None:
         self._store.put(replace(self._store.workspace, overlay=mode))
 

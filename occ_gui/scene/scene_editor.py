@@ -20,29 +20,25 @@ class HoldBrightness(QObject):
     def __init__(self, store: SceneStore) -> None:
         super().__init__()
         self._store = store
-        self._on = False
+        self.is_on = False
         self._product = 0.0
         self._asked: tuple[float, float] | None = None
         self._limit = ""
         self._note_product(store.scene)
         store.changed.connect(self._note_product)
 
-    @property
-    def is_on(self) -> bool:
-        return self._on
-
     def switch(self, on: bool) -> None:
         self._asked = None
         self._note_product(self._store.scene)
-        if on != self._on:
-            self._on = on
+        if on != self.is_on:
+            self.is_on = on
             self.switched.emit(on)
 
     def changes(self, name: str, value: ParameterValue) -> dict[str, ParameterValue]:
         """Return the change of a parameter, together with that of the ISO speed if it follows."""
         self._limit = ""
         time = value if isinstance(value, float) else 0.0
-        if not self._on or name != _EXPOSURE or time <= 0.0:
+        if not self.is_on or name != _EXPOSURE or time <= 0.0:
             return {name: value}
         iso = quantity(_ISO)
         low, high = iso.slider

@@ -129,10 +129,6 @@ class Picture:
     # What is shown of the same scene together with the picture, where that is known already
     reading: Reading | None = None
 
-    @property
-    def is_draft(self) -> bool:
-        return self.frame.rows_step > 1
-
     def seen_by(self, whose: str) -> PictureView:
         """Return the pixels of the camera's picture or of the receiver's."""
         frame, camera = self.frame, self.frame.scene.camera

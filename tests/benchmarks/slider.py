@@ -78,7 +78,9 @@ class Window(QObject):
         self.come_to_rest()
 
     def _on_picture(self, picture: Picture) -> None:
-        self._waiting.append(("draft" if picture.is_draft else "exact", picture.frame.scene))
+        self._waiting.append(
+            ("draft" if picture.frame.rows_step > 1 else "exact", picture.frame.scene)
+        )
 
     def _on_reading(self, reading: Reading) -> None:
         self._waiting.append(("verdict", reading.scene))

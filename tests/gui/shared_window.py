@@ -103,7 +103,6 @@ def state_of(application: Application) -> list[object]:
         application.shell.pane("photo").placement,
         application.view("photo").form.choice(),
         application.preferences.files,
-        application.video.path,
         (application.pins.pinned.a, application.pins.pinned.b),
         application.view("picture").mode.key(),
         application.options.theme.theme,

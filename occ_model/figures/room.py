@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 from occ_model import colours
 from occ_model.arrays import ByteArray
 from occ_model.figures.drawing import Drawing
+from occ_model.figures.window_panes import show_picture
 from occ_model.room.locate import RoomReading
 from occ_model.room.room import Place, Room
 from occ_model.room.view import room_outline, seen_outline
@@ -53,17 +54,10 @@ def _draw(room: Room, image: ByteArray, reading: RoomReading, is_photo: bool) ->
     figure = Figure(figsize=(7.2, 3.8))
     plan, picture = figure.subplots(1, 2)
     _draw_plan(plan, room, reading, is_photo)
-    step = max(1, image.shape[1] // 900)
-    rows, columns = image.shape
-    picture.imshow(
-        image[::step, ::step], cmap="gray", vmin=0, vmax=255,
-        extent=(-0.5, columns - 0.5, rows - 0.5, -0.5), interpolation="antialiased",
-    )  # fmt: skip
+    show_picture(picture, image)
     for read in reading.lamps:
         colour = colours.RIGHT if read.name else colours.WRONG
         _write_name(picture, read.name or "?", read.hull.mean(axis=0).tolist(), image.shape, colour)
-    picture.set_xlabel("column")
-    picture.set_ylabel("row")
     if reading.located is None and reading.reasons:
         picture.set_title(f"No place found: {reading.reasons[0]}", fontsize=7, parse_math=False)
     figure.legend(loc="outside upper left", ncols=4, frameon=False, fontsize=7)

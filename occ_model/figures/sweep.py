@@ -53,8 +53,7 @@ def write_sweep_figure(path: Path, table: SweepTable, shown: Shown = "rate") -> 
             f"The sweep varies {', '.join(names)}; allowed to be drawn: one parameter or two."
         )
     with house_style():
-        figure = _curves(table, shown) if len(names) == 1 else _maps(table, shown)
-        write_figure(path, figure, _provenance(table, shown))
+        write_figure(path, sweep_drawing(table, shown).draw(), _provenance(table, shown))
 
 
 def sweep_drawing(table: SweepTable, shown: Shown = "rate") -> Drawing:

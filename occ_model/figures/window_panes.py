@@ -82,7 +82,7 @@ def picture_drawing(
         axes = figure.subplots(1, len(pictures), squeeze=False)[0]
         for ax, picture in zip(axes, pictures, strict=True):
             if difference is None:
-                _show(ax, picture)
+                show_picture(ax, picture)
             else:
                 difference.draw(ax)
                 _label(ax)
@@ -132,7 +132,8 @@ def _cells(image: ByteArray) -> tuple[FloatArray, int]:
     return np.asarray(cells, dtype=np.float64), size
 
 
-def _show(ax: Axes, picture: ByteArray) -> None:
+def show_picture(ax: Axes, picture: ByteArray) -> None:
+    """Draw a picture in as many cells as print resolves, its first pixel's centre at (0, 0)."""
     rows, columns = picture.shape
     extent = (-0.5, columns - 0.5, rows - 0.5, -0.5)
     ax.imshow(_cells(picture)[0], cmap="gray", vmin=0, vmax=255, extent=extent)

@@ -2,7 +2,7 @@
 
 import math
 from bisect import bisect_left, bisect_right
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import accumulate, pairwise
@@ -126,9 +126,6 @@ class SentPackets(Sequence[PacketReading]):
             bits=None,
             wrong_bits=None,
         )
-
-    def __iter__(self) -> Iterator[PacketReading]:
-        return (self[number] for number in range(len(self)))
 
     def cut(self, edges: FloatArray) -> tuple[tuple[int, tuple[PacketReading, ...]], ...]:
         """Divide the packets by the running time of the film at which each began.

@@ -18,6 +18,7 @@ from occ_model.cli import main
 from occ_model.commands import match
 from occ_model.files.writing import write_image
 from occ_model.photo.lamps import match as lamps_match
+from occ_model.scene.scene import Scene
 
 ROWS, COLUMNS = 240, 720
 
@@ -199,9 +200,13 @@ def test_every_lamp_is_matched_by_itself_and_listed(
     assert "readout_time" in said
     assert "It is not explained." in said
     assert "no stripes" in said
-    found = occ.find_lamps(occ.load_photo(path, "columns"))
     regions = [where.region for where in asked if isinstance(where, occ.Lamp)]
+    fractions: list[float] = []
+    photo = occ.load_photo(path, "columns")
+    found = [lamp for lamp, _ in occ.match_lamps(photo, Scene(), progress=fractions.append)]
     assert regions == [lamp.region for lamp in found if lamp.modulated]
+    assert fractions == sorted(fractions)
+    assert fractions[-1] == 1.0
     assert main([*command, "--region", "20:120"]) != 0
     assert "R0:R1,C0:C1" in capsys.readouterr().err
     assert main([*command, "--region", "20:120,100:400"]) == 0

@@ -6,9 +6,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import tifffile
 from raw_files import PATTERNS, light_of, mosaic_of, overwrite, written
 
 import occ_model as occ
+from occ_model.photo.reading.raw import is_raw
 from occ_model.scene.scene import Scene
 
 LINES, COLUMNS = 900, 120
@@ -54,6 +56,18 @@ def test_columns_as_scan_axis_are_read_likewise(tmp_path: Path, pattern: str) ->
     photo = occ.load_photo(written(tmp_path / "x.dng", sideways, mirrored))
     assert not photo.turned
     assert np.abs(photo.samples / 65535 - light).max() <= 1.0 / 65535
+
+
+@pytest.mark.parametrize(("samples", "expected"), [(32803, True), (1, False)])
+def test_the_sensors_samples_are_found_behind_a_thumbnail(
+    tmp_path: Path, samples: int, expected: bool
+) -> None:
+    path = tmp_path / "x.nef"
+    with tifffile.TiffWriter(path) as file:
+        file.write(np.zeros((4, 6), np.uint8), photometric=1, subifds=1)
+        file.write(np.zeros((8, 12), np.uint16), photometric=samples)
+    with path.open("rb") as opened:
+        assert is_raw(opened) is expected
 
 
 def test_odd_sizes_keep_every_line_and_column(tmp_path: Path) -> None:
@@ -159,8 +173,6 @@ def test_missing_reader_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 
 
 def test_colours_that_were_interpolated_are_refused(tmp_path: Path) -> None:
-    import tifffile
-
     tags = [(50706, 1, 4, b"\x01\x04\x00\x00", True), (50708, 2, 0, "Simulated", True)]
     picture = np.full((40, 60, 3), 500, np.uint16)
     path = tmp_path / "x.dng"

@@ -223,6 +223,7 @@ def test_only_exposures_of_few_columns_may_be_mistaken_for_blur() -> None:
     for columns, is_short in ((11.9, True), (12.1, False)):
         starts, values = Starts(), TRUE.copy()
         values[1] = columns * values[0]
-        Possible(starts, JointFit(values, np.zeros((9, 9)), 10.0)).again()  # type: ignore[arg-type]
+        fits = Possible(starts, JointFit(values, np.zeros((9, 9)), 10.0)).again()  # type: ignore[arg-type]
+        assert any(fit.values is values for fit in fits)  # the blur as it was counts, too
         shapes = {shape for _, shape in starts.tried}
         assert shapes == ({"normal", "box", "exponential"} if is_short else {"normal"})

@@ -13,7 +13,6 @@ from occ_gui.shell.results import Board
 from occ_gui.values.photo_choice import MatchAsked, MatchChoice
 from occ_gui.values.photo_results import FoundMatch
 from occ_model.errors import OccError
-from occ_model.photo.match_facts import known_of
 from occ_model.photo.reading.load import Photo
 from occ_model.results.bands import Cure
 from occ_model.results.match import Match
@@ -127,7 +126,7 @@ class MatchController(QObject):
         match, photo = self._usable(), self.photo
         if match is None or photo is None:
             return
-        given = known_of(match)
+        given = match.known
         known, certain = float(match.scene.value(given)), self._store.workspace.photo.certain
         sources = sources_of(
             match, photo.path.name, given, day or date.today(),

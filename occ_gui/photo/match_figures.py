@@ -11,7 +11,7 @@ from occ_gui.widgets.building import filled, named, paragraph
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.plain_text import copy_text
 from occ_model.photo.many.other_programs import note_on
-from occ_model.photo.match_facts import ESTIMATES, LABELS, known_of, match_facts
+from occ_model.photo.match_facts import ESTIMATES, LABELS, match_facts
 from occ_model.results.match import Match
 from occ_model.results.photo_table import assumption
 from occ_model.scene.parameters import quantity
@@ -51,7 +51,7 @@ def condition(name: str, value: float, certain: Mapping[str, float], pattern: st
 
 def condition_of(match: Match, certain: Mapping[str, float]) -> str:
     """Name the value that a match's times depend on, unless the user is certain of it."""
-    name = known_of(match)
+    name = match.known
     return condition(name, float(getattr(match, name)), certain, match.pattern)
 
 

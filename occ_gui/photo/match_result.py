@@ -12,7 +12,6 @@ from occ_gui.widgets.building import filled, named, paragraph, push_button
 from occ_gui.widgets.outdated_mark import DELAY, OutdatedMark
 from occ_gui.widgets.state_look import State, colours_of
 from occ_model.photo.many.other_programs import lines_of_match
-from occ_model.photo.match_facts import known_of
 from occ_model.results.bands import Cure
 from occ_model.results.match import Match
 from occ_model.results.photo_table import DOUBTFUL, REFUSED, SURE, UNREADABLE
@@ -205,7 +204,7 @@ class MatchResult(QWidget):
         match, scene = self._match, self._scene
         if match is None or scene is None:
             return
-        name = known_of(match)
+        name = match.known
         then = float(getattr(match, name))
         stale = stale_sentence(scene, name, then, self._given, self._certain)
         self.stale.setText(f"{stale}match again.")

@@ -12,10 +12,10 @@ from occ_gui.widgets.chip_row import Chip
 from occ_gui.widgets.state_bar import StateBar
 from occ_gui.widgets.state_look import State
 from occ_model.errors import counted, one_line
-from occ_model.photo.match_facts import estimate_text, known_of
+from occ_model.photo.match_facts import estimate_text
 from occ_model.photo.reading.load import Photo
 from occ_model.results.match import PLAIN_STRIPES, Match
-from occ_model.results.photo_table import SURE, PhotoRow, known_beside
+from occ_model.results.photo_table import SURE, PhotoRow
 from occ_model.scene.parameters import quantity
 
 STEPS = {
@@ -208,7 +208,7 @@ class PhotoVerdictBar(StateBar):
 
     def _found(self, match: Match) -> str:
         parts = []
-        for name in (known_beside(known_of(match)), "exposure_time"):
+        for name in (match.estimate, "exposure_time"):
             declared, spread = quantity(name), match.uncertainties.get(name)
             value = estimate_text(declared, getattr(match, name), spread)
             if name == "readout_time":

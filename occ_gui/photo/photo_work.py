@@ -13,7 +13,7 @@ from occ_gui.photo.photo_part import Part, PhotoPart, part_of
 from occ_gui.shell.results import Board, Results
 from occ_gui.shell.work import Work
 from occ_gui.simulation.snapshot import Reading
-from occ_gui.values.photo_choice import KNOWN, Asked, MatchAsked, MatchChoice
+from occ_gui.values.photo_choice import Asked, MatchAsked, MatchChoice
 from occ_gui.values.photo_results import FoundMatch, PhotoProfile, StripeSearch
 from occ_model.camera.enhancement import enhance
 from occ_model.errors import MatchError
@@ -22,6 +22,7 @@ from occ_model.photo.reading.load import Photo
 from occ_model.photo.stripes.find import find_stripes
 from occ_model.results.lamp import Lamp
 from occ_model.results.match import ChipReading, Comparison
+from occ_model.results.photo_table import known_beside
 from occ_model.scene.scene import Scene
 from occ_model.scene.square_wave import blinking
 
@@ -107,7 +108,7 @@ def match(request: MatchRequest, report: Report) -> FoundMatch:
     photo, asked = request
     choice = asked.choice
     scene, sent = known_scene(asked.scene, choice)
-    known = next(name for name in KNOWN if name != choice.estimate)
+    known = known_beside(choice.estimate)
     found = FoundMatch(photo, asked.part, None, float(asked.scene.value(known)))
     try:
         match = occ.match_photo(  # imported now: the window starts sooner without it

@@ -18,7 +18,7 @@ from occ_model.errors import MatchError, ParameterError, one_line, shown
 from occ_model.photo.chips.read import read_chips
 from occ_model.photo.lamps.match import match_lamps
 from occ_model.photo.match import ESTIMATES, PATTERN_SOURCES, match_photo
-from occ_model.photo.match_facts import in_columns, known_of, match_facts
+from occ_model.photo.match_facts import in_columns, match_facts
 from occ_model.photo.reading.choices import CHANNELS, SCAN_AXES
 from occ_model.photo.reading.load import Photo, load_photo
 from occ_model.results.decoding import Region
@@ -143,7 +143,7 @@ def _run_lamps(photo: Photo, scene: Scene, options: argparse.Namespace) -> int:
 
 
 def _how_known(match: Match, options: argparse.Namespace) -> str:
-    known = known_of(match)
+    known = match.known
     return assumption_of(known, getattr(match, known), match.pattern, options)
 
 

@@ -22,9 +22,6 @@ from occ_model.scene.parameters import PARAMETERS, quantity
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.packet import sent_chips
 
-ESTIMATES = ("readout_time", "switching_frequency")
-"""Parameters of which one is estimated and the other is known."""
-
 _MOST_DEVIATIONS = 3.0  # standard deviations above which two exposure times contradict each other
 _NOTE_ERROR = 0.012  # relative deviation of a noted exposure time: 1/500 stands for 1/512 s
 

@@ -18,7 +18,6 @@ from occ_model.photo.evidence.verdict import Judge, rows_alike
 from occ_model.photo.fit.camera_response import AVERAGINGS, CameraTone, camera_tones
 from occ_model.photo.fit.chip_runs import is_single_pulse
 from occ_model.photo.fitted_scene import (
-    ESTIMATES,
     at_rate,
     described,
     exposure_time,
@@ -28,7 +27,7 @@ from occ_model.photo.photo_scene import with_notes
 from occ_model.photo.reading.load import Corners, Photo
 from occ_model.photo.stripes.find import find_stripes
 from occ_model.results.lamp import Lamp
-from occ_model.results.match import Alternative, Match, Stripes
+from occ_model.results.match import ESTIMATES, Alternative, Match, Stripes
 from occ_model.scene.argument_checks import check_choice
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene, check_scene

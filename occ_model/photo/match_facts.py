@@ -10,9 +10,6 @@ from occ_model.scene.parameters import quantity
 from occ_model.scene.square_wave import chips_of_cycle
 from occ_model.scene.units import HERTZ, Unit
 
-KNOWN = ("switching_frequency", "readout_time")
-"""Parameters of which one must be known: stripes show the product of the two."""
-
 ESTIMATES = ("readout_time", "switching_frequency", "exposure_time", "start_time", "gamma")
 
 LABELS = {
@@ -45,11 +42,6 @@ _LARGEST_ERROR = 0.5  # relative standard deviation above which only an upper li
 _LIMIT_DEVIATIONS = 2.0  # number of standard deviations by which the limit exceeds the estimate
 
 
-def known_of(match: Match) -> str:
-    """Return which of readout time and switching frequency was given."""
-    return next(name for name in KNOWN if name not in match.uncertainties)
-
-
 def match_facts(match: Match, condition: str = "", noted: float | None = None) -> tuple[Fact, ...]:
     """List the facts of a match, in the order of :data:`LABELS`.
 
@@ -69,8 +61,7 @@ def match_facts(match: Match, condition: str = "", noted: float | None = None) -
         texts["others"] = condition + others, ""
     texts |= _fit(match)
     facts = [Fact(key, label, *texts[key]) for key, label in LABELS.items() if key in texts]
-    estimated = next(name for name in KNOWN if name != known_of(match))
-    alternatives = (_alternative(each, estimated, condition) for each in match.alternatives)
+    alternatives = (_alternative(each, match.estimate, condition) for each in match.alternatives)
     return (*facts, *(Fact("alternative", LABELS["alternative"], text) for text in alternatives))
 
 
@@ -89,7 +80,7 @@ def _estimate(match: Match, name: str, condition: str) -> tuple[str, str]:
         cycles = HERTZ.format(match.switching_frequency / chips, _DIGITS)
         text += f": blinks at {cycles}"
     if deviation is None:
-        return text, "assumed" if condition and name == known_of(match) else "given"
+        return text, "assumed" if condition and name == match.known else "given"
     # Gamma is found from the shape of the stripes, not from their timing.
     note = "doubtful" if name in match.doubtful_alone else ""
     return text if name == "gamma" else condition + text, note

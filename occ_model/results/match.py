@@ -10,6 +10,9 @@ from occ_model.arrays import ByteArray, FloatArray
 from occ_model.results.decoding import Region
 from occ_model.scene.scene import Scene
 
+ESTIMATES = ("readout_time", "switching_frequency")
+"""Parameters of which one is estimated and the other is known: stripes show the product of both."""
+
 PLAIN_STRIPES = (  # advice for a refused pulse that repeats
     "These look like plain stripes of one lamp: if so, state that it sends a square wave."
 )
@@ -165,6 +168,16 @@ class Match:
     reasons: tuple[str, ...] = ()
     alternatives: tuple[Alternative, ...] = ()
     exposure_reasons: tuple[str, ...] = ()
+
+    @property
+    def known(self) -> str:
+        """The one of :data:`ESTIMATES` that was given."""
+        return next(name for name in reversed(ESTIMATES) if name not in self.uncertainties)
+
+    @property
+    def estimate(self) -> str:
+        """The other one, which was estimated."""
+        return next(name for name in ESTIMATES if name != self.known)
 
     @property
     def verdict(self) -> str:

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from occ_model.errors import counted, one_line, printable
-from occ_model.results.match import Match
+from occ_model.results.match import ESTIMATES, Match
 from occ_model.results.sweep import csv_row
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import quantity
@@ -22,8 +22,7 @@ VERDICTS = (SURE, DOUBTFUL, REFUSED, UNREADABLE)
 
 def known_beside(estimate: str) -> str:
     """Return the parameter that is taken as known while the other one is estimated."""
-    both = ("readout_time", "switching_frequency")
-    return both[1 - both.index(estimate)]
+    return ESTIMATES[1 - ESTIMATES.index(estimate)]
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,7 +14,6 @@ from occ_gui.shell.results import Board
 from occ_gui.simulation.snapshot import Reading
 from occ_gui.values.photo_choice import MatchChoice, PhotoChoice, PhotoSource
 from occ_gui.values.photo_results import FoundMatch, OpenPhoto
-from occ_model.photo.match_facts import known_of
 from occ_model.photo.reading.load import Photo
 from occ_model.results.bands import Cure
 from occ_model.results.match import Match
@@ -96,5 +95,5 @@ class LiveView(PhotoView):
         if match is None or self._photo is None:
             self.show_match(None)
             return
-        given = 0.0 if self._scene is None else float(self._scene.value(known_of(match)))
+        given = 0.0 if self._scene is None else float(self._scene.value(match.known))
         self.show_match(FoundMatch(self._photo, None, match, given), cure or cure_of_match(match))

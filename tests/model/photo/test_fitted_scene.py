@@ -14,7 +14,6 @@ from occ_model.files.writing import write_image
 from occ_model.photo.fit.least_squares import StripeFit
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.fitted_scene import (
-    ESTIMATES,
     _doubts_by_error,
     _doubts_by_note,
     _rounded,
@@ -24,6 +23,7 @@ from occ_model.photo.fitted_scene import (
     readout_and_frequency,
 )
 from occ_model.photo.photo_scene import with_allowed, with_chips, with_levels
+from occ_model.results.match import ESTIMATES
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.packet import sent_chips
 

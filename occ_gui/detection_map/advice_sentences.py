@@ -65,7 +65,7 @@ def still_holds(parameters: frozenset[str]) -> str:
     text = "This advice is on the scene before the change."
     if not parameters:
         return text
-    names = " and ".join(sorted(quantity(name).label.lower() for name in parameters))
+    names = " and ".join(sorted(quantity(name).in_sentence for name in parameters))
     return f"{text} Its limits of the {names} still hold."
 
 
@@ -75,7 +75,7 @@ def _nowhere(limits: Limits, found: WorkingRange) -> str:
     low, high, place = (
         written(found.parameter, value) for value in (*found.searched, found.best.value)
     )
-    name, best = quantity(found.parameter).label.lower(), found.best
+    name, best = quantity(found.parameter).in_sentence, found.best
     return (
         f"It reads {limits.rate:g} % of the bits at no {name} from {low} to {high}; the most "
         f"it reads is {best.right} of {best.sent} bits, at {place}."

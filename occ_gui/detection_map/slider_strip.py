@@ -41,7 +41,6 @@ class SliderStrip(QWidget):
     def __init__(self, slider: QSlider, label: str) -> None:
         super().__init__()
         self._slider = slider
-        self._label = label
         self.fractions: tuple[float | None, ...] = ()
         self.present: OwnRate | None = None  # the success rate at the scene's own value
         slider.valueChanged.connect(self.update)
@@ -50,7 +49,7 @@ class SliderStrip(QWidget):
         self._fading.setInterval(round(1e3 * DELAY))
         self._fading.timeout.connect(self._fade)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        self.setAccessibleName(f"Reading along {label.lower()}")
+        self.setAccessibleName(f"Reading along {label}")
         self._explain()
 
     def _explain(self) -> None:
@@ -201,7 +200,7 @@ class SliderStrips(QObject):
         self.legend = StripLegend()  # what the colours mean, for the place below the sliders
         self.strips: dict[str, SliderStrip] = {}
         for name, row in rows.items():
-            strip = SliderStrip(row.slider, PARAMETERS[name].label)
+            strip = SliderStrip(row.slider, PARAMETERS[name].in_sentence)
             row.add_track(strip)
             self.strips[name] = strip
         next(iter(self.strips.values())).installEventFilter(self)

@@ -90,7 +90,7 @@ class SceneStore(QObject):
             at_fault = [name for name in changes if name in error.parameters]
             self.refused_for.emit(sentence, tuple(at_fault or changes))
             return
-        labels = " and ".join(PARAMETERS[name].label.lower() for name in changes)
+        labels = " and ".join(PARAMETERS[name].in_sentence for name in changes)
         self.store.put(self._with(scene), f"change of {labels}", gesture)
 
     def force(self, effect: str, included: bool | None) -> None:

@@ -154,7 +154,7 @@ def _on_range(decoder: str, found: WorkingRange) -> list[str]:
     if found.failure is not None:
         return [found.failure]
     name = found.parameter
-    lines = [f"The {decoder} decoder, {quantity(name).label.lower()}:"]
+    lines = [f"The {decoder} decoder, {quantity(name).in_sentence}:"]
     for interval in found.intervals:
         ends = (interval.lowest, interval.highest)
         lines += [f"  {written(name, end.value)}: {end_text(name, end)}" for end in ends]

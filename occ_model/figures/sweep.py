@@ -244,9 +244,8 @@ def _shown_unit(name: str, values: tuple[ParameterValue, ...]) -> tuple[str, flo
 
 
 def _axis_label(name: str, unit: str) -> str:
-    label = PARAMETERS[name].label
-    first = label if label[:2].isupper() else label[0].lower() + label[1:]
-    return f"{first} ({unit})" if unit else first
+    label = PARAMETERS[name].in_sentence
+    return f"{label} ({unit})" if unit else label
 
 
 def _number(value: ParameterValue, factor: float) -> str:

@@ -25,6 +25,11 @@ class Declaration:
     symbol: str  # The symbol in the paper's equations, empty where it has none
     meaning: str
 
+    @property
+    def in_sentence(self) -> str:
+        """The label within a sentence, where ISO, LED and JPEG stay in capitals."""
+        return self.label if self.label[:2].isupper() else self.label[:1].lower() + self.label[1:]
+
     def refuse(self, problem: str, allowed: str) -> ParameterError:
         """Return the error; ``problem``: a verb and the value, such as "is 3 m"."""
         verb, _, value = problem.partition(" ")

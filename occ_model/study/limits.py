@@ -195,7 +195,7 @@ def _value_of(result: JobResult) -> Any:
 
 
 def _what(asked: tuple[Any, ...]) -> str:
-    return f"{PARAMETERS[asked[1]].label.lower()}, {asked[3].decoders[0]} decoder"
+    return f"{PARAMETERS[asked[1]].in_sentence}, {asked[3].decoders[0]} decoder"
 
 
 def _checked(rate: object) -> float:

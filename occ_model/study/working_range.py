@@ -285,7 +285,7 @@ class _Search:
         write = self._parameter.format
         return (
             f"The {self._settings.decoders[0]} decoder reads {self._rate:g} % of the bits at no "
-            f"{self._parameter.label.lower()} from {write(searched[0])} to {write(searched[1])}; "
+            f"{self._parameter.in_sentence} from {write(searched[0])} to {write(searched[1])}; "
             f"the most it reads is {best.right} of {best.sent} bits, at {write(best.value)}."
         )
 

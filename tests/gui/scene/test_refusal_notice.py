@@ -42,7 +42,7 @@ def test_a_value_typed_as_it_was_mends_its_field_and_any_change_of_the_scene(
     user.enter("distance", "0 m")
     user.choose("&Undo")
     assert row.notice.text() == ""
-    assert user.message == "Undone: change of iso speed."
+    assert user.message == "Undone: change of ISO speed."
     user.enter("distance", "0 m")
     user.choose_next_preset()
     assert row.notice.text() == user.message == ""

@@ -72,8 +72,9 @@ def test_a_result_follows_its_request_and_goes_with_it(bench: Bench) -> None:
     bench.wait()
     assert (bench.result, bench.told[-1]) == ("OTHER", "OTHER")
     bench.store.put(replace(bench.store.workspace, whose="receiver"))
+    told = list(bench.told)
     bench.board.put(replace(bench.board.results))
-    assert bench.asked == ["threshold", "other"]
+    assert (bench.asked, bench.told) == (["threshold", "other"], told)
     bench.choose("")
     assert bench.result is None
 

@@ -10,7 +10,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from occ_model.errors import ParameterError
 from occ_model.parallel.job import Heartbeat
 from occ_model.receiver.decoders import decoder_named
 from occ_model.results.bit_errors import FRAMES_A_SECOND, MostBits
@@ -172,10 +171,7 @@ def _first_read(
     (decoder,) = settings.decoders
     for place, one in enumerate(candidates):
         progress(decoder, place, len(candidates))
-        try:
-            sent = _sending(scene, one.line_code, one.bits, one.frequency)
-        except ParameterError:  # a frequency beyond what is allowed
-            continue
+        sent = _sending(scene, one.line_code, one.bits, one.frequency)
         if all(_read(sent, settings, pictures, heartbeat)):
             return place, sent
     return len(candidates), None

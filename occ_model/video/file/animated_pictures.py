@@ -65,23 +65,13 @@ def _gif_of(picture: ByteArray) -> bytes:
     shown = Image.fromarray(picture)
     (shown if picture.ndim == 2 else shown.quantize()).save(buffer, "GIF")
     content = buffer.getvalue()
-    colours = 3 * 2 ** ((content[10] & 7) + 1) if content[10] & 0x80 else 0
-    table, place = content[_HEAD_BYTES : _HEAD_BYTES + colours], _HEAD_BYTES + colours
-    while content[place] == 0x21:  # extensions
-        place = _after_blocks(content, place + 2)
+    # The file's table of colours, of 2^(size + 1) times three bytes, becomes the picture's own.
+    size = content[10] & 7
+    place = _HEAD_BYTES + 3 * 2 ** (size + 1)
     description = bytearray(content[place : place + _DESCRIPTION_BYTES])
-    if not description[9] & 0x80:
-        description[9] |= 0x80 | (content[10] & 7)
-    else:
-        table = b""
-    # What follows is the picture's own table, if it has one, and its compressed pixels.
-    return bytes(description) + table + content[place + _DESCRIPTION_BYTES : -1]
-
-
-def _after_blocks(content: bytes, place: int) -> int:
-    while content[place]:
-        place += content[place] + 1
-    return place + 1
+    description[9] |= 0x80 | size
+    table, pixels = content[_HEAD_BYTES:place], content[place + _DESCRIPTION_BYTES : -1]
+    return bytes(description) + table + pixels
 
 
 def write_png(path: Path, pictures: Iterator[ByteArray], rate: float, note: str) -> int:

@@ -100,8 +100,6 @@ def _of_parts(
     Not a number and 0 where a column has fewer than two whole parts within the panel.
     """
     count = len(image) // _BLOCK
-    if not count:
-        return np.full(len(means), np.nan), np.zeros(len(means))
     sums = [
         cv2.reduce(image[at : at + _BLOCK], 0, cv2.REDUCE_SUM, dtype=cv2.CV_32S)[0]
         for at in range(0, count * _BLOCK, _BLOCK)

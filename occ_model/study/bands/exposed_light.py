@@ -118,9 +118,6 @@ def _ramped(chips: ByteArray, exposure: Fraction, edge: Fraction) -> ExposedLigh
     places = sorted({each % 1 for each in (Fraction(0), edge, -exposure, edge - exposure)})
 
     def light(place: Fraction) -> FloatArray:
-        if not exposure:
-            return np.zeros(period)
-
         def starts(shift: Fraction) -> Phases:
             moved = place + shift
             whole = moved.numerator // moved.denominator

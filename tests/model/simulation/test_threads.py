@@ -90,6 +90,8 @@ def test_the_times_of_all_stages_add_up_to_that_of_the_frame(
     spent = next(ticks) - first
     # A tick before the first stage begins, one where the plan is handed over, and one at the end.
     assert sum(timings.values()) == pytest.approx(spent - 3)
+    # In each thread the picture is rounded before it is stored, and enhanced after that.
+    assert timings["image"] == pytest.approx(2.0 * timings["jpeg"])
 
 
 def timer_at(monkeypatch: pytest.MonkeyPatch, *moments: float) -> StageTimer:

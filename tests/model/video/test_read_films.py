@@ -216,7 +216,9 @@ def test_what_lies_between_two_parts_of_a_film_is_in_none_of_its_figures(
     off = clock.switching_frequency.value - SHORT.transmitter.switching_frequency
     assert abs(off) < 5.0 * clock.switching_frequency.error
     assert clock.frame_period.value == pytest.approx(1.0 / 30.0, rel=1e-8)
-    assert any("times jump by" in problem for problem in reading.problems)
+    jumped, of_which = reading.problems
+    assert "times jump by" in jumped
+    assert of_which.startswith("The clock is that of frames ")
 
 
 def test_times_that_lie_take_no_memory() -> None:

@@ -9,10 +9,11 @@ import pytest
 from physics.exposed_chips import noise_of, seen_by_rows
 
 import occ_model as occ
+from occ_model.receiver.light import PER_CHIP, light_of_chips
 from occ_model.receiver.sequence import decoder
 from occ_model.receiver.sequence.code_words import _of_runs, code_words
 from occ_model.receiver.sequence.exposures import Timing, gather
-from occ_model.receiver.sequence.fit import Brightness, Fit
+from occ_model.receiver.sequence.fit import Brightness, Fit, Rows, first_guess
 from occ_model.receiver.sequence.search import Chips, beam_chips, best_chips
 from occ_model.receiver.sequence.trellis import FREE_CHIPS, places_of, trellis_of
 from occ_model.scene.scene import Scene
@@ -47,6 +48,13 @@ def test_the_last_chip_is_the_last_that_a_row_shows(exposure: float) -> None:
     found = best_chips(trellis_of(FREE_CHIPS, timing.memory), seen)
     assert found.first + len(found.values) - 1 == last
     assert found.first == seen.first - timing.memory
+
+
+def test_the_brightness_is_first_guessed_by_how_neighbouring_rows_go_together() -> None:
+    rows = Rows(60.0 + 150.0 * seen_by_rows(SENT, 1.3, 0.35, 0.0), light_of_chips(SENT, 1.3))
+    guess = first_guess(rows, Timing(1.3, 0.35), PER_CHIP)
+    assert guess.dark == pytest.approx(60.0, abs=1.0)
+    assert guess.swing == pytest.approx(150.0, abs=1.0)
 
 
 def test_the_steps_of_a_result_are_the_chips_that_columns_see(small_signal: Any) -> None:

@@ -12,7 +12,7 @@ from occ_model.scene.units import ELECTRON, METRE, NONE, PIXEL, SECOND
 DIAGONAL_35MM = 0.04327  # metres of a 24 mm x 36 mm frame: of equivalent focal lengths
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True)
 class Camera(Group):
     # fmt: off
     exposure_time: float = quantity_field(
@@ -64,7 +64,7 @@ class Camera(Group):
         return self.equivalent_focal_length / DIAGONAL_35MM * diagonal
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True)
 class Lens(Group):
     """The lens: vignetting, distortion, point spread and focus."""
 
@@ -109,7 +109,7 @@ class Lens(Group):
         return any((self.radial_k1, self.radial_k2, self.tangential_p1, self.tangential_p2))
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True)
 class Sensor(Group):
     """The sensor's pixels: size, efficiency, capacity, noise, converter."""
 

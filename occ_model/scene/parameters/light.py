@@ -22,7 +22,7 @@ MAX_BITS = 16
 MAX_PREAMBLE_CHIPS = 64
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True)
 class Transmitter(Group):
     # fmt: off
     code: int = count_field(
@@ -113,7 +113,7 @@ class Transmitter(Group):
         return 1.0 / self.switching_frequency
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True)
 class Surroundings(Group):
     """The light that does not come from the panel, and its flicker."""
 

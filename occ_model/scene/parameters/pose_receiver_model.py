@@ -14,7 +14,7 @@ _LARGEST_ANGLE = math.radians(89.99)
 _SLIDER_ANGLE = math.radians(60.0)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True)
 class Pose(Group):
     """The panel's position and rotation as seen by the camera."""
 
@@ -49,7 +49,7 @@ class Pose(Group):
     # fmt: on
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True)
 class Receiver(Group):
     # fmt: off
     bright_fraction: float = quantity_field(
@@ -65,7 +65,7 @@ class Receiver(Group):
     # fmt: on
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True)
 class Model(Group):
     """The start time, and the choices that the model leaves open."""
 

@@ -15,6 +15,7 @@ from occ_model.arrays import ByteArray
 from occ_model.camera.photometry import level_values
 from occ_model.errors import BandModelUndefined, OutputError, ParameterError, one_line, shown
 from occ_model.figures.drawing import BAND, SIMULATION, house_style
+from occ_model.figures.page import lines_within
 from occ_model.files.writing import check_replaceable
 from occ_model.receiver.decode import decode
 from occ_model.receiver.decoders import PAPER_DECODER
@@ -38,7 +39,7 @@ _DEFAULT_RATE = 15.0
 _MAX_GIF_RATE = 50.0  # frames a second; players of GIF files show none faster
 
 _HEADROOM, _HIGHEST = 1.2, 260.0  # end of the level axis: a factor of the brightest level, at most
-_MAX_TITLE_LETTERS = 110  # maximum letters of a title
+_TITLE_WIDTH, _TITLE_LINES = 8.2, 2  # inches; what does not fit ends in an ellipsis
 _BAND_MODEL = "band model"
 
 
@@ -138,9 +139,8 @@ class _Drawing:
         self._lower.set_xlim(first, last)
         value = self._parameter.format(frame.scene.value(self._parameter.name), 4)  # type: ignore[arg-type]
         read = result.failure or f"code {result.code} read"
-        self._title.set_text(
-            one_line(f"{self._parameter.label} {value}:  {read}", _MAX_TITLE_LETTERS)
-        )
+        title, font = f"{self._parameter.label} {value}: {read}", self._title.get_fontproperties()
+        self._title.set_text("\n".join(lines_within(title, _TITLE_WIDTH, font, _TITLE_LINES)))
         self._canvas.draw()  # type: ignore[no-untyped-call]
         pixels = np.asarray(self._canvas.buffer_rgba())  # type: ignore[no-untyped-call]
         return pixels[:, :, :3].copy()

@@ -75,7 +75,7 @@ def _run(options: argparse.Namespace) -> int:
     print(
         f"{name}: {counted(count, 'frame')} of {counted(columns, 'column')}, "
         f"{counted(rows, 'row')}; "
-        f"gap {SECOND.format(gap)}, {100 * recording.gap_ratio(film.scene):.3g} % of a frame"
+        f"gap {SECOND.format(gap, 4)}, {100 * recording.gap_ratio(film.scene):.3g} % of a frame"
     )
     if options.out.suffix.lower() not in LOSSLESS:
         print(_loss(film, options.out))

@@ -15,7 +15,7 @@ from occ_model.scene.units import HERTZ
 from occ_model.study.film_study import FilmPoint, FilmRequest, grid_of
 
 _HEADER = (
-    "switching frequency (Hz)", "gap (share of a frame)", "payload (bits)", "packet (chips)",
+    "switching frequency (Hz)", "gap (fraction of a frame)", "payload (bits)", "packet (chips)",
     "packets sent", "packets read", "packets counted", "received", "received by counting",
     "received on average", "bits a second", "payload complete after (s)", "payload right",
     "failure",

@@ -7,7 +7,9 @@ from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.text import Annotation
 from matplotlib.ticker import LogFormatterMathtext
+from matplotlib.transforms import Bbox
 
 from occ_model import colours
 from occ_model.figures.drawing import Drawing, settings_notes
@@ -25,6 +27,9 @@ _COLOURS = dict(
         strict=True,
     )
 )
+
+_NAME_PLACES = [(6, 4), (-6, 4), (6, -9), (-6, -9), (6, 11), (-6, 11), (6, -16), (-6, -16)]
+"""Offsets in points at which a name beside its point is tried."""
 
 
 def write_accuracy_figure(
@@ -52,8 +57,9 @@ def accuracy_drawing(points: Sequence[AccuracyPoint]) -> Drawing:
 def _draw(points: Sequence[AccuracyPoint]) -> Figure:
     figure = Figure(figsize=(7.2, 4.6))
     ax = figure.subplots()
+    names: list[Annotation] = []
     for part in ACCURACY_PARTS:
-        _draw_part(ax, part, [point for point in points if point.part == part])
+        names += _draw_part(ax, part, [point for point in points if point.part == part])
     ax.plot([], [], "o", markersize=8, fillstyle="none", color="black", label="current setting")
     ax.set_xscale("log")
     ax.set_yscale("log")
@@ -70,27 +76,40 @@ def _draw(points: Sequence[AccuracyPoint]) -> Figure:
     of_what = "levels of the stretched profile" if unit == LEVEL.symbol else f"decision {unit}"
     ax.set_ylabel(f"root mean square error\n({of_what})")
     figure.legend(loc="outside right center", frameon=False, fontsize=7)
+    _place_names(figure, ax, names)
     return figure
 
 
-def _draw_part(ax: Axes, part: str, points: Sequence[AccuracyPoint]) -> None:
+def _place_names(figure: Figure, ax: Axes, names: Sequence[Annotation]) -> None:
+    """Place each name within the axes where it covers no other name, if there is such a place."""
+    figure.draw_without_rendering()  # which gives the axes their size
+    placed: list[Bbox] = []
+    for name in names:
+        for place in _NAME_PLACES:
+            name.xyann = place
+            name.set_horizontalalignment("left" if place[0] > 0 else "right")
+            box = name.get_window_extent()
+            if box.x1 < ax.bbox.x1 and not box.count_overlaps(placed):
+                break
+        placed.append(box)
+
+
+def _draw_part(ax: Axes, part: str, points: Sequence[AccuracyPoint]) -> list[Annotation]:
     style: dict[str, Any] = {"color": _COLOURS[part], "marker": _MARKERS[part], "markersize": 4}
     times = [1e3 * point.seconds for point in points]
     errors = [max(point.error, LEAST_ERROR) for point in points]
     line = "-" if part in CHAINED_PARTS else ""
     ax.plot(times[:-1], errors[:-1], linestyle=line, linewidth=0.7, **style)
     ax.plot(times[-1:], errors[-1:], linestyle="", label=ACCURACY_PARTS[part], **style)
+    names: list[Annotation] = []
     for number, (point, x, y) in enumerate(zip(points, times, errors, strict=True)):
-        # Left and right in turn, so that neighbours' names do not cover each other.
-        side = -1 if number % 2 else 1
-        align = "left" if side > 0 else "right"
-        name = point.name if part != "effects" else str(number)
         is_last = number == len(points) - 1  # the closed form, of the integrations
         if part != "integration" or number % 4 == 0 or is_last or point.current:
-            ax.annotate(
-                name, (x, y), (6 * side, 4), textcoords="offset points", fontsize=6, ha=align
-            )
+            name = point.name if part != "effects" else str(number)
+            place = _NAME_PLACES[0]
+            names.append(ax.annotate(name, (x, y), place, textcoords="offset points", fontsize=6))
         if part == "effects":
             ax.plot([], [], " ", label=f"   {number}  {point.name}")
         if point.current:
             ax.plot(x, y, "o", markersize=10, fillstyle="none", color="black", zorder=3)
+    return names

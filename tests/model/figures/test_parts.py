@@ -1,14 +1,17 @@
 """Parts of figures: ends of intervals, symbols, and what a report has room for."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from accuracy_points import EACH_WAY
 from matplotlib.axis import Axis
 from matplotlib.text import Annotation
 from model.figures.test_as_stored import table_of
 
 import occ_model as occ
+from occ_model.figures.accuracy import accuracy_drawing
 from occ_model.figures.decoding import decode_drawing
 from occ_model.figures.drawing import house_style
 from occ_model.figures.page import fit_texts
@@ -114,3 +117,14 @@ def test_the_names_of_a_rooms_lamps_lie_within_its_picture_and_on_no_other_lamp(
     outlines = [patch.get_window_extent() for patch in plan.patches[: len(names)]]
     for place in [text.get_window_extent() for text in names]:
         assert place.count_overlaps(outlines) == 0
+
+
+def test_no_name_in_the_accuracy_figure_covers_another_or_leaves_the_axes() -> None:
+    close = [replace(point, seconds=1e-4, error=0.4) for point in EACH_WAY if point.part != "draft"]
+    with house_style():
+        figure = accuracy_drawing(close).draw()
+        figure.draw_without_rendering()
+    (axes,) = figure.axes
+    boxes = [name.get_window_extent() for name in axes.texts]
+    assert all(box.count_overlaps(boxes) == 1 for box in boxes)  # itself
+    assert all(box.x1 < axes.bbox.x1 for box in boxes)

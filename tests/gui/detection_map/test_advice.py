@@ -239,12 +239,6 @@ def test_only_limits_that_the_user_asks_for_come_before_the_map(
     assert map_schedule.FINE < in_turn < map_schedule.SURE
 
 
-def test_every_button_says_which_value_it_sets(view: AdviceView, small_scene: Scene) -> None:
-    view.show_advice(advice_on(small_scene))
-    texts = [button.text() for button in view.destinations]
-    assert texts == ["Take me to 14.55 kHz", "Take me to 10 µs", "Take me to 194 µs"]
-
-
 def test_what_holds_for_every_decoder_is_said_once_below_all(
     view: AdviceView, small_scene: Scene
 ) -> None:

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from typing import Any
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -201,6 +202,21 @@ def test_the_numbers_of_an_axis_are_round_and_as_close_as_they_may_be(name: str,
     else:
         begins = {f"{float(tick.text):e}"[0] for tick in found}
         assert begins <= {"1", "2", "5"} or begins <= {"1", "3"}
+
+
+def test_each_number_of_the_axes_stands_beside_its_tick(view: MapView) -> None:
+    view.show_axes(FREQUENCY, DISTANCE)
+    plot, painter = view.plots.plots[0], Mock()
+    plot._draw_axes(painter, plot.area())
+    drawn = [call.args for call in painter.drawLine.call_args_list]
+    texts = [(place, text) for place, _, text in (c.args for c in painter.drawText.call_args_list)]
+    numbers = [place for place, text in texts if text.replace(".", "").isdigit()]
+    assert len(numbers) == len(drawn) > 5
+    for (start, end), number in zip(drawn, numbers, strict=True):
+        middle = number.center()
+        is_below = start.x() == end.x()
+        beside = (middle.x(), start.x()) if is_below else (middle.y(), start.y())
+        assert beside[0] == pytest.approx(beside[1])
 
 
 def test_a_click_on_the_map_is_undone_as_one_step(map_bench: MapBench) -> None:

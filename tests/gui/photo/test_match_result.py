@@ -2,22 +2,16 @@
 
 from dataclasses import replace
 
-import pytest
 from gui.photo.photo_bench import LiveView, spoken
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
 
 from occ_gui.widgets.state_look import State
-from occ_model.photo.match_facts import estimate_text
 from occ_model.photo.reading.load import Photo
 from occ_model.results.match import Alternative, Match
-from occ_model.scene.parameter_kinds import Quantity
-from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.units import SECOND
 from occ_model.study.bands.advice import cure_of
-
-READOUT = PARAMETERS["readout_time"]
 
 
 def test_results_stand_with_uncertainty_in_the_screens_units(
@@ -112,22 +106,6 @@ def test_what_was_not_estimated_is_not_shown(view: LiveView, match: Match) -> No
         titles = [label.text() for label in view.result.findChildren(QLabel) if label.isVisible()]
         assert ("Gamma" in titles) == there
         assert ("1 ms or 2 ms" in titles) == there
-
-
-@pytest.mark.parametrize(
-    ("value", "spread", "text"),
-    [
-        (14.5777e-6, 2.7e-10, "14.57770 ± 0.00027 µs"),
-        (8e-6, None, "8 µs"),
-        (8e-6, float("nan"), "8 µs"),
-        (8e-6, 0.0, "8 µs"),
-    ],
-)
-def test_a_value_has_the_digits_that_its_uncertainty_allows(
-    value: float, spread: float | None, text: str
-) -> None:
-    assert isinstance(READOUT, Quantity)
-    assert text in estimate_text(READOUT, value, spread)
 
 
 def test_without_a_match_there_is_nothing_to_apply(

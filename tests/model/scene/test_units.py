@@ -212,6 +212,7 @@ def test_where_a_prefix_fits_the_number_shown_is_from_1_to_1000(
         (68e-6, None, "68 µs"),
         (68e-6, 0.0, "68 µs"),
         (68e-6, math.inf, "68 µs"),
+        (68e-6, math.nan, "68 µs"),
     ]
 )
 def test_two_digits_of_the_deviation_are_shown(

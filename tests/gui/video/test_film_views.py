@@ -1,6 +1,5 @@
 """Views of a film: what is read stands in order, and recordings are taken as people write them."""
 
-import numpy as np
 import pytest
 from gui.kinds import collect, show_widget
 from PySide6.QtCore import Qt
@@ -23,8 +22,7 @@ def view(qtbot: QtBot) -> DataView:
 
 def reading(text: str = "", *figures: str, sentences: tuple[str, ...] = ()) -> FilmReading:
     shown = tuple(Fact(name, name, f"{name} 1", meaning=f"What {name} is.") for name in figures)
-    states = np.zeros(0, dtype=np.uint8)
-    return FilmReading(np.zeros(0), states, text=text, facts=shown, sentences=sentences)
+    return FilmReading(text=text, facts=shown, sentences=sentences)
 
 
 def test_text_that_grows_keeps_what_is_selected_and_is_followed_where_its_end_is_in_view(

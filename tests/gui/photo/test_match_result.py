@@ -199,6 +199,10 @@ def test_an_outdated_match_is_covered_at_once_not_used_and_no_step_on_the_way(
         assert result.mark.isVisible() != is_present
         assert result.verdict.word.text() == ("● sure" if is_present else "Before: sure")
         assert result.verdict.word.autoFillBackground() == is_present
+        inks = {
+            each.palette().windowText().color().name() for each in (result, result.verdict.word)
+        }
+        assert len(inks) == (2 if is_present else 1)
         for button in (result.apply, result.save, result.without_bars, steps.buttons["apply"]):
             assert button.isEnabled() == is_present
         assert spoken(steps)[2:] == (

@@ -95,6 +95,7 @@ def column(view: ManyPhotosView, which: int) -> list[str]:
 
 def test_without_files_nothing_can_be_matched_and_what_to_do_is_said(view: ManyPhotosView) -> None:
     assert view.start.isEnabled()
+    assert view.table.columnWidth(PHOTO) == view.table.sizeHintForColumn(PHOTO)
     view.show_files(())
     assert not view.start.isEnabled()
     assert view.title.text().startswith("Open several photos together")

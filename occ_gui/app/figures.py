@@ -67,7 +67,7 @@ def _with_photo(view: "ImageView", opened: "Photo", shown: Snapshot, mode: str, 
     photo, whose, over = opened.image, view.whose, view.overlay
     place = over.placement
     opacities = {_BLENDED: (over.opacity, None), _SPLIT: (1.0, over.split_row)}
-    laid, times = opacities.get(mode), over.times
+    laid, times = opacities.get(mode), over.difference.gain
 
     def draw() -> "Drawing":
         from occ_gui.picture.photo_overlay import difference_cells, rect_of

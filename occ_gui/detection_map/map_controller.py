@@ -51,10 +51,6 @@ class DetectionMapController(QObject):
         return self.map is not None and self._shown == self._request()
 
     @property
-    def is_full(self) -> bool:
-        return self.full is not None
-
-    @property
     def full(self) -> "tuple[RateMap, MapRequest] | None":
         """The map and its request, None while points are missing."""
         if self.map is None or self._shown is None or not self.is_current:

@@ -36,7 +36,6 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
         self._rect = QRectF()
         self._first_row, self._last_column = -math.inf, math.inf
         self._drawn: tuple[QRect, tuple[int, int], QImage] | None = None
-        self.values_drawn = 0  # the number of pixels whose grey levels are written into them
 
     def set_image(
         self, image: ByteArray, rect: QRectF | None = None, halves: Sequence[ByteArray] = ()
@@ -82,7 +81,7 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
             painter.setClipRect(shown, Qt.ClipOperation.IntersectClip)
         painter.drawImage(target, self._drawn[2])
         if self._with_values:
-            self.values_drawn = _draw_values(painter, self._image, part, target)
+            _draw_values(painter, self._image, part, target)
 
     def _visible_part(self) -> QRect:
         rows, columns = self._image.shape
@@ -141,16 +140,16 @@ def _mean_of_cells(pixels: ByteArray, columns: int, rows: int) -> ByteArray:
     return np.asarray(smaller, dtype=np.uint8)
 
 
-def _draw_values(painter: QPainter, image: ByteArray, part: QRect, target: QRectF) -> int:
+def _draw_values(painter: QPainter, image: ByteArray, part: QRect, target: QRectF) -> None:
     """Write the grey levels of some pixels into them, if they are large enough."""
     to_screen = painter.worldTransform()
     place = to_screen.mapRect(target)
     width, height = place.width() / part.width(), place.height() / part.height()
     metrics = QFontMetricsF(painter.font())
     least = _LEAST_WIDTH * metrics.horizontalAdvance(_WIDEST_TEXT)
-    count = part.width() * part.height()
-    if width < least or height < metrics.height() or count > _MAX_VALUES:
-        return 0
+    is_crowded = part.width() * part.height() > _MAX_VALUES
+    if width < least or height < metrics.height() or is_crowded:
+        return
     painter.save()
     painter.setWorldTransform(QTransform())
     flipped = to_screen.m22() < 0.0
@@ -163,4 +162,3 @@ def _draw_values(painter: QPainter, image: ByteArray, part: QRect, target: QRect
             box = QRectF(corner.x(), corner.y(), width, height)
             painter.drawText(box, Qt.AlignmentFlag.AlignCenter, str(level))
     painter.restore()
-    return count

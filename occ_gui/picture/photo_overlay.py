@@ -198,10 +198,6 @@ class PhotoOverlay(QObject):
         self.placement = placement
         self._arrange()
 
-    @property
-    def times(self) -> int:
-        return self.difference.gain
-
     def set_mode(self, mode: str) -> None:
         """Set how the photo is shown, one of MODES; the first draws nothing over the picture."""
         self.mode = mode

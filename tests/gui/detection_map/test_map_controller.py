@@ -135,7 +135,7 @@ def test_what_the_map_does_not_depend_on_measures_nothing_anew(
     bench.scenes.change(switching_frequency=7e3, distance=2.0, start_time=1e-3)
     bench.wait_until_idle()
     assert len(bench.workers.jobs) == before
-    assert bench.controller.is_full
+    assert bench.controller.full is not None
 
 
 def test_the_point_at_the_mouse_has_the_interval_of_its_pictures(

@@ -1,6 +1,7 @@
 """Row of the profile: grey level over column, of simulation, band model and photo."""
 
 import math
+from typing import TypeVar
 
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
@@ -16,6 +17,8 @@ from occ_gui.widgets.colours import BAND, PHOTO, SIMULATION, THRESHOLD, mixed, s
 from occ_gui.widgets.unchanged import are_same
 from occ_model.arrays import FloatArray
 from occ_model.results.decoding import DecodeResult
+
+_Level = TypeVar("_Level", float, FloatArray)  # one, or one for each column
 
 _LEAST_HEIGHT = 56
 _STEPS = (10.0, 20.0, 50.0, 100.0)
@@ -112,7 +115,7 @@ class ProfileRow(StoryRow):
             self._drawn_from = drawn
             self.redraw()
 
-    def y_of(self, level: float, area: QRectF) -> float:
+    def y_of(self, level: _Level, area: QRectF) -> _Level:
         inner = area.adjusted(0, 8, 0, -8)
         return inner.bottom() - level / self._top * inner.height()
 
@@ -146,9 +149,7 @@ class ProfileRow(StoryRow):
         columns, levels = envelope(columns, levels, self.axis.first, self.axis.last, cells)
         if len(columns) < 2:
             return
-        xs = self.xs_of(columns)
-        inner = area.adjusted(0, 8, 0, -8)
-        ys = inner.bottom() - levels / self._top * inner.height()
+        xs, ys = self.xs_of(columns), self.y_of(levels, area)
         pen = QPen(seen_on(self.palette(), colour), _THIN if crowded else width)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         if dash is not None:

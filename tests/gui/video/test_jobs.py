@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from gui.kinds import not_none
 
 import occ_model as occ
 from occ_gui.video import reading_controller
@@ -202,6 +203,10 @@ def test_without_a_film_the_simulated_frame_is_shown_and_read(
     assert shown.story.knows_light
     assert reading.scene == film.frame(3).scene
     assert tuple(reading.decoded.bits.tolist()) == reading.sent != ()
+    read = not_none(reading.decoded.region)
+    ends = [each(axis=0).tolist() for each in (reading.corners.min, reading.corners.max)]
+    assert ends[0] == [read.first_column - 0.5, read.first_row - 0.5]
+    assert ends[1] == [read.last_column - 0.5, read.last_row - 0.5]
     # The rows say whether the frame was enhanced: the threshold depends on it.
     camera = occ.decode(film.frame(3).image, request_of.scene.replace(enhancement="none"))
     assert reading.decoded.threshold == camera.threshold

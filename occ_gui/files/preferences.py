@@ -12,7 +12,6 @@ _FOLDERS = (_FOLDER, _EXPORTS)
 _MARGINS, _NO = "view/margins", "no"
 
 _MAX_TEXT_LENGTH = 1_000_000  # maximum characters of a stored text
-_LONGEST_PATH = 4096  # most characters of a stored path; no system allows longer ones
 
 
 class Preferences(QObject):
@@ -109,13 +108,9 @@ def text_of(path: Path) -> str:
     return text if text == text.encode("utf-8", "replace").decode("utf-8") else ""
 
 
-def _can_be_path(text: str) -> bool:
-    return "\0" not in text and len(text) <= _LONGEST_PATH
-
-
 def _paths(value: object) -> tuple[Path, ...]:
-    """Parse stored paths; invalid ones are left out."""
+    """Parse stored paths; what is none is left out."""
     texts = value if isinstance(value, list) else [value]
-    paths = [Path(text) for text in texts if isinstance(text, str) and _can_be_path(text)]
+    paths = [Path(text) for text in texts if isinstance(text, str)]
     absolute = [path for path in paths if path.is_absolute()]
     return tuple(dict.fromkeys(absolute))[:MOST_RECENT]

@@ -3,7 +3,7 @@
 from PySide6.QtCore import QTimer, Signal
 from PySide6.QtWidgets import QHBoxLayout, QProgressBar, QWidget
 
-from occ_gui.widgets.building import filled, push_button
+from occ_gui.widgets.building import filled, named, push_button
 
 _STEPS = 1000
 
@@ -15,10 +15,8 @@ class WorkBar(QWidget):
 
     def __init__(self, what: str, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.progress = QProgressBar()
+        self.progress = named(QProgressBar(), what, what)
         self.progress.setRange(0, _STEPS)
-        self.progress.setAccessibleName(what)
-        self.progress.setToolTip(what)
         self.cancel = push_button("Cancel", "Give up what is being worked on.", self.cancelled)
         self._patience = QTimer(self, singleShot=True)
         self._patience.setInterval(_PATIENCE_MS)

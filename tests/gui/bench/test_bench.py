@@ -229,10 +229,12 @@ def test_before_the_first_measurement_the_pane_says_what_it_is_for_and_then_what
     assert pane._pages.currentWidget() is pane.invitation
     measuring.measure()
     assert pane._pages.currentWidget() is pane.plots[RATES]
+    assert pane.frame_rate.isHidden()
     # What theory says stands beside the points, in either plot.
     pane.what.show_key(BITS)
     pane._show_what()
     assert pane._pages.currentWidget() is pane.plots[BITS]
+    assert not pane.frame_rate.isHidden()  # which bits a second depend on
     for curve in pane.plots[BITS]._bounds.values():
         x, _ = curve.getData()
         assert len(x) > 1

@@ -188,6 +188,10 @@ def test_chips_that_do_not_fit_are_counted(bar: VerdictBar, small_scene: Scene, 
     hidden = len(row.chips) - sum(label.chip in row.chips for label in shown)
     assert (hidden == 0) == (width == 900)
     assert any(label.chip.text == f"+ {hidden}" for label in shown) == (hidden > 0)
+    made, chips = len(row.findChildren(ChipLabel)), row.chips
+    for some in ((), chips):
+        row.show_chips(some)
+    assert len(row.findChildren(ChipLabel)) == made  # as making them takes long
 
 
 def test_the_simulation_is_named_where_a_photo_is_shown_too(
@@ -211,6 +215,7 @@ def test_a_bar_that_is_narrow_says_the_same_in_fewer_words(
     for width in (900, 600, 400):
         bar.resize(width, 60)
         assert "…" not in bar.sentence.text()
+        assert bar.title.geometry().left() > bar.icon.geometry().right()
     assert "2 chips a column" in bar.sentence.text()
     assert bar.accessibleDescription() == whole
 

@@ -10,10 +10,12 @@ from PySide6.QtWidgets import QApplication, QLabel, QTabWidget, QVBoxLayout, QWi
 from pytestqt.qtbot import QtBot
 
 from occ_gui.widgets.axes import LogAxis
+from occ_gui.widgets.building import filled
 from occ_gui.widgets.elided_label import ElidedLabel
+from occ_gui.widgets.keyed_combo_box import KeyedComboBox
 from occ_gui.widgets.plain_text import in_tool_tip
 from occ_gui.widgets.scroll_pane import ScrollPane, bring_into_view
-from occ_gui.widgets.text_scale import emboldened
+from occ_gui.widgets.text_scale import emboldened, resized
 from occ_gui.widgets.unchanged import are_same
 
 LONG = "Photo a_name_that_goes_on_and_on_<b>and</b>_on_until_it_ends.png"
@@ -29,7 +31,9 @@ def test_a_text_too_long_is_shown_in_part_and_never_cut_off(label: ElidedLabel, 
     label.resize(width, 20)
     assert label.text() != LONG
     assert "…" in label.text()
-    assert label.fontMetrics().horizontalAdvance(label.text()) <= width
+    for factor in (1.0, 2.0):
+        label.setFont(resized(label.font(), factor))
+        assert label.fontMetrics().horizontalAdvance(label.text()) <= width
 
 
 def test_a_text_that_fits_is_shown_whole_and_literally(label: ElidedLabel) -> None:
@@ -45,6 +49,16 @@ def test_the_tooltip_tells_the_whole_text_which_asks_for_no_width(label: ElidedL
     assert label.minimumSizeHint().width() == 0
     label.set_full_text("short")
     assert (label.text(), label.toolTip()) == ("short", "short")
+
+
+def test_a_choice_is_as_wide_as_its_place_or_where_it_is_fixed_as_its_words(qtbot: QtBot) -> None:
+    column = show_widget(qtbot, QWidget(), 400, 100)
+    wide, fixed = (
+        KeyedComboBox("Size", "", {"s": "small"}, **how) for how in ({}, {"is_fixed": True})
+    )
+    filled(QVBoxLayout(column), wide, fixed, margins=0)
+    QApplication.processEvents()
+    assert (wide.width(), fixed.width()) == (400, fixed.sizeHint().width())
 
 
 @pytest.fixture

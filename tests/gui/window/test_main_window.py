@@ -7,7 +7,7 @@ import pytest
 from gui.kinds import collect, show_widget
 from PySide6.QtCore import QMimeData, Qt, QUrl
 from PySide6.QtGui import QAction, QDragEnterEvent, QDropEvent
-from PySide6.QtWidgets import QApplication, QGraphicsView, QMainWindow, QMenu, QWidget
+from PySide6.QtWidgets import QApplication, QGraphicsView, QMainWindow, QMenu, QProgressBar, QWidget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
@@ -37,7 +37,7 @@ def test_what_cannot_be_done_is_not_offered_and_every_picture_and_plot_has_a_nam
         assert not found.isEnabled(), text
     graphics = application.window.findChildren(QGraphicsView)
     assert len(graphics) >= 3
-    for view in graphics:
+    for view in (*graphics, *application.window.findChildren(QProgressBar)):
         assert view.accessibleName(), view
 
 

@@ -222,6 +222,8 @@ def test_a_run_with_slow_pictures_marks_no_picture_and_tells_its_value(drag: Dra
     assert set(drag.verdict.outdated) == {False}
     first = marked.index(True)
     assert all(marked[first:])  # results that no verdict tells of are marked, without flicker
+    assert all(drag.move(takes=14))  # also where they are soon there again
+    drag.move(takes=round(3e3 * DELAY))
     read = not_none(of_reading(drag.simulation.board.results))
     assert drag.verdict.runs[-1] == (f"ISO speed {read.scene.camera.iso:.4g}", "")
     drag.outdated.follow_run("")

@@ -158,10 +158,11 @@ def test_where_no_panel_is_found_every_decoder_says_so(
     assert None not in failures
 
 
-def test_the_panels_origin_stays_in_the_picture(small_scene: Scene) -> None:
+def test_the_panels_origin_and_columns_stay_in_the_picture(small_scene: Scene) -> None:
     near = simulate(small_scene.replace(distance=0.3))
     assert near.frame.corners.min() < 0
     assert near.panel_origin == (0.0, 0.0)
+    assert near.panel_columns == (0.0, len(near.profile) - 1.0)
     far = simulate(small_scene.replace(distance=100.0))
     assert far.panel_origin == pytest.approx(tuple(far.frame.corners.min(axis=0)))
 

@@ -71,7 +71,7 @@ class AnswerField(QWidget):
         self.field.textEdited.connect(self._forget)
         self.sentence = named(paragraph(), "What the check says")
         self._said, self._is_outdated = "", False
-        row = filled(QHBoxLayout(), (self.field, 1), self.unit, self.check, spacing=8)
+        row = filled(QHBoxLayout(), self.field, self.unit, self.check, spacing=8)
         # Above the field, which stands at the lower end of the pane: it stays where it is.
         filled(QVBoxLayout(self), self.sentence, row, margins=0, spacing=4)
 

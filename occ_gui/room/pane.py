@@ -40,7 +40,7 @@ class RoomPane(Pane[RoomChoice]):
         self._map: Task[Room, FloorMap] = Task(map_room, "room map", impatient=True)
         self._map.reported.connect(self.view.show_progress)
         self._map.finished.connect(self.view.show_map)
-        self._map.failed.connect(self.view.show_no_map)
+        self._map.failed.connect(self.view.floor.setText)
         self.tasks = (self._look, self._map)
         self._mapped: Room | None = None  # the room whose map is shown or measured
         self._lengths = Gestures()

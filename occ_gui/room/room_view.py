@@ -122,10 +122,6 @@ class RoomView(QWidget):
     def show_progress(self, fraction: float) -> None:
         self.floor.setText(f"Measuring the floor: {100.0 * fraction:.0f} %")
 
-    def show_no_map(self, sentence: str) -> None:
-        self.plan.show_map(None)
-        self.floor.setText(sentence)
-
     def show_map(self, found: FloorMap | None) -> None:
         self.plan.show_map(found)
         self.floor.setText(_floor(found) if found else "")

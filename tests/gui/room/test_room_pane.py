@@ -200,6 +200,8 @@ def test_the_place_is_told_with_its_errors_and_the_lamps_have_names(
     assert np.ptp(x) == pytest.approx(4.0 * enlarged * located.errors[0], rel=0.02)
     middle = pane.room.camera.x + enlarged * (located.place.x - pane.room.camera.x)
     assert (x.min() + x.max()) / 2.0 == pytest.approx(middle, abs=1e-9)
+    cross, off = pane.view.plan.found.getData(), located.place.y - pane.room.camera.y
+    assert np.ravel(cross) == pytest.approx([middle, pane.room.camera.y + enlarged * off])
     # Of a high picture, too, the number of the first row is not cut off by the plot's edge.
     high = np.zeros((2000, 400), np.uint8)
     pane.view.picture.show_room(replace(shown, image=high, picture=high, reading=None))

@@ -68,6 +68,8 @@ def test_the_ladder_ends_at_the_complete_simulation(points: list[AccuracyPoint])
     *ladder, current = of(points, "effects")
     assert ladder[0].name == "paper's model"
     assert ladder[0].error > 1.0
+    decisions = occ.plan(small("phone-136us-real")).decisions
+    assert ladder[1].effects == (max(decisions, key=lambda one: one.estimate).effect,)
     assert ladder[-1].error == 0.0
     assert current.name == "this plan"
     assert current.error <= 0.5

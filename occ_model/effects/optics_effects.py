@@ -120,6 +120,6 @@ def blur_of(scene: Scene) -> float:
     spot = 0.0
     if lens.focus_distance:
         focal = camera.focal_length_pixels
-        vergence = abs(1.0 / lens.focus_distance - 1.0 / distance)
+        vergence = 1.0 / lens.focus_distance - 1.0 / distance
         spot = focal * focal * scene.sensor.pixel_pitch / camera.f_number * vergence / 4.0
     return min(math.hypot(lens.point_spread, spot), _LARGEST_SPREAD)

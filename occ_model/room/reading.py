@@ -135,8 +135,8 @@ def _longest_gap(room: Room) -> int:
         ends = np.flatnonzero(np.concatenate([chips, chips]))
         gap = int(np.diff(ends).max()) - 1
         # Another code, of a lamp that is not in the room, may have a longer run.
-        run = scheme_of(lamp.transmitter).line_code.longest_run or gap
-        longest = max(longest, max(gap, run) / lamp.transmitter.switching_frequency)
+        run = max(gap, scheme_of(lamp.transmitter).line_code.longest_run or 0)
+        longest = max(longest, run / lamp.transmitter.switching_frequency)
     return int(longest / room.scene.camera.readout_time * 1.1) // 2 * 2 + 5
 
 

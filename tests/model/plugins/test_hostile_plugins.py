@@ -57,7 +57,7 @@ threshold = decoder("threshold", fail)
 
 code_raises = replace(LINE_CODE, name="code_raises", encode=fail, decode=fail)
 code_short = replace(LINE_CODE, name="code_short", encode=lambda bits, level: bits)
-code_grey = replace(LINE_CODE, name="code_grey", encode=lambda bits, _: np.full(2 * len(bits), 7))
+code_grey = replace(LINE_CODE, name="code_grey", encode=lambda bits, _: np.arange(2 * len(bits)))
 code_mute = replace(LINE_CODE, name="code_mute", decode=lambda chips, level: None)
 
 code_scalar = replace(LINE_CODE, name="code_scalar", encode=lambda *_: np.array(1))

@@ -243,16 +243,19 @@ def test_a_prediction_is_judged_before_anything_is_set() -> None:
 
 
 def test_a_wrong_code_is_neither_near_nor_too_high(monkeypatch: pytest.MonkeyPatch) -> None:
-    code = replace(QUANTITIES["photo-code"], of_scene=lambda _: 345.0, of_photo=False)
-    monkeypatch.setitem(QUANTITIES, "photo-code", code)
     asked = step(6, 2)
-    for wrong in ("718", "346", "0"):
-        answer = check_answer(asked, wrong)
-        assert (answer.outcome, answer.sentence) == (
-            "wrong",
-            "Not yet: that is not the code. Try again.",
+    for code, others in (("345", ("718", "346", "0")), ("0", ("1", "-1"))):
+        known = replace(
+            QUANTITIES["photo-code"], of_scene=lambda _, n=code: float(n), of_photo=False
         )
-    assert check_answer(asked, "345").outcome == "right"
+        monkeypatch.setitem(QUANTITIES, "photo-code", known)
+        for wrong in others:
+            answer = check_answer(asked, wrong)
+            assert (answer.outcome, answer.sentence) == (
+                "wrong",
+                "Not yet: that is not the code. Try again.",
+            )
+        assert check_answer(asked, code).outcome == "right"
 
 
 def test_an_explanation_says_of_which_scene_it_is_where_that_is_not_shown() -> None:
@@ -289,6 +292,14 @@ def test_a_wrong_answer_tells_no_number() -> None:
     assert "high" in near.sentence
     assert "low" in wrong.sentence
     assert not set("0123456789") & set(near.sentence + wrong.sentence)
+
+
+def test_an_answer_is_near_within_three_tolerances_and_within_2_percent() -> None:
+    loose, exact = step(3, 1), step(9, 1)  # 14.7 kHz within 1.5 %, 1024 lamps within 0.1 %
+    near = {"15.3": loose, "1040": exact}
+    wrong = {"15.5": loose, "1050": exact}
+    assert {check_answer(asked, text).outcome for text, asked in near.items()} == {"near"}
+    assert {check_answer(asked, text).outcome for text, asked in wrong.items()} == {"wrong"}
 
 
 @pytest.mark.parametrize("text", ["", "many", "14.7 volts", "nan", "1e999", "9" * 500, "1,2,3"])

@@ -157,10 +157,8 @@ class _ShortRepr(reprlib.Repr):
 
 def shown(value: object) -> str:
     """Format any value for a sentence: as ``repr`` would, but short and in one line."""
-    # An array's has several lines.
-    text = " ".join(line.strip() for line in _ShortRepr().repr(value).split("\n"))
-    half = _LONGEST_VALUE // 2
-    return one_line(text if len(text) <= _LONGEST_VALUE + 3 else f"{text[:half]}...{text[-half:]}")
+    lines = _ShortRepr().repr(value).split("\n")  # an array's has several
+    return one_line(" ".join(line.strip() for line in lines), _LONGEST_VALUE)
 
 
 def printable(text: str) -> str:

@@ -133,9 +133,7 @@ def _end_text(found: WorkingRange, end: RangeEnd) -> str:
 
 def sentences(answers: Sequence[Limits], frames_a_second: float = FRAMES_A_SECOND) -> list[str]:
     """State the images that confirmed the ends, and the theoretical limits."""
-    ranges = [each for found in answers for each in (found.frequency, found.exposure)]
-    is_sure = any(end and end.interval for each in ranges for end in (each.lowest, each.highest))
-    lines = ["By more images:"] if is_sure else []
+    lines: list[str] = []
     for found in answers:
         for each in (found.frequency, found.exposure):
             lines += _on_range(found.decoder, each)

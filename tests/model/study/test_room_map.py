@@ -97,9 +97,9 @@ def test_the_command_measures_a_room_file_with_other_settings(
     room = tmp_path / "small.toml"
     room.write_text(small_room(1).to_toml())
     out = tmp_path / "map.csv"
-    words = ("room", "map", "--room", str(room), "--side", "1", "--out", str(out))
+    words = ("room", "map", "--room", str(room), "--side", "1", "--images", "2", "--out", str(out))
     assert main((*words, "--set", "switching_frequency=7kHz", "--set", "bits=12")) == 0
-    assert "1 place, 1 picture: 1 of 1 whole lamps named, 0 lamps named wrongly" in (
+    assert "1 place, 2 pictures: 2 of 2 whole lamps named, 0 lamps named wrongly" in (
         capsys.readouterr().out
     )
     assert "switching_frequency = 7000.0" in out.read_text()

@@ -6,7 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from occ_model.commands.files import SCENE_FILE, TABLE, Written
-from occ_model.commands.options import assumption_of
+from occ_model.commands.options import assumption_of, whole_number
 from occ_model.commands.progress_bar import progress_bar
 from occ_model.errors import ParameterError, counted, one_line
 from occ_model.files.writing import check_replaceable, write_whole
@@ -35,7 +35,10 @@ _MAX_FILE_CHARACTERS = 32
 def add_many_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("more", nargs="*", type=Path, metavar="file", help=argparse.SUPPRESS)
     parser.add_argument(
-        "--jobs", type=int, metavar="N", help="processes for several photos; default: one a core"
+        "--jobs",
+        type=whole_number,
+        metavar="N",
+        help="processes for several photos; default: one a core",
     )
     parser.add_argument(
         "--known",

@@ -240,14 +240,17 @@ def test_what_cannot_be_drawn_is_refused(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.parametrize(
+    "words", [("sweep", "--vary", "distance=1", "--images"), ("match", "a.png", "b.png", "--jobs")]
+)
 def test_a_number_of_too_many_digits_is_refused_in_short(
-    capsys: pytest.CaptureFixture[str],
+    words: tuple[str, ...], capsys: pytest.CaptureFixture[str]
 ) -> None:
     with pytest.raises(SystemExit) as ended:
-        main(["sweep", "--vary", "distance=1", "--images", "9" * 5000])
+        main([*words, "9" * 5000])
     assert ended.value.code == 2
     *_, last = capsys.readouterr().err.splitlines()
-    assert last.startswith("occ-model sweep: error: argument --images: '999")
+    assert last.startswith(f"occ-model {words[0]}: error: argument {words[-1]}: '999")
     assert last.endswith(" is not a whole number")
     assert len(last) < 1100
 

@@ -9,14 +9,12 @@ from occ_model.effects.registry import NAMES
 from occ_model.errors import ParameterError, one_line, shown
 from occ_model.receiver.decoders import DECODERS, decoders
 from occ_model.results.photo_table import assumption
-from occ_model.scene.argument_checks import check_choice, check_seed
 from occ_model.scene.from_text import DEFAULT_PRESET, read_scene_file, with_settings
 from occ_model.scene.presets import load_preset
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import (
     NOISE_SOURCES,
     OBSERVABLES,
-    TOLERANCE,
     SimulationSettings,
 )
 from occ_model.scene.units import NONE
@@ -118,6 +116,11 @@ def add_plan_options(parser: argparse.ArgumentParser) -> None:
     add_option(
         parser, "--observable", own.observable, "what the tolerance is of", choices=OBSERVABLES
     )
+    add_switches(parser)
+
+
+def add_switches(parser: argparse.ArgumentParser) -> None:
+    """Add the options that switch effects by hand; :func:`forced` reads them."""
     for switch, meaning in (("on", "simulate an effect"), ("off", "leave an effect out")):
         parser.add_argument(
             f"--{switch}",
@@ -141,13 +144,9 @@ def add_simulation_options(parser: argparse.ArgumentParser) -> None:
 
 
 def simulation_settings_of(options: argparse.Namespace) -> SimulationSettings:
-    TOLERANCE.check(options.tolerance)
-    check_seed(options.seed)
-    for name in (*options.on, *options.off):
-        check_choice("effect", name, NAMES)
     return SimulationSettings(
         options.tolerance, options.observable, forced(options), options.noise, options.seed
-    )
+    ).checked(NAMES)
 
 
 def forced(options: argparse.Namespace) -> dict[str, bool]:

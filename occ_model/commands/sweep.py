@@ -16,13 +16,13 @@ from occ_model.commands.options import (
     Commands,
     add_option,
     add_scene_options,
+    add_switches,
     decoder_name,
     forced,
     scene_of,
 )
 from occ_model.commands.progress_bar import print_above_bar, progress_bar
 from occ_model.commands.vary import SYNTAX, axes_of
-from occ_model.effects.registry import NAMES
 from occ_model.errors import OccError, ParameterError, counted, one_line, shown
 from occ_model.files.writing import check_replaceable
 from occ_model.program import EXIT_INTERRUPTED
@@ -75,11 +75,7 @@ def add_to(commands: Commands) -> None:
         parser, "--tolerance", TOLERANCE.default, "what effects left out may change in the signal "
         "that is decoded, in levels of the stretched profile", metavar="LEVELS",
     )  # fmt: skip
-    for switch, meaning in (("on", "simulate an effect"), ("off", "leave an effect out")):
-        parser.add_argument(
-            f"--{switch}", action="append", default=[], choices=NAMES, metavar="EFFECT",
-            help=f"{meaning} whatever its estimate; may be repeated",
-        )  # fmt: skip
+    add_switches(parser)
     add_option(
         parser, "--path", "auto", "by whole images, a sample of their rows, the column means "
         "alone, or as the plan allows", choices=SIGNAL_PATHS,

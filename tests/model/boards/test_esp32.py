@@ -18,7 +18,7 @@ PAPER = occ.load_preset("phone-68us")
 SCENES = {
     "paper": PAPER.replace(switching_frequency=14.7e3),
     "odd number of chips": PAPER.replace(pattern="1101000"),
-    "slow": PAPER.replace(switching_frequency=100.0),
+    "slow": PAPER.replace(switching_frequency=80e6 / (7 * 32_003)),
     "fast": PAPER.replace(switching_frequency=1e6),
     "long": PAPER.replace(payload="text:" + "Photograph me. " * 30, line_code="4b6b"),
 }
@@ -41,6 +41,8 @@ def test_the_table_is_the_packet(name: str) -> None:
     (count,) = re.findall(r"CHIPS = (\d+);", source)
     chips = np.unpackbits(np.array(octets, dtype=np.uint8))[: int(count)]
     np.testing.assert_array_equal(chips, sent.chips)
+    (clock,) = re.findall(r"TICKS_PER_SECOND = (\d+);", source)
+    assert int(clock) * sent.timing.prescaler == ESP32.clock
 
 
 @pytest.mark.compilers

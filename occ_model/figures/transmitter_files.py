@@ -14,9 +14,8 @@ from occ_model.boards.board import (
     GATE_CAPACITANCE,
     LED_CURRENT,
     LED_VOLTS,
+    PULL_DOWN,
     Board,
-    Wiring,
-    wiring,
 )
 from occ_model.boards.sketch import file_names, source_text
 from occ_model.boards.transmission import EYES, Transmission, flicker_sentence
@@ -74,7 +73,6 @@ _LINE_LENGTH = 116  # characters of a line of text below the drawing
 
 def wiring_figure(sent: Transmission) -> Figure:
     """Draw the circuit; call it within :func:`occ_model.figures.drawing.house_style`."""
-    values = wiring(sent.board)
     figure = Figure(figsize=_SIZE)
     figure.suptitle(f"{sent.board.title}: wiring", fontweight="bold")
     places = figure.subplot_mosaic("AAB;TTT", height_ratios=(3.4, 2.6))
@@ -82,9 +80,9 @@ def wiring_figure(sent: Transmission) -> Figure:
     for axes in places.values():
         axes.set_axis_off()
     places["A"].set_title("A: panel, switched as in the paper")
-    _draw_panel(places["A"], sent.board, values)
+    _draw_panel(places["A"], sent.board)
     places["B"].set_title("B: a single LED")
-    _draw_led(places["B"], sent.board, values)
+    _draw_led(places["B"], sent.board)
     written.set_xlim(0, 1)
     written.set_ylim(0, 1)
     text = "\n".join(textwrap.fill(line, _LINE_LENGTH) for line in notes(sent))
@@ -94,25 +92,25 @@ def wiring_figure(sent: Transmission) -> Figure:
 
 def notes(sent: Transmission) -> list[str]:
     """Describe what the circuit's values are based on, and what to beware of."""
-    board, values = sent.board, wiring(sent.board)
-    edge = SECOND.format(values.rise_time, 2)
-    fraction = 100 * values.rise_time / float(sent.timing.period)
+    board = sent.board
+    edge = SECOND.format(board.rise_time, 2)
+    fraction = 100 * board.rise_time / float(sent.timing.period)
     return [
-        f"A: {values.gate_resistor} Ω limit the current of the pin ({board.volts:g} V) into the "
-        f"gate to {1e3 * board.volts / values.gate_resistor:.2g} mA; it may give "
+        f"A: {board.gate_resistor} Ω limit the current of the pin ({board.volts:g} V) into the "
+        f"gate to {1e3 * board.volts / board.gate_resistor:.2g} mA; it may give "
         f"{1e3 * board.pin_current:g} mA. With the {1e9 * GATE_CAPACITANCE:g} nF that are assumed "
         f"of the gate its voltage rises within {edge}, {fraction:.2g} % of a chip. "
-        f"{values.pull_down // 1000} kΩ keep the panel dark while the board starts.",
+        f"{PULL_DOWN // 1000} kΩ keep the panel dark while the board starts.",
         f"MOSFET: n-channel, fully on at {board.volts:g} V. Panel: LEDs with resistors for a "
         "constant voltage. One with a driver or a capacitor inside does not follow the chips.",
-        f"B, without a panel: {values.led_resistor} Ω give {1e3 * values.led_current:.2g} mA in an "
+        f"B, without a panel: {board.led_resistor} Ω give {1e3 * board.led_current:.2g} mA in an "
         f"LED of {LED_VOLTS:g} V (red, assumed; {1e3 * LED_CURRENT:g} mA aimed at).",
         "",
         f"Caution. {flicker_sentence(sent)} {EYES}",
     ]
 
 
-def _draw_panel(axes: Axes, board: Board, values: Wiring) -> None:
+def _draw_panel(axes: Axes, board: Board) -> None:
     """Draw the paper's circuit: a MOSFET switches the panel."""
     with _circuit(axes) as drawing:
         pins = [
@@ -121,10 +119,10 @@ def _draw_panel(axes: Axes, board: Board, values: Wiring) -> None:
         ]
         name = board.title.replace(" ", "\n", 1)
         chip = drawing.add(elements.Ic(pins=pins, size=(3.4, 3.6), label=name))
-        drawing.add(elements.RBox().at(chip.out).right(3.4).label(f"{values.gate_resistor} Ω"))
+        drawing.add(elements.RBox().at(chip.out).right(3.4).label(f"{board.gate_resistor} Ω"))
         gate = drawing.add(elements.Dot())
         pull_down = drawing.add(
-            elements.RBox().down(2.6).label(f"{values.pull_down // 1000} kΩ", loc="bottom")
+            elements.RBox().down(2.6).label(f"{PULL_DOWN // 1000} kΩ", loc="bottom")
         )
         drawing.add(elements.Dot())
         drawing.add(elements.Ground())
@@ -144,10 +142,10 @@ def _draw_panel(axes: Axes, board: Board, values: Wiring) -> None:
         drawing.add(elements.Wire("|-").at(chip.ground).to(pull_down.end))
 
 
-def _draw_led(axes: Axes, board: Board, values: Wiring) -> None:
+def _draw_led(axes: Axes, board: Board) -> None:
     with _circuit(axes) as drawing:
         drawing.add(elements.Dot(open=True).label(board.pin, "right"))
-        drawing.add(elements.RBox().down(2.6).label(f"{values.led_resistor} Ω", loc="bottom"))
+        drawing.add(elements.RBox().down(2.6).label(f"{board.led_resistor} Ω", loc="bottom"))
         drawing.add(elements.LED().down(2.0).label("LED", loc="bottom"))
         drawing.add(elements.Ground().label(board.ground, "right"))
 

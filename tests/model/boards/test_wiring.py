@@ -10,7 +10,6 @@ from occ_model.boards.board import (
     LED_CURRENT,
     LED_VOLTS,
     Board,
-    wiring,
 )
 from occ_model.boards.pico import PICO
 from occ_model.boards.sketch import BOARDS, board_named
@@ -24,18 +23,26 @@ every_board = pytest.mark.parametrize("board", BOARDS.values(), ids=lambda board
 
 @every_board
 def test_no_current_exceeds_what_pin_and_led_may_carry(board: Board) -> None:
-    values = wiring(board)
-    assert board.volts / values.gate_resistor <= board.pin_current
-    assert values.led_current <= LED_CURRENT < board.pin_current
-    assert values.led_current * values.led_resistor == pytest.approx(board.volts - LED_VOLTS)
+    assert board.volts / board.gate_resistor <= board.pin_current
+    assert board.led_current <= LED_CURRENT < board.pin_current
+    assert board.led_current * board.led_resistor == pytest.approx(board.volts - LED_VOLTS)
+
+
+@every_board
+def test_resistors_are_the_next_of_the_series_e12(board: Board) -> None:
+    series = [100, 120, 150, 180, 220, 270, 330, 390, 470, 560, 680, 820]  # IEC 60063
+    for resistor, least in (
+        (board.gate_resistor, board.volts / board.pin_current),
+        (board.led_resistor, (board.volts - LED_VOLTS) / LED_CURRENT),
+    ):
+        assert resistor == min(each for each in series if each > least - 1e-9)
 
 
 @every_board
 def test_the_gate_rises_as_an_rc_circuit_does(board: Board) -> None:
-    values = wiring(board)
-    constant = values.gate_resistor * GATE_CAPACITANCE
+    constant = board.gate_resistor * GATE_CAPACITANCE
     low, high = (-constant * math.log(1 - part) for part in (0.1, 0.9))
-    assert values.rise_time == pytest.approx(high - low)
+    assert board.rise_time == pytest.approx(high - low)
 
 
 def test_flicker_is_warned_of_where_it_may_be_seen_only() -> None:
@@ -57,11 +64,10 @@ def test_flicker_is_warned_of_where_it_may_be_seen_only() -> None:
 @pytest.mark.usefixtures("plain_figures")
 def test_the_figure_says_pin_resistors_and_caution() -> None:
     board, sent = PICO, transmission(PAPER, PICO)
-    values = wiring(board)
     svg = wiring_bytes(sent, "svg").decode()
     drawn = {line.strip(" <!->") for line in svg.splitlines() if line.strip().startswith("<!--")}
     assert {board.pin, board.ground, board.transistor} <= drawn
-    assert {f"{values.gate_resistor} Ω", f"{values.led_resistor} Ω"} <= drawn
+    assert {f"{board.gate_resistor} Ω", f"{board.led_resistor} Ω"} <= drawn
     text = " ".join(notes(sent))
     assert flicker_sentence(sent) in text
     assert "Do not look into a bright LED" in text

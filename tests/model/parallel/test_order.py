@@ -123,7 +123,9 @@ def test_so_many_jobs_are_sent_after_some_are_done(bench: Bench, law: str) -> No
         done = count
 
 
-def test_jobs_are_made_only_when_they_are_needed(bench: Bench) -> None:
+@pytest.mark.parametrize("workers", [1, 3])
+def test_jobs_are_made_only_when_they_are_needed(bench: Bench, workers: int) -> None:
+    bench.worker.count = workers
     made: list[int] = []
 
     def jobs() -> Iterator[Job]:
@@ -132,9 +134,10 @@ def test_jobs_are_made_only_when_they_are_needed(bench: Bench) -> None:
             yield Job(echo, (number,))
 
     bench.ask(MAP, 1, Stage(0, jobs()))
-    assert len(made) == 2 + 1  # two in flight, and one that waits
+    begun = 2 * workers + 1  # two of each worker are in flight, and one waits
+    assert len(made) == begun
     bench.finish(10)
-    assert len(made) == 13
+    assert len(made) == begun + 10
 
 
 def test_an_abandoned_stage_delays_nothing(bench: Bench) -> None:

@@ -11,6 +11,7 @@ import occ_model as occ
 from occ_model.room import locate
 from occ_model.room.edges import Edge
 from occ_model.room.pose_fit import Located
+from occ_model.room.reading import _longest_gap
 from occ_model.room.room import Place, Room, RoomLamp
 from occ_model.study.room_map import RoomMapRequest, room_map
 
@@ -109,6 +110,14 @@ def test_a_lamp_is_one_however_long_its_chips_are_dark() -> None:
     room = dataclasses.replace(room, lamps=tuple(lamps))
     reading = occ.read_room(occ.render_room(room, seed=1).camera_image, room)
     assert [lamp.name for lamp in reading.lamps] == ["L0", "L1"]
+
+
+def test_dark_chips_of_a_lamp_from_elsewhere_are_joined_by_its_line_code() -> None:
+    room = small_room(1, switching_frequency=1e3)
+    # No two dark chips of code 0 follow each other, as those of others may.
+    sent = room.lamps[0].transmitter.replaced({"code": 0})
+    room = room.replace(lamps=(dataclasses.replace(room.lamps[0], transmitter=sent),))
+    assert _longest_gap(room) >= 2.0 * sent.switching_period / room.scene.camera.readout_time
 
 
 # At the last, a single column of the next lit chip is in the picture.

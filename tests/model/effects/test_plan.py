@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 
 import occ_model as occ
-from occ_model.effects.paper_view import paper_view_of
-from occ_model.effects.plan import called_for_by_signal, ways_of
+from occ_model.effects import plan as module
+from occ_model.effects.paper_view import PaperView, paper_view_of
+from occ_model.effects.plan import called_for_by_signal, plan_of, plan_of_any, ways_of
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import Observable, SimulationSettings
 from occ_model.simulation.render import observe
@@ -202,3 +203,20 @@ def test_of_a_scene_without_stripes_no_change_is_stated() -> None:
             assert decision.limit == math.inf
             assert decision.reason.startswith("not known, as the stripes span less")
             assert "about" not in decision.reason
+
+
+def test_no_picture_is_planned_after_one_that_calls_for_all_effects(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    planned: list[PaperView] = []
+
+    def plan_and_count(view: PaperView, settings: SimulationSettings) -> occ.Plan:
+        planned.append(view)
+        return plan_of(view, settings)
+
+    monkeypatch.setattr(module, "plan_of", plan_and_count)
+    noisy = paper_view_of(occ.load_preset("phone-136us").replace(rows=400, columns=300))
+    plan_of_any([noisy] * 3, SimulationSettings(0.0))
+    assert len(planned) == 1
+    plan_of_any([noisy] * 3, SimulationSettings(math.inf))
+    assert len(planned) == 1 + 3

@@ -94,11 +94,8 @@ def _doubt_sharp_steps(pixels: SampledPixels, found: Observed) -> None:
     Whole plateaus of values that lie between two levels may be rounded otherwise; in a file
     whatever its own error reaches, since that is the same in blocks of equal rows.
     """
-    spread = pixels.spread(pixels.names)
-    if float(spread.min()) >= LEAST_SMOOTHING_NOISE:
-        return
     whole = np.clip(pixels.whole, 0.0, WHITE)
-    sharp = pixels.table.look(spread, whole) < LEAST_SMOOTHING_NOISE
+    sharp = pixels.table.look(pixels.spread(pixels.names), whole) < LEAST_SMOOTHING_NOISE
     if not sharp.any():
         return
     enhancement = pixels.columns.enhancement(pixels.names)
@@ -175,8 +172,6 @@ def _doubt_a_cut_file(pixels: SampledPixels, found: Observed) -> None:
     if pixels.file is None:
         return
     spread = pixels.spread(pixels.names)
-    if float(spread.max()) <= _CLIPPED_NOISE:
-        return
     lost = np.where(
         spread > _CLIPPED_NOISE, 1.0 - fraction_unclipped(pixels.levels, spread, WHITE), 0.0
     )

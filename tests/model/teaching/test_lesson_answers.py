@@ -242,20 +242,22 @@ def test_a_prediction_is_judged_before_anything_is_set() -> None:
     assert check_answer(asked, "62.5", scene=asked.scene).outcome == "wrong"
 
 
-def test_a_wrong_code_is_neither_near_nor_too_high(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize(
+    ("code", "others"), [("345", ("718", "346", "0")), ("0", ("1", "-1"))], ids=["345", "0"]
+)
+def test_a_wrong_code_is_neither_near_nor_too_high(
+    monkeypatch: pytest.MonkeyPatch, code: str, others: tuple[str, ...]
+) -> None:
+    known = replace(QUANTITIES["photo-code"], of_scene=lambda _: float(code), of_photo=False)
+    monkeypatch.setitem(QUANTITIES, "photo-code", known)
     asked = step(6, 2)
-    for code, others in (("345", ("718", "346", "0")), ("0", ("1", "-1"))):
-        known = replace(
-            QUANTITIES["photo-code"], of_scene=lambda _, n=code: float(n), of_photo=False
+    for wrong in others:
+        answer = check_answer(asked, wrong)
+        assert (answer.outcome, answer.sentence) == (
+            "wrong",
+            "Not yet: that is not the code. Try again.",
         )
-        monkeypatch.setitem(QUANTITIES, "photo-code", known)
-        for wrong in others:
-            answer = check_answer(asked, wrong)
-            assert (answer.outcome, answer.sentence) == (
-                "wrong",
-                "Not yet: that is not the code. Try again.",
-            )
-        assert check_answer(asked, code).outcome == "right"
+    assert check_answer(asked, code).outcome == "right"
 
 
 def test_an_explanation_says_of_which_scene_it_is_where_that_is_not_shown() -> None:

@@ -34,9 +34,7 @@ def panel_corners(scene: Scene) -> FloatArray:
         Part of the panel is beside or behind the camera.
     """
     size = scene.transmitter.panel_width, scene.transmitter.panel_height
-    return _corner_rays(scene.pose, *size) * scene.camera.focal_length_pixels + _centre(
-        scene.camera
-    )
+    return image_points(_corner_rays(scene.pose, *size), scene.camera)
 
 
 @lru_cache(maxsize=16)
@@ -63,12 +61,7 @@ def image_points(rays: FloatArray, camera: Camera) -> FloatArray:
 
 def image_rays(points: FloatArray, camera: Camera) -> FloatArray:
     """Return points of the image, (column, row), as rays (x, y) in focal lengths, same shape."""
-    return rays_at(points, *geometry_of(camera))
-
-
-def rays_at(points: FloatArray, rows: int, columns: int, focal_length: float) -> FloatArray:
-    """Return :func:`image_rays` for the :func:`geometry_of` a camera."""
-    return np.asarray((points - _middle(rows, columns)) / focal_length)
+    return np.asarray((points - _centre(camera)) / camera.focal_length_pixels)
 
 
 def pixel_rays(camera: Camera, rows: FloatArray) -> tuple[Pixels, Pixels]:
@@ -84,11 +77,7 @@ def geometry_of(camera: Camera) -> tuple[int, int, float]:
 
 
 def _centre(camera: Camera) -> FloatArray:
-    return _middle(camera.rows, camera.columns)
-
-
-def _middle(rows: int, columns: int) -> FloatArray:
-    return np.array([(columns - 1) / 2, (rows - 1) / 2])
+    return np.array([(camera.columns - 1) / 2, (camera.rows - 1) / 2])
 
 
 def rotation_of(pose: Pose) -> FloatArray:

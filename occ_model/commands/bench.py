@@ -6,6 +6,7 @@ from pathlib import Path
 from occ_model.commands.files import folder_of_figures
 from occ_model.commands.options import Commands, add_option, decoder_name, number
 from occ_model.commands.progress_bar import progress_bar
+from occ_model.errors import one_line
 from occ_model.files.writing import make_folder
 from occ_model.receiver.decoders import decoders
 from occ_model.results.bench import BenchPoint, BenchRequest
@@ -117,7 +118,7 @@ def _line(reading: SampleReading) -> str:
     correlation = "" if reading.correlation is None else f"{reading.correlation:.4f}"
     wrong = "" if reading.wrong_chips is None else f"{reading.wrong_chips:.2g}"
     return (
-        f"{sample.path.name[-28:]:<28} {sample.exposure / sample.symbol:8.2f}  "
+        f"{one_line(sample.path.name)[-28:]:<28} {sample.exposure / sample.symbol:8.2f}  "
         f"{sample.symbol / sample.sampling:4.1f}  {reading.decoder:<11} {reading.chips:5}  "
         f"{correlation:>11}  {wrong or reading.failure or ''}"
     )

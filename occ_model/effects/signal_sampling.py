@@ -101,8 +101,6 @@ class SignalSampling:
     @property
     def doubt_of_file(self) -> float:
         """Possible excess of the file's mean square: it rounds the rows of a block equally."""
-        if not self._pixels.files:
-            return 0.0
         return 7.0 * self._pixels.mean_of_columns(self._rounded) / self._rows
 
     def _of_changes(self) -> dict[str, FloatArray]:

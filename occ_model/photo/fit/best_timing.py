@@ -67,15 +67,15 @@ def explain(
     """
     if chips.min() == chips.max():
         return None
-    even = without_trend(stripes.profile)
+    search = Search(without_trend(stripes.profile), chips)
     candidates: list[Candidate] = []
     for group in steps:
-        candidates = _candidates(even, chips, group, gamma, check)
+        candidates = search.candidates(group, gamma, check)
         if candidates[0].correlation >= _LEAST_SURE_CORRELATION:
             break
     if candidates[0].correlation < _LEAST_SURE_CORRELATION:
         # Chips that are mostly on or mostly off: removing a trend of the mean distorts them.
-        others = _candidates(stripes.flattened, chips, steps[-1], gamma, check)
+        others = Search(stripes.flattened, chips).candidates(steps[-1], gamma, check)
         candidates = max(candidates, others, key=lambda found: found[0].correlation)
     return explain_from(_promising(candidates), stripes, chips, cameras, with_gamma)
 
@@ -118,17 +118,6 @@ def _fits(model: StripeModel, starts: Sequence[Timing], with_gamma: bool) -> lis
     apart = _apart(good)[:_MOST_FINISHED]
     fits = [model.fit(fit.timing, with_gamma) for fit in apart]
     return _apart(sorted((one for one in fits if one.is_possible), key=lambda fit: fit.residual))
-
-
-def _candidates(
-    even: FloatArray,
-    chips: ByteArray,
-    steps: FloatArray | None,
-    gamma: float,
-    check: Callable[[], object],
-) -> list[Candidate]:
-    search = Search(even, chips)
-    return search.candidates(search.steps() if steps is None else steps, gamma, check)
 
 
 def _promising(candidates: Sequence[Candidate]) -> list[Timing]:

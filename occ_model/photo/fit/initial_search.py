@@ -62,9 +62,13 @@ class Search:
         return slowest + np.arange(max(1, count)) / (self._columns * _STEPS_PER_CHIP)
 
     def candidates(
-        self, steps: FloatArray, gamma: float, check: Callable[[], object] = lambda: None
+        self, steps: FloatArray | None, gamma: float, check: Callable[[], object] = lambda: None
     ) -> list[Candidate]:
-        """Find each exposure's best timing, best first; what ``check`` raises ends the search."""
+        """Find each exposure's best timing, best first; what ``check`` raises ends the search.
+
+        ``steps``: chips per column to try, None for all that are possible.
+        """
+        steps = self.steps() if steps is None else steps
         rough = np.zeros(len(steps))
         together = max(1, _AT_ONCE // (_PHASES_A_CHIP * self._period))
         slow = self._harmonics[: self._period]

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from matches import match_with
 from photo_trials import said_of_negative
 from simulated_photos import photo_of, take
 
@@ -19,6 +20,7 @@ from occ_model.photo.fit.chip_runs import pulse, runs_of
 from occ_model.photo.fit.initial_search import Search
 from occ_model.photo.fit.joint_model import JointModel
 from occ_model.photo.fit.timing import Timing
+from occ_model.photo.match import _Case
 from occ_model.photo.match_facts import match_facts
 from occ_model.photo.stripes.evenly_lit import EvenProfile
 from occ_model.results.match import PLAIN_STRIPES
@@ -80,6 +82,17 @@ def test_a_pulse_and_its_exposure_are_exchangeable_where_none_is_noted() -> None
     assert np.abs(times - 0.13).min() < 0.03
     assert "doubtful" in next(str(one) for one in match_facts(match) if one.key == "exposure_time")
     assert "given" not in next(str(one) for one in match_facts(match) if one.key == "duty")
+
+
+@pytest.mark.parametrize(("error", "expected"), [(0.13, True), (0.12, False), (None, False)])
+def test_a_duty_that_was_searched_is_the_scenes_within_two_standard_deviations(
+    error: float | None, expected: bool
+) -> None:
+    told: Any = SimpleNamespace(scene=occ.Scene().replace(pattern="10"))
+    nothing: Any = None
+    case = _Case(nothing, told, nothing, (), "auto", nothing)
+    uncertainties = {} if error is None else {"duty": error}
+    assert case.may_be_as_sent(match_with(pattern="1000", uncertainties=uncertainties)) is expected
 
 
 def test_chips_that_are_read_in_place_of_a_given_pulse_are_never_sure() -> None:

@@ -40,9 +40,8 @@ class AdviceView(QWidget):
         self.cards.destination_chosen.connect(self.destination_chosen)
         self._frames_a_second = FRAMES_A_SECOND
         self._lines: list[QWidget] = []
-        self.destinations: list[QPushButton] = []
-        self._parameters: list[str] = []
-        self._beside: dict[QPushButton, QLabel] = {}
+        self.destinations: dict[QPushButton, tuple[str, QLabel]] = {}
+        """The parameter that each button changes, and the sentence beside it."""
         self._common: list[str] = []
         self._ended = ""
         self.back = push_button("Back to the map", "Show the map again.", self.back_asked)
@@ -83,8 +82,7 @@ class AdviceView(QWidget):
         for line in self._lines:
             self._column.removeWidget(line)
             line.deleteLater()
-        self._lines, self.destinations, self._parameters = [], [], []
-        self._beside, self._common = {}, []
+        self._lines, self.destinations, self._common = [], {}, []
         self.progress.setValue(0)
         self._show_running(True)
         self.cards.show_begun()
@@ -121,10 +119,9 @@ class AdviceView(QWidget):
         for line in self._lines:
             for label in line.findChildren(QLabel):
                 label.setEnabled(not outdated)
-        for button, parameter in zip(self.destinations, self._parameters, strict=True):
-            holds = not outdated or parameter in reachable
-            button.setEnabled(holds)
-            self._beside[button].setEnabled(holds)
+        for button, (parameter, label) in self.destinations.items():
+            for part in (button, label):
+                part.setEnabled(not outdated or parameter in reachable)
 
     def sentences(self) -> list[str]:
         return [label.text() for line in self._lines for label in line.findChildren(QLabel)]
@@ -147,17 +144,14 @@ class AdviceView(QWidget):
         layout = filled(QHBoxLayout(row), (label, 1), margins=0)
         if line.destination is not None:
             button = self._destination(*line.destination, decoder)
-            self._beside[button] = label
+            self.destinations[button] = (line.destination[0], label)
             layout.addWidget(button, 0, Qt.AlignmentFlag.AlignTop)
         self._column.insertWidget(place, row)
         self._lines.append(row)
 
     def _destination(self, name: str, value: float, text: str, decoder: str) -> QPushButton:
-        button = push_button(
+        return push_button(
             f"Take me to {text}",
             f"Change the scene to {text}, where it read every bit.",
             lambda: self.destination_chosen.emit(name, value, decoder),
         )
-        self.destinations.append(button)
-        self._parameters.append(name)
-        return button

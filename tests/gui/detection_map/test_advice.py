@@ -167,7 +167,7 @@ def test_a_destination_button_changes_the_scene_in_one_step(advised: MapBench) -
         (2, "Take me to 194 µs", "exposure_time", 194e-6),
     ):
         advised.choose_decoder("matched")
-        button = advised.view.advice.destinations[place]
+        button = [*advised.view.advice.destinations][place]
         assert button.text() == text
         button.click()
         assert advised.scenes.scene == before.replace(**{name: value})
@@ -262,12 +262,12 @@ def test_outdated_advice_is_dimmed_and_leads_only_where_it_still_holds(advised: 
 
     def state() -> tuple[set[bool], list[bool]]:
         labels = {label.isEnabled() for row in advice._lines for label in row.findChildren(QLabel)}
-        return labels, [button.isEnabled() for button in advice.destinations[:3]]
+        return labels, [button.isEnabled() for button in [*advice.destinations][:3]]
 
     assert state() == ({True}, [True, True, True])
     advised.scenes.change(switching_frequency=9e3)  # its limits do not depend on it
     assert state() == ({True, False}, [True, False, False])
-    (row,) = [row for row in advice._lines if advice.destinations[0] in row.children()]
+    (row,) = [row for row in advice._lines if next(iter(advice.destinations)) in row.children()]
     assert all(label.isEnabled() for label in row.findChildren(QLabel))
     advised.scenes.change(iso=200.0)
     assert state() == ({False}, [False, False, False])

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from gui.kinds import SnapshotOf, add_widget, collect
+from gui.kinds import SnapshotOf, add_widget, collect, not_none
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QColor
 from pytestqt.qtbot import QtBot
@@ -124,6 +124,17 @@ def test_the_line_of_the_tolerance_is_dragged_along_the_axis_of_errors(
         assert found[-1] == pytest.approx(levels, rel=0.1)
     for place, levels in ((area.left() - 5, 0.0), (area.right() + 50, math.inf)):
         assert levels_at(place, area) == levels
+
+
+def test_an_error_has_a_colour_only_beyond_the_tolerance(table: EffectTable) -> None:
+    place = [row.effect for row in table.effects.rows].index("sensor-noise")
+    area = table.visualRect(table.effects.index(place, ERROR))
+    limit = not_none(table.effects.rows[place].estimate)
+    for tolerance, has_colour in ((limit / 2.0, True), (2.0 * limit, False)):
+        table.show_tolerance(tolerance)
+        image = table.viewport().grab().toImage()
+        end = image.pixelColor(round(place_of(limit, area)), area.center().y())
+        assert (end.saturation() > 100, end.saturation() < 20) == (has_colour, not has_colour)
 
 
 def test_what_has_just_been_switched_is_tinted(table: EffectTable, frame: Frame) -> None:

@@ -109,11 +109,10 @@ class Panels(QWidget):
         weights = sum(panel.weight for panel in panels)
         places, left = {}, area.left()
         for panel in panels:
-            width = panel.width + spare * panel.weight // weights
-            if panel is panels[-1]:
-                width = area.right() + 1 - left
-            places[panel] = QRect(left, area.top(), width, area.height())
-            left += width + _GAP
+            share = spare * panel.weight // weights
+            places[panel] = QRect(left, area.top(), panel.width + share, area.height())
+            left += panel.width + share + _GAP
+            spare, weights = spare - share, weights - panel.weight
         return places
 
     def _over_each_other(self, area: QRect) -> tuple[QRect, QRect]:

@@ -192,7 +192,7 @@ class LimitCard(QFrame):
             end, after = found.gaps[0]
             more = len(found.gaps) - 1
             text += f"; gap {_written(end.value)} to {_written(after.value)}" + (
-                f" and {more} gaps more" if more else ""
+                f" and {counted(more, 'gap')} more" if more else ""
             )
         self.range.set_full_text(text)
 

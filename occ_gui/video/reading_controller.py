@@ -167,12 +167,13 @@ def sentences_of(
 
 def _losses(known: FilmProgress, whole: VideoReading) -> str:
     """Explain lost packets, whose bits do not count as wrong."""
-    where = "they were sent in the gap between two frames, or cut off by a frame's edge"
+    where = "sent in the gap between two frames, or cut off by a frame's edge"
     if unplaced := known.frames - known.placed:
         where += f", or in {counted(unplaced, 'frame')} without a known place"
-    text = f"{whole.cut_off} of {whole.lost} lost packets are not whole in any frame: {where}."
+    lost = f"{whole.cut_off} of {counted(whole.lost, 'lost packet')}"
+    text = f"{lost} {'is' if whole.cut_off == 1 else 'are'} not whole in any frame: {where}."
     if misread := whole.lost - whole.cut_off:
-        text += f" {misread} were in view and misread."
+        text += f" {misread} {'was' if misread == 1 else 'were'} in view and misread."
     return text + " The bit error rate counts only bits of packets in view."
 
 

@@ -66,6 +66,17 @@ def test_a_search_that_met_no_end_says_so_and_without_a_place_to_go_the_button_r
     assert card.value.text() == "14.7 kHz (99 %)"
 
 
+def test_gaps_are_counted_beside_the_first(cards: LimitCards, small_scene: Scene) -> None:
+    advice = advice_on(small_scene)
+    found = advice.limits.frequency
+    for gaps, end in ((1, "14.7 kHz"), (2, "and 1 gap more"), (3, "and 2 gaps more")):
+        several = replace(found, intervals=(gaps + 1) * found.intervals)
+        cards.cards["threshold"].show_range(several)
+        text = cards.cards["threshold"].range.toolTip()
+        assert text.startswith("from 14.7 kHz; gap 14.7 kHz to 14.7 kHz")
+        assert text.endswith(end)
+
+
 def test_limits_are_asked_for_once_while_cards_are_seen_and_not_for_a_scene_that_came_back(
     cards: LimitCards, small_scene: Scene, qtbot: QtBot
 ) -> None:

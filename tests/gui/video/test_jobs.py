@@ -176,6 +176,11 @@ def test_lost_packets_are_told_from_wrong_bits() -> None:
     assert "3 were in view and misread" in sentence
     assert "not placed" not in sentence
     assert "or in 1 frame without a known place" in sentences_of(known(whole, 1), whole, None)[0]
+    one, two = (
+        sentences_of(known(each), each, None)[0] for each in (reading(6, 0, 1), reading(6, 1, 1))
+    )
+    assert one.startswith("1 of 1 lost packet is not whole in any frame: sent in the gap")
+    assert "1 was in view and misread" in two
     whole = reading(6, 0, 11)
     assert "misread" not in sentences_of(known(whole), whole, None)[0]
     whole = reading(6, 0, 0)

@@ -127,24 +127,25 @@ class MatchResult(QWidget):
         return self.figures.labels
 
     def show_match(
-        self, match: Match, noted: float | None, given: float = math.nan, *, turned: bool = False
+        self,
+        match: Match,
+        noted: float | None,
+        given: float = math.nan,
+        cure: Cure | None = None,
+        *,
+        turned: bool = False,
     ) -> None:
         """Show a match.
 
         ``noted``: the exposure time in seconds recorded by the camera, if any. ``given``: the known
-        value of the scene at the match's start, in SI units.
+        value of the scene at the match's start, in SI units. ``cure``: the remedy for its bars.
         """
         self._match, self._noted, self._turned = match, noted, turned
-        self._cure, self._given = None, given
+        self._cure, self._given = cure, given
         self._show_stale()
         self.verdict.show_verdict(match.verdict, match.all_reasons)
         self._show_figures(match)
         self.show_outdated("", usable=True)
-
-    def show_cure(self, cure: Cure) -> None:
-        self._cure = cure
-        if self._match is not None:
-            self._show_figures(self._match)
 
     def _show_cure(self, found: Cure, match: Match) -> None:
         text = (

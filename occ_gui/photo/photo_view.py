@@ -178,8 +178,8 @@ class PhotoView(QWidget):
             return
         bar = self._scroll.verticalScrollBar()
         place, photo = bar.value(), self._photo
-        self.result.show_match(match, photo.exposure_time, found.given, turned=photo.turned)
-        self.result.show_cure(cure)
+        noted, given = photo.exposure_time, found.given
+        self.result.show_match(match, noted, given, cure, turned=photo.turned)
         self._bring_into_view(self.result)
         if found.is_listed:  # the table stays at hand
             bar.setValue(place)

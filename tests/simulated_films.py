@@ -12,7 +12,7 @@ from occ_model.scene.payload import bits_of_payload
 from occ_model.scene.recording import Recording, Waypoint
 from occ_model.study.observation import panel_span
 from occ_model.video.counting import ShutterTiming
-from occ_model.video.period import period_of
+from occ_model.video.period import SentPeriod
 from occ_model.video.render import SimulatedVideo, render_video
 
 FILMS = 40
@@ -147,7 +147,7 @@ def judge(one: Film) -> Judged:
     start = time.process_time()
     reading = reader.reading()
     used += time.process_time() - start
-    counts = np.zeros(period_of(one.scene).length, dtype=np.int64)
+    counts = np.zeros(SentPeriod(one.scene.transmitter).length, dtype=np.int64)
     for timing, begins in seen:
         first, end = timing.whole_chips(begins)
         np.add.at(counts, np.arange(first, end) % len(counts), 1)

@@ -23,7 +23,7 @@ from occ_model.scene.recording import Recording
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.study.observation import panel_span
 from occ_model.video.counting import ShutterTiming, packets_received_on_average
-from occ_model.video.period import period_of
+from occ_model.video.period import SentPeriod
 from occ_model.video.reader import VideoReader
 from occ_model.video.render import SimulatedVideo, render_video
 
@@ -127,7 +127,7 @@ def _measured(
         heartbeat()
         reader.add(frame)
     reading = reader.reading()
-    period = period_of(scene)
+    period = SentPeriod(scene.transmitter)
     timing = _timing(scene)
     length = period.part_length
     # Without a packet in any frame the number sent follows from the clock alone.

@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 
 from occ_model.arrays import ByteArray, IndexArray
-from occ_model.scene.scene import Scene, Transmitter
+from occ_model.scene.scene import Transmitter
 from occ_model.transmitter.framings import c_ook
 from occ_model.transmitter.framings.framing import (
     FrameFormat,
@@ -167,7 +167,3 @@ class SentPeriod:
         bits = self.scheme.form.bits
         size = -(-bits // self.parts)
         return slice(part * size, min((part + 1) * size, bits))
-
-
-def period_of(scene: Scene) -> SentPeriod:
-    return SentPeriod(scene.transmitter)

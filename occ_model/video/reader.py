@@ -27,7 +27,7 @@ from occ_model.video.payload_so_far import (
     why_unplaced,
     written,
 )
-from occ_model.video.period import period_of
+from occ_model.video.period import SentPeriod
 from occ_model.video.placed_frames import FIRST_FIT, PlacedFrames
 from occ_model.video.read_frame import FrameReader
 from occ_model.video.without_packets import WithoutPackets
@@ -123,7 +123,7 @@ class VideoReader:
                 "readout_tolerance", shown(readout_tolerance), f"above 0 up to {most:g}"
             )
         self._scene, self._reads = scene, FrameReader(scene, decoder)
-        self._period = period_of(scene)
+        self._period = SentPeriod(scene.transmitter)
         readout = scene.camera.readout_time
         self._placed = PlacedFrames(self._period, readout, readout_tolerance)
         self._joined = self._placed.joined

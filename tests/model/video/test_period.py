@@ -9,14 +9,14 @@ import pytest
 import occ_model as occ
 from occ_model.transmitter.packet import sent_chips
 from occ_model.video.payload_so_far import known_bits, written
-from occ_model.video.period import period_of
+from occ_model.video.period import SentPeriod
 
 
 @pytest.mark.parametrize("shift", [0, 3, 11])
 def test_a_header_in_view_shows_the_place(shift: int) -> None:
     scene = occ.Scene()
     chips = np.tile(np.roll(sent_chips(scene.transmitter), shift), 2)
-    (place,) = period_of(scene).places(chips)
+    (place,) = SentPeriod(scene.transmitter).places(chips)
     assert place == -shift % len(sent_chips(scene.transmitter))
 
 
@@ -24,12 +24,12 @@ def test_headers_that_contradict_each_other_show_nothing() -> None:
     scene = occ.Scene()
     period = sent_chips(scene.transmitter)
     torn = np.concatenate([period, period[:5], period, period])
-    assert period_of(scene).places(torn) == ()
+    assert SentPeriod(scene.transmitter).places(torn) == ()
 
 
 def test_nothing_is_shown_without_a_header() -> None:
     scene = occ.Scene()
-    assert period_of(scene).places(sent_chips(scene.transmitter)[8:14]) == ()
+    assert SentPeriod(scene.transmitter).places(sent_chips(scene.transmitter)[8:14]) == ()
 
 
 def bits_of(octets: bytes) -> np.ndarray:
@@ -57,7 +57,7 @@ def test_a_payload_is_written_in_its_form_and_what_is_missing_by_dots(
 @pytest.mark.parametrize("framing", ["paper", "raw", "preamble"])
 def test_all_bits_are_known_of_a_whole_period_and_fewer_of_a_part(framing: str) -> None:
     scene = occ.Scene().replace(payload="hex:5ac3", framing=framing)
-    period = period_of(scene)
+    period = SentPeriod(scene.transmitter)
     sent = np.array(scene.transmitter.payload_bits, dtype=np.uint8)
     chips = period.scheme.encode(sent)
     ratios = np.where(chips == 1, 9.0, -9.0)

@@ -7,7 +7,7 @@ import numpy as np
 import occ_model as occ
 from occ_model.results.video_reading import FrameReading
 from occ_model.transmitter.packet import sent_chips
-from occ_model.video.period import period_of
+from occ_model.video.period import SentPeriod
 from occ_model.video.placed_frames import PlacedFrames
 from occ_model.video.read_frame import TimedFrame
 
@@ -35,7 +35,7 @@ def frame(index: int, chips: np.ndarray) -> tuple[TimedFrame, int]:
 
 
 def test_sub_packets_are_found_by_the_clock_where_no_frame_shows_a_number() -> None:
-    period, chips = period_of(SCENE), sent_chips(SCENE.transmitter)
+    period, chips = SentPeriod(SCENE.transmitter), sent_chips(SCENE.transmitter)
     readout = STEP / FREQUENCY
     placed = PlacedFrames(period, 1.002 * readout, 0.005)
     placed.columns = COLUMNS

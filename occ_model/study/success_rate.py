@@ -89,21 +89,14 @@ def success_rate(
     check_scene(scene)
     settings = RateSettings(images, (decoder,), seed, tolerance, force or {}, path)
     check_rate(scene, settings)
-    (correct,) = right_bits(scene, settings)
+    (correct,), _ = right_and_whole(scene, settings)
     return 100.0 * correct / (images * scene.transmitter.payload_length)
-
-
-def right_bits(
-    scene: Scene, settings: RateSettings, heartbeat: Heartbeat = lambda: None
-) -> tuple[int, ...]:
-    """Count the bits that each decoder reads rightly, all from the same images."""
-    return right_and_whole(scene, settings, heartbeat)[0]
 
 
 def right_and_whole(
     scene: Scene, settings: RateSettings, heartbeat: Heartbeat = lambda: None
 ) -> tuple[tuple[int, ...], tuple[int, ...]]:
-    """Count the bits that each decoder reads rightly, and the images without a wrong bit."""
+    """Count right bits by decoder, all from the same images, and images without a wrong bit."""
     correct, whole = [0] * len(settings.decoders), [0] * len(settings.decoders)
     length = scene.transmitter.payload_length
     for counts in right_bits_of_images(scene, settings, heartbeat):

@@ -152,7 +152,7 @@ def test_another_decoder_reads_the_same_pictures_without_simulating_them_again(
     assert len(simulated) == 3
     module._kept.cache_clear()
     settings = RateSettings(3, ("threshold", "matched"), 81)
-    right = module.right_bits(at, settings)
+    right = module.right_and_whole(at, settings)[0]
     assert rates == [100.0 * each / 30 for each in right]
     occ.success_rate(at, 3, seed=82)
     assert len(simulated) == 9

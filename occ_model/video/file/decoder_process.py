@@ -55,7 +55,7 @@ class DecoderProcess:
         )
         self._ahead = False
         self.is_full = False
-        self._end = weakref.finalize(self, _end, process)
+        self.end = weakref.finalize(self, _end, process)
 
     def open(self, path: Path, reader: str, channel: str) -> OpenedFilm:
         """Open a film; return its frame rate and count. Raises VideoError with a sentence's end."""
@@ -108,12 +108,9 @@ class DecoderProcess:
         self._forget()
         self._ask({"do": "close"})
 
-    def end(self) -> None:
-        self._end()
-
     @property
     def is_alive(self) -> bool:
-        return self._end.alive and self._process.poll() is None
+        return self.end.alive and self._process.poll() is None
 
     def _forget(self) -> None:
         """Discard the answer that was requested ahead."""

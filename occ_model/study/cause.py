@@ -7,7 +7,6 @@ from dataclasses import dataclass, field
 from occ_model.camera.photometry import FLAT_SPAN, WHITE, deviation, level_values
 from occ_model.camera.projection import panel_corners
 from occ_model.effects.paper_view import region_of
-from occ_model.errors import OccError
 from occ_model.receiver.decoder import columns_of_chip
 from occ_model.receiver.matched.templates import MOST_BITS
 from occ_model.results.decoding import Region
@@ -54,14 +53,11 @@ def cause_of(scene: Scene, decoder: str, region: Region | None = None) -> Cause 
     """Find why a decoder cannot read a scene from a region; None without a reason."""
     if scene.transmitter.pattern:
         return None
-    try:
-        found = (
-            _light(scene), _lost_panel(scene, region), _short_chips(scene),
-            _few_chips(scene, decoder), _bits(scene, decoder),
-            _null(scene, decoder), _noise(scene, decoder),
-        )  # fmt: skip
-    except OccError:
-        return None
+    found = (
+        _light(scene), _lost_panel(scene, region), _short_chips(scene),
+        _few_chips(scene, decoder), _bits(scene, decoder),
+        _null(scene, decoder), _noise(scene, decoder),
+    )  # fmt: skip
     return next((one for one in found if one is not None), None)
 
 

@@ -17,7 +17,6 @@ from occ_model.receiver.sequence.code_words import code_words
 from occ_model.receiver.sequence.exposures import Timing
 from occ_model.receiver.sequence.fit import (
     Fit,
-    Rows,
     detect,
     find_phase,
     first_guess,
@@ -98,15 +97,15 @@ def _fit(
     signal: FloatArray, scene: Scene, timing: Timing, words: tuple[Word, ...]
 ) -> tuple[Fit, Light]:
     """Detect the chips; where they explain too little, follow their timing and detect them anew."""
-    light, expected = in_light(signal, scene), expected_light(scene)
-    rows = Rows(light.values, expected)
-    brightness = first_guess(rows, timing, PER_CHIP)
-    known = find_phase(rows, timing, brightness, words)
-    found = _improved(signal, scene, detect(rows, known, brightness, words), light, words)
+    light = in_light(signal, scene)
+    brightness = first_guess(light.values, expected_light(scene), timing, PER_CHIP)
+    known = find_phase(light.values, timing, brightness, words)
+    found = _improved(signal, scene, detect(light.values, known, brightness, words), light, words)
     if found[0].unexplained() <= _DOUBTFUL_FRACTION:
         return found
-    followed = follow_timing(rows, known, brightness, words)
-    other = _improved(signal, scene, detect(rows, followed, brightness, words), light, words)
+    followed = follow_timing(light.values, known, brightness, words)
+    fit = detect(light.values, followed, brightness, words)
+    other = _improved(signal, scene, fit, light, words)
     return other if other[0].unexplained() < found[0].unexplained() else found
 
 
@@ -114,7 +113,6 @@ def _improved(
     signal: FloatArray, scene: Scene, fit: Fit, light: Light, words: tuple[Word, ...]
 ) -> tuple[Fit, Light]:
     """Improve what the chips were detected with, and detect them anew."""
-    rows = Rows(light.values, expected_light(scene))
     for _ in range(_IMPROVEMENTS):
         if light.is_estimated:
             # The chips found have a distribution of light of their own, nearer to the picture's.
@@ -126,8 +124,7 @@ def _improved(
                 light.clipped, np.maximum(in_light(signal, scene).values, least), light.values
             )
             light = replace(light, values=more)
-        rows = replace(rows, light=light.values)
-        before, fit = fit, detect(rows, *improve(rows, fit), words)
+        before, fit = fit, detect(light.values, *improve(light.values, fit), words)
         same = np.array_equal(fit.chips.values, before.chips.values)
         settled = (same and not light.is_estimated) or fit.noise > _MAX_NOISE_RATIO * before.noise
         if settled and fit.unexplained() <= MAX_UNEXPLAINED:

@@ -77,14 +77,6 @@ class Fit:
         return unexplained_fraction(self.model + self.residual, self.residual)
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class Rows:
-    light: FloatArray  # Shape (rows,): proportional to the light of each, up to a constant
-    # Shape (exposures,): the lit fractions of exposures of random data in the order of time, for a
-    # first guess
-    expected: FloatArray
-
-
 def lit_fractions(chips: Chips, timing: Timing, rows: int) -> tuple[FloatArray, FloatArray]:
     """Return the lit fraction of each row's exposure, and its derivative by the phase."""
     starts = timing.starts(rows)
@@ -97,9 +89,14 @@ def lit_fractions(chips: Chips, timing: Timing, rows: int) -> tuple[FloatArray, 
     return model, (lit[:, 0] - chips.values[first]) / timing.exposure
 
 
-def first_guess(rows: Rows, timing: Timing, per_chip: int) -> Brightness:
-    """Guess the brightness from the mean of the rows and the covariance of neighbours."""
-    light, expected = rows.light, rows.expected
+def first_guess(
+    light: FloatArray, expected: FloatArray, timing: Timing, per_chip: int
+) -> Brightness:
+    """Guess the brightness from the mean of the rows' light and the covariance of neighbours.
+
+    ``expected``: the lit fractions of exposures of random data in the order of time, ``per_chip``
+    of them a chip.
+    """
     about = light - light.mean()
     lags = np.arange(1, _LAG_ROWS + 1)
     own = np.array([about[lag:] @ about[:-lag] for lag in lags]) / len(light)
@@ -113,29 +110,31 @@ def first_guess(rows: Rows, timing: Timing, per_chip: int) -> Brightness:
 
 
 def find_phase(
-    rows: Rows, timing: Timing, brightness: Brightness, words: tuple[Word, ...]
+    light: FloatArray, timing: Timing, brightness: Brightness, words: tuple[Word, ...]
 ) -> Timing:
     """Find the phase at which the chips in the middle of the picture fit best."""
-    count = min(len(rows.light), round((TRIED_CHIPS + timing.exposure) / timing.step))
-    first = (len(rows.light) - count) // 2
-    part = slice(first, first + count)
-    light = brightness.lit_fraction(rows.light)[part]
+    count = min(len(light), round((TRIED_CHIPS + timing.exposure) / timing.step))
+    first = (len(light) - count) // 2
+    fraction = brightness.lit_fraction(light)[first : first + count]
     tried = [
         replace(timing, phase=timing.step * first + place / _PHASES) for place in range(_PHASES)
     ]
-    seen = [gather(light, one) for one in tried]
+    seen = [gather(fraction, one) for one in tried]
     if most_states(words, timing.memory) <= MOST_STATES:
         distances = least_distances(trellis_of(words, timing.memory), seen)
     else:
         chips = [_likeliest(words, timing, one) for one in seen]
         models = [lit_fractions(c, t, count)[0] for c, t in zip(chips, tried, strict=True)]
-        distances = np.array([float(np.sum((light - model) ** 2)) for model in models])
+        distances = np.array([float(np.sum((fraction - model) ** 2)) for model in models])
     best = tried[int(np.argmin(distances))]
     return replace(best, phase=best.phase - timing.step * first)
 
 
-def detect(rows: Rows, timing: Timing, brightness: Brightness, words: tuple[Word, ...]) -> Fit:
-    fraction = brightness.lit_fraction(rows.light)
+def detect(
+    light: FloatArray, timing: Timing, brightness: Brightness, words: tuple[Word, ...]
+) -> Fit:
+    """Detect the chips; ``light``: proportional to that of each row, up to a constant."""
+    fraction = brightness.lit_fraction(light)
     chips = _likeliest(words, timing, gather(fraction, timing))
     model, _ = lit_fractions(chips, timing, len(fraction))
     return Fit(chips, timing, brightness, model, fraction - model)
@@ -147,14 +146,14 @@ def _likeliest(words: tuple[Word, ...], timing: Timing, statistics: ChipStatisti
     return beam_chips(words, timing.memory, statistics)
 
 
-def improve(rows: Rows, fit: Fit) -> tuple[Timing, Brightness]:
+def improve(light: FloatArray, fit: Fit) -> tuple[Timing, Brightness]:
     """Improve the timing and the brightness by least squares, the chips being as detected."""
-    count = len(rows.light)
+    count = len(light)
     model, slope = lit_fractions(fit.chips, fit.timing, count)
     # The light is linear in a and b, each a parabola over the picture, and nearly in the timing.
     powers = _powers(count)
     terms = np.concatenate([powers, powers * model, powers[:2] * (slope * fit.brightness.swing)])
-    found = np.linalg.lstsq(terms @ terms.T, terms @ rows.light, rcond=_SINGULAR)[0]
+    found = np.linalg.lstsq(terms @ terms.T, terms @ light, rcond=_SINGULAR)[0]
     dark, swing = found[:3] @ powers, found[3:6] @ powers
     if not (swing > 0.0).all():
         return fit.timing, fit.brightness
@@ -185,25 +184,25 @@ _CONVERGED_CHIPS = 0.01  # motion of a part's ends in chips below which the fit 
 
 
 def follow_timing(
-    rows: Rows, timing: Timing, brightness: Brightness, words: tuple[Word, ...]
+    light: FloatArray, timing: Timing, brightness: Brightness, words: tuple[Word, ...]
 ) -> Timing:
     """Improve a timing that fits the middle, and may be some percent off from row to row."""
-    count = len(rows.light)
+    count = len(light)
     size = round((TRIED_CHIPS + timing.exposure) / timing.step)
     while True:
         size = min(size, count)
-        timing = _in_part(rows, timing, brightness, words, size)
+        timing = _in_part(light, timing, brightness, words, size)
         if size == count:
             return timing
         size *= 2
 
 
 def _in_part(
-    rows: Rows, timing: Timing, brightness: Brightness, words: tuple[Word, ...], size: int
+    light: FloatArray, timing: Timing, brightness: Brightness, words: tuple[Word, ...], size: int
 ) -> Timing:
-    first = (len(rows.light) - size) // 2
+    first = (len(light) - size) // 2
     part = slice(first, first + size)
-    seen = replace(rows, light=rows.light[part])
+    seen = light[part]
     bright = Brightness(brightness.dark[part], brightness.swing[part])
     here = replace(timing, phase=timing.phase + timing.step * first)
     for _ in range(_MAX_TURNS):

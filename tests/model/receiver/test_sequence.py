@@ -13,7 +13,7 @@ from occ_model.receiver.light import PER_CHIP, light_of_chips
 from occ_model.receiver.sequence import decoder
 from occ_model.receiver.sequence.code_words import _of_runs, code_words
 from occ_model.receiver.sequence.exposures import Timing, gather
-from occ_model.receiver.sequence.fit import Brightness, Fit, Rows, first_guess
+from occ_model.receiver.sequence.fit import Brightness, Fit, first_guess
 from occ_model.receiver.sequence.search import Chips, beam_chips, best_chips
 from occ_model.receiver.sequence.trellis import FREE_CHIPS, places_of, trellis_of
 from occ_model.scene.scene import Scene
@@ -51,8 +51,8 @@ def test_the_last_chip_is_the_last_that_a_row_shows(exposure: float) -> None:
 
 
 def test_the_brightness_is_first_guessed_by_how_neighbouring_rows_go_together() -> None:
-    rows = Rows(60.0 + 150.0 * seen_by_rows(SENT, 1.3, 0.35, 0.0), light_of_chips(SENT, 1.3))
-    guess = first_guess(rows, Timing(1.3, 0.35), PER_CHIP)
+    light = 60.0 + 150.0 * seen_by_rows(SENT, 1.3, 0.35, 0.0)
+    guess = first_guess(light, light_of_chips(SENT, 1.3), Timing(1.3, 0.35), PER_CHIP)
     assert guess.dark == pytest.approx(60.0, abs=1.0)
     assert guess.swing == pytest.approx(150.0, abs=1.0)
 
@@ -119,7 +119,6 @@ def test_chips_are_improved_until_nothing_is_gained(
 
     monkeypatch.setattr(decoder, "detect", detect)
     monkeypatch.setattr(decoder, "improve", lambda *_: (None, None))
-    monkeypatch.setattr(decoder, "expected_light", lambda _: np.zeros(4))
     light = SimpleNamespace(values=np.zeros(4), clipped=np.zeros(4, dtype=bool), is_estimated=False)
     first = fit_of(10.0, [0, 1], unexplained)
     found, _ = decoder._improved(np.zeros(4), Scene(), first, light, FREE_CHIPS)  # type: ignore[arg-type]

@@ -189,14 +189,11 @@ def first_lattice(
     ``before``: how many columns of the signal lie before the result's region. The scene's exposure
     time and switching frequency are a first guess.
     """
-    starts = result.chip_starts
-    if starts is None or result.chips.size < _MIN_EDGES:
-        return None
-    starts = starts + before
-    exposure = scene.camera.exposure_time * scene.transmitter.switching_frequency
     edges = np.flatnonzero(np.diff(result.chips.astype(np.int64))) + 1
-    if len(edges) < _MIN_EDGES:
+    if result.chip_starts is None or len(edges) < _MIN_EDGES:
         return None
+    starts = result.chip_starts + before
+    exposure = scene.camera.exposure_time * scene.transmitter.switching_frequency
     places, numbers = starts[edges], edges.astype(np.float64)
     rising = result.chips[edges] == 1
     step, offsets = _regular(places, numbers, rising)

@@ -10,7 +10,7 @@ Result = TypeVar("Result")
 
 
 def on_both_cores(what: Callable[[int], Result], seeds: Iterable[int]) -> Iterator[Result]:
-    """Give the result for each seed, in order."""
+    """Yield the result for each seed, in order."""
     if "PYTEST_XDIST_WORKER" in os.environ:
         yield from map(what, seeds)
         return

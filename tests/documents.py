@@ -15,7 +15,7 @@ def text_of(path: Path) -> str:
 
 
 def blocks(text: str, language: str) -> list[str]:
-    """Give the blocks of code in a language; '' for those that name none."""
+    """Return the blocks of code in a language; '' for those that name none."""
     found = re.findall(r"^```(\w*)\n(.*?)^```", text, re.DOTALL | re.MULTILINE)
     return [code for named, code in found if named == language]
 
@@ -26,5 +26,5 @@ def without_code(text: str) -> str:
 
 
 def links(text: str) -> list[str]:
-    """Give the targets of links and pictures that are not web pages."""
+    """Return the targets of links and pictures that are not web pages."""
     return re.findall(r"\]\(((?!https?:)[^)]+)\)", without_code(text))

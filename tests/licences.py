@@ -74,7 +74,7 @@ def _expanded(requirements: Iterable[str], extras: Mapping[str, list[str]]) -> I
 
 @cache
 def groups() -> dict[str, set[str]]:
-    """Give the groups that name a package, by the package."""
+    """Return the groups that name a package, by the package."""
     found: dict[str, set[str]] = {}
     for group, requirements in direct().items():
         for requirement in requirements:
@@ -84,7 +84,7 @@ def groups() -> dict[str, set[str]]:
 
 @cache
 def indirect() -> dict[str, set[str]]:
-    """Give the packages that those need in turn, on this system, and who needs each."""
+    """Return the packages that those need in turn, on this system, and who needs each."""
     needed: dict[str, set[str]] = {}
     waiting = [Requirement(each) for group in direct().values() for each in group]
     seen: set[str] = set()
@@ -108,7 +108,7 @@ def _needs(asked: Requirement) -> Iterator[Requirement]:
 
 
 def installed(name: str) -> Distribution | None:
-    """Give an installed package, None where it is not."""
+    """Return an installed package, None where it is not."""
     try:
         return distribution(name)
     except PackageNotFoundError:
@@ -116,7 +116,7 @@ def installed(name: str) -> Distribution | None:
 
 
 def licence(name: str) -> str | None:
-    """Give the licence that an installed package states, None where it is not installed."""
+    """Return the licence that an installed package states, None where it is not installed."""
     package = installed(name)
     if package is None:
         return None
@@ -134,7 +134,7 @@ def licence(name: str) -> str | None:
 
 
 def rows(packages: Mapping[str, set[str]]) -> list[tuple[str, str, str]]:
-    """Give name, licence, and by what each is needed."""
+    """Return name, licence, and by what each is needed."""
     return [
         (name, licence(name) or "not installed", ", ".join(sorted(by)))
         for name, by in sorted(packages.items())

@@ -24,7 +24,7 @@ _SENSITIVITY = np.array([0.35, 1.0, 0.5])
 
 
 def light_of(scene: Scene, dark: float = 0.05, bright: float = 0.8) -> NDArray[np.float64]:
-    """Give the light on each line of a sensor that a scene's shutter scans, 1 being white."""
+    """Return the light on each line of a sensor that a scene's shutter scans, 1 being white."""
     lit = occ.on_time(scene) / scene.camera.exposure_time
     return np.asarray(dark + (bright - dark) * lit)
 

@@ -12,7 +12,7 @@ _ACCEPTS = 0x10000
 
 
 def processes_of(session: int) -> list[int]:
-    """Give the processes of a session, which its first process and all that it started share."""
+    """Return the processes of a session, which its first process and all that it started share."""
     found = []
     for folder in Path("/proc").glob("[0-9]*"):
         with suppress(OSError):

@@ -11,7 +11,6 @@ from occ_model.parallel.job import Heartbeat, Job, JobResult, do_job
 
 
 def echo(value: Any, heartbeat: Heartbeat) -> Any:
-    """Give it back."""
     return value
 
 

@@ -54,7 +54,7 @@ FREQUENCIES = tuple(np.arange(4e3, 61e3, 2e3).tolist())
 
 
 def signal_of(scene: Scene, random: np.random.Generator) -> FloatArray:
-    """Give the column means that a decoder reads of one picture."""
+    """Return the column means that a decoder reads of one picture."""
     view = paper_view_of(scene)
     chosen = plan_of(view, SimulationSettings(observable="signal").checked(NAMES))
     span = panel_span(scene)
@@ -191,7 +191,7 @@ def print_confidences(options: argparse.Namespace) -> None:
 
 
 def scene_of(line_code: str, framing: str, preset: str, **changes: float) -> Scene | str:
-    """Give the scene that sends a scheme, or the sentence that refuses it."""
+    """Return the scene that sends a scheme, or the sentence that refuses it."""
     try:
         scene = occ.load_preset(preset).replace(
             enhancement="none", distance=0.6, line_code=line_code, framing=framing,

@@ -57,7 +57,7 @@ class _ChangeOf:
 def compared(
     scene: Scene, seed: int, tolerances: tuple[float, ...] = ()
 ) -> Iterator[tuple[str, str, float, float, float]]:
-    """Give observable, effect, estimate, limit and change; a plan's tolerance is both of these."""
+    """Yield observable, effect, estimate, limit and change; a plan's tolerance is both of these."""
     for observable in BEFORE_DECISION:
         everything = occ.plan(scene, 0.0, observable)
         effects, stretch = present(everything), everything.stretch

@@ -31,7 +31,7 @@ _TURN_MS = 20
 
 
 def source(scene: occ.Scene) -> FilmSource:
-    """Give a film that repeats a few frames; they are simulated before it begins."""
+    """Return a film that repeats a few frames; they are simulated before it begins."""
     made = list(occ.render_video(scene, DIFFERENT, occ.Recording(frame_rate=RATE)))
     frames = [
         replace(made[number % DIFFERENT], index=number, time=number / RATE)

@@ -82,7 +82,7 @@ def _about(axis: FloatArray, angle: float, points: FloatArray) -> FloatArray:
 
 
 def edges_off(room: Room, image: ByteArray) -> Iterator[tuple[bool, float, float]]:
-    """Give of each measured edge's points whether it is upright, how far off, and the error."""
+    """Yield of each measured edge's points whether it is upright, how far off, and the error."""
     finder = EdgeFinder(image, room)
     lamps = {lamp.name: lamp for lamp in room.lamps}
     for read in find_and_name(image, room):

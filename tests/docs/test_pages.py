@@ -77,7 +77,7 @@ def test_every_name_is_in_the_file_that_it_is_said_to_be_in(page: Path) -> None:
 
 
 def commands(text: str) -> list[list[str]]:
-    """Give the words of every command of ours that a document names."""
+    """Return the words of every command of ours that a document names."""
     code = "\n".join(blocks(text, "")).replace("\\\n", " ")
     inline = [" ".join(c.split()) for c in re.findall(r"`([^`]+)`", without_code(text))]
     lines = [line.removeprefix("$ ") for line in [*code.splitlines(), *inline]]

@@ -74,7 +74,7 @@ Row = tuple[str, str, int, float]  # A law, its ranges, the cases tried and the 
 
 
 def rows() -> list[Row]:
-    """Give what was found as plain values: pytest-xdist sends no numbers of numpy."""
+    """Return what was found as plain values: pytest-xdist sends no numbers of numpy."""
     return [(law, found.ranges, found.cases, float(found.worst)) for law, found in FOUND.items()]
 
 

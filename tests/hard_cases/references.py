@@ -36,7 +36,7 @@ STARTS = st.one_of(
 
 
 def within(name: str, value: float) -> float:
-    """Give the nearest value that a parameter may have."""
+    """Return the nearest value that a parameter may have."""
     declared = PARAMETERS[name]
     assert isinstance(declared, Quantity | Count)
     return min(max(value, declared.low), declared.high)

@@ -56,7 +56,7 @@ CHANGES = st.fixed_dictionaries(
 
 
 def given_or_refused(make: Callable[[], Made]) -> Made | str:
-    """Give what is made of a scene, or the sentence that says why it cannot be."""
+    """Return what is made of a scene, or the sentence that says why it cannot be."""
     try:
         return make()
     except occ.OccError as error:

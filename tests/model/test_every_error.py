@@ -23,7 +23,7 @@ from occ_model.scene.square_wave import SQUARE_FREQUENCY
 
 @pytest.fixture
 def ended_with(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[BaseException]]:
-    """Give what the commands raise from now on; one parser serves them all."""
+    """Yield what the commands raise from now on; one parser serves them all."""
     raised: list[BaseException] = []
     run = command_line.run_command
 

@@ -23,5 +23,5 @@ def seen_by_rows(chips: np.ndarray, exposure: float, step: float, phase: float) 
 
 
 def noise_of(decibels: float) -> float:
-    """Give the standard deviation of a row's noise at a signal-to-noise ratio."""
+    """Return the standard deviation of a row's noise at a signal-to-noise ratio."""
     return math.sqrt(0.25 / 10.0 ** (decibels / 10.0))

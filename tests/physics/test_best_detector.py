@@ -26,7 +26,7 @@ Floats = NDArray[np.float64]
 
 
 def branch_light() -> Floats:
-    """Give the light of the rows that begin in a bit, for each choice of that bit and the next.
+    """Return the light of the rows that begin in a bit, for each choice of that bit and the next.
 
     Shape (2, 2, 2, ROWS): the bit, the two that follow it, and the rows.
     """
@@ -49,7 +49,7 @@ def branch_light() -> Floats:
 
 
 def chances(light: Floats, noise: float) -> Floats:
-    """Give the probability of a one for each bit, of many sequences beside each other.
+    """Return the probability of a one for each bit, of many sequences beside each other.
 
     Parameters
     ----------
@@ -81,7 +81,7 @@ def chances(light: Floats, noise: float) -> Floats:
 
 
 def rates(sequences: int, bits: int, seed: int) -> tuple[float, float, float]:
-    """Give the error rates of the best detector, expected and counted, and of our detector."""
+    """Return the error rates of the best detector, expected and counted, and of our detector."""
     random = np.random.default_rng(seed)
     noise = noise_of(DECIBELS)
     sent = random.integers(0, 2, (sequences, bits))

@@ -160,7 +160,7 @@ def test_the_rounding_of_a_file_counts_by_its_deviation_a_block(rounding: float)
 
 
 def blocks(*levels: float, columns: int = 3) -> np.ndarray:
-    """Give rows in blocks of eight, each of one level."""
+    """Return rows in blocks of eight, each of one level."""
     return np.tile(np.repeat(levels, 8).astype(np.uint8)[:, None], (1, columns))
 
 

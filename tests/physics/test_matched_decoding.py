@@ -89,14 +89,14 @@ def _correlations(signal: FloatArray, templates: CodeTemplates, codes: IndexArra
 
 
 def _exposures(bits: int) -> list[Fraction]:
-    """Give exposures in chips: short, long, of whole chips (where codes tie), at a null."""
+    """Return exposures in chips: short, long, of whole chips (where codes tie), at a null."""
     packet = packet_length(bits)
     null = [Fraction(packet) * (1 + Fraction(1, 10**place)) for place in (3, 6, 9)]
     return [Fraction(1, 10), Fraction(13, 7), Fraction(2), Fraction(packet, 2), *null]
 
 
 def _signals(templates: CodeTemplates, rng: np.random.Generator) -> list[FloatArray]:
-    """Give signals: some code's profile at some phase, alone and under noise, and noise alone."""
+    """Return signals: some code's profile at some phase, alone and under noise, and noise alone."""
     bins = len(templates.levels)
     profile = templates.profiles(rng.integers(0, len(templates.energy), 1))[0]
     profile = np.roll(profile, int(rng.integers(bins)))

@@ -31,7 +31,7 @@ def spread(index: int, low: float, high: float) -> float:
 
 
 def sample_of(count: int, everyday: int) -> list[Any]:
-    """Give numbers from 1, of which the first few are tried every day."""
+    """Return numbers from 1, of which the first few are tried every day."""
     return [
         pytest.param(index, marks=pytest.mark.whole if index > everyday else ())
         for index in range(1, count + 1)

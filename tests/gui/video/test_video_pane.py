@@ -21,7 +21,7 @@ from occ_model.scene.scene import Scene
 
 @pytest.fixture
 def application(application: Application, film_scene: Scene) -> Application:
-    """Give the window the scene of the films."""
+    """Return the window, which shows the scene of the films."""
     application.store.put(film_scene, "scene of the films")
     return application
 

@@ -136,7 +136,7 @@ def test_a_floated_pane_lands_beside_its_place(application: Application, qtbot: 
 
 @pytest.fixture
 def resized(application: Application) -> Iterator[Application]:
-    """Give a window whose text may be made larger, and make it normal again."""
+    """Yield a window whose text may be made larger, and make it normal again."""
     yield application
     application.options.text_size.normal()
 

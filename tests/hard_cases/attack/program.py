@@ -126,7 +126,7 @@ def _time_bound(seconds: float) -> Iterator[None]:
 
 
 def peak_megabytes() -> float:
-    """Give the most memory that this process has had, and not what its parent had before it."""
+    """Return the most memory that this process has had, and not what its parent had before it."""
     for line in Path("/proc/self/status").read_text(encoding="ascii").splitlines():
         if line.startswith("VmHWM:"):
             return int(line.split()[1]) / 1024

@@ -104,7 +104,7 @@ class SimulatedUno:
 
 
 def expected_edges(sent: Transmission, packets: int) -> tuple[IndexArray, IndexArray]:
-    """Give the chips at which the light of some packets changes, from dark on, and the levels."""
+    """Return the chips at which the light of some packets changes, from dark on, and the levels."""
     chips = np.tile(occ.packet(sent.scene), packets).astype(np.int64)
     places = np.flatnonzero(np.diff(chips, prepend=0))
     return places, chips[places]

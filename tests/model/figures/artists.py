@@ -150,7 +150,7 @@ def _of_line(line: Line2D) -> str:
 
 
 def _summary(values: Any) -> list[float]:
-    """Give all values where they are few, else what changes when one of them does."""
+    """Return all values where they are few, else what changes when one of them does."""
     flat: FloatArray = np.ma.filled(np.ma.asarray(values, dtype=float), np.nan).ravel()
     if flat.size <= 12:
         return flat.tolist()

@@ -127,7 +127,7 @@ def test_what_films_carry(is_as_stored: Compare) -> None:
 
 
 def table_of(axes: dict[str, tuple[float, ...]]) -> SweepTable:
-    """Give rates of two decoders that fall along the axes; the last point is refused."""
+    """Return rates of two decoders that fall along the axes; the last point is refused."""
     decoders = ("threshold", "matched")
     shape = tuple(map(len, axes.values()))
     sent = np.full(shape, 100)

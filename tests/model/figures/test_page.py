@@ -34,12 +34,12 @@ TEXTS = {
 
 @pytest.fixture(scope="module")
 def frames() -> tuple[Frame, ...]:
-    """Give a flat picture and a high one."""
+    """Return a flat picture and a high one."""
     return tuple(occ.render(SCENE.replace(rows=rows), tolerance=np.inf) for rows in (60, 1600))
 
 
 def pages(text: str, frames: tuple[Frame, ...]) -> list[Callable[[], Figure]]:
-    """Give functions that draw a text of a user in each figure that can have one."""
+    """Return functions that draw a text of a user in each figure that can have one."""
     flat, high = frames
     difference = Difference(np.zeros((10, 20)), (0.0, 20.0, 10.0, 0.0), 4)
     layer = PhotoLayer(from_row=20.0)

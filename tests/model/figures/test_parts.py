@@ -47,7 +47,7 @@ EXPOSURES = np.linspace(33e-6, 97e-6, 11).tolist()
 
 
 def values_at(axis: Axis, cells: list[float]) -> dict[float, float]:
-    """Give for every label the value that its place among the cells stands for."""
+    """Return for every label the value that its place among the cells stands for."""
     numbers = np.arange(len(cells), dtype=np.float64)
     return {
         float(tick.get_text()): float(np.interp(place, numbers, cells))

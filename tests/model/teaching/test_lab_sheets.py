@@ -26,7 +26,7 @@ SHEETS = [lesson for lesson in lessons().lessons if lesson.is_sheet]
 
 @pytest.fixture(scope="module")
 def match() -> Match:
-    """Give what a match of the sample photo of the sheet on the readout time finds."""
+    """Return what a match of the sample photo of the sheet on the readout time finds."""
     scene = SHEETS[1].steps[3].scene.replace(readout_time=12.8e-6)
     return match_with(scene=scene, readout_time=12.8e-6, pattern="10", pattern_was_read=False)
 

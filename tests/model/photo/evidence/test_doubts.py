@@ -17,7 +17,7 @@ NOISE = np.random.default_rng(5).standard_normal(1500)
 def explained(
     left: Any = NOISE, was_read: bool = False, saturated: float = 0.0, **other: float
 ) -> list[str]:
-    """Give the doubts of chips that are explained well but for what is left, or some figure."""
+    """Return the doubts of chips that are explained well but for what is left, or some figure."""
     known = {"periods": 9.0, "exposure": 0.5, "correlation": 0.99, "information": 900.0, **other}
     timing = Timing(0.1, known["exposure"], 0.0, 2.2)
     found: Any = SimpleNamespace(

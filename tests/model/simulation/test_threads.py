@@ -10,7 +10,7 @@ import pytest
 
 import occ_model as occ
 from occ_model.scene.scene import Scene
-from occ_model.simulation import stage_timer
+from occ_model.simulation import pixels, stage_timer
 from occ_model.simulation.stage_timer import StageTimer
 from occ_model.simulation.threads import each_in_threads, threads
 
@@ -92,6 +92,21 @@ def test_the_times_of_all_stages_add_up_to_that_of_the_frame(
     assert sum(timings.values()) == pytest.approx(spent - 3)
     # In each thread the picture is rounded before it is stored, and enhanced after that.
     assert timings["image"] == pytest.approx(2.0 * timings["jpeg"])
+
+
+def test_the_time_that_rows_wait_for_their_thread_counts_to_no_stage(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    ticks = iter(range(10**6))
+    monkeypatch.setattr(stage_timer, "perf_counter", lambda: float(next(ticks)))
+    scene = occ.load_preset("phone-136us-real").replace(rows=200, columns=300)
+    timings = []
+    for ahead in (iter, list):
+        monkeypatch.setattr(
+            pixels, "each_in_threads", lambda work, rows, ahead=ahead: map(work, ahead(rows))
+        )
+        timings.append(occ.render(scene, tolerance=0.0).timings)
+    assert timings[0] == pytest.approx(timings[1])
 
 
 def timer_at(monkeypatch: pytest.MonkeyPatch, *moments: float) -> StageTimer:

@@ -9,7 +9,7 @@ import pytest
 from physics.exposed_chips import noise_of, seen_by_rows
 
 import occ_model as occ
-from occ_model.receiver.light import PER_CHIP, light_of_chips
+from occ_model.receiver.light import PER_CHIP, expected_light, light_of_chips
 from occ_model.receiver.sequence import decoder
 from occ_model.receiver.sequence.code_words import _of_runs, code_words
 from occ_model.receiver.sequence.exposures import Timing, gather
@@ -48,6 +48,13 @@ def test_the_last_chip_is_the_last_that_a_row_shows(exposure: float) -> None:
     found = best_chips(trellis_of(FREE_CHIPS, timing.memory), seen)
     assert found.first + len(found.values) - 1 == last
     assert found.first == seen.first - timing.memory
+
+
+@pytest.mark.parametrize("pattern", ["", "1000"])
+def test_the_light_of_random_data_is_all_and_nothing_and_half_on_the_mean(pattern: str) -> None:
+    light = expected_light(Scene().replace(pattern=pattern, exposure_time=5e-5))
+    assert (light.min(), light.max()) == pytest.approx((0.0, 1.0))
+    assert light.mean() == pytest.approx(0.5, abs=0.06)
 
 
 def test_the_brightness_is_first_guessed_by_how_neighbouring_rows_go_together() -> None:
@@ -142,6 +149,7 @@ def test_noise_of_independent_rows_stays_in_sums_and_what_is_alike_adds_up() -> 
     assert alike.noise_of_sums() / alike.noise == pytest.approx(4.0, rel=0.15)
     assert white.ratios() == pytest.approx(1.0 / (2.0 * white.noise_of_sums()))
     assert white.unexplained() < 0.06
+    assert fit_with(noise + 9.0).unexplained() == pytest.approx(white.unexplained())
     assert alike.unexplained() > 0.6
 
 

@@ -5,6 +5,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
+from matplotlib.font_manager import FontProperties
 from matplotlib.text import Text
 from model.figures.artists import cut_off
 from model.figures.test_text_from_files import lesson_saying
@@ -14,6 +15,7 @@ from occ_model.figures.decoding import decode_drawing
 from occ_model.figures.drawing import figure_bytes, house_style
 from occ_model.figures.lesson_report import draw_page
 from occ_model.figures.overlay import Difference, PhotoLayer
+from occ_model.figures.page import lines_within
 from occ_model.figures.window_panes import picture_drawing, profile_drawing
 from occ_model.results.frame import Frame
 from occ_model.scene.provenance import Provenance
@@ -85,6 +87,10 @@ def test_a_file_has_the_texts_that_were_fitted_to_its_page() -> None:
     figure.set_layout_engine("constrained")
     figure.draw_without_rendering()
     assert placed == pytest.approx(figure.axes[0].get_position().bounds, abs=0.01)
+
+
+def test_a_room_narrower_than_a_letter_ends_the_search_for_lines() -> None:
+    assert lines_within("two words", 1e-3, FontProperties(), 3) == ["t", "w", "…"]
 
 
 def test_letters_come_from_any_font_that_has_them() -> None:

@@ -9,6 +9,7 @@ from matches import match_with
 from PIL import Image
 
 from occ_model.errors import OutputError
+from occ_model.figures.drawing import house_style
 from occ_model.figures.lesson_report import (
     draw_page,
     match_lines,
@@ -136,14 +137,18 @@ def test_a_match_is_told_with_verdict_errors_and_reasons(match: Match) -> None:
     assert match_lines(doubtful, "a.jpg")[-1] == "Only 2 periods are in view."
 
 
-def test_every_axis_of_a_report_says_what_it_counts_in(match: Match) -> None:
+def test_every_axis_of_a_report_says_what_it_counts_in_and_covers_no_text(match: Match) -> None:
     for number, page in steps_of_pages(answered(SHEETS[1], match)):
-        axes = draw_page("A sheet", "A. Student", "", page, number).axes
+        with house_style():
+            figure = draw_page("A sheet", "A. Student", "", page, number)
+        axes = figure.axes
         assert axes
         assert all("grey level" in ax.get_ylabel() for ax in axes)
         below = [ax for ax in axes if ax.xaxis.get_tick_params()["labelbottom"]]
         assert all("column" in ax.get_xlabel() for ax in below)
         assert len(below) == len(page)
+        written = [text.get_window_extent() for text in figure.texts if text.get_text()]
+        assert all(ax.xaxis.get_tightbbox().count_overlaps(written) == 0 for ax in below)
 
 
 @pytest.mark.parametrize(

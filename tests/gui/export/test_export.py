@@ -288,6 +288,7 @@ def test_all_figures_are_moved_into_the_folder_and_nothing_temporary_stays(
         "picture.svg": "Camera's", "profile.svg": "Column", "decoding-threshold.svg": "Decoding,",
         "decoding-matched.svg": "Decoding,", "bands.svg": "Least", "flicker.svg": "Flicker",
     }  # fmt: skip
+    assert "No photo" not in bench.said[-1]  # its figure is no other one without a photo
 
 
 def test_an_error_while_drawing_is_a_sentence_and_exports_go_on(
@@ -327,6 +328,16 @@ def test_the_ending_is_the_names_or_that_of_the_format_with_which_the_next_dialo
         ("profile.png", "PNG picture (*.png)"),
         ("profile.pdf", "PDF document (*.pdf)"),
     ]
+
+
+def test_a_file_can_be_named_before_there_is_a_picture(
+    qtbot: QtBot, small_scene: Scene, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    panes, asked = PaneBench(qtbot, small_scene), list[object]()
+    panes.add(decoding(panes.store))
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *a: asked.append(a) or ("", ""))
+    panes.exporter.ask("decoding-threshold")
+    assert len(asked) == 1
 
 
 def test_the_drawing_is_done_off_the_windows_thread_and_exports_that_come_quickly_are_all_written(

@@ -114,6 +114,8 @@ def test_a_mark_is_named_wherever_it_stands_and_an_end_gives_way(qtbot: QtBot) -
         assert [name for name, _ in names] == ["t = 1 chip"]
         assert not any(box.intersects(names[0][1]) for _, box in ends)
         kept.append(len(ends))
+        if fraction == 0.5:
+            assert names[0][1].center().x() == pytest.approx(scale._x(scale.marks[0].value))
     assert set(kept) == {1, 2}
     assert kept[20] == 2, "in the middle both ends keep their values"
     scale.show_marks([])

@@ -69,7 +69,10 @@ def test_what_the_scene_refuses_is_said_at_the_edited_field(
     application: Application, user: User
 ) -> None:
     user.enter("bits", "3")  # the code, 718, has ten
-    assert "718" in user.row("bits").notice.text()
+    row = user.row("bits")
+    assert "718" in row.notice.text()
+    below = row.notice.mapToGlobal(row.notice.rect().topLeft()).y()
+    assert 0 < below - row.field.mapToGlobal(row.field.rect().bottomLeft()).y() < 9
     assert application.controls.code.notices[0].text() == ""
 
 

@@ -107,6 +107,17 @@ def test_a_hidden_pane_is_shown_in_the_mode_about_it(
         qtbot.waitUntil(partial(in_front, application, pane))
 
 
+def test_a_pane_that_opens_below_a_lesson_has_a_good_part_of_its_height(
+    application: Application, qtbot: QtBot
+) -> None:
+    window = application.window
+    window.resize(1280, 1000)
+    window.modes.switch("lessons")
+    lesson, opened = window.docks["lessons"], window.docks["equations"]
+    window.bring_into_view("equations")
+    qtbot.waitUntil(lambda: opened.height() > 0.5 * lesson.height())
+
+
 class Widths(QObject):
     """Notes every width that a window takes."""
 

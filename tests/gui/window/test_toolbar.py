@@ -16,6 +16,8 @@ from occ_gui.window.toolbar import TOOLS, ToolButton
 
 
 def test_each_button_is_an_entry_of_the_menus(application: Application) -> None:
+    # Qt's own menu offers nothing that could not be undone there.
+    assert not application.window.toolbar.toggleViewAction().isVisible()
     bar = application.window.menuBar()
     known = {action for _, action in entries(bar)}
     known |= {menu.menuAction() for menu in bar.findChildren(QMenu)}

@@ -254,7 +254,7 @@ class LightRow(StoryRow):
             curve.lit.tolist(), curve.edges.tolist(), curve.edges.tolist()[1:], strict=False
         ):
             left, right = self.x_of(max(start, first)), self.x_of(min(end, last))
-            if chip and right > left:
+            if chip:
                 painter.drawRect(QRectF(left, light.top(), right - left, light.height()))
 
     def _name_window(self, painter: QPainter, place: QRectF, text: str) -> None:

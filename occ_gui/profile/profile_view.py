@@ -113,9 +113,7 @@ class ProfileView(QWidget):
         return button
 
     def _lay_out(self) -> None:
-        row = filled(
-            QHBoxLayout(), self.legend, (None, 1), self.enhanced, self._packets, self._panel
-        )
+        row = filled(QHBoxLayout(), self.legend, None, self.enhanced, self._packets, self._panel)
         layout = self._rows = filled(
             QVBoxLayout(self), row, self.reason, (self.plot, 3), margins=4, spacing=2
         )
@@ -134,7 +132,6 @@ class ProfileView(QWidget):
         residual = ResidualPlot(self.plot)
         # So that the columns of both plots are aligned.
         residual.plot.getAxis("left").setWidth(self._axis_width())
-        residual.hide()
         self._rows.addWidget(residual, 2)
         return residual
 

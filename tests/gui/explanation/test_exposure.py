@@ -5,6 +5,7 @@ from gui.kinds import not_none, show_widget
 from gui.mouse import move_mouse
 from gui.pane_bench import PaneBench
 from PySide6.QtCore import QPoint, QPointF, Qt
+from PySide6.QtGui import QColor, QPalette
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.panes import equations, profile
@@ -125,6 +126,10 @@ def test_a_number_typed_holds_a_column_which_is_marked_while_it_is_explained(
     # The profile's mark stays while the exposure is visible.
     marker, sentence = seen.pane.picker.marker, seen.view.sentence
     assert marker.isVisible()
+    palette = seen.plot.palette()
+    palette.setColor(QPalette.ColorRole.Text, QColor("red"))
+    seen.plot.setPalette(palette)
+    assert marker.pen.color() == QColor("red")
     seen.see("equations", False)
     assert not marker.isVisible()
     said = sentence.text()
@@ -160,7 +165,8 @@ def test_a_column_that_is_held_stays_until_it_is_let_go(seen: Bench) -> None:
     controller.click(20)
     controller.hover(30)
     assert seen.shown == (20, True)
-    controller.step(1)
+    controller.click(21)
+    assert seen.shown == (21, True)
     controller.step(-3)
     assert seen.shown == (18, True)
     controller.click(18)

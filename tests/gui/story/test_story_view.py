@@ -92,6 +92,7 @@ def test_the_buttons_of_the_ranges_end_with_the_rows(qapp: QApplication) -> None
 def test_each_time_is_that_of_its_column(rows: StoryRows, bare_snapshot_of: SnapshotOf) -> None:
     snapshot = bare_snapshot_of(start_time=2.5e-3, readout_time=11e-6)
     rows.show_reading(snapshot)
+    assert (rows.time.accessibleName(), rows.columns.accessibleName()) == ("time (µs)", "column")
     ticks = rows.time.ticks()
     assert len(ticks) > 3
     for column, text in ticks:

@@ -228,7 +228,7 @@ ROWS: list[Row] = [
     (lambda: profile_spectrum(np.zeros(7), SCENE), "profile", "shape (7,)", "(8 or more,)"),
     (lambda: profile_spectrum(np.zeros((2, 9)), SCENE), "profile", "shape (2, 9)", "or more,)"),
     (lambda: profile_spectrum(np.full(9, math.nan), SCENE), "profile", "values that", "finite"),
-    (lambda: light_over_columns(SCENE, 5.0, 3.0, 100), "last", "3.0", "above 5.0"),
+    (lambda: light_over_columns(SCENE, 5.0, 5.0, 100), "last", "5.0", "above 5.0"),
     *(
         (
             lambda column=column: exposure_window(SCENE, column),

@@ -19,9 +19,9 @@ from occ_model.teaching.lessons import EQUATIONS
 from occ_model.teaching.light_over_columns import exposure_window, rolling_shutter
 
 scenes = st.builds(
-    lambda exposure, frequency, readout, iso, start, pattern: Scene().replace(
+    lambda exposure, frequency, readout, iso, start, pattern, averaging: Scene().replace(
         exposure_time=exposure, switching_frequency=frequency, readout_time=readout, iso=iso,
-        start_time=start, pattern=pattern, columns=500,
+        start_time=start, pattern=pattern, averaging=averaging, columns=500,
     ),
     exposure=st.floats(1e-5, 2e-3),
     frequency=st.floats(500.0, 1e5),
@@ -29,6 +29,7 @@ scenes = st.builds(
     iso=st.floats(50.0, 6400.0),
     start=st.floats(-1e3, 1e3),
     pattern=st.sampled_from(["", "10", "1101000", "0", "1"]),
+    averaging=st.sampled_from(["pixel-value", "light"]),
 )  # fmt: skip
 
 
@@ -64,6 +65,8 @@ def test_the_results_of_the_equations_are_those_of_the_model(scene: Scene) -> No
     assert numbers_in(found["lit panel"].result)[0] == pytest.approx(high, abs=0.051)
     assert numbers_in(found["dark panel"].result)[0] == pytest.approx(low, abs=0.051)
     assert ("more than white" in found["lit panel"].result) == (high > WHITE)
+    averages_light = scene.model.averaging == "light"
+    assert ("light is averaged, not pixel" in found["a column"].result) == averages_light
     span = numbers_in(found["a column"].result)[:2]
     assert span == pytest.approx([min(low, WHITE), min(high, WHITE)], abs=0.051)
     profile = occ.column_profile(scene)

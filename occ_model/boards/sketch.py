@@ -10,7 +10,7 @@ from occ_model.boards.esp32 import ESP32, esp32_sketch
 from occ_model.boards.pico import PICO, pico_sketch
 from occ_model.boards.transmission import Transmission, transmission
 from occ_model.scene.argument_checks import check_choice
-from occ_model.scene.scene import Scene, check_scene
+from occ_model.scene.scene import Scene
 
 BOARDS: dict[str, Board] = {board.name: board for board in (UNO, NANO, ESP32, PICO)}
 
@@ -58,7 +58,6 @@ def transmitter_sketch(scene: Scene, board: str = DEFAULT_BOARD) -> str:
     PluginError
         A plug-in fails.
     """
-    check_scene(scene)
     return source_text(transmission(scene, board_named(board)))
 
 

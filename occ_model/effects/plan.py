@@ -11,7 +11,7 @@ from occ_model.effects.estimates import Estimates, estimates_of
 from occ_model.effects.paper_view import PaperView, paper_view_of
 from occ_model.effects.registry import EFFECTS, NAMES
 from occ_model.results.plan import Decision, Plan, Way
-from occ_model.scene.scene import Scene, check_scene
+from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import (
     TOLERANCE,
     NoiseSource,
@@ -73,7 +73,6 @@ def plan(
 
 
 def plan_with(scene: Scene, settings: SimulationSettings) -> Plan:
-    check_scene(scene)
     settings = settings.checked(NAMES)
     return plan_of(paper_view_of(scene), settings)
 
@@ -168,7 +167,6 @@ def ways_of(scene: Scene, settings: SimulationSettings) -> tuple[Way, ...]:
 
     The error of each is the least tolerance at which it is chosen; no two are the same.
     """
-    check_scene(scene)
     sets = _sets_of(paper_view_of(scene), settings.checked(NAMES))
     found: list[Way] = []
     for way, error in zip(sets.ways, sets.errors_of(sets.ways), strict=True):

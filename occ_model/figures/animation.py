@@ -23,7 +23,7 @@ from occ_model.results.frame import Frame
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import parameter_named
 from occ_model.scene.provenance import Provenance
-from occ_model.scene.scene import Scene, check_scene
+from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.simulation.band_model import band_profile
 from occ_model.simulation.render import render_with
@@ -61,7 +61,6 @@ def write_animation(  # noqa: PLR0913 - a film's settings, most of them optional
     a quantity, a value is out of range, there are no values or more than :data:`MOST_FRAMES`, or
     the rate is not above 0 and up to 50 a second.
     """
-    check_scene(scene)
     if path.suffix.lower() not in ENDINGS:
         raise OutputError(
             f"{one_line(path.name)} has no ending of an animation; use {', '.join(ENDINGS)}."

@@ -30,7 +30,7 @@ from occ_model.results.lamp import Lamp
 from occ_model.results.match import ESTIMATES, Alternative, Match, Stripes
 from occ_model.scene.argument_checks import check_choice
 from occ_model.scene.parameters import quantity
-from occ_model.scene.scene import Scene, check_scene
+from occ_model.scene.scene import Scene
 from occ_model.transmitter.packet import sent_chips
 
 __all__ = ["ESTIMATES", "PATTERN_SOURCES", "match_photo"]
@@ -92,10 +92,9 @@ def match_photo(  # noqa: PLR0913 - all but the first two are words with default
         rectangle of the photo.
     """
     if photo.is_linear:
-        check_scene(scene)
         scene = scene.replace(gamma=1.0, enhancement="none")
         averaging, fit_gamma = "light", False
-    check_words(scene, estimate, sent, averaging)
+    check_words(estimate, sent, averaging)
     report = _Progress(progress or (lambda _fraction: None))
     report(0.0)
     stripes, scene = find_stripes(photo, region), with_notes(scene, photo)
@@ -197,9 +196,8 @@ class _Progress:
             self(self._fraction)
 
 
-def check_words(scene: Scene, estimate: str, sent: str, averaging: str) -> None:
-    """Refuse what is not a scene, and choices that are not allowed, before any work."""
-    check_scene(scene)
+def check_words(estimate: str, sent: str, averaging: str) -> None:
+    """Refuse choices that are not allowed, before any work."""
     check_choice("estimate", estimate, ESTIMATES)
     check_choice("sent", sent, PATTERN_SOURCES)
     check_choice("averaging", averaging, ("auto", *AVERAGINGS))

@@ -30,7 +30,7 @@ from occ_model.scene.preset_file import (
     package_preset,
     preset_from,
 )
-from occ_model.scene.scene import Scene, check_scene
+from occ_model.scene.scene import Scene
 
 USER_FOLDER = "OCC_PRESETS"  # environment variable of another folder for the user's presets
 _NAME = re.compile(r"[A-Za-z0-9](?:[A-Za-z0-9 _-]{0,58}[A-Za-z0-9_-])?")
@@ -115,7 +115,6 @@ def save_preset(
         The file cannot be written.
     """
     _check_name(name)
-    check_scene(scene)
     if not isinstance(title, str):
         raise ParameterError.of("title", shown(title), "a text")
     notes = checked_notes(dict(sources or {}))

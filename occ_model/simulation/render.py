@@ -18,7 +18,7 @@ from occ_model.parallel.job import Heartbeat
 from occ_model.results.frame import Frame
 from occ_model.results.plan import Plan
 from occ_model.scene.argument_checks import check_count
-from occ_model.scene.scene import Scene, check_scene
+from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import (
     TOLERANCE,
     NoiseSource,
@@ -88,7 +88,6 @@ class PlannedScene:
 
 def plan_scene(scene: Scene, settings: SimulationSettings) -> PlannedScene:
     """Choose the effects of a scene with some settings, whatever their seed and noise."""
-    check_scene(scene)
     settings = settings.checked(NAMES)
     check_size(scene.camera)
     timer = StageTimer()
@@ -109,7 +108,6 @@ def render_with(
 
     The heartbeat is called before each band of rows; ``planned`` spares :func:`plan_scene`.
     """
-    check_scene(scene)
     check_count("rows_step", rows_step, 1, scene.camera.rows)
     settings = settings.checked(NAMES)
     if planned is None:

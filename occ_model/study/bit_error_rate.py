@@ -12,7 +12,7 @@ from occ_model.results.bit_errors import BitErrors
 from occ_model.results.plan import Plan
 from occ_model.results.sweep_request import RateSettings, SignalPath
 from occ_model.scene.argument_checks import check_count
-from occ_model.scene.scene import Scene, check_scene
+from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import TOLERANCE
 from occ_model.study.confidence import wilson_interval
 from occ_model.study.success_rate import check_rate, plan_of_images, right_bits_of_images
@@ -62,7 +62,6 @@ def bit_error_rate(  # noqa: PLR0913 - a study's settings, most of them optional
     ProjectionError
         The scene has no picture.
     """
-    check_scene(scene)
     check_count("bits", bits, 1, MOST_BITS)
     settings = RateSettings(1, (decoder,), seed, tolerance, force or {}, path)
     check_rate(scene, settings)

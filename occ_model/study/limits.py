@@ -21,7 +21,7 @@ from occ_model.results.limits import Limits
 from occ_model.results.sweep_request import RateSettings, SignalPath
 from occ_model.scene.argument_checks import check_count, is_number
 from occ_model.scene.parameters import PARAMETERS
-from occ_model.scene.scene import Scene, check_scene
+from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import TOLERANCE
 from occ_model.study import theory
 from occ_model.study.cause import TWO_HEADERS
@@ -99,7 +99,6 @@ def limits_of(
     progress: Callable[[float, str], object] = lambda _fraction, _what: None,
 ) -> tuple[Limits, ...]:
     """Find the limits of several decoders, as :func:`limits` does for each of them."""
-    check_scene(scene)
     wanted = _checked(rate)
     check_count("jobs", jobs, 1, MOST_PROCESSES)
     asked = []

@@ -17,7 +17,7 @@ from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.argument_checks import check_count, check_seed
 from occ_model.scene.parameters import quantity
 from occ_model.scene.payload import MAX_PAYLOAD_BITS
-from occ_model.scene.scene import Scene, check_scene
+from occ_model.scene.scene import Scene
 from occ_model.study.bit_error_rate import check_frame_rate, with_payload
 from occ_model.study.success_rate import right_bits_of_images
 from occ_model.study.theory import panel_readout_time
@@ -84,7 +84,6 @@ def most_bits(
     ProjectionError
         The scene has no picture.
     """
-    check_scene(scene)
     check_count("pictures", pictures, 1, 10_000)
     check_seed(seed)
     check_frame_rate(scene, frames_a_second)

@@ -23,7 +23,7 @@ from occ_model.receiver.decoders import QUICK_DECODERS
 from occ_model.receiver.signal import bright_level, column_means, locate
 from occ_model.results.decoding import DecodeResult, Region
 from occ_model.results.plan import Plan
-from occ_model.scene.scene import Scene, check_scene
+from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.simulation.columns import Columns, expose_columns
 from occ_model.simulation.row_sample import SampledPicture
@@ -168,7 +168,6 @@ def read_profile(
     view: PaperView | None = None,
 ) -> ProfileReading | None:
     """Read a scene by the profile path, planned for the signal; None where pixels are needed."""
-    check_scene(scene)
     check_size(scene.camera)
     span = panel_span(scene)
     if span is None:

@@ -6,7 +6,7 @@ import numpy as np
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.errors import ParameterError
 from occ_model.results.spectrum import LEVELS, LevelHistogram, Spectrum
-from occ_model.scene.scene import Scene, check_scene
+from occ_model.scene.scene import Scene
 
 _MIN_COLUMNS = 8
 _MAX_NULLS = 100
@@ -19,7 +19,6 @@ def profile_spectrum(profile: FloatArray, scene: Scene) -> Spectrum:
     hold whole periods has clean lines. The response is that of a box of the exposure's length
     (arXiv 2602.08474).
     """
-    check_scene(scene)
     values = np.asarray(profile, dtype=np.float64)
     if values.ndim != 1 or len(values) < _MIN_COLUMNS:
         raise ParameterError.of(

@@ -19,7 +19,7 @@ from occ_model.results.decoding import DecodeResult, Region
 from occ_model.results.plan import Plan
 from occ_model.results.sweep_request import MOST_IMAGES, SIGNAL_PATHS, RateSettings, SignalPath
 from occ_model.scene.argument_checks import check_choice, check_count, check_seed, check_switches
-from occ_model.scene.scene import Scene, check_scene
+from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import TOLERANCE, SimulationSettings
 from occ_model.simulation.render import render_plan
 from occ_model.simulation.row_sample import sample_picture
@@ -86,7 +86,6 @@ def success_rate(
     ProjectionError
         The scene has no picture.
     """
-    check_scene(scene)
     settings = RateSettings(images, (decoder,), seed, tolerance, force or {}, path)
     check_rate(scene, settings)
     (correct,), _ = right_and_whole(scene, settings)

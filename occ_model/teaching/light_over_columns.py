@@ -10,7 +10,7 @@ from occ_model.camera.exposure import on_time
 from occ_model.errors import ParameterError, shown
 from occ_model.results.teaching import ExposureWindow, LightCurve, RollingShutter
 from occ_model.scene.argument_checks import check_count
-from occ_model.scene.scene import Scene, check_scene
+from occ_model.scene.scene import Scene
 from occ_model.transmitter.packet import sent_chips
 
 _RELATIVE_ERROR = 1e-12  # relative error of a whole ratio, by how its parts are written
@@ -25,7 +25,6 @@ def light_over_columns(
     columns. ``edged``: whether the light rises and falls linearly within the scene's edge time,
     from the start of a chip on.
     """
-    check_scene(scene)
     if not first < last:
         raise ParameterError.of(
             "last", shown(last), f"above {shown(first)}, where the columns begin"
@@ -74,7 +73,6 @@ def _curve(lit: FloatArray, before: int, edge: float) -> tuple[FloatArray, Float
 
 def chips_in_exposure(scene: Scene) -> int:
     """Return n where an exposure sees parts of n chips or of n + 1, by where it begins."""
-    check_scene(scene)
     ratio = Fraction(scene.camera.exposure_time) * Fraction(scene.transmitter.switching_frequency)
     # 100 us at 10 kHz are one chip, though no binary fraction is 100 us.
     nearest = round(ratio)
@@ -86,7 +84,6 @@ _MAX_CHIPS = 400  # largest number of chips that a drawing resolves
 
 def exposure_window(scene: Scene, column: int) -> ExposureWindow:
     """Return the chips that a column's exposure covers, and one before and one after it."""
-    check_scene(scene)
     check_count("column", column, 0)
     if column >= scene.camera.columns:
         raise ParameterError.of(
@@ -120,7 +117,6 @@ _CHIPS = 4  # chips that the shown columns begin in
 
 def rolling_shutter(scene: Scene, shown: int = 25) -> RollingShutter:
     """Return the exposures of up to ``shown`` first columns, which begin within four chips."""
-    check_scene(scene)
     camera, period = scene.camera, scene.transmitter.switching_period
     last = min(camera.columns - 1, max(int(_CHIPS * period / camera.readout_time), 1))
     columns = np.unique(np.linspace(0, last, min(shown, last + 1)).round().astype(np.intp))

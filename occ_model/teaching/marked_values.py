@@ -2,7 +2,7 @@
 
 from occ_model.errors import OccError
 from occ_model.results.teaching import MarkedValue
-from occ_model.scene.scene import Scene, check_scene
+from occ_model.scene.scene import Scene
 from occ_model.study.theory import band_model_frequency, null_frequency
 from occ_model.transmitter.packet import sent_chips
 from occ_model.transmitter.registry import FRAMINGS, LINE_CODES
@@ -14,7 +14,6 @@ def marked_values(scene: Scene, parameter: str) -> tuple[MarkedValue, ...]:
     Where t = t_LED, where t = 2 t_LED (of codes, the first null of alternating chips), and where
     the exposure is a whole period of what is sent, so that there are no bars.
     """
-    check_scene(scene)
     exposure, transmitter = scene.camera.exposure_time, scene.transmitter
     if exposure <= 0.0 or parameter not in ("switching_frequency", "exposure_time"):
         return ()

@@ -6,7 +6,7 @@ import numpy as np
 
 from occ_model.arrays import FloatArray
 from occ_model.results.decoding import DecodeResult
-from occ_model.scene.scene import Scene, check_scene
+from occ_model.scene.scene import Scene
 from occ_model.transmitter.framings.paper import FRAMING, HEADER_ONES
 from occ_model.transmitter.packet import sent_chips
 from occ_model.transmitter.registry import LINE_CODES
@@ -28,7 +28,6 @@ def packet_fields(scene: Scene) -> tuple[PacketField, ...]:
 
     Empty where it is not a header and the bits sent, or a bit has no chips of its own.
     """
-    check_scene(scene)
     sent = scene.transmitter
     code = scheme_of(sent).line_code
     # A plug-in's may take any time, and the fields are needed while the window is drawn.

@@ -13,7 +13,7 @@ from occ_model.errors import ParameterError
 from occ_model.results.video import Video, VideoFrame
 from occ_model.scene.argument_checks import check_count
 from occ_model.scene.recording import Recording
-from occ_model.scene.scene import Scene, check_scene
+from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.simulation.render import render_with
 from occ_model.transmitter.packet import sent_chips
@@ -58,7 +58,6 @@ def render_video(
     ProjectionError
         The image would be too large.
     """
-    check_scene(scene)
     if frames is not None:
         check_count("frames", frames, 1, MOST_FRAMES)
     check_count("rows_step", rows_step, 1, scene.camera.rows)

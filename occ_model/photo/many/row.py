@@ -36,7 +36,7 @@ class MatchSettings:
         return replace(self, scene=self.scene.replace(**{known_beside(self.estimate): own}))
 
     def check(self) -> None:
-        check_words(self.scene, self.estimate, self.sent, self.averaging)
+        check_words(self.estimate, self.sent, self.averaging)
         check_choice("scan_axis", self.scan_axis, SCAN_AXES)
         check_choice("channel", self.channel, CHANNELS)
         for place, _ in self.known:

@@ -16,7 +16,7 @@ from occ_model.camera.photometry import (
 from occ_model.effects.light_effects import seen_depth
 from occ_model.errors import ParameterError, shown
 from occ_model.results.bands import BandDepth, Depth
-from occ_model.scene.scene import Scene, check_scene
+from occ_model.scene.scene import Scene
 from occ_model.study.bands.exposed_light import ExposedLight, exposed_light
 from occ_model.transmitter.packet import sent_chips
 
@@ -42,7 +42,6 @@ def band_depth(scene: Scene) -> BandDepth:
     BandDepth
         Depths of 0 where there is no light.
     """
-    check_scene(scene)
     exposed = exposed_light_of(scene)
     light = light_depth(scene, exposed)
     if not luminance_levels(scene)[1]:

@@ -10,7 +10,7 @@ import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.results.bands import EyeFlicker, RiskLines
-from occ_model.scene.scene import Scene, check_scene
+from occ_model.scene.scene import Scene
 from occ_model.study.bands.depth import edge_in_chips
 from occ_model.study.bands.exposed_light import exposed_light
 from occ_model.transmitter.packet import sent_chips
@@ -31,7 +31,6 @@ def eye_flicker(scene: Scene) -> EyeFlicker:
     They hold for the lamp's own light, including its edges: ambient light reduces them, and a code
     that changes between packets adds slower components.
     """
-    check_scene(scene)
     chips = _lit_chips(scene)
     frequency = scene.transmitter.switching_frequency / len(chips)
     lit = float(chips.mean())

@@ -9,7 +9,7 @@ import numpy as np
 from occ_model.arrays import FloatArray
 from occ_model.results.bands import DepthMap
 from occ_model.scene.parameters import quantity
-from occ_model.scene.scene import Scene, check_scene
+from occ_model.scene.scene import Scene
 from occ_model.study.bands.depth import light_fractions
 from occ_model.transmitter.packet import sent_chips
 
@@ -35,7 +35,6 @@ class DepthOver:
 
     @classmethod
     def of(cls, scene: Scene) -> Self:
-        check_scene(scene)
         of_lamp, around = light_fractions(scene)
         surroundings = scene.surroundings
         chips = sent_chips(scene.transmitter).tobytes()

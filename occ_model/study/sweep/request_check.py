@@ -18,12 +18,11 @@ from occ_model.scene.argument_checks import check_count
 from occ_model.scene.parameter_kinds import Choice, ParameterValue
 from occ_model.scene.parameters import parameter_named
 from occ_model.scene.recording import FRAME_RATE
-from occ_model.scene.scene import Scene, check_scene
+from occ_model.scene.scene import Scene
 from occ_model.study.success_rate import check_rate
 
 
 def checked_request(scene: Scene, axes: object, settings: RateSettings) -> SweepRequest:
-    check_scene(scene)
     check_rate(scene, settings)
     FRAME_RATE.check(settings.frames_a_second)
     if not isinstance(axes, Mapping) or not axes:

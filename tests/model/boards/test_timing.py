@@ -64,6 +64,8 @@ def test_the_ends_of_the_range_are_allowed_and_what_is_beyond_is_not(board: Boar
         with pytest.raises(occ.ParameterError) as refused:
             best_timing(board, beyond)
         assert refused.value.parameters == ("switching_frequency",)
+        why = board.limit_reason if beyond > high else "the timer counts no longer"
+        assert str(refused.value).endswith(f", since {why}.")
 
 
 def test_a_packet_that_does_not_fit_is_refused() -> None:

@@ -70,6 +70,9 @@ code_lettered = replace(LINE_CODE, name="code_lettered", preamble="ab")
 frame_empty = replace(FRAMING, name="frame_empty", encode=lambda bits, form: np.array([]))
 frame_huge = replace(FRAMING, name="frame_huge", encode=lambda *_: endless)
 frame_fails = replace(FRAMING, name="frame_fails", decode=fail)
+frame_elsewhere = replace(
+    FRAMING, name="frame_elsewhere", decode=lambda *_: occ.Framed((-1,), np.array([1]))
+)
 frame_says_nothing = replace(
     FRAMING, name="frame_says_nothing", decode=lambda *_: occ.Framed((), np.array([]))
 )
@@ -83,7 +86,7 @@ CODES = [
     "code_raises", "code_short", "code_grey", "code_mute", "code_scalar", "code_wordless",
     "code_blockless", "code_lettered",
 ]  # fmt: skip
-FRAMINGS = ["frame_empty", "frame_huge", "frame_fails", "frame_says_nothing"]
+FRAMINGS = ["frame_empty", "frame_huge", "frame_fails", "frame_elsewhere", "frame_says_nothing"]
 SCENE = occ.load_preset("phone-68us").replace(rows=100, distance=0.6, switching_frequency=4e3)
 
 
@@ -194,6 +197,7 @@ def test_a_framing_that_cannot_be_sent_is_named(name: str, said: str) -> None:
         ({"line_code": "code_mute"}, "gives a NoneType, not a Decoded."),
         ({"line_code": "code_wordless"}, "gives failure = 3 of the type int."),
         ({"framing": "frame_says_nothing"}, "gives neither bits nor a failure."),
+        ({"framing": "frame_elsewhere"}, "gives headers that are not places among 111."),
         ({"framing": "frame_fails"}, "cannot decode: ValueError: not today."),
     ],
 )

@@ -81,8 +81,12 @@ def test_a_blur_spreads_light_and_loses_none(blur: float) -> None:
 @pytest.mark.parametrize("blur", [0.0, 3.0, 20.0])
 def test_rows_are_the_same_however_many_are_asked_for(blur: float) -> None:
     whole = Coverage(STAR, ROWS, COLUMNS, blur)
+    every = whole.rows(range(ROWS))
     one_by_one = np.concatenate([whole.rows(range(row, row + 1)) for row in range(ROWS)])
-    np.testing.assert_allclose(one_by_one, whole.rows(range(ROWS)), rtol=0, atol=1e-6)
+    np.testing.assert_allclose(one_by_one, every, rtol=0, atol=1e-6)
+    for step in (2, 30):
+        some = whole.rows(range(1, ROWS, step))
+        np.testing.assert_allclose(some, every[1::step], rtol=0, atol=1e-6)
 
 
 @pytest.mark.parametrize("left", [-0.4, 30.3, COLUMNS + 0.6])

@@ -189,7 +189,7 @@ def _counts(
     # The light falls towards the rim: the level is taken where the lit pixels are.
     apart = places - places.mean()
     slope, gain = np.polyfit(apart, level, 1)
-    scatter = float((level - gain - slope * apart).std() * np.sqrt(len(places) / (len(places) - 2)))
+    scatter = float((level - slope * apart).std() * np.sqrt(len(places) / (len(places) - 2)))
     back = places.mean() - _EDGE_REACH / 2.0
     spread = float(apart.std() * np.sqrt(len(places)))
     # from inside to outside

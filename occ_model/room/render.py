@@ -182,7 +182,7 @@ def _composed(
     bands = in_blocks(range(camera.rows))
     if all(panel.optics.is_plain for panel in panels) and camera.jpeg_quality == 0:
         level = [view.region for view in views if view.sides]
-        ends = sorted({end for own in level for end in (own.first_row, own.last_row)})
+        ends = [end for own in level for end in (own.first_row, own.last_row)]
         bands = [part for band in bands for part in split_at(band, ends)]
     mean = PictureRows(camera, panels, columns[0].surroundings)
     exposure = PixelExposure(views[0], chosen, columns[0], timer, bands, mean=mean)

@@ -112,7 +112,7 @@ def _seen(room: Room, lamp: RoomLamp) -> LampView | None:
     rows, columns = int(camera.rows + 2 * slack), int(camera.columns + 2 * slack)
     if region_of(corners + slack, rows, columns) is None:
         return None
-    if scene is None or len(before) != len(placed) or (before != placed).any():
+    if scene is None or placed[:, 2].min() < _MIN_DEPTH:
         raise ProjectionError(
             f"Lamp {one_line(lamp.name)} reaches into the picture and is partly behind the camera, "
             "or its plane is turned by 90° or more from the picture's; move or turn the camera.",

@@ -1,7 +1,5 @@
 """Application: connects the parts of the window, and adds its panes."""
 
-from pathlib import Path
-
 from PySide6.QtCore import QSettings
 
 from occ_gui.app.features import features
@@ -95,10 +93,6 @@ class Application(Parts):
     @property
     def is_measured(self) -> bool:
         return self.measuring.is_idle and self.shell.is_measured
-
-    def open_photo(self, path: Path, match: bool = False, front: bool = True) -> None:
-        """Open a photo; ``match`` applies its match to the scene, ``front`` shows its pane."""
-        self.photo.open(path, match, front)
 
     def resume(self, workspace: Workspace) -> None:
         """Restore what an earlier window left, without a step to undo."""

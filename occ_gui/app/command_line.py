@@ -150,7 +150,7 @@ def _run(options: argparse.Namespace, begin: Start) -> int:
         application.window.resize(*options.size)
     if options.photo:
         application.options.choose_overlay(options.overlay)
-        application.open_photo(options.photo, options.match, front=options.dock is None)
+        application.photo.open(options.photo, options.match, front=options.dock is None)
     if options.mode:
         application.window.modes.switch(options.mode)
     if options.files:

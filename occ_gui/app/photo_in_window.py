@@ -45,7 +45,8 @@ class PhotoInWindow(QObject):
         pane: PhotoPane = self._parts.shell.pane("photo")
         return pane
 
-    def open(self, path: Path, match: bool, front: bool) -> None:
+    def open(self, path: Path, match: bool = False, front: bool = True) -> None:
+        """Open a photo; ``match`` applies its match to the scene, ``front`` shows its pane."""
         self._match_next, self._front_next = match, front
         self._parts.photos.open(path)
 

@@ -74,7 +74,6 @@ class MatchForm(QWidget):
         self._make_run()
         self._lay_out()
         self.sent.chosen.connect(self._take_sent)
-        self.estimate.chosen.connect(self._show_known)
         for change in (
             self.sent.chosen, self.estimate.chosen, self.square.edited, self.gamma.clicked,
         ):  # fmt: skip
@@ -125,7 +124,6 @@ class MatchForm(QWidget):
         self.chosen.emit(self._choice())
 
     def _take_sent(self, sent: str) -> None:
-        self._show_known()
         if sent == "square":  # who chooses it says that its frequency is that of the lamp
             self._confirm_square(self.square.value())
         elif self._certain.get(_FREQUENCY) == CHIPS_OF_A_CYCLE * self.square.value():

@@ -166,5 +166,5 @@ def _look(time: float, level: float, even: FloatArray, first_column: int) -> _Lo
         CHIPS_OF_A_CYCLE / (2.0 * math.pi) * math.sqrt(left / max(independent, 1.0)),
         error,
         first_column + middle,
-        is_pulse=abs(rising - columns / period) <= 1.0,
+        is_pulse=rising <= columns / period + 1.0,
     )

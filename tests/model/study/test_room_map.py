@@ -13,7 +13,12 @@ import occ_model as occ
 from occ_model.cli import main
 from occ_model.room.room import Place
 from occ_model.study import room_map as study
-from occ_model.study.code_length import CodeLength, code_lengths, least_distance
+from occ_model.study.code_length import (
+    CodeLength,
+    _scaled_progress,
+    code_lengths,
+    least_distance,
+)
 from occ_model.study.room_map import RoomMapRequest, RoomMapText, floor_under, room_map
 from occ_model.transmitter.packet import sent_chips
 
@@ -189,3 +194,9 @@ def test_the_command_says_which_length_serves_best(
     assert "As well do" not in said
     assert main((*words, "--bits", "8")) == 0
     assert "As well do 8 bits: so few pictures do not distinguish them." in capsys.readouterr().out
+
+
+def test_progress_is_that_of_all_lengths() -> None:
+    said: list[tuple[int, int, float]] = []
+    _scaled_progress(lambda *one: said.append(one), 1, 3, 2, 4, 5.0)
+    assert said == [(6, 12, 15.0)]

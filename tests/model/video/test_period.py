@@ -67,3 +67,9 @@ def test_all_bits_are_known_of_a_whole_period_and_fewer_of_a_part(framing: str) 
     found = known_bits(half, period)
     assert 0 < np.count_nonzero(found >= 0) < len(sent)
     assert (found[found >= 0] == sent[found >= 0]).all()
+    lost = 0
+    for place in range(len(chips)):
+        one: Any = SimpleNamespace(ratios=ratios, known=np.arange(len(chips)) != place)
+        lost += np.count_nonzero(known_bits(one, period) < 0)
+    # A bit needs its two chips and those of the bit before: of a header, the last one.
+    assert lost == 4 * len(sent) - (framing != "raw")

@@ -17,11 +17,12 @@ from pathlib import Path
 import pytest
 
 import occ_model as occ
-from occ_model.parallel.job import JobResult
+from occ_model.parallel.job import Job, JobResult
 from occ_model.parallel.process_pool import process_context
 from occ_model.results.sweep import SweepTable
 from occ_model.scene.scene import Scene
 from occ_model.study.sweep import points
+from occ_model.study.sweep.workers import GivenExecutor
 
 BOTH = ("threshold", "matched")
 AXES = {"switching_frequency": [3e3, 14.65e3, 15e3, 25e3], "distance": [0.6, 1.4, 1.9]}
@@ -229,3 +230,10 @@ def test_without_processes_the_sweep_runs_here_and_says_so(
     (sentence,) = [str(warning.message) for warning in warned]
     assert sentence.startswith("No processes can be started (")
     assert sentence.endswith("); this one does the sweep alone.")
+
+
+def test_what_a_given_executor_has_done_is_not_kept() -> None:
+    with ThreadPoolExecutor(1) as executor:
+        given = GivenExecutor(executor)
+        given.submit(Job(len, ("",)), 0, 1)
+    assert not given._futures

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -18,6 +19,8 @@ from occ_model.cli import main
 from occ_model.commands import match
 from occ_model.files.writing import write_image
 from occ_model.photo.lamps import match as lamps_match
+from occ_model.photo.lamps.blinking import Blinking
+from occ_model.photo.lamps.find import _counts_some
 from occ_model.scene.scene import Scene
 
 ROWS, COLUMNS = 240, 720
@@ -211,6 +214,16 @@ def test_every_lamp_is_matched_by_itself_and_listed(
     assert "R0:R1,C0:C1" in capsys.readouterr().err
     assert main([*command, "--region", "20:120,100:400"]) == 0
     assert asked[-1] == occ.Region(20, 120, 100, 400)
+
+
+@pytest.mark.parametrize(("period", "expected"), [(40.0, True), (20.0, False), (10.0, True)])
+def test_faint_stripes_that_repeat_otherwise_than_counted_are_doubtful(
+    period: float, expected: bool
+) -> None:
+    lamp: Any = SimpleNamespace(region=occ.Region(0, 8, 0, 400), period=period)
+    means = np.tile(100.0 + 50.0 * np.sin(np.arange(400) * 2.0 * np.pi / 20.0), (8, 1))
+    timing: Any = None
+    assert _counts_some(Blinking(lamp, timing, light=0.8, dark=0.2), means) is expected
 
 
 @pytest.mark.parametrize(("error", "doubtful"), [(0.0033, False), (0.0034, True)])

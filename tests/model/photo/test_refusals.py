@@ -218,6 +218,8 @@ def test_more_bytes_than_its_pixels_could_need_are_refused(tmp_path: Path) -> No
 
 
 def test_whole_numbers_beyond_sixteen_bits_are_refused(tmp_path: Path) -> None:
+    Image.fromarray(np.full((3, 4), 65_535, np.int32)).save(tmp_path / "x.tif")
+    assert (load_photo(tmp_path / "x.tif").samples == 65_535).all()
     Image.fromarray(np.full((3, 4), 70_000, np.int32)).save(tmp_path / "x.tif")
     assert "samples up to 70,000; allowed: up to 65,535." in refusal(tmp_path / "x.tif")
 

@@ -118,6 +118,8 @@ def test_a_cut_counts_each_packet_once(packets: SentPackets) -> None:
         found = packets.cut(10_001.0 * np.arange(windows + 1) / windows)
         assert sum(count for count, _ in found) == _MANY
         assert [one.number for _, shown in found for one in shown] == [0, 7_000, _MANY - 2]
+    counts = [count for count, _ in packets.cut(np.array([0.0, 1.0, 1e4, 10_000.3, 10_001.0]))]
+    assert counts == [1998, _MANY - 5 - 1998, 2, 3]
 
 
 def test_the_time_of_a_cut_is_that_of_the_part_it_lies_in(packets: SentPackets) -> None:

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from occ_model.photo.evidence.doubts import distinct_texts, doubts, strongest_line
+from occ_model.photo.evidence.doubts import _harmonics, distinct_texts, doubts, strongest_line
 from occ_model.photo.fit.timing import Timing
 
 PLACE, HEIGHT = np.arange(1500), np.full(1500, 100.0)
@@ -115,3 +115,12 @@ def test_a_number_and_its_limit_are_written_apart(
     value: float, limit: float, texts: tuple[str, str]
 ) -> None:
     assert distinct_texts(value, limit) == texts
+
+
+def test_a_harmonic_may_be_as_strong_as_four_of_its_strongest_neighbour() -> None:
+    power = np.zeros(110)
+    power[10::10] = np.arange(1.0, 11.0)
+    harmonics = _harmonics(power, 10.0, own=2)
+    assert harmonics[:2] == [(10, np.inf), (20, np.inf)]
+    assert harmonics[5] == (60, 4.0 * 10.0)  # of the second, third, ninth and tenth
+    assert harmonics[9] == (100, 4.0 * 7.0)

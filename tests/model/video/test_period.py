@@ -70,6 +70,6 @@ def test_all_bits_are_known_of_a_whole_period_and_fewer_of_a_part(framing: str) 
     lost = 0
     for place in range(len(chips)):
         one: Any = SimpleNamespace(ratios=ratios, known=np.arange(len(chips)) != place)
-        lost += np.count_nonzero(known_bits(one, period) < 0)
+        lost += int(np.count_nonzero(known_bits(one, period) < 0))
     # A bit needs its two chips and those of the bit before: of a header, the last one.
     assert lost == 4 * len(sent) - (framing != "raw")

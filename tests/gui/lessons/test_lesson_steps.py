@@ -121,7 +121,7 @@ def test_question_answer_and_check_stay_in_view_however_long_the_text(
     page: StepPage, qtbot: QtBot
 ) -> None:
     lesson = lessons().lessons[0]
-    long = replace(lesson.steps[0], text="A word and another. " * 300)
+    long = replace(lesson.steps[0], text="A word and another. " * 300, equation="")
     page.show_step(replace(lesson, steps=(long,)), 0, None)
     page.resize(300, 420)
     page.show()
@@ -129,6 +129,8 @@ def test_question_answer_and_check_stay_in_view_however_long_the_text(
     for widget in (page.question, page.answer_field.field, page.answer_field.check):
         assert page.rect().contains(QRect(widget.mapTo(page, QPoint()), widget.size()))
         assert not widget.visibleRegion().isEmpty()
+    page.reveal.click()
+    qtbot.waitUntil(lambda: not page.answer.visibleRegion().isEmpty())
 
 
 def test_a_step_says_what_is_changed_and_which_numbers_are_of_which_scene(

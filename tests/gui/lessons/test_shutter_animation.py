@@ -2,6 +2,7 @@
 
 from unittest.mock import Mock
 
+import numpy as np
 import pytest
 from gui.kinds import add_widget
 from PySide6.QtWidgets import QWidget
@@ -34,3 +35,14 @@ def test_the_stripes_seen_are_those_of_exposures_that_have_ended(
     ended = shutter.starts + shutter.exposure_time <= moment * shutter.duration * (1.0 + 1e-9)
     assert painter.fillRect.call_count == int(ended.sum())
     assert ended.all() == (moment == 1.0)
+
+
+@pytest.mark.parametrize("moment", [0.0, 0.6, 1.0])
+def test_the_bar_of_a_column_is_filled_as_far_as_its_exposure_has_gone(
+    widget: QWidget, shutter: RollingShutter, moment: float
+) -> None:
+    painter = Mock()
+    _Drawing(painter, widget, shutter, moment)._draw_bars()
+    filled = [call.args[0].width() for call in painter.fillRect.call_args_list]
+    gone = np.clip(moment * shutter.duration - shutter.starts, 0.0, shutter.exposure_time)
+    assert filled == pytest.approx(gone / shutter.duration * widget.width())

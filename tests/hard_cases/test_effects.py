@@ -43,9 +43,7 @@ def test_flicker_is_that_of_its_integral_in_fifty_digits(
     exact = mpmath.sinpi(turn) / (mpmath.pi * turn)
     found = response(scene)
     relative = float(abs(found - exact) / abs(exact)) if exact else abs(found)
-    record(
-        "flicker's share in an exposure, relative", "F t 1e-11 to 1e9, +- 1 ulp", relative, 1e-15
-    )
+    record("flicker's part of an exposure, relative", "F t 1e-11 to 1e9, +- 1 ulp", relative, 1e-15)
     worst = 0.0
     for column in some_columns(scene):
         when = Fraction(start) + column * Fraction(scene.camera.readout_time)

@@ -77,7 +77,7 @@ def test_a_vanishing_edge_moves_no_more_light_than_its_fraction(
     # Half of it at each end of the exposure; or all of a window shorter than the edge.
     beyond = max(moved - min(tau / (scene.camera.exposure_time * FREQUENCY), 1.0), 0.0)
     record(
-        "light moved by LED edges beyond their share", "edges 1e-300 to 1e-3 chips", beyond, 1e-15
+        "light moved by LED edges beyond what they add", "edges 1e-300 to 1e-3 chips", beyond, 1e-15
     )
 
 

@@ -180,7 +180,7 @@ def test_a_small_change_of_a_time_changes_on_time_by_its_fraction(
             fraction = stretch * (abs(exact.start(column)) / exact.frequency + 2 * t)
         change = abs(Fraction(float(found[0][column])) - Fraction(float(found[1][column])))
         beyond = float(max(change - fraction, Fraction(0)) / t)
-        record("t_on's change beyond its share, of t", "any time by 1e-16 to 1e-6", beyond, 1e-12)
+        record("t_on's change beyond its part, of t", "any time by 1e-16 to 1e-6", beyond, 1e-12)
 
 
 LONG = "1" * 2048 + "0" * 2048

@@ -19,6 +19,7 @@ _Function = TypeVar("_Function", bound=Callable[..., Any])
 
 _MADE_BY = {  # what returns a value of a class, for its sentence
     "Scene": "load_preset('phone-136us')",
+    "Room": "load_room('office')",
     "Photo": "load_photo",
     "Video": "load_video",
     "DecodeResult": "decode",

@@ -14,7 +14,7 @@ from occ_model.errors import ParameterError, counted
 from occ_model.room.edges import Edge, EdgeFinder
 from occ_model.room.pose_fit import LampEdges, Located
 from occ_model.room.reading import ReadLamp, check_picture, find_and_name
-from occ_model.room.room import Room, RoomLamp, check_room
+from occ_model.room.room import Room, RoomLamp
 from occ_model.room.view import angles_of, room_outline, rotation
 
 _MAX_DEVIATION_EXCESS = 9.0  # of chi-squared, within which another place explains the picture too
@@ -82,7 +82,6 @@ def read_room(image: NDArray[Any], room: Room, focal_share: float = 0.0) -> Room
     ParameterError
         The fraction is not from 0 to below 1.
     """
-    check_room(room)
     if not 0.0 <= focal_share < 1.0:
         raise ParameterError.of("focal_share", f"{focal_share:g}", "from 0 to below 1")
     picture = check_picture(image, room)

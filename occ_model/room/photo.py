@@ -10,7 +10,7 @@ from occ_model.camera.projection import check_size
 from occ_model.photo.photo_scene import with_notes
 from occ_model.photo.reading.load import Photo
 from occ_model.room.locate import RoomReading, read_room
-from occ_model.room.room import Room, check_room
+from occ_model.room.room import Room
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import SECOND
@@ -36,7 +36,6 @@ def read_room_photo(photo: Photo, room: Room, focal_length: float | None = None)
     by a right angle where the stripes lie, and by half a turn where no lamp is named. Raises
     ParameterError for a focal length out of range, ProjectionError for too large a photo.
     """
-    check_room(room)
     upright: ByteArray = np.ascontiguousarray(photo.image[::-1] if photo.turned else photo.image)
     scene, assumed = _camera_of(photo, upright, room.scene)
     scene, fraction, said = _with_focal_length(photo, scene, focal_length)

@@ -19,7 +19,7 @@ from occ_model.effects.plan import plan_of_any
 from occ_model.effects.registry import NAMES, planned
 from occ_model.results.decoding import Region
 from occ_model.results.plan import Plan
-from occ_model.room.room import Room, RoomLamp, check_room
+from occ_model.room.room import Room, RoomLamp
 from occ_model.room.view import LampView, lamps_in_view
 from occ_model.scene.scene import Pose, Scene
 from occ_model.scene.simulation_settings import (
@@ -109,7 +109,6 @@ def render_room(
     ProjectionError
         A lamp in the picture reaches behind the camera, or the picture would be too large.
     """
-    check_room(room)
     settings = SimulationSettings(tolerance, observable, force or {}, noise, seed).checked(NAMES)
     check_size(room.scene.camera)
     timer = StageTimer()

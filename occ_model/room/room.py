@@ -302,8 +302,3 @@ def _check_keys(table: Mapping[str, Any], known: tuple[str, ...], where: str) ->
             raise SceneFileError(
                 f"{where} has no value {shown(name)}; known are {', '.join(known)}."
             )
-
-
-def check_room(value: object) -> None:
-    if not isinstance(value, Room):
-        raise ParameterError.of("room", shown(value), "a Room, such as load_room('office') gives")

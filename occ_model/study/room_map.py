@@ -17,7 +17,7 @@ from occ_model.results.sweep import csv_row, joined_lines
 from occ_model.room.locate import RoomReading, read_room
 from occ_model.room.reading import ReadLamp, code_sent
 from occ_model.room.render import RoomFrame, render_room
-from occ_model.room.room import Room, check_room
+from occ_model.room.room import Room
 from occ_model.scene.argument_checks import check_count, check_seed
 from occ_model.scene.simulation_settings import TOLERANCE
 from occ_model.study.sweep.sweep import Progress, measure_study
@@ -45,7 +45,6 @@ class RoomMapRequest:
     tolerance: float = TOLERANCE.default  # As for render_room
 
     def __post_init__(self) -> None:
-        check_room(self.room)
         check_seed(self.seed)
         check_count("images", self.images, 1, 10_000)
         check_count("places", self.points, 1, MOST_PLACES)

@@ -42,6 +42,7 @@ OURS = (
     "Settings",
     "Recording",
     "Lamp",
+    "Room",
 )
 """Parts of annotations of arguments that are refused before any work."""
 

@@ -86,6 +86,13 @@ def test_a_decision_needs_less_than_the_signal() -> None:
     assert all("margins" in d.reason for d in decision.decisions if d.estimate)
 
 
+def test_the_margin_of_a_decision_is_about_half_of_the_signals_swing() -> None:
+    """Two root mean squares of a smooth change are to stay within it."""
+    scene = occ.load_preset("phone-136us").replace(switching_frequency=3e3, enhancement="none")
+    margin = 2.0 / occ.plan(scene, observable="decision").stretch
+    assert 0.4 < margin / np.ptp(occ.column_profile(scene)) < 0.55
+
+
 @pytest.mark.parametrize("on", [True, False])
 def test_the_user_has_the_last_word(scene: Scene, on: bool) -> None:
     plan = occ.plan(scene, 0.5 if on else 0.0, force={"led-edges": on, "jpeg": on})

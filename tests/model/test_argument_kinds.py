@@ -2,6 +2,7 @@
 
 import inspect
 import pickle
+import re
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from types import GenericAlias
@@ -73,8 +74,10 @@ def test_an_object_of_a_wrong_kind_is_refused_before_any_work(name: str, argumen
             for each, declared in parameters.items()
             if declared.default is declared.empty
         }
-        with pytest.raises(occ.ParameterError, match=f"^{argument} is .*; allowed: "):
+        with pytest.raises(occ.ParameterError, match=f"^{argument} is .*; allowed: ") as refused:
             function(**given | {argument: wrong})
+        allowed = str(refused.value).rpartition("; allowed: ")[2]
+        assert not re.search(r"\ba [AEIOU]|\ban [^AEIOUa]", allowed)
 
 
 CALLS: dict[str, tuple[Callable[..., Any], dict[str, object]]] = {

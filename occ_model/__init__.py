@@ -247,5 +247,5 @@ def __getattr__(name: str) -> object:
     return value
 
 
-def __dir__() -> list[str]:
-    return sorted({*globals(), *__all__})
+def __dir__() -> set[str]:
+    return {*globals(), *__all__}

@@ -11,7 +11,16 @@ from gui.kinds import simulated
 from gui.stores import store_of
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction
-from PySide6.QtWidgets import QDockWidget, QMainWindow, QSlider, QStyle, QStyleOptionSlider, QWidget
+from PySide6.QtWidgets import (
+    QApplication,
+    QDockWidget,
+    QMainWindow,
+    QMenu,
+    QSlider,
+    QStyle,
+    QStyleOptionSlider,
+    QWidget,
+)
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.panes import export
@@ -86,7 +95,7 @@ class PaneBench:
         self.shell.said.connect(self.said.append)
         self.settings.refused.connect(self.said.append)
         qtbot.addWidget(self.window, before_close_func=lambda _window: self.stop())
-        self._qtbot = qtbot
+        self._qtbot, self._before = qtbot, QApplication.topLevelWidgets()
 
     def add(self, feature: Feature[Any], *, seen: bool = True) -> Any:
         """Add a pane or a service, and give what is made of it."""
@@ -141,6 +150,10 @@ class PaneBench:
 
     def stop(self) -> None:
         self.shell.stop()
+        # What the application puts into its window would outlive the test.
+        for widget in QApplication.topLevelWidgets():
+            if widget not in self._before and not isinstance(widget, QMenu):
+                widget.setParent(self.window)
 
 
 class ControlsBench(PaneBench):

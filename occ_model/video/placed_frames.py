@@ -25,6 +25,8 @@ FIRST_FIT = 3  # placed frames from which the clock is fitted
 _MIN_PREDICTING_FRAMES = 6  # minimum frames of a fit that predicts the places of others
 _ROUNDS = 4  # maximum rounds over unplaced frames at the end
 
+PART_UNKNOWN = "No frame shows which sub-packet it shows, and no sub-packet was in view as a whole."
+
 
 class PlacedFrames:
     """Frames, in the order of time, and their places, by a readout time known to a fraction."""
@@ -36,12 +38,12 @@ class PlacedFrames:
         self.columns = 0
         self.frames: list[TimedFrame] = []
         self.placed = 0
+        self.part_unknown = False  # whether places are right but for a whole number of sub-packets
         self._period = period
         self._readout_time, self._tolerance = readout_time, tolerance
         self._places: list[int | None] = []
         self._fits: tuple[ClockFit, ...] = ()
         self._next_fit, self._next_try = FIRST_FIT, _MIN_PREDICTING_FRAMES
-        self._part_unknown = False
         self._times: FrameTimes | None = None
         self._clock_from = 0
 
@@ -75,6 +77,8 @@ class PlacedFrames:
 
     def reading(self, number: int) -> FrameReading:
         reading, place = self.frames[number].reading, self._places[number]
+        if place is not None and self.part_unknown:
+            return replace(reading, failure=PART_UNKNOWN)
         if place is not None:
             return replace(reading, place=place)
         if reading.failure is not None:
@@ -134,7 +138,7 @@ class PlacedFrames:
             phase = float(fit.at_start(np.array([time]))[0]) + fit.step * timed.column
             foretold = (phase - timed.middle) % self._period.length
             deviation = float(np.hypot(fit.phase_error(time), timed.middle_error))
-        place = self.joined.place(timed.reading, foretold, deviation, self._part_unknown)
+        place = self.joined.place(timed.reading, foretold, deviation, self.part_unknown)
         if place is None:
             return False
         self._enter(number, place)
@@ -155,7 +159,7 @@ class PlacedFrames:
         self._places[number] = place
         self.placed += 1
         self.joined.add(self.frames[number].reading, place)
-        if self._part_unknown:
+        if self.part_unknown:
             self._find_part()
 
     def _place_others(self) -> bool:
@@ -191,7 +195,7 @@ class PlacedFrames:
         )
         if len(fits) != 1:
             return
-        self._part_unknown = True
+        self.part_unknown = True
         begins, inside, within = _shown(fits[0], both)
         firsts = counted_on(within, fits[0].at_start(begins) + inside, length).tolist()
         for (number, _), first, kept in zip(shown, firsts, fits[0].kept, strict=True):
@@ -205,7 +209,7 @@ class PlacedFrames:
         for part in np.flatnonzero(known.reshape(-1, length).all(axis=1)).tolist():
             found = self._period.part_bits(chips[part * length : (part + 1) * length])
             if found is not None:
-                self._part_unknown = False
+                self.part_unknown = False
                 shift = (found[0] - part) * length
                 self.joined.rotate(shift)
                 self._places = [

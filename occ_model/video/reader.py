@@ -28,7 +28,7 @@ from occ_model.video.payload_so_far import (
     written,
 )
 from occ_model.video.period import SentPeriod
-from occ_model.video.placed_frames import FIRST_FIT, PlacedFrames
+from occ_model.video.placed_frames import FIRST_FIT, PART_UNKNOWN, PlacedFrames
 from occ_model.video.read_frame import FrameReader
 from occ_model.video.without_packets import WithoutPackets
 
@@ -169,7 +169,7 @@ class VideoReader:
         return FilmProgress(
             frame=self._placed.reading(frames - 1),
             frames=frames,
-            placed=self._placed.placed,
+            placed=0 if self._placed.part_unknown else self._placed.placed,
             payload=self._payload,
             known=float(self._joined.known.mean()),
             complete=self._complete_with is not None,
@@ -267,6 +267,8 @@ class VideoReader:
             if self._without_packets.may_be_packets:
                 return f"{described} {why_unplaced(self._placed.frames)}"
             return f"{described} Packets as the scene sends them are in none of the frames."
+        if self._placed.part_unknown:
+            return PART_UNKNOWN
         return why_not_read(soft, self._joined, self._period)
 
     def _written(self, bits: ByteArray) -> str:
@@ -277,6 +279,6 @@ class VideoReader:
 
     def _packets(self, bits: ByteArray) -> SentPackets:
         fit = self._placed.fit
-        if fit is None or self._period.scheme is None:
+        if fit is None or self._period.scheme is None or self._placed.part_unknown:
             return SentPackets()
         return packets_of(self._placed.counted(), self._period, bits, fit.frequency)

@@ -8,7 +8,7 @@ import occ_model as occ
 from occ_model.results.video_reading import FrameReading
 from occ_model.transmitter.packet import sent_chips
 from occ_model.video.period import SentPeriod
-from occ_model.video.placed_frames import PlacedFrames
+from occ_model.video.placed_frames import PART_UNKNOWN, PlacedFrames
 from occ_model.video.read_frame import TimedFrame
 
 SCENE = occ.Scene().replace(
@@ -18,14 +18,13 @@ VIEW = 11.9
 """Chips in view: a preamble of 6 and less than the 6 of a sub-packet's number on either side."""
 
 COLUMNS, FRAME_PERIOD = 240, 1 / 30
-FREQUENCY = (400 + 9.3) / FRAME_PERIOD  # of eight sub-packets: the next frame begins 9.3 chips on
 STEP = VIEW / COLUMNS
 
 
-def frame(index: int, chips: np.ndarray) -> tuple[TimedFrame, int]:
+def frame(index: int, chips: np.ndarray, frequency: float) -> tuple[TimedFrame, int]:
     """A frame that shows some chips without an error, and the number of its first whole one."""
     time, column = index * FRAME_PERIOD, 0.5 * (COLUMNS - 1)
-    begin = time * FREQUENCY
+    begin = time * frequency
     first, end = math.ceil(begin), math.floor(begin + VIEW)
     seen = chips[np.arange(first, end) % len(chips)]
     ratios = np.where(seen == 1, 9.0, -9.0)
@@ -34,18 +33,33 @@ def frame(index: int, chips: np.ndarray) -> tuple[TimedFrame, int]:
     return TimedFrame(reading, middle, 0.01, column, STEP, 1e-5 * STEP), first
 
 
-def test_sub_packets_are_found_by_the_clock_where_no_frame_shows_a_number() -> None:
+def placed_frames(shift: float) -> tuple[PlacedFrames, list[TimedFrame], list[int]]:
+    """Place frames each of which begins so many chips on, after eight sub-packets."""
     period, chips = SentPeriod(SCENE.transmitter), sent_chips(SCENE.transmitter)
-    readout = STEP / FREQUENCY
-    placed = PlacedFrames(period, 1.002 * readout, 0.005)
+    frequency = (len(chips) + shift) / FRAME_PERIOD
+    placed = PlacedFrames(period, 1.002 * STEP / frequency, 0.005)
     placed.columns = COLUMNS
-    frames = [frame(index, chips) for index in range(5, 50)]
-    headers = [period.places(timed.reading.chips) for timed, _ in frames]
-    assert {len(places) for places in headers} == {0, period.parts}
-    for timed, _ in frames:
+    frames, firsts = zip(*(frame(index, chips, frequency) for index in range(5, 50)), strict=True)
+    for timed in frames:
         placed.add(timed)
     placed.settle()
-    found = [placed.reading(number).place for number in range(len(frames))]
-    assert found == [first % len(chips) for _, first in frames]
+    return placed, [*frames], [first % len(chips) for first in firsts]
+
+
+def test_sub_packets_are_found_by_the_clock_where_no_frame_shows_a_number() -> None:
+    placed, frames, firsts = placed_frames(9.3)
+    period, chips = SentPeriod(SCENE.transmitter), sent_chips(SCENE.transmitter)
+    headers = [period.places(timed.reading.chips) for timed in frames]
+    assert {len(places) for places in headers} == {0, period.parts}
+    assert [placed.reading(number).place for number in range(len(frames))] == firsts
     assert placed.joined.known.all()
     assert ((placed.joined.ratios > 0.0) == chips).all()
+
+
+def test_no_place_is_stated_where_which_sub_packet_is_which_stays_unknown() -> None:
+    part = SentPeriod(SCENE.transmitter).part_length
+    placed, frames, _ = placed_frames(part - 0.02)  # the same chips of each sub-packet in view
+    assert placed.placed > 0
+    for number in range(len(frames)):
+        reading = placed.reading(number)
+        assert (reading.place, reading.failure) == (None, PART_UNKNOWN)

@@ -15,6 +15,7 @@ from occ_model.errors import counted, one_line
 from occ_model.room.locate import RoomReading
 from occ_model.room.room import Room
 from occ_model.scene.parameters import quantity
+from occ_model.scene.units import METRE
 
 _LEAST_HEIGHT = 260
 
@@ -132,7 +133,7 @@ def _headline(reading: RoomReading) -> str:
         return "The place is not determined"
     place, errors = reading.located.place, reading.located.errors
     text = ", ".join(
-        f"{name} {getattr(place, name):.4f} m ± {_length(error)}"
+        f"{name} {METRE.format_estimate(getattr(place, name), error)}"
         for name, error in zip("xyz", errors[:3].tolist(), strict=True)
     )
     return f"I am here: {text}" if reading.is_sure else f"Perhaps here: {text}"

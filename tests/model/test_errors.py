@@ -20,8 +20,16 @@ def nested(levels: int) -> object:
 
 @pytest.mark.parametrize(
     "value",
-    [10**5000, -(10**5000), "x" * 10**6, nested(5000), {"a": [["x" * 60] * 5] * 5}, b"\0" * 10**5],
-    ids=["large", "small", "text", "nested", "table", "bytes"],
+    [
+        10**5000,
+        -(10**5000),
+        "x" * 10**6,
+        nested(5000),
+        {"a": nested(5000)},
+        {"a": [["x" * 60] * 5] * 5},
+        b"\0" * 10**5,
+    ],
+    ids=["large", "small", "text", "nested", "table", "wide table", "bytes"],
 )
 def test_a_value_is_quoted_in_few_characters(value: object) -> None:
     assert 0 < len(shown(value)) <= 100

@@ -1,10 +1,12 @@
 """The animation of a rolling shutter: a column's stripe appears as its exposure ends."""
 
+from typing import Any
 from unittest.mock import Mock
 
 import numpy as np
 import pytest
 from gui.kinds import add_widget
+from PySide6.QtCore import QRectF
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
@@ -26,23 +28,34 @@ def widget(qtbot: QtBot) -> QWidget:
     return widget
 
 
-@pytest.mark.parametrize("moment", [0.0, 0.6, 1.0])
+@pytest.fixture(params=[0.0, 0.6, 1.0])
+def moment(request: pytest.FixtureRequest) -> float:
+    return float(request.param)
+
+
+@pytest.fixture
+def drawing(widget: QWidget, shutter: RollingShutter, moment: float) -> _Drawing:
+    return _Drawing(Mock(), widget, shutter, moment)
+
+
+def filled(drawing: _Drawing) -> list[QRectF]:
+    painter: Any = drawing._painter
+    return [call.args[0] for call in painter.fillRect.call_args_list]
+
+
 def test_the_stripes_seen_are_those_of_exposures_that_have_ended(
-    widget: QWidget, shutter: RollingShutter, moment: float
+    drawing: _Drawing, shutter: RollingShutter, moment: float
 ) -> None:
-    painter = Mock()
-    _Drawing(painter, widget, shutter, moment)._draw_stripes()
+    drawing._draw_stripes()
     ended = shutter.starts + shutter.exposure_time <= moment * shutter.duration * (1.0 + 1e-9)
-    assert painter.fillRect.call_count == int(ended.sum())
+    assert len(filled(drawing)) == int(ended.sum())
     assert ended.all() == (moment == 1.0)
 
 
-@pytest.mark.parametrize("moment", [0.0, 0.6, 1.0])
 def test_the_bar_of_a_column_is_filled_as_far_as_its_exposure_has_gone(
-    widget: QWidget, shutter: RollingShutter, moment: float
+    drawing: _Drawing, widget: QWidget, shutter: RollingShutter, moment: float
 ) -> None:
-    painter = Mock()
-    _Drawing(painter, widget, shutter, moment)._draw_bars()
-    filled = [call.args[0].width() for call in painter.fillRect.call_args_list]
+    drawing._draw_bars()
     gone = np.clip(moment * shutter.duration - shutter.starts, 0.0, shutter.exposure_time)
-    assert filled == pytest.approx(gone / shutter.duration * widget.width())
+    widths = [place.width() for place in filled(drawing)]
+    assert widths == pytest.approx(gone / shutter.duration * widget.width())

@@ -26,6 +26,11 @@ def application(application: Application, film_scene: Scene) -> Application:
     return application
 
 
+def film_in(application: Application) -> Path | None:
+    """Return the film that is open, or will be when the pane is first shown."""
+    return application.store.store.workspace.film.path
+
+
 @pytest.fixture
 def pane(application: Application, user: User) -> Iterator[VideoWiring]:
     """Show the mode with a simulated film of six frames."""
@@ -72,13 +77,13 @@ def test_a_film_is_opened_read_seen_along_either_axis_and_closed_and_stays_where
     application.files.open_film(damaged)
     user.wait_until_idle()
     assert "damaged.mp4 is not a film that can be read" in user.message
-    assert (application.store.store.workspace.film.path, close.isEnabled()) == (film_file, True)
+    assert (film_in(application), close.isEnabled()) == (film_file, True)
     user.choose("C&lose film")
     assert not close.isEnabled()
-    assert application.store.store.workspace.film.path is None
+    assert film_in(application) is None
     assert application.video.wiring.view.pictures.shown == (False, True)
     application.window.dropped.emit([film_file])
-    assert application.store.store.workspace.film.path == film_file
+    assert film_in(application) == film_file
 
 
 def test_a_camera_is_read_live_and_released_with_the_mode(
@@ -104,10 +109,10 @@ def test_a_film_of_the_last_session_can_be_closed_unseen_and_opens_when_the_mode
     store = application.store.store
     store.put(replace(store.workspace, film=FilmChoice(film_file)))
     user.choose("C&lose film")
-    assert application.store.store.workspace.film.path is None
+    assert film_in(application) is None
     assert not application.window.actions_by_name["close_film"].isEnabled()
     store.put(replace(store.workspace, film=FilmChoice(film_file)))
-    assert application.store.store.workspace.film.path == film_file
+    assert film_in(application) == film_file
     assert application.shell.made_pane("video") is None
     application.window.modes.switch("video")
     user.wait_until_idle()

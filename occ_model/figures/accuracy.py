@@ -28,7 +28,7 @@ _COLOURS = dict(
     )
 )
 
-_NAME_PLACES = [(6, 4), (-6, 4), (6, -9), (-6, -9), (6, 11), (-6, 11), (6, -16), (-6, -16)]
+_NAME_PLACES = [(side, height) for height in (4, -9, 11, -16) for side in (6, -6)]
 """Offsets in points at which a name beside its point is tried."""
 
 

@@ -73,8 +73,10 @@ def is_film(path: Path) -> bool:
     except SceneFileError:
         return False
     kind = kind_of_film(start)
-    if kind is None or kind.reader == "opencv":
-        return kind is not None and not (start[4:8] == b"ftyp" and start[8:12] in _PICTURES)
+    if kind is None:
+        return False
+    if kind.reader == "opencv":
+        return not (start[4:8] == b"ftyp" and start[8:12] in _PICTURES)
     # Slow to import, and only needed for these.
     from PIL import Image
 

@@ -77,16 +77,12 @@ class PlacedFrames:
 
     def reading(self, number: int) -> FrameReading:
         reading, place = self.frames[number].reading, self._places[number]
-        if place is not None and self.part_unknown:
+        if place is None:
+            unknown = "The frame shows no header, and its place in the packet is not known."
+            return replace(reading, failure=reading.failure or unknown)
+        if self.part_unknown:
             return replace(reading, failure=PART_UNKNOWN)
-        if place is not None:
-            return replace(reading, place=place)
-        if reading.failure is not None:
-            return reading
-        return replace(
-            reading,
-            failure="The frame shows no header, and its place in the packet is not known.",
-        )
+        return replace(reading, place=place)
 
     def times(self) -> FrameTimes | None:
         """Return the frames' times; None for fewer than two."""

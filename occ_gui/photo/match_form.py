@@ -13,7 +13,7 @@ from occ_gui.scene.scene_store import new_gesture
 from occ_gui.values.photo_choice import KNOWN, MatchChoice
 from occ_gui.widgets.building import check_box, filled, named, paragraph, push_button
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
-from occ_model.results.photo_table import known_beside
+from occ_model.results.match import counterpart
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 from occ_model.scene.square_wave import CHIPS_OF_A_CYCLE, SQUARE_FREQUENCY
@@ -134,7 +134,7 @@ class MatchForm(QWidget):
         self.certain_chosen.emit(_FREQUENCY, CHIPS_OF_A_CYCLE * cycles)
 
     def _known_name(self) -> str:
-        return known_beside(self.estimate.key())
+        return counterpart(self.estimate.key())
 
     def _click_certain(self, certain: bool) -> None:
         name = self._known_name()

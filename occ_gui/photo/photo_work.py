@@ -21,8 +21,7 @@ from occ_model.photo.comparison import compare, enhance_comparison
 from occ_model.photo.reading.load import Photo
 from occ_model.photo.stripes.find import find_stripes
 from occ_model.results.lamp import Lamp
-from occ_model.results.match import ChipReading, Comparison
-from occ_model.results.photo_table import known_beside
+from occ_model.results.match import ChipReading, Comparison, counterpart
 from occ_model.scene.scene import Scene
 from occ_model.scene.square_wave import blinking
 
@@ -108,7 +107,7 @@ def match(request: MatchRequest, report: Report) -> FoundMatch:
     photo, asked = request
     choice = asked.choice
     scene, sent = known_scene(asked.scene, choice)
-    known = known_beside(choice.estimate)
+    known = counterpart(choice.estimate)
     found = FoundMatch(photo, asked.part, None, float(asked.scene.value(known)))
     try:
         match = occ.match_photo(  # imported now: the window starts sooner without it

@@ -14,6 +14,7 @@ from occ_model.photo.many.match_photos import MOST_JOBS, match_photos, usual_job
 from occ_model.photo.many.other_programs import frame_readout_time, stated_lines
 from occ_model.photo.match_facts import estimate_text
 from occ_model.program import EXIT_FAILURE, EXIT_INTERRUPTED
+from occ_model.results.match import counterpart
 from occ_model.results.photo_table import (
     DOUBTFUL,
     SURE,
@@ -22,7 +23,6 @@ from occ_model.results.photo_table import (
     PhotoRow,
     PhotoTable,
     csv_text,
-    known_beside,
 )
 from occ_model.scene.argument_checks import check_count
 from occ_model.scene.parameters import quantity
@@ -79,7 +79,7 @@ def _known(paths: list[Path], options: argparse.Namespace) -> dict[int, float]:
     """Return the known values of single photos, by index."""
     known: dict[int, float] = {}
     of_cycles = options.led_frequency is not None and options.estimate == "readout_time"
-    declared = SQUARE_FREQUENCY if of_cycles else quantity(known_beside(options.estimate))
+    declared = SQUARE_FREQUENCY if of_cycles else quantity(counterpart(options.estimate))
     for text in options.known:
         name, _, value = text.rpartition("=")
         places = _places(name, paths)

@@ -13,6 +13,12 @@ from occ_model.scene.scene import Scene
 ESTIMATES = ("readout_time", "switching_frequency")
 """Parameters of which one is estimated and the other is known: stripes show the product of both."""
 
+
+def counterpart(name: str) -> str:
+    """Return the other one of :data:`ESTIMATES`."""
+    return ESTIMATES[1 - ESTIMATES.index(name)]
+
+
 PLAIN_STRIPES = (  # advice for a refused pulse that repeats
     "These look like plain stripes of one lamp: if so, state that it sends a square wave."
 )
@@ -177,7 +183,7 @@ class Match:
     @property
     def estimate(self) -> str:
         """The other one, which was estimated."""
-        return next(name for name in ESTIMATES if name != self.known)
+        return counterpart(self.known)
 
     @property
     def verdict(self) -> str:

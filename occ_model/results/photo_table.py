@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from occ_model.errors import counted, one_line, printable
-from occ_model.results.match import ESTIMATES, Match
+from occ_model.results.match import Match, counterpart
 from occ_model.results.sweep import csv_row
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import quantity
@@ -18,11 +18,6 @@ SURE, DOUBTFUL, REFUSED, UNREADABLE = "sure", "doubtful", "refused", "unreadable
 """Verdicts on a photo: those of a match, no match, and a file that cannot be read."""
 
 VERDICTS = (SURE, DOUBTFUL, REFUSED, UNREADABLE)
-
-
-def known_beside(estimate: str) -> str:
-    """Return the parameter that is taken as known while the other one is estimated."""
-    return ESTIMATES[1 - ESTIMATES.index(estimate)]
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,7 +127,7 @@ class PhotoTable:
     @property
     def known(self) -> str:
         """The parameter that was taken as known: the other one of the two."""
-        return known_beside(self.estimate)
+        return counterpart(self.estimate)
 
     def count(self, verdict: str) -> int:
         """Count the photos with a verdict."""

@@ -17,7 +17,8 @@ from occ_gui.shell.results import Board
 from occ_gui.values.photo_choice import MatchChoice
 from occ_gui.values.photo_results import ListedRows
 from occ_model.errors import OccError
-from occ_model.results.photo_table import PhotoRow, PhotoTable, known_beside
+from occ_model.results.match import counterpart
+from occ_model.results.photo_table import PhotoRow, PhotoTable
 
 if TYPE_CHECKING:  # imported with the first match, not with the window
     from occ_model.photo.many.row import MatchSettings
@@ -109,7 +110,7 @@ class ManyPhotosController(QObject):
             return
         from occ_model.photo.many.row import MatchSettings
 
-        known = known_beside(choice.estimate)
+        known = counterpart(choice.estimate)
         settings = self._settings = MatchSettings(
             scene,
             choice.estimate,
@@ -130,7 +131,7 @@ class ManyPhotosController(QObject):
         table, settings = self.table, self._settings
         if table is None or settings is None:
             return
-        known = self._view.rows.given(known_beside(settings.estimate))
+        known = self._view.rows.given(counterpart(settings.estimate))
         self._settings = settings = replace(settings, known=known)
         self._done, self.table = len(table.rows) - 1, None
         self._view.show_busy(settings.estimate, settings.scene)

@@ -16,13 +16,13 @@ from occ_gui.widgets.work_bar import WorkBar
 from occ_model.errors import counted
 from occ_model.photo.many.other_programs import frame_readout_time, lines_to_paste, stated_lines
 from occ_model.photo.match_facts import LABELS, estimate_text
+from occ_model.results.match import counterpart
 from occ_model.results.photo_table import (
     VERDICTS,
     CombinedEstimate,
     PhotoRow,
     PhotoTable,
     csv_text,
-    known_beside,
 )
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
@@ -156,7 +156,7 @@ class ManyPhotosView(QWidget):
         self.files_shown.emit()
 
     def show_begun(self, estimate: str, scene: Scene) -> None:
-        self.rows.show_begun(estimate, float(scene.value(known_beside(estimate))))
+        self.rows.show_begun(estimate, float(scene.value(counterpart(estimate))))
         self.show_busy(estimate, scene)
 
     def show_busy(self, estimate: str, scene: Scene) -> None:
@@ -239,7 +239,7 @@ class ManyPhotosView(QWidget):
         """Name the value that an estimate depends on, unless the user is certain of it."""
         if self._found is not None and not self._found.rests_on_the_scene:
             return ""  # each photo has a value that was entered for it
-        known = known_beside(estimate)
+        known = counterpart(estimate)
         pattern = scene.transmitter.pattern
         return condition(known, float(scene.value(known)), self._certain, pattern)
 

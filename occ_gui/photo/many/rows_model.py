@@ -18,7 +18,8 @@ from occ_gui.photo.match_result import SIGNS
 from occ_gui.widgets.plain_text import LONGEST_TEXT, in_tool_tip
 from occ_model.errors import ParameterError, one_line
 from occ_model.photo.match_facts import LABELS, estimate_text
-from occ_model.results.photo_table import DOUBTFUL, SURE, PhotoRow, PhotoTable, known_beside
+from occ_model.results.match import counterpart
+from occ_model.results.photo_table import DOUBTFUL, SURE, PhotoRow, PhotoTable
 from occ_model.scene.parameters import quantity
 from occ_model.scene.refusal import refusal_of
 
@@ -54,7 +55,7 @@ class PhotoRowsModel(QAbstractTableModel):
 
     @property
     def known(self) -> str:
-        return known_beside(self._estimate)
+        return counterpart(self._estimate)
 
     def given(self, name: str) -> tuple[tuple[int, float], ...]:
         """Return the values of a known parameter entered for single photos, in SI units."""

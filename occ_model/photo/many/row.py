@@ -8,8 +8,8 @@ from occ_model.parallel.job import Heartbeat
 from occ_model.photo.match import ESTIMATES, PATTERN_SOURCES, check_words, match_photo
 from occ_model.photo.reading.choices import CHANNELS, SCAN_AXES
 from occ_model.photo.reading.load import Photo, load_photo
-from occ_model.results.match import Match
-from occ_model.results.photo_table import REFUSED, UNREADABLE, PhotoRow, known_beside
+from occ_model.results.match import Match, counterpart
+from occ_model.results.photo_table import REFUSED, UNREADABLE, PhotoRow
 from occ_model.results.sweep import joined_lines
 from occ_model.scene.argument_checks import check_choice
 from occ_model.scene.scene import Scene
@@ -33,7 +33,7 @@ class MatchSettings:
         own = dict(self.known).get(place)
         if own is None:
             return self
-        return replace(self, scene=self.scene.replace(**{known_beside(self.estimate): own}))
+        return replace(self, scene=self.scene.replace(**{counterpart(self.estimate): own}))
 
     def check(self) -> None:
         check_words(self.estimate, self.sent, self.averaging)

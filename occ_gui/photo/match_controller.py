@@ -31,7 +31,7 @@ def sources_of(
     given = quantity(known)
     value = given.format(float(found.scene.value(known)))
     how = "assumed to be" if assumed else "being"
-    where = f"photo {photo_name}, {day.isoformat()}, the {given.label.lower()} {how} {value}"
+    where = f"photo {photo_name}, {day.isoformat()}, the {given.in_sentence} {how} {value}"
     sources = {}
     for name, spread in found.uncertainties.items():
         if name in PARAMETERS:

@@ -215,7 +215,7 @@ class PhotoVerdictBar(StateBar):
                 value = f"{value} a line"
             if name == "exposure_time" and match.only_exposure_is_doubtful:
                 value = f"{value} (doubtful)"
-            parts.append(f"{declared.label.lower()} {value}")
+            parts.append(f"{declared.in_sentence} {value}")
         found = condition_of(match, self._certain) + ", ".join(parts)
         return f"{found[0].upper()}{found[1:]}."
 

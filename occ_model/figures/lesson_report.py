@@ -223,7 +223,7 @@ def match_lines(match: Match, photo: str) -> list[str]:
         deviation = match.uncertainties.get(name)
         value = declared.unit.format_estimate(getattr(match, name), deviation)
         doubt = " (doubtful)" if name in match.doubtful_alone else ""
-        lines.append(f"{declared.label.lower()} {value}{doubt}")
+        lines.append(f"{declared.in_sentence} {value}{doubt}")
     lines.append(
         f"{match.exposure_in_chips:.3g} chips an exposure, residual {match.rmse:.2g} levels"
     )

@@ -39,7 +39,7 @@ def _named_values(scene: Scene) -> list[str]:
     for name in _CAPTION_PARAMETERS:
         declared = PARAMETERS[name]
         value = declared.format(scene.value(name))  # type: ignore[arg-type]
-        values.append(f"{declared.label.lower()} {value}")
+        values.append(f"{declared.in_sentence} {value}")
     return values
 
 

@@ -134,7 +134,7 @@ def _doubts_by_fraction(name: str, fraction: float, limit: float) -> list[str]:
     if fraction <= limit:
         return []
     shown, most = distinct_texts(100.0 * fraction, 100.0 * limit)
-    what = PARAMETERS[name].label.lower()
+    what = PARAMETERS[name].in_sentence
     return [f"The {what} is known only to {shown} %; at most {most} % are allowed."]
 
 

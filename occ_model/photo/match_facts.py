@@ -131,7 +131,7 @@ def _alternative(other: Alternative, estimated: str, condition: str) -> str:
         return text
     exposure = quantity("exposure_time").format(other.exposure_time, _DIGITS)
     return (
-        f"{text}; {condition}{declared.label.lower()} {declared.format(value, _DIGITS)}, exposed "
+        f"{text}; {condition}{declared.in_sentence} {declared.format(value, _DIGITS)}, exposed "
         f"for {exposure}"
     )
 

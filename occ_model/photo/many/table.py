@@ -62,7 +62,7 @@ def _combined(
 def _notes(table: PhotoTable, exposures: Sequence[float]) -> list[str]:
     """Return what keeps the photos together from one answer."""
     counted = [row for place, row in enumerate(table.rows) if table.is_counted(place)]
-    label = quantity(table.estimate).label.lower()
+    label = quantity(table.estimate).in_sentence
     notes = []
     if table.estimated is None:
         notes.append(f"No photo is sure: there is no mean of the {label}.")

@@ -81,7 +81,7 @@ def _draw(points: Sequence[AccuracyPoint]) -> Figure:
 
 
 def _place_names(figure: Figure, ax: Axes, names: Sequence[Annotation]) -> None:
-    """Place each name within the axes where it covers no other name, if there is such a place."""
+    """Place each name where it covers no other one and ends within the axes, if it can be."""
     figure.draw_without_rendering()  # which gives the axes their size
     placed: list[Bbox] = []
     for name in names:

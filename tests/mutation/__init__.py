@@ -1,1 +1,0 @@
-"""Mutation testing: faults are put into a copy of the program, and tests have to find them."""

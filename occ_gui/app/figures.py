@@ -35,7 +35,7 @@ def picture_figures(store: Store, about_photo: Callable[[], str]) -> tuple[Figur
         if pane is None or photo is None:
             return later(
                 "occ_model.figures.window_panes:picture_drawing",
-                shown.frame, shown.decoded.region, None, workspace.whose, None, "",
+                shown.frame, shown.region, None, workspace.whose, None, "",
             )  # fmt: skip
         return _with_photo(pane.view, photo, shown, workspace.overlay, about_photo())
 
@@ -63,7 +63,7 @@ def _photo(pane: "PicturesPane | None") -> "Photo | None":
 
 
 def _with_photo(view: "ImageView", opened: "Photo", shown: Snapshot, mode: str, about: str) -> Draw:
-    frame, region = shown.frame, shown.decoded.region
+    frame, region = shown.frame, shown.region
     photo, whose, over = opened.image, view.whose, view.overlay
     place = over.placement
     opacities = {_BLENDED: (over.opacity, None), _SPLIT: (1.0, over.split_row)}
@@ -104,7 +104,7 @@ def profile_figure(store: Store, board: Board, about_photo: Callable[[], str]) -
             comparison,
             slice(*(whole if pane is None else pane.view.columns_in_view())),
             enhanced=enhanced,
-            decoded=shown.result_of(workspace.decoder),
+            decoded=shown.results.get(workspace.decoder),
             about="" if comparison is None else about_photo(),
         )
 
@@ -119,7 +119,7 @@ def decoding_figures() -> tuple[Figure, ...]:
 
 
 def _steps(decoder: str, _pane: object, shown: Snapshot) -> Draw:
-    result = shown.result_of(decoder)
+    result = shown.results.get(decoder)
     if result is None:
         raise NothingToDraw(f"The {decoder} decoder has not read the picture.")
     return later("occ_model.figures.decoding:decode_drawing", shown.frame.scene, result)

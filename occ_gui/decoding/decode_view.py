@@ -112,16 +112,14 @@ class DecodeView(QWidget):
                 self.verdict.setText(self._verdict(self._chosen(self._reading)))
 
     def _results(self, reading: Reading) -> tuple[DecodeResult, ...]:
-        there = [result.decoder for result in reading.results]
-        names = dict.fromkeys((*self._names, *there))
+        names = dict.fromkeys((*self._names, *reading.results))
         return tuple(result_of(reading, name) for name in names)
 
     def _mark_tabs(self, reading: Reading) -> None:
-        there = {result.decoder for result in reading.results}
         for place, result in enumerate(self._results(reading)):
             mark = " ✓" if is_right(result, self._sent) else " ✗"
             mark = " …" if self._is_outdated else mark
-            mark = mark if result.decoder in there else ""
+            mark = mark if result.decoder in reading.results else ""
             text = f"{result.decoder}{mark}"
             if text != self.decoders.tabText(place):  # each text lays all tabs out anew
                 self.decoders.setTabText(place, text)

@@ -135,7 +135,7 @@ class ImageView(QWidget):
         self.show_reading(snapshot)
 
     def show_reading(self, reading: Reading) -> None:
-        self.simulation.show_region(reading.decoded.region)
+        self.simulation.show_region(reading.region)
 
     def show_picture(self, picture: Picture) -> None:
         """Show a picture in place of the previous one, whose decoded region stays."""

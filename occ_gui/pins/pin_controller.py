@@ -16,6 +16,7 @@ from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.values.simulated import PinnedScene, Pins, SimulationRequest
 from occ_model.arrays import FloatArray
 from occ_model.errors import OccError, one_line
+from occ_model.receiver.decoders import PAPER_DECODER
 from occ_model.results.decoding import DecodeResult
 from occ_model.scene.parameter_kinds import Parameter, ParameterValue, distinguished
 from occ_model.scene.parameters import PARAMETERS
@@ -270,14 +271,14 @@ class PinController(QObject):
 
     def _readings(self, snapshot: Snapshot) -> list[tuple[str, str, str]]:
         rows = []
-        for result in (snapshot.decoded, *snapshot.others):
-            name = f"Decoder “{result.decoder}”"
+        for decoder, result in snapshot.results.items():
+            name = f"Decoder “{decoder}”"
             rows.append((name, self._reading(result, snapshot), "The code that it read."))
-            if result.decoder != snapshot.decoded.decoder:
+            if decoder != PAPER_DECODER:
                 sure = result.confidence
                 text = "none" if sure is None else f"{sure:.3f}"
                 meaning = "Lead of the best code over the second best, 0 to 1."
-                rows.append((f"Confidence, “{result.decoder}”", text, meaning))
+                rows.append((f"Confidence, “{decoder}”", text, meaning))
         return rows
 
     def _reading(self, result: DecodeResult, snapshot: Snapshot) -> str:

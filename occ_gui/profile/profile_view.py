@@ -17,6 +17,7 @@ from occ_gui.widgets.colours import BAND, BEFORE, PHOTO, SIMULATION, THRESHOLD, 
 from occ_gui.widgets.columns import PACKETS_IN_VIEW, first_periods
 from occ_gui.widgets.plot import LineLegend, new_plot
 from occ_model.arrays import FloatArray
+from occ_model.receiver.decoders import PAPER_DECODER
 
 _LEAST_HEIGHT = 76  # pixels: in a low window the panes divide the height
 
@@ -202,7 +203,7 @@ class ProfileView(QWidget):
         reading, self._is_behind = self._reading, False
         if reading is None:
             return
-        decoded = reading.decoded
+        threshold = reading.results[PAPER_DECODER].threshold
         enhanced = self.enhanced.isChecked()
         profile = reading.levels(enhanced=enhanced)
         band = reading.band_levels(enhanced=enhanced)
@@ -210,16 +211,16 @@ class ProfileView(QWidget):
         _draw(self.band, band)
         self.reason.setText(reading.band_undefined or drift_sentence(reading))
         self.reason.setVisible(bool(self.reason.text()))
-        region = decoded.region
+        region = reading.region
         for item in self._outside:
             item.setVisible(region is not None)
         if region is not None:
             low, high = self._outside
             low.setRegion((-_BEYOND_ANY_PICTURE, region.first_column))
             high.setRegion((region.last_column, _BEYOND_ANY_PICTURE))
-        self.threshold.setVisible(enhanced and decoded.threshold is not None)
-        if decoded.threshold is not None:
-            self.threshold.setValue(decoded.threshold)
+        self.threshold.setVisible(enhanced and threshold is not None)
+        if threshold is not None:
+            self.threshold.setValue(threshold)
         for key, visible in {
             "band": reading.band is not None,
             "threshold": self.threshold.isVisible(),

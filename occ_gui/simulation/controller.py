@@ -109,7 +109,7 @@ class SimulationController(QObject):
         """Read this scene and later ones with this decoder, too."""
         self._more = () if decoder in QUICK_DECODERS else (decoder,)
         read = self._read
-        if self._more and (read is None or decoder not in {r.decoder for r in read.results}):
+        if self._more and (read is None or decoder not in read.results):
             self.runner.ask(self._request())
 
     def _request(self) -> SimulationRequest:

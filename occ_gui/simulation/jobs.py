@@ -1,7 +1,7 @@
 """Jobs of the simulation: read a scene by its profile at once, its draft, and its picture."""
 
 from collections import deque
-from collections.abc import Iterator, Sequence
+from collections.abc import Mapping
 from dataclasses import replace
 from time import perf_counter
 from typing import Any
@@ -103,9 +103,8 @@ def draft_of(request: SimulationRequest, planned: PlannedScene) -> Frame | None:
 def reading_of_draft(request: SimulationRequest, frame: Frame) -> Reading:
     """Read a draft of a picture, with rows counted in the whole one."""
     scene = frame.scene
-    first = occ.decode(frame.image, scene)
-    results = (first, *_decode_with_others(first, scene, request.more))
-    results = tuple(_in_whole_picture(result, frame) for result in results)
+    found = _decode_by_all(occ.decode(frame.image, scene), scene, request.more)
+    results = {name: _in_whole_picture(result, frame) for name, result in found.items()}
     return Reading(source="draft", **_seen(request, scene, frame, results))
 
 
@@ -123,14 +122,13 @@ def snapshot_of(request: SimulationRequest, frame: Frame) -> Snapshot:
     start = perf_counter()
     decoded = occ.decode(frame.image, scene)
     seconds = perf_counter() - start
-    results = [decoded, *_decode_with_others(decoded, scene, request.more)]
     return Snapshot(
         source="picture",
         called_for=called_for_by_signal(frame.plan, scene),
         has_picture=True,
         frame=frame,
         reading_seconds=seconds,
-        **_seen(request, scene, frame, results),
+        **_seen(request, scene, frame, _decode_by_all(decoded, scene, request.more)),
     )
 
 
@@ -138,7 +136,7 @@ def _seen(
     request: SimulationRequest,
     scene: Scene,
     found: Frame | ProfileReading,
-    results: Sequence[DecodeResult],
+    results: Mapping[str, DecodeResult],
 ) -> dict[str, Any]:
     """Return the common fields of readings: what was found, the results, and the band model."""
     band, enhanced_band, undefined, drift = None, None, "", 0.0
@@ -157,8 +155,7 @@ def _seen(
         "profile": found.profile,
         "signal": found.signal,
         "corners": found.corners,
-        "decoded": results[0],
-        "others": tuple(results[1:]),
+        "results": results,
         "has_edges": "led-edges" in found.plan,
         "sent": () if transmitter.pattern else transmitter.payload_bits,
         "packet_columns": chip_columns * len(occ.packet(scene)),
@@ -178,18 +175,22 @@ def _is_usable(decoder: str) -> bool:
     return True
 
 
-def _decode_with_others(
-    decoded: DecodeResult, scene: Scene, more: tuple[str, ...]
-) -> Iterator[DecodeResult]:
-    """Decode the signal that one decoder has located with the other decoders."""
+def _decode_by_all(
+    first: DecodeResult, scene: Scene, more: tuple[str, ...]
+) -> dict[str, DecodeResult]:
+    """Decode the signal that the first decoder has located with all others."""
+    results = {first.decoder: first}
     for name in (*QUICK_DECODERS, *more):
-        if name == decoded.decoder:
-            continue
-        if decoded.signal is None:  # no panel found, which holds for all decoders
-            yield DecodeResult(name, failure=decoded.failure)
-        else:
-            try:
-                result = decoder_named(name).read(decoded.signal, scene)
-            except PluginError as error:
-                result = DecodeResult(name, failure=str(error))
-            yield replace(result, region=decoded.region, location=decoded.location)
+        if name not in results:
+            results[name] = _decode_located(name, first, scene)
+    return results
+
+
+def _decode_located(name: str, first: DecodeResult, scene: Scene) -> DecodeResult:
+    if first.signal is None:  # no panel found, which holds for all decoders
+        return DecodeResult(name, failure=first.failure)
+    try:
+        result = decoder_named(name).read(first.signal, scene)
+    except PluginError as error:
+        result = DecodeResult(name, failure=str(error))
+    return replace(result, region=first.region, location=first.location)

@@ -1,5 +1,6 @@
 """Results of one scene: its pictures, and what is read of it, early or from its picture."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal, Self, TypeAlias
 
@@ -8,7 +9,7 @@ import numpy as np
 
 from occ_gui.values.simulated import SimulationRequest
 from occ_model.arrays import ByteArray, FloatArray
-from occ_model.results.decoding import DecodeResult
+from occ_model.results.decoding import DecodeResult, Region
 from occ_model.results.frame import Frame
 from occ_model.results.plan import Plan
 from occ_model.scene.scene import Scene
@@ -29,8 +30,8 @@ class ColumnView:
     signal: FloatArray
     # Shape (4, 2): the panel's corners in the picture, each as (column, row)
     corners: FloatArray
-    decoded: DecodeResult
-    others: tuple[DecodeResult, ...] = ()
+    # What each decoder has read, by its name; the first of them has found the panel for all
+    results: Mapping[str, DecodeResult]
     # The transmitted bits in order of time; empty where a raw pattern is transmitted
     sent: tuple[int, ...]
     packet_columns: float
@@ -45,11 +46,9 @@ class ColumnView:
     band_drift: float = 0.0
 
     @property
-    def results(self) -> tuple[DecodeResult, ...]:
-        return (self.decoded, *self.others)
-
-    def result_of(self, decoder: str) -> DecodeResult | None:
-        return next((result for result in self.results if result.decoder == decoder), None)
+    def region(self) -> Region | None:
+        """The part of the picture that the decoders have read; None where they found no panel."""
+        return next(iter(self.results.values())).region
 
     def levels(self, *, enhanced: bool) -> FloatArray:
         return self.signal if enhanced else self.profile

@@ -45,7 +45,7 @@ class Verdict:
 
 def result_of(reading: ColumnView, decoder: str) -> DecodeResult:
     """Return a decoder's result, or that it has not read yet."""
-    return reading.result_of(decoder) or DecodeResult(decoder, failure=_AWAITED)
+    return reading.results.get(decoder) or DecodeResult(decoder, failure=_AWAITED)
 
 
 def wrong_places(sent: Sequence[int], received: Sequence[int]) -> list[int]:

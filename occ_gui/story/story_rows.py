@@ -23,6 +23,7 @@ from occ_gui.values.photo_results import PhotoProfile
 from occ_gui.widgets.building import filled, push_button
 from occ_gui.widgets.colours import BAND, PHOTO, SIMULATION, THRESHOLD, thin
 from occ_gui.widgets.columns import PACKETS_IN_VIEW, first_periods
+from occ_model.receiver.decoders import PAPER_DECODER
 from occ_model.results.decoding import DecodeResult
 from occ_model.results.frame import PICTURES
 
@@ -46,7 +47,7 @@ class StoryRows(QWidget):
         self.axis, self.crosshair = ColumnAxis(self), Crosshair(self)
         self._reading: ColumnView | None = None
         self._picture: Picture | PictureView | None = None
-        self._decoder = ""
+        self._decoder = PAPER_DECODER
         self._whose = PICTURES[0]
         self.range = RANGES[0]
         self._held: float | None = None
@@ -196,7 +197,7 @@ class StoryRows(QWidget):
     def decoded(self) -> DecodeResult | None:
         if self._reading is None:
             return None
-        return result_of(self._reading, self._decoder or self._reading.decoded.decoder)
+        return result_of(self._reading, self._decoder)
 
     def values(self) -> ColumnValues | None:
         """Return the values at the crosshair, else at the chosen column."""

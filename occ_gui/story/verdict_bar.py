@@ -12,6 +12,7 @@ from occ_gui.story.column_facts import READ_BY_ALL, Step, cause_of, chips_in_exp
 from occ_gui.widgets.chip_row import Chip
 from occ_gui.widgets.state_bar import StateBar
 from occ_gui.widgets.state_look import State
+from occ_model.receiver.decoders import PAPER_DECODER
 from occ_model.scene.units import SECOND
 
 _COMPUTING = "computing"  # the chip of results that are still to come
@@ -71,9 +72,8 @@ def behind_run(chips: tuple[Chip, ...], pictured: str) -> tuple[Chip, ...]:
 
 def _other_decoders(reading: Reading, decoder: str) -> list[Chip]:
     # Others have read it only where they were chosen before.
-    results = {result.decoder: result for result in reading.results}
-    tried = [name for name in (*READ_BY_ALL, decoder) if name in results]
-    right = [name for name in tried if is_right(results[name], reading.sent)]
+    tried = [name for name in (*READ_BY_ALL, decoder) if name in reading.results]
+    right = [name for name in tried if is_right(reading.results[name], reading.sent)]
     others = [name for name in right if name != decoder]
     if not reading.sent or not others:
         return []
@@ -114,7 +114,8 @@ class VerdictBar(StateBar):
         self._lesson = ""
         self.step_taken.connect(self._take_step)
         self._reading: Reading | None = None
-        self._decoder = self._run = self._pictured = ""
+        self._decoder = PAPER_DECODER
+        self._run = self._pictured = ""
         self._is_outdated = self._is_named = False
         self._failure = ""
         self._rate: OwnRate | None = None
@@ -169,7 +170,7 @@ class VerdictBar(StateBar):
         if reading is None:
             self.show_state(State.WAITING, "Computing the first picture…")
             return
-        result = result_of(reading, self._decoder or reading.decoded.decoder)
+        result = result_of(reading, self._decoder)
         verdict = verdict_on(result, reading.sent)
         chips = tuple(chips_of(reading, result.decoder))
         if self._run:

@@ -9,6 +9,7 @@ from occ_gui.simulation.snapshot import ColumnView, PictureView, halves_of
 from occ_gui.video.frame_views import FrameStory, ShownPicture
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.errors import OccError
+from occ_model.receiver.decoders import PAPER_DECODER
 from occ_model.receiver.signal import column_means
 from occ_model.results.decoding import DecodeResult, Region
 from occ_model.results.video import Video, VideoFrame
@@ -53,7 +54,7 @@ def shown_frame(request: FrameRequest) -> ShownFrame:
         story = _story(frame, request.scene, None, title)
         film = _shown(frame.image, story, f"{title}: {_at(frame)}")
     simulated, instead, own = None, "", None
-    start = None if story is None else start_of(story.reading.decoded, request.scene)
+    start = None if story is None else start_of(story.reading.results[PAPER_DECODER], request.scene)
     try:
         own = _simulated(request, start)
     except OccError as error:
@@ -113,7 +114,7 @@ def _simulated(request: FrameRequest, start: float | None) -> VideoFrame:
 
 def _shown(image: ByteArray, story: FrameStory, caption: str) -> ShownPicture:
     step = story.picture.rows.step
-    region = story.reading.decoded.region
+    region = story.reading.region
     return ShownPicture(image, halves_of(image), region, caption, step)
 
 
@@ -134,7 +135,8 @@ def _story(frame: VideoFrame, scene: Scene, request: FrameRequest | None, whose:
     chip_columns = transmitter.switching_period / scene.camera.readout_time
     is_known = request is not None and not transmitter.pattern
     reading = ColumnView(
-        scene=shown, profile=profile, signal=profile, corners=corners, decoded=decoded,
+        scene=shown, profile=profile, signal=profile, corners=corners,
+        results={decoded.decoder: decoded},
         sent=transmitter.payload_bits if is_known else (),
         packet_columns=chip_columns * len(occ.packet(scene)),
     )  # fmt: skip

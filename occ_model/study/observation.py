@@ -158,7 +158,7 @@ class ProfileReading:
     # enhancement and after it, in grey levels; also in columns that do not show the panel
     profile: FloatArray
     signal: FloatArray
-    results: tuple[DecodeResult, ...]
+    results: dict[str, DecodeResult]  # by decoder
 
 
 def read_profile(
@@ -179,7 +179,7 @@ def read_profile(
     columns = expose_columns(view, chosen)
     random = np.random.default_rng(settings.seed)
     profile, signal, observed = _column_means(scene, columns, chosen, span, random)
-    results = tuple(observed.read(scene, decoder) for decoder in decoders)
+    results = {decoder: observed.read(scene, decoder) for decoder in decoders}
     return ProfileReading(chosen, view.corners, profile, signal, results)
 
 

@@ -2,6 +2,7 @@
 
 import pickle
 from collections.abc import Callable
+from dataclasses import replace
 from functools import lru_cache
 from typing import Any, TypeAlias, TypeVar
 
@@ -13,6 +14,7 @@ from pytestqt.qtbot import QtBot
 from occ_gui.core.workspace import FIRST_SETTINGS
 from occ_gui.simulation.controller import simulate
 from occ_gui.simulation.snapshot import Snapshot
+from occ_model.results.decoding import DecodeResult
 from occ_model.results.frame import PICTURES
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
@@ -23,6 +25,11 @@ SnapshotOf: TypeAlias = Callable[..., Snapshot]
 
 T = TypeVar("T")
 Widget = TypeVar("Widget", bound=QWidget)
+
+
+def with_result(snapshot: Snapshot, result: DecodeResult) -> Snapshot:
+    """Put a result in place of that of its decoder."""
+    return replace(snapshot, results={**snapshot.results, result.decoder: result})
 
 
 def add_widget(qtbot: QtBot, widget: Widget) -> Widget:

@@ -30,8 +30,7 @@ def paper(snapshot_of: SnapshotOf) -> Snapshot:
 
 @pytest.fixture
 def matched(paper: Snapshot) -> DecodeResult:
-    (found,) = [result for result in paper.others if result.decoder == "matched"]
-    return found
+    return paper.results["matched"]
 
 
 def levels(curve: pg.PlotDataItem) -> list[float]:
@@ -46,7 +45,7 @@ def legend_texts(widget: QWidget) -> list[str]:
 def test_the_signal_its_threshold_and_one_chips_under_columns_above_it_are_drawn(
     signal_plot: SignalPlot, paper: Snapshot
 ) -> None:
-    decoded = paper.decoded
+    decoded = paper.results["threshold"]
     signal_plot.show_result(decoded, paper.packet_columns)
     assert decoded.signal is not None
     assert levels(signal_plot.signal) == decoded.signal.tolist()
@@ -69,7 +68,7 @@ def test_the_signal_its_threshold_and_one_chips_under_columns_above_it_are_drawn
 def test_a_folding_decoder_shows_the_folded_signal_and_its_model_which_go_with_it(
     signal_plot: SignalPlot, paper: Snapshot, matched: DecodeResult
 ) -> None:
-    signal_plot.show_result(paper.decoded, paper.packet_columns)
+    signal_plot.show_result(paper.results["threshold"], paper.packet_columns)
     signal_plot.show_result(matched, paper.packet_columns)
     assert matched.folded is not None
     assert matched.model is not None
@@ -79,7 +78,7 @@ def test_a_folding_decoder_shows_the_folded_signal_and_its_model_which_go_with_i
     assert not signal_plot.threshold.isVisible()
     assert "model of the code" in legend_texts(signal_plot)
     assert "threshold" not in legend_texts(signal_plot)
-    signal_plot.show_result(paper.decoded, paper.packet_columns)
+    signal_plot.show_result(paper.results["threshold"], paper.packet_columns)
     assert levels(signal_plot.model) == []
     assert "model of the code" not in legend_texts(signal_plot)
     assert "level" in signal_plot.plot.getAxis("left").labelText
@@ -93,7 +92,7 @@ def test_a_step_that_was_not_reached_shows_no_plot_and_no_chips_of_the_last_resu
     run_length_plot.show_result(nothing)
     assert not signal_plot.isVisible()
     assert not run_length_plot.isVisible()
-    signal_plot.show_result(paper.decoded, paper.packet_columns)
+    signal_plot.show_result(paper.results["threshold"], paper.packet_columns)
     flat = DecodeResult("threshold", failure="No stripes.", signal=np.full(50, 7.0))
     signal_plot.show_result(flat, paper.packet_columns)
     assert signal_plot.isVisible()

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from gui.kinds import SnapshotOf, not_none, show_widget
+from gui.kinds import SnapshotOf, not_none, show_widget, with_result
 from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
 
@@ -33,8 +33,8 @@ def test_a_code_read_right_is_marked_and_wrong_bits_are_counted(
     assert view.strip.wrong_places() == []
     snapshot = snapshot_of(code=718)
     received = np.array([1, 0, 1, 1, 0, 0, 1, 1, 0, 1], dtype=np.uint8)  # the last two are wrong
-    decoded = replace(snapshot.decoded, bits=received, code=717)
-    view.show_reading(replace(snapshot, decoded=decoded))
+    decoded = replace(snapshot.results["threshold"], bits=received, code=717)
+    view.show_reading(with_result(snapshot, decoded))
     assert view.verdict.text() == "✗ Code 717 read, 2 of 10 bits wrong"
     assert view.strip.wrong_places() == [8, 9]
     assert not view.reason.isVisible()
@@ -44,15 +44,15 @@ def test_a_failure_is_shown_with_its_reason_and_the_bits_read_beside_it(
     view: DecodeView, snapshot_of: SnapshotOf
 ) -> None:
     snapshot = snapshot_of(switching_frequency=500.0, distance=5.0)
-    assert snapshot.decoded.failure
+    assert snapshot.results["threshold"].failure
     view.show_reading(snapshot)
     assert view.verdict.text() == "✗ No code read"
     assert view.reason.isVisible()
-    assert view.reason.text() == snapshot.decoded.failure
+    assert view.reason.text() == snapshot.results["threshold"].failure
     decoded = DecodeResult(
         "threshold", failure="The chips break the line code.", bits=np.array([0, 0], dtype=np.uint8)
     )
-    view.show_reading(replace(snapshot_of(code=718), decoded=decoded))
+    view.show_reading(with_result(snapshot_of(code=718), decoded))
     assert view.verdict.text() == "✗ No code read"
     assert view.strip.accessibleDescription() == "sent 1011001110, received 00, 1 wrong"
 
@@ -62,7 +62,7 @@ def test_a_raw_pattern_has_no_bits_to_compare(view: DecodeView, snapshot_of: Sna
     view.show_reading(snapshot)
     assert view.verdict.text() == "No code is sent"
     assert not view.strip.isVisible()
-    assert view.reason.text() == snapshot.decoded.failure
+    assert view.reason.text() == snapshot.results["threshold"].failure
     view.show_reading(snapshot_of())
     assert view.strip.isVisible()
 
@@ -78,12 +78,12 @@ def test_measured_values_are_shown_with_their_units_and_no_old_ones(
         chip_length=12.5,
         chips=np.ones(77, dtype=np.uint8),
     )
-    view.show_reading(replace(snapshot_of(), decoded=decoded))
+    view.show_reading(with_result(snapshot_of(), decoded))
     assert {"1000 x 200 px", "123.5 grey levels", "12.50 columns", "77"} <= texts(view)
     units = ("px", "grey levels", "columns")
     view.show_reading(snapshot_of())
     assert all(any(text.endswith(unit) for text in texts(view)) for unit in units)
-    view.show_reading(replace(snapshot_of(), decoded=DecodeResult("threshold", failure="No.")))
+    view.show_reading(with_result(snapshot_of(), DecodeResult("threshold", failure="No.")))
     assert not any(text.endswith(units) for text in texts(view))
 
 
@@ -100,7 +100,7 @@ def test_a_slow_decoder_is_asked_for_when_its_tab_is_chosen(
     assert asked.args == ["sequence"]
     assert "takes longer" in view.reason.text()
     read = occ.decode(snapshot.frame.image, snapshot.scene, "sequence")
-    view.show_reading(replace(snapshot, others=(*snapshot.others, read)))
+    view.show_reading(with_result(snapshot, read))
     assert view.verdict.text() == "✓ Code 5 read, all bits right"
     assert view.decoders.tabText(3) == "sequence ✓"
 
@@ -119,7 +119,7 @@ def test_a_chosen_decoder_stays_chosen_and_shows_its_result(
         assert view.verdict.text() == f"✓ Code {code} read, all bits right"
     view.decoders.setCurrentIndex(0)
     assert view.verdict.text() == "✗ No code read"
-    assert view.reason.text() == snapshot.decoded.failure
+    assert view.reason.text() == snapshot.results["threshold"].failure
 
 
 def test_a_picture_that_contradicts_its_own_profile_says_so(
@@ -133,7 +133,7 @@ def test_a_picture_that_contradicts_its_own_profile_says_so(
     assert view.origin.text() == "Read from the picture."
     failed = DecodeResult("threshold", failure="No.")
     view.show_reading(early)
-    view.show_reading(replace(snapshot, decoded=failed))
+    view.show_reading(with_result(snapshot, failed))
     assert view.verdict.text() == "✗ No code read"
     assert view.origin.text() == (
         "Read from the picture. The column profile alone had said: ✓ Code 718 read, all bits right."

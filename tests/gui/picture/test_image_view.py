@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from gui.kinds import SnapshotOf, collect, not_none, show_widget
+from gui.kinds import SnapshotOf, collect, not_none, show_widget, with_result
 from gui.mouse import move_mouse
 from gui.pane_bench import PaneBench
 from PySide6.QtCore import QEvent, QPoint, QPointF, QRectF, Qt
@@ -52,11 +52,11 @@ def test_each_pixel_is_shown_at_its_row_and_column_and_the_region_round_those_th
     view: ImageView, snapshot_of: SnapshotOf
 ) -> None:
     decoded = DecodeResult("threshold", region=Region(10, 60, 1200, 2300))
-    view.show_snapshot(replace(snapshot_of(), decoded=decoded))
+    view.show_snapshot(with_result(snapshot_of(), decoded))
     item = region_of(view.simulation)
     assert item.isVisible()
     assert item.rect() == QRectF(1199.5, 9.5, 1100, 50)
-    view.show_snapshot(replace(snapshot_of(), decoded=DecodeResult("threshold", failure="No.")))
+    view.show_snapshot(with_result(snapshot_of(), DecodeResult("threshold", failure="No.")))
     assert not item.isVisible()
     snapshot = snapshot_of()
     view.show_snapshot(snapshot)

@@ -71,7 +71,7 @@ def test_the_outputs_are_those_of_the_two_states(
     assert found["Contrast"] == swings
     assert found["Columns a chip"] == ("12.50 columns", "7.81 columns")
     assert found["Exposure"] == ("0.680 chips", "2.176 chips")
-    assert found["Decoder “threshold”"] == ("code 718, right", b.decoded.failure)
+    assert found["Decoder “threshold”"] == ("code 718, right", b.results["threshold"].failure)
     assert "Effects simulated" not in found  # none in both
     assert all(row.meaning for row in pins.pinned.outputs)
 

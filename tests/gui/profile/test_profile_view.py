@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pyqtgraph as pg
 import pytest
-from gui.kinds import SnapshotOf, collect, not_none, show_widget
+from gui.kinds import SnapshotOf, collect, not_none, show_widget, with_result
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QApplication, QLabel, QPushButton
@@ -191,10 +191,10 @@ def test_after_enhancement_shows_picture_levels_and_threshold(
         assert view.threshold.isVisible() == enhanced
         assert ("threshold" in legend_texts(view)) == enhanced
         if enhanced:
-            assert view.threshold.value() == snapshot.decoded.threshold
+            assert view.threshold.value() == snapshot.results["threshold"].threshold
         qtbot.keyClick(view.enhanced, Qt.Key.Key_Space)
     view.enhanced.setChecked(True)
-    view.show_reading(replace(snapshot, decoded=DecodeResult("threshold", failure="None.")))
+    view.show_reading(with_result(snapshot, DecodeResult("threshold", failure="None.")))
     assert not view.threshold.isVisible()
     assert "threshold" not in legend_texts(view)
 
@@ -221,7 +221,7 @@ def test_what_is_drawn_enhanced_is_what_the_decoder_reads(
     snapshot = simulate(blurred, SimulationSettings(tolerance=tolerance))
     assert (snapshot.frame.plan.kinds <= {"column"}) == math.isinf(tolerance)
     view.show_reading(snapshot)
-    region, read = snapshot.decoded.region, snapshot.decoded.signal
+    region, read = snapshot.results["threshold"].region, snapshot.results["threshold"].signal
     assert region is not None
     assert read is not None
     assert float(np.ptp(read)) > 100.0
@@ -300,12 +300,12 @@ def test_the_columns_that_are_not_read_are_shaded_where_there_is_a_region(
     view: ProfileView, snapshot: Snapshot
 ) -> None:
     before, after = view._outside
-    read = not_none(snapshot.decoded.region)
+    read = not_none(snapshot.results["threshold"].region)
     assert (before.isVisible(), after.isVisible()) == (True, True)
     assert before.getRegion()[0] <= 0 < before.getRegion()[1] == read.first_column
     assert after.getRegion()[0] == read.last_column
     assert after.getRegion()[1] >= len(snapshot.frame.profile)
-    view.show_reading(replace(snapshot, decoded=DecodeResult("threshold", failure="None.")))
+    view.show_reading(with_result(snapshot, DecodeResult("threshold", failure="None.")))
     assert (before.isVisible(), after.isVisible()) == (False, False)
 
 

@@ -89,7 +89,7 @@ def test_the_snapshot_holds_what_the_model_says_of_the_scene(snapshot_of: Snapsh
     snapshot = snapshot_of(code=0b1011001110)
     scene = snapshot.frame.scene
     assert np.array_equal(snapshot.frame.image, occ.render(scene, noise="reused").image)
-    assert snapshot.decoded.code == snapshot.frame.scene.transmitter.code
+    assert snapshot.results["threshold"].code == snapshot.frame.scene.transmitter.code
     assert snapshot.sent == (1, 0, 1, 1, 0, 0, 1, 1, 1, 0)
     assert snapshot.band is not None
     assert np.array_equal(snapshot.band, occ.band_profile(scene))
@@ -121,7 +121,7 @@ def test_the_snapshot_holds_each_decoders_result_of_one_picture(
     snapshot_of: SnapshotOf,
 ) -> None:
     snapshot = snapshot_of(exposure_time=136e-6, switching_frequency=20e3)
-    results = (snapshot.decoded, *snapshot.others)
+    results = snapshot.results.values()
     assert {result.decoder for result in results} == set(QUICK_DECODERS)
     for result in results:
         alone = occ.decode(snapshot.frame.image, snapshot.frame.scene, result.decoder)
@@ -132,7 +132,7 @@ def test_the_snapshot_holds_each_decoders_result_of_one_picture(
 def test_a_decoder_asked_for_reads_this_scene_and_later_ones(bench: Bench) -> None:
     def read() -> list[str]:
         shown = not_none(bench.controller._read)
-        return [result.decoder for result in shown.results]
+        return list(shown.results)
 
     bench.wait_until_idle()
     assert read() == list(QUICK_DECODERS)
@@ -152,8 +152,8 @@ def test_where_no_panel_is_found_every_decoder_says_so(
     bare_snapshot_of: SnapshotOf,
 ) -> None:
     snapshot = bare_snapshot_of(offset_x=50.0)  # of noise a decoder finds some brightest pixels
-    assert snapshot.decoded.signal is None
-    failures = {result.failure for result in (snapshot.decoded, *snapshot.others)}
+    assert snapshot.results["threshold"].signal is None
+    failures = {result.failure for result in snapshot.results.values()}
     assert len(failures) == 1
     assert None not in failures
 

@@ -44,8 +44,8 @@ def test_a_scene_is_read_before_its_picture_is_there(
     bench.wait_until_idle()
     assert reader.read[-1] is bench.views[0].shown[-1]
     assert reader.read[-1].source == "picture"
-    assert [result.code for result in early.results] == [
-        result.code for result in reader.read[-1].results
+    assert [result.code for result in early.results.values()] == [
+        result.code for result in reader.read[-1].results.values()
     ]
 
 
@@ -163,7 +163,7 @@ def test_where_only_pixels_are_read_the_draft_is_first(
     early, exact = bench.views[1].read[-2:]
     assert (early.source, exact.source) == ("draft", "picture")
     assert early.scene == exact.scene == bench.store.scene
-    for of_draft, of_picture in zip(early.results, exact.results, strict=True):
+    for of_draft, of_picture in zip(early.results.values(), exact.results.values(), strict=True):
         assert of_draft.code == of_picture.code
         assert of_draft.region is not None
         assert of_picture.region is not None

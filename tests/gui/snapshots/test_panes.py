@@ -63,7 +63,7 @@ def test_the_steps_of_each_decoder_look_as_stored(
     view = gallery.show(DecodeView(), 380, 560)
     snapshot = snapshot_of()
     view.show_reading(snapshot)
-    for place, result in enumerate((snapshot.decoded, *snapshot.others)):
+    for place, result in enumerate(snapshot.results.values()):
         view.decoders.setCurrentIndex(place)
         gallery.compare(view, f"decode-{result.decoder}")
 

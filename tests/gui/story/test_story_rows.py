@@ -9,7 +9,7 @@ from unittest.mock import Mock
 
 import numpy as np
 import pytest
-from gui.kinds import GreyPicture, SnapshotOf, not_none
+from gui.kinds import GreyPicture, SnapshotOf, not_none, with_result
 from gui.mouse import turn_wheel_at
 from PySide6.QtCore import QPoint, QPointF, QRectF, Qt
 from pytestqt.qtbot import QtBot
@@ -146,7 +146,7 @@ def test_the_values_at_the_crosshair_are_the_models(
 def test_the_bits_at_the_crosshair_are_those_read_and_outside_the_picture_nothing_is_pointed_at(
     rows: StoryRows, snapshot: Snapshot
 ) -> None:
-    code, result = rows.code, snapshot.decoded
+    code, result = rows.code, snapshot.results["threshold"]
     assert code.edges is not None
     read: dict[int | None, int | None] = {}
     for field in code.fields:
@@ -252,16 +252,16 @@ def test_new_results_keep_a_range_that_the_user_chose(
 def test_wrong_bits_are_marked_bits_without_columns_listed_and_refused_ones_not_ticked(
     rows: StoryRows, snapshot: Snapshot
 ) -> None:
-    bits = snapshot.decoded.bits.copy()
+    bits = snapshot.results["threshold"].bits.copy()
     bits[3] ^= 1
-    wrong = replace(snapshot, decoded=replace(snapshot.decoded, bits=bits, code=700))
+    wrong = with_result(snapshot, replace(snapshot.results["threshold"], bits=bits, code=700))
     before = rows.code.grab().toImage()
     rows.show_reading(wrong)
     assert rows.code.state_of(3) is State.BAD
     assert [rows.code.state_of(bit) for bit in (0, 1, 2, 4)] == [State.GOOD] * 4
     assert rows.code.accessibleDescription().endswith("1 wrong")
     assert rows.code.grab().toImage() != before
-    decoded = replace(snapshot.decoded, headers=())
+    decoded = replace(snapshot.results["threshold"], headers=())
     assert decoded.failure is None
     assert decoded.bits.size
     rows.code.show_reading(snapshot, decoded)
@@ -289,10 +289,9 @@ def test_bits_stand_side_by_side_and_each_letter_over_its_own(
     monkeypatch.setattr(light_row, "draw_field", note)
     snapshot = bare_snapshot_of(payload="text:Hi", distance=0.4)
     rows.show_reading(snapshot)
-    listed = replace(snapshot.decoded, headers=())
-    for row, decoded in (
-        (rows.light, snapshot.decoded), (rows.code, snapshot.decoded), (rows.code, listed),
-    ):  # fmt: skip
+    result = snapshot.results["threshold"]
+    listed = replace(result, headers=())
+    for row, decoded in ((rows.light, result), (rows.code, result), (rows.code, listed)):
         rows.code.show_reading(snapshot, decoded)
         drawn.clear()
         row.redraw()

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from gui.kinds import SnapshotOf, add_widget, collect
+from gui.kinds import SnapshotOf, add_widget, collect, with_result
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
@@ -33,7 +33,7 @@ def texts(bar: VerdictBar) -> dict[str, str]:
 
 
 def sent_to(snapshot: Snapshot, **changes: Any) -> Snapshot:
-    return replace(snapshot, decoded=replace(snapshot.decoded, **changes))
+    return with_result(snapshot, replace(snapshot.results["threshold"], **changes))
 
 
 def test_a_code_read_is_good_and_names_the_code_and_one_with_wrong_bits_doubtful(
@@ -45,11 +45,11 @@ def test_a_code_read_is_good_and_names_the_code_and_one_with_wrong_bits_doubtful
     assert bar.title.text() == "Code 718 read, all bits right"
     assert "each column sees 1 or 2 chips." in bar.accessibleDescription()
     snapshot = snapshot_of()
-    bits = snapshot.decoded.bits.copy()
+    bits = snapshot.results["threshold"].bits.copy()
     bits[[2, 5]] ^= 1
     bar.show_reading(sent_to(snapshot, code=1, bits=bits))
     assert (bar.state, bar.title.text()) == (State.DOUBTFUL, "Code 1 read, 2 of 10 bits wrong")
-    bar.show_reading(sent_to(snapshot, code=1, bits=1 - snapshot.decoded.bits))
+    bar.show_reading(sent_to(snapshot, code=1, bits=1 - snapshot.results["threshold"].bits))
     assert bar.state is State.BAD
 
 
@@ -165,7 +165,7 @@ def test_each_effect_by_hand_is_named_until_they_are_many(
 def test_the_verdict_is_that_of_the_chosen_decoder(bar: VerdictBar, small_scene: Scene) -> None:
     scene = small_scene.replace(exposure_time=136e-6, switching_frequency=20e3)
     snapshot = simulate(scene)
-    assert snapshot.decoded.code is None
+    assert snapshot.results["threshold"].code is None
     assert occ.decode(snapshot.frame.image, scene, decoder="matched").code == 718
     bar.show_reading(snapshot)
     assert bar.state is State.BAD
@@ -240,8 +240,8 @@ def test_what_was_chosen_before_does_not_change_which_decoders_are_named(
     snapshot = simulate(small_scene)
     bar.show_reading(snapshot)
     before = bar.chips.chips
-    (matched,) = snapshot.others
-    tried_before = replace(snapshot, others=(matched, replace(matched, decoder="sequence")))
+    matched = snapshot.results["matched"]
+    tried_before = with_result(snapshot, replace(matched, decoder="sequence"))
     bar.show_reading(tried_before)
     assert bar.chips.chips == before
 

@@ -207,14 +207,14 @@ def test_without_a_film_the_simulated_frame_is_shown_and_read(
     reading = shown.story.reading
     assert shown.story.knows_light
     assert reading.scene == film.frame(3).scene
-    assert tuple(reading.decoded.bits.tolist()) == reading.sent != ()
-    read = not_none(reading.decoded.region)
+    assert tuple(reading.results["threshold"].bits.tolist()) == reading.sent != ()
+    read = not_none(reading.results["threshold"].region)
     ends = [each(axis=0).tolist() for each in (reading.corners.min, reading.corners.max)]
     assert ends[0] == [read.first_column - 0.5, read.first_row - 0.5]
     assert ends[1] == [read.last_column - 0.5, read.last_row - 0.5]
     # The rows say whether the frame was enhanced: the threshold depends on it.
     camera = occ.decode(film.frame(3).image, request_of.scene.replace(enhancement="none"))
-    assert reading.decoded.threshold == camera.threshold
+    assert reading.results["threshold"].threshold == camera.threshold
     assert "frame 4, read by itself, not enhanced: code " in shown.story.title
     dim = occ.load_preset("phone-136us").replace(switching_frequency=14.21e3, rows=1152)
     enhanced = shown_frame(replace(request_of, index=0, scene=dim))
@@ -235,7 +235,7 @@ def test_a_film_stands_beside_its_simulation_and_its_rows_are_its_own(
     assert not shown.story.knows_light
     assert shown.story.reading.sent == ()
     decoded = occ.decode(film.frame(3).image, other)
-    assert shown.story.reading.decoded.code == decoded.code
+    assert shown.story.reading.results["threshold"].code == decoded.code
     assert shown.film.region == decoded.region
     assert shown.film.caption.startswith("Simulated film: frame 4, 0.1000 s")
 
@@ -276,7 +276,7 @@ def test_the_simulation_is_in_phase_with_a_film_of_the_same_code(
         assert shown.simulated is not None
         assert shown.simulated.caption == "Simulated: in phase with the film"
         assert shown.story is not None
-        start = start_of(shown.story.reading.decoded, request_of.scene)
+        start = start_of(shown.story.reading.results["threshold"], request_of.scene)
         truth = film.frame(index).scene
         assert start is not None
         assert truth is not None

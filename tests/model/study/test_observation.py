@@ -31,7 +31,7 @@ def test_the_profile_is_that_of_the_picture_but_for_noise(preset: str) -> None:
     scene = small(preset, iso=800.0)
     reading = read_profile(scene, SETTINGS)
     frame = occ.render(scene, observable="signal")
-    region = reading.results[0].region
+    region = reading.results["threshold"].region
     noise = float(region.crop(frame.camera_image).std(axis=0).max())
     assert noise > 1.0
     deviation = np.abs(reading.profile - frame.profile)
@@ -57,7 +57,8 @@ def test_without_noise_everything_is_exactly_the_pictures(preset: str) -> None:
     assert np.array_equal(reading.profile, frame.profile)
     assert np.array_equal(reading.signal, frame.signal)
     assert np.array_equal(reading.corners, frame.corners)
-    for result, decoder in zip(reading.results, QUICK_DECODERS, strict=True):
+    assert tuple(reading.results) == QUICK_DECODERS
+    for decoder, result in reading.results.items():
         of_picture = occ.decode(frame.image, scene, decoder)
         assert (result.code, result.region) == (of_picture.code, of_picture.region)
 
@@ -71,8 +72,8 @@ def test_where_rows_differ_the_profile_says_nothing(changes: dict[str, float]) -
 
 def test_a_panel_out_of_the_picture_is_not_read() -> None:
     reading = read_profile(small("phone-68us", offset_x=50.0), SETTINGS)
-    assert [result.code for result in reading.results] == [None] * len(QUICK_DECODERS)
-    assert all(result.failure for result in reading.results)
+    assert [result.code for result in reading.results.values()] == [None] * len(QUICK_DECODERS)
+    assert all(result.failure for result in reading.results.values())
 
 
 @pytest.mark.parametrize("tolerance", [0.0, 1.0, 20.0])

@@ -103,22 +103,30 @@ class Scheme:
         if self.correction == "none" or len(read.bits) != self.form.bits:
             return read
         payload = error_correction.correct(read.bits, self.bits)
+        failure = read.failure if self.framing.checks else None
         if payload is None:
-            return Framed(
-                read.headers,
-                read.bits[: self.bits],
+            failure = (
                 f"More than {error_correction.PARITY_BYTES // 2} bytes of a block are wrong: the "
-                "error correction cannot tell which.",
+                "error correction cannot tell which."
             )
-        return Framed(read.headers, payload)
+        if payload is None or failure is not None:
+            payload = read.bits[: self.bits]
+        return Framed(read.headers, payload, failure)
 
     @cached_property
     def form(self) -> FrameFormat:
-        """What the framing is given: line code, preamble, and the bits that it carries."""
+        """What the framing is given: line code, preamble, the bits it carries, their correction."""
         bits = self.bits
         if self.correction != "none":
             bits = error_correction.protected_bits(bits)
-        return FrameFormat(self.line_code, self.preamble, bits)
+        return FrameFormat(self.line_code, self.preamble, bits, self._corrected)
+
+    def _corrected(self, bits: ByteArray) -> ByteArray:
+        """Return the bits of a frame as they were sent, by the error correction; or as they are."""
+        if self.correction == "none" or len(bits) != self.form.bits:
+            return bits
+        payload = error_correction.correct(bits, self.bits)
+        return bits if payload is None else error_correction.protect(payload)
 
 
 def scheme_of(transmitter: Transmitter) -> Scheme:

@@ -53,11 +53,15 @@ class FrameFormat:
         Chips that start a frame, as a text; empty: the line code's own.
     bits
         Number of bits that a framing carries.
+    correct
+        What the error correction makes of bits that were read, for a framing to check; bits that it
+        cannot correct come back as they are.
     """
 
     line_code: LineCode
     preamble: str
     bits: int
+    correct: Callable[[ByteArray], ByteArray]
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +73,8 @@ class Framing:
     name
         The identifier, as in a scene file.
     checks
-        Whether it checks the payload itself, whatever the line code finds.
+        Whether it checks the payload itself, whatever the line code finds; its failure then stands,
+        so that ``decode`` corrects the bits by :attr:`FrameFormat.correct` before it checks them.
     encode
         Turns bits into one period of the chips sent, which is sent repeatedly.
     decode

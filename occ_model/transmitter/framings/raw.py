@@ -1,11 +1,10 @@
 """A raw frame: preamble, number of bits, payload and a check sum.
 
-The number of bits is one byte up to 127, else two with the first bit set. The check sum is CRC-16
-of ITU-T V.41, x^16 + x^12 + x^5 + 1, over both, started with ones; it finds any error within 16
-bits and all but 1 of 65,536 others. A receiver needs to know nothing but preamble and line code.
+The number of bits is one byte up to 127, else two with the first bit set. The check sum covers it
+and the payload, bit by bit as they are sent: CRC-16/IBM-3740 (CCITT-FALSE). It finds any error
+within 16 bits in a row behind the number of bits, and all but 1 of 65,536 others. A receiver needs
+to know nothing but preamble and line code.
 """
-
-import binascii
 
 import numpy as np
 
@@ -20,6 +19,8 @@ from occ_model.transmitter.framings.framing import (
 from occ_model.transmitter.framings.preamble import read_repeated
 
 _CRC_BITS = 16
+_POLYNOMIAL = 0x1021  # x^16 + x^12 + x^5 + 1, of ITU-T V.41
+_START = 0xFFFF
 _SHORT_LENGTH_BITS = 8
 _LONG_LENGTH_BITS = 16
 
@@ -27,7 +28,7 @@ _LONG_LENGTH_BITS = 16
 def _encode(bits: ByteArray, form: FrameFormat) -> ByteArray:
     preamble = preamble_of(form)
     body = np.concatenate([_length_field(len(bits)), np.asarray(bits, dtype=np.uint8)])
-    frame = np.concatenate([body, _check_sum(body)])
+    frame = np.concatenate([body, check_sum(body)])
     return np.concatenate([preamble, form.line_code.encode(frame, int(preamble[-1]))])
 
 
@@ -46,8 +47,15 @@ def _binary(number: int, places: int) -> ByteArray:
     return np.array([number >> place & 1 for place in reversed(range(places))], dtype=np.uint8)
 
 
-def _check_sum(body: ByteArray) -> ByteArray:
-    return _binary(binascii.crc_hqx(np.packbits(body).tobytes(), 0xFFFF), _CRC_BITS)
+def check_sum(body: ByteArray) -> ByteArray:
+    """Return CRC-16/IBM-3740 of any number of bits; the libraries at hand take whole bytes only."""
+    rest = _START
+    for bit in body.tolist():
+        is_divided = rest >> _CRC_BITS - 1 ^ bit
+        rest = rest << 1 & 0xFFFF
+        if is_divided:
+            rest ^= _POLYNOMIAL
+    return _binary(rest, _CRC_BITS)
 
 
 def _decode(chips: ByteArray, form: FrameFormat) -> Framed:
@@ -72,8 +80,8 @@ def _read(data: ByteArray, level: int, form: FrameFormat) -> Framed:
         )
     read = code.decode(data[: code.chips_for(whole)], level).bits
     body, check = read[: start + count], read[start + count : whole]
-    bits = body[start:]
-    if not np.array_equal(_check_sum(body), check):
+    bits = form.correct(body[start:])
+    if not np.array_equal(check_sum(np.concatenate([body[:start], bits])), check):
         return Framed((), bits, "The check sum (CRC-16) does not fit: some chips were misread.")
     return Framed((), bits)
 

@@ -1,11 +1,13 @@
 """Line code, framing and error correction together, in every combination."""
 
 import itertools
+import math
 from typing import Any
 
 import numpy as np
 import pytest
 from amount import amount
+from documents import FOLDER, text_of
 from each_case import each_case
 
 import occ_model as occ
@@ -146,6 +148,51 @@ def test_more_wrong_bytes_than_are_corrected_are_told() -> None:
     chips[-64:] ^= np.resize(np.array([1, 0, 0, 1, 0, 0, 0, 1], dtype=np.uint8), 64)
     read = one.decode(seen(chips, 0, 2 * one.length))
     assert "More than 2 bytes of a block are wrong" in read.failure
+
+
+@pytest.mark.parametrize("wrong_sum", [0, 1])
+def test_two_wrong_bytes_are_corrected_before_the_check_sum_is_compared(wrong_sum: int) -> None:
+    one = scheme("nrz", "raw", 64, "reed-solomon")
+    payload = np.random.default_rng(2).integers(0, 2, 64)
+    chips = one.encode(payload)
+    chips[-16 - 8 * 12 :][[0, 30]] ^= 1
+    chips[-1] ^= wrong_sum
+    read = one.decode(seen(chips, 0, 2 * one.length))
+    assert (read.failure is not None) == wrong_sum
+    np.testing.assert_array_equal(read.bits, payload)
+
+
+def passing(octets: int) -> float:
+    """Return the share of blocks with three wrong bytes that are corrected to another payload.
+
+    They lie two bytes beside a codeword of weight 5; a code of distance 5 that is maximum distance
+    separable has 255 C(n, 5) of these, and each is beside 10 of the 255^3 C(n, 3) errors.
+    """
+    return math.comb(octets + PARITY_BYTES - 3, 2) / 255**2
+
+
+@pytest.mark.parametrize("octets", [20, 100, 251])
+def test_three_wrong_bytes_pass_as_often_as_stated_and_never_behind_a_check_sum(
+    octets: int,
+) -> None:
+    tries = amount(60, 1000)
+    random = np.random.default_rng(6)
+    accepted = dict.fromkeys(("preamble", "raw"), 0)
+    for framing, check_chips in (("preamble", 0), ("raw", 16)):
+        one = scheme("manchester", framing, 8 * octets, "reed-solomon")
+        first = one.length - 2 * (8 * (octets + PARITY_BYTES) + check_chips)
+        for _ in range(tries):
+            chips = one.encode(random.integers(0, 2, 8 * octets))
+            for place in random.choice(octets + PARITY_BYTES, 3, replace=False):
+                wrong = np.unpackbits(np.array([random.integers(1, 256)], dtype=np.uint8))
+                chips[first + 16 * place :][:16] ^= np.repeat(wrong, 2)
+            accepted[framing] += one.decode(seen(chips, 0, 2 * one.length)).failure is None
+    share = passing(octets)
+    off = 4 * math.sqrt(tries * share * (1 - share))
+    assert accepted["preamble"] == pytest.approx(tries * share, abs=off)
+    assert accepted["raw"] == 0
+    said = f"{100 * share:.2g} % at {octets}"
+    assert said in text_of(FOLDER / "codes.md").replace("\n", " ")
 
 
 def test_the_default_is_the_papers_packet() -> None:

@@ -4,12 +4,14 @@ import binascii
 
 import numpy as np
 import pytest
+from each_case import each_case
 
 import occ_model as occ
 from occ_model.arrays import ByteArray, IndexArray
 from occ_model.transmitter import registry
 from occ_model.transmitter.framings.c_ook import read_sub_packet
 from occ_model.transmitter.framings.framing import BARKER, own_preamble
+from occ_model.transmitter.framings.raw import check_sum
 from occ_model.transmitter.scheme import scheme_named
 
 LINE_CODES = registry.LINE_CODES.built_in()
@@ -102,15 +104,74 @@ def test_c_ook_names_the_sub_packets_that_are_missing() -> None:
     assert read.failure.startswith("1 of 3 sub-packets were read; the first missing is number 2.")
 
 
-@pytest.mark.parametrize("bits", [1, 127, 128, 4096])
-def test_raw_carries_length_payload_and_crc_16(bits: int) -> None:
+RAW_PAYLOAD = "1011001110001111010100101101110010100110"
+
+# Of the number of bits and the first 1 to 40 bits, by anycrc 2.1.0: CRC16-IBM-3740, calc_bits.
+CHECK_SUMS = np.frombuffer(
+    bytes.fromhex(
+        "e3a216e9bcfb07612aa08c0c8990031e707fa593d2aebd247caeff29e5caa4c637cd0adabc15a022"
+        "d6a39b900c7acc1a755cb5abfeb4bf1d4974316dbfe206f2594639a76142df02a6917e9acfc54aa8"
+    ),
+    dtype=">u2",
+)
+
+
+def test_the_check_sum_is_the_crc_16_of_its_name() -> None:
+    octets = b"123456789"
+    bits = np.unpackbits(np.frombuffer(octets, dtype=np.uint8))
+    assert int(text_of(check_sum(bits)), 2) == binascii.crc_hqx(octets, 0xFFFF) == 0x29B1
+
+
+def test_raw_carries_length_payload_and_the_crc_16_of_the_bits_sent() -> None:
+    for bits, expected in enumerate(CHECK_SUMS.tolist(), start=1):
+        payload = RAW_PAYLOAD[:bits]
+        sent = scheme_named("nrz", "raw", "01", "none", bits).encode(chips_of(payload))
+        assert text_of(sent) == f"01{bits:08b}{payload}{expected:016b}"
+
+
+@pytest.mark.parametrize("bits", [8, 120, 128, 4096])
+def test_the_crc_16_of_whole_bytes_is_that_of_the_bytes(bits: int) -> None:
+    """So packets that were recorded of such payloads are read as before."""
     payload = np.random.default_rng(bits).integers(0, 2, bits)
-    one = scheme_named("nrz", "raw", "01", "none", bits)
-    sent = one.encode(payload)
-    head = f"{bits:08b}" if bits < 128 else f"1{bits:015b}"
-    body = head + text_of(payload)
+    sent = scheme_named("nrz", "raw", "01", "none", bits).encode(payload)
+    body = (f"{bits:08b}" if bits < 128 else f"1{bits:015b}") + text_of(payload)
     octets = np.packbits(chips_of(body)).tobytes()
     assert text_of(sent) == f"01{body}{binascii.crc_hqx(octets, 0xFFFF):016b}"
+
+
+@each_case(range(1, 41))
+def test_raw_finds_every_burst_of_up_to_16_bits(bits: int) -> None:
+    """All of them: a check sum over GF(2) is linear, so an error passes where its own sum is 0."""
+    body = np.concatenate([chips_of(f"{bits:08b}"), np.zeros(bits, dtype=np.uint8)])
+    zero = check_sum(body)
+    of_bits = []
+    for place in range(8, len(body)):
+        one = body.copy()
+        one[place] = 1
+        of_bits.append(int(text_of(check_sum(one) ^ zero), 2))
+    of_bits += [1 << place for place in reversed(range(16))]
+    for first in range(len(of_bits)):
+        sums = np.zeros(1, dtype=np.int64)
+        for of_bit in of_bits[first : first + 16]:
+            sums = np.concatenate([sums, sums ^ of_bit])
+        assert np.count_nonzero(sums == 0) == 1  # no error at all
+
+
+def test_a_check_sum_is_linear() -> None:
+    random = np.random.default_rng(7)
+    for bits in (9, 18, 40, 200):
+        one, other, third = random.integers(0, 2, (3, bits)).astype(np.uint8)
+        together = check_sum(one) ^ check_sum(other) ^ check_sum(third)
+        np.testing.assert_array_equal(check_sum(one ^ other ^ third), together)
+
+
+def test_raw_finds_four_wrong_chips_that_a_sum_of_filled_bytes_let_pass() -> None:
+    one = scheme_named("nrz", "raw", "", "none", 10)
+    wrong = one.encode(chips_of("1011001110"))
+    wrong[[26, 30, 31, 36]] ^= 1  # the payload becomes 1011011111
+    read = one.decode(np.tile(wrong, 2))
+    assert read.failure == "The check sum (CRC-16) does not fit: some chips were misread."
+    assert text_of(read.bits) == "1011011111"
 
 
 def test_raw_needs_not_know_how_many_bits_are_sent() -> None:

@@ -17,6 +17,7 @@ import occ_model as occ
 from occ_gui.app.start import DefaultOption, Start, start_of
 from occ_gui.app.system_libraries import missing_libraries, sentence_about
 from occ_gui.core.workspace import Workspace
+from occ_gui.values.modes import MODES
 from occ_gui.values.photo_choice import MODES as OVERLAYS
 from occ_model.commands.options import (
     Parser,
@@ -41,13 +42,6 @@ _IMPORT = builtins.__import__  # what carries out an import before Qt is there
 
 _DISPLAYS = ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")
 """Environment variables, one of which names the display."""
-
-PANES = (
-    "controls", "decode", "photo", "photos", "profile", "accuracy", "map", "bench", "bands",
-    "equations", "spectrum", "compare", "lessons", "video", "room",
-)  # fmt: skip
-
-MODES = ("explore", "photo", "limits", "effects", "lessons", "video", "room")
 
 THEMES = ("system", "light", "dark")
 
@@ -118,7 +112,9 @@ def _parser() -> argparse.ArgumentParser:
         "--size", type=_size, metavar="WIDTHxHEIGHT", help="the window's size, such as 1280x800"
     )
     parser.add_argument("--mode", choices=MODES, help="lay the window out for this task")
-    parser.add_argument("--dock", choices=PANES, help="bring this pane to the front")
+    parser.add_argument(
+        "--dock", metavar="PANE", help="bring this pane to the front, such as map or bench"
+    )
     parser.add_argument("--theme", choices=THEMES, help="the window's colours")
     parser.add_argument(
         "--fresh", action="store_true", help="start without what the last session left"
@@ -139,6 +135,7 @@ def _size(text: str) -> tuple[int, int]:
 def _run(options: argparse.Namespace, begin: Start) -> int:
     _prepare(options)
     qt, application = start(begin.first, sys.argv[:1], begin.preferences)
+    _check_pane(options.dock, application)
     if not (options.screenshot or options.size):
         from occ_gui.app.display import open_first
 
@@ -170,6 +167,14 @@ def _run(options: argparse.Namespace, begin: Start) -> int:
     code = qt.exec()
     _leave_plugins(code, begin.preferences)
     return code
+
+
+def _check_pane(name: str | None, application: "Application") -> None:
+    """Refuse a pane that the window, once made, turns out not to have."""
+    docks = application.window.docks
+    if name is not None and name not in docks:
+        application.stop()
+        raise occ.OccError(f"--dock: there is no pane {shown(name)}; allowed: {', '.join(docks)}.")
 
 
 def _leave_plugins(code: int, preferences: "QSettings | None") -> None:

@@ -29,6 +29,7 @@ from occ_gui.shell.results import Board, Results
 from occ_gui.shell.shell import Shell
 from occ_gui.simulation.controller import SimulationController
 from occ_gui.simulation.present_results import PresentResults
+from occ_gui.values.modes import Place
 from occ_gui.widgets.work_bar import WorkBar
 from occ_gui.window.main_window import MainWindow
 
@@ -60,6 +61,7 @@ def decoding(store: Store) -> Feature[Any]:
     return Feature(
         name="decode",
         title="Decoding",
+        elsewhere="right",
         help="decoders.md",
         make=later("occ_gui.decoding.pane:DecodePane", store),
         part=lambda workspace, results: (results.reading, workspace.decoder),
@@ -81,6 +83,8 @@ def photo(
     return Feature(
         name="photo",
         title="Photo",
+        places={"photo": Place("left", is_main=True, width=360)},
+        elsewhere="right",
         help="photos.md",
         make=make,
         part=later("occ_gui.photo.photo_part:PhotoPart.of"),
@@ -100,6 +104,7 @@ def photos(pane: "Callable[[], PhotoPane]") -> Feature[Any]:
     return Feature(
         name="photos",
         title="Photos",
+        places={"photo": Place("bottom")},
         help="photos.md#many-photos-one-answer",
         make=lambda: Pane[None](pane().view.many),
     )
@@ -115,6 +120,7 @@ def profile(store: Store, board: Board, about_photo: Callable[[], str]) -> Featu
     return Feature(
         name="profile",
         title="Column profile",
+        places={"photo": Place("bottom", height=210)},
         help="guide.md#compare-column-profiles",
         make=later("occ_gui.profile.pane:ProfilePane", store),
         part=part,
@@ -128,6 +134,7 @@ def accuracy(scenes: SceneStore, simulation: SimulationController) -> Feature[An
     return Feature(
         name="accuracy",
         title="Accuracy and time",
+        places={"effects": Place("right", is_main=True)},
         help="effects.md#accuracy-against-time",
         make=later("occ_gui.accuracy.pane:AccuracyPane", scenes, simulation),
         part=lambda workspace, results: (workspace.settings, results.switched, results.snapshot),
@@ -140,6 +147,7 @@ def detection_map(scenes: SceneStore, measuring: Measuring) -> Feature[Any]:
     return Feature(
         name="map",
         title="Detection map",
+        places={"limits": Place("right", is_main=True)},
         help="sweeps.md#the-detection-map",
         make=later("occ_gui.detection_map.pane:MapPane", scenes, measuring),
         figures=(map_figure(scenes.store),),
@@ -150,6 +158,7 @@ def bands(scenes: SceneStore) -> Feature[Any]:
     return Feature(
         name="bands",
         title="Bars",
+        places={"limits": Place("right")},
         help="bands.md",
         make=later("occ_gui.bands.pane:BandsPane", scenes),
         part=lambda workspace, _: workspace.scene,
@@ -162,6 +171,7 @@ def equations(scenes: SceneStore, plot: "Callable[[], Plot]") -> Feature[Any]:
     return Feature(
         name="equations",
         title="Equations",
+        elsewhere="right",
         help="model.md",
         make=lambda: later("occ_gui.explanation.pane:ExplanationPane")(scenes, plot()),
         part=lambda _, results: results.snapshot,
@@ -201,6 +211,8 @@ def lessons(
     return Feature(
         name="lessons",
         title="Lessons",
+        places={"lessons": Place("right", is_main=True, width=340)},
+        elsewhere="right",
         help="lessons.md#follow-a-lesson",
         make=later("occ_gui.lessons.pane:LessonPane", scenes, board, controls, preferences),
     )
@@ -210,6 +222,8 @@ def video(scenes: SceneStore, board: Board) -> Feature[Any]:
     return Feature(
         name="video",
         title="Video",
+        places={"video": Place("right", is_main=True)},
+        elsewhere="right",
         help="guide.md#watch-a-film",
         make=later("occ_gui.video.wiring:VideoWiring", scenes, board),
         part=lambda workspace, _: workspace.film,
@@ -220,6 +234,7 @@ def room(store: Store) -> Feature[Any]:
     return Feature(
         name="room",
         title="Room",
+        places={"room": Place("right", is_main=True)},
         help="room.md",
         make=later("occ_gui.room.pane:RoomPane", store),
         part=lambda workspace, _: workspace.room,
@@ -232,6 +247,7 @@ def bench(scenes: SceneStore, measuring: Measuring) -> Feature[Any]:
     return Feature(
         name="bench",
         title="Bench",
+        places={"limits": Place("right")},
         help="sweeps.md#the-bench",
         make=lambda: later("occ_gui.bench.pane:BenchPane")(scenes, measuring.channel("bench")),
         figures=(bench_figure(scenes.store),),

@@ -17,7 +17,7 @@ from occ_gui.shell.feature import NothingToDraw, Service
 from occ_gui.shell.shell import Shell
 from occ_gui.simulation.present_results import PresentResults
 from occ_gui.simulation.snapshot import Snapshot
-from occ_gui.window.docks import PICTURE
+from occ_gui.values.modes import PICTURE
 from occ_model.errors import counted, one_line
 from occ_model.scene.provenance import ENDINGS
 

@@ -13,6 +13,7 @@ from occ_gui.background.task import Task
 from occ_gui.core.workspace import Workspace
 from occ_gui.shell.results import MadeOf, Results
 from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.values.modes import Places, Side
 from occ_model.errors import OccError
 
 if TYPE_CHECKING:
@@ -131,6 +132,9 @@ class Feature(Generic[Part]):
 
     name: str
     title: str = ""  # the title of the pane; empty where there is none
+    places: Places = field(default_factory=dict)
+    """Where the modes show the pane at first."""
+    elsewhere: Side = "bottom"  # its side in modes that do not show it at first
     help: str = ""  # page and heading of the manual that explain the pane
     make: Callable[[], Any] = Service  # makes a Pane where there is a title, and else a Service
     part: Callable[[Workspace, Results], Part | None] = lambda _workspace, _results: None

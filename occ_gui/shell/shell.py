@@ -11,6 +11,7 @@ from occ_gui.core.store import Store
 from occ_gui.shell.feature import Draw, Feature, Figure, Pane, Service
 from occ_gui.shell.results import Board
 from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.values.modes import Places, Side
 from occ_gui.widgets.building import filled
 from occ_gui.widgets.event_filters import leave_drops_to_window
 
@@ -19,7 +20,9 @@ class DockWindow(Protocol):
     @property
     def actions_by_name(self) -> Mapping[str, QAction]: ...
 
-    def add_pane(self, name: str, title: str, content: QWidget) -> QDockWidget:
+    def add_pane(
+        self, name: str, title: str, content: QWidget, places: Places, elsewhere: Side
+    ) -> QDockWidget:
         """Add a pane, and its entry in the view menu, before the window is shown."""
 
 
@@ -40,7 +43,9 @@ class Shell(QObject):
     def add(self, feature: Feature[Any], window: DockWindow) -> None:
         if feature.title:
             place = self._place(feature)
-            dock = window.add_pane(feature.name, feature.title, place)
+            dock = window.add_pane(
+                feature.name, feature.title, place, feature.places, feature.elsewhere
+            )
             dock.visibilityChanged.connect(place.set_seen)
         else:
             self._unseen[feature.name] = feature

@@ -7,7 +7,8 @@ from PySide6.QtGui import QMoveEvent, QResizeEvent
 from PySide6.QtWidgets import QApplication, QDockWidget, QMainWindow, QWidget
 
 from occ_gui.files.preferences import Preferences
-from occ_gui.window.modes import MODES, ModeSwitch
+from occ_gui.values.modes import MODES, PICTURE
+from occ_gui.window.modes import ModeSwitch
 
 _STEP = 24  # pixels by which a floated pane is moved from its place, so that it is seen to float
 
@@ -63,9 +64,6 @@ class Dock(QDockWidget):
         # Not while the mouse holds it.
         if floats and self._place.isValid() and QWidget.mouseGrabber() is not self:
             self.setGeometry(beside(self._place, self.screen().availableGeometry()))
-
-
-PICTURE = "picture"
 
 
 class CurrentPane(QObject):

@@ -8,11 +8,12 @@ from PySide6.QtWidgets import QApplication, QLabel, QMainWindow, QWidget
 
 from occ_gui.scene.control_panel import ControlPanel
 from occ_gui.story.story_view import StoryView
+from occ_gui.values.modes import MODES, PICTURE, Place, Places, Side
 from occ_gui.widgets.event_filters import leave_drops_to_window
 from occ_gui.widgets.scroll_pane import bring_into_view
 from occ_gui.window.docks import Dock
 from occ_gui.window.menus import Menus
-from occ_gui.window.modes import HOMES, MODES, PICTURE, ModeSwitch
+from occ_gui.window.modes import DeclaredPane, ModeSwitch, Panes
 from occ_gui.window.reading_order import next_to_focus
 from occ_gui.window.status_line import StatusLine
 from occ_gui.window.style_sheet import style_sheet
@@ -28,6 +29,16 @@ _PROPAGATED = Qt.ApplicationAttribute.AA_UseStyleSheetPropagationInWidgetStyles
 _WITH_PICTURE = "photo"  # the pane that goes with the whole picture: the photo stands beside that
 
 _IN_STORY = ("profile", "decode")  # panes that show in detail what the story shows, too
+
+
+_CONTROLS = {
+    "explore": Place("left", width=340),
+    "photo": Place("left"),
+    "limits": Place("left", width=340),
+    "effects": Place("left", width=340),
+    "lessons": Place("left", width=320),
+    "video": Place("left", width=340),
+}
 
 
 class MainWindow(QMainWindow):
@@ -50,10 +61,12 @@ class MainWindow(QMainWindow):
         self.setDockNestingEnabled(True)
         self.setAnimated(False)  # each step of an animation would redraw all plots
         self.setCentralWidget(centre)
-        self.docks = {"controls": self._dock("controls", "Scene", controls)}
+        self.docks: dict[str, Dock] = {}
+        self._panes = Panes()
+        self._add_dock("controls", "Scene", controls, _CONTROLS, "left")
         self.menus = Menus(self, undo_stack, self.docks.values())
         self.actions_by_name = self.menus.actions
-        self.modes = ModeSwitch(self, self.docks, self._show_page)
+        self.modes = ModeSwitch(self, self._panes, self._show_page)
         self.menus.modes.triggered.connect(lambda action: self.modes.switch(action.data()))
         self.modes.changed.connect(lambda mode: self.menus.show_choice(self.menus.modes, mode))
         self.toolbar = ToolBar(self.menus.actions, self.menus.drop_downs, self.menus.modes)
@@ -68,12 +81,17 @@ class MainWindow(QMainWindow):
         self.reading, self.filming, self.pointed = line.reading, line.filming, line.pointed
         self.show_timing = self._status_line.show_timing
         self.show_plan_change = self._status_line.show_plan_change
-        self.modes.changed.connect(lambda mode: line.show_times("controls" in MODES[mode].panes))
+        self.modes.changed.connect(
+            lambda mode: line.show_times("controls" in self._panes.shown_in(mode))
+        )
         self.resize(_FIRST_SIZE)
 
-    def _dock(self, name: str, title: str, content: QWidget) -> Dock:
-        dock = Dock(name, title, content, self)
+    def _add_dock(
+        self, name: str, title: str, content: QWidget, places: Places, elsewhere: Side
+    ) -> Dock:
+        dock = self.docks[name] = Dock(name, title, content, self)
         dock.opened_by_user.connect(self._on_opened)
+        self._panes[name] = DeclaredPane(dock, places, elsewhere)
         return dock
 
     def _on_opened(self) -> None:
@@ -82,10 +100,11 @@ class MainWindow(QMainWindow):
             self._join_tabs(dock)
             QTimer.singleShot(0, dock, lambda: self._give_place(dock, True))
 
-    def add_pane(self, name: str, title: str, content: QWidget) -> Dock:
+    def add_pane(
+        self, name: str, title: str, content: QWidget, places: Places, elsewhere: Side
+    ) -> Dock:
         """Add a pane, and its entry in the view menu, before the window is shown."""
-        dock = self._dock(name, title, content)
-        self.docks[name] = dock
+        dock = self._add_dock(name, title, content, places, elsewhere)
         self.menus.add_dock(dock)
         return dock
 
@@ -94,8 +113,9 @@ class MainWindow(QMainWindow):
 
         A pane that is open in the present mode stays there.
         """
-        if self.docks[name].isHidden() and name in HOMES:
-            self.modes.switch(HOMES[name])
+        home = self._panes.home_of(name)
+        if self.docks[name].isHidden() and home:
+            self.modes.switch(home)
         self._raise(name)
 
     def _raise(self, name: str) -> None:
@@ -158,12 +178,12 @@ class MainWindow(QMainWindow):
         QApplication.sendPostedEvents(None, QEvent.Type.LayoutRequest.value)
         if self.minimumSizeHint().height() <= dock.height_before:
             return False
-        area, mode = self.dockWidgetArea(dock), MODES[self.modes.mode]
+        area, main = self.dockWidgetArea(dock), self._panes.main_of(self.modes.mode)
         others = [
             other
             for name, other in self.docks.items()
             if other not in {dock, *self.tabifiedDockWidgets(dock)}
-            and name not in {"controls", mode.main}
+            and name not in {"controls", main}
             and not (other.isFloating() or other.isHidden())
         ]
         if not others:
@@ -204,7 +224,7 @@ class MainWindow(QMainWindow):
 
     def hide_pane(self, name: str) -> None:
         """Hide a pane that the present mode does not show."""
-        if name not in MODES[self.modes.mode].panes:
+        if name not in self._panes.shown_in(self.modes.mode):
             self.docks[name].hide()
 
     def is_put_away(self, name: str) -> bool:

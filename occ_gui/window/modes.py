@@ -1,145 +1,80 @@
 """Modes: the panes of each task, their places, and the change between modes."""
 
 from binascii import crc32
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
-from types import MappingProxyType
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 
 from PySide6.QtCore import QByteArray, QObject, Qt, Signal
 from PySide6.QtWidgets import QDockWidget, QMainWindow
 
-STORY, PICTURE = "story", "picture"
-"""The pages in the middle: the way from light to bits, and the picture with the photo."""
+from occ_gui.values.modes import MODES, Place, Places, Side
 
-Groups = tuple[tuple[str, ...], ...]
-"""Panes from top to bottom; those of a group are tabs of one place, the first in front."""
+_SIDES = {
+    "left": Qt.DockWidgetArea.LeftDockWidgetArea,
+    "right": Qt.DockWidgetArea.RightDockWidgetArea,
+    "bottom": Qt.DockWidgetArea.BottomDockWidgetArea,
+}
 
 
 @dataclass(frozen=True, slots=True)
-class Mode:
-    centre: str  # the page in the middle; empty where the panes around it fill the window
-    main: str
-    left: Groups = ()
-    right: Groups = ()
-    bottom: Groups = ()
-    is_bottom_wide: bool = False
-    is_right_high: bool = False
-    # First sizes in pixels by pane, of those whose size matters
-    widths: Mapping[str, int] = field(default_factory=lambda: MappingProxyType({}))
-    heights: Mapping[str, int] = field(default_factory=lambda: MappingProxyType({}))
-
-    @property
-    def panes(self) -> tuple[str, ...]:
-        groups = (*self.left, *self.right, *self.bottom)
-        return tuple(name for group in groups for name in group)
+class DeclaredPane:
+    dock: QDockWidget
+    places: Places
+    elsewhere: Side  # its side in modes that do not show it at first
 
 
-MODES: Mapping[str, Mode] = MappingProxyType(
-    {
-        "explore": Mode(
-            centre=STORY, main=PICTURE, left=(("controls",),), widths={"controls": 340}
-        ),
-        "photo": Mode(
-            centre=PICTURE,
-            main="photo",
-            left=(("photo", "controls"),),
-            bottom=(("profile", "photos"),),
-            is_bottom_wide=True,
-            widths={"photo": 360},
-            heights={"profile": 210},
-        ),
-        "limits": Mode(
-            centre="",
-            main="map",
-            left=(("controls",),),
-            right=(("map", "bench", "bands"),),
-            widths={"controls": 340},
-        ),
-        "effects": Mode(
-            centre="",
-            main="accuracy",
-            left=(("controls",),),
-            right=(("accuracy",),),
-            widths={"controls": 340},
-        ),
-        "lessons": Mode(
-            centre=STORY,
-            main="lessons",
-            left=(("controls",),),
-            right=(("lessons",),),
-            is_bottom_wide=True,
-            is_right_high=True,  # a lesson's text has all the height, whatever pane it shows below
-            widths={"controls": 320, "lessons": 340},
-        ),
-        "video": Mode(
-            centre="",
-            main="video",
-            left=(("controls",),),
-            right=(("video",),),
-            widths={"controls": 340},
-        ),
-        "room": Mode(centre="", main="room", right=(("room",),)),
-    }
-)
+class Panes(dict[str, DeclaredPane]):
+    """The panes by name, and which of them each mode shows."""
 
-HOMES: Mapping[str, str] = MappingProxyType(
-    {mode.main: name for name, mode in MODES.items() if mode.main != PICTURE}
-)
-"""The mode of each pane that is a mode's main one."""
+    def shown_in(self, mode: str) -> dict[str, Place]:
+        """Return the places in a mode, of each side the main pane first."""
+        places = {name: pane.places[mode] for name, pane in self.items() if mode in pane.places}
+        return dict(sorted(places.items(), key=lambda item: not item[1].is_main))
+
+    def main_of(self, mode: str) -> str:
+        """Return the pane that a mode is about; empty where it is about the middle."""
+        return next((name for name, at in self.shown_in(mode).items() if at.is_main), "")
+
+    def home_of(self, name: str) -> str:
+        """Return the mode that is about a pane; empty where there is none."""
+        return next((mode for mode, place in self[name].places.items() if place.is_main), "")
+
+    def arrange(self, window: QMainWindow, mode: str) -> None:
+        """Show the panes of a mode at their places, and hide all others."""
+        for pane in self.values():
+            window.removeDockWidget(pane.dock)
+        layout = MODES[mode]
+        corner = _SIDES["bottom"] if layout.is_bottom_wide else _SIDES["left"]
+        window.setCorner(Qt.Corner.BottomLeftCorner, corner)
+        corner = _SIDES["right"] if layout.is_right_high else _SIDES["bottom"]
+        window.setCorner(Qt.Corner.BottomRightCorner, corner)
+        places = self.shown_in(mode)
+        for side, area in _SIDES.items():
+            docks = [self[name].dock for name, place in places.items() if place.side == side]
+            _show_as_tabs(window, area, docks)
+        for name, pane in self.items():
+            if name not in places:
+                window.addDockWidget(_SIDES[pane.elsewhere], pane.dock)
+                pane.dock.hide()
+        for orientation, sizes in (
+            (Qt.Orientation.Horizontal, {n: at.width for n, at in places.items() if at.width}),
+            (Qt.Orientation.Vertical, {n: at.height for n, at in places.items() if at.height}),
+        ):
+            window.resizeDocks([self[n].dock for n in sizes], [*sizes.values()], orientation)
 
 
-_AREA = Qt.DockWidgetArea
-_ELSEWHERE = {
-    "controls": _AREA.LeftDockWidgetArea,
-    "decode": _AREA.RightDockWidgetArea,
-    "photo": _AREA.RightDockWidgetArea,
-    "equations": _AREA.RightDockWidgetArea,
-    "lessons": _AREA.RightDockWidgetArea,
-    "video": _AREA.RightDockWidgetArea,
-}
-"""Areas of panes that the mode does not show; all others stand below."""
-
-
-def arrange(window: QMainWindow, docks: Mapping[str, QDockWidget], mode: Mode) -> None:
-    """Show the panes of a mode at their places, and hide all others."""
-    for dock in docks.values():
-        window.removeDockWidget(dock)
-    corner = _AREA.BottomDockWidgetArea if mode.is_bottom_wide else _AREA.LeftDockWidgetArea
-    window.setCorner(Qt.Corner.BottomLeftCorner, corner)
-    corner = _AREA.RightDockWidgetArea if mode.is_right_high else _AREA.BottomDockWidgetArea
-    window.setCorner(Qt.Corner.BottomRightCorner, corner)
-    for area, groups in (
-        (_AREA.LeftDockWidgetArea, mode.left),
-        (_AREA.RightDockWidgetArea, mode.right),
-        (_AREA.BottomDockWidgetArea, mode.bottom),
-    ):
-        _place(window, docks, area, groups)
-    _place_others(window, docks, mode)
-    for orientation, sizes in (
-        (Qt.Orientation.Horizontal, mode.widths),
-        (Qt.Orientation.Vertical, mode.heights),
-    ):
-        window.resizeDocks([docks[name] for name in sizes], list(sizes.values()), orientation)
-
-
-def _place(
-    window: QMainWindow, docks: Mapping[str, QDockWidget], area: Qt.DockWidgetArea, groups: Groups
+def _show_as_tabs(
+    window: QMainWindow, area: Qt.DockWidgetArea, docks: Sequence[QDockWidget]
 ) -> None:
-    for group in groups:
-        front, *others = (docks[name] for name in group)
-        window.addDockWidget(area, front, Qt.Orientation.Vertical)
-        front.show()
-        for other in others:
-            window.tabifyDockWidget(front, other)
-            other.show()
-        front.raise_()
-
-
-def _place_others(window: QMainWindow, docks: Mapping[str, QDockWidget], mode: Mode) -> None:
-    for name, dock in docks.items():
-        if name not in mode.panes:
-            window.addDockWidget(_ELSEWHERE.get(name, _AREA.BottomDockWidgetArea), dock)
-            dock.hide()
+    if not docks:
+        return
+    front, *others = docks
+    window.addDockWidget(area, front, Qt.Orientation.Vertical)
+    front.show()
+    for other in others:
+        window.tabifyDockWidget(front, other)
+        other.show()
+    front.raise_()
 
 
 _WIDEST_SIDE, _ANY_WIDTH = 360, 16_777_215
@@ -149,7 +84,7 @@ _WIDEST_SIDE, _ANY_WIDTH = 360, 16_777_215
 class ModeSwitch(QObject):
     """The present mode of a window, and the layouts of those that were used before.
 
-    ``docks``: its docks, by name; they may still be added to until the first mode is shown.
+    ``panes``: they may still be added to until the first mode is shown.
     ``show_page``: shows a page in the middle by its name, or hides the middle where that is empty.
     """
 
@@ -158,11 +93,11 @@ class ModeSwitch(QObject):
     def __init__(
         self,
         window: QMainWindow,
-        docks: Mapping[str, QDockWidget],
+        panes: Panes,
         show_page: Callable[[str], None],
     ) -> None:
         super().__init__(window)
-        self._window, self._docks, self._show_page = window, docks, show_page
+        self._window, self.panes, self._show_page = window, panes, show_page
         self.mode = next(iter(MODES))
         self.layouts: dict[str, QByteArray] = {}
         """Layouts of the other modes when they were left, by name."""
@@ -172,7 +107,7 @@ class ModeSwitch(QObject):
     def begin(self) -> None:
         """Lay out the present mode, when the window is first shown."""
         self.is_shown = True
-        self.version = crc32(",".join(self._docks).encode()) & 0x7FFF_FFFF
+        self.version = crc32(",".join(self.panes).encode()) & 0x7FFF_FFFF
         self._enter()
 
     def switch(self, name: str) -> None:
@@ -203,12 +138,12 @@ class ModeSwitch(QObject):
         try:
             # Beside the panes of the mode before it the page might need a wider window, and Qt
             # would widen it, over the edge of the screen where it is maximized.
-            for dock in self._docks.values():
-                window.removeDockWidget(dock)
+            for pane in self.panes.values():
+                window.removeDockWidget(pane.dock)
             self._show_page(MODES[self.mode].centre)
-            self._limit_sides(MODES[self.mode])
+            self._limit_sides()
             # First even where a layout is known: Qt leaves the tabs of the mode before it behind.
-            arrange(window, self._docks, MODES[self.mode])
+            self.panes.arrange(window, self.mode)
             if self.mode in self.layouts:
                 window.restoreState(self.layouts[self.mode], self.version)
             # A layout of a wider window would widen it.
@@ -217,12 +152,12 @@ class ModeSwitch(QObject):
         finally:
             window.setUpdatesEnabled(True)
 
-    def _limit_sides(self, mode: Mode) -> None:
+    def _limit_sides(self) -> None:
         """Give the width that the window gains to the main pane where there is no page.
 
         Qt would divide it between the panes.
         """
-        sides = {name for group in mode.left for name in group}
-        for name, dock in self._docks.items():
-            is_limited = not mode.centre and name in sides
-            dock.setMaximumWidth(_WIDEST_SIDE if is_limited else _ANY_WIDTH)
+        has_page, places = bool(MODES[self.mode].centre), self.panes.shown_in(self.mode)
+        for name, pane in self.panes.items():
+            is_limited = not has_page and name in places and places[name].side == "left"
+            pane.dock.setMaximumWidth(_WIDEST_SIDE if is_limited else _ANY_WIDTH)

@@ -37,6 +37,7 @@ from occ_gui.shell.results import Board
 from occ_gui.shell.shell import Shell
 from occ_gui.simulation.present_results import Use
 from occ_gui.simulation.snapshot import Picture, Snapshot
+from occ_gui.values.modes import Places, Side
 from occ_gui.window.docks import CurrentPane
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
@@ -59,7 +60,9 @@ class PlainWindow(QMainWindow):
         self.actions_by_name: dict[str, QAction] = defaultdict(lambda: QAction(self))
         self.docks: dict[str, QDockWidget] = {}
 
-    def add_pane(self, name: str, title: str, content: QWidget) -> QDockWidget:
+    def add_pane(
+        self, name: str, title: str, content: QWidget, _places: Places, _elsewhere: Side
+    ) -> QDockWidget:
         dock = self.docks[name] = QDockWidget(title, self)
         dock.setWidget(content)
         self.addDockWidget(Qt.DockWidgetArea.BottomDockWidgetArea, dock)

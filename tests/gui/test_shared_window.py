@@ -8,7 +8,7 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
 from occ_gui.core.workspace import FIRST_SETTINGS
-from occ_gui.window.modes import MODES
+from occ_gui.values.modes import MODES
 from occ_model.scene.scene import Scene
 
 Change = Callable[[Application], object]

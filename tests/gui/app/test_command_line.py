@@ -101,6 +101,13 @@ def test_a_screenshot_that_cannot_be_is_answered_in_a_sentence_and_leaves_no_fil
     assert sorted(tmp_path.iterdir()) == [flat, folder]
 
 
+def test_a_pane_that_there_is_not_is_answered_with_those_that_there_are(starts: Starts) -> None:
+    ended = starts.run("--dock", "histogram", SMALL, program=UNMEASURED)
+    assert (ended.returncode, ended.stdout) == (2, "")
+    assert is_one_sentence(ended.stderr)
+    assert "no pane 'histogram'; allowed: controls, decode, photo" in ended.stderr
+
+
 def refusal(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> str:
     """Return the line that answers a mistake."""
     try:

@@ -15,13 +15,13 @@ from PySide6.QtWidgets import QApplication, QDialog, QFileDialog
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
-from occ_gui.app.command_line import PANES
 from occ_gui.core.workspace import Workspace
 from occ_gui.files.preferences import Preferences
 from occ_gui.help.help_window import HelpWindow
 from occ_gui.help.pages import docs_folder, heading_id
 from occ_gui.scene.scene_editor import SceneEditor
 from occ_gui.scene.scene_store import SceneStore, new_gesture
+from occ_gui.values.modes import PICTURE
 from occ_gui.widgets.plot import Plot
 from occ_gui.window.command_lists import (
     Command,
@@ -30,7 +30,6 @@ from occ_gui.window.command_lists import (
     commands_of,
     shortcuts_of,
 )
-from occ_gui.window.docks import PICTURE
 from occ_model.scene.scene import Scene
 
 
@@ -118,7 +117,7 @@ def test_the_sheet_lists_every_entry_with_keys_and_every_pane_has_a_page_and_its
     assert sheet.table.rowCount() == len(rows)
     manual = add_widget(qtbot, HelpWindow(docs_folder()))
     pages = application.shell.pane("help").pages
-    assert set(pages) == {*PANES, PICTURE}
+    assert set(pages) == {*application.window.docks, PICTURE}
     for page in pages.values():
         name, _, heading = page.partition("#")
         text = (docs_folder() / name).read_text(encoding="utf-8")

@@ -23,8 +23,8 @@ from occ_gui.core.workspace import Workspace
 from occ_gui.files import session as session_module
 from occ_gui.files.session import Session, SessionFile, restored
 from occ_gui.files.session_record import Kept
+from occ_gui.values.modes import MODES
 from occ_gui.values.room_choice import RoomChoice
-from occ_gui.window.modes import MODES
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 
@@ -137,7 +137,7 @@ def test_scene_settings_photo_options_and_layouts_are_there_again_and_layouts_ca
         assert modes.mode == "limits"
         assert window.toolbar.modes.currentIndex() == [*MODES].index("limits")
         for mode, panes in (
-            ("limits", {*MODES["limits"].panes}),
+            ("limits", {*modes.panes.shown_in("limits")}),
             ("photo", {"photo", "profile", "photos"}),
         ):
             modes.switch(mode)

@@ -8,7 +8,6 @@ from gui.lessons.conftest import Lessons
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from occ_gui.app.command_line import PANES
 from occ_gui.core.workspace import FIRST_SETTINGS
 from occ_gui.files.file_controller import sample_photos
 from occ_gui.lessons import lesson_controller
@@ -133,7 +132,7 @@ def test_lessons_that_cannot_be_read_give_a_sentence(
     assert bench.guide.list.choices == []
 
 
-def test_steps_name_docks_and_samples_with_their_frequency() -> None:
+def test_steps_name_samples_with_their_frequency() -> None:
     truths = {path.stem: Scene.from_toml(path.with_suffix(".toml").read_text(encoding="utf-8"))
               for path in sample_photos()}  # fmt: skip
     steps = [step for lesson in lessons().lessons for step in lesson.steps if step.photo]
@@ -141,8 +140,6 @@ def test_steps_name_docks_and_samples_with_their_frequency() -> None:
     for step in steps:
         truth = truths[step.photo].transmitter.switching_frequency
         assert step.scene.transmitter.switching_frequency == truth, step.goal
-    named = {step.pane for lesson in lessons().lessons for step in lesson.steps}
-    assert named <= set(PANES)
 
 
 @pytest.mark.parametrize("is_left", [True, False])

@@ -13,7 +13,7 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
 from occ_gui.scene.control_panel import MAIN
-from occ_gui.window.modes import MODES
+from occ_gui.values.modes import MODES
 from occ_gui.window.reading_order import focus_stops
 
 VALUE, DESCRIPTION = QAccessible.Text.Value, QAccessible.Text.Description

@@ -9,9 +9,8 @@ from PySide6.QtGui import QAccessible, QResizeEvent
 from PySide6.QtWidgets import QApplication, QTabBar, QWidget
 from pytestqt.qtbot import QtBot
 
-from occ_gui.app import command_line
 from occ_gui.app.application import Application
-from occ_gui.window.modes import HOMES, MODES, PICTURE
+from occ_gui.values.modes import MODES, STORY
 
 NAMES = list(MODES)
 SETTLED_MS = 200  # in which a window arranges its docks
@@ -30,14 +29,19 @@ def in_front(application: Application, name: str) -> bool:
     return not application.window.docks[name].visibleRegion().isEmpty()
 
 
-def test_the_command_line_knows_the_modes_of_the_window() -> None:
-    assert tuple(MODES) == command_line.MODES
+def panes_of(application: Application, mode: str) -> set[str]:
+    return {*application.window.modes.panes.shown_in(mode)}
 
 
-def test_each_mode_shows_panes_that_there_are(application: Application) -> None:
-    for mode in MODES.values():
-        assert {*mode.panes, *mode.widths, *mode.heights} <= set(application.window.docks)
-        assert mode.main == PICTURE or mode.main in mode.panes
+def test_panes_declare_places_in_modes_that_there_are_one_of_which_is_the_main_one(
+    application: Application,
+) -> None:
+    panes = application.window.modes.panes
+    assert {mode for pane in panes.values() for mode in pane.places} == {*MODES}
+    for mode, layout in MODES.items():
+        mains = [name for name, place in panes.shown_in(mode).items() if place.is_main]
+        # Explore is about the story in the middle.
+        assert len(mains) == (0 if layout.centre == STORY and mode != "lessons" else 1), mode
 
 
 def test_control_and_a_digit_choose_a_mode(application: Application, qtbot: QtBot) -> None:
@@ -47,7 +51,7 @@ def test_control_and_a_digit_choose_a_mode(application: Application, qtbot: QtBo
         qtbot.keyClick(application.window, Qt.Key(Qt.Key.Key_1 + place), CONTROL)
         assert application.window.modes.mode == mode
         assert bar(application).currentIndex() == place
-        assert shown(application) == set(MODES[mode].panes)
+        assert shown(application) == panes_of(application, mode)
         assert application.story.isVisible() == bool(MODES[mode].centre)
 
 
@@ -78,11 +82,11 @@ def test_a_mode_comes_back_as_it_was_left_and_a_pane_that_is_open_stays_in_it(
     window.docks["equations"].show()
     left = shown(application)
     window.modes.switch("effects")
-    assert shown(application) == set(MODES["effects"].panes)
+    assert shown(application) == panes_of(application, "effects")
     window.modes.switch("limits")
     assert shown(application) == left == {"map", "bench", "bands", "equations"}
     window.actions_by_name["reset_layout"].trigger()
-    assert shown(application) == set(MODES["limits"].panes)
+    assert shown(application) == panes_of(application, "limits")
     window.modes.switch("effects")
     window.docks["map"].toggleViewAction().trigger()
     window.bring_to_front("map")
@@ -94,7 +98,10 @@ def test_a_hidden_pane_is_shown_in_the_mode_about_it(
     application: Application, qtbot: QtBot
 ) -> None:
     window = application.window
-    for pane, home in HOMES.items():
+    homes = {name: window.modes.panes.home_of(name) for name in window.docks}
+    homes = {name: home for name, home in homes.items() if home}
+    assert set(homes.values()) == {*MODES} - {"explore"}
+    for pane, home in homes.items():
         window.modes.switch("effects" if pane != "accuracy" else "limits")
         window.docks[pane].hide()
         window.bring_to_front(pane)

@@ -7,9 +7,9 @@ from pytestqt.qtbot import QtBot
 from shiboken6 import delete
 
 from occ_gui.app.application import Application
+from occ_gui.values.modes import MODES
 from occ_gui.widgets.icons import pixmap
 from occ_gui.window.command_lists import entries
-from occ_gui.window.modes import MODES
 from occ_gui.window.style_sheet import style_sheet
 from occ_gui.window.theme import palette_of
 from occ_gui.window.toolbar import TOOLS, ToolButton

@@ -161,7 +161,7 @@ def _type(chance: Random, application: "Application") -> None:
 
 
 def _used(chance: Random, folder: Path) -> list[str]:
-    from occ_gui.window.modes import MODES
+    from occ_gui.values.modes import MODES
 
     _leave_state(chance, folder)
     with _window(folder) as opened:

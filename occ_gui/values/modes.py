@@ -1,0 +1,46 @@
+"""Modes: the window's layouts for a task each, and the places that panes declare in them."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Literal, TypeAlias
+
+STORY, PICTURE = "story", "picture"
+"""The pages in the middle: the way from light to bits, and the picture with the photo."""
+
+Side: TypeAlias = Literal["left", "right", "bottom"]
+
+
+@dataclass(frozen=True, slots=True)
+class Mode:
+    centre: str  # the page in the middle; empty where the panes around it fill the window
+    is_bottom_wide: bool = False
+    is_right_high: bool = False
+
+
+MODES: Mapping[str, Mode] = MappingProxyType(
+    {
+        "explore": Mode(STORY),
+        "photo": Mode(PICTURE, is_bottom_wide=True),
+        "limits": Mode(""),
+        "effects": Mode(""),
+        # A lesson's text has all the height, whatever pane it shows below.
+        "lessons": Mode(STORY, is_bottom_wide=True, is_right_high=True),
+        "video": Mode(""),
+        "room": Mode(""),
+    }
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """Where a mode shows a pane at first, as a tab beside the others of that side."""
+
+    side: Side
+    is_main: bool = False  # whether the mode is about this pane, which is in front then
+    width: int = 0  # first sizes in pixels; 0 where they do not matter
+    height: int = 0
+
+
+Places: TypeAlias = Mapping[str, Place]
+"""The places of a pane by mode, in those modes that show it at first."""

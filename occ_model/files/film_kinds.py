@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Literal
 
 from occ_model.errors import SceneFileError, VideoError, one_line
-from occ_model.files.reading import read_start
+from occ_model.files.reading import BoundedFile, read_start
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,7 +81,7 @@ def is_film(path: Path) -> bool:
     from PIL import Image
 
     try:
-        with Image.open(path) as picture:
+        with BoundedFile(path) as file, Image.open(file, formats=("GIF", "PNG")) as picture:
             return bool(getattr(picture, "is_animated", False))
     except Exception:  # noqa: BLE001 - whoever opens it says what is wrong with it
         return False

@@ -1,6 +1,7 @@
 """Read the user's files: whole, of a bounded size, and only regular files."""
 
 import errno
+import io
 import os
 import stat
 from pathlib import Path
@@ -8,6 +9,8 @@ from pathlib import Path
 from occ_model.errors import SceneFileError, one_line
 
 LARGEST_TEXT = 1_000_000  # bytes allowed in a scene, preset or lesson; ours have a few thousand
+
+_MOST_READS = 4_000_000  # of a file by its decoder; one in Python takes some seconds for them
 
 _NO_FILE = "it is a device, pipe or socket"
 
@@ -60,6 +63,24 @@ def read_text(path: Path, largest: int = LARGEST_TEXT) -> str:
         return read_bytes(path, largest).decode("utf-8-sig")
     except UnicodeDecodeError:
         raise _unreadable(path, "it is not text in UTF-8") from None
+
+
+class BoundedFile(io.BufferedReader):
+    """A file whose decoder goes from part to part as the file says, but not for ever.
+
+    Whatever blocks, chunks, segments or directories a file states, each step is a read. One too
+    many raises SceneFileError, and so does every later one, should a decoder suppress the first.
+    """
+
+    def __init__(self, path: Path) -> None:
+        super().__init__(path.open("rb", buffering=0))
+        self._path, self._reads = path, 0
+
+    def read(self, size: int | None = -1, /) -> bytes:
+        self._reads += 1
+        if self._reads > _MOST_READS:
+            raise _unreadable(self._path, f"it is in more than {_MOST_READS:,} parts")
+        return super().read(size)
 
 
 def _check_kind(path: Path, mode: int) -> None:

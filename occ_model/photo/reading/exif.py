@@ -4,14 +4,17 @@ import math
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from io import BytesIO
 from typing import TYPE_CHECKING, Any
 
 from occ_model.errors import ParameterError
+from occ_model.photo.reading.tiff import are_short
 from occ_model.results.frame import ENHANCED
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.parameters.camera import DIAGONAL_35MM
 
 if TYPE_CHECKING:
+    from PIL.Image import Exif
     from PIL.Image import Image as PillowImage
 
 EXIF_IFD = 0x8769
@@ -59,7 +62,7 @@ def camera_notes(picture: "PillowImage") -> CameraNotes:
     tags: dict[int, Any] = {}
     title = ""
     with suppress(Exception):
-        exif = picture.getexif()
+        exif = _exif_of(picture)
         tags = dict(exif)
         title = _text(picture.info.get("Description") or tags.get(_DESCRIPTION))
         tags |= exif.get_ifd(EXIF_IFD)
@@ -86,8 +89,18 @@ def orientation_of(picture: "PillowImage") -> int:
     """Return the EXIF orientation, 1 to 8, that a decoded picture still has."""
     orientation: object = 1
     with suppress(Exception):
-        orientation = picture.getexif().get(_ORIENTATION)
+        orientation = _exif_of(picture).get(_ORIENTATION)
     return orientation if isinstance(orientation, int) and 1 <= orientation <= 8 else 1
+
+
+def _exif_of(picture: "PillowImage") -> "Exif":
+    """Return a picture's EXIF data, none where they have more numbers than anyone notes."""
+    from PIL.Image import Exif
+
+    block = picture.info.get("exif")
+    if isinstance(block, bytes) and not are_short(BytesIO(block.removeprefix(b"Exif\0\0"))):
+        return Exif()
+    return picture.getexif()
 
 
 def turns_of(orientation: int) -> tuple[bool, bool, bool]:

@@ -13,7 +13,7 @@ from functools import partial
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, TypeAlias
 
-from occ_model.errors import PhotoError, one_line
+from occ_model.errors import PhotoError, SceneFileError, one_line
 from occ_model.files.film_kinds import HEIC_BRANDS, HEIF_BRANDS, kind_of_film
 from occ_model.photo.reading.limits import (
     allowed_pixels,
@@ -25,6 +25,7 @@ from occ_model.photo.reading.limits import (
     check_transparency,
     count_of_pixels,
 )
+from occ_model.photo.reading.tiff import are_short
 from occ_model.photo.reading.watched_file import Reporter, WatchedFile
 
 if TYPE_CHECKING:
@@ -62,6 +63,8 @@ def open_file(path: Path, max_pixels: int, report: Reporter) -> Iterator[Watched
             yield file
     except PhotoError:
         raise
+    except SceneFileError as error:  # worded for any file
+        raise PhotoError(str(error)) from None
     except Exception as error:  # noqa: BLE001 - decoders raise anything on damaged files.
         # A decoder may have replaced the exception that cancelled it by one of its own.
         if report.ended_by is not None:
@@ -144,6 +147,8 @@ def _first_picture(
     shown, size = one_line(str(path)), os.fstat(file.fileno()).st_size
     name, factory = format_and_factory(path, file)
     check_file_size(path, name, size)
+    if name == "TIFF" and not are_short(file):
+        raise PhotoError(f"{shown} cannot be read: it states too many numbers by one tag.")
     file.seek(0, os.SEEK_SET)
     file.watch(size, *fractions)
     try:

@@ -13,8 +13,9 @@ sensor, not of a plane of half the lines.
 import os
 from contextlib import suppress
 from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
-from typing import IO, TYPE_CHECKING, Any
+from typing import IO, TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,6 +31,7 @@ from occ_model.photo.reading.exif import (
 )
 from occ_model.photo.reading.image_decoding import DECODED_FRACTION, Samples, no_stderr
 from occ_model.photo.reading.limits import check_bytes, check_file_size, check_size
+from occ_model.photo.reading.tiff import STARTS, Entry, are_short, directories
 from occ_model.photo.reading.watched_file import Reporter, WatchedFile
 
 if TYPE_CHECKING:
@@ -37,14 +39,12 @@ if TYPE_CHECKING:
 
 _BYTES_A_PIXEL = 8  # samples and those taken of them, while converted and turned
 
-_TIFF = (b"II*\0", b"MM\0*")
 _OTHERS = (b"IIRO", b"IIRS", b"MMOR", b"IIU\0", b"FUJIFILMCCD-RAW", b"FOVb")
 """The first bytes of RAW files of Olympus, Panasonic, Fujifilm and Sigma."""
 
 _CR3 = b"ftypcrx "  # bytes 4 to 11 of Canon's newer files
 
-_MOST_SUB_IFDS = 16
-_PHOTOMETRIC, _SUB_IFDS, _DNG_VERSION = 262, 330, 50706
+_PHOTOMETRIC, _DNG_VERSION = 262, 50706
 _SENSOR_SAMPLES = (32803, 34892)  # TIFF/EP's and DNG's: a colour filter array, linear samples
 
 _GREEN = b"G"[0]
@@ -109,31 +109,17 @@ def is_raw(file: IO[bytes]) -> bool:
     start = file.read(16)
     if start.startswith(_OTHERS) or start[4:12] == _CR3:
         return True
-    if not start.startswith(_TIFF):
+    if not start.startswith(STARTS):
         return False
-    # A damaged file is refused by the decoder that it is given to.
-    with suppress(Exception):
-        return start[8:10] == b"CR" or _has_sensor_samples(file)
-    return False
+    order: Literal["little", "big"] = "little" if start.startswith(b"II") else "big"
+    entries = chain.from_iterable(directories(file))
+    return start[8:10] == b"CR" or any(_is_of_a_sensor(one, order) for one in entries)
 
 
-def _has_sensor_samples(file: IO[bytes]) -> bool:
-    from PIL.TiffImagePlugin import ImageFileDirectory_v2
-
-    file.seek(0, os.SEEK_SET)
-    head = file.read(8)
-    first = ImageFileDirectory_v2(head)
-    offsets = [first.next]
-    for offset in offsets:
-        directory = ImageFileDirectory_v2(head)
-        file.seek(offset, os.SEEK_SET)
-        directory.load(file)
-        if _DNG_VERSION in directory or directory.get(_PHOTOMETRIC) in _SENSOR_SAMPLES:
-            return True
-        if offset == offsets[0]:
-            inner = directory.get(_SUB_IFDS, ())
-            offsets += list(inner)[:_MOST_SUB_IFDS] if isinstance(inner, tuple) else [inner]
-    return False
+def _is_of_a_sensor(entry: Entry, order: Literal["little", "big"]) -> bool:
+    # A number of 16 bits stands first in the four bytes.
+    value = int.from_bytes(entry.content[:2], order)
+    return entry.tag == _DNG_VERSION or (entry.tag == _PHOTOMETRIC and value in _SENSOR_SAMPLES)
 
 
 def read_mosaic(
@@ -237,6 +223,8 @@ def _tags_of(file: IO[bytes]) -> dict[int, Any]:
 
     tags: dict[int, Any] = {}
     with suppress(Exception):
+        if not are_short(file):
+            return tags
         file.seek(0, os.SEEK_SET)
         exif = Image.Exif()
         exif.load_from_fp(file)

@@ -1,9 +1,10 @@
 """A file that reports the progress of its reading, and whose reading can be cancelled."""
 
-import io
 from collections.abc import Callable
 from pathlib import Path
 from typing import TypeAlias
+
+from occ_model.files.reading import BoundedFile
 
 Progress: TypeAlias = Callable[[float], object]
 """Called with the fraction of the work that is done, from 0 to 1; cancels the work by raising."""
@@ -31,14 +32,13 @@ class Reporter:
             raise
 
 
-class WatchedFile(io.BufferedReader):
+class WatchedFile(BoundedFile):
     def __init__(self, path: Path, report: Reporter) -> None:
-        super().__init__(path.open("rb", buffering=0))
+        super().__init__(path)
         self._report = report
         self._from, self._to, self._size = 0.0, 0.0, 1
         self._next = _STEP
         self.total = 0  # number of bytes read, including those read again
-
         self.last = 0  # number of bytes of the last read
 
     def watch(self, size: int, first: float, last: float) -> None:

@@ -19,6 +19,7 @@ from weakref import WeakSet
 from occ_model.errors import OutputError, one_line, shown
 from occ_model.files.writing import check_replaceable, write_whole
 
+_LONGEST_LINE = 100_000  # bytes of a line; ours have some hundred
 _SYNC_SECONDS = 2.0  # maximum seconds of work lost by a power cut
 
 
@@ -137,9 +138,11 @@ class ResultsFile(Generic[Point]):
         with open(self._file.fileno(), "rb", closefd=False) as buffered:
             buffered.seek(whole)
             while True:
-                lines = [line for line in (buffered.readline() for _ in range(height)) if line]
+                rows = (buffered.readline(_LONGEST_LINE) for _ in range(height))
+                lines = [line for line in rows if line]
                 text = b"".join(lines)
-                if len(lines) < height or not text.endswith(b"\n"):
+                is_cut = len(lines) < height or not text.endswith(b"\n")
+                if is_cut and all(len(line) < _LONGEST_LINE for line in lines):
                     break
                 point = self._table.read(text.decode("utf-8", errors="replace").splitlines())
                 if point is None or seen[point.index] or self._text(point) != text:

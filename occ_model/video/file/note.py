@@ -4,6 +4,8 @@ import struct
 from pathlib import Path
 from uuid import UUID
 
+from occ_model.files.reading import BoundedFile
+
 _MARK = UUID("6f63635f-6d6f-4465-8c5f-66696c6d6e74").bytes  # before a note in MP4 and MKV files
 _MAX_NOTE_BYTES = 1_000_000  # bytes of a note
 _VOID = b"\xec"  # Matroska's element for bytes without a meaning to players
@@ -43,8 +45,9 @@ def _of_picture(path: Path) -> str:
 
     try:
         # Pillow reads up to the pixels, and unpacks no more text than its own limits allow.
-        with Image.open(path, formats=("GIF", "PNG")) as picture:
+        with BoundedFile(path) as file, Image.open(file, formats=("GIF", "PNG")) as picture:
             text = picture.info.get("Description", picture.info.get("comment", ""))
     except Exception:  # noqa: BLE001 - Pillow raises anything on damaged files
         return ""
+    text = text[:_MAX_NOTE_BYTES]
     return text.decode(errors="replace") if isinstance(text, bytes) else str(text)

@@ -177,6 +177,7 @@ def test_another_scene_or_format_is_another_sweep(
         lambda text: text.replace(b",matched,1,3,", b",matched,1,4,", 1),
         lambda text: text + b"".join(text.splitlines(keepends=True)[-2:]),
         lambda text: text + b"\0" * 30 + b"\n\n",
+        lambda text: text + b"1" * 100_000,
     ],
 )
 def test_lines_of_another_origin_are_refused_and_kept(

@@ -1,13 +1,11 @@
-"""Figures to files, off the window's thread, moved into place once all of them are written."""
+"""Figures to files, off the window's thread: all that are asked for, or none."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 from occ_gui.shell.feature import Draw
-from occ_model.errors import OutputError
 from occ_model.files.writing import check_replaceable, make_folder
 from occ_model.scene.provenance import Provenance
 from occ_model.scene.scene import Scene
@@ -68,26 +66,17 @@ def export(job: ExportJob) -> Exported:
 
 
 def _write_all(folder: Path, requests: Sequence[FigureRequest]) -> list[Path]:
-    """Write a folder's figures under temporary names first: a full disk leaves none."""
     from occ_model.figures.drawing import files_of, write_all
 
     is_new = not folder.exists()
     make_folder(folder)
     try:
-        with TemporaryDirectory(prefix=".export-", dir=folder, ignore_cleanup_errors=True) as aside:
-            drawn = [(request.draw(), request) for request in requests]
-            # Refused in a moment what takes seconds to draw.
-            for drawing, _ in drawn:
-                for path in files_of(drawing, folder):
-                    check_replaceable(path)
-            written = [
-                path
-                for drawing, request in drawn
-                for path in write_all(Path(aside), [drawing], request.provenance)
-            ]
-            return [path.replace(folder / path.name) for path in written]
-    except OSError as error:
-        raise OutputError(f"{folder} cannot be written to: {error.strerror or error}.") from None
+        drawn = {request.draw(): request for request in requests}
+        # Refused in a moment what takes seconds to draw.
+        for drawing in drawn:
+            for path in files_of(drawing, folder):
+                check_replaceable(path)
+        return write_all(folder, drawn, lambda drawing: drawn[drawing].provenance(drawing))
     finally:
         if is_new and not any(folder.iterdir()):
             folder.rmdir()

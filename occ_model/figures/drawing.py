@@ -2,7 +2,7 @@
 
 import csv
 from collections.abc import Callable, Iterable, Sequence
-from contextlib import AbstractContextManager
+from contextlib import AbstractContextManager, ExitStack
 from dataclasses import dataclass
 from io import BytesIO, StringIO
 from pathlib import Path
@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from occ_model import colours
 from occ_model.errors import OutputError, one_line
 from occ_model.figures.page import fit_texts
-from occ_model.files.writing import make_folder, write_whole
+from occ_model.files.writing import make_folder, write_whole, written_whole
 from occ_model.scene.provenance import Provenance
 from occ_model.scene.simulation_settings import SimulationSettings, unit_of
 
@@ -78,16 +78,10 @@ def _fitted_bytes(figure: Figure, format_name: str, provenance: Provenance) -> b
     return buffer.getvalue()
 
 
-def save_figure(
-    figure: Figure,
-    folder: Path,
-    name: str,
-    provenance: Provenance,
-    formats: Sequence[str] = ("pdf", "png"),
-) -> None:
-    """Write a figure drawn in this :func:`house_style` in several formats."""
+def save_figure(figure: Figure, folder: Path, name: str, provenance: Provenance) -> None:
+    """Write a figure drawn in this :func:`house_style` as PDF and PNG."""
     fit_texts(figure)
-    for ending in formats:
+    for ending in ("pdf", "png"):
         write_whole(folder / f"{name}.{ending}", _fitted_bytes(figure, ending, provenance))
 
 
@@ -123,14 +117,22 @@ def files_of(drawing: Drawing, folder: Path) -> list[Path]:
 def write_all(
     folder: Path, drawings: Iterable[Drawing], provenance: Callable[[Drawing], Provenance]
 ) -> list[Path]:
+    """Write figures and their tables into a folder: all of them, or none."""
     make_folder(folder)
     written: list[Path] = []
-    for drawing in drawings:
-        origin = provenance(drawing)
-        with house_style():
-            save_figure(drawing.draw(), folder, drawing.name, origin, FORMATS)
-        write_table(folder / f"{drawing.name}.csv", drawing.header, drawing.rows(), origin)
-        written += files_of(drawing, folder)
+    with ExitStack() as stack:
+        for drawing in drawings:
+            origin = provenance(drawing)
+            with house_style():
+                fit_texts(figure := drawing.draw())
+                for path in files_of(drawing, folder):
+                    content = (
+                        table_text(drawing.header, drawing.rows(), origin).encode("utf-8")
+                        if path.suffix == ".csv"
+                        else _fitted_bytes(figure, figure_format(path), origin)
+                    )
+                    stack.enter_context(written_whole(path)).write_bytes(content)
+                    written.append(path)
     return written
 
 

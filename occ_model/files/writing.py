@@ -1,17 +1,20 @@
 """Write files, complete or not at all, and images in the format of their ending."""
 
 import os
+import re
 import stat
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from errno import EACCES
 from io import BytesIO
 from pathlib import Path
 from secrets import token_hex
-from typing import Any
+from typing import Any, BinaryIO
 
 from occ_model.arrays import ByteArray
 from occ_model.errors import OutputError, one_line
+from occ_model.files.locking import locked
 from occ_model.files.reading import reason_of
 
 _FORMATS = {  # those that can hold any grey picture, by the file's ending
@@ -30,9 +33,12 @@ LONGEST_SIDE = {"JPEG": 65_500, "WEBP": 16_383}
 """Largest side in pixels that a format's encoder takes; libjpeg's is below the format's own."""
 
 
-def write_whole(path: Path, content: bytes) -> None:
-    """Write a file, complete or not at all; a link is followed, and permissions are kept."""
-    with written_whole(path) as temporary:
+def write_whole(path: Path, content: bytes, *, is_private: bool = False) -> None:
+    """Write a file, complete or not at all; a link is followed, and permissions are kept.
+
+    ``is_private``: as for :func:`written_whole`.
+    """
+    with written_whole(path, is_private=is_private) as temporary:
         temporary.write_bytes(content)
 
 
@@ -98,11 +104,14 @@ def _unwritable(path: Path, error: OSError | ValueError) -> OutputError:
 
 
 @contextmanager
-def written_whole(path: Path) -> Iterator[Path]:
-    """Return a temporary file beside the path, which replaces it unless an exception is raised."""
+def written_whole(path: Path, *, is_private: bool = False) -> Iterator[Path]:
+    """Return a temporary file beside the path, which replaces it unless an exception is raised.
+
+    ``is_private``: nobody else may read it, whatever the permissions of the file there are.
+    """
     permissions = check_replaceable(path)
     try:
-        with _replacement(path.resolve(), permissions) as temporary:
+        with _replacement(path.resolve(), _PRIVATE if is_private else permissions) as temporary:
             yield temporary
     except OSError as error:
         raise _unwritable(path, error) from None
@@ -110,24 +119,49 @@ def written_whole(path: Path) -> Iterator[Path]:
 
 @contextmanager
 def _replacement(path: Path, permissions: int | None) -> Iterator[Path]:
-    temporary = path.with_name(f".{token_hex(4)}.{path.name}")
-    mode = 0o666 if permissions is None else 0o600
-    descriptor = os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL, mode)
-    try:
-        if permissions is None:  # those of any new file, which the umask of the process leaves
-            permissions = stat.S_IMODE(os.fstat(descriptor).st_mode)
-    finally:
-        os.close(descriptor)
-    try:
-        # Nobody else can read it before it is whole, also where the program is killed meanwhile.
-        with suppress(OSError):  # a disk may have no permissions
-            temporary.chmod(_PRIVATE)
-        yield temporary
-        temporary.chmod(permissions)
-        temporary.replace(path)
-    except BaseException:  # leave no half-written file, whatever happens
-        temporary.unlink(missing_ok=True)
-        raise
+    _remove_leftovers(path.parent)
+    temporary, file = _begun(path, 0o666 if permissions is None else _PRIVATE)
+    with file:
+        try:
+            if permissions is None:  # those of any new file, which the process's umask leaves
+                permissions = stat.S_IMODE(os.fstat(file.fileno()).st_mode)
+            # Nobody else can read it before it is whole, also where the program is killed by then.
+            with suppress(OSError):  # a disk may have no permissions
+                temporary.chmod(_PRIVATE)
+            yield temporary
+            temporary.chmod(permissions)
+            if sys.platform == "win32":  # an open file cannot be moved or removed there
+                file.close()
+            temporary.replace(path)
+        except BaseException:  # leave no half-written file, whatever happens
+            file.close()
+            temporary.unlink(missing_ok=True)
+            raise
+
+
+_TEMPORARY = re.compile(r"\.occ-[0-9a-f]{16}(\..*)?", re.DOTALL)
+"""Names of temporary files, which have the ending of what they become."""
+
+
+def _begun(path: Path, mode: int) -> tuple[Path, BinaryIO]:
+    """Make a temporary file, which is locked as long as it is being written."""
+    while True:
+        temporary = path.with_name(f".occ-{token_hex(8)}{path.suffix}")
+        descriptor = os.open(temporary, os.O_RDWR | os.O_CREAT | os.O_EXCL, mode)
+        file = os.fdopen(descriptor, "r+b", buffering=0)
+        if locked(file) is not False and temporary.exists():
+            return temporary, file
+        file.close()  # another writer took it for left over before it was locked
+
+
+def _remove_leftovers(folder: Path) -> None:
+    """Remove the temporary files of writers that were killed: those that are no longer locked."""
+    with suppress(OSError), os.scandir(folder) as entries:
+        for entry in entries:
+            if _TEMPORARY.fullmatch(entry.name) and entry.is_file(follow_symlinks=False):
+                with suppress(OSError), Path(entry).open("r+b", buffering=0) as file:
+                    if locked(file):
+                        Path(entry).unlink()
 
 
 def _encoded(path: Path, image: ByteArray, description: str) -> bytes:

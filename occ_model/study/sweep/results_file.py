@@ -6,17 +6,15 @@ numbers, and are compared with those that the study would write.
 """
 
 import os
-import sys
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
-from errno import EACCES, EAGAIN
 from pathlib import Path
 from time import monotonic
 from types import TracebackType
 from typing import BinaryIO, Generic, Protocol, Self, TypeVar
-from weakref import WeakSet
 
 from occ_model.errors import OutputError, one_line, shown
+from occ_model.files.locking import locked
 from occ_model.files.writing import check_replaceable, write_whole
 
 _LONGEST_LINE = 100_000  # bytes of a line; ours have some hundred
@@ -94,7 +92,7 @@ class ResultsFile(Generic[Point]):
                 file = os.fdopen(descriptor, "r+b", buffering=0)
             except OSError as error:
                 raise self._unwritable(error) from None
-            if not is_locked_by_us(file):
+            if locked(file) is False:
                 file.close()
                 raise OutputError(
                     f"{self._name} is being written by another {self._table.what}; wait for it, or "
@@ -208,46 +206,3 @@ _BINARY = getattr(os, "O_BINARY", 0)
 def _short(line: str) -> str:
     text = line.lstrip("# ")
     return text if len(text) <= 60 else f"{text[:57]}..."
-
-
-_open_here: "WeakSet[BinaryIO]" = WeakSet()
-
-if sys.platform == "win32":
-    import msvcrt
-
-    _FAR = 2**40
-    """A byte beyond any file's end: the bytes of the file itself stay readable by others."""
-
-    def _lock(file: BinaryIO) -> None:
-        place = file.tell()
-        file.seek(_FAR)
-        try:
-            msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)
-        finally:
-            file.seek(place)
-
-else:
-    import fcntl
-
-    def _lock(file: BinaryIO) -> None:
-        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-
-
-def is_locked_by_us(file: BinaryIO) -> bool:
-    """Lock a file until closed; False if another process has; always True without file locks."""
-    try:
-        _lock(file)
-    except OSError as error:
-        return error.errno not in (EACCES, EAGAIN)
-    _open_here.add(file)
-    return True
-
-
-def _close_in_child() -> None:
-    """Close the parent's locked files: a forked worker that outlives it must hold no lock."""
-    for file in list(_open_here):
-        os.close(file.fileno())
-
-
-if hasattr(os, "register_at_fork"):
-    os.register_at_fork(after_in_child=_close_in_child)

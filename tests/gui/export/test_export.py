@@ -1,7 +1,7 @@
 """Figures of what is shown, in files that open again, and never half of one."""
 
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from pathlib import Path
 
@@ -268,15 +268,17 @@ def test_a_write_protected_figure_stops_the_export_of_all_before_any_is_drawn(
     assert begun == []
 
 
-def test_all_figures_are_moved_into_the_folder_and_nothing_temporary_stays(
+def test_each_figure_says_where_it_comes_from_and_nothing_temporary_stays(
     bench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def write(
-        aside: Path, drawings: list[Drawing], provenance: Callable[[Drawing], Provenance]
+        folder: Path, drawings: Iterable[Drawing], provenance: Callable[[Drawing], Provenance]
     ) -> list[Path]:
-        (drawn,) = drawings
-        (path := aside / f"{drawn.name}.svg").write_text(provenance(drawn).title, encoding="utf-8")
-        return [path]
+        written = []
+        for drawn in drawings:
+            (path := folder / f"{drawn.name}.svg").write_text(provenance(drawn).title, "utf-8")
+            written.append(path)
+        return written
 
     monkeypatch.setattr(drawing, "write_all", write)
     bench.exporter.export_all(tmp_path)

@@ -150,7 +150,10 @@ def test_a_file_taken_for_left_over_before_it_was_locked_is_begun_anew(
         return real(file)
 
     monkeypatch.setattr(writing, "locked", late)
-    write_whole(tmp_path / "file.txt", b"whole")
+    with written_whole(tmp_path / "file.txt") as temporary:
+        assert hidden(tmp_path) == [temporary.name]
+        assert temporary.name not in begun
+        temporary.write_bytes(b"whole")
     assert shown(tmp_path) == {"file.txt": b"whole", "other.txt": b"other"}
     assert hidden(tmp_path) == []
 

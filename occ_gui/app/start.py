@@ -2,11 +2,15 @@
 
 import os
 from argparse import Namespace
+from contextlib import suppress
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from occ_gui.core.workspace import Workspace
 from occ_gui.values.photo_choice import PhotoChoice
+from occ_model.errors import OccError
+from occ_model.files.writing import make_folder, make_private
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 
@@ -77,11 +81,21 @@ def start_of(options: Namespace, scene: Scene, settings: SimulationSettings, own
 
 
 def kept_settings() -> "QSettings":
-    """Open the stored preferences: in the folder that the environment names, or Qt's."""
+    """Open the stored preferences: in the folder that the environment names, or Qt's.
+
+    Their file, which holds paths of photos, is readable by nobody else: Qt keeps its permissions.
+    """
     from PySide6.QtCore import QSettings
 
     from occ_gui.files.session import STATE_FOLDER, state_folder
 
+    settings = QSettings(*_NAMES)
     if os.environ.get(STATE_FOLDER):
-        return QSettings(str(state_folder() / "settings.ini"), QSettings.Format.IniFormat)
-    return QSettings(*_NAMES)
+        settings = QSettings(str(state_folder() / "settings.ini"), QSettings.Format.IniFormat)
+    path = Path(settings.fileName())
+    if path.suffix in (".ini", ".conf"):  # not the registry of Windows, nor the lists of macOS
+        with suppress(OccError, OSError):
+            make_folder(path.parent, is_private=True)
+            path.touch(mode=0o600)
+            make_private(path)
+    return settings

@@ -13,15 +13,17 @@ from PySide6.QtCore import QLockFile, QObject, QTimer, Signal
 from occ_gui.core.store import Store
 from occ_gui.core.workspace import Workspace
 from occ_gui.files.session_record import Kept, kept_in, record_of
-from occ_model.errors import OccError, OutputError
+from occ_model.errors import OccError, OutputError, SceneFileError, one_line, shown
 from occ_model.files.reading import read_text
-from occ_model.files.writing import make_folder, write_whole
+from occ_model.files.writing import make_folder, make_private, write_whole
 
 LARGEST_FILE = 4_000_000  # bytes of a session file that is read; one has thousands
 
 STATE_FOLDER = "OCC_STATE"  # environment variable with another folder for the program's own files
 
 _FORMAT = 1
+
+_MOST_WRITINGS = 2**53  # of sessions, beyond which a count is none: once a second for an age
 
 _MOST_WINDOWS = 8  # Windows that can be open at a time, each with its own session file
 
@@ -49,9 +51,10 @@ class SessionFile:
         self._path: Path | None = None
         self.crashed: Kept | None = None
         self.last: Kept | None = None  # what was written last, whichever window wrote it
+        self.put_aside: str | None = None  # a sentence on a file that is no session
         # If the folder cannot be made, the first writing reports it.
-        with suppress(OccError):
-            make_folder(folder)
+        with suppress(OccError, OSError):
+            make_folder(folder, is_private=True)
             self._open()
 
     def _paths(self) -> list[Path]:
@@ -60,6 +63,8 @@ class SessionFile:
 
     def _open(self) -> None:
         """Lock a file that no other window uses, preferably that of a window that crashed."""
+        for path in self._folder.glob("session-*"):  # earlier versions let others read them
+            make_private(path)
         paths = self._paths()
         records = {path: _record_in(path) for path in paths}
         readable = [path for path in paths if records[path] is not None]
@@ -71,19 +76,36 @@ class SessionFile:
             lock.setStaleLockTime(0)  # never stale by age, only if its process has ended
             if not lock.tryLock(0):
                 continue
-            self._lock, self._path = lock, path
-            self._recover(path)
-            return
+            make_private(Path(lock.fileName()))  # it names the machine
+            if self._recover(path):
+                self._lock, self._path = lock, path
+                return
+            lock.unlock()
 
-    def _recover(self, path: Path) -> None:
-        """Take over a file: restore the session of a crash, and put damaged content aside."""
-        record = _record_in(path)  # now that no other window can write it
-        kept = kept_in(record)
+    def _recover(self, path: Path) -> bool:
+        """Take over a file: restore the session of a crash, and put what is no session aside.
+
+        Returns False where a file stays that is no session: it must not be overwritten.
+        """
+        if not os.path.lexists(path):
+            return True
+        try:
+            record = _session_in(path)  # now that no other window can write it
+            kept = kept_in(record)
+            if kept is None:
+                raise SceneFileError(f"{one_line(str(path))} holds no scene that can be read.")
+        except OccError as error:
+            aside = _free_name(path)
+            try:
+                path.rename(aside)
+            except OSError:
+                self.put_aside = f"{error} It stays there, and another file is used."
+                return False
+            self.put_aside = f"{error} It is kept as {one_line(aside.name)}."
+            return True
         if _is_in_use(record):
             self.crashed = kept
-        if kept is None and os.path.lexists(path):
-            with suppress(OSError):
-                path.replace(path.with_suffix(".unreadable"))
+        return True
 
     def write(self, kept: Kept, in_use: bool) -> None:
         if self._path is None:
@@ -95,7 +117,8 @@ class SessionFile:
             "in_use": in_use,
             **record_of(kept),
         }
-        write_whole(self._path, json.dumps(record, indent=1).encode("ascii"))
+        content = json.dumps(record, indent=1).encode("ascii")
+        write_whole(self._path, content, is_private=True)
 
     def close(self) -> None:
         self._path = None
@@ -103,12 +126,35 @@ class SessionFile:
             self._lock.unlock()
 
 
+def _session_in(path: Path) -> dict[str, Any]:
+    """Read the record of a session, or raise SceneFileError."""
+    text, name = read_text(path, LARGEST_FILE), one_line(str(path))
+    try:
+        record = json.loads(text)
+    except (ValueError, RecursionError):
+        raise SceneFileError(f"{name} cannot be read: it is no session.") from None
+    written = record.get("format") if isinstance(record, dict) else None
+    if type(written) is not int or written != _FORMAT:
+        raise SceneFileError(
+            f"{name} cannot be read: its format is {shown(written)}; allowed: {_FORMAT}."
+        )
+    return dict(record)
+
+
 def _record_in(path: Path) -> dict[str, Any] | None:
     try:
-        record = json.loads(read_text(path, LARGEST_FILE))
-    except Exception:  # noqa: BLE001 - the window starts whatever the file contains
+        return _session_in(path)
+    except OccError:
         return None
-    return record if isinstance(record, dict) and record.get("format") == _FORMAT else None
+
+
+def _free_name(path: Path) -> Path:
+    """Return a name that no file has, for one that is put aside."""
+    free, number = path.with_suffix(".unreadable"), 1
+    while os.path.lexists(free):
+        number += 1
+        free = path.with_suffix(f".unreadable-{number}")
+    return free
 
 
 def _is_in_use(record: dict[str, Any] | None) -> bool:
@@ -117,7 +163,7 @@ def _is_in_use(record: dict[str, Any] | None) -> bool:
 
 def _count_in(record: dict[str, Any] | None) -> int:
     count = None if record is None else record.get("count")
-    return count if type(count) is int and count > 0 else 0
+    return count if type(count) is int and 0 < count <= _MOST_WRITINGS else 0
 
 
 def _time_of(path: Path) -> int:
@@ -155,7 +201,10 @@ class Session(QObject):
     """
 
     status_message = Signal(str)
-    """What has been restored, or why the session cannot be written; the latter is not repeated."""
+    """What has been restored or put aside, or why the session cannot be written.
+
+    The last is not repeated.
+    """
 
     written = Signal()
 
@@ -173,23 +222,25 @@ class Session(QObject):
     def begin(self, file: SessionFile, *, is_scene_asked: bool) -> None:
         """Restore the steps of a crash, and write to the file from now on."""
         self._file = file
+        said = [file.put_aside] if file.put_aside else []
         if file.crashed is not None:
-            self._bring_back(file.crashed, is_scene_asked=is_scene_asked)
+            said.append(self._bring_back(file.crashed, is_scene_asked=is_scene_asked))
+        if said:
+            self.status_message.emit(" ".join(said))
         self._store.select(lambda workspace: workspace).changed.connect(self._note_change)
         self._note_change()
 
-    def _bring_back(self, left: Kept, *, is_scene_asked: bool) -> None:
-        """Restore the scene of a crash with its steps, or as a single step if it is old."""
+    def _bring_back(self, left: Kept, *, is_scene_asked: bool) -> str:
+        """Restore the scene of a crash with its steps, or as a single step if it is old; say so."""
         store, asked = self._store, self._store.workspace.step
         crashed = left.workspace.step
         store.put(crashed.laid_over(store.workspace), "restoring of the last session")
         if left.history is not None and (is_scene_asked or crashed == asked):
             store.resume(left.history)
-        message = "The last session did not come to its end: its scene is restored."
         if is_scene_asked and crashed != asked:
             store.put(asked.laid_over(store.workspace), "opening of what was asked for")
-            message = "The last session did not come to its end; Undo brings its scene back."
-        self.status_message.emit(message)
+            return "The last session did not come to its end; Undo brings its scene back."
+        return "The last session did not come to its end: its scene is restored."
 
     @property
     def is_due(self) -> bool:

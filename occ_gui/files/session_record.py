@@ -24,6 +24,7 @@ from occ_gui.values.photo_choice import (
 )
 from occ_gui.values.room_choice import RoomChoice
 from occ_gui.values.simulated import PinnedScene, Pins, SimulationRequest
+from occ_model.camera.projection import MAX_PIXELS
 from occ_model.effects.registry import NAMES
 from occ_model.photo.reading.choices import CHANNELS, SCAN_AXES
 from occ_model.receiver.decoders import DECODERS
@@ -312,7 +313,7 @@ def _settings(values: Any) -> SimulationSettings:
 def _region(values: Any) -> Region:
     """Read a rectangle of whole numbers; whether it lies in the photo is checked with that."""
     region = Region(**values)
-    _check(all(type(side) is int and side >= 0 for side in asdict(region).values()))
+    _check(all(type(side) is int and 0 <= side <= MAX_PIXELS for side in asdict(region).values()))
     return region
 
 

@@ -126,8 +126,7 @@ def _replacement(path: Path, permissions: int | None) -> Iterator[Path]:
             if permissions is None:  # those of any new file, which the process's umask leaves
                 permissions = stat.S_IMODE(os.fstat(file.fileno()).st_mode)
             # Nobody else can read it before it is whole, also where the program is killed by then.
-            with suppress(OSError):  # a disk may have no permissions
-                temporary.chmod(_PRIVATE)
+            make_private(temporary)
             yield temporary
             temporary.chmod(permissions)
             if sys.platform == "win32":  # an open file cannot be moved or removed there
@@ -202,8 +201,16 @@ def _notes(format_name: str, description: str) -> dict[str, Any]:
     return {"exif": exif}
 
 
-def make_folder(folder: Path) -> None:
+def make_folder(folder: Path, *, is_private: bool = False) -> None:
+    """Make a folder unless it is there; ``is_private``: nobody else may look into a new one."""
     try:
-        folder.mkdir(parents=True, exist_ok=True)
+        folder.mkdir(mode=0o700 if is_private else 0o777, parents=True, exist_ok=True)
     except (OSError, ValueError) as error:
         raise OutputError(f"{one_line(str(folder))} cannot be made: {reason_of(error)}.") from None
+
+
+def make_private(path: Path) -> None:
+    """Let nobody else read or write a regular file, where the disk has permissions."""
+    with suppress(OSError):
+        if stat.S_ISREG(path.lstat().st_mode):
+            path.chmod(_PRIVATE)

@@ -1,16 +1,19 @@
 """The window starts whatever the files contain that it reads at its start."""
 
 import os
+import stat
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from gui.kinds import collect, not_none
 from gui.starts import Starts
 from PySide6.QtCore import QSettings
 
+from occ_gui.core.store import Store
 from occ_gui.core.workspace import Workspace
 from occ_gui.files.preferences import Preferences
-from occ_gui.files.session import SessionFile
+from occ_gui.files.session import Session, SessionFile
 from occ_gui.files.session_record import Kept
 from occ_model.scene.scene import Scene
 
@@ -45,6 +48,134 @@ def test_what_is_no_file_is_neither_read_nor_keeps_a_session_from_being_written(
     again = SessionFile(tmp_path)
     assert again.last == kept
     again.close()
+
+
+COUNTS = ("9" * 4300, "9" * 5000, "-9", "1e999", "NaN", str(2**53), "true", '"7"', "[7]")
+
+
+@pytest.mark.parametrize("count", COUNTS, ids=[text[:9] for text in COUNTS])
+def test_a_count_that_is_none_keeps_no_session_from_being_written(
+    tmp_path: Path, count: str
+) -> None:
+    first, second = (Kept(Workspace(Scene().replace(iso=iso))) for iso in (111.0, 222.0))
+    file = SessionFile(tmp_path)
+    file.write(first, in_use=False)
+    file.close()
+    path = tmp_path / "session-1.json"
+    text = path.read_text("ascii")
+    path.write_text(text.replace('"count": 1', f'"count": {count}'), "ascii")
+    assert path.read_text("ascii") != text
+    for _ in range(2):
+        file = SessionFile(tmp_path)
+        file.write(second, in_use=False)
+        file.close()
+    again = SessionFile(tmp_path)
+    assert again.last == second
+    again.close()
+
+
+OTHERS = {
+    '{"format": 2, "scene": "of tomorrow"}': "its format is 2; allowed: 1.",
+    '{"format": true}': "its format is True; allowed: 1.",
+    "[1]": "its format is None; allowed: 1.",
+    "{": "it is no session.",
+    "[" * 100_000: "it is no session.",
+    "\xff": "it is not text in UTF-8.",
+    '{"format": 1, "scene": ""}': "holds no scene that can be read.",
+}
+
+
+def test_what_is_no_session_is_put_aside_beside_what_is_there_and_said(
+    qapp: object, tmp_path: Path
+) -> None:
+    path = tmp_path / "session-1.json"
+    for place, (text, reason) in enumerate(OTHERS.items(), 1):
+        path.write_bytes(text.encode("latin-1"))
+        file = SessionFile(tmp_path)
+        name = f"session-1.unreadable{f'-{place}' * (place > 1)}"
+        assert (tmp_path / name).read_bytes() == text.encode("latin-1")
+        store = Store(Workspace(Scene()))
+        session = Session(store, lambda store=store: store.workspace)
+        said = collect(session.status_message)
+        session.begin(file, is_scene_asked=False)
+        sentence = not_none(file.put_aside)
+        assert said == [sentence]
+        assert sentence.startswith(str(path))
+        assert sentence.endswith(f"{reason} It is kept as {name}.")
+        session.end()
+        path.unlink()
+    assert len([*tmp_path.glob("*.unreadable*")]) == len(OTHERS)
+
+
+def test_what_cannot_be_put_aside_is_not_overwritten(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "session-1.json"
+    path.write_text('{"format": 2}', "ascii")
+
+    def refuse(*_arguments: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(Path, "rename", refuse)
+    file = SessionFile(tmp_path)
+    file.write(kept := Kept(Workspace(Scene())), in_use=False)
+    file.close()
+    assert path.read_text("ascii") == '{"format": 2}'
+    again = SessionFile(tmp_path)
+    assert again.last == kept
+    again.close()
+
+
+KEEP = """
+import os
+from pathlib import Path
+from PySide6.QtWidgets import QApplication
+from occ_gui.app.start import kept_settings
+from occ_gui.core.workspace import Workspace
+from occ_gui.files.preferences import Preferences
+from occ_gui.files.session import SessionFile, state_folder
+from occ_gui.files.session_record import Kept
+from occ_model.scene.scene import Scene
+
+os.umask(0o022)
+app = QApplication([])
+file, settings = SessionFile(state_folder()), kept_settings()
+preferences = Preferences(settings)
+for name in ("a.png", "b.png"):
+    preferences.add(Path(name))
+    settings.sync()
+    file.write(Kept(Workspace(Scene())), in_use=False)
+print(settings.fileName())
+os._exit(0)
+"""
+
+
+@pytest.mark.parametrize("folder", ["named", "usual"])
+def test_what_the_program_keeps_about_the_user_is_readable_by_nobody_else(
+    starts: Starts, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, folder: str
+) -> None:
+    names = {"OCC_STATE": str(tmp_path / "state")}
+    if folder == "usual":
+        monkeypatch.delenv("OCC_STATE")
+        names = {f"XDG_{kind}_HOME": str(tmp_path / kind.lower()) for kind in ("CONFIG", "STATE")}
+    read = starts.run(program=KEEP, **names)
+    assert read.stderr == ""
+    found = {path.name: path for path in tmp_path.rglob("*") if path.is_file()}
+    settings = Path(read.stdout.strip()).name
+    assert found.keys() == {"session-1.json", "session-1.lock", settings}
+    for path in found.values():
+        assert stat.S_IMODE(path.stat().st_mode) == 0o600
+        assert stat.S_IMODE(path.parent.stat().st_mode) == 0o700
+        path.chmod(0o644)  # as earlier versions left them
+    found["session-1.json"].rename(found["session-1.json"].with_name("session-3.json"))
+    found["session-1.lock"].rename(
+        left := found["session-1.lock"].with_name("session-3.unreadable")
+    )
+    assert starts.run(program=KEEP, **names).stderr == ""
+    again = [path for path in tmp_path.rglob("*") if path.is_file()]
+    assert left in again
+    assert len(again) == 5
+    assert {stat.S_IMODE(path.stat().st_mode) for path in again} == {0o600}
 
 
 READ_SETTINGS = """

@@ -93,17 +93,34 @@ def _check_session(session: "Kept | None") -> None:
 
 
 def _session(chance: Random, folder: Path) -> list[str]:
+    from occ_gui.core.workspace import Workspace
     from occ_gui.files.session import SessionFile
+    from occ_gui.files.session_record import Kept
 
-    text = made.damaged(chance, session_text())
-    (folder / SESSION).write_bytes(made.encoded(chance, text))
+    text = session_text()
+    if chance.random() < 0.2:
+        text = re.sub(r'(?<="count": )1', made.number(chance), text)
+    elif chance.random() < 0.1:
+        text = re.sub(r'(?<="format": )1', made.number(chance), text)
+    else:
+        text = made.damaged(chance, text)
+    content = made.encoded(chance, text)
+    (folder / SESSION).write_bytes(content)
     file = SessionFile(folder)
     _check_session(file.last)
     _check_session(file.crashed)
-    if file.last is not None:
-        file.write(file.last, in_use=True)
+    kept = file.last or Kept(Workspace(Scene()))
+    file.write(kept, in_use=False)
     file.close()
-    return []
+    again = SessionFile(folder)
+    assert again.last == kept
+    again.close()
+    if file.put_aside is None:
+        assert file.last is not None
+        return []
+    (aside,) = folder.glob("*.unreadable")
+    assert aside.read_bytes() == content
+    return [file.put_aside]
 
 
 _INI = """[General]

@@ -3,6 +3,7 @@
 import os
 import stat
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -94,8 +95,7 @@ def test_what_is_no_session_is_put_aside_beside_what_is_there_and_said(
         file = SessionFile(tmp_path)
         name = f"session-1.unreadable{f'-{place}' * (place > 1)}"
         assert (tmp_path / name).read_bytes() == text.encode("latin-1")
-        store = Store(Workspace(Scene()))
-        session = Session(store, lambda store=store: store.workspace)
+        session = Session(Store(Workspace(Scene())), partial(Workspace, Scene()))
         said = collect(session.status_message)
         session.begin(file, is_scene_asked=False)
         sentence = not_none(file.put_aside)

@@ -141,7 +141,7 @@ with written_whole(Path({str(tmp_path / "slow.txt")!r})) as temporary:
 def test_a_file_taken_for_left_over_before_it_was_locked_is_begun_anew(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    real, begun = writing.locked, list[str]()
+    real, begun = locking.locked, list[str]()
 
     def late(file: BinaryIO) -> bool | None:
         if not begun:

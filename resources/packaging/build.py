@@ -8,21 +8,17 @@ Linux the folder also has what a desktop needs to list the program, in ``share``
 
 import argparse
 import os
-import re
 import shutil
 import subprocess
 import sys
-import sysconfig
 import tempfile
-from collections.abc import Iterator
-from importlib.metadata import Distribution, PackageNotFoundError, distribution
 from pathlib import Path
+
+from notice import write_notice
 
 HERE = Path(__file__).parent
 ROOT = HERE.parents[1]
 NAME = "occ-explorer"
-WINDOW_EXTRA = re.compile(r"""extra == ['"]gui['"]""")
-LICENCE_FILE = re.compile(r"(licen[cs]e|copying|notice|authors)", re.IGNORECASE)
 
 
 def main() -> int:
@@ -32,12 +28,11 @@ def main() -> int:
     target: Path = parser.parse_args().to.resolve()
     with tempfile.TemporaryDirectory() as work:
         icon = draw_icon(Path(work))
-        run_pyinstaller(target, Path(work), icon)
+        sources = run_pyinstaller(target, Path(work), icon)
         if sys.platform == "linux":
             add_desktop_files(target / NAME, icon)
-    missing = add_licences(target / NAME / "licences")
+    write_notice(sources, target / NAME, ROOT)
     print(f"{target / NAME}: {megabytes(target / NAME):.0f} MB")
-    print("Packages without a licence text of their own:", ", ".join(missing) or "none")
     return 0
 
 
@@ -62,16 +57,18 @@ def draw_icon(folder: Path) -> Path:
     return path
 
 
-def run_pyinstaller(target: Path, work: Path, icon: Path) -> None:
-    """Gather the programs and all that they import."""
+def run_pyinstaller(target: Path, work: Path, icon: Path) -> list[Path]:
+    """Gather the programs and all that they import; return the files that were taken."""
     command = [sys.executable, "-m", "PyInstaller", "--noconfirm", "--log-level", "WARN"]
     folders = ["--distpath", str(target), "--workpath", str(work / "work")]
     subprocess.run(
         [*command, *folders, str(HERE / f"{NAME}.spec")],
         check=True,
         cwd=ROOT,
-        env={**os.environ, "OCC_ICON": str(icon)},
+        env={**os.environ, "OCC_ICON": str(icon), "OCC_CONTENTS": str(work / "contents")},
     )
+    files = map(Path, (work / "contents").read_text(encoding="utf-8").splitlines())
+    return [file for file in files if file.is_absolute() and not file.is_relative_to(work)]
 
 
 def add_desktop_files(bundle: Path, icon: Path) -> None:
@@ -86,53 +83,6 @@ def add_desktop_files(bundle: Path, icon: Path) -> None:
         folder = bundle / "share" / place
         folder.mkdir(parents=True, exist_ok=True)
         shutil.copy(source, folder / source.name)
-
-
-def add_licences(folder: Path) -> list[str]:
-    """Copy the licence texts of all that the bundle contains; name packages that have none."""
-    folder.mkdir(parents=True, exist_ok=True)
-    shutil.copy(ROOT / "LICENSE", folder / f"{NAME}.txt")
-    missing = []
-    for package in contained(NAME):
-        texts = [file for file in package.files or () if is_licence(str(file))]
-        for text in texts:
-            name = "-".join(text.parts[-2:]) if len(texts) > 1 else text.name
-            copied = folder / f"{package.name}-{package.version}" / name
-            copied.parent.mkdir(exist_ok=True)
-            shutil.copy(str(text.locate()), copied)
-        if not texts:
-            missing.append(f"{package.name} ({package.metadata.get('License', 'not stated')})")
-    python = Path(sysconfig.get_path("stdlib")) / "LICENSE.txt"
-    if python.is_file():
-        shutil.copy(python, folder / "Python.txt")
-    return missing
-
-
-def is_licence(path: str) -> bool:
-    """Tell a licence text from a package's other files."""
-    name = Path(path).name
-    is_text = Path(path).suffix.lower() in ("", ".txt", ".md", ".rst", ".apache", ".bsd", ".mit")
-    return is_text and LICENCE_FILE.match(name) is not None
-
-
-def contained(name: str) -> Iterator[Distribution]:
-    """List the packages that a package needs, directly or not, and that are installed here."""
-    waiting, seen = [name], {name}
-    while waiting:
-        package = distribution(waiting.pop())
-        if package.name != name:
-            yield package
-        for requirement in package.requires or ():
-            needed = re.split(r"[\s;<>=!~\[(]", requirement, maxsplit=1)[0].lower()
-            is_window = package.name == NAME and WINDOW_EXTRA.search(requirement)
-            if needed in seen or ("extra ==" in requirement and not is_window):
-                continue
-            seen.add(needed)
-            try:
-                distribution(needed)
-            except PackageNotFoundError:  # for another platform or version
-                continue
-            waiting.append(needed)
 
 
 def megabytes(folder: Path) -> float:

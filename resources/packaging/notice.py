@@ -1,0 +1,101 @@
+"""Say what a bundle holds of others: ``NOTICE.txt``, and the texts of their licences."""
+
+import platform
+import re
+import shutil
+import sysconfig
+from collections.abc import Collection, Iterable
+from importlib.metadata import Distribution, distributions
+from pathlib import Path
+
+OWN = "occ-explorer"
+_STANDARD_LIBRARY = Path(sysconfig.get_path("stdlib"))
+_LICENCE_TEXT = re.compile(
+    r"(licen[cs]e|copying|notice|authors)[^.]*(\.(txt|md|rst|apache|bsd|mit))?", re.IGNORECASE
+)
+
+
+def write_notice(sources: Collection[Path], bundle: Path, project: Path) -> None:
+    """Name all that the bundle holds, made of the files ``sources``, with version and licence."""
+    texts = bundle / "licences"
+    texts.mkdir()
+    shutil.copy(project / "LICENSE", texts / f"{OWN}.txt")
+    packages, others = packages_of(sources)
+    version = packages.pop(OWN).version
+    lines = [
+        f"{OWN} {version} is under the MIT licence: licences/{OWN}.txt",
+        "",
+        "This folder also holds these packages, as a whole or in part, each with the licence that",
+        "it states. Some hold compiled libraries of others; what a package says of them is in its",
+        "texts.",
+        "",
+        *(_line(packages[name], texts) for name in sorted(packages, key=str.lower)),
+        _line_of_python(texts),
+    ]
+    if libraries := system_libraries(others, project):
+        heading = (
+            "And these libraries of the system that it was made on, which states their licences:"
+        )
+        lines += ["", heading, "", *libraries]
+    (bundle / "NOTICE.txt").write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+
+def packages_of(sources: Iterable[Path]) -> tuple[dict[str, Distribution], list[Path]]:
+    """Return the installed packages that the files belong to, and the files of none."""
+    owners = {
+        Path(str(file.locate())).resolve(): package
+        for package in distributions()
+        for file in package.files or ()
+    }
+    found: dict[str, Distribution] = {}
+    others = []
+    for source in sources:
+        package = owners.get(source.resolve())
+        if package is None:
+            others.append(source)
+        else:
+            found[package.name] = package
+    return found, others
+
+
+def licence(package: Distribution) -> str:
+    """Return the licence that a package states, in its own words."""
+    about = package.metadata
+    for field in ("License-Expression", "License"):
+        stated = (about.get_all(field) or [""])[0].strip()
+        # Some give the whole text in place of the name.
+        if stated and stated != "UNKNOWN" and "\n" not in stated:
+            return stated
+    marks = (mark.split(" :: ") for mark in about.get_all("Classifier") or ())
+    return ", ".join(mark[-1] for mark in marks if mark[0] == "License") or "not stated"
+
+
+def system_libraries(files: Iterable[Path], project: Path) -> list[str]:
+    """Name the files that are neither the project's own nor Python's."""
+    return sorted(
+        file.name
+        for file in files
+        if not file.is_relative_to(project)
+        and not file.is_relative_to(_STANDARD_LIBRARY)
+        and not file.name.startswith("libpython")
+    )
+
+
+def _line(package: Distribution, texts: Path) -> str:
+    """Copy the texts of a package's licence, and say where they are."""
+    folder = texts / f"{package.name}-{package.version}"
+    copied = [file for file in package.files or () if _LICENCE_TEXT.fullmatch(file.name)]
+    for text in copied:
+        folder.mkdir(exist_ok=True)
+        name = "-".join(text.parts[-2:]) if len(copied) > 1 else text.name
+        shutil.copy(str(text.locate()), folder / name)
+    place = f"licences/{folder.name}" if copied else "it brings no text"
+    return f"{package.name} {package.version}: {licence(package)} ({place})"
+
+
+def _line_of_python(texts: Path) -> str:
+    text = _STANDARD_LIBRARY / "LICENSE.txt"
+    if text.is_file():
+        shutil.copy(text, texts / "Python.txt")
+    place = "licences/Python.txt" if text.is_file() else "it brings no text"
+    return f"Python {platform.python_version()}: PSF-2.0 ({place})"

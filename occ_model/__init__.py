@@ -9,11 +9,33 @@ Everything here works without a window. A scene is a value; the functions take i
     result = occ.decode(frame.image, scene)
 """
 
+import builtins
+from types import SimpleNamespace
+
 from occ_model.version import __version__ as __version__
 
 TYPE_CHECKING = False  # that of typing, which is slow to import
+
+_MODULES: dict[str, str] = {}
+"""The module of each public name, imported at the first use: Ctrl-C and ``--help`` need no
+numpy."""
+
+_import = builtins.__import__
+
+
+def _note(name: str, *rest: object, **named: object) -> object:
+    """Note which names this module imports below, and from where, in place of importing them."""
+    if not rest or rest[0] is not globals():  # another thread imports meanwhile
+        return _import(name, *rest, **named)  # type: ignore[arg-type]
+    _space, _local, names, _level = rest
+    noted = dict.fromkeys(names, name)  # type: ignore[call-overload]
+    _MODULES.update(noted)
+    return SimpleNamespace(**noted)
+
+
 # isort: off
-if TYPE_CHECKING:  # for type checkers and editors: the names that _MODULES holds
+builtins.__import__ = _note  # type: ignore[assignment]
+try:  # type checkers and editors take these statements as they are
     from occ_model.boards.sketch import transmitter_sketch as transmitter_sketch
     from occ_model.camera.exposure import on_time as on_time
     from occ_model.camera.photometry import column_profile as column_profile
@@ -159,93 +181,25 @@ if TYPE_CHECKING:  # for type checkers and editors: the names that _MODULES hold
         decode_video as decode_video,
     )
     from occ_model.video.render import render_video as render_video
-
+finally:
+    builtins.__import__ = _import
 # isort: on
+if not TYPE_CHECKING:  # type checkers need none of these, and would take any name for public
+    for _name in _MODULES:
+        del globals()[_name]
 
-_NAMES = {
-    "boards.sketch": "transmitter_sketch",
-    "camera.exposure": "on_time",
-    "camera.photometry": "column_profile",
-    "camera.projection": "panel_corners",
-    "effects.plan": "plan",
-    "errors": (
-        "BandModelUndefined DecodeInputError MatchError OccError OutputError ParameterError "
-        "PhotoError PluginError PresetError ProjectionError SceneFileError VideoError"
-    ),
-    "photo.chips.read": "read_chips",
-    "photo.comparison": "compare",
-    "photo.lamps.find": "find_lamps",
-    "photo.lamps.match": "match_lamps",
-    "photo.many.match_photos": "match_photos",
-    "photo.match": "match_photo",
-    "photo.reading.load": "Photo load_photo",
-    "photo.stripes.find": "find_stripes",
-    "receiver.decode": "decode",
-    "receiver.decoder": "Decoder read_payload",
-    "receiver.decoders": "decoders",
-    "results.bands": "BandAdvice BandDepth EyeFlicker",
-    "results.bit_errors": "BitErrors MostBits",
-    "results.decoding": "DecodeResult Region",
-    "results.frame": "Frame",
-    "results.lamp": "Lamp",
-    "results.limits": "Limits",
-    "results.match": "Alternative ChipReading Comparison Match Stripes",
-    "results.photo_table": "PhotoTable",
-    "results.plan": "Decision Plan",
-    "results.sent_packets": "PacketReading",
-    "results.sweep": "SweepTable",
-    "results.video": "Video VideoFrame",
-    "results.video_reading": "Clock FilmProgress FrameReading VideoReading",
-    "room.locate": "RoomReading read_room",
-    "room.pose_fit": "Located",
-    "room.reading": "ReadLamp",
-    "room.render": "RoomFrame render_room",
-    "room.room": "Place Room RoomLamp",
-    "room.rooms": "load_room rooms",
-    "scene.presets": "delete_preset load_preset presets save_preset",
-    "scene.recording": "Recording Waypoint",
-    "scene.scene": "Scene",
-    "scene.simulation_settings": "SimulationSettings",
-    "simulation.band_model": "band_lengths band_profile",
-    "simulation.render": "render",
-    "study.accuracy": "accuracy",
-    "study.bands.advice": "band_advice",
-    "study.bands.depth": "band_depth pulse_depth",
-    "study.bands.eye": "eye_flicker",
-    "study.bit_error_rate": "bit_error_rate",
-    "study.confidence": "wilson_interval",
-    "study.limits": "limits",
-    "study.most_bits": "most_bits",
-    "study.success_rate": "success_rate",
-    "study.sweep.sweep": "sweep",
-    "transmitter.framings.framing": "FrameFormat Framed Framing",
-    "transmitter.line_codes.line_code": "Decoded LineCode",
-    "transmitter.packet": "packet",
-    "transmitter.registry": "framings line_codes",
-    "transmitter.scheme": "Scheme scheme_of",
-    "video.file.write": "write_video",
-    "video.load": "load_video",
-    "video.reader": "VideoReader decode_frames decode_video",
-    "video.render": "render_video",
-}
-_MODULES = {name: module for module, names in _NAMES.items() for name in names.split()}
-"""The module of each public name, imported at the first use: Ctrl-C and ``--help`` need no
-numpy."""
+    __all__ = sorted(["__version__", *_MODULES])
 
-__all__ = sorted(["__version__", *_MODULES])
+    def __getattr__(name: str) -> object:
+        if name not in _MODULES:
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        value = getattr(_import(_MODULES[name], fromlist=[name]), name)
+        if type(value) is type(__getattr__):  # a function
+            from occ_model.argument_kinds import checked
 
+            value = checked(value)
+        globals()[name] = value
+        return value
 
-def __getattr__(name: str) -> object:
-    if name not in _MODULES:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    from importlib import import_module
-
-    value: object = getattr(import_module(f"{__name__}.{_MODULES[name]}"), name)
-    if type(value) is type(__getattr__):  # a function
-        value = import_module(f"{__name__}.argument_kinds").checked(value)
-    globals()[name] = value
-    return value
-
-
-def __dir__() -> set[str]:
-    return {*globals(), *__all__}
+    def __dir__() -> set[str]:
+        return {*globals(), *__all__}

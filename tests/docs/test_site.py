@@ -86,7 +86,7 @@ def names_in(page: Path) -> set[str]:
 def check_reference(site: Path) -> None:
     """The reference has every public name and every command."""
     python = names_in(site / "reference" / "python.html")
-    for name in occ.__all__:
+    for name in vars(occ)["__all__"]:
         if not name.startswith("_"):
             assert any(each.endswith(f".{name}") for each in python), name
     commands = names_in(site / "reference" / "command-line.html")

@@ -26,7 +26,7 @@ PHOTO = photo_of(FRAME.image)
 
 RIGHT = {"scene": SCENE, "photo": PHOTO, "result": occ.DecodeResult("threshold")}
 
-NAMES = [name for name in occ.__all__ if inspect.isfunction(getattr(occ, name))]
+NAMES = [name for name in vars(occ)["__all__"] if inspect.isfunction(getattr(occ, name))]
 
 WRONG: tuple[object, ...] = (
     None, 5, -1.5, float("nan"), True, "x", b"y", [None], {"a": 1}, object(), np.array("t"),

@@ -1,6 +1,5 @@
 """The model stands alone: no window, nothing slow at start-up, and no need of Qt to be there."""
 
-import ast
 import inspect
 import os
 import subprocess
@@ -76,33 +75,51 @@ def test_a_scene_is_decoded_without_heavy_packages_processes_or_plugins() -> Non
     assert "importlib.metadata" not in loaded
 
 
-def test_type_checkers_see_where_each_public_name_comes_from() -> None:
+def test_every_public_name_is_there_and_listed() -> None:
     import occ_model
 
-    source = ast.parse(Path(occ_model.__file__).read_text(encoding="utf-8"))
-    seen = {
-        alias.asname: f"{node.module}"
-        for node in ast.walk(source)
-        if isinstance(node, ast.ImportFrom)
-        for alias in node.names
-        if alias.asname == alias.name  # a name that is public by that
-    }
-    modules = {**occ_model._MODULES, "__version__": "version"}
-    assert seen == {name: f"occ_model.{module}" for name, module in modules.items()}
+    names = vars(occ_model)["__all__"]
+    assert sorted(names) == names
+    assert [name for name in names if not hasattr(occ_model, name)] == []
+    assert {*names} <= {*dir(occ_model)}
+    starred: dict[str, object] = {}
+    exec("from occ_model import *", starred)
+    assert starred.keys() - {"__builtins__"} == {*names}
+    with pytest.raises(AttributeError, match="'occ_model' has no attribute 'nothing'"):
+        occ_model.nothing  # type: ignore[attr-defined]  # noqa: B018
 
 
-def test_every_public_name_is_there() -> None:
-    import occ_model
+def test_other_threads_import_as_ever_while_the_public_names_are_noted() -> None:
+    noting = """
+import builtins, sys, threading
 
-    assert sorted(occ_model.__all__) == list(occ_model.__all__)
-    assert [name for name in occ_model.__all__ if not hasattr(occ_model, name)] == []
+usual, noted, imported = builtins.__import__, set(), []
+
+def load():
+    import json.tool
+    imported.append(json.tool.__name__)
+
+def watch(frame, event, argument):
+    now = builtins.__import__
+    if now is not usual and now not in noted:
+        noted.add(now)
+        other = threading.Thread(target=load)
+        other.start()
+        other.join()
+
+sys.setprofile(watch)
+import occ_model
+sys.setprofile(None)
+print(len(noted), *imported, builtins.__import__ is usual)
+"""
+    assert run(noting).split() == ["1", "json.tool", "True"]
 
 
 def test_all_that_the_package_offers_says_what_it_is() -> None:
     import occ_model
 
     silent = []
-    for name in occ_model.__all__:
+    for name in vars(occ_model)["__all__"]:
         offered = getattr(occ_model, name)
         if not (inspect.isfunction(offered) or inspect.isclass(offered)):
             continue

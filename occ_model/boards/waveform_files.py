@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from io import BytesIO
-from math import ceil
+from math import ceil, gcd
 
 import numpy as np
 
@@ -15,7 +15,10 @@ from occ_model.scene.units import HERTZ
 
 HEADER = ("chip", "clock cycles", "time in s", "lit")  # columns of the table of edges
 
-_TICKS_A_SECOND = 10**10  # of the VCD file: a cycle of each board's clock is a whole number of them
+# Of the VCD file: a cycle of each board's clock is a whole number of the finest ticks. The coarsest
+# is 1 s: longer ones, which the format allows, are 0 Hz to sigrok.
+_DECIMALS = 10
+_TICK_UNITS = ("s", "ms", "us", "ns", "ps")
 
 HIGHEST_SAMPLE_RATE = 192_000  # in Hz: the highest of common sound cards
 
@@ -45,19 +48,26 @@ def decimal(value: Fraction) -> str:
 
 
 def vcd_text(sent: Transmission) -> str:
-    """Write one period as a value change dump (IEEE 1364-2005, 18), its edges exact."""
-    ticks = _TICKS_A_SECOND // sent.timing.clock
+    """Write one period as a value change dump (IEEE 1364-2005, 18), its edges exact.
+
+    Its tick is the coarsest power of ten that all edges are multiples of: viewers such as sigrok
+    take a sample each tick.
+    """
+    rows = list(edge_rows(sent))
+    times = [cycles * (10**_DECIMALS // sent.timing.clock) for _, cycles, _, _ in rows]
+    zeros = next(n for n in range(_DECIMALS, -1, -1) if gcd(*times) % 10**n == 0)
+    thousands, tens = divmod(zeros - _DECIMALS, 3)
     lines = [
         "$comment one packet, sent over and over $end",
-        "$timescale 100 ps $end",
+        f"$timescale {10**tens} {_TICK_UNITS[-thousands]} $end",
         "$scope module transmitter $end",
         "$var wire 1 ! light $end",
         "$upscope $end",
         "$enddefinitions $end",
     ]
-    for chip, cycles, _, lit in edge_rows(sent):
+    for time, (chip, _, _, lit) in zip(times, rows, strict=True):
         change = [] if chip == len(sent.chips) else [f"{lit}!"]
-        lines += [f"#{cycles * ticks}", *change]
+        lines += [f"#{time // 10**zeros}", *change]
     return "\n".join(lines) + "\n"
 
 

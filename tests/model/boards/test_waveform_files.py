@@ -52,9 +52,9 @@ def test_the_table_gives_the_packet_back(board: str, pattern: str) -> None:
         assert abs(Fraction(time) - chip * sent.timing.period) <= Fraction(1, 2 * 10**18)
 
 
-@every_sent
-def test_the_value_change_dump_has_exact_edges(board: str, pattern: str) -> None:
-    sent = sent_by(board, switching_frequency=14.7e3, pattern=pattern)
+@each_case(product(BOARDS, ("", "0011", "10", "1", "0110"), (100.0, 4e3, 14.7e3)))
+def test_the_value_change_dump_has_exact_edges(board: str, pattern: str, frequency: float) -> None:
+    sent = sent_by(board, switching_frequency=frequency, pattern=pattern)
     text = vcd_text(sent)
     ((number, unit),) = re.findall(r"\$timescale (\d+) (\w+) \$end", text)
     tick = Fraction(int(number), 10 ** _UNITS[unit])
@@ -65,6 +65,21 @@ def test_the_value_change_dump_has_exact_edges(board: str, pattern: str) -> None
     assert int(re.findall(r"^#(\d+)$", text, re.MULTILINE)[-1]) * tick == (
         len(sent.chips) * sent.timing.period
     )
+    coarser = 10 * tick / sent.timing.period
+    assert any((chip / coarser).denominator > 1 for chip in (*sent.edges, len(sent.chips)))
+
+
+@pytest.mark.parametrize(
+    ("frequency", "tick", "last"),
+    [(1.0, "1 s", 24), (100.0, "10 ms", 24), (4e3, "10 us", 600), (14.7e3, "1 us", 1632)],
+)
+def test_the_value_change_dump_counts_the_coarsest_ticks(
+    frequency: float, tick: str, last: int
+) -> None:
+    """A viewer takes a sample each tick: 24 chips of 10 ms are 24 samples, not 2.4e9 of 100 ps."""
+    text = vcd_text(sent_by("arduino-uno", switching_frequency=frequency))
+    assert f"$timescale {tick} $end" in text
+    assert text.endswith(f"\n#{last}\n")
 
 
 @every_board

@@ -6,6 +6,7 @@ does: one, and its delay.
 
 import ast
 import sys
+import tracemalloc
 from collections.abc import Callable
 from types import ModuleType, SimpleNamespace
 from typing import Any
@@ -16,7 +17,7 @@ import pytest
 import occ_model as occ
 from occ_model.boards.pico import PICO
 from occ_model.boards.sketch import source_text
-from occ_model.boards.transmission import Transmission, transmission
+from occ_model.boards.transmission import Transmission, table_size, transmission
 
 PAPER = occ.load_preset("phone-68us")
 
@@ -117,9 +118,9 @@ def sent(request: pytest.FixtureRequest) -> Transmission:
     return transmission(SCENES[request.param], PICO)
 
 
-def ran(source: str, monkeypatch: pytest.MonkeyPatch) -> Machine:
+def ran(source: str, monkeypatch: pytest.MonkeyPatch, machine: Machine | None = None) -> Machine:
     """Run a program until its loop has turned some times."""
-    machine = Machine()
+    machine = machine or Machine()
     for name, module in machine.modules().items():
         monkeypatch.setitem(sys.modules, name, module)
     with pytest.raises(Ended):
@@ -168,7 +169,33 @@ def test_a_chip_lasts_the_cycles_that_are_stated(
 def test_what_is_unpacked_takes_the_room_that_is_stated(
     sent: Transmission, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from occ_model.boards.transmission import table_size
-
     machine = ran(source_text(sent), monkeypatch)
     assert 4 * len(machine.words) // _TURNS == table_size(PICO, len(sent.chips))
+
+
+class MeasuredMachine(Machine):
+    """Measures the memory between setting the clock and making the state machine."""
+
+    def _freq(self, hertz: int) -> None:
+        tracemalloc.reset_peak()
+        self.before, _ = tracemalloc.get_traced_memory()
+        super()._freq(hertz)
+
+    def _state_machine(self, number: int, program: object, out_base: Any) -> SimpleNamespace:
+        self.peak = tracemalloc.get_traced_memory()[1] - self.before
+        return super()._state_machine(number, program, out_base)
+
+
+def test_the_table_of_a_long_packet_is_made_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A list as long takes as much again, which the Pico's heap does not have."""
+    long = PAPER.replace(payload="bits:" + "01" * 2040, line_code="fsk", framing="c-ook")
+    sent = transmission(long, PICO)
+    machine = MeasuredMachine()
+    tracemalloc.start()
+    try:
+        ran(source_text(sent), monkeypatch, machine)
+    finally:
+        tracemalloc.stop()
+    size = table_size(PICO, len(sent.chips))
+    assert size == 105_060
+    assert size < machine.peak < 1.25 * size

@@ -6,9 +6,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from occ_model.arrays import ByteArray, FloatArray
-from occ_model.camera.enhancement import to_bytes
+from occ_model.arrays import FloatArray
 from occ_model.camera.photometry import WHITE
+from occ_model.camera.pixel_arrays import bytes_of, numbers_of
 from occ_model.camera.projection import MAX_PIXELS
 from occ_model.errors import DecodeInputError
 from occ_model.receiver.decoders import PAPER_DECODER, decoder_named
@@ -25,8 +25,10 @@ def decode(image: NDArray[Any], scene: Scene, decoder: str = PAPER_DECODER) -> D
     Parameters
     ----------
     image : ndarray, shape (rows, columns) or (columns,)
-        A grey image, columns being the scan axis: uint8, uint16 (scaled to 255) or floating point
-        (grey levels 0 to 255). An array of one dimension is a profile: no panel is located.
+        A grey image, columns being the scan axis: uint8, uint16 (65535 is white) or floating point.
+        Floating-point pixels are fractions of white where none is beyond 1, and grey levels where
+        the largest is beyond 2 and none beyond 255; others are refused. An array of one dimension
+        is a profile in grey levels, of any gain and offset: no panel is located.
     scene
         The parameters that the receiver knows.
     decoder
@@ -40,8 +42,8 @@ def decode(image: NDArray[Any], scene: Scene, decoder: str = PAPER_DECODER) -> D
     Raises
     ------
     DecodeInputError
-        The array is not a grey image or profile, is empty or too large, or holds a value that is
-        not a number.
+        The array is not a grey image or profile, is empty or too large, holds a value that is not a
+        number, or leaves open which value is white.
     ParameterError
         There is no such decoder.
     """
@@ -54,10 +56,10 @@ def decode(image: NDArray[Any], scene: Scene, decoder: str = PAPER_DECODER) -> D
         ) from None
     _check(image)
     if image.ndim == 1:
-        whole = Region(0, 1, 0, len(image))
-        return replace(read(_levels(image), scene), region=whole)
-    grey: ByteArray = image if image.dtype == np.uint8 else to_bytes(_levels(image))
-    grey = np.ascontiguousarray(grey)
+        levels = _levels(numbers_of(image))
+        result = replace(read(levels, scene), region=Region(0, 1, 0, len(image)))
+        return _with_hint(result, levels) if image.dtype.kind == "f" else result
+    grey = bytes_of(image)
     found = locate(grey, scene.receiver.bright_fraction)
     if found is None:
         return DecodeResult(
@@ -67,10 +69,25 @@ def decode(image: NDArray[Any], scene: Scene, decoder: str = PAPER_DECODER) -> D
     return replace(result, region=found.region, location=found)
 
 
-def _levels(image: NDArray[Any]) -> FloatArray:
-    """Convert pixel values of any type to grey levels, 0 to 255."""
-    levels = image.astype(np.float64)
-    return levels / 257.0 if image.dtype == np.uint16 else levels
+def _levels(profile: NDArray[Any]) -> FloatArray:
+    """Convert a profile of any type to grey levels."""
+    levels = profile.astype(np.float64)
+    if profile.dtype == np.uint16:
+        return levels / 257.0
+    largest = float(np.abs(levels).max())
+    if largest > _LARGEST_LEVEL:
+        raise DecodeInputError(
+            f"The profile holds the value {largest:.3g}; grey levels reach from 0 to {WHITE:.0f}."
+        )
+    return levels
+
+
+def _with_hint(result: DecodeResult, levels: FloatArray) -> DecodeResult:
+    """Say of a profile that is not read and may be in fractions of white how it would be taken."""
+    if result.failure is None or not 0.0 < np.abs(levels).max() <= 1.0:
+        return result
+    hint = "A profile is in grey levels: if this one is in fractions of white, multiply it by 255."
+    return replace(result, failure=f"{result.failure} {hint}")
 
 
 def _check(image: NDArray[Any]) -> None:
@@ -79,23 +96,8 @@ def _check(image: NDArray[Any]) -> None:
             "A decoder reads a grey image (rows, columns) or a profile (columns,), not an array of "
             f"shape {image.shape}."
         )
-    if image.size == 0:
-        raise DecodeInputError(f"The image is empty: its shape is {image.shape}.")
     if image.size > MAX_PIXELS:
         raise DecodeInputError(
             f"The image has {image.size / 1e6:.0f} million pixels; "
             f"allowed: up to {MAX_PIXELS // 1_000_000} million."
-        )
-    if image.dtype not in (np.uint8, np.uint16) and not np.issubdtype(image.dtype, np.floating):
-        raise DecodeInputError(
-            f"The image has pixels of type {image.dtype}; allowed: uint8, uint16, floating point."
-        )
-    if not np.issubdtype(image.dtype, np.floating):
-        return
-    if not np.isfinite(image).all():
-        raise DecodeInputError("The image holds values that are not numbers (NaN or infinity).")
-    largest = float(np.abs(image).max())
-    if largest > _LARGEST_LEVEL:
-        raise DecodeInputError(
-            f"The image holds the value {largest:.3g}; grey levels reach from 0 to {WHITE:.0f}."
         )

@@ -26,7 +26,9 @@ class VideoFrame:
         When the exposure of its first column started, in seconds by the camera's own clock, 0 for
         the film's first frame. In a file: the time that the container states for the frame.
     image : ndarray of uint8, shape (rows, columns)
-        The camera's picture in grey levels, columns being the scan axis. It is not enhanced.
+        The camera's picture in grey levels, columns being the scan axis. It is not enhanced. A
+        reader of films also takes the other types of pixels that :func:`occ_model.decode` takes;
+        which value is white is that of the first frame.
     exposure_time
         Exposure time by the camera's own clock in seconds; None where the film does not say it.
     scene

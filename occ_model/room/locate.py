@@ -67,8 +67,8 @@ def read_room(image: NDArray[Any], room: Room, focal_share: float = 0.0) -> Room
 
     Parameters
     ----------
-    image : ndarray of uint8, shape (rows, columns)
-        The camera's picture.
+    image : ndarray, shape (rows, columns)
+        The camera's picture, of pixels as :func:`occ_model.decode` takes them.
     room
         The room; its camera's place is not used.
     focal_share

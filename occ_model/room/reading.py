@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from occ_model.arrays import BoolArray, ByteArray, FloatArray
 from occ_model.camera.coverage import column_spans
+from occ_model.camera.pixel_arrays import bytes_of
 from occ_model.errors import DecodeInputError
 from occ_model.receiver.decode import decode
 from occ_model.results.decoding import DecodeResult, Region
@@ -66,12 +67,12 @@ class ReadLamp:
 def check_picture(image: NDArray[Any], room: Room) -> ByteArray:
     camera = room.scene.camera
     picture = np.asarray(image)
-    if picture.dtype != np.uint8 or picture.shape != (camera.rows, camera.columns):
+    if picture.shape != (camera.rows, camera.columns):
         raise DecodeInputError(
-            f"A picture of this room has {camera.rows} rows and {camera.columns} columns of bytes "
-            f"(uint8), not the shape {picture.shape} and the type {picture.dtype}."
+            f"A picture of this room has {camera.rows} rows and {camera.columns} columns, not the "
+            f"shape {picture.shape}."
         )
-    return np.ascontiguousarray(picture)
+    return bytes_of(picture)
 
 
 def find_and_name(image: ByteArray, room: Room) -> tuple[ReadLamp, ...]:

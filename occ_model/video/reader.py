@@ -1,11 +1,13 @@
 """Read a film: frame by frame as it comes, and as a whole at its end."""
 
 from collections.abc import Callable, Iterable, Iterator
+from dataclasses import replace
 
 import numpy as np
 
 from occ_model.arrays import ByteArray
-from occ_model.errors import ParameterError, shown
+from occ_model.camera.pixel_arrays import bytes_of, white_of
+from occ_model.errors import DecodeInputError, ParameterError, shown
 from occ_model.receiver.decoders import PAPER_DECODER, decoder_named
 from occ_model.receiver.sequence.soft_frame import SoftFrame
 from occ_model.receiver.sequence.soft_frame import read_frame as read_soft_frame
@@ -131,6 +133,7 @@ class VideoReader:
         self._without_packets = WithoutPackets()
         self._seen = -1
         self._shape: tuple[int, ...] | None = None
+        self._white: float | None = None  # the value of it in the first frame
         self._complete_with: int | None = None
         self._payload = ""
 
@@ -157,9 +160,10 @@ class VideoReader:
             It is not a frame, its time is not a number from -1e8 to 1e8 s, or its picture is not
             one, or is of another size than the first: the frames before are kept.
         """
-        self._check(frame)
+        frame, white = self._checked(frame)
         timed = self._reads.read(frame)
         self._shape, self._placed.columns = frame.image.shape, frame.image.shape[1]
+        self._white = white
         if self._placed.add(timed):
             self._seen = -1
         if self._placed.placed == 0:
@@ -215,22 +219,26 @@ class VideoReader:
             found = ("The frame times do not rise.",)
         return (*found, NO_CLOCK) if placed.placed >= FIRST_FIT else found
 
-    def _check(self, frame: VideoFrame) -> None:
-        """Refuse a frame that cannot be read with those before."""
+    def _checked(self, frame: VideoFrame) -> tuple[VideoFrame, float | None]:
+        """Return a frame of bytes and the value of white, or refuse one unlike those before."""
         if not isinstance(frame, VideoFrame):
             raise ParameterError.of("frame", shown(frame), "a VideoFrame")
         check_count("index of a frame", frame.index, 0)
         image: object = frame.image
-        if not isinstance(image, np.ndarray) or image.dtype != np.uint8 or image.ndim != 2:
+        what = f"image of frame {frame.index}"
+        if not isinstance(image, np.ndarray) or image.ndim != 2:
             kind = f"{image.dtype} {image.shape}" if isinstance(image, np.ndarray) else shown(image)
-            raise ParameterError.of(
-                f"image of frame {frame.index}", f"{kind}", "uint8 (rows, columns)"
-            )
+            raise ParameterError.of(what, kind, "pixels (rows, columns)")
         if self._shape not in (None, image.shape):
             raise ParameterError(
-                f"image of frame {frame.index} has the shape {image.shape}; allowed: that of the "
-                f"first frame, {self._shape}."
+                f"{what} has the shape {image.shape}; allowed: that of the first frame, "
+                f"{self._shape}."
             )
+        try:
+            white = self._white or white_of(image, what)
+            pixels = bytes_of(image, what, white)
+        except DecodeInputError as error:
+            raise ParameterError(str(error)) from None
         time: object = frame.time
         if not isinstance(time, int | float | np.number) or not abs(float(time)) <= LATEST_TIME:
             raise ParameterError.of(
@@ -238,6 +246,7 @@ class VideoReader:
                 f"{shown(time)} s",
                 f"{-LATEST_TIME:g} to {LATEST_TIME:g} s",
             )
+        return replace(frame, image=pixels), white
 
     def _read_on(self) -> None:
         """Read the payload anew where chips have come into view."""

@@ -234,6 +234,12 @@ def test_images_of_all_types_give_the_same_code(decoder: str) -> None:
         "float64": image.astype(np.float64),
         # A type that OpenCV does not know.
         "longdouble": image.astype(np.longdouble),
+        # Of the other byte order, as files and networks have it.
+        "big-endian uint16": (image.astype(np.uint16) * 257).astype(">u2"),
+        "big-endian float32": image.astype(">f4"),
+        # Fractions of white, as of scikit-image.
+        "fractions": image / 255.0,
+        "fractions of single precision": image.astype(np.float32) / np.float32(255.0),
         # Memory that OpenCV cannot walk through: columns first, backwards, every other pixel.
         "columns first": np.asfortranarray(image),
         "from the end": image[::-1, ::-1].copy()[::-1, ::-1],
@@ -251,6 +257,14 @@ def test_sixteen_bits_tell_more_than_eight() -> None:
     assert "0.35 grey levels" in failure
 
 
+@pytest.mark.parametrize("decoder", BOTH)
+def test_a_profile_in_fractions_is_refused_with_what_to_do(decoder: str) -> None:
+    profile = profile_of(1000, exposure_time=68e-6)
+    assert "multiply" not in (occ.decode(profile[:200], Scene(), decoder).failure or "")
+    failure = occ.decode(profile / 255.0, Scene(), decoder).failure
+    assert "grey levels: if this one is in fractions of white, multiply it by 255." in failure
+
+
 NOT_IMAGES: dict[str, tuple[object, str]] = {
     # A NaN is neither below a threshold nor above it, and spreads through every sum.
     "NaN": (np.array([[1.0, np.nan], [2.0, 3.0]]), "not numbers"),
@@ -261,6 +275,12 @@ NOT_IMAGES: dict[str, tuple[object, str]] = {
     "infinity of half precision": (np.array([1.0, np.inf], np.float16), "not numbers"),
     # Finite, but its square is not.
     "the largest float": (np.array([0.0, np.finfo(float).max]), "1.8e+308"),
+    # Fractions that overshoot white, or grey levels of a dark picture.
+    "beyond fractions": (np.array([[0.0, 1.1]]), "from 0 to 1.1; allowed in floating point"),
+    "hardly grey levels": (np.array([[0.0, 2.0]]), "from 0 to 2; allowed in floating point"),
+    # Twelve bits, white being 4095.
+    "beyond grey levels": (np.array([[0.0, 4095.0]], np.float32), "from 0 to 4095; allowed"),
+    "from -1 to 1": (np.array([[-1.0, 1.0]]), "from -1 to 1; allowed in floating point"),
     "a little too large": (np.array([0.0, -100_001.0]), "1e+05"),
     "no pixels": (np.empty((0, 7)), "empty"),
     "no columns": (np.empty((7, 0), np.uint8), "empty"),

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, TypeAlias, cast
 
 import cv2
 import numpy as np
-from numpy.typing import NDArray
 
-from occ_model.arrays import FloatArray, Pixels
-from occ_model.errors import PhotoError
+from occ_model.arrays import FloatArray
+from occ_model.camera.pixel_arrays import Samples, in_16_bits, white_between, white_of
+from occ_model.errors import DecodeInputError, PhotoError
 from occ_model.photo.reading.limits import is_deep_in_colours, raw_modes_of
 from occ_model.photo.reading.watched_file import Progress
 
@@ -20,14 +20,11 @@ if TYPE_CHECKING:
     from PIL.Image import Image as PillowImage
     from PIL.ImageFile import ImageFile
 
-Samples: TypeAlias = NDArray[np.uint8 | np.uint16]  # 8 bits or 16, white being the largest number
-
 Box: TypeAlias = tuple[int, int, int, int]
 """A rectangle of a picture: its first column and row, and the column and row after its last."""
 
 DECODED_FRACTION = 0.8  # fraction of the work that is done when a picture is decoded
 
-_GREY_LEVEL = 257  # one grey level in samples of 16 bits: 65535 / 255
 _PART = 1 << 20  # number of pixels that are converted at once: some megabytes
 
 _NATIVE, _SWAPPED = ("16L", "16B") if sys.byteorder == "little" else ("16B", "16L")
@@ -70,7 +67,7 @@ class DecodedPicture:
             _, most = self.picture.getextrema()
             if isinstance(most, int | float) and most > 65535:
                 raise PhotoError(f"The photo has samples up to {most:,}; allowed: up to 65,535.")
-
+        self._white = self._white_of_floats() if self.picture.mode == "F" else 0.0
         self._palette = _palette_of(self.picture) if self.picture.mode == "P" else None
 
     @property
@@ -89,8 +86,8 @@ class DecodedPicture:
     def part(self, box: Box) -> Samples:
         """Convert a rectangle of the picture to samples, transparent parts being black.
 
-        Shape (rows, columns), grey, or red, green and blue. 16 bits where the file has more than 8;
-        floating-point numbers are grey levels, NaN and minus infinity being 0.
+        Shape (rows, columns), grey, or red, green and blue. 16 bits where the file has more than 8.
+        Of floating point NaN and minus infinity are black, and infinity is white.
         """
         part = self.picture.crop(box)
         if self._palette is not None:
@@ -98,10 +95,23 @@ class DecodedPicture:
         if self._lower is not None:
             return _deep_colours(part, self._lower.crop(box))
         if part.mode == "F":
-            return _of_grey_levels(np.asarray(part))
+            return in_16_bits(np.asarray(part), self._white)
         if part.mode.startswith("I"):
             return _whole_numbers(part, self._raw_modes)
         return _colours(part)
+
+    def _white_of_floats(self) -> float:
+        """Return which value of all that are finite is white."""
+        low, high = np.inf, -np.inf
+        for box in self.boxes():
+            values = np.asarray(self.picture.crop(box))
+            values = values[np.isfinite(values)]
+            low = min(low, float(values.min(initial=np.inf)))
+            high = max(high, float(values.max(initial=-np.inf)))
+        try:
+            return white_between(low, high, "The photo") if low <= high else 1.0
+        except DecodeInputError as error:
+            raise PhotoError(str(error)) from None
 
     def close(self) -> None:
         """Free the decoded picture, even while this object is referenced."""
@@ -145,11 +155,6 @@ def _whole_numbers(part: "PillowImage", raw_modes: set[str]) -> Samples:
     if isinstance(transparent, int):
         samples[samples == transparent] = 0
     return samples
-
-
-def _of_grey_levels(levels: Pixels) -> Samples:
-    within = np.nan_to_num(np.clip(levels, 0.0, 255.0), nan=0.0)
-    return np.rint(within * _GREY_LEVEL).astype(np.uint16)
 
 
 def _deep_colours(upper: "PillowImage", lower: "PillowImage") -> Samples:
@@ -203,10 +208,6 @@ def no_stderr() -> Iterator[None]:
     finally:
         os.dup2(kept, 2)
         os.close(kept)
-
-
-def white_of(samples: Samples) -> int:
-    return int(np.iinfo(samples.dtype).max)
 
 
 def take_channel(picture: DecodedPicture, channel: str, report: Progress) -> tuple[Samples, str]:

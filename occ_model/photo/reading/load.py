@@ -11,6 +11,7 @@ import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.camera.photometry import WHITE
+from occ_model.camera.pixel_arrays import Samples, samples_of, white_of
 from occ_model.camera.projection import MAX_PIXELS
 from occ_model.errors import ParameterError, PhotoError, shown
 from occ_model.photo.reading.choices import CHANNELS, SCAN_AXES
@@ -19,9 +20,7 @@ from occ_model.photo.reading.file import open_file, picture_opener
 from occ_model.photo.reading.image_decoding import (
     DECODED_FRACTION,
     DecodedPicture,
-    Samples,
     take_channel,
-    white_of,
 )
 from occ_model.photo.reading.raw import is_raw, read_mosaic
 from occ_model.photo.reading.watched_file import Progress, Reporter, WatchedFile
@@ -46,7 +45,8 @@ class Photo:
     path
         The file.
     samples : ndarray of uint8 or uint16, shape (rows, columns)
-        One channel in the full depth of the file, columns being the scan axis.
+        One channel in the full depth of the file, columns being the scan axis. Others that
+        :func:`occ_model.decode` takes are made so.
     white
         The sample value of white: 255 or 65535.
     image : ndarray of uint8, shape (rows, columns)
@@ -86,6 +86,12 @@ class Photo:
     focal_length_step: float = 0.0
     enhancement: str | None = None
 
+    def __post_init__(self) -> None:
+        given = np.asarray(self.samples)
+        object.__setattr__(self, "samples", samples_of(given, "The photo"))
+        if given.dtype.kind == "f":
+            object.__setattr__(self, "white", int(white_of(self.samples)))
+
 
 def load_photo(
     path: str | Path,
@@ -102,8 +108,9 @@ def load_photo(
     path
         An image file of one of the formats in :mod:`occ_model.photo.reading.file`; of several
         pictures the first is read. Its EXIF orientation is applied, transparent parts are black,
-        and floating-point samples are grey levels. A camera's RAW file is read from its green
-        photosites, as :mod:`occ_model.photo.reading.raw` says.
+        and floating-point samples are fractions of white or grey levels by the rule of
+        :func:`occ_model.decode`. A camera's RAW file is read from its green photosites, as
+        :mod:`occ_model.photo.reading.raw` says.
     scan_axis
         ``"columns"`` or ``"lines"`` of the file, or ``"auto"``.
     channel
@@ -139,7 +146,7 @@ def load_photo(
             samples, taken, notes, orientation = _taken(file, opened, channel, most, report)
             turned = _is_turned(samples, orientation, scan_axis)
     samples = _turned(samples, orientation, turned)
-    white = white_of(samples)
+    white = int(white_of(samples))
     return Photo(
         path=file,
         samples=samples,

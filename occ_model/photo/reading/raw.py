@@ -20,6 +20,7 @@ from typing import IO, TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from occ_model.camera.pixel_arrays import Samples
 from occ_model.errors import PhotoError, one_line
 from occ_model.photo.reading.exif import (
     EXIF_IFD,
@@ -29,7 +30,7 @@ from occ_model.photo.reading.exif import (
     CameraNotes,
     notes_of,
 )
-from occ_model.photo.reading.image_decoding import DECODED_FRACTION, Samples, no_stderr
+from occ_model.photo.reading.image_decoding import DECODED_FRACTION, no_stderr
 from occ_model.photo.reading.limits import check_bytes, check_file_size, check_size
 from occ_model.photo.reading.tiff import STARTS, Entry, are_short, directories
 from occ_model.photo.reading.watched_file import Reporter, WatchedFile

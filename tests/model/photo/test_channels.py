@@ -1,7 +1,7 @@
 """What is taken of a photo's colours, in the full depth of its file."""
 
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import cv2
 import numpy as np
@@ -200,11 +200,22 @@ def test_transparent_is_black_and_one_bit_is_black_or_white(tmp_path: Path) -> N
     np.testing.assert_array_equal(load_photo(path).samples, np.where(deep == 3000, 0, deep))
 
 
-def test_floating_point_pixels_are_levels_and_nan_is_black(tmp_path: Path) -> None:
-    levels = np.array([[0.2, 99.6, -5.0, 300.0, 3e38, np.inf, -np.inf, np.nan]], np.float32)
-    photo = load_photo(saved(tmp_path, levels, "x.tif"), "columns")
-    assert photo.image.tolist() == [[0, 100, 0, 255, 255, 255, 0, 0]]
+@pytest.mark.parametrize(("white", "order"), [(255, ">"), (1, "<"), (1, ">")])
+def test_floating_point_pixels_are_fractions_or_levels_and_nan_is_black(
+    tmp_path: Path, white: float, order: Literal["<", ">"]
+) -> None:
+    levels = np.array([[0.2, 99.6, -5.0, 255.0, np.inf, -np.inf, np.nan]]) / 255 * white
+    tifffile.imwrite(tmp_path / "x.tif", levels.astype(f"{order}f4"), byteorder=order)
+    photo = load_photo(tmp_path / "x.tif", "columns")
+    assert photo.image.tolist() == [[0, 100, 0, 255, 255, 0, 0]]
     assert photo.profile[:2] == pytest.approx([0.2, 99.6], abs=1 / 500)
+
+
+@pytest.mark.parametrize("largest", [1.01, 2.0, 256.0, 65535.0])
+def test_a_photo_whose_white_is_not_known_is_refused(tmp_path: Path, largest: float) -> None:
+    path = saved(tmp_path, np.array([[0.0, np.nan, largest]], np.float32), "x.tif")
+    with pytest.raises(PhotoError, match=rf"holds values from 0 to {largest:g}; allowed in float"):
+        load_photo(path)
 
 
 @pytest.mark.parametrize("bits", [8, 16])

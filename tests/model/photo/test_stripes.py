@@ -71,6 +71,17 @@ def test_stripes_as_narrow_as_edges_are_found() -> None:
     assert region.last_column == pytest.approx(650, abs=6)
 
 
+@pytest.mark.parametrize("type_", [">u2", "f4", ">f8"])
+def test_a_photo_of_an_array_has_the_stripes_of_its_bytes(type_: str) -> None:
+    photo = _lamp(12.0, np.ones((60, 400)))
+    scale = 257.0 if type_ == ">u2" else 1.0 / 255.0
+    other = replace(photo, samples=(photo.samples * scale).astype(type_), white=65535)
+    assert (other.samples.dtype, other.white) == (np.uint16, 65535)
+    found, expected = occ.find_stripes(other), occ.find_stripes(photo)
+    assert found.region == expected.region
+    np.testing.assert_allclose(found.profile, expected.profile, atol=1e-9)
+
+
 def test_the_faint_outer_stripes_of_a_round_lamp_belong_to_it() -> None:
     rows, columns = np.mgrid[:200, :1400]
     off = np.hypot((rows - 100) / 90, (columns - 700) / 600)

@@ -82,6 +82,16 @@ def test_only_what_the_lamps_send_counts_and_not_the_rooms_own_transmitter() -> 
     assert found.located.deviations == again.located.deviations
 
 
+def test_a_picture_is_read_alike_whatever_its_pixels_are() -> None:
+    room = small_room()
+    image = occ.render_room(room, seed=1).camera_image
+    found = occ.read_room(image, room)
+    for pixels in (image / 255.0, image.astype(np.float32), (image * np.uint16(257)).astype(">u2")):
+        assert occ.read_room(pixels, room).located.place == found.located.place
+    with pytest.raises(occ.DecodeInputError, match="from 0 to 25500; allowed in floating point"):
+        occ.read_room(np.where(image == image.max(), 25500.0, 0.0), room)
+
+
 def test_a_lamp_that_sends_a_payload_is_named_by_its_bits() -> None:
     room = small_room(2)
     sent = ("bits:0100100001", "bits:1110001010")

@@ -5,6 +5,7 @@ import tracemalloc
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from functools import cache
+from typing import Any
 
 import numpy as np
 import pytest
@@ -275,7 +276,8 @@ def test_times_that_tell_no_clock_give_none_and_a_sentence(times: FloatArray, sa
         ),
         ({"image": np.zeros((31, 720), np.uint8)}, r"shape \(31, 720\)"),
         ({"image": np.zeros(720, np.uint8)}, r"image of frame 3 is uint8 \(720,\); allowed"),
-        ({"image": np.zeros((32, 720))}, r"image of frame 3 is float64 \(32, 720\)"),
+        ({"image": np.full((32, 720), 256.0)}, "image of frame 3 holds values from 256 to 256"),
+        ({"image": np.zeros((32, 720), bool)}, "image of frame 3 has pixels of type bool"),
         ({"image": None}, "image of frame 3 is None"),
         ({"exposure_time": math.nan}, "exposure_time is "),
     ]
@@ -295,6 +297,23 @@ def test_a_frame_that_cannot_be_read_is_refused_and_those_before_are_kept(
     assert (reading.read, reading.payload) == (without.read, without.payload)
     with pytest.raises(occ.ParameterError, match="frame is 3; allowed: a VideoFrame"):
         reader.add(3)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("white", [1.0, 255.0])
+def test_white_is_one_value_in_all_frames_of_floating_point(white: float) -> None:
+    frames = film_of_short_packets()[:6]
+    reader, scale = occ.VideoReader(SHORT), white / 255.0
+    for frame in frames:
+        pixels: Any = (frame.image * scale).astype(">f4")
+        reader.add(replace(frame, image=pixels))
+    assert reader.reading().clock == reading_of(frames, SHORT).clock
+    pixels = frames[0].image / (255.0 * scale)
+    other = replace(frames[0], index=6, time=0.2, image=pixels)
+    if white == 1.0:
+        with pytest.raises(occ.ParameterError, match="image of frame 6 holds values from"):
+            reader.add(other)
+    else:
+        assert not reader.add(other).frame.chips.size  # a dark frame among bright ones
 
 
 def test_a_square_wave_leaves_aliases_and_they_are_said() -> None:

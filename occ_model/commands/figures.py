@@ -16,7 +16,7 @@ from occ_model.results.sweep import SweepTable
 from occ_model.results.sweep_request import MOST_IMAGES, MOST_JOBS, SweepRequest
 from occ_model.scene.argument_checks import check_count, check_seed
 from occ_model.scene.units import HERTZ
-from occ_model.study.paper_grid import DEVICES, IMAGES, ceases_at, grid_request
+from occ_model.study.paper_grid import DEVICES, IMAGES, grid_request, last_and_first_unread
 from occ_model.study.sweep.sweep import Progress, run_sweep
 
 
@@ -79,7 +79,7 @@ def _draw_figures(options: argparse.Namespace, photos: list[Photo | None]) -> No
             paper.write_rate_figure(options.out, number, device, tables)
             for preset, table in tables.items():
                 _rates_file(options, preset).unlink()
-                bar.write(_ceasing(preset, table), file=sys.stdout)
+                bar.write(detection_sentence(preset, table), file=sys.stdout)
 
 
 def _progress_of(bar: Any) -> Progress:
@@ -102,8 +102,13 @@ def _rates_file(options: argparse.Namespace, preset: str) -> Path:
     return folder / f"rates-{preset}-images-{options.images}-seed-{options.seed}.csv"
 
 
-def _ceasing(preset: str, table: SweepTable) -> str:
-    frequency = ceases_at(table, PAPER_DECODER)
-    if frequency is None:
-        return f"{preset}: detection goes on to the highest frequency"
-    return f"{preset}: detection ceases at {HERTZ.format(frequency)}"
+def detection_sentence(preset: str, table: SweepTable) -> str:
+    last, unread = last_and_first_unread(table, PAPER_DECODER)
+    if unread is None:
+        return f"{preset}: read up to the highest frequency tried"
+    if last is None:
+        return f"{preset}: read at none of the frequencies tried"
+    return (
+        f"{preset}: of the frequencies tried, {HERTZ.format(last)} is the last that is read at "
+        f"some distance, {HERTZ.format(unread)} the first at none"
+    )

@@ -2,6 +2,8 @@
 
 from collections.abc import Sequence
 
+import numpy as np
+
 from occ_model.results.sweep import SweepTable
 from occ_model.results.sweep_request import RateSettings, SweepRequest
 from occ_model.scene.presets import load_preset
@@ -25,15 +27,16 @@ def grid_request(
     return checked_request(load_preset(preset), axes, RateSettings(images, tuple(decoders), seed))
 
 
-def ceases_at(table: SweepTable, decoder: str, readable: float = 60.0) -> float | None:
-    """Find the lowest frequency in Hz from which on no distance is read; None without one.
+def last_and_first_unread(
+    table: SweepTable, decoder: str, readable: float = 60.0
+) -> tuple[float | None, float | None]:
+    """Find the last frequency in Hz that is read at some distance, and the one after it, if any.
+
+    They are steps of the grid: detection ceases somewhere around them.
 
     ``readable``: success rate in percent from which a distance counts as read.
     """
-    ceased = None
-    best = table.rates(decoder).max(axis=1).tolist()
-    for frequency, rate in zip(reversed(FREQUENCIES), reversed(best), strict=True):
-        if rate >= readable:
-            break
-        ceased = frequency
-    return ceased
+    read = np.flatnonzero(table.rates(decoder).max(axis=1) >= readable)
+    steps = (None, *FREQUENCIES, None)
+    after = int(read[-1]) + 1 if read.size else 0
+    return steps[after], steps[after + 1]

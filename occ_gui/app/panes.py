@@ -62,7 +62,7 @@ def decoding(store: Store) -> Feature[Any]:
         name="decode",
         title="Decoding",
         elsewhere="right",
-        help="decoders.md",
+        help="decoding.md",
         make=later("occ_gui.decoding.pane:DecodePane", store),
         part=lambda workspace, results: (results.reading, workspace.decoder),
         goes_on_hidden=True,
@@ -135,7 +135,7 @@ def accuracy(scenes: SceneStore, simulation: SimulationController) -> Feature[An
         name="accuracy",
         title="Accuracy and time",
         places={"effects": Place("right", is_main=True)},
-        help="effects.md#accuracy-against-time",
+        help="model.md#accuracy-against-time",
         make=later("occ_gui.accuracy.pane:AccuracyPane", scenes, simulation),
         part=lambda workspace, results: (workspace.settings, results.switched, results.snapshot),
         goes_on_hidden=True,
@@ -148,7 +148,7 @@ def detection_map(scenes: SceneStore, measuring: Measuring) -> Feature[Any]:
         name="map",
         title="Detection map",
         places={"limits": Place("right", is_main=True)},
-        help="sweeps.md#the-detection-map",
+        help="limits.md#the-detection-map",
         make=later("occ_gui.detection_map.pane:MapPane", scenes, measuring),
         figures=(map_figure(scenes.store),),
     )
@@ -159,7 +159,7 @@ def bands(scenes: SceneStore) -> Feature[Any]:
         name="bands",
         title="Bars",
         places={"limits": Place("right")},
-        help="bands.md",
+        help="limits.md#no-bars-no-flicker",
         make=later("occ_gui.bands.pane:BandsPane", scenes),
         part=lambda workspace, _: workspace.scene,
         figures=bands_figures(),
@@ -213,7 +213,7 @@ def lessons(
         title="Lessons",
         places={"lessons": Place("right", is_main=True, width=340)},
         elsewhere="right",
-        help="lessons.md#follow-a-lesson",
+        help="guide.md#follow-a-lesson",
         make=later("occ_gui.lessons.pane:LessonPane", scenes, board, controls, preferences),
     )
 
@@ -224,7 +224,7 @@ def video(scenes: SceneStore, board: Board) -> Feature[Any]:
         title="Video",
         places={"video": Place("right", is_main=True)},
         elsewhere="right",
-        help="guide.md#watch-a-film",
+        help="films.md#watch-a-film",
         make=later("occ_gui.video.wiring:VideoWiring", scenes, board),
         part=lambda workspace, _: workspace.film,
     )
@@ -235,7 +235,7 @@ def room(store: Store) -> Feature[Any]:
         name="room",
         title="Room",
         places={"room": Place("right", is_main=True)},
-        help="room.md",
+        help="rooms.md",
         make=later("occ_gui.room.pane:RoomPane", store),
         part=lambda workspace, _: workspace.room,
         goes_on_hidden=True,  # its figure can be exported, and undo does not ask what is seen
@@ -248,7 +248,7 @@ def bench(scenes: SceneStore, measuring: Measuring) -> Feature[Any]:
         name="bench",
         title="Bench",
         places={"limits": Place("right")},
-        help="sweeps.md#the-bench",
+        help="limits.md#the-bench",
         make=lambda: later("occ_gui.bench.pane:BenchPane")(scenes, measuring.channel("bench")),
         figures=(bench_figure(scenes.store),),
     )

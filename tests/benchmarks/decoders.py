@@ -1,4 +1,4 @@
-"""How many codes each decoder reads: the tables of ``resources/docs``, decoders.md and codes.md.
+"""How many codes each decoder reads: the figures of ``resources/docs/validation.md``.
 
 ``python tests/benchmarks/decoders.py PART``, or all parts in turn:
 

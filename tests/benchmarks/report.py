@@ -1,9 +1,8 @@
 """What things cost, as ratios measured side by side in one run.
 
-``python tests/benchmarks/report.py`` prints the table; ``--markdown`` prints it as it stands in
-``resources/docs/measurements.md``. Absolute times differ from machine to machine and from hour to
-hour; a ratio of two things timed in turn, in one process, does so much less. No test asserts a
-time.
+``resources/docs/validation.md`` has most of the times. Absolute times differ from machine to
+machine and from hour to hour; a ratio of two things timed in turn, in one process, does so much
+less. No test asserts a time.
 """
 
 import argparse
@@ -278,19 +277,10 @@ _ALL = (
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument(
-        "--markdown", action="store_true", help="print the table of resources/docs/measurements.md"
-    )
-    markdown = parser.parse_args().markdown
-    if markdown:
-        print("| what | ratio (times) | wanted |\n|---|---|---|")
+    argparse.ArgumentParser(description=__doc__).parse_args()
     for measure in _ALL:
         row = measure()
-        if markdown:
-            print(f"| {row.what} | {row.measured} | {row.wanted} |", flush=True)
-        else:
-            print(f"{row.what}\n    {row.measured}    {row.wanted}", flush=True)
+        print(f"{row.what}\n    {row.measured}    {row.wanted}", flush=True)
 
 
 if __name__ == "__main__":

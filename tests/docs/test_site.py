@@ -106,8 +106,8 @@ def test_the_site_lists_the_pages_of_the_manual() -> None:
 
 
 @pytest.mark.whole
-def test_the_code_of_the_tutorial_runs() -> None:
+def test_the_code_of_the_guide_runs() -> None:
     names: dict[str, object] = {}
-    for code in blocks(text_of(FOLDER / "tutorial.md"), "python"):
-        exec(compile(code, "tutorial.md", "exec"), names)
+    for code in blocks(text_of(FOLDER / "guide.md"), "python"):
+        exec(compile(code, "guide.md", "exec"), names)
     assert "real" in names

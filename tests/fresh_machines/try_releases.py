@@ -4,7 +4,7 @@
 
 Each root holds Python and nothing else: the last commit is copied into it, with pip's settings of
 this machine. Needed are root, a network, and ``apt-get install mmdebstrap``; a release takes some
-ten minutes and 4 GB. `resources/docs/install.md` shows the table.
+ten minutes and 4 GB. `resources/docs/validation.md` has the result.
 """
 
 import argparse

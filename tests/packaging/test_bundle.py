@@ -24,14 +24,13 @@ TYPE = "application/x-occ-scene+toml"
 def test_every_description_names_this_version() -> None:
     described = ElementTree.parse(LINUX / "occ-explorer.metainfo.xml")
     assert described.findall("releases/release")[0].get("version") == occ.__version__
-    cite = (ROOT / "resources" / "docs" / "about.md").read_text(encoding="utf-8")
-    assert f"version = {{{occ.__version__}}}" in cite
-    install = (ROOT / "resources" / "docs" / "install.md").read_text(encoding="utf-8")
+    start = (ROOT / "resources" / "docs" / "index.md").read_text(encoding="utf-8")
+    assert f"version = {{{occ.__version__}}}" in start
+    assert re.findall(r"^### ([\d.]+)", start, re.MULTILINE)[0] == occ.__version__
+    install = (ROOT / "README.md").read_text(encoding="utf-8")
     named = re.findall(r"occ_explorer-([\d.]+)-", install)
     assert named == [occ.__version__] * len(named)
     assert named
-    changes = (ROOT / "resources" / "docs" / "about.md").read_text(encoding="utf-8")
-    assert re.findall(r"^### ([\d.]+)", changes, re.MULTILINE)[0] == occ.__version__
 
 
 def test_the_desktop_starts_the_program_with_a_file_or_none() -> None:

@@ -20,7 +20,7 @@ def assert_manual_states(match: occ.Match, row: str) -> None:
     """Compare what a row of the manual's table says was found, to its last digits."""
     (found,) = [
         line.split(" | ")[-1]
-        for line in text_of(FOLDER / "photos.md").splitlines()
+        for line in text_of(FOLDER / "validation.md").splitlines()
         if line.startswith(f"| {row}")
     ]
     stated = re.findall(r"([\d.]+) µs ± ([\d.]+)", found.replace(" a line", ""))

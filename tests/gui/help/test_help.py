@@ -65,6 +65,7 @@ def click(qtbot: QtBot, browser: QTextBrowser, text: str, target: str) -> None:
     while cursor.charFormat().anchorHref() != target:
         cursor = browser.document().find(text, cursor)
         assert not cursor.isNull(), target
+    cursor.setPosition(cursor.position() - len(text) // 2)  # beside its end no link begins
     browser.setTextCursor(cursor)
     browser.ensureCursorVisible()
     place = browser.cursorRect(cursor).center()
@@ -86,11 +87,11 @@ def test_a_link_is_followed_to_its_heading_and_undone(manual: HelpWindow, qtbot:
 def test_a_web_page_is_opened_by_the_system_only(
     qtbot: QtBot, manual: HelpWindow, system: SystemBrowser
 ) -> None:
-    manual.show_page("sweeps.md")
+    manual.show_page("limits.md")
     web = "https://distributed.dask.org/en/stable/tls.html"
     click(qtbot, manual.browser, "configuration", web)
     assert system.opened == [web]
-    assert manual.browser.source().fileName() == "sweeps.md"
+    assert manual.browser.source().fileName() == "limits.md"
 
 
 def test_nothing_is_read_but_files_of_this_computer(manual: HelpWindow) -> None:
@@ -111,7 +112,8 @@ def test_a_picture_is_as_wide_as_the_page_and_no_wider(qtbot: QtBot, manual: Hel
         room = manual.browser.viewport().width()
         wanted = min(room, 1280)
         assert wanted - 40 <= picture_width(manual.browser) <= wanted
-        assert manual.browser.horizontalScrollBar().maximum() == 0
+        # A long page is laid out part by part.
+        qtbot.waitUntil(lambda: manual.browser.horizontalScrollBar().maximum() == 0)
 
 
 def test_a_search_finds_the_next_place_and_begins_again_and_one_for_nothing_stays(
@@ -167,7 +169,12 @@ def test_its_entries_open_the_guide_and_the_page_of_the_pane(
     (browser,) = bench.window.findChildren(HelpBrowser)
     assert browser.window().isVisible()
     assert browser.source().fileName() == GUIDE
-    for pane, page in (("spectrum", "guide.md#measure"), ("bands", "bands.md"), ("?", GUIDE)):
+    explained = {
+        "spectrum": "guide.md#measure",
+        "bands": "limits.md#no-bars-no-flicker",
+        "?": GUIDE,
+    }
+    for pane, page in explained.items():
         current[0] = pane
         entries["about_pane"].trigger()
         assert browser.source().toString().endswith(f"/{page}")
@@ -235,7 +242,7 @@ def test_a_page_is_divided_at_its_headings_and_all_words_are_there_a_heading_cou
 def test_every_section_of_the_manual_is_found_by_its_heading_and_shown_there(qtbot: QtBot) -> None:
     window = add_widget(qtbot, HelpWindow(docs_folder()))
     every = sections(docs_folder())
-    assert len(every) > 100
+    assert len(every) > 80
     for section in every[:: len(every) // 12]:
         window.search_all.setText(section.title.replace(":", " "))
         listed = [window.page_list.item(row) for row in range(window.page_list.count())]

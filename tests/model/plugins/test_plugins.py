@@ -21,7 +21,7 @@ from occ_model import plugins
 from occ_model.cli import main
 from occ_model.receiver.decoders import checked_result
 
-PAGE = text_of(FOLDER / "extending.md")
+PAGE = text_of(FOLDER / "developers.md")
 
 USE = """
 import sys
@@ -48,7 +48,7 @@ def python(tmp_path_factory: pytest.TempPathFactory) -> Path:
     (packages / "project.pth").write_text("\n".join(here), encoding="utf-8")
     _, description = blocks(PAGE, "toml")
     project = tomllib.loads(description)["project"]
-    (module,) = blocks(PAGE, "python")
+    module, _ = blocks(PAGE, "python")
     install(packages, project["name"], project["entry-points"], module)
     return folder / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
 

@@ -152,7 +152,7 @@ def test_a_teachers_lessons_follow_the_programs_and_bad_ones_are_told(
 
 
 def test_the_lesson_of_the_manual_is_one_and_its_tables_are_complete(tmp_path: Path) -> None:
-    page = resource_path("docs", "lessons.md").read_text(encoding="utf-8")
+    page = resource_path("docs", "guide.md").read_text(encoding="utf-8")
     path = tmp_path / "mine.toml"
     path.write_text(page.split("```toml\n")[1].split("```")[0], encoding="utf-8")
     (step,) = read_lesson(path).steps

@@ -192,7 +192,7 @@ def test_three_wrong_bytes_pass_as_often_as_stated_and_never_behind_a_check_sum(
     assert accepted["preamble"] == pytest.approx(tries * share, abs=off)
     assert accepted["raw"] == 0
     said = f"{100 * share:.2g} % at {octets}"
-    assert said in text_of(FOLDER / "codes.md").replace("\n", " ")
+    assert said in text_of(FOLDER / "decoding.md").replace("\n", " ")
 
 
 def test_the_default_is_the_papers_packet() -> None:

@@ -3,11 +3,21 @@
 import os
 import pickle
 import time
+from collections.abc import Callable
 from concurrent.futures import BrokenExecutor, CancelledError, Future
 from pathlib import Path
 from typing import Any, NoReturn
 
 from occ_model.parallel.job import Heartbeat, Job, JobResult, do_job
+
+PATIENCE_S = 20.0
+
+
+def wait_until(happened: Callable[[], bool]) -> None:
+    deadline = time.monotonic() + PATIENCE_S
+    while not happened():
+        assert time.monotonic() < deadline
+        time.sleep(0.001)
 
 
 def echo(value: Any, heartbeat: Heartbeat) -> Any:

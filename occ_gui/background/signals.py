@@ -1,29 +1,25 @@
 """Signals of the work queue: results of the job scheduler, delivered on the window's thread."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from threading import Thread
 from typing import Any
 
-from PySide6.QtCore import QObject, Qt, Signal, Slot
+from PySide6.QtCore import QObject, Qt, QTimer, Signal, Slot
 
 from occ_gui.background.task import sentence_of
 from occ_model.errors import one_line
-from occ_model.parallel.job import Stages, Workers
-from occ_model.parallel.request import Run
-from occ_model.parallel.scheduler import Scheduler
+from occ_model.parallel.job import Job, Workers
+from occ_model.parallel.scheduler import Run, Scheduler
 from occ_model.parallel.worker_thread import WorkerThread
 
-_INTERVAL = 0.05
-"""Seconds between two reports of a channel's results, so that the window can draw each."""
-
-_STAGE_INTERVAL = 0.3
-"""The same during an uninterruptible stage: it is short, and is shown whole where that is soon."""
+_PAUSE_MS = 50
+"""Milliseconds after a report of a channel's results, so that the window can draw each."""
 
 
 class JobChannel(QObject):
     """One kind of work, of which only the newest request is processed.
 
-    A newer request replaces the running one; an uninterruptible stage is completed first, so that
+    A newer request replaces the running one; uninterruptible jobs are completed first, so that
     something is shown while requests keep coming.
     """
 
@@ -34,65 +30,106 @@ class JobChannel(QObject):
     failed = Signal(str)  # a sentence that says why no more results come
     status_message = Signal(str)  # a sentence on what happened meanwhile; the work goes on
 
+    _results = Signal(int, list)
+    _end = Signal(int, str)
+    _report = Signal(int, str)
+
     def __init__(self, queue: "WorkQueue", number: int) -> None:
         super().__init__(queue)
         self._queue = queue
         self._number = number
         self._requests: dict[int, Any] = {}
         self._next = 1
+        self._unreported: list[Any] = []
+        self._pause = QTimer(self, singleShot=True)
+        self._pause.setInterval(_PAUSE_MS)
+        self._pause.timeout.connect(self._emit_results)
+        queued = Qt.ConnectionType.QueuedConnection
+        self._results.connect(self._on_results, queued)
+        self._end.connect(self._on_end, queued)
+        self._report.connect(self._on_report, queued)
 
     @property
     def is_idle(self) -> bool:
         return not self._requests
 
-    def put(self, request: Any, stages: Stages) -> None:
-        run = Run(self._number, self._next, stages)
+    def put(self, request: Any, jobs: Iterator[Job]) -> None:
+        """Do the jobs for a request; they are made in the background."""
+        run = Run(self._number, self._next, jobs, self)
         self._requests[self._next] = request
         self._next += 1
         self._queue.scheduler().put(run)
 
-    def request(self, run: int) -> Any:
-        """Return the request of a run, None if it has been replaced."""
-        return self._requests.get(run)
-
     def cancel(self) -> None:
         """Cancel the work; no more of its results are reported."""
         if self._requests:
-            self._requests.clear()
+            self._forget_before(self._next)
             self._queue.scheduler().cancel(self._number, self._next)
 
     stop = cancel  # the processes end with the queue, which others use, too
 
-    def _forget_before(self, run: int) -> None:
-        for number in [number for number in self._requests if number < run]:
-            del self._requests[number]
+    def take_results(self, run: int, results: list[Any]) -> None:
+        self._results.emit(run, results)
 
-    def _emit_results(self, run: int, results: list[Any]) -> None:
-        if run in self._requests:
-            self._forget_before(run)
-            self.results_ready.emit(self._requests[run], results)
+    def take_end(self, run: int, error: Exception | None) -> None:
+        request = self._requests.get(run)  # none where it was replaced
+        failure = "" if error is None else sentence_of(error, "work in the background", request)
+        self._end.emit(run, failure)
 
-    def _end(self, run: int, failure: str) -> None:
+    def note_lost_workers(self, run: int, missing: Exception | None) -> None:
+        sentence = "A process in the background ended; its work is done again."
+        if missing is not None:
+            sentence = (
+                f"No processes can be started ({one_line(str(missing))}): the window does their "
+                "work itself, and answers more slowly meanwhile."
+            )
+        self._report.emit(run, sentence)
+
+    @Slot(int, list)
+    def _on_results(self, run: int, results: list[Any]) -> None:
+        if self._is_wanted(run):
+            self._unreported += results
+            if not self._pause.isActive():
+                self._emit_results()
+
+    @Slot(int, str)
+    def _on_end(self, run: int, failure: str) -> None:
+        if self._is_wanted(run):
+            self._emit_results()
         if run not in self._requests:
             return
-        self._forget_before(run)
         request = self._requests.pop(run)
         if failure:
             self.failed.emit(failure)
         else:
             self.finished.emit(request)
 
-    def _report(self, run: int, sentence: str) -> None:
+    @Slot(int, str)
+    def _on_report(self, run: int, sentence: str) -> None:
         if run in self._requests:
             self.status_message.emit(sentence)
+
+    def _is_wanted(self, run: int) -> bool:
+        """Forget requests before this one, which has replaced them, but show what came of them."""
+        if run in self._requests and run != next(iter(self._requests)):
+            self._emit_results()
+            self._forget_before(run)
+        return run in self._requests
+
+    def _emit_results(self) -> None:
+        results, self._unreported = self._unreported, []
+        if results:
+            self._pause.start()
+            self.results_ready.emit(next(iter(self._requests.values())), results)
+
+    def _forget_before(self, run: int) -> None:
+        for number in [number for number in self._requests if number < run]:
+            del self._requests[number]
+        self._unreported.clear()
 
 
 class WorkQueue(QObject):
     """Channels of work, and the scheduler that divides workers among them."""
-
-    _results_ready = Signal(int, int, list)
-    _ended = Signal(int, int, str)
-    _reported = Signal(int, int, str)
 
     def __init__(self, channels: int, start: Callable[[], Workers]) -> None:
         super().__init__()
@@ -101,21 +138,11 @@ class WorkQueue(QObject):
         self._thread: Thread | None = None
         self._stopped = False
         self.channels = tuple(JobChannel(self, number) for number in range(channels))
-        queued = Qt.ConnectionType.QueuedConnection
-        self._results_ready.connect(self._on_results, queued)
-        self._ended.connect(self._on_end, queued)
-        self._reported.connect(self._on_report, queued)
 
     def scheduler(self) -> Scheduler:
         """Return the scheduler; its thread starts when it is first needed."""
         if self._scheduler is None:
-            self._scheduler = Scheduler(
-                self._start,
-                self,
-                fallback=WorkerThread,
-                interval=_INTERVAL,
-                stage_interval=_STAGE_INTERVAL,
-            )
+            self._scheduler = Scheduler(self._start, WorkerThread)
             if not self._stopped:
                 self._thread = Thread(target=self._scheduler.run, name="scheduler", daemon=True)
                 self._thread.start()
@@ -138,36 +165,3 @@ class WorkQueue(QObject):
         if self._scheduler is not None and self._thread is not None:
             self._scheduler.close()
             self._thread.join()
-
-    def results_ready(self, channel: int, run: int, results: list[Any]) -> None:
-        self._results_ready.emit(channel, run, results)
-
-    def finished(self, channel: int, run: int) -> None:
-        self._ended.emit(channel, run, "")
-
-    def failed(self, channel: int, run: int, error: Exception) -> None:
-        request = self.channels[channel].request(run)
-        self._ended.emit(channel, run, sentence_of(error, "work in the background", request))
-
-    def workers_replaced(self, channel: int, run: int) -> None:
-        sentence = "A process in the background ended; its work is done again."
-        self._reported.emit(channel, run, sentence)
-
-    def workers_missing(self, channel: int, run: int, error: Exception) -> None:
-        sentence = (
-            f"No processes can be started ({one_line(str(error))}): the window does their work "
-            "itself, and answers more slowly meanwhile."
-        )
-        self._reported.emit(channel, run, sentence)
-
-    @Slot(int, int, list)
-    def _on_results(self, channel: int, run: int, results: list[Any]) -> None:
-        self.channels[channel]._emit_results(run, results)
-
-    @Slot(int, int, str)
-    def _on_end(self, channel: int, run: int, failure: str) -> None:
-        self.channels[channel]._end(run, failure)
-
-    @Slot(int, int, str)
-    def _on_report(self, channel: int, run: int, sentence: str) -> None:
-        self.channels[channel]._report(run, sentence)

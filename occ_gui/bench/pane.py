@@ -12,7 +12,7 @@ from occ_gui.shell.feature import Pane
 from occ_model.camera.projection import panel_corners
 from occ_model.effects.paper_view import region_of
 from occ_model.errors import OccError, ParameterError
-from occ_model.parallel.job import Job, Stage
+from occ_model.parallel.job import Job
 from occ_model.receiver.decoders import decoders
 from occ_model.results.bench import BenchBounds, BenchPoint, BenchRequest
 from occ_model.scene.scene import Scene
@@ -98,12 +98,13 @@ class BenchController(QObject):
         self._pane.show_progress(0, len(request.points))
         self._show_frame_rate()
         self._mark()
-        self.channel.put(request, lambda: self._stages(request))
+        self.channel.put(request, self._jobs(request))
 
     @staticmethod
-    def _stages(request: BenchRequest) -> Iterator[Stage]:
-        jobs = (Job(measure_bench_point, (request, place)) for place in request.points)
-        yield Stage(_RANK, (Job(bench_bounds, (request,)), *jobs))
+    def _jobs(request: BenchRequest) -> Iterator[Job]:
+        yield Job(bench_bounds, (request,), rank=_RANK)
+        for place in request.points:
+            yield Job(measure_bench_point, (request, place), rank=_RANK)
 
     def cancel(self) -> None:
         """Stop measuring; the points measured so far stay."""

@@ -100,8 +100,8 @@ class DetectionMapController(QObject):
         known = request.empty_map() if held is None else held
         self._awaited = request if held is None else None
         found_slow = partial(self._wait_no_more, request)
-        stages = partial(request.stages, known.images.copy(), known.theory is None, found_slow)
-        self.channel.put(request, stages)
+        jobs = request.jobs(known.images.copy(), known.theory is None, found_slow)
+        self.channel.put(request, jobs)
 
     def _show_left_out(self) -> None:
         scene, settings = self._scenes.scene, self._scenes.settings.settings

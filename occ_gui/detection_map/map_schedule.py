@@ -1,4 +1,4 @@
-"""A detection map as work: its request, its stages from coarse to precise, and its table."""
+"""A detection map as work: its request, its jobs from coarse to precise, and its table."""
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
@@ -9,7 +9,7 @@ import numpy as np
 from occ_gui.detection_map.rate_map import STRIDES, RateMap, lattice
 from occ_gui.detection_map.worker import left_out, rate_settings, theory_fields
 from occ_model.arrays import FloatArray, IndexArray
-from occ_model.parallel.job import Job, Stage
+from occ_model.parallel.job import Job
 from occ_model.receiver.decoders import QUICK_DECODERS
 from occ_model.results.bit_errors import FRAMES_A_SECOND
 from occ_model.results.sweep import SweepTable
@@ -56,14 +56,14 @@ class MapRequest:
         measured = rate_settings(self.settings, images, decoders, self.with_image_effects)
         return SweepRequest(self.scene, axes, measured)
 
-    def stages(
+    def jobs(
         self, images: IndexArray, with_theory: bool, found_slow: Callable[[], object] = lambda: None
-    ) -> Iterator[Stage]:
-        """Yield the remaining stages; call ``found_slow`` if even the first points take long."""
+    ) -> Iterator[Job]:
+        """Yield the remaining jobs; call ``found_slow`` if even the first points take long."""
         slow = self.with_image_effects and bool(left_out(self.scene, self.settings))
         if slow:
             found_slow()
-        return map_stages(tuple(map(self.sweep, IMAGES)), images, with_theory, slow)
+        yield from map_jobs(tuple(map(self.sweep, IMAGES)), images, with_theory, slow)
 
 
 def table_of(
@@ -87,10 +87,10 @@ def table_of(
     )  # fmt: skip
 
 
-def map_stages(
+def map_jobs(
     requests: tuple[SweepRequest, ...], images: IndexArray, with_theory: bool, slow: bool
-) -> Iterator[Stage]:
-    """Yield the stages of a map; ``images``: numbers read so far, shape (along x, along y)."""
+) -> Iterator[Job]:
+    """Yield the jobs of a map; ``images``: numbers read so far, shape (along x, along y)."""
     first, *others = requests
     order = list(first.in_order_of_work())
     done = images.ravel()
@@ -104,10 +104,12 @@ def map_stages(
             # Last, so that it occupies a process that has no more points to measure.
             jobs = (*jobs, _theory(first, _THEORY_SHAPES[0 if coarse else 1]))
         # Slow points take too long to be completed for an older request.
-        yield Stage(COARSE if coarse else FINE, jobs, uninterruptible=coarse and not slow)
+        for job in jobs:
+            yield replace(job, rank=COARSE if coarse else FINE, uninterruptible=coarse and not slow)
     for request in others:
         new = [i for i in order if done[i] < request.settings.images]
-        yield Stage(SURE, _jobs(request, new, slow))
+        for job in _jobs(request, new, slow):
+            yield replace(job, rank=SURE)
 
 
 def _theory(request: SweepRequest, shape: tuple[int, int]) -> Job:

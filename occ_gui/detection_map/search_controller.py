@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 from typing import Any
 
 from PySide6.QtCore import QObject, QTimer
@@ -14,7 +13,7 @@ from occ_gui.detection_map.advice_worker import advise, carry_most
 from occ_gui.detection_map.limit_cards import MostBitsCard
 from occ_gui.detection_map.worker import left_out, rate_settings
 from occ_gui.scene.scene_store import SceneStore
-from occ_model.parallel.job import Job, Stage, Stages
+from occ_model.parallel.job import Job
 from occ_model.receiver.decoders import DECODERS
 from occ_model.results.bit_errors import MostBits
 from occ_model.scene.parameter_kinds import ParameterValue
@@ -70,9 +69,9 @@ class SearchController(QObject):
         channel.failed.connect(self._end)
         scenes.changed.connect(self._move_on)
 
-    def _begin(self, request: Any, stages: Stages) -> None:
+    def _begin(self, request: Any, jobs: Iterator[Job]) -> None:
         self._asked, self._done, self._counted = request, 0, self._count()
-        self.channel.put(request, stages)
+        self.channel.put(request, jobs)
         self._look.start()
 
     def _take_there(self, decoder: str, changes: Mapping[str, ParameterValue]) -> None:
@@ -134,12 +133,10 @@ class AdviceRequest:
         scene = self.scene.replace(**{name: quantity(name).default})
         return replace(self, scene=scene)
 
-    def stages(self, rank: int) -> Iterator[Stage]:
-        jobs = []
+    def jobs(self, rank: int) -> Iterator[Job]:
         for counter, decoder in zip(_ADVICE_COUNTERS, DECODERS, strict=True):
             settings = rate_settings(self.settings, IMAGES, (decoder,), self.with_image_effects)
-            jobs.append(Job(advise, (self.scene, settings, decoder, READ_RATE), counter))
-        yield Stage(rank, tuple(jobs))
+            yield Job(advise, (self.scene, settings, decoder, READ_RATE), counter, rank)
 
 
 class AdvisorController(SearchController):
@@ -168,7 +165,7 @@ class AdvisorController(SearchController):
         request = self._request()
         without = () if self._with_image_effects else left_out(request.scene, request.settings)
         self._pane.show_advice_begun(without)
-        self._begin(request, partial(request.stages, rank))
+        self._begin(request, request.jobs(rank))
 
     def search_in_turn(self) -> None:
         """Search for the limits of the current scene, after the points of the map."""
@@ -191,11 +188,10 @@ class MostBitsRequest:
     scene: Scene
     frames_a_second: float
 
-    def stages(self) -> Iterator[Stage]:
-        """Return one job for each decoder, in turn, so that other work keeps its process."""
+    def jobs(self) -> Iterator[Job]:
         for decoder in most_bits.DECODERS:
-            job = Job(carry_most, (self.scene, decoder, self.frames_a_second), _MOST_COUNTER)
-            yield Stage(ASKED, (job,))
+            arguments = (self.scene, decoder, self.frames_a_second)
+            yield Job(carry_most, arguments, _MOST_COUNTER, ASKED)
 
 
 class MostBitsController(SearchController):
@@ -220,7 +216,7 @@ class MostBitsController(SearchController):
         """Search at the exposure and the distance of the current scene."""
         request = self._request()
         self._pane.show_begun()
-        self._begin(request, request.stages)
+        self._begin(request, request.jobs())
         self._check_progress()
 
     def go(self, found: MostBits) -> None:

@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from functools import partial
 from typing import Any
 
 from PySide6.QtCore import QObject, QTimer, Signal
@@ -19,7 +18,7 @@ from occ_gui.detection_map.worker import (
     rate_settings,
 )
 from occ_gui.scene.scene_store import SceneStore
-from occ_model.parallel.job import Job, Stage
+from occ_model.parallel.job import Job
 from occ_model.receiver.decoders import PAPER_DECODER
 from occ_model.results.sweep_request import SweepPoint
 from occ_model.scene.parameters import quantity
@@ -99,10 +98,10 @@ STRIDES = (4, 1)  # distances between measured positions: a coarse strip first, 
 RANK = 3  # after all points of a map that is seen, before further images of them
 
 
-def strip_stages(
+def strip_jobs(
     missing: Mapping[str, tuple[RateRequest, set[int]]], present: RateRequest
-) -> Iterator[Stage]:
-    """Return the remaining stages of work.
+) -> Iterator[Job]:
+    """Return the remaining jobs.
 
     ``present``: the request for the scene itself. Points that take long are jobs of their own,
     which a newer request ends; whether they do is found when the work begins, without delaying a
@@ -113,12 +112,10 @@ def strip_stages(
     for stride in STRIDES:
         now = set(range(0, POSITIONS, stride)) - done
         done |= now
-        jobs = tuple(
-            _job(request, name, part)
-            for name, (request, places) in missing.items()
-            for part in _parts(sorted(now & places), slow)
-        )
-        yield Stage(RANK, jobs, uninterruptible=stride == STRIDES[0] and not slow)
+        is_first = stride == STRIDES[0] and not slow
+        for name, (request, places) in missing.items():
+            for part in _parts(sorted(now & places), slow):
+                yield replace(_job(request, name, part), uninterruptible=is_first)
 
 
 def _parts(places: list[int], slow: bool) -> list[list[int]]:
@@ -131,7 +128,7 @@ def _job(request: RateRequest, name: str, places: list[int]) -> Job:
     settings = rate_settings(request.settings, IMAGES, (request.decoder,), True)
     values = lattice(name, POSITIONS)
     points = tuple((place, {name: values[place]}) for place in places)
-    return Job(measure_along, (request.scene, settings, name, points))
+    return Job(measure_along, (request.scene, settings, name, points), rank=RANK)
 
 
 class SliderStripController(RestingController):
@@ -170,7 +167,7 @@ class SliderStripController(RestingController):
         request = self._asked
         if request is not None:
             missing, self._missing = self._missing, {}
-            self._channel.put(request, partial(strip_stages, missing, request))
+            self._channel.put(request, strip_jobs(missing, request))
 
     def _take(self, request: RateRequest, results: list[Along]) -> None:
         for result in results:
@@ -231,16 +228,16 @@ class OwnRateController(RestingController):
 
     def _measure(self) -> None:
         if self._asked is not None:
-            self._channel.put(self._asked, partial(own_rate_stages, self._asked))
+            self._channel.put(self._asked, iter([own_rate_job(self._asked)]))
 
     def _take(self, request: RateRequest, results: list[MeasuredPoints]) -> None:
         if request == self._asked and results:
             self._show(own_rate(results[-1]))
 
 
-def own_rate_stages(request: RateRequest) -> Iterator[Stage]:
+def own_rate_job(request: RateRequest) -> Job:
     settings = rate_settings(request.settings, OWN_IMAGES, (request.decoder,), True)
-    yield Stage(OWN_RANK, (Job(measure_points, (request.scene, settings, ((0, {}),))),))
+    return Job(measure_points, (request.scene, settings, ((0, {}),)), rank=OWN_RANK)
 
 
 def own_rate(measured: MeasuredPoints) -> OwnRate | None:

@@ -1,7 +1,7 @@
 """Jobs: calls that workers make, and what workers and receivers of results must be able to do."""
 
 import traceback
-from collections.abc import Callable, Iterable, MutableSequence
+from collections.abc import Callable, MutableSequence
 from concurrent.futures import Future
 from dataclasses import dataclass
 from typing import Any, Protocol, TypeAlias
@@ -34,6 +34,9 @@ class Job:
     function: Callable[..., Any]
     arguments: tuple[Any, ...]
     counter: int = 0  # The counter that the job's heartbeats are added to
+    rank: int = 0  # Of all jobs that wait, those of the lowest rank go first
+    # Whether the job is done, once its run has come to it, in spite of a newer run
+    uninterruptible: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,18 +49,6 @@ class JobResult:
     value: Any = None
     error: Exception | None = None
     is_abandoned: bool = False
-
-
-@dataclass(frozen=True, slots=True)
-class Stage:
-    rank: int  # The jobs of the stage with the lowest rank go first
-    # The jobs, in the order in which they are begun. Each is taken only when it is needed.
-    jobs: Iterable[Job]
-    # Whether the stage, once begun, is completed in spite of a newer request
-    uninterruptible: bool = False
-
-
-Stages: TypeAlias = Callable[[], Iterable[Stage]]  # called where the scheduler runs
 
 
 class Workers(Protocol):
@@ -85,22 +76,19 @@ class Workers(Protocol):
 
 
 class Listener(Protocol):
-    """Receives what becomes of the runs; called where the scheduler runs."""
+    """Receives what becomes of runs; called where the scheduler runs."""
 
-    def results_ready(self, channel: int, run: int, results: list[Any]) -> None:
-        """Receive results of a run."""
+    def take_results(self, run: int, results: list[Any]) -> None:
+        """Receive results of a run: one, or those of all uninterruptible jobs in a row."""
 
-    def finished(self, channel: int, run: int) -> None:
-        """Note that all results of a run were given."""
+    def take_end(self, run: int, error: Exception | None) -> None:
+        """Note that no more results of a run come, and why, unless all were given."""
 
-    def failed(self, channel: int, run: int, error: Exception) -> None:
-        """Note that no more results of a run come, and why."""
+    def note_lost_workers(self, run: int, missing: Exception | None) -> None:
+        """Note that others repeat the jobs of lost workers.
 
-    def workers_replaced(self, channel: int, run: int) -> None:
-        """Note that workers ended, and that others repeat the jobs that they had."""
-
-    def workers_missing(self, channel: int, run: int, error: Exception) -> None:
-        """Note that no processes can be started, and that the fallback does the jobs."""
+        ``missing``: why no processes can be started, where the fallback does the jobs.
+        """
 
 
 def do_job(job: Job, heartbeat: Heartbeat) -> JobResult:

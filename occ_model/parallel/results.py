@@ -3,9 +3,8 @@
 from collections.abc import Callable, Generator, Iterator
 from typing import Any
 
-from occ_model.parallel.job import Heartbeat, Job, Stage, Workers
-from occ_model.parallel.request import Run
-from occ_model.parallel.scheduler import Scheduler
+from occ_model.parallel.job import Heartbeat, Job, Workers
+from occ_model.parallel.scheduler import Run, Scheduler
 
 _BEAT = 0.2  # seconds between two heartbeats while this process waits for workers
 
@@ -23,8 +22,8 @@ def results_of(
     WorkersLostError where workers end again and again.
     """
     ready = _Results()
-    scheduler = Scheduler(start, ready, fallback=fallback)
-    scheduler.put(Run(0, 1, lambda: (Stage(0, jobs),)))
+    scheduler = Scheduler(start, fallback)
+    scheduler.put(Run(0, 1, jobs, ready))
     try:
         while not ready.is_ended:
             heartbeat()
@@ -48,17 +47,11 @@ class _Results:
         results, self._results = self._results, []
         return results
 
-    def results_ready(self, _channel: int, _run: int, results: list[Any]) -> None:
+    def take_results(self, _run: int, results: list[Any]) -> None:
         self._results += results
 
-    def finished(self, _channel: int, _run: int) -> None:
-        self.is_ended = True
-
-    def failed(self, _channel: int, _run: int, error: Exception) -> None:
+    def take_end(self, _run: int, error: Exception | None) -> None:
         self.is_ended, self.error = True, error
 
-    def workers_replaced(self, _channel: int, _run: int) -> None:
+    def note_lost_workers(self, _run: int, _missing: Exception | None) -> None:
         """Do nothing: the work goes on."""
-
-    def workers_missing(self, _channel: int, _run: int, _error: Exception) -> None:
-        """Do nothing: the fallback does the work."""

@@ -22,7 +22,7 @@ from occ_gui.detection_map.map_schedule import MapRequest
 from occ_gui.detection_map.slider_strip_controller import (
     OWN_IMAGES,
     own_rate,
-    own_rate_stages,
+    own_rate_job,
 )
 from occ_gui.detection_map.slider_strip_controller import RateRequest as Request
 from occ_gui.detection_map.worker import SEED, UNSEEN_PARAMETERS, measure_along, rate_settings
@@ -125,8 +125,8 @@ def test_six_doors_give_the_same_number(
     scene = scene_of(decoder).replace(**UNSEEN_PARAMETERS)
     settings, images = SimulationSettings(), OWN_IMAGES
     frequency = scene.transmitter.switching_frequency
-    (banner,) = (stage.jobs for stage in own_rate_stages(Request(scene, settings, decoder)))
-    rate = not_none(own_rate(do_job(next(iter(banner)), lambda: None).value))
+    banner = own_rate_job(Request(scene, settings, decoder))
+    rate = not_none(own_rate(do_job(banner, lambda: None).value))
     wanted = occ.success_rate(scene, images, decoder)
     own_place: dict[str, ParameterValue] = {"switching_frequency": frequency}
     at = ((0, own_place),)

@@ -9,14 +9,14 @@ from typing import Any, NoReturn
 
 import pytest
 from pytestqt.qtbot import QtBot
-from worker_calls import HeldWorker, echo, fail
+from worker_calls import HeldWorker, echo, fail, wait_until
 
 from occ_gui.background.signals import JobChannel, WorkQueue
-from occ_model.parallel.job import Job, JobResult, Stage, Stages
+from occ_model.parallel.job import Job, JobResult
 
 
-def stages_of(*values: Any, rank: int = 0, whole: bool = False) -> Stages:
-    return lambda: [Stage(rank, tuple(Job(echo, (v,)) for v in values), whole)]
+def jobs(*values: Any) -> Iterator[Job]:
+    return (Job(echo, (value,)) for value in values)
 
 
 class Received:
@@ -54,8 +54,8 @@ def test_all_results_arrive_on_this_thread_and_then_the_end(
 ) -> None:
     channel, other = queue_of(inline_workers, 2).channels
     received, others = Received(channel), Received(other)
-    other.put("other", stages_of(4))
-    channel.put("request", lambda: [*stages_of(1, 2)(), *stages_of(3)()])
+    other.put("other", jobs(4))
+    channel.put("request", jobs(1, 2, 3))
     assert not channel.is_idle
     qtbot.waitUntil(lambda: channel.is_idle and other.is_idle)
     assert received.results == [("request", 1), ("request", 2), ("request", 3)]
@@ -70,9 +70,9 @@ def test_of_a_request_that_was_replaced_no_more_results_arrive(
     worker = HeldWorker()
     (channel,) = queue_of(worker).channels
     received = Received(channel)
-    channel.put("old", stages_of("a", "b", "c"))
+    channel.put("old", jobs("a", "b", "c"))
     qtbot.waitUntil(lambda: len(worker.held) == 2)
-    channel.put("new", stages_of("x"))
+    channel.put("new", jobs("x"))
     qtbot.waitUntil(lambda: (0, 2) in worker.abandoned)
     worker.finish(2)
     qtbot.waitUntil(lambda: len(worker.held) == 1)
@@ -82,11 +82,48 @@ def test_of_a_request_that_was_replaced_no_more_results_arrive(
     assert received.finished == ["new"]
 
 
+def test_what_is_completed_is_shown_before_the_request_that_replaces_it(
+    qtbot: QtBot, queue_of: Callable[..., WorkQueue]
+) -> None:
+    worker = HeldWorker()
+    (channel,) = queue_of(worker).channels
+    received = Received(channel)
+    channel.put("first", jobs("f"))
+    wait_until(lambda: len(worker.held) == 1)
+    worker.finish()
+    qtbot.waitUntil(lambda: channel.is_idle)
+    channel.put("old", iter([Job(echo, (value,), uninterruptible=True) for value in "ab"]))
+    wait_until(lambda: len(worker.held) == 2)
+    channel.put("new", jobs("x", "y"))
+    worker.finish(2)
+    wait_until(lambda: len(worker.held) == 2)
+    worker.finish(2)
+    qtbot.waitUntil(lambda: channel.is_idle)
+    assert received.results[1:] == [("old", "a"), ("old", "b"), ("new", "x"), ("new", "y")]
+    assert received.finished == ["first", "new"]
+
+
+def test_results_that_come_together_are_shown_together(
+    qtbot: QtBot, queue_of: Callable[..., WorkQueue]
+) -> None:
+    worker = HeldWorker()
+    (channel,) = queue_of(worker).channels
+    shown: list[list[Any]] = []
+    channel.results_ready.connect(lambda _, results: shown.append(results))
+    channel.put("request", jobs(*"abcdef"))
+    for _ in range(4):
+        wait_until(lambda: len(worker.held) == 2)
+        worker.finish()
+    wait_until(lambda: len(worker.held) == 2)
+    qtbot.waitUntil(lambda: len(shown) == 2)
+    assert shown == [["a"], ["b", "c", "d"]]
+
+
 def test_after_cancelling_nothing_arrives(qtbot: QtBot, queue_of: Callable[..., WorkQueue]) -> None:
     worker = HeldWorker()
     (channel,) = queue_of(worker).channels
     received = Received(channel)
-    channel.put("request", stages_of("a", "b"))
+    channel.put("request", jobs("a", "b"))
     qtbot.waitUntil(lambda: len(worker.held) == 2)
     channel.cancel()
     assert channel.is_idle
@@ -104,11 +141,11 @@ def test_an_error_is_a_sentence_and_the_next_request_is_done(
 ) -> None:
     (channel,) = queue_of(inline_workers).channels
     received = Received(channel)
-    channel.put("bad", lambda: [Stage(0, (Job(fail, ("luck",)),))])
+    channel.put("bad", iter([Job(fail, ("luck",))]))
     qtbot.waitUntil(lambda: channel.is_idle)
     assert received.failures == ["The work in the background failed: ValueError: no luck."]
     assert "failed for 'bad'" in caplog.text
-    channel.put("good", stages_of(1))
+    channel.put("good", jobs(1))
     qtbot.waitUntil(lambda: channel.is_idle)
     assert received.results == [("good", 1)]
 
@@ -125,7 +162,7 @@ def test_workers_that_keep_dying_are_reported(
     worker = Dying()
     (channel,) = queue_of(worker).channels
     received = Received(channel)
-    channel.put("request", stages_of(1))
+    channel.put("request", jobs(1))
     qtbot.waitUntil(lambda: channel.is_idle)
     assert received.failures == ["Processes in the background ended 3 times without a result."]
     assert received.messages == 2 * ["A process in the background ended; its work is done again."]
@@ -139,7 +176,7 @@ def test_without_processes_the_work_is_done_all_the_same(qtbot: QtBot) -> None:
     queue = WorkQueue(1, no_processes)
     (channel,) = queue.channels
     received = Received(channel)
-    channel.put("request", stages_of(1, 2, 3))
+    channel.put("request", jobs(1, 2, 3))
     qtbot.waitUntil(lambda: channel.is_idle)
     queue.stop()
     assert [found for _, found in received.results] == [1, 2, 3]
@@ -158,12 +195,12 @@ def test_stopping_ends_the_workers_and_nothing_arrives_any_more(
     queue = queue_of(worker)
     (channel,) = queue.channels
     received = Received(channel)
-    channel.put("request", stages_of("a"))
+    channel.put("request", jobs("a"))
     qtbot.waitUntil(lambda: len(worker.held) == 1)
     queue.stop()
     queue.stop()
     assert worker.closed == 1
-    channel.put("late", stages_of("b"))
+    channel.put("late", jobs("b"))
     qtbot.wait(30)
     assert (received.results, received.failures) == ([], [])
     assert queue_of(HeldWorker()).counted(0) == 0

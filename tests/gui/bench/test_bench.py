@@ -25,7 +25,7 @@ from occ_gui.bench.bench_view import OF_SCENE, PUBLISHED, BenchChoice, BenchView
 from occ_gui.bench.pane import BenchController, request_of
 from occ_gui.detection_map.slider_strip_controller import RANK
 from occ_model.errors import ParameterError
-from occ_model.parallel.job import Job, JobResult, Stage
+from occ_model.parallel.job import Job, JobResult
 from occ_model.results.bench import BenchPoint, BenchRequest
 from occ_model.results.bit_errors import BitErrors
 from occ_model.scene.scene import Scene
@@ -43,6 +43,7 @@ class Measuring:
 
     def __init__(self, qtbot: QtBot, scene: Scene, workers: InlineWorkers) -> None:
         self.scenes = store_of(scene)
+        self.workers = workers
         self.queue = WorkQueue(1, lambda: workers)
         self.pane = BenchView(("threshold",), ("threshold",))
         qtbot.addWidget(self.pane)
@@ -248,17 +249,13 @@ def test_before_the_first_measurement_the_pane_says_what_it_is_for_and_then_what
 
 
 def test_each_number_of_bits_is_one_of_whole_payloads_and_is_measured_before_the_map(
-    measuring: Measuring, monkeypatch: pytest.MonkeyPatch
+    measuring: Measuring,
 ) -> None:
     effort, whole = measuring.pane.effort, BenchRequest().payload_bits
     offered = [int(effort.itemData(place)) for place in range(effort.count())]
     assert len(offered) > 1
     assert all(bits % whole == 0 for bits in offered)
     assert offered == sorted(set(offered))
-    put: list[Stage] = []
-    channel = measuring.controller.channel
-    monkeypatch.setattr(channel, "put", lambda _request, stages: put.extend(stages()))
-    measuring.controller.choose(BenchChoice(PUBLISHED, ("threshold",), 64))
-    measuring.pane.measure.click()
-    assert put
-    assert all(stage.rank < min(0, RANK) for stage in put)
+    measuring.measure()
+    assert measuring.workers.jobs
+    assert all(job.rank < min(0, RANK) for job in measuring.workers.jobs)

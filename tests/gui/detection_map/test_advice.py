@@ -13,13 +13,12 @@ from PySide6.QtCore import QPoint, QTimer
 from PySide6.QtWidgets import QApplication, QLabel
 from pytestqt.qtbot import QtBot
 
-from occ_gui.background.signals import JobChannel
 from occ_gui.detection_map import advice_worker, map_schedule
 from occ_gui.detection_map import search_controller as module
 from occ_gui.detection_map.advice_sentences import advice_lines
 from occ_gui.detection_map.advice_view import AdviceView
 from occ_model.commands.limits import row, sentences
-from occ_model.parallel.job import Job, JobResult, Stages
+from occ_model.parallel.job import Job, JobResult
 from occ_model.receiver.decoders import DECODERS
 from occ_model.results.advice import Advice, TheoryLimits
 from occ_model.results.limits import Limits, RangeEnd, ReadInterval, Trial, WorkingRange
@@ -191,10 +190,20 @@ def test_a_refusal_of_the_model_is_shown(
 
 
 class Never(InlineWorkers):
-    """Workers that come to no end."""
+    """Workers that come to no end before their work is abandoned."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.held: list[Future[JobResult]] = []
 
     def submit(self, job: Job, channel: int, run: int) -> "Future[JobResult]":
-        return Future()
+        self.jobs.append(job)
+        self.held.append(Future())
+        return self.held[-1]
+
+    def abandon(self, channel: int, run: int) -> None:
+        while self.held:
+            self.held.pop().set_result(JobResult(is_abandoned=True))
 
 
 def test_a_search_ends_when_it_is_cancelled_the_scene_changes_or_the_window_stops(
@@ -220,22 +229,14 @@ def test_a_search_ends_when_it_is_cancelled_the_scene_changes_or_the_window_stop
 
 
 def test_only_limits_that_the_user_asks_for_come_before_the_map(
-    map_bench: MapBench, monkeypatch: pytest.MonkeyPatch
+    qtbot: QtBot, map_bench: MapBench
 ) -> None:
-    ranks: list[int] = []
-    put_really = JobChannel.put
-
-    def put(channel: JobChannel, request: object, stages: Stages) -> None:
-        ranks.append(min(stage.rank for stage in stages()))
-        put_really(channel, request, stages)
-
-    map_bench.workers = Never()
-    monkeypatch.setattr(JobChannel, "put", put)
+    map_bench.workers = never = Never()
     map_bench.view.cards.asked.emit()
+    qtbot.waitUntil(lambda: bool(never.jobs))
+    in_turn = never.jobs[0].rank
     map_bench.view.advise.click()
-    map_bench.pane.advisor.cancel()
-    in_turn, asked = ranks
-    assert asked < map_schedule.COARSE
+    qtbot.waitUntil(lambda: never.jobs[-1].rank < map_schedule.COARSE)
     assert map_schedule.FINE < in_turn < map_schedule.SURE
 
 

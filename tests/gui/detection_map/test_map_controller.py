@@ -276,13 +276,11 @@ def test_a_first_answer_is_awaited_until_it_is_there_or_found_to_take_long(
 
 
 @pytest.mark.parametrize("with_image_effects", [False, True])
-def test_only_rows_of_pictures_take_long(
-    small_scene: Scene, monkeypatch: pytest.MonkeyPatch, with_image_effects: bool
-) -> None:
-    monkeypatch.setattr(map_schedule, "left_out", lambda *_: ("jpeg",))
+def test_only_rows_of_pictures_take_long(small_scene: Scene, with_image_effects: bool) -> None:
+    scene = small_scene.replace(jpeg_quality=30)
     request = map_schedule.MapRequest(
-        small_scene, FREQUENCY, DISTANCE, FIRST_SETTINGS, with_image_effects
+        scene, FREQUENCY, DISTANCE, FIRST_SETTINGS, with_image_effects
     )
     told: list[int] = []
-    request.stages(np.zeros(SHAPE, dtype=int), False, lambda: told.append(1))
+    next(request.jobs(request.empty_map().images, False, lambda: told.append(1)))
     assert bool(told) == with_image_effects

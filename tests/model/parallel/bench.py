@@ -1,18 +1,40 @@
 """A scheduler with one held worker, driven step by step, and all that it reports."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from itertools import chain
 from typing import Any
 
 from worker_calls import HeldWorker, echo
 
-from occ_model.parallel.job import Job, Stage, Workers
-from occ_model.parallel.request import Run
-from occ_model.parallel.scheduler import Scheduler
+from occ_model.parallel.job import Job, Workers
+from occ_model.parallel.scheduler import Run, Scheduler
 
 
-def stage(rank: int, *values: Any, whole: bool = False) -> Stage:
-    """Make a stage whose jobs give these values; ``whole``: it is uninterruptible."""
-    return Stage(rank, tuple(Job(echo, (value,)) for value in values), whole)
+def jobs(rank: int, *values: Any, whole: bool = False) -> tuple[Job, ...]:
+    """Make jobs that give these values; ``whole``: they are uninterruptible."""
+    return tuple(Job(echo, (value,), rank=rank, uninterruptible=whole) for value in values)
+
+
+@dataclass
+class Listener:
+    """Writes down what becomes of a channel's runs."""
+
+    bench: "Bench"
+    channel: int
+
+    def take_results(self, run: int, results: list[Any]) -> None:
+        self.bench.reports.append((self.channel, run, results))
+
+    def take_end(self, run: int, error: Exception | None) -> None:
+        if error is None:
+            self.bench.ended.append((self.channel, run))
+        else:
+            self.bench.errors.append((self.channel, run, error))
+
+    def note_lost_workers(self, run: int, missing: Exception | None) -> None:
+        what = "replaced" if missing is None else "missing"
+        self.bench.notices.append((what, self.channel, run))
 
 
 class Bench:
@@ -22,14 +44,11 @@ class Bench:
         self, worker: Workers | None = None, start: Callable[[], Workers] | None = None, **how: Any
     ) -> None:
         self.worker: Any = worker or HeldWorker()
-        self.time = 0.0
         self.reports: list[tuple[int, int, list[Any]]] = []
         self.ended: list[tuple[int, int]] = []
         self.errors: list[tuple[int, int, Exception]] = []
         self.notices: list[tuple[str, int, int]] = []
-        self.scheduler = Scheduler(
-            start or (lambda: self.worker), self, clock=lambda: self.time, **how
-        )
+        self.scheduler = Scheduler(start or (lambda: self.worker), **how)
 
     @property
     def sent(self) -> list[Any]:
@@ -41,13 +60,13 @@ class Bench:
         """All results that were reported, in order."""
         return [result for _, _, results in self.reports for result in results]
 
-    def ask(self, channel: int, number: int, *stages: Stage) -> None:
+    def ask(self, channel: int, number: int, *groups: tuple[Job, ...]) -> None:
         """Make a request."""
-        self.ask_for(channel, number, lambda: stages)
+        self.ask_for(channel, number, chain(*groups))
 
-    def ask_for(self, channel: int, number: int, stages: Callable[[], Iterable[Stage]]) -> None:
-        """Make a request whose stages a function gives."""
-        self.scheduler.put(Run(channel, number, stages))
+    def ask_for(self, channel: int, number: int, coming: Iterator[Job]) -> None:
+        """Make a request whose jobs come one by one."""
+        self.scheduler.put(Run(channel, number, coming, Listener(self, channel)))
         self.settle()
 
     def finish(self, number: int = 1) -> None:
@@ -68,18 +87,3 @@ class Bench:
         """Let the scheduler answer all messages."""
         for _ in range(20):
             assert self.scheduler.step(0.0)
-
-    def results_ready(self, channel: int, run: int, results: list[Any]) -> None:
-        self.reports.append((channel, run, results))
-
-    def finished(self, channel: int, run: int) -> None:
-        self.ended.append((channel, run))
-
-    def failed(self, channel: int, run: int, error: Exception) -> None:
-        self.errors.append((channel, run, error))
-
-    def workers_replaced(self, channel: int, run: int) -> None:
-        self.notices.append(("replaced", channel, run))
-
-    def workers_missing(self, channel: int, run: int, error: Exception) -> None:
-        self.notices.append(("missing", channel, run))

@@ -6,10 +6,10 @@ from concurrent.futures import BrokenExecutor, Future
 from typing import Any, NoReturn
 
 import pytest
-from model.parallel.bench import Bench, stage
-from worker_calls import HeldWorker, echo, fail
+from model.parallel.bench import Bench, jobs
+from worker_calls import HeldWorker, fail
 
-from occ_model.parallel.job import Job, JobResult, Stage, WorkersLostError
+from occ_model.parallel.job import Job, JobResult, WorkersLostError
 
 MAP, STRIPS = 0, 1
 
@@ -20,7 +20,7 @@ def bench() -> Bench:
 
 
 def test_a_dead_worker_loses_no_job_and_repeats_no_delivered_one(bench: Bench) -> None:
-    bench.ask(MAP, 1, stage(0, *"abcde"))
+    bench.ask(MAP, 1, jobs(0, *"abcde"))
     bench.finish(2)
     bench.worker.die()
     bench.settle()
@@ -33,7 +33,7 @@ def test_a_dead_worker_loses_no_job_and_repeats_no_delivered_one(bench: Bench) -
 
 
 def test_a_result_that_came_before_its_worker_died_is_kept(bench: Bench) -> None:
-    bench.ask(MAP, 1, stage(0, *"abc"))
+    bench.ask(MAP, 1, jobs(0, *"abc"))
     (_, lost), (_, kept) = bench.worker.held
     bench.worker.held.clear()
     # Both before the scheduler hears of either.
@@ -46,8 +46,8 @@ def test_a_result_that_came_before_its_worker_died_is_kept(bench: Bench) -> None
 
 
 def test_jobs_in_flight_are_repeated_in_order_for_each_request(bench: Bench) -> None:
-    bench.ask(MAP, 1, stage(0, "m"))
-    bench.ask(STRIPS, 1, stage(1, "s", "t"))
+    bench.ask(MAP, 1, jobs(0, "m"))
+    bench.ask(STRIPS, 1, jobs(1, "s", "t"))
     assert bench.sent == ["m", "s"]
     bench.worker.die()
     bench.settle()
@@ -58,17 +58,17 @@ def test_jobs_in_flight_are_repeated_in_order_for_each_request(bench: Bench) -> 
 
 
 def test_a_request_that_has_ended_hears_of_no_loss(bench: Bench) -> None:
-    bench.ask(MAP, 1, stage(0, "a"))
+    bench.ask(MAP, 1, jobs(0, "a"))
     bench.finish_all()
-    bench.ask(STRIPS, 1, stage(0, "s"))
+    bench.ask(STRIPS, 1, jobs(0, "s"))
     bench.worker.die()
     bench.settle()
     assert bench.notices == [("replaced", STRIPS, 1)]
 
 
 def test_a_job_of_an_abandoned_request_is_not_repeated(bench: Bench) -> None:
-    bench.ask(MAP, 1, stage(0, "a", "b"))
-    bench.ask(MAP, 2, stage(0, "x"))
+    bench.ask(MAP, 1, jobs(0, "a", "b"))
+    bench.ask(MAP, 2, jobs(0, "x"))
     bench.worker.die()
     bench.settle()
     assert bench.sent == ["a", "b", "x"]
@@ -88,15 +88,15 @@ def test_a_job_refused_by_a_dead_worker_is_sent_again(bench: Bench) -> None:
             return super().submit(job, channel, run)
 
     bench = Bench(DyingAtSubmit())
-    bench.ask(MAP, 1, stage(0, *"abc"))
+    bench.ask(MAP, 1, jobs(0, *"abc"))
     assert bench.sent == ["a", "a", "b"]
     bench.finish_all()
     assert bench.results == ["a", "b", "c"]
 
 
 def test_workers_that_keep_dying_fail_all_requests_but_the_next(bench: Bench) -> None:
-    bench.ask(MAP, 1, stage(0, "a"))
-    bench.ask(STRIPS, 1, stage(1, "s"))
+    bench.ask(MAP, 1, jobs(0, "a"))
+    bench.ask(STRIPS, 1, jobs(1, "s"))
     for _ in range(3):
         assert bench.errors == []
         bench.worker.die()
@@ -107,13 +107,13 @@ def test_workers_that_keep_dying_fail_all_requests_but_the_next(bench: Bench) ->
     assert str(error) == "Processes in the background ended 3 times without a result."
     assert error.reason == "BrokenExecutor: It was killed"
     assert bench.worker.renewed == 3
-    bench.ask(MAP, 2, stage(0, "b"))
+    bench.ask(MAP, 2, jobs(0, "b"))
     bench.finish_all()
     assert bench.results == ["b"]
 
 
 def test_a_result_in_between_makes_up_for_the_losses_before(bench: Bench) -> None:
-    bench.ask(MAP, 1, stage(0, *"abcdef"))
+    bench.ask(MAP, 1, jobs(0, *"abcdef"))
     for _ in range(5):
         bench.worker.die()
         bench.settle()
@@ -126,13 +126,13 @@ def test_without_workers_the_request_fails_or_the_fallback_works() -> None:
         raise OSError(errno.EROFS, "no semaphores")
 
     alone = Bench(start=none)
-    alone.ask(MAP, 1, stage(0, "a"))
+    alone.ask(MAP, 1, jobs(0, "a"))
     assert [(run, str(error)) for _, run, error in alone.errors] == [
         (1, "[Errno 30] no semaphores")
     ]
     fallback = HeldWorker()
     helped = Bench(fallback, start=none, fallback=lambda: fallback)
-    helped.ask(MAP, 1, stage(0, "a", "b", "c"))
+    helped.ask(MAP, 1, jobs(0, "a", "b", "c"))
     helped.finish_all()
     assert helped.results == ["a", "b", "c"]
     assert helped.notices == [("missing", MAP, 1)]
@@ -145,7 +145,7 @@ def test_the_fallback_continues_where_workers_cannot_be_renewed() -> None:
 
     fallback = HeldWorker()
     bench = Bench(Last(), fallback=lambda: fallback)
-    bench.ask(MAP, 1, stage(0, *"abc"))
+    bench.ask(MAP, 1, jobs(0, *"abc"))
     bench.finish()
     bench.worker.die()
     bench.worker = fallback
@@ -155,7 +155,7 @@ def test_the_fallback_continues_where_workers_cannot_be_renewed() -> None:
     assert fallback.sent == ["b", "c"]
     assert bench.results == ["a", "b", "c"]
     alone = Bench(Last())
-    alone.ask(MAP, 1, stage(0, "a"))
+    alone.ask(MAP, 1, jobs(0, "a"))
     alone.worker.die()
     alone.settle()
     assert isinstance(alone.errors[0][2], WorkersLostError)
@@ -163,8 +163,8 @@ def test_the_fallback_continues_where_workers_cannot_be_renewed() -> None:
 
 
 def test_a_job_that_raises_fails_its_own_request_only(bench: Bench) -> None:
-    bench.ask(MAP, 1, Stage(0, (Job(fail, ("luck",)), Job(echo, ("never",)), Job(echo, ("no",)))))
-    bench.ask(STRIPS, 1, stage(1, "s", "t"))
+    bench.ask(MAP, 1, (Job(fail, ("luck",)), *jobs(0, "never", "no")))
+    bench.ask(STRIPS, 1, jobs(1, "s", "t"))
     bench.finish_all()
     ((channel, run, error),) = bench.errors
     assert (channel, run, repr(error)) == (MAP, 1, "ValueError('no luck')")
@@ -175,29 +175,29 @@ def test_a_job_that_raises_fails_its_own_request_only(bench: Bench) -> None:
 
 
 def test_behind_a_request_that_fails_the_newer_one_is_done(bench: Bench) -> None:
-    bench.ask(MAP, 1, Stage(0, (Job(fail, ("luck",)), Job(echo, ("a",))), uninterruptible=True))
-    bench.ask(MAP, 2, stage(0, "x"))
+    bench.ask(MAP, 1, (Job(fail, ("luck",), uninterruptible=True), *jobs(0, "a", whole=True)))
+    bench.ask(MAP, 2, jobs(0, "x"))
     bench.finish_all()
     assert [run for _, run, _ in bench.errors] == [1]
     assert bench.results == ["x"]
 
 
 def test_an_error_of_an_abandoned_request_is_not_reported(bench: Bench) -> None:
-    bench.ask(MAP, 1, Stage(0, (Job(fail, ("luck",)),)))
-    bench.ask(MAP, 2, stage(0, "x"))
+    bench.ask(MAP, 1, (Job(fail, ("luck",)),))
+    bench.ask(MAP, 2, jobs(0, "x"))
     bench.finish_all()
     assert bench.errors == []
     assert bench.results == ["x"]
 
 
-def failing_stages() -> Iterator[Stage]:
-    yield stage(0, "a")
+def failing() -> Iterator[Job]:
+    yield from jobs(0, "a")
     raise ZeroDivisionError("a mistake")
 
 
-def test_stages_that_raise_fail_their_own_request_only(bench: Bench) -> None:
-    bench.ask_for(MAP, 1, failing_stages)
-    bench.ask(STRIPS, 1, stage(0, "s"))
+def test_jobs_that_cannot_be_made_fail_their_own_request_only(bench: Bench) -> None:
+    bench.ask_for(MAP, 1, failing())
+    bench.ask(STRIPS, 1, jobs(0, "s"))
     bench.finish_all()
     assert [(run, repr(error)) for _, run, error in bench.errors] == [
         (1, "ZeroDivisionError('a mistake')")
@@ -213,8 +213,8 @@ def test_a_job_that_cannot_be_sent_fails_its_own_request_only() -> None:
             return super().submit(job, channel, run)
 
     bench = Bench(Picky())
-    bench.ask(MAP, 1, stage(0, "a"))
-    bench.ask(STRIPS, 1, stage(0, "s"))
+    bench.ask(MAP, 1, jobs(0, "a"))
+    bench.ask(STRIPS, 1, jobs(0, "s"))
     bench.finish_all()
     assert [(run, str(error)) for _, run, error in bench.errors] == [(1, "cannot be sent")]
     assert bench.results == ["s"]
@@ -229,15 +229,15 @@ def test_a_start_that_fails_by_a_mistake_fails_the_request_only() -> None:
         return worker
 
     bench = Bench(worker, start=start)
-    bench.ask(MAP, 1, stage(0, "a"))
+    bench.ask(MAP, 1, jobs(0, "a"))
     assert [str(error) for *_, error in bench.errors] == ["a mistake"]
-    bench.ask(MAP, 2, stage(0, "b"))
+    bench.ask(MAP, 2, jobs(0, "b"))
     bench.finish_all()
     assert bench.results == ["b"]
 
 
 def test_an_abandoned_result_counts_for_nothing(bench: Bench) -> None:
-    bench.ask(MAP, 1, stage(0, "a", "b"))
+    bench.ask(MAP, 1, jobs(0, "a", "b"))
     _, future = bench.worker.held.pop(0)
     future.set_result(JobResult(is_abandoned=True))
     bench.settle()
@@ -247,7 +247,7 @@ def test_an_abandoned_result_counts_for_nothing(bench: Bench) -> None:
 
 
 def test_ending_withdraws_jobs_and_ends_the_workers(bench: Bench) -> None:
-    bench.ask(MAP, 4, stage(0, "a", "b"))
+    bench.ask(MAP, 4, jobs(0, "a", "b"))
     futures = [future for _, future in bench.worker.held]
     bench.scheduler.close()
     bench.scheduler.run()
@@ -257,7 +257,7 @@ def test_ending_withdraws_jobs_and_ends_the_workers(bench: Bench) -> None:
 
 
 def test_no_worker_is_started_before_there_is_a_job(bench: Bench) -> None:
-    bench.ask(MAP, 1, stage(0))
+    bench.ask(MAP, 1, jobs(0))
     assert bench.scheduler.workers is None
     bench.scheduler.close()
     bench.scheduler.run()

@@ -4,10 +4,10 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
-from model.parallel.bench import Bench, stage
+from model.parallel.bench import Bench, jobs
 from worker_calls import echo
 
-from occ_model.parallel.job import Job, Stage
+from occ_model.parallel.job import Job
 
 MAP, STRIPS = 0, 1
 
@@ -17,53 +17,49 @@ def bench() -> Bench:
     return Bench()
 
 
-BUSY = (STRIPS, 1, stage(9, "busy", "busy too"))  # all that the worker takes: the next has to wait
+BUSY = (STRIPS, 1, jobs(9, "busy", "busy too"))  # all that the worker takes: the next has to wait
 
-# By law: the requests, each a channel, its number and its stages; the jobs sent; the runs that end.
+# By law: the requests, each a channel, its number and its jobs; the jobs sent; the runs that end.
 ORDERS: dict[str, tuple[list[Any], str, list[tuple[int, int]]]] = {
     "the lowest rank first": (
-        [BUSY, (MAP, 1, stage(5, "m", "n")), (STRIPS, 2, stage(1, "s", "t"))],
+        [BUSY, (MAP, 1, jobs(5, "m", "n")), (STRIPS, 2, jobs(1, "s", "t"))],
         "busy, busy too, s, t, m, n", [(STRIPS, 2), (MAP, 1)],
     ),
     "the lowest rank first, whoever asked": (
-        [BUSY, (MAP, 1, stage(1, "m", "n")), (STRIPS, 2, stage(5, "s", "t"))],
+        [BUSY, (MAP, 1, jobs(1, "m", "n")), (STRIPS, 2, jobs(5, "s", "t"))],
         "busy, busy too, m, n, s, t", [(MAP, 1), (STRIPS, 2)],
     ),
     "the rank is looked at before each job": (
-        [(MAP, 1, stage(5, *"abcd")), (STRIPS, 1, stage(1, "x"), stage(7, "y"))],
+        [(MAP, 1, jobs(5, *"abcd")), (STRIPS, 1, jobs(1, "x"), jobs(7, "y"))],
         "a, b, x, c, d, y", [(MAP, 1), (STRIPS, 1)],
     ),
     "of equal ranks the request that began first": (
-        [(STRIPS, 1, stage(2, *"stu")), (MAP, 1, stage(2, *"mn"))],
+        [(STRIPS, 1, jobs(2, *"stu")), (MAP, 1, jobs(2, *"mn"))],
         "s, t, u, m, n", [(STRIPS, 1), (MAP, 1)],
     ),
-    "jobs of a stage and stages of a request keep order": (
-        [(MAP, 1, stage(8, *"abc"), stage(4), stage(1, *"de"))], "a, b, c, d, e", [(MAP, 1)],
+    "jobs of a request keep their order, whatever their rank": (
+        [(MAP, 1, jobs(8, *"abc"), jobs(1, *"de"))], "a, b, c, d, e", [(MAP, 1)],
     ),
-    "an uninterruptible stage ends despite a newer request": (
-        [(MAP, 1, stage(0, *"abc", whole=True), stage(2, "fine")),
-         (MAP, 2, stage(0, "x", whole=True), stage(2, "new fine"))],
+    "uninterruptible jobs are done despite a newer request": (
+        [(MAP, 1, jobs(0, *"abc", whole=True), jobs(2, "fine")),
+         (MAP, 2, jobs(0, "x", whole=True), jobs(2, "new fine"))],
         "a, b, c, x, new fine", [(MAP, 2)],
     ),
-    "an uninterruptible stage that has not begun is replaced": (
-        [(MAP, 1, stage(0, *"abc"), stage(0, "d", whole=True)), (MAP, 2, stage(0, "x"))],
+    "uninterruptible jobs that have not been come to are replaced": (
+        [(MAP, 1, jobs(0, *"abc"), jobs(0, "d", whole=True)), (MAP, 2, jobs(0, "x"))],
         "a, b, x", [(MAP, 2)],
     ),
     "a newer request replaces an older one before it starts": (
-        [BUSY, (MAP, 1, stage(0, "old")), (MAP, 2, stage(0, "new"))],
+        [BUSY, (MAP, 1, jobs(0, "old")), (MAP, 2, jobs(0, "new"))],
         "busy, busy too, new", [(STRIPS, 1), (MAP, 2)],
     ),
-    "behind an uninterruptible stage only the newest is done": (
-        [(MAP, 1, stage(0, *"abc", whole=True)), (MAP, 2, stage(0, "passed over", whole=True)),
-         (MAP, 3, stage(0, "x", whole=True))],
+    "behind uninterruptible jobs only the newest is done": (
+        [(MAP, 1, jobs(0, *"abc", whole=True)), (MAP, 2, jobs(0, "passed over", whole=True)),
+         (MAP, 3, jobs(0, "x", whole=True))],
         "a, b, c, x", [(MAP, 3)],
     ),
-    "a stage without jobs holds nothing up": (
-        [(MAP, 1, stage(0, whole=True), stage(1, *"abc")), (MAP, 2, stage(1, "x"))],
-        "a, b, x", [(MAP, 2)],
-    ),
     "other channels keep their requests": (
-        [(MAP, 1, stage(0, *"mn")), (STRIPS, 1, stage(0, "s")), (MAP, 2, stage(0, "o"))],
+        [(MAP, 1, jobs(0, *"mn")), (STRIPS, 1, jobs(0, "s")), (MAP, 2, jobs(0, "o"))],
         "m, n, s, o", [(STRIPS, 1), (MAP, 2)],
     ),
 }  # fmt: skip
@@ -81,31 +77,31 @@ def test_jobs_are_sent_in_order(bench: Bench, law: str) -> None:
 
 # By law: the requests, and the jobs sent after so many were done.
 STEPS: dict[str, tuple[list[Any], dict[int, str]]] = {
-    "a stage begins while the previous one's last jobs run": (
-        [(MAP, 1, stage(8, "a"), stage(1, "b"))], {0: "a, b"},
+    "a job begins while those before it run": (
+        [(MAP, 1, jobs(8, "a"), jobs(1, "b"))], {0: "a, b"},
     ),
     "a worker has one job more than it does": (
-        [(MAP, 1, stage(0, *"abcde"))], {0: "a, b", 1: "a, b, c"},
+        [(MAP, 1, jobs(0, *"abcde"))], {0: "a, b", 1: "a, b, c"},
     ),
     "awaited work is not delayed by work that fills a gap": (
-        [(MAP, 1, stage(0, *"ab", whole=True)), (STRIPS, 1, stage(3, "s"))],
+        [(MAP, 1, jobs(0, *"ab", whole=True)), (STRIPS, 1, jobs(3, "s"))],
         {1: "a, b", 2: "a, b, s"},
     ),
-    "an interruptible stage lets others fill the gap": (
-        [(MAP, 1, stage(0, *"ab")), (STRIPS, 1, stage(3, "s"))], {1: "a, b, s"},
+    "interruptible work lets others fill the gap": (
+        [(MAP, 1, jobs(0, *"ab")), (STRIPS, 1, jobs(3, "s"))], {1: "a, b, s"},
     ),
     "a gap is filled by what is as urgent": (
-        [(MAP, 1, stage(2, *"ab", whole=True)), (STRIPS, 1, stage(2, "s"))], {1: "a, b, s"},
+        [(MAP, 1, jobs(2, *"ab", whole=True)), (STRIPS, 1, jobs(2, "s"))], {1: "a, b, s"},
     ),
     "a gap is filled by what is more urgent": (
-        [(MAP, 1, stage(2, *"ab", whole=True)), (STRIPS, 1, stage(1, "s"))], {1: "a, b, s"},
+        [(MAP, 1, jobs(2, *"ab", whole=True)), (STRIPS, 1, jobs(1, "s"))], {1: "a, b, s"},
     ),
-    "a later stage of the same request does not delay it": (
-        [(MAP, 1, stage(0, "a", whole=True), stage(2, "fine"))], {0: "a", 1: "a, fine"},
+    "a later job of the same request does not delay it": (
+        [(MAP, 1, jobs(0, "a", whole=True), jobs(2, "fine"))], {0: "a", 1: "a, fine"},
     ),
-    "a request waits only for its own channel's stages": (
-        [(MAP, 1, stage(0, *"abc", whole=True)), (MAP, 2, stage(0, "x")),
-         (STRIPS, 1, stage(0, "s")), (STRIPS, 2, stage(0, "t"))],
+    "a request waits only for its own channel's jobs": (
+        [(MAP, 1, jobs(0, *"abc", whole=True)), (MAP, 2, jobs(0, "x")),
+         (STRIPS, 1, jobs(0, "s")), (STRIPS, 2, jobs(0, "t"))],
         {2: "a, b, c, t", 4: "a, b, c, t, x"},
     ),
 }  # fmt: skip
@@ -128,32 +124,32 @@ def test_jobs_are_made_only_when_they_are_needed(bench: Bench, workers: int) -> 
     bench.worker.count = workers
     made: list[int] = []
 
-    def jobs() -> Iterator[Job]:
+    def endless() -> Iterator[Job]:
         for number in range(1000):
             made.append(number)
             yield Job(echo, (number,))
 
-    bench.ask(MAP, 1, Stage(0, jobs()))
+    bench.ask_for(MAP, 1, endless())
     begun = 2 * workers + 1  # two of each worker are in flight, and one waits
     assert len(made) == begun
     bench.finish(10)
     assert len(made) == begun + 10
 
 
-def test_an_abandoned_stage_delays_nothing(bench: Bench) -> None:
-    bench.ask(MAP, 1, stage(0, "coarse", whole=True))
-    bench.ask(STRIPS, 1, stage(3, "strip"))
+def test_abandoned_work_delays_nothing(bench: Bench) -> None:
+    bench.ask(MAP, 1, jobs(0, "coarse", whole=True))
+    bench.ask(STRIPS, 1, jobs(3, "strip"))
     assert bench.sent == ["coarse"]
     bench.scheduler.cancel(MAP, 2)
     bench.settle()
     assert bench.sent == ["coarse", "strip"]
 
 
-def test_only_an_old_requests_uninterruptible_stage_goes_on(bench: Bench) -> None:
-    # The stage that fills the gap is more urgent: only that it is superseded holds it back.
-    bench.ask(MAP, 1, stage(2, "a", whole=True), stage(0, "b", "c"))
+def test_only_an_old_requests_uninterruptible_jobs_go_on(bench: Bench) -> None:
+    # The jobs that fill the gap are more urgent: only that they are superseded holds them back.
+    bench.ask(MAP, 1, jobs(2, "a", whole=True), jobs(0, "b", "c"))
     assert bench.sent == ["a", "b"]
-    bench.ask(MAP, 2, stage(2, "x"))
+    bench.ask(MAP, 2, jobs(2, "x"))
     bench.worker.held.reverse()
     bench.finish()
     assert bench.sent == ["a", "b"]
@@ -162,8 +158,8 @@ def test_only_an_old_requests_uninterruptible_stage_goes_on(bench: Bench) -> Non
 
 
 def test_a_newer_request_replaces_a_running_one_at_once(bench: Bench) -> None:
-    bench.ask(MAP, 1, stage(0, "a", "b", "c"))
-    bench.ask(MAP, 2, stage(0, "x"))
+    bench.ask(MAP, 1, jobs(0, "a", "b", "c"))
+    bench.ask(MAP, 2, jobs(0, "x"))
     assert bench.worker.abandoned[-1] == (MAP, 2)
     bench.finish_all()
     assert bench.sent == ["a", "b", "x"]
@@ -171,23 +167,23 @@ def test_a_newer_request_replaces_a_running_one_at_once(bench: Bench) -> None:
 
 
 def test_a_cancelled_request_ends_and_the_one_behind_it_too(bench: Bench) -> None:
-    bench.ask(MAP, 1, stage(0, "a", "b", "c", whole=True))
-    bench.ask(MAP, 2, stage(0, "x"))
+    bench.ask(MAP, 1, jobs(0, "a", "b", "c", whole=True))
+    bench.ask(MAP, 2, jobs(0, "x"))
     bench.scheduler.cancel(MAP, 3)
     bench.settle()
     assert bench.worker.abandoned[-1] == (MAP, 3)
     bench.finish_all()
     assert bench.results == []
     assert bench.sent == ["a", "b"]
-    bench.ask(MAP, 3, stage(0, "y"), stage(0, "z"))
+    bench.ask(MAP, 3, jobs(0, "y"), jobs(0, "z"))
     bench.finish_all()
     assert bench.results == ["y", "z"]
     assert bench.ended == [(MAP, 3)]
 
 
 def test_the_request_behind_one_that_is_cancelled_alone_begins(bench: Bench) -> None:
-    bench.ask(MAP, 1, stage(0, "a", "b", "c", whole=True))
-    bench.ask(MAP, 2, stage(0, "x"))
+    bench.ask(MAP, 1, jobs(0, "a", "b", "c", whole=True))
+    bench.ask(MAP, 2, jobs(0, "x"))
     bench.scheduler.cancel(MAP, 2)
     bench.settle()
     bench.finish_all()
@@ -196,8 +192,8 @@ def test_the_request_behind_one_that_is_cancelled_alone_begins(bench: Bench) -> 
 
 
 def test_cancelling_earlier_requests_leaves_the_one_at_work(bench: Bench) -> None:
-    bench.ask(MAP, 2, stage(0, "a", "b", "c", whole=True))
-    bench.ask(MAP, 3, stage(0, "x"))
+    bench.ask(MAP, 2, jobs(0, "a", "b", "c", whole=True))
+    bench.ask(MAP, 3, jobs(0, "x"))
     bench.scheduler.cancel(MAP, 2)
     bench.finish_all()
     assert bench.results == ["a", "b", "c", "x"]
@@ -206,12 +202,11 @@ def test_cancelling_earlier_requests_leaves_the_one_at_work(bench: Bench) -> Non
 def test_a_request_without_jobs_ends_at_once_on_busy_workers(bench: Bench) -> None:
     bench.ask(*BUSY)
     bench.ask(MAP, 1)
-    bench.ask(MAP, 2, stage(0), stage(1, whole=True))
-    assert bench.ended == [(MAP, 1), (MAP, 2)]
+    assert bench.ended == [(MAP, 1)]
 
 
 def test_the_end_is_reported_once_after_all_results(bench: Bench) -> None:
-    bench.ask(MAP, 1, stage(0, "a", "b"), stage(1, "c"))
+    bench.ask(MAP, 1, jobs(0, "a", "b"), jobs(1, "c"))
     bench.finish(2)
     assert bench.ended == []
     bench.finish()
@@ -219,54 +214,7 @@ def test_the_end_is_reported_once_after_all_results(bench: Bench) -> None:
     assert bench.ended == [(MAP, 1)]
 
 
-def test_without_an_interval_each_result_is_reported_at_once() -> None:
-    bench = Bench()
-    bench.ask(MAP, 1, stage(0, "a", "b", "c"))
+def test_results_of_uninterruptible_jobs_are_reported_together_others_at_once(bench: Bench) -> None:
+    bench.ask(MAP, 1, jobs(0, *"abc", whole=True), jobs(0, *"de"))
     bench.finish_all()
-    assert [results for *_, results in bench.reports] == [["a"], ["b"], ["c"]]
-
-
-def test_results_within_an_interval_are_reported_together() -> None:
-    bench = Bench(interval=1.0)
-    bench.ask(MAP, 1, stage(0, *"abcdef"), stage(0, "g"))
-    bench.finish()
-    bench.time = 0.9
-    bench.finish(2)
-    bench.time = 1.0
-    bench.finish()
-    bench.time = 1.5
-    bench.finish()
-    assert [results for *_, results in bench.reports] == [["a"], ["b", "c", "d"]]
-
-
-def test_the_end_of_a_stage_is_reported_at_once() -> None:
-    bench = Bench(interval=1.0)
-    bench.ask(MAP, 1, stage(0, "a", "b", "c"), stage(0, "d", "e"))
-    bench.finish(3)
-    assert [results for *_, results in bench.reports] == [["a"], ["b", "c"]]
-    bench.finish(2)
-    assert [results for *_, results in bench.reports] == [["a"], ["b", "c"], ["d", "e"]]
-    assert bench.ended == [(MAP, 1)]
-
-
-def test_each_channel_has_its_own_interval() -> None:
-    bench = Bench(interval=1.0)
-    bench.ask(MAP, 1, stage(0, "a", "b", "c"))
-    bench.ask(STRIPS, 1, stage(1, "s", "t", "u"))
-    bench.finish(5)
-    assert bench.reports == [(MAP, 1, ["a"]), (MAP, 1, ["b", "c"]), (STRIPS, 1, ["s"])]
-
-
-def test_an_uninterruptible_stage_has_an_interval_of_its_own() -> None:
-    bench = Bench(interval=1.0, stage_interval=3.0)
-    bench.ask(MAP, 1, stage(0, *"abcde", whole=True), stage(1, "f", "g", "h"))
-    bench.finish()
-    bench.time = 2.0
-    bench.finish()
-    bench.time = 3.0
-    bench.finish()
-    assert [results for *_, results in bench.reports] == [["a"], ["b", "c"]]
-    bench.finish(2)
-    bench.time = 4.0
-    bench.finish()
-    assert [results for *_, results in bench.reports] == [["a"], ["b", "c"], ["d", "e"], ["f"]]
+    assert [results for *_, results in bench.reports] == [["a", "b", "c"], ["d"], ["e"]]

@@ -11,13 +11,19 @@ from typing import NoReturn
 
 import pytest
 from model.parallel.bench import Bench
-from worker_calls import count_for_ever, count_to, echo, fail, process_id
+from worker_calls import (
+    PATIENCE_S,
+    count_for_ever,
+    count_to,
+    echo,
+    fail,
+    process_id,
+    wait_until,
+)
 
-from occ_model.parallel.job import CHANNELS, Job, JobResult, Stage, Workers
+from occ_model.parallel.job import CHANNELS, Job, JobResult, Workers
 from occ_model.parallel.process_pool import ProcessPool
 from occ_model.parallel.worker_thread import WorkerThread
-
-PATIENCE_S = 20.0
 
 
 @pytest.fixture
@@ -42,13 +48,6 @@ def test_no_process_is_started_where_too_few_files_may_be_open() -> None:
         assert open_files() == open_now, "all that were tried are closed"
     finally:
         resource.setrlimit(resource.RLIMIT_NOFILE, before)
-
-
-def wait_until(happened: Callable[[], bool]) -> None:
-    deadline = time.monotonic() + PATIENCE_S
-    while not happened():
-        assert time.monotonic() < deadline
-        time.sleep(0.001)
 
 
 def run_until(bench: Bench, happened: Callable[[], bool]) -> None:
@@ -125,7 +124,7 @@ def test_closing_ends_the_processes_in_the_middle_of_a_job(pool: ProcessPool) ->
 
 def test_a_killed_process_is_replaced_and_its_jobs_repeated(pool: ProcessPool) -> None:
     bench = Bench(pool)
-    bench.ask(0, 1, Stage(0, tuple(Job(process_id, ()) for _ in range(12))))
+    bench.ask(0, 1, 12 * (Job(process_id, ()),))
     run_until(bench, lambda: bool(bench.results))
     before = pool.processes
     os.kill(bench.results[0], signal.SIGKILL)
@@ -144,7 +143,7 @@ def test_a_thread_takes_over_where_processes_cannot_be_replaced(
 
     monkeypatch.setattr(pool, "_start", no_processes)
     bench = Bench(pool, fallback=WorkerThread)
-    bench.ask(0, 1, Stage(0, tuple(Job(process_id, ()) for _ in range(12))))
+    bench.ask(0, 1, 12 * (Job(process_id, ()),))
     run_until(bench, lambda: bool(bench.results))
     os.kill(bench.results[0], signal.SIGKILL)
     run_until(bench, lambda: bool(bench.ended))
@@ -156,8 +155,8 @@ def test_a_thread_takes_over_where_processes_cannot_be_replaced(
 
 def test_arguments_that_cannot_be_sent_fail_their_request_only(pool: ProcessPool) -> None:
     bench = Bench(pool)
-    bench.ask(0, 1, Stage(0, (Job(echo, (lambda: None,)),)))
-    bench.ask(1, 1, Stage(0, (Job(echo, ("sent",)),)))
+    bench.ask(0, 1, (Job(echo, (lambda: None,)),))
+    bench.ask(1, 1, (Job(echo, ("sent",)),))
     run_until(bench, lambda: bool(bench.errors and bench.ended))
     assert [(channel, run) for channel, run, _ in bench.errors] == [(0, 1)]
     assert bench.results == ["sent"]

@@ -4,7 +4,6 @@ import os
 import subprocess
 import sys
 import tomllib
-import venv
 from collections.abc import Iterator
 from dataclasses import fields, replace
 from pathlib import Path
@@ -39,22 +38,24 @@ sys.exit(main(sys.argv[1:]) if sys.argv[1:] else 0)
 
 
 @pytest.fixture(scope="module")
-def python(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The interpreter of an environment with this project and the package of the manual."""
-    folder = tmp_path_factory.mktemp("environment")
-    venv.create(folder, symlinks=os.name != "nt", with_pip=False)
-    (packages,) = folder.glob("**/site-packages")
-    here = [path for path in sys.path if path and Path(path).is_dir()]
-    (packages / "project.pth").write_text("\n".join(here), encoding="utf-8")
+def packages(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder of packages with that of the manual."""
+    folder = tmp_path_factory.mktemp("packages")
     _, description = blocks(PAGE, "toml")
     project = tomllib.loads(description)["project"]
     module, _ = blocks(PAGE, "python")
-    install(packages, project["name"], project["entry-points"], module)
-    return folder / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
+    install(folder, project["name"], project["entry-points"], module)
+    return folder
 
 
-def run(python: Path, *words: str) -> str:
-    done = subprocess.run([python, *words], capture_output=True, text=True, check=False)
+def run(packages: Path, *words: str) -> str:
+    done = subprocess.run(
+        [sys.executable, *words],
+        env={**os.environ, "PYTHONPATH": str(packages)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     assert done.stderr == ""
     assert done.returncode == 0
     return done.stdout
@@ -67,19 +68,19 @@ SEEN = "sampler False\nTrue None\n"
 @pytest.mark.parametrize(
     "changes", ["line_code='manchester', framing='c-ook'", "line_code='4b6b', framing='raw'"]
 )
-def test_its_decoder_reads_what_is_sent_by_any_scheme(python: Path, changes: str) -> None:
-    assert run(python, "-c", USE.format(changes=changes)) == SEEN
+def test_its_decoder_reads_what_is_sent_by_any_scheme(packages: Path, changes: str) -> None:
+    assert run(packages, "-c", USE.format(changes=changes)) == SEEN
 
 
 def test_its_decoder_is_imported_once_it_is_named_also_on_the_command_line(
-    python: Path, tmp_path: Path
+    packages: Path, tmp_path: Path
 ) -> None:
     settings = ["--set", "rows=300", "--set", "distance=60cm", "--set", "switching_frequency=4kHz"]
     settings += ["--set", "enhancement=none", "--set", "payload=text:HI"]
     picture = tmp_path / "picture.png"
     assert main(["render", *settings, "-o", str(picture)]) == 0
     words = ("decode", str(picture), *settings, "--decoder", "sampler")
-    said = run(python, "-c", USE.format(changes=""), *words)
+    said = run(packages, "-c", USE.format(changes=""), *words)
     assert said.startswith(SEEN)
     assert "payload      HI\n" in said
 

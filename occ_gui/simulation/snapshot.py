@@ -80,7 +80,7 @@ class Reading(ColumnView):
     # exact ``"picture"``, which has the last word
     source: Source
     plan: Plan
-    # Effects that were left out and the studies of the same scene take in, by label
+    # Effects that were left out and the studies of the same scene include, by label
     called_for: tuple[str, ...] = ()
     has_picture: bool = False
 

@@ -62,7 +62,7 @@ def received_in_words(sent: str, received: str, wrong: int) -> str:
 
 
 def left_out_in_words(reading: Reading) -> str:
-    return f"This picture leaves out what map and strips take in: {', '.join(reading.called_for)}."
+    return f"This picture leaves out what map and strips include: {', '.join(reading.called_for)}."
 
 
 def what_was_read(decoded: DecodeResult) -> str:

@@ -124,7 +124,7 @@ def _take_in(effect: Effect, scene: Scene, by_hand: bool | None) -> Decision:
     why = "not estimated" if is_present else "none in this scene"
     if by_hand is not None:
         why = f"switched {'on' if included else 'off'} by hand"
-    reason = f"{why}: {'taken in' if included else 'left out'}"
+    reason = f"{why}: {'included' if included else 'left out'}"
     return Decision(
         effect.name, effect.label, effect.kind, effect.stage, estimate, estimate, included,
         by_hand is not None, why, reason,
@@ -204,7 +204,7 @@ def _decide(
         size = f"not known, as {estimates.unknown}"
     elif estimate and limit > _CLEAR_RATIO * estimate:
         size = f"about {NONE.format(estimate, 2)}, at most {NONE.format(limit, 2)} {unit}"
-    verdict = "taken in" if included else "left out"
+    verdict = "included" if included else "left out"
     tolerance = settings.tolerance
     if by_hand is not None:
         why = f"switched {'on' if included else 'off'} by hand"

@@ -118,7 +118,7 @@ def test_reasons_name_the_estimate_and_the_tolerance(scene: Scene) -> None:
                 told += f", at most {decision.limit:.2g}"
             assert decision.reason.startswith(f"{told} levels")
             assert "tolerance 3" in decision.reason
-            assert decision.reason.endswith("taken in" if decision.included else "left out")
+            assert decision.reason.endswith("included" if decision.included else "left out")
         else:
             assert decision.reason == "none in this scene: left out"
     lines = str(plan).splitlines()

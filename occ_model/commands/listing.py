@@ -59,11 +59,12 @@ def _parameters(options: argparse.Namespace) -> int:
 
 
 def parameter_table() -> str:
-    """Write all parameters as a Markdown table: name, symbol, meaning, default and range."""
-    lines = ["| name | symbol | meaning | default | allowed |", "|---|---|---|---|---|"]
+    """Write all parameters as a Markdown table: name with symbol, meaning, default and range."""
+    lines = ["| name | meaning | default | allowed |", "|---|---|---|---|"]
     for name, declaration in PARAMETERS.items():
+        symbol = f", {declaration.symbol}" if declaration.symbol else ""
         default = declaration.format(declaration.default)  # type: ignore[arg-type]
-        cells = (f"`{name}`", declaration.symbol, declaration.meaning, default, declaration.allowed)
+        cells = (f"`{name}`{symbol}", declaration.meaning, default, declaration.allowed)
         lines.append(f"| {' | '.join(cells)} |")
     return "\n".join(lines)
 

@@ -21,6 +21,8 @@ class AccuracyPane(PiecesPane):
         view.observable.chosen.connect(settings.set_observable)
         view.noise.chosen.connect(settings.set_noise)
         view.table.switched.connect(scenes.force)
+        view.refused.connect(self.status_message)
+        view.accepted.connect(self.accepted)
         settings.refused.connect(self._show_refused)
         self._settings = settings
 

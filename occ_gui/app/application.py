@@ -1,15 +1,17 @@
 """Application: connects the parts of the window, and adds its panes."""
 
+from typing import Any
+
 from PySide6.QtCore import QSettings
 
 from occ_gui.app.features import features
 from occ_gui.app.parts import Parts
-from occ_gui.app.photo_in_window import PhotoInWindow
 from occ_gui.app.scene_in_window import SceneInWindow
 from occ_gui.app.story_wiring import connect_story
 from occ_gui.core.workspace import Workspace
 from occ_gui.files.file_controller import sample_photos
 from occ_gui.files.session import Session
+from occ_gui.shell.feature import Pane
 from occ_gui.shell.outdated_marks import OutdatedMarks
 from occ_gui.window.docks import CurrentPane
 from occ_model.plugins import all_at_work
@@ -19,8 +21,7 @@ from occ_model.scene.parameters import PARAMETERS
 class Application(Parts):
     def __init__(self, workspace: Workspace, preferences: QSettings | None = None) -> None:
         super().__init__(workspace, preferences)
-        self.photo = PhotoInWindow(self)
-        for feature in features(self, self.photo):
+        for feature in features(self):
             self.shell.add(feature, self.window)
         # After the panes: what they show comes before what is said of it.
         self.outdated = OutdatedMarks(self.board, self.simulation, self.window)
@@ -28,6 +29,7 @@ class Application(Parts):
         self.shell.made.connect(self.outdated.mark_pane)
         self.current_pane = CurrentPane(self.window, self.window.docks)
         self._offer_exports()
+        self.shell.enable_entries()
         connect_story(self)
         self.scene = SceneInWindow(self)
         self.session = Session(self.store.store, self._user_workspace)
@@ -45,18 +47,20 @@ class Application(Parts):
         window, story = self.window, self.story
         # What concerns more than the present scene stays until the next sentence.
         for said in (self.error_reports.reported, self.session.status_message):
-            said.connect(window.say)
+            said.connect(self.messages.say)
         for noted in (
             self.presets.status_message, self.files.status_message, self.present.status_message,
             self.editor.brightness.status_message, self.shell.said, self.lessons.noted,
             self.pins.status_message,
         ):  # fmt: skip
-            noted.connect(self.messages.show_note)
+            noted.connect(self.messages.note)
         window.leave_messages_to(story.verdict.sentence, story.verdict.wrapped)
         for end in (self._begin_to_end, self.session.end, self.stop):
             window.closing.connect(end)
         self.session.written.connect(self._keep_view)
-        self.photos.opened.connect(self.document.show_photo)
+        self.shell.accepted.connect(self.messages.accept)
+        self.shell.made.connect(self._on_made)
+        self._connect_photos()
         window.dropped.connect(self.files.open_dropped)
         window.menus.show_samples(sample_photos(), self.files.open_sample)
         self.controls.player.run_changed.connect(self.outdated.follow_run)
@@ -68,14 +72,33 @@ class Application(Parts):
         entries["undo"].triggered.connect(self._say_undone)
         entries["redo"].triggered.connect(self._say_redone)
 
+    def _on_made(self, _name: str, pane: Any) -> None:
+        if isinstance(pane, Pane):
+            self.window.leave_messages_to(*pane.sentences)
+
+    def _connect_photos(self) -> None:
+        window, photos, menus = self.window, self.photos, self.window.menus
+        photos.work.begun.connect(self._make_photo_pane)
+        window.reading.follow(photos.work)
+        window.reading.cancelled.connect(photos.cancel)
+        photos.failed.connect(self.messages.say_of_photo)
+        photos.opened.connect(self.document.show_photo)
+        self.files.pane_wanted.connect(window.bring_to_front)
+        menus.scan_axes.triggered.connect(lambda action: photos.scan_along(action.data()))
+        scan_axis = self.store.store.select(lambda workspace: workspace.photo.reading.scan_axis)
+        scan_axis.changed.connect(lambda axis: menus.show_choice(menus.scan_axes, axis))
+
+    def _make_photo_pane(self) -> None:
+        self.shell.pane("photo")  # before there is something to show
+
     def _say_undone(self) -> None:
         # What has changed may be in another mode. In a menu, a doubled & is one.
         step = self.store.undo_stack.redoText().replace("&&", "&")
-        self.messages.show_note(f"Undone: {step}.")
+        self.messages.note(f"Undone: {step}.")
 
     def _say_redone(self) -> None:
         step = self.store.undo_stack.undoText().replace("&&", "&")
-        self.messages.show_note(f"Redone: {step}.")
+        self.messages.note(f"Redone: {step}.")
 
     def _connect_strips(self) -> None:
         self.controls.add_foot(self.slider_strips.legend)
@@ -96,7 +119,6 @@ class Application(Parts):
 
     def resume(self, workspace: Workspace) -> None:
         """Restore what an earlier window left, without a step to undo."""
-        self.photo.keep_in_background(workspace.photo.path)
         self.store.store.put(workspace)
 
     def _user_workspace(self) -> Workspace:
@@ -124,7 +146,7 @@ class Application(Parts):
         # What follows waits for work, and somebody may lose patience first.
         self.session.write()
         for who in all_at_work():
-            self.window.say(f"{who} is waited for.")
+            self.messages.say(f"{who} is waited for.")
             self.window.repaint()
         self.simulation.stop()  # of the scene that is restored no picture is needed
         self.lessons.end()

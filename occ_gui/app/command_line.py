@@ -146,8 +146,7 @@ def _run(options: argparse.Namespace, begin: Start) -> int:
     if options.size:
         application.window.resize(*options.size)
     if options.photo:
-        application.options.choose_overlay(options.overlay)
-        application.photo.open(options.photo, options.match, front=options.dock is None)
+        _open_photo(options, application)
     if options.mode:
         application.window.modes.switch(options.mode)
     if options.files:
@@ -167,6 +166,13 @@ def _run(options: argparse.Namespace, begin: Start) -> int:
     code = qt.exec()
     _leave_plugins(code, begin.preferences)
     return code
+
+
+def _open_photo(options: argparse.Namespace, application: "Application") -> None:
+    application.options.choose_overlay(options.overlay)
+    application.photos.open(options.photo, match=options.match)
+    if options.dock is None:
+        application.window.bring_to_front("photo")
 
 
 def _check_pane(name: str | None, application: "Application") -> None:

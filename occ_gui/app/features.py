@@ -4,14 +4,16 @@ from typing import Any
 
 from occ_gui.app import panes
 from occ_gui.app.parts import Parts
-from occ_gui.app.photo_in_window import PhotoInWindow
+from occ_gui.files.file_controller import sample_photos
+from occ_gui.photo.window_actions import WindowActions
 from occ_gui.shell.feature import Feature
+from occ_gui.window.menus import words_of
 from occ_model.scene.from_text import DEFAULT_PRESET
 from occ_model.scene.presets import load_preset
 from occ_model.version import __version__
 
 
-def features(parts: Parts, of_photo: PhotoInWindow) -> tuple[Feature[Any], ...]:
+def features(parts: Parts) -> tuple[Feature[Any], ...]:
     scenes, shell, window = parts.store, parts.shell, parts.window
     preferences, store = parts.preferences, parts.store.store
 
@@ -20,7 +22,13 @@ def features(parts: Parts, of_photo: PhotoInWindow) -> tuple[Feature[Any], ...]:
 
     return (
         panes.decoding(store),
-        panes.photo(scenes, parts.photos, lambda: shell.pane("picture").view, parts.board),
+        panes.photo(
+            scenes,
+            parts.photos,
+            lambda: shell.pane("picture").view,
+            parts.board,
+            _actions_of_photo(parts),
+        ),
         panes.profile(store, parts.board, parts.about_photo),
         panes.photos(lambda: shell.pane("photo")),
         panes.accuracy(scenes, parts.simulation),
@@ -38,11 +46,27 @@ def features(parts: Parts, of_photo: PhotoInWindow) -> tuple[Feature[Any], ...]:
         panes.transmitter(window, scenes, preferences),
         panes.manual(window, shell, current_pane),
         panes.welcome(window, shell, preferences, parts.files),
-        _entries(parts, of_photo),
+        _entries(parts),
     )
 
 
-def _entries(parts: Parts, photos: PhotoInWindow) -> Feature[None]:
+def _actions_of_photo(parts: Parts) -> WindowActions:
+    return WindowActions(
+        ask_for_photo=parts.files.ask_for_photo,
+        samples=lambda: {words_of(path.stem): path for path in sample_photos()},
+        open_sample=parts.files.open_sample,
+        edit_scene=parts.editor.edit,
+        save_match=parts.presets.ask_to_save_match,
+        save_table=parts.files.ask_to_save_table,
+    )
+
+
+def _match(parts: Parts) -> None:
+    parts.window.bring_to_front("photo")
+    parts.shell.pane("photo").match()
+
+
+def _entries(parts: Parts) -> Feature[None]:
     files, options, window = parts.files, parts.options, parts.window
     return Feature(
         name="entries",
@@ -58,8 +82,7 @@ def _entries(parts: Parts, photos: PhotoInWindow) -> Feature[None]:
             "reset_scene": lambda: parts.store.put(
                 load_preset(DEFAULT_PRESET), "reset of the scene", force={}
             ),
-            "match": photos.match,
-            "save_match": photos.save_match,
+            "match": lambda: _match(parts),
             "delete_preset": parts.presets.ask_to_delete,
             "fit": lambda: _fit(parts),
             "text_larger": options.text_size.larger,

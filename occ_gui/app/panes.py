@@ -21,6 +21,7 @@ from occ_gui.detection_map.wiring import Measuring
 from occ_gui.files.file_controller import FileController
 from occ_gui.files.preferences import Preferences
 from occ_gui.photo.photo_controller import PhotoController
+from occ_gui.photo.window_actions import WindowActions
 from occ_gui.pins.pin_controller import PinController
 from occ_gui.scene.control_panel import ControlPanel
 from occ_gui.scene.scene_store import SceneStore
@@ -70,15 +71,39 @@ def decoding(store: Store) -> Feature[Any]:
     )
 
 
+_WITH_PHOTO = (
+    "close_photo", "match", "use_settings", "find_lamps", "region_by_hand", "whole_photo",
+    "export_overlay",
+)  # fmt: skip
+_WITH_MATCH = ("apply_match", "save_match")
+
+
 def photo(
-    scenes: SceneStore, photos: PhotoController, image: "Callable[[], ImageView]", board: Board
+    scenes: SceneStore,
+    photos: PhotoController,
+    image: "Callable[[], ImageView]",
+    board: Board,
+    window: WindowActions,
 ) -> Feature[Any]:
     """Declare the pane; ``image`` returns the view of the picture, where the photo is shown."""
 
     def make() -> "PhotoPane":
         from occ_gui.photo.pane import PhotoPane
 
-        return PhotoPane(scenes, photos, image(), board)
+        return PhotoPane(scenes, photos, image(), board, window)
+
+    def enabled(workspace: Workspace, results: Results) -> dict[str, bool]:
+        has_photo = has_match = results.document is not None
+        if has_photo:
+            from occ_gui.photo.photo_part import found_in
+
+            found = found_in(results)
+            has_match = found is not None and found.match is not None
+        return {
+            **dict.fromkeys(_WITH_PHOTO, has_photo),
+            **dict.fromkeys(_WITH_MATCH, has_match),
+            "match_all": bool(workspace.photo.listed),
+        }
 
     return Feature(
         name="photo",
@@ -89,12 +114,14 @@ def photo(
         make=make,
         part=later("occ_gui.photo.photo_part:PhotoPart.of"),
         goes_on_hidden=True,
-        commands={  # they are enabled once there is a photo
+        enabled=enabled,
+        commands={
             "match_all": lambda pane: pane.match_all(),
             "find_lamps": lambda pane: pane.parts.find(),
             "region_by_hand": lambda pane: pane.view.lamps.by_hand.toggle(),
             "whole_photo": lambda pane: pane.parts.match_whole(),
             "apply_match": lambda pane: pane.matching.apply(),
+            "save_match": lambda pane: window.save_match(pane.matching),
             "use_settings": lambda pane: pane.matching.use_notes(),
         },
     )
@@ -226,6 +253,7 @@ def video(scenes: SceneStore, board: Board) -> Feature[Any]:
         elsewhere="right",
         help="films.md#watch-a-film",
         make=later("occ_gui.video.wiring:VideoWiring", scenes, board),
+        enabled=lambda workspace, _: {"close_film": workspace.film.path is not None},
         part=lambda workspace, _: workspace.film,
     )
 

@@ -60,7 +60,7 @@ class Parts(QObject):
         self.window = MainWindow(
             self.controls, centre, self.story, undo_stack=self.store.undo_stack
         )
-        self.messages = StatusMessages(self.window, self.controls)
+        self.messages = StatusMessages(self.window, self.controls, store, self.board)
         self.photos = PhotoController(store, self.board)
         self.presets = PresetController(self.window, self.store)
         self.files = FileController(
@@ -71,7 +71,9 @@ class Parts(QObject):
         self.pins = PinController(self.store, self.present.is_present)
         self.lessons = LessonsInWindow(self.window, self.shell)
         self.video = VideoPane(self.window, self.shell, store, self.files)
-        self.options = ViewOptions(self.window, store, self.preferences, self.editor.brightness)
+        self.options = ViewOptions(
+            self.window, store, self.preferences, self.editor.brightness, self.messages.say
+        )
         self.error_reports = ErrorReports()
 
     def view(self, name: str) -> Any:

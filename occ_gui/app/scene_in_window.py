@@ -1,15 +1,13 @@
 """The scene in the window: its controls, presets and refusals, and the results that are shown."""
 
-from typing import Any
-
 from PySide6.QtCore import QObject
 
 from occ_gui.accuracy.plan_changes import PlanNews, switch_sentence
 from occ_gui.app.parts import Parts
-from occ_gui.core.workspace import Workspace
 from occ_gui.picture.before_controller import BeforeController
 from occ_gui.scene.control_panel import MAIN
 from occ_gui.scene.forced_effects import forced_text
+from occ_gui.shell.status import entries_of
 from occ_gui.simulation.snapshot import Snapshot
 from occ_model.results.plan import Decision
 from occ_model.scene.scene import Scene
@@ -25,7 +23,6 @@ class SceneInWindow(QObject):
         self._news = PlanNews(self)
         self._connect_scene()
         self._connect_simulation()
-        parts.shell.made.connect(self._on_made)
         self._list_presets()
         self._list_recent()
         self._show_scene(parts.store.scene)
@@ -37,15 +34,14 @@ class SceneInWindow(QObject):
         controls.connect_editor(editor)
         controls.preset_chosen.connect(parts.presets.load)
         controls.forced.released.connect(store.release_effects)
-        editor.edit_started.connect(messages.end_refusal)
-        editor.input_refused.connect(messages.show_note)
+        editor.edit_started.connect(messages.accept)
+        editor.input_refused.connect(messages.note)
         store.changed.connect(self._show_scene)
-        others = store.store.select(_of_other_panes)
-        others.changed.connect(messages.end_refusal)
+        store.store.select(entries_of).changed.connect(messages.accept)
         store.refused.connect(self._refuse)
         store.refused_for.connect(controls.show_problem)
         store.settings.changed.connect(self._show_settings)
-        store.settings.refused.connect(messages.show_note)
+        store.settings.refused.connect(messages.note)
         parts.presets.changed.connect(self._list_presets)
         parts.preferences.changed.connect(self._list_recent)
 
@@ -59,13 +55,9 @@ class SceneInWindow(QObject):
         simulation.reading_shown.connect(parts.board.show_reading)
         simulation.picture_ready.connect(parts.board.show_picture)
         simulation.snapshot_shown.connect(self._on_snapshot)
-        simulation.failed_for.connect(parts.messages.show_failure)
+        simulation.failed_for.connect(parts.messages.say_failure)
         simulation.failed.connect(parts.pins.give_up)
         simulation.defer_while(self._is_map_awaited)
-
-    def _on_made(self, name: str, pane: Any) -> None:
-        if name == "accuracy":
-            self._parts.messages.follow(pane.view)
 
     def _is_map_awaited(self) -> bool:
         pane = self._parts.shell.made_pane("map")
@@ -75,12 +67,10 @@ class SceneInWindow(QObject):
         self._parts.window.show_plan_change(switch_sentence(switched) if switched else "")
 
     def _on_snapshot(self, snapshot: Snapshot) -> None:
-        self._parts.messages.end_failure()
         self._parts.window.show_timing(snapshot.simulation_seconds, snapshot.reading_seconds)
 
     def _show_scene(self, scene: Scene) -> None:
         parts = self._parts
-        parts.messages.end_refusal()
         parts.controls.show_scene(scene)
         parts.controls.show_preset(*parts.presets.shown)
         for name in MAIN:  # marks where the picture changes in kind
@@ -88,14 +78,13 @@ class SceneInWindow(QObject):
 
     def _show_settings(self, settings: SimulationSettings) -> None:
         parts = self._parts
-        parts.messages.end_refusal()
         labels = parts.store.settings.effect_labels
         parts.controls.forced.show_list(forced_text(settings.force, labels))
 
     def _refuse(self, sentence: str) -> None:
         # The control still shows the refused value.
         self._parts.controls.show_scene(self._parts.store.scene)
-        self._parts.messages.show_note(sentence)
+        self._parts.messages.note(sentence)
 
     def _list_presets(self) -> None:
         presets, controls = self._parts.presets, self._parts.controls
@@ -106,9 +95,3 @@ class SceneInWindow(QObject):
         preferences, files = self._parts.preferences, self._parts.files
         menus = self._parts.window.menus
         menus.show_recent(preferences.files, files.open_recent, preferences.clear)
-
-
-def _of_other_panes(workspace: Workspace) -> tuple[object, ...]:
-    """Return what is entered in panes of their own, beside the scene and the settings."""
-    film = workspace.film
-    return (workspace.room, film.recording, film.frames, workspace.frame_rate)

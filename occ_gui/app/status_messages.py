@@ -1,66 +1,77 @@
-"""Status messages, and the event that ends each of them."""
+"""Status messages: what is said in the status line, for as long as it holds, and at fields."""
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from dataclasses import replace
 
 from PySide6.QtCore import QObject
 
+from occ_gui.core.store import Store
 from occ_gui.scene.control_panel import ControlPanel
+from occ_gui.shell.results import Board
+from occ_gui.shell.status import (
+    Until,
+    make_remark,
+    next_change,
+    next_photo,
+    next_picture,
+    next_sentence,
+    status_message,
+)
+from occ_gui.values.remarks import Failure, Remark
 from occ_gui.window.main_window import MainWindow
 from occ_model.scene.parameters import PARAMETERS
 
-if TYPE_CHECKING:
-    from occ_gui.accuracy.accuracy_view import AccuracyView
-    from occ_gui.photo.photo_view import PhotoView
-
-_CHANGE, _PICTURE, _PHOTO, _MATCH = "a change of the scene", "a picture", "a photo", "a match"
-
 
 class StatusMessages(QObject):
-    """Shows messages in the status line until an event ends them; refusals at fields, too."""
+    """Says sentences, and shows the one that holds of workspace and results."""
 
-    def __init__(self, window: MainWindow, controls: ControlPanel) -> None:
+    def __init__(
+        self, window: MainWindow, controls: ControlPanel, store: Store, board: Board
+    ) -> None:
         super().__init__(window)
         self._window, self._controls = window, controls
-        self._failing: tuple[str, ...] = ()
+        self._store, self._board = store, board
+        self._shown: tuple[Remark | None, str] = (None, "")
+        self._failing: tuple[str, ...] = ()  # the fields with the sentence of a failure
+        store.select(lambda workspace: workspace).changed.connect(self._show)
+        board.changed.connect(self._show)
+        board.select(lambda results: results.failure).changed.connect(self._mark)
 
-    def follow(self, *forms: "AccuracyView | PhotoView") -> None:
-        """Show refusals of these forms, each until a valid value is entered there."""
-        for form in forms:
-            form.refused.connect(self.show_note)
-            form.accepted.connect(self.end_refusal)
+    def _show(self) -> None:
+        results = self._board.results
+        shown = (results.remark, status_message(self._store.workspace, results))
+        if shown != self._shown:
+            self._shown = shown
+            self._window.show_message(shown[1])
 
-    def show_note(self, sentence: str) -> None:
+    def _mark(self, failure: Failure | None) -> None:
+        self._controls.end_refusals(self._failing)
+        self._failing = () if failure is None else failure.parameters
+        if failure is not None:
+            self._controls.show_problem(failure.sentence, failure.parameters)
+
+    def say(self, sentence: str, until: Until = next_sentence) -> None:
+        results = self._board.results
+        last = make_remark(sentence, until, self._store.workspace, results)
+        self._board.put(replace(results, remark=last))
+
+    def note(self, sentence: str) -> None:
         """Show a remark on the present scene, until the next change of scene or settings."""
-        self._window.say(sentence, until=_CHANGE)
+        self.say(sentence, next_change)
 
-    def show_failure(self, sentence: str, parameters: Sequence[str] = ()) -> None:
+    def say_failure(self, sentence: str, parameters: Sequence[str] = ()) -> None:
         """Show why a scene has no picture, also at the fields concerned, until the next picture."""
-        self._window.say(sentence, until=_PICTURE)
-        self._controls.end_refusals(self._failing)
-        self._failing = tuple(parameters)
-        self._controls.show_problem(sentence, parameters)
+        self.say(sentence, next_picture)
+        failure = Failure(sentence, tuple(parameters))
+        self._board.put(replace(self._board.results, failure=failure))
 
-    def show_photo_failure(self, sentence: str) -> None:
-        """Show why a photo cannot be read, until the next photo."""
-        self._window.say(sentence, until=_PHOTO)
+    def say_of_photo(self, sentence: str) -> None:
+        """Show why a photo cannot be read, until the next one is."""
+        self.say(sentence, next_photo)
 
-    def show_match_failure(self, sentence: str) -> None:
-        """Show why a photo cannot be matched, until the next match or photo."""
-        self._window.say(sentence, until=_MATCH)
-
-    def end_refusal(self) -> None:
-        self._window.happened(_CHANGE)
+    def accept(self) -> None:
+        """Let what was refused go, since something allowed was entered."""
+        last = self._board.results.remark
+        if last is not None and last.until is next_change:
+            self._board.put(replace(self._board.results, remark=None))
         self._controls.end_refusals(name for name in PARAMETERS if name not in self._failing)
-
-    def end_failure(self) -> None:
-        self._window.happened(_PICTURE)
-        self._controls.end_refusals(self._failing)
-        self._failing = ()
-
-    def end_photo_failure(self) -> None:
-        self._window.happened(_PHOTO)
-        self._window.happened(_MATCH)
-
-    def end_match_failure(self) -> None:
-        self._window.happened(_MATCH)

@@ -56,7 +56,7 @@ def connect_story(parts: Parts) -> None:
 def story_menu(parts: Parts) -> QMenu:
     actions, menu = parts.window.actions_by_name, QMenu(parts.story.rows)
     text = parts.story.readout.toolTip()
-    menu.addAction("Copy the &values at the crosshair", lambda: parts.window.say(copy_text(text)))
+    menu.addAction("Copy the &values at the crosshair", lambda: parts.messages.say(copy_text(text)))
     for name in ("copy_figure", "export_profile", "export_picture", "measure", "fit"):
         if name in actions:
             menu.addAction(actions[name])

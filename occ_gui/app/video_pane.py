@@ -24,7 +24,6 @@ class VideoPane(QObject):
         super().__init__()
         self._window, self._shell, self._store, self._files = window, shell, store, files
         shell.made.connect(self._connect)
-        store.select(lambda workspace: workspace.film.path).changed.connect(self._on_film)
         files.film_asked.connect(self.open)
         files.film_save_asked.connect(self.save)
 
@@ -57,6 +56,3 @@ class VideoPane(QObject):
     def _choose(self, path: Path | None) -> None:
         workspace = self._store.workspace
         self._store.put(replace(workspace, film=workspace.film.opened(path)))
-
-    def _on_film(self, path: Path | None) -> None:
-        self._window.actions_by_name["close_film"].setEnabled(path is not None)

@@ -1,5 +1,6 @@
 """Options of the view: theme, size of text, layout, and what is held; stored for the next start."""
 
+from collections.abc import Callable
 from dataclasses import replace
 
 from PySide6.QtCore import QObject
@@ -18,10 +19,15 @@ _HOLD, _YES = "edit/hold_brightness", "yes"
 
 class ViewOptions(QObject):
     def __init__(
-        self, window: MainWindow, store: Store, preferences: Preferences, hold: HoldBrightness
+        self,
+        window: MainWindow,
+        store: Store,
+        preferences: Preferences,
+        hold: HoldBrightness,
+        say: Callable[[str], None],
     ) -> None:
         super().__init__(window)
-        self._window, self._store, self._preferences = window, store, preferences
+        self._window, self._store, self._preferences, self._say = window, store, preferences, say
         self.theme, self.text_size, self.brightness = ThemeController(), TextSize(), hold
         window.dress()
         self.layout = DockLayout(window, window.modes, preferences)
@@ -58,7 +64,7 @@ class ViewOptions(QObject):
 
     def _on_text_size(self, percent: int) -> None:
         self._preferences.keep(_TEXT, str(percent))
-        self._window.say(f"Text at {percent} %")
+        self._say(f"Text at {percent} %")
 
     def _on_hold(self, on: bool) -> None:
         self._preferences.keep(_HOLD, _YES if on else "")

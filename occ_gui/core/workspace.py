@@ -9,6 +9,7 @@ from occ_gui.values.film_choice import FilmChoice
 from occ_gui.values.photo_choice import PhotoChoice
 from occ_gui.values.room_choice import RoomChoice
 from occ_gui.values.simulated import Pins
+from occ_model.results.decoding import PAPER_DECODER
 from occ_model.results.frame import PICTURES
 from occ_model.results.sweep_request import Shown
 from occ_model.scene.recording import FRAME_RATE
@@ -45,7 +46,7 @@ class Workspace:
     settings: SimulationSettings = FIRST_SETTINGS
     frame_rate: float = FRAME_RATE.default
     shown: Shown = "rate"
-    decoder: str = "threshold"  # whose result and steps are shown
+    decoder: str = PAPER_DECODER  # whose result and steps are shown
     whose: str = PICTURES[0]  # whose picture is shown, one of PICTURES
     overlay: str = "beside"
     """How a photo is shown with the picture: beside it, or over it in one of several ways."""

@@ -19,7 +19,7 @@ from occ_gui.detection_map.worker import (
 )
 from occ_gui.scene.scene_store import SceneStore
 from occ_model.parallel.job import Job
-from occ_model.receiver.decoders import PAPER_DECODER
+from occ_model.results.decoding import PAPER_DECODER
 from occ_model.results.sweep_request import SweepPoint
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene

@@ -63,7 +63,7 @@ class FileController(QObject):
     status_message = Signal(str)
     scene_opened = Signal(Path)
 
-    several_opened = Signal(list)  # photos dropped together, of which the first is opened
+    pane_wanted = Signal(str)  # the pane of a photo that was opened, or of several
 
     film_asked = Signal(Path)
     film_save_asked = Signal(Path)
@@ -122,7 +122,11 @@ class FileController(QObject):
         elif is_film(path):
             self.open_film(path)
         else:
-            self._photos.open(path)
+            self.open_photo(path)
+
+    def open_photo(self, path: Path) -> None:
+        self._photos.open(path)
+        self.pane_wanted.emit("photo")
 
     def open_recent(self, path: Path) -> None:
         """Open a recent file; remove it from the list if it no longer exists."""
@@ -136,7 +140,7 @@ class FileController(QObject):
         scene = path.with_suffix(SCENE_ENDING)
         if scene.is_file():
             self._put_scene(scene)
-        self._photos.open(path)
+        self.open_photo(path)
 
     def open_dropped(self, paths: Sequence[Path]) -> None:
         """Open the first dropped scene, film and photo, or several photos as a table."""
@@ -152,11 +156,12 @@ class FileController(QObject):
         for path in scenes[:1]:
             self.open_scene(path)
         for path in photos[:1]:
-            self._photos.open(path)
+            self.open_photo(path)
         for path in films[:1]:
             self.open_film(path)
         if len(photos) > 1:
-            self.several_opened.emit(photos)
+            self._photos.list_files(photos)
+            self.pane_wanted.emit("photos")
         shown = (*scenes[:1], *photos[:1], *films[:1])
         opened = [one_line(path.name) for path in shown]
         if len(paths) > len(scenes[:1]) + len(photos) + len(films[:1]):

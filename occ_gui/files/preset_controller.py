@@ -86,7 +86,9 @@ class PresetController(QObject):
         )
         if wanted and self._may_replace(name):
             title = f"Measured from {one_line(photo.path.name)}"
-            matching.save(name, title)
+            if matching.save(name, title):
+                self._update()
+                self.status_message.emit(f"Saved the preset {name}")
 
     def ask_to_delete(self) -> None:
         own = [*user_presets(), *self._unreadable]
@@ -113,10 +115,6 @@ class PresetController(QObject):
             self._window, "Save as preset", f"There is a preset {name} already. Replace it?"
         )
         return answer == QMessageBox.StandardButton.Yes
-
-    def report_saved(self, name: str) -> None:
-        self._update()
-        self.status_message.emit(f"Saved the preset {name}")
 
     def _update(self) -> None:
         self._read()

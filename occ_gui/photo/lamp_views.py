@@ -111,9 +111,6 @@ class LampForm(QWidget):
         periods = "code" if lamp.periods is None else f"{lamp.periods:.1f}"
         return str(row + 1), columns, chip, f"{periods}{doubt}"
 
-    def show_sentence(self, sentence: str) -> None:
-        self.place.setText(sentence)
-
     def show_region(self, region: Region | None, lamp: int | None = None) -> None:
         """Show what is matched: a rectangle, a lamp of this index, or the whole photo."""
         self.whole.setEnabled(region is not None)
@@ -131,12 +128,11 @@ class LampForm(QWidget):
         with QSignalBlocker(self.by_hand):
             self.by_hand.setChecked(by_hand)
 
-    def show_searching(self) -> None:
-        self.search.setEnabled(False)
-        self.place.setText("Searching for lamps…")
-
-    def show_searched(self) -> None:
-        self.search.setEnabled(True)
+    def show_search(self, is_searched: bool, why_none: str) -> None:
+        """Show that lamps are being searched, or why none were found; else what is matched."""
+        self.search.setEnabled(not is_searched)
+        if is_searched or why_none:
+            self.place.setText("Searching for lamps…" if is_searched else why_none)
 
     def _choose(self) -> None:
         rows = {item.row() for item in self.table.selectedItems()}

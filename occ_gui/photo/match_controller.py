@@ -5,13 +5,15 @@ from datetime import date
 
 from PySide6.QtCore import QObject, Signal
 
+from occ_gui.background.task import Task
 from occ_gui.photo.match_figures import is_certain
+from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.photo.photo_part import PhotoPart
-from occ_gui.photo.photo_work import match_work
+from occ_gui.photo.photo_work import match
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.results import Board
-from occ_gui.values.photo_choice import MatchAsked, MatchChoice
-from occ_gui.values.photo_results import FoundMatch
+from occ_gui.values.photo_choice import MatchChoice
+from occ_gui.values.photo_results import FoundMatch, MatchRequest
 from occ_model.errors import OccError
 from occ_model.photo.reading.load import Photo
 from occ_model.results.bands import Cure
@@ -50,25 +52,26 @@ def cure_of_match(found: Match) -> Cure:
 
 
 class MatchController(QObject):
-    failed = Signal(str)  # why a match failed, or a setting could not be taken over
-    saved = Signal(str)  # the name of the preset that was saved
+    failed = Signal(str)  # why a match, its use, or a setting that was noted is refused
 
-    def __init__(self, scenes: SceneStore, board: Board) -> None:
+    def __init__(self, scenes: SceneStore, photos: PhotoController, board: Board) -> None:
         super().__init__()
         self._scenes, self._store, self._board = scenes, scenes.store, board
-        self.work = match_work(scenes.store, board)
-        self.work.failed.connect(self.failed)
-        self.work.found.connect(self._report_refusal)
-        self._settled: MatchAsked | None = None
-        """The match that is shown, which may have been restored with its photo."""
-        board.select(lambda results: results.match).changed.connect(self._settle)
+        self._photos = photos
+        self.task: Task[MatchRequest, FoundMatch] = Task(
+            match, "match of the photo", impatient=True
+        )
+        self.task.finished.connect(self._take)
+        self.task.failed.connect(self._refuse)
+        board.select(lambda results: results.photo).changed.connect(self._follow)
 
-    def _settle(self) -> None:
-        self._settled = self._store.workspace.photo.match_asked
-
-    def _report_refusal(self, found: FoundMatch) -> None:
-        if found.refusal:
-            self.failed.emit(found.refusal[0])  # which the verdict shows, however short it is
+    def _follow(self) -> None:
+        """End the match of another photo, and begin one that was asked for with this photo."""
+        self.task.cancel()
+        choice = self._photos.choice
+        if choice.is_match_wanted and self.photo is not None:
+            self._photos.edit(lambda each: replace(each, is_match_wanted=False))
+            self.start(choice.form, apply=True)
 
     @property
     def photo(self) -> Photo | None:
@@ -82,21 +85,46 @@ class MatchController(QObject):
     def match(self) -> Match | None:
         return self._part.match
 
-    def start(self, choice: MatchChoice) -> None:
-        opened, workspace = self._board.results.opened, self._store.workspace
-        if opened is not None:
-            asked = MatchAsked(opened.source, workspace.scene, choice, self._part.part)
-            self._ask(asked, choice)
+    def start(self, choice: MatchChoice, *, apply: bool = False) -> None:
+        """Match the open photo; ``apply``: and apply what is found to the scene at once."""
+        document = self._photos.document
+        if document is None:
+            return
+        self._photos.edit(lambda each: replace(each, form=choice))
+        scene = self._store.workspace.scene
+        request = MatchRequest(document.photo, scene, choice, self._part.part, apply)
+        self._photos.put(replace(document, requested=request))
+        self.task.ask(request)
 
     def cancel(self) -> None:
-        """Cancel the running match, and return to the previous one."""
-        if not self.work.task.is_idle:
-            self._ask(self._settled, self._store.workspace.photo.form)
+        """Cancel the running match; the previous one stays."""
+        document = self._photos.document
+        if document is not None and not self.task.is_idle:
+            self.task.cancel()
+            self._photos.put(replace(document, requested=None))
 
-    def _ask(self, asked: MatchAsked | None, form: MatchChoice) -> None:
-        workspace = self._store.workspace
-        photo = replace(workspace.photo, match_asked=asked, form=form)
-        self._store.put(replace(workspace, photo=photo))
+    def _take(self, found: FoundMatch) -> None:
+        document = self._photos.document
+        if document is None or document.requested is None:
+            return
+        if found.refusal:
+            self._refuse(*found.refusal)
+            return
+        self._photos.put(replace(document, requested=None, found=found))
+        # A placement by hand belongs to the picture before the match.
+        self._photos.edit(lambda each: replace(each, placed=None))
+        if document.requested.is_applied_then:
+            self.apply()
+
+    def _refuse(self, *reasons: str) -> None:
+        """Show why there is no match; the last one of the photo stays."""
+        document = self._photos.document
+        if document is None or document.requested is None:
+            return
+        part = document.requested.part
+        found = document.found or FoundMatch(part, None, 0.0)
+        self._photos.put(replace(document, requested=None, found=found.refused(reasons, part)))
+        self.failed.emit(reasons[0])  # which the verdict shows, however short it is
 
     def use_notes(self) -> None:
         """Apply the settings that the camera recorded to the scene, as one step."""
@@ -112,37 +140,38 @@ class MatchController(QObject):
             self.failed.emit(str(error))
 
     def apply(self) -> None:
-        match, photo = self._usable(), self.photo
-        if match is not None and photo is not None:
-            self._scenes.put(match.scene, f"match with {photo.path.name}")
+        found, photo = self._usable(), self.photo
+        if found is not None and photo is not None:
+            self._scenes.put(found.scene, f"match with {photo.path.name}")
 
     def cure(self) -> None:
         """Apply the match at a shutter speed without bars to the scene, as one step."""
-        match = self._usable()
-        if match is not None:
-            self._scenes.put(cure_of(match.scene).scene, "shutter speed without bars")
+        found = self._usable()
+        if found is not None:
+            self._scenes.put(cure_of(found.scene).scene, "shutter speed without bars")
 
-    def save(self, name: str, title: str, day: date | None = None) -> None:
-        match, photo = self._usable(), self.photo
-        if match is None or photo is None:
-            return
-        given = match.known
-        known, certain = float(match.scene.value(given)), self._store.workspace.photo.certain
+    def save(self, name: str, title: str, day: date | None = None) -> bool:
+        """Save the scene of the match as a preset; return whether that was possible."""
+        found, photo = self._usable(), self.photo
+        if found is None or photo is None:
+            return False
+        given = found.known
+        known, certain = float(found.scene.value(given)), self._store.workspace.photo.certain
         sources = sources_of(
-            match, photo.path.name, given, day or date.today(),
+            found, photo.path.name, given, day or date.today(),
             assumed=not is_certain(given, known, certain),
         )  # fmt: skip
         try:
-            save_preset(name, match.scene, title=title, sources=sources)
+            save_preset(name, found.scene, title=title, sources=sources)
         except OccError as error:
             self.failed.emit(str(error))
-            return
-        self.saved.emit(name)
+            return False
+        return True
 
     def _usable(self) -> Match | None:
         """Return the match that is shown; report where it is of something else, and not used."""
-        part, match = self._part, self.match
-        if match is not None and part.elsewhere:
+        part = self._part
+        if part.match is not None and part.elsewhere:
             self.failed.emit(f"This match is {part.elsewhere}; it is not used.")
             return None
-        return match
+        return part.match

@@ -203,6 +203,10 @@ class MatchForm(QWidget):
             notice.end()
         self._show_known()
 
+    @property
+    def is_running(self) -> bool:
+        return not self.cancel.isHidden()
+
     def show_running(self, running: bool) -> None:
         hidden, shown = (self.start, self.cancel) if running else (self.cancel, self.start)
         had_focus = hidden.hasFocus()

@@ -3,8 +3,8 @@
 from dataclasses import replace
 
 from pyqtgraph.GraphicsScene.mouseEvents import MouseClickEvent
-from PySide6.QtCore import Signal
 
+from occ_gui.photo.lamp_search import LampSearch
 from occ_gui.photo.lamp_views import LampOutlines
 from occ_gui.photo.many.many_controller import ManyPhotosController
 from occ_gui.photo.match_controller import MatchController, cure_of_match
@@ -14,55 +14,66 @@ from occ_gui.photo.photo_view import PhotoView
 from occ_gui.photo.photo_work import (
     chip_reading,
     compared,
-    lamp_search,
     photo_profile,
     stripe_search,
 )
+from occ_gui.photo.window_actions import WindowActions
 from occ_gui.picture.image_view import ImageView
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Pane
 from occ_gui.shell.results import Board
+from occ_gui.shell.status import make_remark, next_match
 from occ_gui.values.photo_choice import MODES, MatchChoice, Placed, Placement
-from occ_gui.values.photo_results import FoundMatch
 from occ_model.results.decoding import Region
 
 
 class PhotoPane(Pane[PhotoPart]):
-    match_shown = Signal(object)  # the match that is shown from now on, or None
-
     def __init__(
-        self, scenes: SceneStore, photos: PhotoController, image: ImageView, board: Board
+        self,
+        scenes: SceneStore,
+        photos: PhotoController,
+        image: ImageView,
+        board: Board,
+        window: WindowActions,
     ) -> None:
         self.view = view = PhotoView()
         super().__init__(view)
         self._image, self._store, self._board, self.photos = image, scenes.store, board, photos
         self.verdict = view.verdict
-        self.matching = MatchController(scenes, board)
+        self.matching = MatchController(scenes, photos, board)
         self.parts = PartEdits(scenes.store, board)
         self.many = ManyPhotosController(scenes, photos, view.many, board)
-        self.lamps = lamp_search(scenes.store, board)
+        self.lamps = LampSearch(photos, board)
         self.works = (stripe_search(scenes.store, board), chip_reading(scenes.store, board))
-        works = (photos.work, self.matching.work, self.lamps, *self.works)
+        works = (photos.work, self.matching, self.lamps, *self.works)
         self.tasks = (*(work.task for work in works), self.many.runner)
         self.outlines = LampOutlines(image.photo.box)
         self._shown = PhotoPart(scenes.scene, None, photos.choice)
         self._compared = compared(self._shown)
         view.show_scene(scenes.scene)
         view.show_choice(photos.choice)
-        self._connect_work()
+        self.matching.task.reported.connect(view.form.show_progress)
         self._connect_view()
+        self._connect_window(window)
 
-    def _connect_work(self) -> None:
-        view, matching, lamps = self.view, self.matching.work, self.lamps
-        matching.begun.connect(view.show_match_begun)
-        matching.task.reported.connect(view.form.show_progress)
-        matching.ended.connect(view.show_match_ended)
-        matching.failed.connect(lambda why: view.verdict.show_ended([why]))
-        matching.found.connect(self._show_found)
-        lamps.begun.connect(view.lamps.show_searching)
-        lamps.ended.connect(view.lamps.show_searched)
-        lamps.found.connect(self._show_part_of_photo)
-        lamps.failed.connect(view.lamps.show_sentence)
+    def _connect_window(self, window: WindowActions) -> None:
+        view = self.view
+        self.sentences = (view.verdict.sentence, view.verdict.wrapped)
+        self.matching.failed.connect(self._say_of_match)
+        for sentence in (view.refused, view.many.copied, view.result.paste.copied):
+            sentence.connect(self.status_message)
+        view.accepted.connect(self.accepted)
+        view.open_asked.connect(window.ask_for_photo)
+        view.show_samples(window.samples())
+        view.sample_chosen.connect(window.open_sample)
+        view.form.edited.connect(window.edit_scene)
+        view.result.save_asked.connect(lambda: window.save_match(self.matching))
+        view.many.save_asked.connect(window.save_table)
+
+    def _say_of_match(self, sentence: str) -> None:
+        results = self._board.results
+        last = make_remark(sentence, next_match, self._store.workspace, results)
+        self._board.put(replace(results, remark=last))
 
     def _connect_view(self) -> None:
         view, image, photos, matching = self.view, self._image, self.photos, self.matching
@@ -82,7 +93,7 @@ class PhotoPane(Pane[PhotoPart]):
         view.result.apply_asked.connect(matching.apply)
         view.result.cure_asked.connect(self._cure)
         form, parts = view.lamps, self.parts
-        form.find_asked.connect(parts.find)
+        form.find_asked.connect(self.lamps.find)
         form.by_hand_chosen.connect(parts.set_by_hand)
         form.whole_asked.connect(parts.match_whole)
         for choosing in (form.chosen, self.outlines.clicked):
@@ -111,7 +122,8 @@ class PhotoPane(Pane[PhotoPart]):
         if part.choice != shown.choice:
             view.show_choice(part.choice)
         self._show_match(part, shown)
-        if is_another or (part.lamps, part.part) != (shown.lamps, shown.part):
+        searched, searched_before = part.search, shown.search
+        if is_another or (searched, part.part) != (searched_before, shown.part):
             self._show_part_of_photo()
         placing = (part.placement, part.is_by_hand)
         if placing != (shown.placement, shown.is_by_hand):
@@ -127,13 +139,13 @@ class PhotoPane(Pane[PhotoPart]):
             view.many.rows.show_earlier(own)
         if part.match is not None and (is_another or part.age != shown.age):
             view.show_match_outdated(*part.age)
-        if part.refusal != shown.refusal:
-            view.verdict.show_ended(part.refusal)
+        running = (part.is_matched_now, part.refusal)
+        is_new = is_another or part.photo is not shown.photo
+        if is_new or running != (shown.is_matched_now, shown.refusal):
+            view.show_match_running(*running)
 
     def _follow(self, part: PhotoPart, shown: PhotoPart) -> None:
         """Do what follows from a change; another part may come of it, which is shown then."""
-        if part.match is not shown.match:
-            self.match_shown.emit(part.match)
         if part.choice.listed != shown.choice.listed:
             self.many.show_files(part.choice.listed)
         if part.part != shown.part:
@@ -145,13 +157,6 @@ class PhotoPane(Pane[PhotoPart]):
             profile = photo_profile(self._shown)
             self._board.put(replace(self._board.results, photo_profile=profile))
 
-    def _show_found(self, found: FoundMatch) -> None:
-        """Show the end of a match, also where it is refused as the last one was."""
-        if found.refusal:
-            self.verdict.show_ended(found.refusal)
-        else:
-            self._reset_placement()  # a placement by hand belongs to the picture before the match
-
     def _show_part_of_photo(self) -> None:
         lamps, part = self._shown.lamps, self._shown.part
         chosen = next((place for place, lamp in enumerate(lamps) if lamp is part), None)
@@ -160,6 +165,7 @@ class PhotoPane(Pane[PhotoPart]):
             drawn.show_lamps(lamps, chosen)
         self.view.lamps.show_region(lamps[chosen].region if chosen is not None else by_hand, chosen)
         self.view.lamps.show_by_hand(by_hand is not None)
+        self.view.lamps.show_search(*self._shown.search[1:])
         self.outlines.show_rectangle(by_hand)
 
     # What the user does.
@@ -177,9 +183,9 @@ class PhotoPane(Pane[PhotoPart]):
         self.photos.edit(lambda choice: choice.with_certain(name, value))
 
     def _place(self, placement: Placement | None) -> None:
-        opened = self._board.results.opened
-        if opened is not None:
-            placed = None if placement is None else Placed(opened.source, placement)
+        document = self._board.results.document
+        if document is not None:
+            placed = None if placement is None else Placed(document.source, placement)
             self.photos.edit(lambda choice: replace(choice, placed=placed))
 
     def _reset_placement(self) -> None:

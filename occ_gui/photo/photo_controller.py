@@ -1,6 +1,6 @@
 """Controller of the open photo: reads it in the background whenever another one is chosen."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -12,20 +12,20 @@ from occ_gui.core.store import Store
 from occ_gui.shell.results import Board, Results
 from occ_gui.shell.work import Work
 from occ_gui.values.photo_choice import PhotoChoice, PhotoSource
-from occ_gui.values.photo_results import OpenPhoto
+from occ_gui.values.photo_results import PhotoDocument
 
 KEPT_PHOTOS = 3  # photos that are shown again at once: the user's own after a lesson with two
 
 
-def _read(source: PhotoSource, report: Report) -> OpenPhoto:
+def _read(source: PhotoSource, report: Report) -> PhotoDocument:
     report(0.0)
     axis, channel = source.reading.scan_axis, source.reading.channel
     photo = occ.load_photo(source.path, axis, channel=channel, progress=report)
-    return OpenPhoto(photo, source)
+    return PhotoDocument(photo, source)
 
 
-def _put(results: Results, opened: OpenPhoto | None) -> Results:
-    return replace(results, opened=opened)
+def _put(results: Results, document: PhotoDocument | None) -> Results:
+    return replace(results, document=document)
 
 
 class PhotoController(QObject):
@@ -38,13 +38,13 @@ class PhotoController(QObject):
         super().__init__()
         self._store, self._board = store, board
         self._settled = store.workspace.photo
-        task: Task[PhotoSource, OpenPhoto] = Task(_read, "reading of the photo", impatient=True)
+        task: Task[PhotoSource, PhotoDocument] = Task(_read, "reading of the photo", impatient=True)
         self.work = Work(
             store, board, task, lambda workspace, _: workspace.photo.source, _put,
             stays=True, keep=KEPT_PHOTOS,
         )  # fmt: skip
         self.work.failed.connect(self._fail)
-        board.select(lambda results: results.opened).changed.connect(self._settle)
+        board.select(lambda results: results.photo).changed.connect(self._settle)
         board.select(lambda results: results.photo).changed.connect(self.opened)
 
     @property
@@ -56,14 +56,29 @@ class PhotoController(QObject):
     def choice(self) -> PhotoChoice:
         return self._store.workspace.photo
 
+    @property
+    def document(self) -> PhotoDocument | None:
+        return self._board.results.document
+
+    def put(self, document: PhotoDocument) -> None:
+        """Show the open photo with other requests or findings, which come back with it."""
+        self.work.keep(document.at_rest())
+        self._board.put(_put(self._board.results, document))
+
     def edit(self, change: Callable[[PhotoChoice], PhotoChoice]) -> None:
         if self.work.task.is_idle:
             self._settled = self.choice
         workspace = self._store.workspace
         self._store.put(replace(workspace, photo=change(workspace.photo)))
 
-    def open(self, path: Path) -> None:
-        self.edit(lambda choice: choice.opened(path))
+    def open(self, path: Path, *, match: bool = False) -> None:
+        """Open a photo; ``match``: and apply its match to the scene."""
+        self.edit(lambda choice: choice.opened(path, match=match))
+
+    def list_files(self, paths: Sequence[Path]) -> None:
+        """List these photos in place of the previous ones, without any certain value."""
+        listed = tuple(paths)
+        self.edit(lambda each: replace(each.uncertain() if listed else each, listed=listed))
 
     def cancel(self) -> None:
         """Cancel the reading; the previous photo stays."""
@@ -91,7 +106,7 @@ class PhotoController(QObject):
             name: getattr(shown, name)
             for name in ("path", "reading", "opening", "certain", "forgotten", "parts")
         }
-        self._settled = replace(self.choice, **changes)
+        self._settled = replace(self.choice, **changes, is_match_wanted=False)
         self._store.put(replace(self._store.workspace, photo=self._settled))
 
     def _fail(self, sentence: str) -> None:

@@ -9,8 +9,8 @@ from occ_gui.core.store import Store
 from occ_gui.core.workspace import Workspace
 from occ_gui.shell.results import Board, Results
 from occ_gui.simulation.snapshot import ColumnView, Reading
-from occ_gui.values.photo_choice import Asked, PhotoChoice, PhotoFrame, Placement
-from occ_gui.values.photo_results import FoundMatch, StripeSearch
+from occ_gui.values.photo_choice import PhotoChoice, PhotoFrame, Placement
+from occ_gui.values.photo_results import FoundMatch, PhotoDocument, StripeSearch
 from occ_model.errors import ParameterError
 from occ_model.photo.reading.load import Photo, region_within
 from occ_model.results.decoding import Region
@@ -24,14 +24,14 @@ Part: TypeAlias = Lamp | Region | None
 
 def part_of(choice: PhotoChoice, results: Results) -> Part:
     """Return the matched part of the open photo; of a lamp that is no longer known, its place."""
-    opened = results.opened
-    if opened is None:
+    document = results.document
+    if document is None:
         return None
-    any_frame = choice.parts.get(PhotoFrame(opened.photo.path))
-    part = choice.parts.get(opened.frame, any_frame)
+    any_frame = choice.parts.get(PhotoFrame(document.photo.path))
+    part = choice.parts.get(document.frame, any_frame)
     if isinstance(part, Lamp):
-        return part if part in results.lamps else part.region
-    return part if part is not None and lies_within(opened.photo, part) else None
+        return part if part in document.lamps else part.region
+    return part if part is not None and lies_within(document.photo, part) else None
 
 
 def lies_within(photo: Photo, region: Region) -> bool:
@@ -44,15 +44,14 @@ def lies_within(photo: Photo, region: Region) -> bool:
 
 def found_in(results: Results) -> FoundMatch | None:
     """Return the match of the open photo: its own, or that of its row in the table."""
-    opened, found, listed = results.opened, results.match, results.listed
-    if opened is None:
+    document, listed = results.document, results.listed
+    if document is None:
         return None
-    if found is not None and found.photo is not opened.photo:
-        found = None
+    found = document.found
     if listed is not None and (found is None or found.match is None):
-        row = listed.match_of(opened)
+        row = listed.match_of(document)
         if row is not None and found is not None:
-            row = replace(row, refusal=found.refusal, refused_part=found.part)
+            row = row.refused(found.refusal, found.part)
         return row or found
     return found
 
@@ -76,8 +75,7 @@ class PhotoPart:
     scene: Scene
     reading: Reading | None  # what is read of the simulated scene
     choice: PhotoChoice
-    photo: Photo | None = None
-    lamps: tuple[Lamp, ...] = ()
+    document: PhotoDocument | None = None
     part: Part = None
     found: FoundMatch | None = None
     searched: StripeSearch | None = None
@@ -88,28 +86,48 @@ class PhotoPart:
 
     @classmethod
     def of(cls, workspace: Workspace, results: Results) -> "PhotoPart":
-        choice, opened, reading = workspace.photo, results.opened, results.reading
+        choice, document, reading = workspace.photo, results.document, results.reading
         there = cls(workspace.scene, reading, choice)
-        if opened is None:
+        if document is None:
             return there
         placed, placement = choice.placed, Placement()
-        is_by_hand = placed is not None and placed.source == opened.source
+        is_by_hand = placed is not None and placed.source == document.source
         if placed is not None and is_by_hand:
             placement = placed.placement.within_limits()
         elif reading is not None:
-            placement = automatic_placement(opened.photo, reading, results.stripes)
+            placement = automatic_placement(document.photo, reading, results.stripes)
         return replace(
             there,
-            photo=opened.photo,
-            lamps=results.lamps,
+            document=document,
             part=part_of(choice, results),
             found=found_in(results),
             searched=results.stripes,
             placement=placement,
             is_by_hand=is_by_hand,
-            is_late=choice.source != opened.source,
+            is_late=choice.source != document.source,
             is_enhanced=workspace.is_enhanced,
         )
+
+    @property
+    def photo(self) -> Photo | None:
+        return None if self.document is None else self.document.photo
+
+    @property
+    def lamps(self) -> tuple[Lamp, ...]:
+        return () if self.document is None else self.document.lamps
+
+    @property
+    def is_matched_now(self) -> bool:
+        """Whether a match is at work."""
+        return self.document is not None and self.document.requested is not None
+
+    @property
+    def search(self) -> tuple[tuple[Lamp, ...], bool, str]:
+        """The lamps that were found, whether they are being searched, and why there are none."""
+        document = self.document
+        if document is None:
+            return (), False, ""
+        return document.lamps, document.is_searched, document.why_no_lamps
 
     @property
     def stripes(self) -> Stripes | None:
@@ -165,16 +183,10 @@ class PartEdits(QObject):
     def part(self) -> Part:
         return part_of(self._store.workspace.photo, self._board.results)
 
-    def find(self) -> None:
-        workspace, opened = self._store.workspace, self._board.results.opened
-        if opened is not None:
-            photo = replace(workspace.photo, lamps_asked=Asked(opened.source))
-            self._store.put(replace(workspace, photo=photo))
-
     def choose(self, index: int) -> None:
-        lamps = self._board.results.lamps
-        if 0 <= index < len(lamps):
-            self._match(lamps[index])
+        document = self._board.results.document
+        if document is not None and 0 <= index < len(document.lamps):
+            self._match(document.lamps[index])
 
     def draw(self, region: Region) -> None:
         """Match this rectangle, clipped to the photo."""
@@ -204,7 +216,7 @@ class PartEdits(QObject):
         self._match(None)
 
     def _match(self, part: Part) -> None:
-        workspace, opened = self._store.workspace, self._board.results.opened
-        if opened is not None:
-            photo = workspace.photo.with_part(opened.frame, part)
+        workspace, document = self._store.workspace, self._board.results.document
+        if document is not None:
+            photo = workspace.photo.with_part(document.frame, part)
             self._store.put(replace(workspace, photo=photo))

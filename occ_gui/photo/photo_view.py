@@ -1,6 +1,6 @@
 """Pane of the photo: its facts, its match with the scene, and its placement."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from PySide6.QtCore import QPoint, QSize, Qt, Signal
@@ -159,13 +159,14 @@ class PhotoView(QWidget):
         self._bring_into_view(self.form)
         self.form.match_square()
 
-    def show_match_begun(self) -> None:
-        self.form.show_running(True)
-        self.verdict.show_begun()
-
-    def show_match_ended(self) -> None:
-        self.form.show_running(False)
-        self.verdict.show_ended()
+    def show_match_running(self, is_running: bool, why_not: Sequence[str] = ()) -> None:
+        """Show whether a match is at work, and else why the last one was refused, if it was."""
+        if is_running != self.form.is_running:
+            self.form.show_running(is_running)
+        if is_running:
+            self.verdict.show_begun()
+        else:
+            self.verdict.show_ended(why_not)
 
     def show_match(self, found: FoundMatch | None, cure: Cure | None = None) -> None:
         """Show a match with the remedy for its bars, or that there is none."""

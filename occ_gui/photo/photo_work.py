@@ -1,4 +1,4 @@
-"""Background work on the open photo: lamps, stripes, chips, the match, and a comparison."""
+"""Background work on the open photo: stripes, chips, lamps, the match, and a comparison."""
 
 from dataclasses import replace
 
@@ -8,13 +8,12 @@ import occ_model as occ
 from occ_gui.background.task import Report, Task
 from occ_gui.core.store import Store
 from occ_gui.core.workspace import Workspace
-from occ_gui.photo.photo_controller import KEPT_PHOTOS
 from occ_gui.photo.photo_part import Part, PhotoPart, part_of
 from occ_gui.shell.results import Board, Results
 from occ_gui.shell.work import Work
 from occ_gui.simulation.snapshot import Reading
-from occ_gui.values.photo_choice import Asked, MatchAsked, MatchChoice
-from occ_gui.values.photo_results import FoundMatch, PhotoProfile, StripeSearch
+from occ_gui.values.photo_choice import MatchChoice
+from occ_gui.values.photo_results import FoundMatch, MatchRequest, PhotoProfile, StripeSearch
 from occ_model.camera.enhancement import enhance
 from occ_model.errors import MatchError
 from occ_model.photo.comparison import compare, enhance_comparison
@@ -27,29 +26,7 @@ from occ_model.scene.square_wave import blinking
 
 PartOfPhoto = tuple[Photo, Part]
 
-AskedOfPhoto = tuple[Photo, Asked]
-
-MatchRequest = tuple[Photo, MatchAsked]
-
 _LEAST_SWING = 0.5  # least swing, in grey levels, of simulated columns with stripes
-
-
-def lamp_search(store: Store, board: Board) -> Work[AskedOfPhoto, tuple[Lamp, ...]]:
-
-    def of(workspace: Workspace, results: Results) -> AskedOfPhoto | None:
-        asked, opened = workspace.photo.lamps_asked, results.opened
-        if asked is None or opened is None or asked.source != opened.source:
-            return None
-        return opened.photo, asked
-
-    def put(results: Results, lamps: tuple[Lamp, ...] | None) -> Results:
-        return replace(results, lamps=lamps or ())
-
-    def find(request: AskedOfPhoto, report: Report) -> tuple[Lamp, ...]:
-        return occ.find_lamps(request[0], report)
-
-    task: Task[AskedOfPhoto, tuple[Lamp, ...]] = Task(find, "search for lamps", impatient=True)
-    return Work(store, board, task, of, put, keep=KEPT_PHOTOS)
 
 
 def _part(workspace: Workspace, results: Results) -> PartOfPhoto | None:
@@ -90,46 +67,29 @@ def chip_reading(store: Store, board: Board) -> Work[PartOfPhoto, ChipReading | 
     return Work(store, board, task, _part, put)
 
 
-def match_work(store: Store, board: Board) -> Work[MatchRequest, FoundMatch]:
-
-    def of(workspace: Workspace, results: Results) -> MatchRequest | None:
-        asked, opened = workspace.photo.match_asked, results.opened
-        if asked is None or opened is None or asked.source != opened.source:
-            return None
-        return opened.photo, asked
-
-    task = Task(match, "match of the photo", impatient=True)
-    return Work(store, board, task, of, _put_match, stays=True, keep=KEPT_PHOTOS)
+def find_lamps(photo: Photo, report: Report) -> tuple[Lamp, ...]:
+    return occ.find_lamps(photo, report)  # imported now, not with the pane
 
 
 def match(request: MatchRequest, report: Report) -> FoundMatch:
     report(0.0)
-    photo, asked = request
-    choice = asked.choice
-    scene, sent = known_scene(asked.scene, choice)
+    choice = request.choice
+    scene, sent = known_scene(request.scene, choice)
     known = counterpart(choice.estimate)
-    found = FoundMatch(photo, asked.part, None, float(asked.scene.value(known)))
+    found = FoundMatch(request.part, None, float(request.scene.value(known)))
     try:
         match = occ.match_photo(  # imported now: the window starts sooner without it
-            photo,
+            request.photo,
             scene,
             estimate=choice.estimate,
             sent=sent,
             fit_gamma=choice.fit_gamma,
-            region=asked.part,
+            region=request.part,
             progress=report,
         )
     except MatchError as error:
-        return replace(found, refusal=error.reasons)
+        return found.refused(error.reasons, request.part)
     return replace(found, match=match)
-
-
-def _put_match(results: Results, found: FoundMatch | None) -> Results:
-    """Store a match; where it is refused, the last one of the photo stays."""
-    last = results.match
-    if found is not None and found.refusal and last is not None and last.photo is found.photo:
-        found = replace(last, refusal=found.refusal, refused_part=found.part)
-    return replace(results, match=found)
 
 
 def known_scene(scene: Scene, choice: MatchChoice) -> tuple[Scene, str]:

@@ -16,8 +16,7 @@ from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.values.simulated import PinnedScene, Pins, SimulationRequest
 from occ_model.arrays import FloatArray
 from occ_model.errors import OccError, one_line
-from occ_model.receiver.decoders import PAPER_DECODER
-from occ_model.results.decoding import DecodeResult
+from occ_model.results.decoding import PAPER_DECODER, DecodeResult
 from occ_model.scene.parameter_kinds import Parameter, ParameterValue, distinguished
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import GROUPS, Scene

@@ -17,7 +17,7 @@ from occ_gui.widgets.colours import BAND, BEFORE, PHOTO, SIMULATION, THRESHOLD, 
 from occ_gui.widgets.columns import PACKETS_IN_VIEW, first_periods
 from occ_gui.widgets.plot import LineLegend, new_plot
 from occ_model.arrays import FloatArray
-from occ_model.receiver.decoders import PAPER_DECODER
+from occ_model.results.decoding import PAPER_DECODER
 
 _LEAST_HEIGHT = 76  # pixels: in a low window the panes divide the height
 

@@ -7,7 +7,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeAlias, TypeVar
 
 from PySide6.QtCore import QObject, Signal
-from PySide6.QtWidgets import QWidget
+from PySide6.QtWidgets import QLabel, QWidget
 
 from occ_gui.background.task import Task
 from occ_gui.core.workspace import Workspace
@@ -94,7 +94,12 @@ class Pane(Service, Generic[Part]):
     made_of: Mapping[QWidget, MadeOf] = MappingProxyType({})
     """Widgets that are marked while their results are of an earlier scene."""
 
+    accepted = Signal()  # an allowed value was entered, whether or not it differs from the last one
+
     verdicts: tuple[VerdictView, ...] = ()  # what says whether the code was read
+
+    sentences: tuple[QLabel, ...] = ()
+    """Labels with sentences that the status line need not repeat while they are seen."""
 
     def __init__(self, widget: QWidget) -> None:
         super().__init__()
@@ -145,4 +150,6 @@ class Feature(Generic[Part]):
     """Handlers of menu entries, by name."""
     commands: Mapping[str, Callable[[Any], object]] = field(default_factory=dict)
     """Handlers of further entries, called with the pane or service, which is made for them."""
+    enabled: Callable[[Workspace, Results], Mapping[str, bool]] = lambda _workspace, _results: {}
+    """Whether menu entries can be chosen, by name, of those that cannot always be."""
     figures: tuple[Figure, ...] = ()

@@ -8,19 +8,18 @@ from PySide6.QtCore import QObject, Signal
 
 from occ_gui.core.store import Selection
 from occ_gui.simulation.snapshot import Picture, Reading, Snapshot
+from occ_gui.values.remarks import Failure, Remark
 from occ_gui.values.simulated import SimulationRequest
 from occ_model.results.plan import Decision
 
 if TYPE_CHECKING:  # a window without a photo or film starts without them
     from occ_gui.values.photo_results import (
-        FoundMatch,
         ListedRows,
-        OpenPhoto,
+        PhotoDocument,
         PhotoProfile,
         StripeSearch,
     )
     from occ_model.photo.reading.load import Photo
-    from occ_model.results.lamp import Lamp
     from occ_model.results.match import ChipReading
     from occ_model.results.video import Video
 
@@ -31,6 +30,10 @@ T = TypeVar("T")
 class Results:
     """The latest results; each part holds what it was computed from."""
 
+    remark: Remark | None = None  # what the status line was given last
+
+    failure: Failure | None = None  # why the present scene has no picture
+
     snapshot: Snapshot | None = None  # the exact picture, and what is read of it
 
     picture: Picture | None = None
@@ -39,15 +42,13 @@ class Results:
     reading: Reading | None = None  # what is read of the scene, by its picture or sooner
     before: Snapshot | None = None  # the exact picture before the latest step
     switched: tuple[Decision, ...] = ()  # the effects that the plan has just switched in or out
-    opened: "OpenPhoto | None" = None  # the photo that was read last; another one may be on its way
-
-    lamps: "tuple[Lamp, ...]" = ()
+    document: "PhotoDocument | None" = None
+    """The photo that was read last; another one may be on its way."""
 
     stripes: "StripeSearch | None" = None  # its stripes, or those of the part that is matched
 
     chips: "ChipReading | None" = None
 
-    match: "FoundMatch | None" = None  # the outcome of the last requested match
     listed: "ListedRows | None" = None  # what was found in the photos of the table
 
     photo_profile: "PhotoProfile | None" = None
@@ -57,7 +58,7 @@ class Results:
 
     @property
     def photo(self) -> "Photo | None":
-        return None if self.opened is None else self.opened.photo
+        return None if self.document is None else self.document.photo
 
 
 MadeOf: TypeAlias = Callable[[Results], SimulationRequest | None]
@@ -101,7 +102,7 @@ class Board(QObject):
                 selection.changed.emit(value)
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
-        self.put(replace(self.results, snapshot=snapshot))
+        self.put(replace(self.results, snapshot=snapshot, failure=None))
 
     def show_picture(self, picture: Picture) -> None:
         self.put(replace(self.results, picture=picture))

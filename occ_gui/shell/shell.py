@@ -31,6 +31,7 @@ class Shell(QObject):
 
     made = Signal(str, object)  # a pane has been made: its name, and the Pane
     said = Signal(str)  # a sentence of one of the features for the status line
+    accepted = Signal()  # an allowed value was entered in one of the panes
 
     def __init__(self, store: Store, board: Board) -> None:
         super().__init__()
@@ -39,6 +40,9 @@ class Shell(QObject):
         self._unseen: dict[str, Feature[Any]] = {}
         self._services: dict[str, Service] = {}
         self._workspaces = store.select(lambda workspace: workspace)
+        self._entries: list[tuple[Feature[Any], Mapping[str, QAction]]] = []
+        self._workspaces.changed.connect(self.enable_entries)
+        board.changed.connect(self.enable_entries)
 
     def add(self, feature: Feature[Any], window: DockWindow) -> None:
         if feature.title:
@@ -49,12 +53,20 @@ class Shell(QObject):
             dock.visibilityChanged.connect(place.set_seen)
         else:
             self._unseen[feature.name] = feature
+        self._entries.append((feature, window.actions_by_name))
         for name, do in feature.actions.items():
             window.actions_by_name[name].triggered.connect(lambda _=False, do=do: do())
         for name, command in feature.commands.items():
             window.actions_by_name[name].triggered.connect(
                 lambda _=False, command=command: command(self.pane(feature.name))
             )
+
+    def enable_entries(self) -> None:
+        """Enable the menu entries that can be chosen now, once all have been added."""
+        for feature, actions in self._entries:
+            enabled = feature.enabled(self._store.workspace, self._board.results)
+            for name, is_enabled in enabled.items():
+                actions[name].setEnabled(is_enabled)
 
     def embed(self, feature: Feature[Any]) -> QWidget:
         """Place a feature in another pane, which shows and hides it."""
@@ -142,6 +154,7 @@ class _Place(QWidget):
             self.pane = pane
             self._content.addWidget(pane.widget)
             pane.status_message.connect(self._shell.said)
+            pane.accepted.connect(self._shell.accepted)
             leave_drops_to_window(self)
             self._shell.made.emit(self.feature.name, pane)
             self.look()

@@ -63,9 +63,14 @@ class Work(QObject, Generic[Request, Result]):
         if not self._stays or request is None or kept is not None:
             self._board.put(self._put(self._board.results, kept))
 
-    def _take(self, result: Result) -> None:
+    def keep(self, result: Result) -> None:
+        """Keep a result of the present request, in place of the one before."""
         if self._request is not None:
-            self._kept.append((self._request, result))
+            others = [(asked, other) for asked, other in self._kept if asked != self._request]
+            self._kept = deque([*others, (self._request, result)], self._kept.maxlen)
+
+    def _take(self, result: Result) -> None:
+        self.keep(result)
         self.ended.emit()
         self._board.put(self._put(self._board.results, result))
         self.found.emit(result)

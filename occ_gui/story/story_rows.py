@@ -23,8 +23,7 @@ from occ_gui.values.photo_results import PhotoProfile
 from occ_gui.widgets.building import filled, push_button
 from occ_gui.widgets.colours import BAND, PHOTO, SIMULATION, THRESHOLD, thin
 from occ_gui.widgets.columns import PACKETS_IN_VIEW, first_periods
-from occ_model.receiver.decoders import PAPER_DECODER
-from occ_model.results.decoding import DecodeResult
+from occ_model.results.decoding import PAPER_DECODER, DecodeResult
 from occ_model.results.frame import PICTURES
 
 RANGES = ("packets", "panel")

@@ -12,7 +12,7 @@ from occ_gui.story.column_facts import READ_BY_ALL, Step, cause_of, chips_in_exp
 from occ_gui.widgets.chip_row import Chip
 from occ_gui.widgets.state_bar import StateBar
 from occ_gui.widgets.state_look import State
-from occ_model.receiver.decoders import PAPER_DECODER
+from occ_model.results.decoding import PAPER_DECODER
 from occ_model.scene.units import SECOND
 
 _COMPUTING = "computing"  # the chip of results that are still to come

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Self
 
 from occ_model.photo.reading.choices import CHANNELS, SCAN_AXES
 from occ_model.results.decoding import Region
-from occ_model.scene.scene import Scene
 
 if TYPE_CHECKING:
     from occ_model.results.lamp import Lamp
@@ -70,22 +69,6 @@ class PhotoFrame:
     turned: bool = False
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class Asked:
-    """A request about a photo; each compares as different, also when it is repeated."""
-
-    source: PhotoSource
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class MatchAsked(Asked):
-    """The request of a match: the scene and the choices at that time, and the part."""
-
-    scene: Scene
-    choice: MatchChoice
-    part: "Lamp | Region | None"
-
-
 @dataclass(frozen=True, slots=True)
 class Placed:
     """Where the user has put a photo on the picture."""
@@ -109,11 +92,8 @@ class PhotoChoice:
     certain: Mapping[str, float] = field(default_factory=dict)
     forgotten: Mapping[str, float] = field(default_factory=dict)
     listed: tuple[Path, ...] = ()
-    # Where a photo was put by hand, and the search for lamps and the match that were requested
-    # last; None for none
-    placed: Placed | None = None
-    lamps_asked: Asked | None = None
-    match_asked: MatchAsked | None = None
+    placed: Placed | None = None  # where a photo was put by hand
+    is_match_wanted: bool = False  # whether the photo is matched, and that applied, once it is read
 
     @property
     def source(self) -> PhotoSource | None:
@@ -127,9 +107,9 @@ class PhotoChoice:
             return None
         return parts[-1] if isinstance(parts[-1], Region) else parts[-1].region
 
-    def opened(self, path: Path) -> Self:
+    def opened(self, path: Path, *, match: bool = False) -> Self:
         """Open a photo; what is certain of one photo of the table is certain of all."""
-        opened = replace(self, path=path, opening=next(_openings))
+        opened = replace(self, path=path, opening=next(_openings), is_match_wanted=match)
         is_listed = path in self.listed and self.path in (None, *self.listed)
         return opened if is_listed or path == self.path else opened.uncertain()
 

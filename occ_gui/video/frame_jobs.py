@@ -9,9 +9,8 @@ from occ_gui.simulation.snapshot import ColumnView, PictureView, halves_of
 from occ_gui.video.frame_views import FrameStory, ShownPicture
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.errors import OccError
-from occ_model.receiver.decoders import PAPER_DECODER
 from occ_model.receiver.signal import column_means
-from occ_model.results.decoding import DecodeResult, Region
+from occ_model.results.decoding import PAPER_DECODER, DecodeResult, Region
 from occ_model.results.video import Video, VideoFrame
 from occ_model.scene.recording import Recording
 from occ_model.scene.scene import Scene

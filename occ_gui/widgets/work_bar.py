@@ -1,6 +1,8 @@
 """Work bar: the progress of some work, and a button that cancels it."""
 
-from PySide6.QtCore import QTimer, Signal
+from typing import Protocol
+
+from PySide6.QtCore import QTimer, Signal, SignalInstance
 from PySide6.QtWidgets import QHBoxLayout, QProgressBar, QWidget
 
 from occ_gui.widgets.building import filled, named, push_button
@@ -8,6 +10,18 @@ from occ_gui.widgets.building import filled, named, push_button
 _STEPS = 1000
 
 _PATIENCE_MS = 300  # work that takes less time is not shown: the bar would only flash
+
+
+class _Reports(Protocol):
+    reported: SignalInstance
+
+
+class _Work(Protocol):
+    begun: SignalInstance
+    ended: SignalInstance
+
+    @property
+    def task(self) -> _Reports: ...
 
 
 class WorkBar(QWidget):
@@ -23,6 +37,12 @@ class WorkBar(QWidget):
         self._patience.timeout.connect(self.show)
         filled(QHBoxLayout(self), self.progress, self.cancel, margins=0)
         self.hide()
+
+    def follow(self, work: "_Work") -> None:
+        """Show the progress of this work from its begin to its end."""
+        work.begun.connect(self.begin)
+        work.task.reported.connect(self.show_progress)
+        work.ended.connect(self.end)
 
     def begin(self) -> None:
         self.progress.setValue(0)

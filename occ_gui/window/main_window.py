@@ -74,7 +74,6 @@ class MainWindow(QMainWindow):
         self.setAcceptDrops(True)
         leave_drops_to_window(self)
         self._centre, self._story = centre, story
-        self._message_until = ""
         self._status_line = StatusLine()
         self.setStatusBar(self._status_line)
         line = self._status_line
@@ -236,18 +235,13 @@ class MainWindow(QMainWindow):
         if page:
             self._story.show_whole_picture(page == PICTURE)
 
-    def say(self, sentence: str, until: str = "") -> None:
-        """Show a sentence in the status line until the next one, or until this event."""
-        self._message_until = until
+    def show_message(self, sentence: str) -> None:
+        """Show a sentence in the status line in place of the last one; empty removes it."""
         self._status_line.showMessage(sentence)
 
     def leave_messages_to(self, *labels: QLabel) -> None:
         """Suppress messages in the status line that one of these labels shows."""
         self._status_line.leave_to(*labels)
-
-    def happened(self, what: str) -> None:
-        if self._message_until == what:
-            self._status_line.clearMessage()
 
     def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 - Qt's name
         super().showEvent(event)

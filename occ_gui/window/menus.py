@@ -16,14 +16,6 @@ from occ_gui.window.theme import THEMES
 from occ_model.errors import one_line
 from occ_model.photo.reading.choices import SCAN_AXES
 
-_WITH_PHOTO = (
-    "close_photo", "match", "use_settings", "find_lamps", "region_by_hand", "whole_photo",
-    "export_overlay",
-)  # fmt: skip
-"""Entries enabled while a photo is open."""
-
-_WITH_MATCH = ("apply_match", "save_match")  # entries enabled while there is the result of a match
-
 _SEARCH_WORDS = "search_words"  # the property of an action in which they stand
 
 _FIGURE = "save figure plot pdf png svg csv"
@@ -181,9 +173,6 @@ class Menus(QObject):
         self._make_photo_menu()
         self._make_view_menu(window, docks)
         self._fill(self._top("help", "&Help"), *_HELP)
-        self.show_photo_open(False)
-        self.show_match_found(False)
-        self.actions["close_film"].setEnabled(False)
 
     def _top(self, name: str, text: str) -> QMenu:
         self.tops[name] = self._bar.addMenu(text)
@@ -247,7 +236,6 @@ class Menus(QObject):
             action.setToolTip("As PNG, SVG, PDF or CSV, with the scene inside.")
             self._export.insertAction(self._after_figures, action)
             self.figures[name] = self.actions[f"export_{name}"] = action
-            action.setEnabled(f"export_{name}" not in _WITH_PHOTO)
             action.triggered.connect(lambda _=False, name=name: ask(name))
             action.setProperty(_SEARCH_WORDS, _FIGURE)
 
@@ -303,16 +291,6 @@ class Menus(QObject):
         for action in group.actions():
             if action.data() == key:
                 action.setChecked(True)
-
-    def show_photo_open(self, is_open: bool) -> None:
-        for name in _WITH_PHOTO:
-            if name not in self.actions:  # a figure, which is added later
-                continue
-            self.actions[name].setEnabled(is_open)
-
-    def show_match_found(self, is_found: bool) -> None:
-        for name in _WITH_MATCH:
-            self.actions[name].setEnabled(is_found)
 
     def show_recent(
         self, files: Iterable[Path], open_file: Callable[[Path], None], clear: Callable[[], None]

@@ -14,7 +14,8 @@ from occ_model.commands.options import (
 from occ_model.commands.progress_bar import progress_bar
 from occ_model.commands.vary import SYNTAX, axes_of
 from occ_model.errors import ParameterError, counted, one_line
-from occ_model.receiver.decoders import DECODERS, PAPER_DECODER
+from occ_model.receiver.decoders import DECODERS
+from occ_model.results.decoding import PAPER_DECODER
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import parameter_named
 

@@ -19,8 +19,8 @@ from occ_model.photo.reading.choices import CHANNELS, SCAN_AXES
 from occ_model.photo.reading.load import load_photo
 from occ_model.program import EXIT_FAILURE
 from occ_model.receiver.decode import decode
-from occ_model.receiver.decoders import DECODERS, PAPER_DECODER
-from occ_model.results.decoding import DecodeResult
+from occ_model.receiver.decoders import DECODERS
+from occ_model.results.decoding import PAPER_DECODER, DecodeResult
 from occ_model.results.video import Video
 from occ_model.results.video_reading import FilmProgress, VideoReading
 from occ_model.scene.scene import Scene

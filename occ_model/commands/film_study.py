@@ -18,7 +18,7 @@ from occ_model.commands.options import (
 from occ_model.commands.progress_bar import progress_bar
 from occ_model.errors import ParameterError, one_line, shown
 from occ_model.files.writing import make_folder
-from occ_model.receiver.decoders import PAPER_DECODER
+from occ_model.results.decoding import PAPER_DECODER
 from occ_model.scene.parameters import quantity
 from occ_model.scene.units import HERTZ
 from occ_model.study.film_study import (

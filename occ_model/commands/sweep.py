@@ -26,8 +26,9 @@ from occ_model.commands.vary import SYNTAX, axes_of
 from occ_model.errors import OccError, ParameterError, counted, one_line, shown
 from occ_model.files.writing import check_replaceable
 from occ_model.program import EXIT_INTERRUPTED
-from occ_model.receiver.decoders import DECODERS, PAPER_DECODER, QUICK_DECODERS
+from occ_model.receiver.decoders import DECODERS, QUICK_DECODERS
 from occ_model.results.bit_errors import FRAMES_A_SECOND
+from occ_model.results.decoding import PAPER_DECODER
 from occ_model.results.sweep import SweepTable
 from occ_model.results.sweep_request import (
     MOST_JOBS,

@@ -18,7 +18,7 @@ from occ_model.figures.drawing import BAND, SIMULATION, house_style
 from occ_model.figures.page import lines_within
 from occ_model.files.writing import check_replaceable
 from occ_model.receiver.decode import decode
-from occ_model.receiver.decoders import PAPER_DECODER
+from occ_model.results.decoding import PAPER_DECODER
 from occ_model.results.frame import Frame
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import parameter_named

@@ -11,9 +11,9 @@ from occ_model.camera.photometry import WHITE
 from occ_model.camera.pixel_arrays import bytes_of, numbers_of
 from occ_model.camera.projection import MAX_PIXELS
 from occ_model.errors import DecodeInputError
-from occ_model.receiver.decoders import PAPER_DECODER, decoder_named
+from occ_model.receiver.decoders import decoder_named
 from occ_model.receiver.signal import column_means, locate
-from occ_model.results.decoding import DecodeResult, Region
+from occ_model.results.decoding import PAPER_DECODER, DecodeResult, Region
 from occ_model.scene.scene import Scene
 
 _LARGEST_LEVEL = 1e5  # largest value accepted as a grey level, above those of any bit depth

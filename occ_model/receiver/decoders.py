@@ -41,8 +41,6 @@ SEQUENCE = Decoder(
     searched_chips=8.0,
 )
 
-PAPER_DECODER = THRESHOLD.name  # the name of the paper's decoder, which is the default
-
 DECODERS: dict[str, Decoder] = {  # the built-in decoders by name
     decoder.name: decoder for decoder in (THRESHOLD, MATCHED, EQUALIZER, SEQUENCE)
 }

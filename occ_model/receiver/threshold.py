@@ -13,7 +13,7 @@ from occ_model.receiver.decoder import (
     with_short_chips,
 )
 from occ_model.receiver.signal import otsu_split, otsu_threshold, why_flat
-from occ_model.results.decoding import DecodeResult, RunHistogram, Runs
+from occ_model.results.decoding import PAPER_DECODER, DecodeResult, RunHistogram, Runs
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.scheme import scheme_of
 
@@ -128,7 +128,7 @@ def _read_chips(result: DecodeResult, runs: Runs, whole: Runs, scene: Scene) -> 
     )
 
 
-DECODER = Decoder("threshold", "The paper's: threshold and run lengths", read_signal)
+DECODER = Decoder(PAPER_DECODER, "The paper's: threshold and run lengths", read_signal)
 
 
 _MAX_RUN_CHIPS = np.array([2, 4])  # chips of a run of zeros, and of ones: a header after a one

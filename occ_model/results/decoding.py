@@ -8,6 +8,8 @@ from numpy.typing import NDArray
 
 from occ_model.arrays import ByteArray, FloatArray, IndexArray
 
+PAPER_DECODER = "threshold"  # the name of the paper's decoder, which is the default
+
 
 def _nothing() -> ByteArray:
     return np.empty(0, dtype=np.uint8)

@@ -7,8 +7,8 @@ import numpy as np
 
 from occ_model.errors import ParameterError, shown
 from occ_model.parallel.job import Heartbeat
-from occ_model.receiver.decoders import PAPER_DECODER
 from occ_model.results.bit_errors import BitErrors
+from occ_model.results.decoding import PAPER_DECODER
 from occ_model.results.plan import Plan
 from occ_model.results.sweep_request import RateSettings, SignalPath
 from occ_model.scene.argument_checks import check_count

@@ -17,7 +17,7 @@ from itertools import product
 import numpy as np
 
 from occ_model.errors import ParameterError
-from occ_model.receiver.decoders import PAPER_DECODER
+from occ_model.results.decoding import PAPER_DECODER
 from occ_model.scene.argument_checks import check_count, check_seed
 from occ_model.scene.recording import Recording
 from occ_model.scene.scene import Scene, check_scene

@@ -13,9 +13,9 @@ from occ_model.effects.plan import signal_plan
 from occ_model.effects.registry import NAMES
 from occ_model.errors import ParameterError
 from occ_model.parallel.job import Heartbeat
-from occ_model.receiver.decoders import PAPER_DECODER, decoder_named
+from occ_model.receiver.decoders import decoder_named
 from occ_model.receiver.signal import column_means, locate
-from occ_model.results.decoding import DecodeResult, Region
+from occ_model.results.decoding import PAPER_DECODER, DecodeResult, Region
 from occ_model.results.plan import Plan
 from occ_model.results.sweep_request import MOST_IMAGES, SIGNAL_PATHS, RateSettings, SignalPath
 from occ_model.scene.argument_checks import check_choice, check_count, check_seed, check_switches

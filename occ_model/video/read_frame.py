@@ -9,10 +9,10 @@ from occ_model.arrays import BoolArray, ByteArray, FloatArray
 from occ_model.camera.enhancement import Enhancement
 from occ_model.photo.chips.edges import Edges, chip_numbers, coherence, lattice_at
 from occ_model.receiver.decode import decode
-from occ_model.receiver.decoders import PAPER_DECODER, decoder_named
+from occ_model.receiver.decoders import decoder_named
 from occ_model.receiver.light import in_light
 from occ_model.receiver.signal import column_means
-from occ_model.results.decoding import DecodeResult, Region
+from occ_model.results.decoding import PAPER_DECODER, DecodeResult, Region
 from occ_model.results.video import VideoFrame
 from occ_model.results.video_reading import FrameReading
 from occ_model.scene.scene import Scene

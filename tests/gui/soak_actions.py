@@ -110,7 +110,7 @@ class Monkey:
             self.load_a_preset: 60,
             self.force_an_effect: 40,
             lambda: at.settings.set_tolerance(10.0 ** chance.uniform(-1.0, 2.0)): 40,
-            lambda: at.photo.open(chance.choice(sample_photos())): 20,
+            lambda: at.files.open_photo(chance.choice(sample_photos())): 20,
             lambda: at.view("picture").set_mode(chance.choice(MODES)): 60,
             self.choose_a_task: 30,
             self.press_a_tool: 40,
@@ -198,7 +198,7 @@ class Monkey:
 
     def _show_a_photo_everywhere(self) -> None:
         """Let all panes keep the same photo: each keeps what it has shown last."""
-        self._application.photo.open(sample_photos()[0])
+        self._application.files.open_photo(sample_photos()[0])
         self.wait()
         for mode in reversed(MODES):
             self._trigger(f"show_{mode}")
@@ -292,7 +292,7 @@ class Monkey:
     def ask_for_what_cannot_be(self) -> None:
         self._application.store.change(exposure_time=-1.0)
         self._application.settings.set_tolerance(float("nan"))
-        self._application.photo.open(Path("/nowhere/photo.png"))
+        self._application.files.open_photo(Path("/nowhere/photo.png"))
 
     def resize(self) -> None:
         width = self._random.randrange(1000, 1600)

@@ -17,7 +17,7 @@ UNDONE: tuple[Change, ...] = (
     lambda at: at.settings.set_tolerance(2.0),
     lambda at: at.window.modes.switch("photo"),
     lambda at: at.controls.show_problem("No.", ("iso",)),
-    lambda at: at.photo._show_several([Path("a.png"), Path("b.png")]),
+    lambda at: at.photos.list_files([Path("a.png"), Path("b.png")]),
 )
 
 LASTING: Change = lambda at: at.story.verdict.setToolTip("something")  # noqa: E731

@@ -1,6 +1,5 @@
 """Controller of several photos: match them in the background, and combine what they measure."""
 
-from collections.abc import Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -72,7 +71,8 @@ class ManyPhotosController(QObject):
         jobs: int | None = None,
     ) -> None:
         super().__init__()
-        self._scenes, self._photos, self._board = scenes, photos, board
+        self.photos = photos
+        self._scenes, self._board = scenes, board
         self._view, self._jobs = view, jobs
         self._settings: MatchSettings | None = None
         self._found: dict[int, PhotoRow] = {}
@@ -85,13 +85,8 @@ class ManyPhotosController(QObject):
         self.runner.finished.connect(self._take)
         self.runner.failed.connect(view.show_failed)
         view.cancelled.connect(self.cancel)
-        view.closed.connect(lambda: self.choose_files(()))
+        view.closed.connect(lambda: photos.list_files(()))
         view.rows.known_given.connect(self._match_again)
-
-    def choose_files(self, paths: Sequence[Path]) -> None:
-        """List these photos in place of the previous ones, without any certain value."""
-        listed = tuple(paths)
-        self._photos.edit(lambda each: replace(each.uncertain() if listed else each, listed=listed))
 
     def show_files(self, paths: tuple[Path, ...]) -> None:
         self.runner.cancel()
@@ -100,7 +95,7 @@ class ManyPhotosController(QObject):
         self._view.show_files(paths)
 
     def start(self, choice: MatchChoice) -> None:
-        paths, reading = self._photos.choice.listed, self._photos.choice.reading
+        paths, reading = self.photos.choice.listed, self.photos.choice.reading
         if not paths:
             return
         try:
@@ -135,7 +130,7 @@ class ManyPhotosController(QObject):
         self._settings = settings = replace(settings, known=known)
         self._done, self.table = len(table.rows) - 1, None
         self._view.show_busy(settings.estimate, settings.scene)
-        paths = self._photos.choice.listed
+        paths = self.photos.choice.listed
         self.runner.ask(ManyRequest(paths, settings, self._jobs, table.rows, place))
 
     def cancel(self) -> None:

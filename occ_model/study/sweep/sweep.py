@@ -8,8 +8,8 @@ from pathlib import Path
 from time import perf_counter
 from typing import TypeAlias
 
-from occ_model.receiver.decoders import PAPER_DECODER
 from occ_model.results.bit_errors import FRAMES_A_SECOND
+from occ_model.results.decoding import PAPER_DECODER
 from occ_model.results.sweep import TITLE, PointReader, SweepTable, header_text, point_text
 from occ_model.results.sweep_request import (
     MOST_JOBS,

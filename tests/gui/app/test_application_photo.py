@@ -49,7 +49,7 @@ def choose_square_wave(application: Application) -> None:
 def matched(
     application: Application, user: User, taken: Path, remembered_matches: None
 ) -> Application:
-    application.photo.open(taken)
+    application.files.open_photo(taken)
     user.wait_until_idle()
     choose_square_wave(application)
     user.choose("&Match photo")
@@ -60,10 +60,10 @@ def test_opening_a_photo_brings_its_pane_to_the_front_once(
     qtbot: QtBot, application: Application, user: User, taken: Path
 ) -> None:
     docks = application.window.docks
-    application.photo.open(taken)
+    application.files.open_photo(taken)
     user.wait_until_idle()
     qtbot.waitUntil(lambda: not docks["photo"].visibleRegion().isEmpty())
-    assert application.photos.choice.match_asked is None
+    assert not_none(application.board.results.document).requested is None
     application.window.modes.switch("explore")
     user.choose("&Line by line")
     QApplication.processEvents()
@@ -83,14 +83,14 @@ def test_reading_a_photo_shows_progress_and_a_cancel_button(
 
     monkeypatch.setattr(occ, "load_photo", held)
     bar = application.window.reading
-    application.photo.open(taken, match=True)
+    application.photos.open(taken, match=True)
     qtbot.waitUntil(bar.isVisible)
     qtbot.waitUntil(lambda: bar.progress.value() == bar.progress.maximum() // 2)
     bar.cancel.click()
     assert not bar.isVisible()
     assert application.shell.pane("photo").is_idle
     go_on.set()
-    application.photo.open(taken)
+    application.files.open_photo(taken)
     user.wait_until_idle()
     assert not bar.isVisible()
     assert application.shell.pane("photo").matching.photo is not None
@@ -138,7 +138,7 @@ def test_match_actions_are_enabled_with_a_photo_or_a_match(
 ) -> None:
     actions = application.window.actions_by_name
     with_photo, with_match = ("match", "use_settings"), ("apply_match", "save_match")
-    application.photo.open(taken)
+    application.files.open_photo(taken)
     user.wait_until_idle()
     assert all(actions[name].isEnabled() for name in with_photo)
     assert not any(actions[name].isEnabled() for name in with_match)
@@ -161,7 +161,7 @@ def test_only_the_match_that_was_asked_for_with_a_photo_is_applied_by_itself(
     scene = application.store.scene
     with monkeypatch.context() as patched:
         patched.setattr(occ, "match_photo", refuse)
-        application.photo.open(taken, match=True)
+        application.photos.open(taken, match=True)
         user.wait_until_idle()
         user.wait_until_idle()
     assert "No scene explains" in user.message
@@ -172,7 +172,7 @@ def test_only_the_match_that_was_asked_for_with_a_photo_is_applied_by_itself(
     assert matching.match is not None
     assert application.store.scene == scene
     application.photos.close()
-    application.photo.open(taken, match=True)
+    application.photos.open(taken, match=True)
     user.wait_until_idle()
     user.wait_until_idle()
     readout = application.store.scene.camera.readout_time

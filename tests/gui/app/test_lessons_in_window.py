@@ -96,7 +96,7 @@ def test_a_crash_during_a_lesson_leaves_the_users_own_state(
     session = application.session
     session.begin(SessionFile(tmp_path), is_scene_asked=True)
     application.settings.set_tolerance(7.0)
-    application.photo.open(photo_file)
+    application.files.open_photo(photo_file)
     user.wait_until_idle()
     before = application.store.store.workspace
     guide.list.choices[5].click()

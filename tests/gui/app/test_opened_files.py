@@ -56,7 +56,9 @@ def test_a_sample_is_opened_with_its_scene_and_not_remembered_and_without_any_no
     assert application.window.windowTitle().startswith("led-1khz-panel.jpg")
     assert application.preferences.files == ()
     monkeypatch.setattr(file_controller, "resource_path", samples.joinpath)  # which has no folder
-    application.window.menus.show_samples(file_controller.sample_photos(), application.photo.open)
+    application.window.menus.show_samples(
+        file_controller.sample_photos(), application.files.open_photo
+    )
     assert not menu.isEnabled()
 
 
@@ -69,7 +71,7 @@ def test_files_that_were_opened_are_listed_and_opened_again_and_missing_ones_are
     saved = application.store.scene.replace(iso=99.0)
     scene.write_text(saved.to_toml(), encoding="utf-8")
     for path in (taken, photo_file):
-        application.photo.open(path)
+        application.files.open_photo(path)
         user.wait_until_idle()
     application.files.open_scene(scene)
     user.wait_until_idle()
@@ -83,13 +85,13 @@ def test_files_that_were_opened_are_listed_and_opened_again_and_missing_ones_are
     assert application.window.windowTitle().startswith("taken.png")
     user.choose("&Clear this list")
     assert not recent.isEnabled()
-    application.photo.open(photo_file)
+    application.files.open_photo(photo_file)
     user.wait_until_idle()
     photo_file.unlink()
     application.window.menus.recent.actions()[0].trigger()
     assert user.message == f"{photo_file} is no longer there."
     assert application.preferences.files == ()
-    application.photo.open(photo_file)
+    application.files.open_photo(photo_file)
     user.wait_until_idle()
     assert photo_file.name in user.message
     assert application.preferences.files == (), "what could not be read is not remembered"
@@ -126,7 +128,7 @@ def test_an_open_photo_stands_in_the_title_and_is_turned_and_laid_over_by_the_me
     close = user.entry("&Close photo")
     assert application.window.windowTitle() == TITLE
     assert not close.isEnabled()
-    application.photo.open(photo_file)
+    application.files.open_photo(photo_file)
     user.wait_until_idle()
     assert application.window.windowTitle() == f"stripes.png – {TITLE}"  # noqa: RUF001
     assert application.view("picture").photo.isVisible()
@@ -134,7 +136,7 @@ def test_an_open_photo_stands_in_the_title_and_is_turned_and_laid_over_by_the_me
     assert application.window.windowTitle() == TITLE
     assert not application.view("picture").photo.isVisible()
     assert not close.isEnabled()
-    application.photo.open(photo_file)
+    application.files.open_photo(photo_file)
     user.wait_until_idle()
     user.choose("&Line by line")
     assert "its lines shown as columns" in application.view("picture").photo.caption.toolTip()

@@ -139,7 +139,7 @@ def test_an_open_photo_is_drawn_in_the_story(
 ) -> None:
     rows = application.story.rows
     assert rows.profile.photo is None
-    application.photo.open(photo_file)
+    application.files.open_photo(photo_file)
     user.wait_until_idle()
     assert application.story.shows_whole_picture
     photo, shown = rows.profile.photo, application.view("profile")._photo_levels

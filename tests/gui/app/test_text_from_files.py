@@ -135,7 +135,7 @@ def test_a_name_that_is_no_utf_8_is_shown_and_remembered(
 ) -> None:
     path = Path(os.fsdecode(os.fsencode(photo_file.parent) + b"/caf\xe9.png"))
     photo_file.rename(path)
-    application.photo.open(path)
+    application.files.open_photo(path)
     user.wait_until_idle()
     assert application.view("photo").facts.name.text().endswith("caf\\udce9.png")
     application.files.save_scene(path.with_suffix(".toml"))

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from gui.kinds import not_none
 from gui.pane_bench import PaneBench
+from gui.photo.photo_bench import no_actions
 from PIL import Image
 from PySide6.QtGui import QGuiApplication, QImage
 from PySide6.QtWidgets import QFileDialog
@@ -55,7 +56,7 @@ class Bench(PaneBench):
         for feature in (
             decoding(store), accuracy(scenes, self.simulation), bands(scenes),
             detection_map(scenes, self.measuring),
-            photo(scenes, self.photos, lambda: image, board),
+            photo(scenes, self.photos, lambda: image, board, no_actions()),
         ):  # fmt: skip
             self.shell.add(feature, self.window)
         self.simulate()

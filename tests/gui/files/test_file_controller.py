@@ -7,7 +7,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 import pytest
-from gui.kinds import SnapshotOf, not_none
+from gui.kinds import SnapshotOf, collect, not_none
 from gui.stores import store_of
 from PySide6.QtCore import QSettings
 from PySide6.QtWidgets import QFileDialog
@@ -214,10 +214,11 @@ def test_several_photos_of_the_dialog_become_a_table_which_is_saved_by_one(
     copy.write_bytes(photo_file.read_bytes())
     names = [str(photo_file), str(copy)]
     monkeypatch.setattr(QFileDialog, "getOpenFileNames", lambda *_: (names, ""))
-    photos, files = bench.photos, bench.files
-    with qtbot.waitSignal(photos.opened) as opened, qtbot.waitSignal(files.several_opened) as some:
-        files.ask_for_photo()
-    assert some.args == [[photo_file, copy]]
+    wanted = collect(bench.files.pane_wanted)
+    with qtbot.waitSignal(bench.photos.opened) as opened:
+        bench.files.ask_for_photo()
+    assert bench.photos.choice.listed == (photo_file, copy)
+    assert wanted == ["photo", "photos"]
     assert opened.args[0].path == photo_file
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(tmp_path / "own"), ""))
     bench.files.ask_to_save_table("readout, µs\n")

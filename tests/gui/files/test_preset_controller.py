@@ -61,7 +61,7 @@ def matched(
     application: Application, user: User, photo_file: Path, remembered_matches: None
 ) -> Application:
     """Open a photo and match it, as if with a known LED."""
-    application.photo.open(photo_file)
+    application.files.open_photo(photo_file)
     user.wait_until_idle()
     application.view("photo").form.sent.show_key("square")
     application.shell.pane("photo").match()

@@ -116,7 +116,7 @@ def test_scene_settings_photo_options_and_layouts_are_there_again_and_layouts_ca
         application.options.theme.choose("dark")
         application.options.choose_overlay("blend")
         application.view("picture").choose_picture("receiver")
-        application.photo.open(photo_file)
+        application.files.open_photo(photo_file)
         window.modes.switch("photo")
         qtbot.waitUntil(lambda: application.is_idle)
         window.docks["controls"].hide()

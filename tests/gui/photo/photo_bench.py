@@ -3,17 +3,20 @@
 from dataclasses import replace
 from pathlib import Path
 
+from gui.kinds import not_none
 from gui.stores import store_of
 from PySide6.QtGui import QAccessible
 
 from occ_gui.photo.match_controller import cure_of_match
+from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.photo.photo_part import PhotoPart
 from occ_gui.photo.photo_verdict import PhotoSteps
 from occ_gui.photo.photo_view import PhotoView
+from occ_gui.photo.window_actions import WindowActions
 from occ_gui.shell.results import Board
 from occ_gui.simulation.snapshot import Reading
 from occ_gui.values.photo_choice import MatchChoice, PhotoChoice, PhotoSource
-from occ_gui.values.photo_results import FoundMatch, OpenPhoto
+from occ_gui.values.photo_results import FoundMatch, PhotoDocument
 from occ_model.photo.reading.load import Photo
 from occ_model.results.bands import Cure
 from occ_model.results.match import Match
@@ -27,6 +30,8 @@ class PhotoBench:
         self.scenes = store_of(scene)
         self.store = self.scenes.store
         self.board = Board()
+        self.photos = PhotoController(self.store, self.board)
+        self.photos.work.task.ask = lambda request: None  # type: ignore[method-assign]  # they are read
 
     @property
     def choice(self) -> PhotoChoice:
@@ -44,13 +49,31 @@ class PhotoBench:
         """Open a photo that was read already, or close it."""
         choice = self.choice.closed() if photo is None else self.choice.opened(photo.path)
         self.store.put(replace(self.store.workspace, photo=choice))
-        opened = None
+        document = None
         if photo is not None:
-            opened = OpenPhoto(photo, choice.source or PhotoSource(Path(), choice.reading, 0))
-        self.board.put(replace(self.board.results, opened=opened))
+            source = choice.source or PhotoSource(Path(), choice.reading, 0)
+            document = PhotoDocument(photo, source)
+        self.board.put(replace(self.board.results, document=document))
+
+    def change(self, **changes: object) -> None:
+        """Let something else be found in the open photo, or be asked of it."""
+        document = not_none(self.board.results.document)
+        self.photos.put(replace(document, **changes))  # type: ignore[arg-type]  # fields of its own
 
     def show_reading(self, reading: Reading) -> None:
         self.board.show_reading(reading)
+
+
+def no_actions() -> WindowActions:
+    """Return what a window does for the pane: nothing."""
+    return WindowActions(
+        ask_for_photo=lambda: None,
+        samples=dict,
+        open_sample=lambda _path: None,
+        edit_scene=lambda _name, _value, _gesture: None,
+        save_match=lambda _matching: None,
+        save_table=lambda _text: None,
+    )
 
 
 def spoken(steps: PhotoSteps) -> list[str]:
@@ -91,9 +114,9 @@ class LiveView(PhotoView):
 
     def show_matched(self, match: Match | None, cure: Cure | None = None) -> None:
         """Show a match that was asked for in the present scene, with its own cure or another."""
-        self.show_match_ended()
+        self.show_match_running(False)
         if match is None or self._photo is None:
             self.show_match(None)
             return
         given = 0.0 if self._scene is None else float(self._scene.value(match.known))
-        self.show_match(FoundMatch(self._photo, None, match, given), cure or cure_of_match(match))
+        self.show_match(FoundMatch(None, match, given), cure or cure_of_match(match))

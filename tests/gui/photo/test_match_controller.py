@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from gui.kinds import collect, not_none
+from gui.kinds import not_none
 from gui.photo.photo_bench import PhotoBench
 from matches import match_with
 from pytestqt.qtbot import QtBot
@@ -43,14 +43,19 @@ class Bench(PhotoBench):
         self.go_on.set()
         self.refusal: tuple[str, ...] = ()
         monkeypatch.setattr(occ, "match_photo", self._match)
-        self.controller = MatchController(self.scenes, self.board)
+        self.controller = MatchController(self.scenes, self.photos, self.board)
         self.parts = PartEdits(self.store, self.board)
-        work = self.controller.work
-        work.begun.connect(lambda: self.events.append("begun"))
-        work.task.reported.connect(self.events.append)
-        work.ended.connect(lambda: self.events.append("ended"))
+        self._was_running = False
+        self.controller.task.reported.connect(self.events.append)
+        self.board.changed.connect(self._note)
         self.controller.failed.connect(self.failures.append)
         self._qtbot = qtbot
+
+    def _note(self) -> None:
+        """Note when the pane shows that a match is at work, and when not any more."""
+        was, self._was_running = self._was_running, self.part.is_matched_now
+        if was != self._was_running:
+            self.events.append("ended" if was else "begun")
 
     def _match(self, photo: Photo, scene: Scene, *, progress: Any, **asked: Any) -> Match:
         self.asked.append({"photo": photo, "scene": scene, **asked})
@@ -68,7 +73,7 @@ class Bench(PhotoBench):
 
     def start(self, **choice: Any) -> None:
         self.controller.start(MatchChoice(**choice))
-        self._qtbot.waitUntil(lambda: self.controller.work.task.is_idle)
+        self._qtbot.waitUntil(lambda: self.controller.task.is_idle)
 
     @property
     def age(self) -> str:
@@ -86,7 +91,7 @@ def bench(
     bench.show_photo(photo)
     yield bench
     bench.go_on.set()
-    bench.controller.work.task.stop()
+    bench.controller.task.stop()
 
 
 def test_a_match_of_what_was_chosen_is_announced_from_its_start_to_its_result(
@@ -180,7 +185,7 @@ def test_a_cancelled_match_gives_nothing_and_the_last_one_stays(bench: Bench, qt
     qtbot.wait(20)
     assert bench.events.count("ended") == 2
     assert bench.controller.match is found
-    assert bench.controller.work.task.is_idle
+    assert bench.controller.task.is_idle
     bench.controller.cancel()
     assert bench.events.count("ended") == 2
     assert len(bench.asked) == 2
@@ -205,12 +210,11 @@ def test_a_match_comes_back_with_its_photo_and_stays_where_another_is_cancelled(
 ) -> None:
     """As at the end of a lesson."""
     bench.start()
-    users, opened, found = bench.store.workspace, bench.board.results.opened, bench.part.found
+    users, found = bench.store.workspace, bench.part.found
     bench.show_photo(replace(photo))
     assert bench.controller.match is None
     bench.start()
     bench.store.put(users)
-    bench.board.put(replace(bench.board.results, opened=opened))
     assert bench.part.found == found
     bench.go_on.clear()
     bench.controller.start(MatchChoice())
@@ -285,11 +289,9 @@ def own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def test_a_saved_match_records_values_photo_date_uncertainty_and_the_inputs_it_was_made_with(
     bench: Bench, own: Path
 ) -> None:
-    received = collect(bench.controller.saved)
     bench.start(sent="square", square_frequency=1000.0)
     bench.choose(certain={"switching_frequency": 2000.0})
-    bench.controller.save("my phone", "Measured from stripes.png", DAY)
-    assert received == ["my phone"]
+    assert bench.controller.save("my phone", "Measured from stripes.png", DAY)
     assert (own / "my phone.toml").is_file()
     preset = preset_named("my phone")
     assert bench.controller.match is not None
@@ -312,10 +314,10 @@ def test_a_saved_match_records_values_photo_date_uncertainty_and_the_inputs_it_w
 
 
 def test_a_name_that_cannot_be_is_refused_with_a_sentence(bench: Bench, own: Path) -> None:
-    bench.controller.save("mine", "", DAY)
+    assert not bench.controller.save("mine", "", DAY)
     assert not own.exists(), "there is no match"
     bench.start()
     for name in ("phone-136us", "a/b"):
-        bench.controller.save(name, "", DAY)
+        assert not bench.controller.save(name, "", DAY)
         assert repr(name) in bench.failures[-1]
     assert user_presets() == ()

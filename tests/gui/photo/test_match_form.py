@@ -106,7 +106,7 @@ def test_the_keyboard_stays_at_the_match_while_it_runs_and_after(
     view.activateWindow()
     qtbot.waitActive(view)
     view.form.start.setFocus()
-    view.show_match_begun()
+    view.show_match_running(True)
     assert view.form.cancel.hasFocus()
     view.show_matched(match)
     assert view.form.start.hasFocus()
@@ -115,13 +115,13 @@ def test_the_keyboard_stays_at_the_match_while_it_runs_and_after(
 def test_a_running_match_shows_progress_and_a_cancel_button(view: LiveView, qtbot: QtBot) -> None:
     form = view.form
     assert (form.start.isVisible(), form.progress.isVisible()) == (True, False)
-    view.show_match_begun()
+    view.show_match_running(True)
     assert (form.start.isVisible(), form.progress.isVisible()) == (False, True)
     form.show_progress(0.25)
     assert form.progress.value() == form.progress.maximum() / 4
     with qtbot.waitSignal(form.cancelled):
         qtbot.mouseClick(form.cancel, Qt.MouseButton.LeftButton)
-    view.show_match_ended()
+    view.show_match_running(False)
     assert (form.start.isVisible(), form.progress.isVisible()) == (True, False)
 
 

@@ -9,7 +9,7 @@ import pyqtgraph as pg
 import pytest
 from gui.kinds import not_none, show_widget
 from gui.mouse import drag_mouse
-from gui.photo.photo_bench import PhotoBench
+from gui.photo.photo_bench import PhotoBench, no_actions
 from matches import match_with
 from PySide6.QtCore import QPointF, Qt
 from pytestqt.qtbot import QtBot
@@ -18,7 +18,6 @@ import occ_model as occ
 from occ_gui.files.session_record import kept_in
 from occ_gui.photo.many.rows_model import VERDICT
 from occ_gui.photo.pane import PhotoPane
-from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.picture.image_view import ImageView
 from occ_gui.values.photo_choice import PhotoChoice, PhotoReading, Placed, Placement
 from occ_gui.values.photo_results import FoundMatch, ListedRows
@@ -49,9 +48,7 @@ class Bench(PhotoBench):
         super().__init__()
         self.picture = show_widget(qtbot, ImageView(), 1200, 400)
         self.box = self.picture.photo.box
-        photos = PhotoController(self.store, self.board)
-        photos.work.task.ask = lambda request: None  # type: ignore[method-assign]  # they are read
-        self.pane = PhotoPane(self.scenes, photos, self.picture, self.board)
+        self.pane = PhotoPane(self.scenes, self.photos, self.picture, self.board, no_actions())
         qtbot.addWidget(self.pane.widget)
         self.form, self.outlines = self.pane.view.lamps, self.pane.outlines
         self.parts = self.pane.parts
@@ -63,7 +60,7 @@ class Bench(PhotoBench):
         self.pane.show_part(self.part)
 
     def find(self) -> None:
-        self.board.put(replace(self.board.results, lamps=LAMPS))
+        self.change(lamps=LAMPS)
 
 
 @pytest.fixture
@@ -127,14 +124,14 @@ def test_a_chosen_lamp_is_kept_as_its_rectangle(bench: Bench, photo: Photo) -> N
     bench.parts.choose(2)
     assert bench.parts.part is LAMPS[2]
     assert bench.choice.rectangle == LAMPS[2].region
-    bench.board.put(replace(bench.board.results, lamps=()))
+    bench.change(lamps=())
     assert bench.parts.part == LAMPS[2].region
     bench.parts.match_whole()
     assert bench.choice.rectangle is None
 
 
 def test_the_photo_lies_on_the_picture_where_it_is_placed(bench: Bench) -> None:
-    source = not_none(bench.board.results.opened).source
+    source = not_none(bench.board.results.document).source
     bench.choose(placed=Placed(source, Placement(3.0, 4.0)))
     assert bench.picture.overlay.placement == Placement(3.0, 4.0)
     assert bench.pane.view.placement.column.value() == 3.0
@@ -257,7 +254,8 @@ def test_a_row_of_the_table_says_that_its_photo_was_matched_by_itself_since(
     is_marked = many.rows.data(many.rows.index(0, 0), Qt.ItemDataRole.BackgroundRole) is not None
     assert is_marked, "it is the photo that is open"
     listed = replace(bench.board.results, listed=ListedRows((row,), PhotoReading(), 1e4))
-    own = replace(listed, match=FoundMatch(photo, None, match_with(), 1e4))
+    document = not_none(listed.document)
+    own = replace(listed, document=replace(document, found=FoundMatch(None, match_with(), 1e4)))
     for results, is_earlier in ((listed, False), (own, True), (listed, False)):
         bench.board.put(results)
         assert ("earlier match" in many.rows.text(0, VERDICT)) == is_earlier

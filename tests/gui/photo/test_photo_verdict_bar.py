@@ -31,11 +31,11 @@ def test_each_step_on_the_way_to_a_match_has_a_verdict(
     assert (bar.state, bar.heading) == (State.NEUTRAL, "No photo is open")
     view.open(photo)
     assert (bar.state, bar.heading) == (State.NEUTRAL, "Photo: no match yet")
-    view.show_match_begun()
+    view.show_match_running(True)
     assert (bar.state, bar.heading) == (State.WAITING, "Photo: matching…")
-    view.show_match_ended()
+    view.show_match_running(False)
     assert bar.state is State.NEUTRAL
-    view.show_match_begun()
+    view.show_match_running(True)
     view.verdict.show_ended(REASONS)
     assert (bar.state, bar.heading) == (State.BAD, "Photo: not matched")
     assert " ".join(REASONS) in bar.accessibleDescription()  # nothing else says them
@@ -122,7 +122,7 @@ def test_a_refusal_of_plain_stripes_has_the_button_that_says_what_they_are(
     qtbot.mouseClick(bar.step, Qt.MouseButton.LeftButton)
     assert [one.sent for one in asked] == ["square"]
     assert not view.form.certain.isChecked()
-    view.show_match_begun()
+    view.show_match_running(True)
     assert bar.step.isHidden()
 
 

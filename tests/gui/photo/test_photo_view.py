@@ -76,12 +76,12 @@ def test_a_failed_match_is_a_sentence_and_what_was_found_before_stays(
 ) -> None:
     view.open(photo)
     view.show_matched(match)
-    view.show_match_begun()
-    view.show_match_ended()
+    view.show_match_running(True)
+    view.show_match_running(False)
     view.verdict.show_ended(["No scene explains these stripes."])
     assert "No scene explains these stripes." in view.verdict.accessibleDescription()
     assert view.result.isVisible()
-    view.show_match_begun()
+    view.show_match_running(True)
     assert "No scene" not in view.verdict.accessibleDescription()
 
 

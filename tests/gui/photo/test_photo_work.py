@@ -16,6 +16,7 @@ from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.photo import photo_work
+from occ_gui.photo.lamp_search import LampSearch
 from occ_gui.photo.photo_part import PartEdits
 from occ_gui.photo.photo_work import photo_profile
 from occ_gui.simulation.snapshot import Snapshot
@@ -77,13 +78,12 @@ class Bench(PhotoBench):
         self._qtbot.waitUntil(lambda: self.work.task.is_idle)
 
     def move(self, placement: Placement | None) -> None:
-        opened = not_none(self.board.results.opened)
-        self.choose(placed=None if placement is None else Placed(opened.source, placement))
+        document = not_none(self.board.results.document)
+        self.choose(placed=None if placement is None else Placed(document.source, placement))
 
-    def show_match(self, photo: Photo, stripes: Stripes, scene: occ.Scene | None = None) -> None:
+    def show_match(self, stripes: Stripes, scene: occ.Scene | None = None) -> None:
         match = match_with(scene=scene or occ.Scene(), stripes=stripes, profile=stripes.profile)
-        found = FoundMatch(photo, None, match, 1e4)
-        self.board.put(replace(self.board.results, match=found))
+        self.change(found=FoundMatch(None, match, 1e4))
 
     def set_enhanced(self, enhanced: bool) -> None:
         self.store.put(replace(self.store.workspace, is_enhanced=enhanced))
@@ -203,7 +203,7 @@ def test_a_match_leaves_the_residual_of_a_scene_as_it_was(
     found = stripes_of(photo)
     fitted = replace(found, low=found.low + np.linspace(0.0, 90.0, len(found.low)))
     for scene in (None, snapshot.scene):  # not applied, and applied
-        bench.show_match(photo, fitted, scene)
+        bench.show_match(fitted, scene)
         assert bench.comparison.residual.tolist() == before
 
 
@@ -214,7 +214,7 @@ def test_a_match_is_not_overtaken_by_the_search_for_stripes(
     bench.show_reading(snapshot_of())
     bench.go_on.clear()
     bench.show_photo(photo)
-    bench.show_match(photo, stripes_of(photo))
+    bench.show_match(stripes_of(photo))
     bench.wait()
     assert bench.last.sentence == ""
     assert bench.comparison is not None
@@ -299,20 +299,22 @@ def test_lamps_are_found_when_asked_for_and_come_back_with_what_was_set(
         return (Lamp(Region(0, 9, 0, 20), np.array([[0, 9, 0, 20]]), 200.0, modulated=False),)
 
     monkeypatch.setattr(occ, "find_lamps", find)
-    bench.do(photo_work.lamp_search(bench.store, bench.board))
-    parts = PartEdits(bench.store, bench.board)
+    search = LampSearch(bench.photos, bench.board)
+    bench.do(search)
     bench.show_photo(photo)
     assert searched == []
-    parts.find()
+    search.find()
+    assert bench.part.search == ((), True, "")
     bench.wait()
-    users, opened = bench.store.workspace, bench.board.results.opened
-    (lamp,) = bench.board.results.lamps
+    users = bench.store.workspace
+    (lamp,) = bench.part.lamps
+    assert bench.part.search == ((lamp,), False, "")
     bench.show_photo(replace(photo))
-    assert bench.board.results.lamps == ()
+    assert bench.part.lamps == ()
     bench.store.put(users)
-    bench.board.put(replace(bench.board.results, opened=opened))
-    assert bench.board.results.lamps == (lamp,)
+    assert bench.part.lamps == (lamp,)
     assert searched == [photo]
-    parts.find()
-    bench.wait()
-    assert searched == [photo, photo]
+    search.find()
+    bench.show_photo(replace(photo))
+    bench.store.put(users)
+    assert bench.part.search == ((), False, ""), "the search has ended with its photo"

@@ -1,5 +1,7 @@
 """A refused value has its sentence at its field, until it is mended."""
 
+from dataclasses import replace
+
 from gui.stores import store_of
 from gui.user import User
 from PySide6.QtCore import Qt
@@ -99,7 +101,7 @@ def test_a_scene_without_a_picture_says_so_at_its_fields_and_mending_it_leaves_o
     application.store.change(distance=0.1, yaw=1.2)
     user.wait_until_idle()
     application.controls.show_problem("iso is 0; allowed: 1 to 2.", ("iso",))
-    application.messages.end_failure()
+    application.board.put(replace(application.board.results, failure=None))  # there is a picture
     assert user.row("iso").notice.text()
     assert user.row("yaw").notice.text() == ""
 

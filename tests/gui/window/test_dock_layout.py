@@ -162,7 +162,7 @@ def test_no_control_is_cut_off_squeezed_or_overlapped(
         application.store.change(**changes)
         user.wait_until_idle()
         assert_faultless(qtbot, application.window, changes)
-    application.photo.open(photo_file)
+    application.files.open_photo(photo_file)
     application.view("profile").enhanced.setChecked(True)
     user.wait_until_idle()
     assert_faultless(qtbot, application.window, "photo beside")

@@ -70,7 +70,7 @@ def controller_of(view: ManyPhotosView) -> ManyPhotosController:
 
 
 def show(controller: ManyPhotosController, paths: tuple[Path, ...]) -> None:
-    controller.choose_files(paths)
+    controller.photos.list_files(paths)
     controller.show_files(paths)
 
 

@@ -1,10 +1,12 @@
 """Compare a photo's profile with a simulated one, column by column."""
 
+import math
+
 import numpy as np
 
 from occ_model.arrays import FloatArray
 from occ_model.camera.enhancement import enhance
-from occ_model.errors import MatchError, ParameterError
+from occ_model.errors import MatchError, ParameterError, counted
 from occ_model.photo.stripes.envelope import MEAN_SHAPES, trend_of, weighted_correlation
 from occ_model.results.match import Comparison
 
@@ -66,11 +68,16 @@ def compare(
             shape = np.shape(profile)
             raise ParameterError(f"{name} has the shape {shape}; allowed: a value for each column.")
     rim = min(_RIM, len(flattened) // 4)
-    low, high = first_column + rim * scale, first_column + (len(flattened) - 1 - rim) * scale
-    first = max(0, int(np.ceil(min(low, len(simulated)))))
-    last = min(len(simulated) - 1, int(np.floor(high)))
+    # As numbers of Python: far beside the picture they are infinite without a warning.
+    begin, step = float(first_column), float(scale)
+    low, high = begin + rim * step, begin + (len(flattened) - 1 - rim) * step
+    first = max(0, math.ceil(min(low, len(simulated))))
+    last = math.floor(max(min(high, len(simulated) - 1), -1))
     if last <= first:
-        raise MatchError("The photo lies beside the simulated picture; move it over the panel.")
+        raise MatchError(
+            f"The photo lies from column {low:.4g} to {high:.4g} of the simulated picture, which "
+            f"has {counted(len(simulated), 'column')}: it covers fewer than two; move or scale it."
+        )
     place = (np.arange(first, last + 1) - first_column) / scale
     columns = np.arange(len(flattened))
     seen, height = (np.interp(place, columns, of) for of in (flattened, swing))

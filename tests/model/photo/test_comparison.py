@@ -69,7 +69,16 @@ def test_what_is_flat_correlates_with_nothing() -> None:
 @pytest.mark.parametrize(
     ("first", "scale", "why"),
     [
-        *((first, 1.0, "beside the simulated picture") for first in (-400.0, 299.5, 1e6)),
+        (
+            -400.0,
+            1.0,
+            "lies from column -394 to -107 of the simulated picture, which has 300 columns",
+        ),
+        (299.5, 1.0, "lies from column 305.5 to 592.5 of"),
+        *((first, 1.0, "covers fewer than two; move") for first in (1e6, -1e308)),
+        # On the panel, and smaller than a column of it.
+        (50.0, 1e-3, "lies from column 50.01 to 50.29 of"),
+        *((0.0, np.float64(scale), "to inf of the simulated") for scale in (1e306, 1e308)),
         *((first, scale, "allowed: ") for first, scale in ((np.nan, 1.0), (np.inf, 1.0))),
         *((0.0, scale, "allowed: ") for scale in (0.0, -1.0)),
     ],

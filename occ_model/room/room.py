@@ -117,15 +117,16 @@ class RoomLamp:
     transmitter: Transmitter = field(default_factory=Transmitter)
 
     def __post_init__(self) -> None:
-        if not isinstance(self.name, str) or not 0 < len(self.name) <= 60:
+        is_text = isinstance(self.name, str) and self.name.isprintable()
+        if not is_text or not 0 < len(self.name) <= 60:
             raise ParameterError(
-                f"A lamp's name is {shown(self.name)}; allowed: a text of 1 to 60 characters."
+                f"A lamp's name is {shown(self.name)}; allowed: 1 to 60 characters in a line."
             )
         try:
             check_choice("shape", self.shape, SHAPES)
             _check_fields(self)
         except ParameterError as error:
-            raise error.within(f"Lamp {one_line(self.name)}") from None
+            raise error.within(f"Lamp {self.name}") from None
 
     @property
     def size(self) -> tuple[float, float]:
@@ -172,8 +173,7 @@ class Room:
         for name in names:
             if names.count(name) > 1:
                 raise ParameterError(
-                    f"Two lamps have the name {one_line(name)}; allowed: a name of its own for "
-                    "each lamp."
+                    f"Two lamps have the name {name}; allowed: a name of its own for each lamp."
                 )
 
     @classmethod
@@ -293,7 +293,7 @@ def _read_lamp(row: Mapping[str, Any], usual: Transmitter, number: int) -> RoomL
     except ParameterError as error:
         if str(error).startswith("Lamp "):
             raise
-        raise error.within(f"{called} ({own['name']})") from None
+        raise error.within(f"{called} ({one_line(str(own['name']))})") from None
 
 
 def _check_keys(table: Mapping[str, Any], known: tuple[str, ...], where: str) -> None:

@@ -55,6 +55,17 @@ def test_a_room_has_at_most_200_lamps() -> None:
         Room(lamps=tuple(lamps))
 
 
+@pytest.mark.parametrize(
+    "rest", ["", ", code = 9999", ", x = 'far'", ", shape = 'star'", ", y = 1e9"]
+)
+def test_a_name_of_any_length_leaves_the_sentence_short(rest: str) -> None:
+    for name in ("n" * 5000, "two\\nlines"):
+        with pytest.raises((occ.SceneFileError, occ.ParameterError)) as refused:
+            Room.from_toml(f'format = 1\nlamps = [{{name = "{name}"{rest}}}]')
+        assert len(str(refused.value)) < 400
+        assert str(refused.value).isprintable()
+
+
 def test_an_unknown_room_is_refused_with_the_known_names() -> None:
     with pytest.raises(occ.PresetError, match="corridor, hall, office"):
         load_room("cellar")

@@ -172,6 +172,12 @@ def counted(number: float, noun: str) -> str:
     return f"{text} {noun}{'s' * (text != '1')}"
 
 
+def distinct_texts(value: float, limit: float, digits: int = 1) -> tuple[str, str]:
+    """Format two numbers with so many decimals, or as many more as show their difference."""
+    texts = ((f"{value:.{more}f}", f"{limit:.{more}f}") for more in range(digits, 18))
+    return next((pair for pair in texts if pair[0] != pair[1]), (str(value), str(limit)))
+
+
 def one_line(text: str, longest: int = _LONGEST_NAME) -> str:
     """Format a name, title or path in one line, with control characters escaped."""
     start = text[: longest + 1]

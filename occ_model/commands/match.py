@@ -129,14 +129,14 @@ def _run_lamps(photo: Photo, scene: Scene, options: argparse.Namespace) -> int:
         )
     if not matched:
         raise MatchError(
-            "No lamp was found: nothing in the photo is bright, or has stripes with sharp edges; "
-            "without --lamps the stripes of the whole photo are matched."
+            "No lamp was found: no place is far brighter than the rest of the photo, and none has "
+            "stripes with sharp edges; without --lamps the stripes of the whole photo are matched."
         )
     for number, (lamp, match) in enumerate(matched, 1):
         lines = lamp_lines(number, lamp)
         if isinstance(match, Match):
             lines += _report(match, _how_known(match, options), photo.exposure_time)
-        elif lamp.modulated:
+        else:
             lines.append(str(match))
         print("\n  ".join(lines))
     return 0
@@ -178,7 +178,7 @@ def lamp_lines(number: int, lamp: Lamp) -> list[str]:
     lines = [f"lamp {number}: {lamp.region}, grey level {lamp.level:.0f}"]
     product, deviation = lamp.switching_frequency_times_readout, lamp.product_uncertainty
     if product is None or deviation is None:
-        return [*lines, "no stripes: its light does not change while the picture is read out"]
+        return lines
     estimate = Unit("chips a column").format_estimate(product, deviation)
     lines.append(f"frequency times readout time {estimate}")
     if lamp.periods is not None:

@@ -84,6 +84,11 @@ def _known(paths: list[Path], options: argparse.Namespace) -> dict[int, float]:
         name, _, value = text.rpartition("=")
         places = _places(name, paths)
         number = replace(declared, name=f"--known {one_line(name)}").parse(value)
+        if not known.keys().isdisjoint(places):
+            raise ParameterError(
+                f"--known {one_line(name)} is given again, as {one_line(value)}; allowed: one "
+                "value for a photo."
+            )
         known |= dict.fromkeys(places, number * (CHIPS_OF_A_CYCLE if of_cycles else 1))
     return known
 

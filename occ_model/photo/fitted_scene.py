@@ -6,8 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from occ_model.errors import MatchError, ParameterError
-from occ_model.photo.evidence.doubts import distinct_texts
+from occ_model.errors import MatchError, ParameterError, distinct_texts
 from occ_model.photo.fit.best_timing import Explanation
 from occ_model.photo.fit.chip_runs import is_single_pulse, runs_of
 from occ_model.photo.fit.joint_estimate import refined

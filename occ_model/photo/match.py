@@ -14,7 +14,9 @@ import numpy as np
 from occ_model.errors import MatchError
 from occ_model.photo.evidence.candidates import Candidates
 from occ_model.photo.evidence.hypothesis import Hypothesis, is_turned
+from occ_model.photo.evidence.unexplained import why_not_as_sent, why_unread
 from occ_model.photo.evidence.verdict import Judge, rows_alike
+from occ_model.photo.fit.best_timing import EXPLAINED_CORRELATION
 from occ_model.photo.fit.camera_response import AVERAGINGS, CameraTone, camera_tones
 from occ_model.photo.fit.chip_runs import is_single_pulse
 from occ_model.photo.fitted_scene import (
@@ -38,7 +40,7 @@ __all__ = ["ESTIMATES", "PATTERN_SOURCES", "match_photo"]
 PATTERN_SOURCES = ("auto", "scene", "read")
 """Source of the sent pattern: the scene, the photo, or whichever of them fits."""
 
-_EXPLAINED_CORRELATION = 0.998
+_SURE_DUTY_CORRELATION = 0.998
 """Correlation of the scene's pulse above which no other duty is searched for."""
 _SAME_DUTY = 2.0  # standard deviations within which a measured duty is the scene's
 _REPORT_INTERVAL = 0.05  # minimum time between two reports of progress
@@ -110,8 +112,11 @@ def match_photo(  # noqa: PLR0913 - all but the first two are words with default
     report(0.2)
     blinks = sent == "read" or is_single_pulse(sent_chips(scene.transmitter))
     judge = Judge(stripes, rows_alike(photo, stripes.region), blinks=blinks)
-    hypotheses = _hypotheses(candidates, sent, report)
-    chosen = _chosen(judge, hypotheses, stripes, sent)
+    hypotheses, unread = _hypotheses(candidates, sent, report)
+    try:
+        chosen = judge.choose(hypotheses)
+    except MatchError as error:
+        raise MatchError(*unread, *error.reasons) from None
     case = _Case(photo, candidates, judge, hypotheses, sent, report)
     as_sent = next((one for one in hypotheses if not one.was_read), None)
     noted = candidates.as_noted(chosen) if chosen is as_sent and sent == "auto" else None
@@ -215,10 +220,11 @@ def _cameras(
 
 def _hypotheses(
     candidates: Candidates, sent: str, report: Callable[[float], object]
-) -> list[Hypothesis]:
+) -> tuple[list[Hypothesis], list[str]]:
+    """Return what may be sent, and why nothing could be read from the stripes, if so."""
     as_sent = None if sent == "read" else candidates.as_sent()
     report(0.5)
-    found = [] if sent == "scene" else _read(candidates, as_sent, sent)
+    found, unread = ([], []) if sent == "scene" else _read(candidates, as_sent, sent)
     report(0.8)
     if as_sent is not None:
         # Where both ways lead to the scene's chips, then perhaps to different timings.
@@ -232,37 +238,36 @@ def _hypotheses(
     if not found:
         chips = sent_chips(candidates.scene.transmitter)
         varies = bool(chips.min() < chips.max())
-        raise MatchError(*_why_unexplained(candidates.stripes, sent, varies=varies))
-    return found
+        raise MatchError(*([] if sent == "read" else [why_not_as_sent(varies)]), *unread)
+    return found, unread
 
 
-def _read(candidates: Candidates, as_sent: Hypothesis | None, sent: str) -> list[Hypothesis]:
-    """Fit what is read; of a single pulse whose frequency is given only the duty can be another."""
+def _read(
+    candidates: Candidates, as_sent: Hypothesis | None, sent: str
+) -> tuple[list[Hypothesis], list[str]]:
+    """Fit what is read; of a single pulse whose frequency is given only the duty can be another.
+
+    Where nothing is read the second list says why.
+    """
     read = candidates.read(as_sent)
     chips = sent_chips(candidates.scene.transmitter)
-    if sent == "read" or chips.min() == chips.max() or not is_single_pulse(chips):
-        return read
+    is_pulse = bool(chips.min() < chips.max()) and is_single_pulse(chips)
+    is_given = is_pulse and sent != "read"
+    explained = 0.0 if as_sent is None else as_sent.fit.correlation
+    stripes = candidates.stripes
+    is_unread = not read and (stripes.period is None or explained < EXPLAINED_CORRELATION)
+    unread = [why_unread(stripes, is_given=is_given)] if is_unread else []
+    if not is_given:
+        return read, unread
     others = [
         one
         for one in read
         if not is_single_pulse(one.chips) or (as_sent is not None and is_turned(one, as_sent))
     ]
-    if as_sent is not None and as_sent.fit.correlation >= _EXPLAINED_CORRELATION:
-        return others
+    if explained >= _SURE_DUTY_CORRELATION:
+        return others, unread
     dimmed = candidates.dimmed(as_sent)
-    return others if dimmed is None else [*others, dimmed]
-
-
-def _chosen(
-    judge: Judge, hypotheses: Sequence[Hypothesis], stripes: Stripes, sent: str
-) -> Hypothesis:
-    """Choose among hypotheses; where all are refused, say first why nothing could be read."""
-    try:
-        return judge.choose(hypotheses)
-    except MatchError as error:
-        if sent == "scene" or any(one.was_read for one in hypotheses):
-            raise
-        raise MatchError(*_why_unexplained(stripes, "read"), *error.reasons) from None
+    return others if dimmed is None else [*others, dimmed], unread
 
 
 def _exchanged_exposure(photo: Photo, match: Match, sent: str) -> float | None:
@@ -304,23 +309,3 @@ def _alternative(other: Hypothesis, evidence: float, scene: Scene, estimate: str
         switching_frequency=frequency,
         exposure_time=exposure_time(other.fit, scene, estimate),
     )
-
-
-def _why_unexplained(stripes: Stripes, sent: str, *, varies: bool = True) -> list[str]:
-    sentences = []
-    if sent != "read":
-        sentences.append(
-            "What the scene sends explains the stripes at no timing: lit columns would be darker "
-            "than dark ones, or dark ones darker than black."
-            if varies
-            else "What the scene sends never changes: it makes no stripes."
-        )
-    if sent != "scene":
-        sentences.append(
-            "The stripes do not repeat within the panel's image, so that what is sent cannot be "
-            "read from them; come closer, raise the frequency, or say what is sent."
-            if stripes.period is None
-            else f"The stripes repeat after {stripes.period:.1f} columns, but no sequence of chips "
-            "read from them explains them; say what is sent."
-        )
-    return sentences

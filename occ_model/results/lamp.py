@@ -25,7 +25,7 @@ class Lamp:
     level
         Grey level where it is lit.
     modulated
-        Whether it has stripes, as its light changes during the readout.
+        Whether stripes were found in it.
     period
         Period of its stripes in columns; None without stripes, and where they do not repeat.
     period_uncertainty

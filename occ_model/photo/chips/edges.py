@@ -21,7 +21,9 @@ LEAST_COHERENCE_RATIO = 0.93
 
 _SHORTENING = 0.7  # minimum ratio of the mean shortest run to a chip: noise shortens runs
 
+LEAST_EDGES = 5  # that leave a bright and a dark run between the outermost ones
 LEAST_COLUMNS = 2.0  # minimum number of columns per chip
+LEAST_PAIR = 2.0 * _SHORTENING * LEAST_COLUMNS  # of the shortest bright and dark run together
 
 _STEPS_PER_CHIP = 6.0  # lattices tried while the last edge moves by a chip against the first
 _RIM_DISTANCE = 0.2  # chips off the lattice beyond which an outermost edge is the panel's rim
@@ -125,9 +127,9 @@ def _phase_factors(places: FloatArray, frequencies: FloatArray) -> NDArray[np.co
 
 def coarsest(edges: Edges) -> Lattice | None:
     """Find the coarsest pair of lattices on which edges lie; None if none is coherent."""
-    longest = edges.shortest_pair / 2.0 / _SHORTENING
-    if edges.count < 4 or not LEAST_COLUMNS < longest < np.inf:
+    if edges.count < LEAST_EDGES or edges.shortest_pair <= LEAST_PAIR:
         return None
+    longest = edges.shortest_pair / 2.0 / _SHORTENING
     extent = float(np.ptp(edges.places))
     step = 1.0 / (_STEPS_PER_CHIP * extent)
     frequencies = np.arange(1.0 / longest, 1.0 / LEAST_COLUMNS, step)

@@ -5,8 +5,10 @@ from itertools import pairwise
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.errors import MatchError
+from occ_model.errors import MatchError, counted, distinct_texts
 from occ_model.photo.chips.edges import (
+    LEAST_EDGES,
+    LEAST_PAIR,
     Edges,
     certainty,
     chips_between,
@@ -26,7 +28,7 @@ _RIGHT_BELOW, _WRONG_ABOVE = 0.02, 0.08
 """Unexplained fractions of the variance below which nearly all readings are right, and above which
 none is; half-way about half of them are (1,300 simulated messages)."""
 
-_LEAST_EDGES = 8  # minimum number of edges in a burst: fewer lie on some lattice by chance
+_LEAST_OF_A_BURST = 8  # minimum number of edges in a burst: fewer lie on some lattice by chance
 _LEAST_PAUSE_RATIO = 1.25  # minimum ratio of a pause to the longest bright run
 
 _MOST_INCOHERENCE_RATIO, _LEAST_COHERENCE = 0.5, 0.9
@@ -57,7 +59,7 @@ def read_chips(photo: Photo, region: Corners | Lamp | None = None) -> ChipReadin
     Raises
     ------
     MatchError
-        There are no stripes, or their edges lie on no lattice of chips.
+        There are no stripes, their edges are too few or too near, or lie on no lattice of chips.
     ParameterError
         ``region`` is not a rectangle of the photo.
     """
@@ -70,10 +72,7 @@ def read_chips(photo: Photo, region: Corners | Lamp | None = None) -> ChipReadin
         edges, seen = kept, _kept_among(seen, edges, kept)
     found = None if lattice is None else chips_between(edges, lattice)
     if lattice is None or found is None:
-        raise MatchError(
-            f"No chips can be read: the {edges.count} edges of the stripes lie on no common "
-            "lattice of chips; a shorter exposure, or more columns a chip, give clearer edges."
-        )
+        raise MatchError(f"No chips can be read: {_why_unread(edges)}")
     chips, first = found
     start = (first + 0.5 * (lattice.rising + lattice.falling)) / lattice.frequency
     unexplained = _unexplained(stripes.flattened, seen, lattice.frequency)
@@ -84,6 +83,26 @@ def read_chips(photo: Photo, region: Corners | Lamp | None = None) -> ChipReadin
         confidence=certainty(edges, lattice) * float(trust),
         start=stripes.region.first_column + start,
         region=stripes.region,
+    )
+
+
+def _why_unread(edges: Edges) -> str:
+    """Say why edges give no chips: too few of them, too near each other, or none on a lattice."""
+    together = edges.shortest_pair
+    if edges.count < LEAST_EDGES:
+        return (
+            f"{counted(edges.count, 'edge')} of stripes are in view; at least {LEAST_EDGES} are "
+            "needed; come closer, or raise the frequency."
+        )
+    if together <= LEAST_PAIR:
+        shown, limit = distinct_texts(together, LEAST_PAIR)
+        return (
+            f"the shortest bright and the shortest dark stripe have {shown} columns together; more "
+            f"than {limit} are needed; come closer, or lower the frequency."
+        )
+    return (
+        f"the {edges.count} edges of the stripes lie on no common lattice of chips; a shorter "
+        "exposure, or more columns a chip, give clearer edges."
     )
 
 
@@ -153,7 +172,7 @@ def _bursts(edges: Edges) -> list[Edges]:
     found: list[Edges] = []
     for first, last in pairwise(bounds):
         part = edges.within(np.nextafter(first, np.inf), last)
-        if found and (part.count < _LEAST_EDGES or found[-1].count < _LEAST_EDGES):
+        if found and (part.count < _LEAST_OF_A_BURST or found[-1].count < _LEAST_OF_A_BURST):
             part = Edges.joined([found.pop(), part])  # too few edges for a phase
         found.append(part)
     return found

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from occ_model.arrays import FloatArray
+from occ_model.errors import distinct_texts
 from occ_model.photo.evidence.hypothesis import CLIPPED_FRACTION, Hypothesis
 from occ_model.photo.fit.chip_runs import chips_as_one, chips_if_longer, is_single_pulse, runs_of
 from occ_model.photo.stripes.period import unrepeated_fraction
@@ -87,9 +88,9 @@ def _doubts_by_extent(found: Hypothesis) -> list[str]:
     is_long = chips >= _LONG_PATTERN and not found.was_read
     least = _LEAST_PERIODS if is_long else _LEAST_PERIODS_OF_OTHERS
     if found.periods < least:
+        shown, limit = distinct_texts(found.periods, least)
         reasons.append(
-            f"Only {found.periods:.2g} periods of {chips} chips are in view; at least {least:g} "
-            "are needed."
+            f"Only {shown} periods of {chips} chips are in view; at least {limit} are needed."
         )
     one_pulse = is_single_pulse(found.chips)
     # Stripes are symmetric in a pulse and its exposure: only half a period counts.
@@ -98,9 +99,10 @@ def _doubts_by_extent(found: Hypothesis) -> list[str]:
     if exposure > _LONGEST_EXPOSURE:
         what = "a chip" if shortest == 1 else f"the shortest pulse of {shortest} chips"
         what = "half a period" if one_pulse else what
+        shown, limit = distinct_texts(exposure, _LONGEST_EXPOSURE)
         reasons.append(
-            f"The exposure is {exposure:.2g} times as long as {what}; above {_LONGEST_EXPOSURE} "
-            "different codes give nearly the same stripes."
+            f"The exposure is {shown} times as long as {what}; above {limit} different codes give "
+            "nearly the same stripes."
         )
     if found.was_read and found.rate == 1.0 and one_pulse:
         reasons.append(
@@ -114,20 +116,23 @@ def _doubts_by_quality(found: Hypothesis, saturated: float, rows_alike: float) -
     reasons = []
     correlation = found.fit.correlation
     if correlation < _LEAST_CORRELATION:
+        shown, limit = distinct_texts(correlation, _LEAST_CORRELATION, 2)
         reasons.append(
-            f"The correlation is {correlation:.2f}; below {_LEAST_CORRELATION} something else "
-            "shapes the stripes too, such as the shape of the lamp."
+            f"The correlation is {shown}; below {limit} something else shapes the stripes too, "
+            "such as the shape of the lamp."
         )
     least = LEAST_INFORMATION[found.was_read]
     if found.information < least:
+        shown, limit = distinct_texts(found.information, least, 0)
         reasons.append(
-            f"The fit is better than one by chance by {found.information:.0f} bits only; at least "
-            f"{least:.0f} are needed."
+            f"The fit is better than one by chance by {shown} bits only; at least {limit} are "
+            "needed."
         )
     if rows_alike < _LEAST_ROW_CORRELATION:
+        shown, limit = distinct_texts(rows_alike, _LEAST_ROW_CORRELATION, 2)
         reasons.append(
-            f"The rows show the same stripes only with a correlation of {rows_alike:.2f}; at least "
-            f"{_LEAST_ROW_CORRELATION} is needed."
+            f"The rows show the same stripes only with a correlation of {shown}; at least {limit} "
+            "is needed."
         )
     if saturated > _MOST_SATURATED and found.was_read:
         reasons.append(_too_white(saturated, _MOST_SATURATED))
@@ -180,12 +185,6 @@ def _doubts_by_reading(found: Hypothesis, stripes: Stripes) -> list[str]:
             f"{limit} % are allowed."
         )
     return reasons
-
-
-def distinct_texts(value: float, limit: float) -> tuple[str, str]:
-    """Format two numbers with one decimal, or as many as show their difference."""
-    texts = ((f"{value:.{digits}f}", f"{limit:.{digits}f}") for digits in range(1, 18))
-    return next((pair for pair in texts if pair[0] != pair[1]), (str(value), str(limit)))
 
 
 @dataclass(frozen=True, slots=True)

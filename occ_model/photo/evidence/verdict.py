@@ -7,7 +7,7 @@ import cv2
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.errors import MatchError
+from occ_model.errors import MatchError, distinct_texts
 from occ_model.photo.evidence.doubts import doubts, exposure_doubts
 from occ_model.photo.evidence.hypothesis import Hypothesis, log_likelihood
 from occ_model.photo.fit.chip_runs import is_single_pulse
@@ -94,9 +94,10 @@ class Judge:
         if found.was_read:
             least = _LEAST_CORRELATION_READ if self._blinks else _LEAST_CORRELATION_OF_OBJECTS
         if found.fit.correlation < least:
+            shown, limit = distinct_texts(found.fit.correlation, least, 2)
             return [
-                f"The stripes are not explained by {found.sent}: the best correlation is "
-                f"{found.fit.correlation:.2f}; at least {least} is needed."
+                f"The stripes are not explained by {found.sent}: the best correlation is {shown}; "
+                f"at least {limit} is needed."
             ]
         reasons = []
         if found.was_read and not self._blinks and is_single_pulse(found.chips):
@@ -113,10 +114,11 @@ class Judge:
                 f"the stripes better than {found.sent}."
             )
         if found.information < _LEAST_INFORMATION:
+            shown, limit = distinct_texts(max(found.information, 0.0), _LEAST_INFORMATION, 0)
             reasons.append(
-                f"The stripes are hardly better explained by {found.sent} than by chance: "
-                f"{found.chips_in_view:.1f} chips are in view, and the exposure is "
-                f"{found.fit.timing.exposure:.1f} chips long."
+                f"The stripes are better explained by {found.sent} than by chance by {shown} bits "
+                f"only; at least {limit} are needed: more periods in view, a shorter exposure, or "
+                "less noise give more."
             )
         if likelihood < self._of_curve(found, independent):
             reasons.append(
@@ -124,9 +126,10 @@ class Judge:
                 f"{found.sent}."
             )
         if self._rows_alike < _LEAST_ROW_CORRELATION:
+            shown, limit = distinct_texts(self._rows_alike, _LEAST_ROW_CORRELATION, 2)
             reasons.append(
-                "The rows do not show the same stripes: their correlation is "
-                f"{self._rows_alike:.2f}; at least {_LEAST_ROW_CORRELATION} is needed."
+                f"The rows do not show the same stripes: their correlation is {shown}; at least "
+                f"{limit} is needed."
             )
         return reasons
 

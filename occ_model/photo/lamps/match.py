@@ -3,10 +3,13 @@
 from collections.abc import Callable
 from typing import TypeAlias
 
-from occ_model.errors import MatchError
+import numpy as np
+
+from occ_model.errors import MatchError, counted
 from occ_model.photo.lamps.find import find_lamps
 from occ_model.photo.match import match_photo
 from occ_model.photo.reading.load import Photo
+from occ_model.photo.stripes.find import lamp_profile
 from occ_model.results.lamp import Lamp
 from occ_model.results.match import Match
 from occ_model.scene.scene import Scene
@@ -65,7 +68,7 @@ def match_lamps(
 
     for number, lamp in enumerate(lamps):
         if not lamp.modulated:
-            matched.append((lamp, MatchError("No stripes: its light does not change.")))
+            matched.append((lamp, MatchError(_why_no_stripes(photo, lamp))))
             continue
         try:
             matched.append((lamp, match(lamp, _SEARCH_FRACTION + each * number)))
@@ -73,3 +76,12 @@ def match_lamps(
             matched.append((lamp, error))
     report(1.0)
     return tuple(matched)
+
+
+def _why_no_stripes(photo: Photo, lamp: Lamp) -> str:
+    """Say what is known of a lamp without stripes: its light may be a single pulse."""
+    columns, span = lamp.region.columns, float(np.ptp(lamp_profile(photo, lamp)))
+    return (
+        f"No stripes were found in it: its {counted(columns, 'column')} differ by {span:.2g} grey "
+        "levels."
+    )

@@ -11,7 +11,7 @@ import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray
 from occ_model.camera.photometry import FLAT_SPAN, WHITE
-from occ_model.errors import MatchError, ParameterError, counted
+from occ_model.errors import MatchError, ParameterError, counted, distinct_texts
 from occ_model.photo.reading.load import Corners, Photo, column_means, part_of, region_within
 from occ_model.photo.stripes.envelope import envelope
 from occ_model.photo.stripes.period import repeat_period
@@ -57,17 +57,37 @@ def find_stripes(photo: Photo, region: Corners | Lamp | None = None) -> Stripes:
     Raises
     ------
     MatchError
-        There are no stripes: the photo is flat or too narrow, or its rows do not vary together.
+        There are no stripes: the photo is flat or too narrow, or what changes from column to column
+        is not common to its rows. It says so where there are stripes along the other axis.
     ParameterError
         ``region`` is not a rectangle of the photo.
     """
-    if region is None:
-        return _stripes_of(photo)
     if isinstance(region, Lamp):
         return _stripes_between(photo, region.region, lamp_profile(photo, region))
-    within = region_within(photo, region)
-    found = _stripes_of(part_of(photo, within))
+    whole = Region(0, photo.samples.shape[0], 0, photo.samples.shape[1])
+    within = whole if region is None else region_within(photo, region)
+    part = photo if region is None else part_of(photo, within)
+    try:
+        found = _stripes_of(part)
+    except MatchError as error:
+        raise MatchError(*error.reasons, *_along_the_other_axis(part)) from None
     return replace(found, region=_moved(found.region, within))
+
+
+def _along_the_other_axis(photo: Photo) -> list[str]:
+    """Say of a photo without stripes how they repeat along its rows, where they do."""
+    samples = np.ascontiguousarray(photo.samples.T)
+    try:
+        found = _stripes_of(replace(photo, samples=samples))
+    except MatchError:
+        return []
+    if found.period is None:
+        return []
+    axis = "columns" if photo.turned else "lines"
+    return [
+        f"There are stripes along the other axis, which repeat after {found.period:.1f} rows: if "
+        f"they are the shutter's, read the photo with {axis} as the scan axis."
+    ]
 
 
 def _moved(here: Region, within: Region) -> Region:
@@ -97,20 +117,37 @@ def _stripes_between(photo: Photo, rows: Region, profile: FloatArray) -> Stripes
     profile = profile[first:last]
     low, high = envelope(profile, 2 * gap)
     swing = float(np.median(high - low))
+    _check_white(profile)
     if swing < FLAT_SPAN:
-        raise MatchError(f"No stripes: the columns differ by {swing:.2g} grey levels only.")
+        raise MatchError(_why_flat(profile, swing, 2 * gap))
     high = np.maximum(high, low + FLAT_SPAN)
     found = repeat_period((profile - low) / (high - low))
     period, uncertainty = found if found is not None else (None, None)
-    if np.mean(profile >= _SATURATED_LEVEL * WHITE) > _MOST_FULL:
-        raise MatchError(
-            "No stripes: nearly all columns of the panel are white; expose less, or choose another "
-            "channel."
-        )
     region = _moved(Region(0, rows.rows, first, last), rows)
     part = region.crop(photo.samples)
     full = np.count_nonzero(part >= _SATURATED_LEVEL * photo.white) / part.size
     return Stripes(region, profile, low, high, period, uncertainty, full)
+
+
+def _check_white(profile: FloatArray) -> None:
+    white = float(np.mean(profile >= _SATURATED_LEVEL * WHITE))
+    if white > _MOST_FULL:
+        shown, limit = distinct_texts(100.0 * white, 100.0 * _MOST_FULL, 0)
+        raise MatchError(
+            f"No stripes: {shown} % of the panel's columns are white; at most {limit} % are "
+            "allowed; expose less, or choose another channel."
+        )
+
+
+def _why_flat(profile: FloatArray, swing: float, width: int) -> str:
+    """Say why a profile has no stripes whose median height within some columns is so small."""
+    span = float(np.ptp(profile))
+    if span < FLAT_SPAN:
+        return f"No stripes: the columns differ by {span:.2g} grey levels only."
+    return (
+        f"No stripes with edges: the columns differ by {span:.2g} grey levels in all, but within "
+        f"{width} columns as a rule by {swing:.2g} only; at least {FLAT_SPAN:g} is needed."
+    )
 
 
 def _striped_rows(photo: Photo) -> tuple[int, int]:
@@ -120,10 +157,17 @@ def _striped_rows(photo: Photo) -> tuple[int, int]:
     means = cv2.resize(photo.samples, (columns, bands), interpolation=cv2.INTER_AREA)
     slopes = np.diff(means.astype(np.float64) * (WHITE / photo.white), axis=1)
     if not slopes.any():
-        raise MatchError("No stripes: all columns of the photo are alike.")
+        profile = column_means(photo, 0, rows)
+        _check_white(profile)
+        raise MatchError(_why_flat(profile, 0.0, columns))
     common, strengths = _common_slopes(slopes)
-    if bands > 1 and strengths @ strengths < _LEAST_COHERENCE * float((slopes**2).sum()):
-        raise MatchError("No stripes: the rows of the photo do not vary together.")
+    coherence = float(strengths @ strengths) / float((slopes**2).sum())
+    if bands > 1 and coherence < _LEAST_COHERENCE:
+        shown, limit = distinct_texts(100.0 * coherence, 100.0 * _LEAST_COHERENCE, 0)
+        raise MatchError(
+            f"No stripes: only {shown} % of the changes from column to column, by their squares, "
+            f"are common to all rows; at least {limit} % are needed."
+        )
     shows = strengths > _LEAST_STRENGTH * np.median(np.sort(strengths)[-(bands // 2 + 1) :])
     best = int(strengths.argmax())
     first, last = best, best + 1
@@ -166,8 +210,9 @@ def _edge_row(photo: Photo, near: int, common: FloatArray, typical: float, outwa
 def _striped_columns(profile: FloatArray) -> tuple[int, int, int]:
     """Find the columns from the first edge to the last, and the widest gap between two edges."""
     slopes = _local_range(profile)
-    steep = float(np.quantile(slopes, _STEEP_QUANTILE))
-    edges = np.flatnonzero(slopes > _LEAST_SLOPE * steep) if steep > 0.0 else np.zeros(0, np.int64)
+    # Without noise a few edges leave even the steep columns flat.
+    steep = float(np.quantile(slopes, _STEEP_QUANTILE)) or float(slopes.max())
+    edges = np.flatnonzero(slopes > _LEAST_SLOPE * steep)
     gaps = np.diff(edges)
     # Noise outside the panel is farther from its edges than they are from each other.
     inner = gaps[len(gaps) // 4 : len(gaps) - len(gaps) // 4]
@@ -177,11 +222,12 @@ def _striped_columns(profile: FloatArray) -> tuple[int, int, int]:
     edges = edges[
         int(before[-1]) + 1 if before.size else 0 : int(after[0]) + 1 if after.size else None
     ]
-    apart = int(np.count_nonzero(np.diff(edges) > 1)) + 1
-    if max(apart, _reversals(profile, edges)) < _LEAST_EDGES:
+    apart = int(np.count_nonzero(np.diff(edges) > 1)) + 1 if edges.size else 0
+    found = max(apart, _reversals(profile, edges))
+    if found < _LEAST_EDGES:
         raise MatchError(
-            "No stripes: fewer than three edges between bright and dark columns; come closer to "
-            "the panel, or raise its frequency."
+            f"No stripes: {counted(found, 'steep edge')} between bright and dark columns; at least "
+            f"{_LEAST_EDGES} are needed; come closer to the panel, or raise its frequency."
         )
     gap = int(np.diff(edges).max())
     start = _faintest(slopes, int(edges[0]), gap, steep)

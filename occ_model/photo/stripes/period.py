@@ -6,7 +6,7 @@ from occ_model.arrays import FloatArray
 from occ_model.photo.stripes.envelope import smooth_shapes
 
 _SHORTEST_PERIOD = 3  # shortest period in columns
-_LEAST_AUTOCORRELATION = 0.5  # minimum autocorrelation after one period
+LEAST_AUTOCORRELATION = 0.5  # minimum autocorrelation after one period
 _TOLERANCE = 0.06  # maximum difference of the shortest period's autocorrelation from the best
 _LONGEST_FRACTION = 0.67  # longest period relative to the width: part of it must be seen twice
 _MOST_HARMONICS = 24  # maximum number of harmonics
@@ -19,29 +19,38 @@ def repeat_period(flattened: FloatArray) -> tuple[float, float] | None:
     return None if rough is None else _refined(flattened, rough)
 
 
+def best_repetition(flattened: FloatArray) -> tuple[int, float]:
+    """Return the largest lag after which a profile is searched to repeat, and its best likeness."""
+    lags, heights = _repetitions(flattened)
+    longest = int(_LONGEST_FRACTION * len(flattened))
+    return longest, float(heights.max()) if lags.size else 0.0
+
+
 def _rough_period(flattened: FloatArray) -> float | None:
     """Find the shortest lag whose autocorrelation is about the best."""
+    lags, heights = _repetitions(flattened)
+    if lags.size == 0 or heights.max() < LEAST_AUTOCORRELATION:
+        return None
+    return float(lags[np.flatnonzero(heights >= heights.max() - _TOLERANCE)[0]])
+
+
+def _repetitions(flattened: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return the lags at which the autocorrelation has peaks, and the peaks' heights."""
     correlations = autocorrelation(flattened)
     count = int(_LONGEST_FRACTION * len(correlations))
     negative = np.flatnonzero(correlations[:count] < 0.0)
     start = max(_SHORTEST_PERIOD, int(negative[0]) if negative.size else _SHORTEST_PERIOD)
     inner = correlations[start : count - 1]
     if inner.size < 1:
-        return None
+        return np.zeros(0), np.zeros(0)
     peaks = start + np.flatnonzero(
         (inner >= correlations[start - 1 : count - 2]) & (inner >= correlations[start + 1 : count])
     )
-    if peaks.size == 0:
-        return None
     # The peak of a short period lies up to half a column off a lag: a parabola gives its height.
     before, here, after = correlations[peaks - 1], correlations[peaks], correlations[peaks + 1]
     bend = np.minimum(before - 2.0 * here + after, -1e-12)
     aside = np.clip(0.5 * (before - after) / bend, -0.5, 0.5)
-    height = here - 0.25 * (before - after) * aside
-    if height.max() < _LEAST_AUTOCORRELATION:
-        return None
-    first = int(np.flatnonzero(height >= height.max() - _TOLERANCE)[0])
-    return float(peaks[first] + aside[first])
+    return peaks + aside, here - 0.25 * (before - after) * aside
 
 
 def autocorrelation(values: FloatArray) -> FloatArray:

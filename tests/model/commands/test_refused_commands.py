@@ -53,7 +53,7 @@ READING = {
     "decode --follow film.mp4": "film.mp4 ",
     "match text.txt": "text.txt is not an image that can be read.",
     "match grey.png": "No stripes",
-    "match black.png --lamps": "No lamp was found: nothing in the photo is bright, or has stripes",
+    "match black.png --lamps": "No lamp was found: no place is far brighter than the rest of the ",
     "bench --data no-such-table.csv": "no-such-table.csv cannot be read",
     **{
         f"decode p.png {kind} --readout-tolerance={percent}": f"--readout-tolerance is {percent} "
@@ -69,6 +69,7 @@ READING = {
     "match 0.png p.png --known 0.png=loud": "--known 0.png is 'loud'",
     "match 0.png p.png --led-frequency 1kHz --known 0.png=-1kHz": "is -1 kHz; allowed: 0.5 Hz to",
     "match 0.png p.png --known 0.png=2s": "--known 0.png is '2s'",
+    "match 0.png p.png --known 0.png=2kHz --known 0.png=3kHz": "0.png is given again, as 3kHz; ",
 }
 
 NO_SCENE = "has no ending of a scene file; use .toml."
@@ -169,6 +170,28 @@ def test_a_refused_command_says_one_sentence_and_changes_no_file(
     assert said.count("\n") == 1
     assert said.endswith((".\n", "?\n"))
     assert contents(folder) == before
+
+
+NAMED = (  # N is a name of 5,000 letters
+    "render --set N=1", "render --set averaging=N", "render --set payload=bits:N", "render --on N",
+    "render --preset N", "render --scene N.toml", "render -o N.png", "match N", "match p.png N",
+    "match 0.png p.png --known N=1kHz", "match 0.png p.png --known 0.png=N",
+    "match p.png --region N", "match 0.png p.png --out N.csv", "decode N", "sweep --vary N=1",
+    "sweep --vary distance=1 --out N.csv", "film --waypoint 1s:N=1 -o f.mkv", "presets N",
+    "film --exposures N -o f.mkv", "bench --data N", "room render --room N", "room locate N",
+    "room render --room N.toml", "room render --room long.toml", "film-study --gaps N",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("line", NAMED)
+def test_a_name_of_any_length_is_shortened_in_a_sentence(
+    folder: Path, capsys: pytest.CaptureFixture[str], line: str
+) -> None:
+    long = "n" * 5000
+    (folder / "long.toml").write_text(f"format = 1\nlamps = [{{name = '{long}'}}]\n")
+    out = ["-o", "out.png"] if "render" in line and " -o " not in line else []
+    assert main([*line.replace("N", long).split(), *out]) in (1, 2)
+    assert "n" * 200 not in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from occ_model.photo.evidence.doubts import _harmonics, distinct_texts, doubts, strongest_line
+from occ_model.errors import distinct_texts
+from occ_model.photo.evidence.doubts import _harmonics, doubts, strongest_line
 from occ_model.photo.fit.timing import Timing
 
 PLACE, HEIGHT = np.arange(1500), np.full(1500, 100.0)
@@ -33,10 +34,10 @@ def explained(
 @pytest.mark.parametrize(
     ("name", "sure", "doubtful", "said", "was_read"),
     [
-        ("periods", 1.5, 1.49, "Only 1.5 periods of 10 chips are in view; at least 1.5", False),
-        ("periods", 3.0, 2.96, "Only 3 periods of 10 chips are in view; at least 3", True),
+        ("periods", 1.5, 1.49, "Only 1.49 periods of 10 chips are in view; at least 1.50", False),
+        ("periods", 3.0, 2.96, "Only 2.96 periods of 10 chips are in view; at least 3.00", True),
         ("exposure", 3.2, 3.3, "The exposure is 3.3 times as long as a chip; above 3.2", False),
-        ("correlation", 0.9, 0.89, "The correlation is 0.89; below 0.9", False),
+        ("correlation", 0.9, 0.89, "The correlation is 0.89; below 0.90", False),
         ("information", 40.0, 39.0, "by chance by 39 bits only; at least 40", False),
         ("information", 100.0, 99.0, "by chance by 99 bits only; at least 100", True),
         ("rows_alike", 0.85, 0.84, "only with a correlation of 0.84; at least 0.85", False),

@@ -1,10 +1,14 @@
 """Plug-ins: what installed packages offer under an entry point, read when first needed."""
 
 import re
+import signal
+from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from contextvars import ContextVar
 from functools import lru_cache
 from threading import get_ident
+from traceback import walk_tb
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from occ_model.errors import ParameterError, PluginError, one_line, shown
@@ -20,8 +24,7 @@ _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,59}")  # what a plug-in can be c
 
 _Kind = TypeVar("_Kind")
 
-FAULTS = (Exception, SystemExit)  # what a plug-in may raise that does not end the program
-
+_LONGEST_SENTENCE = 1000  # characters of an error of a plug-in that is taken as it is
 
 _at_work: dict[int, str] = {}  # the plug-in that each thread is in
 
@@ -77,19 +80,17 @@ def load_plugin(group: str, name: str, kind: type[_Kind]) -> _Kind:
     entry = _found(group).get(name)
     if entry is None:
         raise PluginError(f"There is no plug-in {one_line(name)!r} of {group}.")
-    try:
-        with at_work(described(group, name)):
-            offered = entry.load()
-    except FAULTS as error:
-        raise PluginError(f"{described(group, name)} cannot be imported: {reason(error)}") from None
-    if not isinstance(offered, kind):
-        raise PluginError(
-            f"{described(group, name)} is a {type(offered).__name__}, not a {kind.__name__}."
-        )
-    own = getattr(offered, "name", None)
-    if not isinstance(own, str) or own != name:
-        raise PluginError(f"{described(group, name)} calls itself {shown(own)}.")
-    return offered
+    who = described(group, name)
+
+    def checked(offered: object) -> _Kind:
+        if not isinstance(offered, kind):
+            raise PluginError(f"{who} is a {type(offered).__name__}, not a {kind.__name__}.")
+        own = getattr(offered, "name", None)
+        if not isinstance(own, str) or own != name:
+            raise PluginError(f"{who} calls itself {shown(own)}.")
+        return offered
+
+    return called(who, "be imported", checked, entry.load)
 
 
 def described(group: str, name: str) -> str:
@@ -100,21 +101,95 @@ def described(group: str, name: str) -> str:
 
 
 def called(
-    who: str, verb: str, kind: type[_Kind], function: Callable[..., Any], *given: Any
+    who: str, verb: str, checked: Callable[[Any], _Kind], function: Callable[..., Any], *given: Any
 ) -> _Kind:
-    """Call a plug-in's function; its error becomes a sentence, and its result is checked."""
+    """Call a plug-in's function, and return what a check makes of its result.
+
+    Whatever either raises, as a result may when it is looked at, becomes a sentence. Only what a
+    signal's handler raises meanwhile passes: Ctrl+C, or that the program is to end.
+    """
     try:
         with at_work(who):
-            result = function(*given)
-    except FAULTS as error:
-        if isinstance(error, ParameterError | PluginError) and str(error).isprintable():
-            raise  # a sentence already
+            return checked(function(*given))
+    except BaseException as error:
+        if _is_of_signal(error):
+            raise
+        text = _message(error)
+        is_sentence = isinstance(error, ParameterError | PluginError) and text.isprintable()
+        if is_sentence and len(text) <= _LONGEST_SENTENCE:
+            raise
         raise PluginError(f"{who} cannot {verb}: {reason(error)}") from None
-    if not isinstance(result, kind):
-        raise PluginError(f"{who} gives a {type(result).__name__}, not a {kind.__name__}.")
-    return result
+
+
+def of_kind(who: str, kind: type[_Kind]) -> Callable[[object], _Kind]:
+    """Return a check that a plug-in's result is of a kind."""
+
+    def checked(result: object) -> _Kind:
+        if not isinstance(result, kind):
+            raise PluginError(f"{who} gives a {type(result).__name__}, not a {kind.__name__}.")
+        return result
+
+    return checked
+
+
+def _is_of_signal(error: BaseException) -> bool:
+    if isinstance(error, KeyboardInterrupt):
+        return True
+    handlers = map(signal.getsignal, signal.valid_signals())
+    codes = {getattr(handler, "__code__", None) for handler in handlers}
+    return any(frame.f_code in codes for frame, _ in walk_tb(error.__traceback__))
 
 
 def reason(error: BaseException) -> str:
     """Format a plug-in's exception as the end of a sentence."""
-    return f"{type(error).__name__}: {one_line(str(error))}."
+    text = one_line(_message(error)).rstrip(".")
+    return f"{one_line(type(error).__name__)}{': ' * bool(text)}{text}."
+
+
+def _message(error: BaseException) -> str:
+    try:
+        return str(error)
+    except BaseException as another:
+        if _is_of_signal(another):
+            raise
+        return "it has no message that could be read"
+
+
+_counting: ContextVar[tuple["Faults", ...]] = ContextVar("_counting", default=())
+
+
+class Faults:
+    """How often plug-ins have failed, decoder by decoder, while :meth:`counting`."""
+
+    def __init__(self) -> None:
+        self._readings, self._failed = Counter[str](), Counter[str]()
+        self._first: dict[str, str] = {}
+
+    @contextmanager
+    def counting(self) -> Iterator["Faults"]:
+        """Count what is read within the context by this thread."""
+        token = _counting.set((*_counting.get(), self))
+        try:
+            yield self
+        finally:
+            _counting.reset(token)
+
+    def __str__(self) -> str:
+        """Say how often a plug-in has failed, and how first; empty where none has."""
+        return " ".join(
+            f"With the {decoder} decoder a plug-in failed in {failed:,} of "
+            f"{self._readings[decoder]:,} readings; first: {self._first[decoder]}"
+            for decoder, failed in self._failed.items()
+        )
+
+    def _note(self, decoder: str, fault: str | None) -> None:
+        self._readings[decoder] += 1
+        if fault is not None:
+            self._failed[decoder] += 1
+            self._first.setdefault(decoder, fault)
+
+
+def note_reading(decoder: str, fault: str | None) -> None:
+    """Count a decoder's reading, and the fault of a plug-in that has failed in it."""
+    for faults in _counting.get():
+        faults._note(decoder, fault)

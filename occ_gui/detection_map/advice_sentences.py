@@ -45,6 +45,8 @@ def advice_lines(advice: Advice, frames_a_second: float = FRAMES_A_SECOND) -> li
             lines.append(AdviceLine(gaps_text(found)))
         if found.most_chips is not None:
             lines.append(AdviceLine(searched_to(found)))
+        if found.faults:
+            lines.append(AdviceLine(found.faults))
         if theory.two_packets is not None:
             lines.append(AdviceLine(two_packets_text(theory.two_packets)))
         lines.append(AdviceLine(theory_text(parameter, theory), is_common=True))

@@ -76,7 +76,8 @@ class LimitCards(QWidget):
             found = advice.limits.frequency
             bits = own_text(advice.limits, self.frames_a_second)
             to = "" if found.most_chips is None else searched_to(found)
-            tip = "\n".join(text for text in (line.text, gaps_text(found), to, bits) if text)
+            texts = (line.text, found.faults, gaps_text(found), to, bits)
+            tip = "\n".join(text for text in texts if text)
             card.show_limit(found.highest, tip, advice.limits.rate)
             card.show_range(found)
 
@@ -256,7 +257,7 @@ class MostBitsCard(QFrame):
 
     def show_found(self, found: MostBits) -> None:
         if found.scene is None:
-            self._failures.append(f"{found.decoder}: {found.failure}")
+            self._failures.append(f"{found.decoder}: {found.failure} {found.faults}".strip())
         elif self._best is None or found.bits_a_second > self._best.bits_a_second:
             self._best = found
         self._show()

@@ -184,7 +184,9 @@ class MapView(QWidget):
             progress = self._progress.replace("{what}", self.shown.currentText())
             text = self._failure or self._refusal or progress
         else:
-            text = f"{self._position(facts)}: {facts.note or self._counts(facts)}"
+            counts = self._counts(facts) if facts.sent else ""
+            known = "; ".join(text for text in (counts, facts.note) if text)
+            text = f"{self._position(facts)}: {known}"
         if self._is_outdated and not self._failure:
             text = f"Earlier scene: {text}"
         self.status.set_full_text(text)

@@ -148,10 +148,10 @@ class RateMap:
         return np.where((self.images > 0) & (self.sent == 0), 1, 0)
 
     def refusal(self) -> str:
-        """Return why the model refuses all known points; empty if it does not."""
-        if np.any(self.sent > 0) or not self.notes:
-            return ""
-        return next(iter(self.notes.values()))
+        """Return why the model refuses all known points, or that a plug-in fails; else empty."""
+        sent = self.sent.ravel()
+        some = np.any(sent > 0)
+        return next((note for at, note in self.notes.items() if sent[at] or not some), "")
 
     def owners(self) -> tuple[IndexArray, IndexArray]:
         """Return for every point the known one whose rate it shows: coarse points fill large cells.

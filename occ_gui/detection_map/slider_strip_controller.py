@@ -184,7 +184,8 @@ class SliderStripController(RestingController):
 
 
 def _fraction(point: SweepPoint) -> float | None:
-    return point.right[0] / point.sent if point.sent else None
+    """Return the fraction of bits read; None where the model refuses, or a plug-in has failed."""
+    return None if point.note else point.right[0] / point.sent
 
 
 def _nearest(fractions: Mapping[int, float | None], place: int) -> float | None:
@@ -241,9 +242,9 @@ def own_rate_job(request: RateRequest) -> Job:
 
 
 def own_rate(measured: MeasuredPoints) -> OwnRate | None:
-    """Return the rate of a single point; None where the model refuses it."""
+    """Return the rate of a single point; None where the model refuses it, or a plug-in fails."""
     (point,) = measured.points
-    if not point.sent:
+    if point.note:
         return None
     low, high = interval_of_pictures(point.right[0], point.sent, measured.images)
     fraction, (whole,) = point.right[0] / point.sent, point.whole

@@ -11,7 +11,7 @@ from occ_gui.simulation.snapshot import Reading, Snapshot
 from occ_gui.values.simulated import LEAST_DRAFT_STEP, SimulationRequest
 from occ_model.effects.plan import called_for_by_signal
 from occ_model.errors import PluginError
-from occ_model.receiver.decoders import QUICK_DECODERS, decoder_named
+from occ_model.receiver.decoders import QUICK_DECODERS, decoder_named, read_with
 from occ_model.results.decoding import DecodeResult
 from occ_model.results.frame import Frame
 from occ_model.scene.scene import Scene
@@ -190,7 +190,7 @@ def _decode_located(name: str, first: DecodeResult, scene: Scene) -> DecodeResul
     if first.signal is None:  # no panel found, which holds for all decoders
         return DecodeResult(name, failure=first.failure)
     try:
-        result = decoder_named(name).read(first.signal, scene)
-    except PluginError as error:
+        result = read_with(name, first.signal, scene)
+    except PluginError as error:  # it cannot be imported
         result = DecodeResult(name, failure=str(error))
     return replace(result, region=first.region, location=first.location)

@@ -157,7 +157,7 @@ def sentences_of(
     if whole is not None and whole.failure is not None:
         said.append(whole.failure)
     if whole is not None:
-        said += whole.problems
+        said += [*whole.problems, *filter(None, [whole.faults])]
     elif known.clock is not None:
         said += known.clock.problems
     if whole is not None and whole.cut_off:

@@ -93,7 +93,9 @@ def _table(points: tuple[BenchPoint, ...], frames_a_second: float) -> list[str]:
             f"{errors.bits_a_second(frames_a_second):,.0f}"
         )
     notes = {
-        point.errors.decoder: point.note for point in points if not point.errors.pictures_right
+        point.errors.decoder: point.note
+        for point in points
+        if point.errors.faults or not point.errors.pictures_right
     }
     lines += [f"{decoder}: {note}" for decoder, note in notes.items() if note]
     lines += dict.fromkeys(filter(None, (point.errors.why_above_half for point in points)))

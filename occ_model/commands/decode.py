@@ -108,6 +108,7 @@ def _report(result: DecodeResult) -> list[str]:
         lines.append(f"chip length  {result.chip_length:.2f} columns")
     if result.confidence is not None:
         lines.append(f"confidence   {result.confidence:.3f}")
+    if result.correlation is not None:
         lines.append(f"correlation  {result.correlation:.4f}")
     if result.chips.size:
         lines.append(f"chips        {''.join(map(str, result.chips))}")
@@ -138,7 +139,7 @@ def read_film(options: argparse.Namespace, scene: Scene) -> int:
         )
     for line in _film_report(reading, video):
         print(line)
-    for sentence in (video.problem, *reading.problems):
+    for sentence in (video.problem, *reading.problems, reading.faults):
         if sentence:
             print(sentence, file=sys.stderr)
     if reading.failure is not None:

@@ -118,7 +118,8 @@ def _numbers(name: str, text: str, kind: type[Number], what: str) -> tuple[Numbe
 
 
 def _line(point: FilmPoint) -> str:
-    note = "" if point.is_right else f"  {point.failure or 'The payload is wrong.'}"
+    wrong = "" if point.is_right else point.failure or "The payload is wrong."
+    note = "".join(f"  {text}" for text in (wrong, point.faults) if text)
     received, counted = 100.0 * point.reception, 100.0 * point.counted_reception
     return (
         f"{HERTZ.format(point.frequency):>12} {100.0 * point.gap:5.1f} % {point.bits:5d} "

@@ -149,8 +149,9 @@ def sentences(answers: Sequence[Limits], frames_a_second: float = FRAMES_A_SECON
 
 
 def _on_range(decoder: str, found: WorkingRange) -> list[str]:
+    faults = [found.faults] if found.faults else []
     if found.failure is not None:
-        return [found.failure]
+        return [found.failure, *faults]
     name = found.parameter
     lines = [f"The {decoder} decoder, {quantity(name).in_sentence}:"]
     for interval in found.intervals:
@@ -158,4 +159,4 @@ def _on_range(decoder: str, found: WorkingRange) -> list[str]:
         lines += [f"  {written(name, end.value)}: {end_text(name, end)}" for end in ends]
     if found.most_chips is not None:
         lines.append(f"  {searched_to(found)}")
-    return lines
+    return lines + faults

@@ -56,7 +56,7 @@ def _run(options: argparse.Namespace) -> int:
         f"At an exposure of {exposure} and {distance}, {counted(options.fps, 'picture')} a second:"
     )
     for one in found:
-        print(f"  {_sentence(one)}")
+        print(f"  {_sentence(one)} {one.faults}".rstrip())
     null = HERTZ.format(theory.null_frequency(scene), 4)
     rows = HERTZ.format(2.0 * theory.row_rate_frequency(scene), 4)
     print(

@@ -132,6 +132,8 @@ def _run(options: argparse.Namespace) -> int:
     table = run_with_bar(run, options)
     if table is None:
         return EXIT_INTERRUPTED
+    if table.faults:
+        print(f"occ-model: {table.faults}", file=sys.stderr)
     if options.out:
         name = one_line(str(options.out))
         print(

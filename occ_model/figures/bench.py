@@ -128,7 +128,10 @@ def _curves(points: Sequence[BenchPoint]) -> dict[str, list[BenchPoint]]:
     curves: dict[str, list[BenchPoint]] = {}
     for point in points:
         curves.setdefault(f"{point.scheme}, {point.errors.decoder}", []).append(point)
-    return curves
+    return {
+        f"{label} (a plug-in failed)" if any(one.errors.faults for one in curve) else label: curve
+        for label, curve in curves.items()
+    }
 
 
 def _draw_rates(ax: Axes, number: int, label: str, points: Sequence[BenchPoint]) -> None:

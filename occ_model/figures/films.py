@@ -47,7 +47,7 @@ def films_drawing(points: Sequence[FilmPoint]) -> Drawing:
                 point.read, point.counted, point.reception, point.counted_reception,
                 point.on_average, point.bits_per_second,
                 "" if point.complete_at is None else point.complete_at, int(point.is_right),
-                point.failure or "",
+                f"{point.failure or ''} {point.faults}".strip(),
             )  # fmt: skip
 
     return Drawing("films", _TITLE, lambda: _draw(points), _HEADER, rows)

@@ -37,6 +37,8 @@ _LABELS = {"rate": "success rate (%)", "bits": "bits a second"}
 
 _REFUSED_COLOUR = "0.75"  # grey, which is not one of the map's colours
 _TICKS = 10  # largest number of labels at an axis
+_FAILED = "a plug-in failed: see the notes in the table"
+
 _CELLS_WITH_NUMBERS = 14  # largest number of cells on a side at which each holds its number
 
 
@@ -150,7 +152,8 @@ def _curves(table: SweepTable, shown: Shown) -> Figure:
     ax.grid(linewidth=0.3)
     ax.set_xlabel(_axis_label(name, unit))
     ax.set_ylabel(_LABELS[shown])
-    figure.legend(loc="outside upper center", ncols=len(table.decoders), frameon=False)
+    title = _FAILED if table.faults else None
+    figure.legend(loc="outside upper center", ncols=len(table.decoders), frameon=False, title=title)
     return figure
 
 
@@ -170,9 +173,13 @@ def _maps(table: SweepTable, shown: Shown) -> Figure:
     figure.supylabel(_axis_label(upwards, _shown_unit(upwards, rows)[0]), fontsize=9)
     colour = ScalarMappable(Normalize(0, _most(table, shown)), "cividis")
     figure.colorbar(colour, ax=list(axes), label=_LABELS[shown])
-    if table.notes:
-        refused = [Patch(color=_REFUSED_COLOUR, label="no picture: see the notes in the table")]
-        figure.legend(handles=refused, loc="outside upper left", frameon=False, fontsize=7)
+    remarks = []
+    if (table.sent == 0).any():
+        remarks.append(Patch(color=_REFUSED_COLOUR, label="no picture: see the notes in the table"))
+    if table.faults:
+        remarks.append(Patch(color="none", label=_FAILED))
+    if remarks:
+        figure.legend(handles=remarks, loc="outside upper left", frameon=False, fontsize=7)
     return figure
 
 

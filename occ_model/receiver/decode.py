@@ -11,7 +11,7 @@ from occ_model.camera.photometry import WHITE
 from occ_model.camera.pixel_arrays import bytes_of, numbers_of
 from occ_model.camera.projection import MAX_PIXELS
 from occ_model.errors import DecodeInputError
-from occ_model.receiver.decoders import decoder_named
+from occ_model.receiver.decoders import decoder_named, read_with
 from occ_model.receiver.signal import column_means, locate
 from occ_model.results.decoding import PAPER_DECODER, DecodeResult, Region
 from occ_model.scene.scene import Scene
@@ -46,8 +46,10 @@ def decode(image: NDArray[Any], scene: Scene, decoder: str = PAPER_DECODER) -> D
         number, or leaves open which value is white.
     ParameterError
         There is no such decoder.
+    PluginError
+        The decoder is a plug-in that cannot be imported; one that fails is named in ``failure``.
     """
-    read = decoder_named(decoder).read
+    decoder_named(decoder)
     try:
         image = np.asarray(image)
     except ValueError:
@@ -57,7 +59,7 @@ def decode(image: NDArray[Any], scene: Scene, decoder: str = PAPER_DECODER) -> D
     _check(image)
     if image.ndim == 1:
         levels = _levels(numbers_of(image))
-        result = replace(read(levels, scene), region=Region(0, 1, 0, len(image)))
+        result = replace(read_with(decoder, levels, scene), region=Region(0, 1, 0, len(image)))
         return _with_hint(result, levels) if image.dtype.kind == "f" else result
     grey = bytes_of(image)
     found = locate(grey, scene.receiver.bright_fraction)
@@ -65,7 +67,7 @@ def decode(image: NDArray[Any], scene: Scene, decoder: str = PAPER_DECODER) -> D
         return DecodeResult(
             decoder, failure=f"No panel found: every pixel has the grey level {grey.flat[0]}."
         )
-    result = read(column_means(grey, found.region), scene)
+    result = read_with(decoder, column_means(grey, found.region), scene)
     return replace(result, region=found.region, location=found)
 
 

@@ -59,7 +59,8 @@ class BenchPoint:
     exposure: float
     decibels: float
     errors: BitErrors
-    note: str = ""  # Why the first unread payload failed
+    # How often a plug-in has failed, or why the first unread payload failed
+    note: str = ""
 
     @property
     def place(self) -> float:

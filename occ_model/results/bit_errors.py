@@ -32,6 +32,9 @@ class BitErrors:
         The 95 % interval of the fraction of such pictures.
     picture_time, readout_time
         Time in seconds in which the panel's columns, and all columns, are read out.
+    faults
+        A sentence on how often a plug-in has failed, whose bits count as wrong; empty where none
+        has.
     """
 
     decoder: str
@@ -45,6 +48,7 @@ class BitErrors:
     right_high: float
     picture_time: float
     readout_time: float
+    faults: str = ""
 
     @property
     def rate(self) -> float:
@@ -114,6 +118,9 @@ class MostBits:
         Number of faster combinations that were tried and not read.
     failure
         None, or a sentence on why there is no scene.
+    faults
+        A sentence on how often a plug-in has failed, whose pictures count as not read; empty where
+        none has.
     """
 
     decoder: str
@@ -123,3 +130,4 @@ class MostBits:
     frames_a_second: float
     tried: int
     failure: str | None = None
+    faults: str = ""

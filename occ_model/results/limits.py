@@ -72,6 +72,8 @@ class WorkingRange:
     best: Trial | None = None
     # Chips of an exposure at which the search ended because the decoder takes too long beyond
     most_chips: float | None = None
+    # How often a plug-in has failed in the search, whose bits count as wrong; empty where none has
+    faults: str = ""
 
     @property
     def lowest(self) -> RangeEnd | None:

@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray
-from occ_model.errors import ParameterError, shown
+from occ_model.errors import ParameterError, counted, shown
 from occ_model.files.writing import write_whole
 from occ_model.results.sweep_request import SweepPoint, SweepRequest
 from occ_model.scene.parameter_kinds import ParameterValue, Quantity
@@ -31,7 +31,7 @@ class SweepRow:
     # The ends of the rate's 95 % interval, percent; None where the model refuses the scene
     low: float | None
     high: float | None
-    note: str  # Why the model refuses the scene; empty where it does not
+    note: str  # Why the model refuses the scene, or how often a plug-in has failed; else empty
     # Net bits a second of a video whose every image shows another payload; None where the model
     # refuses the scene
     bits_a_second: float | None
@@ -55,7 +55,8 @@ class SweepTable:
         The 95 % interval, percent, which counts images, as bits of one image fail together; not a
         number where the model refuses the scene.
     notes
-        Why the model refuses a scene, by the point's index, the last axis running fastest.
+        Why the model refuses a scene, or how often a plug-in has failed, by the point's index, the
+        last axis running fastest.
     whole : ndarray of int64, shape (..., decoders)
         Images of which every bit was read rightly.
     """
@@ -144,6 +145,13 @@ class SweepTable:
         """Return the ends of the 95 % intervals of :meth:`rates`, percent, in the same shape."""
         place = self._place(decoder)
         return self.low[..., place], self.high[..., place]
+
+    @property
+    def faults(self) -> str:
+        """A sentence on the points at which a plug-in has failed; empty where none has."""
+        sent = self.sent.ravel()
+        found = [note for index, note in self.notes.items() if sent[index]]
+        return f"At {counted(len(found), 'point')}: {found[0]}" if found else ""
 
     def _place(self, decoder: str | None) -> int:
         if decoder is None:

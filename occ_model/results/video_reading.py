@@ -178,6 +178,8 @@ class VideoReading:
     complete_after
         How long the film had run by the end of that frame's period, in seconds; None where it is
         not complete, or there is no clock.
+    faults
+        A sentence on how often a plug-in has failed; empty where none has.
     """
 
     frames: tuple[FrameReading, ...]
@@ -192,6 +194,7 @@ class VideoReading:
     failure: str | None
     problems: tuple[str, ...] = ()
     complete_after: float | None = None
+    faults: str = ""
 
     @property
     def read(self) -> int:

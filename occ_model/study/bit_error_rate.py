@@ -2,11 +2,13 @@
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from occ_model.errors import ParameterError, shown
 from occ_model.parallel.job import Heartbeat
+from occ_model.plugins import Faults
 from occ_model.results.bit_errors import BitErrors
 from occ_model.results.decoding import PAPER_DECODER
 from occ_model.results.plan import Plan
@@ -69,14 +71,15 @@ def bit_error_rate(  # noqa: PLR0913 - a study's settings, most of them optional
     root = np.random.default_rng(seed)
     chosen = _shared_plan(scene, settings, root)
     wrong = []
-    for _ in range(-(-bits // length)):
-        sent = with_payload(scene, root.integers(0, 2, length).tolist())
-        own = RateSettings(
-            1, (decoder,), int(root.integers(2**32)), tolerance, settings.force, path
-        )
-        ((right,),) = right_bits_of_images(sent, own, heartbeat, chosen)
-        wrong.append(length - right)
-    return bit_errors_of(scene, decoder, wrong, wrong.count(0))
+    with Faults().counting() as faults:
+        for _ in range(-(-bits // length)):
+            sent = with_payload(scene, root.integers(0, 2, length).tolist())
+            own = RateSettings(
+                1, (decoder,), int(root.integers(2**32)), tolerance, settings.force, path
+            )
+            ((right,),) = right_bits_of_images(sent, own, heartbeat, chosen)
+            wrong.append(length - right)
+    return replace(bit_errors_of(scene, decoder, wrong, wrong.count(0)), faults=str(faults))
 
 
 def _shared_plan(scene: Scene, settings: RateSettings, root: np.random.Generator) -> Plan | None:

@@ -95,6 +95,7 @@ class FilmPoint:
     complete_at: float | None
     is_right: bool  # Whether the joined payload is the one that was sent
     failure: str | None  # Why the scene could not be filmed or read; None otherwise
+    faults: str = ""  # How often a plug-in has failed; empty where none has
 
     @property
     def reception(self) -> float:
@@ -147,6 +148,7 @@ def _measured(
         complete_at=reading.complete_after,
         is_right=reading.bits.tolist() == list(scene.transmitter.payload_bits),
         failure=reading.failure,
+        faults=reading.faults,
     )
 
 

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from occ_model.parallel.job import Heartbeat
+from occ_model.plugins import Faults
 from occ_model.receiver.decoders import decoder_named
 from occ_model.results.bit_errors import FRAMES_A_SECOND, MostBits
 from occ_model.results.sweep_request import RateSettings
@@ -93,12 +94,16 @@ def most_bits(
     found = []
     for name in decoders:
         settings = RateSettings(1, (name,), seed)
-        place, sent = _first_read(scene, candidates, settings, pictures, (heartbeat, progress))
+        with Faults().counting() as faults:
+            place, sent = _first_read(scene, candidates, settings, pictures, (heartbeat, progress))
         bits = 0 if sent is None else candidates[place].bits
         failure = None if sent is not None else _why(candidates)
         found.append(
-            MostBits(name, sent, pictures, bits * frames_a_second, frames_a_second, place, failure)
-        )
+            MostBits(
+                name, sent, pictures, bits * frames_a_second, frames_a_second, place, failure,
+                str(faults),
+            )
+        )  # fmt: skip
     return tuple(found)
 
 

@@ -11,8 +11,9 @@ from occ_model.arrays import ByteArray
 from occ_model.effects.paper_view import paper_view_of
 from occ_model.effects.plan import signal_plan
 from occ_model.effects.registry import NAMES
-from occ_model.errors import ParameterError
+from occ_model.errors import ParameterError, PluginError
 from occ_model.parallel.job import Heartbeat
+from occ_model.plugins import Faults
 from occ_model.receiver.decoders import decoder_named
 from occ_model.receiver.signal import column_means, locate
 from occ_model.results.decoding import PAPER_DECODER, DecodeResult, Region
@@ -85,10 +86,15 @@ def success_rate(
         An argument is not allowed, or the path is ``"profile"`` and rows differ.
     ProjectionError
         The scene has no picture.
+    PluginError
+        A plug-in has failed in some images: that is no rate of the decoder.
     """
     settings = RateSettings(images, (decoder,), seed, tolerance, force or {}, path)
     check_rate(scene, settings)
-    (correct,), _ = right_and_whole(scene, settings)
+    with Faults().counting() as faults:
+        (correct,), _ = right_and_whole(scene, settings)
+    if str(faults):
+        raise PluginError(str(faults))
     return 100.0 * correct / (images * scene.transmitter.payload_length)
 
 

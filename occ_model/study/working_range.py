@@ -24,6 +24,7 @@ from itertools import count
 import numpy as np
 
 from occ_model.parallel.job import Heartbeat
+from occ_model.plugins import Faults
 from occ_model.receiver.decoders import decoder_named
 from occ_model.results.limits import RangeEnd, ReadInterval, Trial, WorkingRange
 from occ_model.results.sweep_request import RateSettings
@@ -47,7 +48,9 @@ def working_range(
     heartbeat: Heartbeat = lambda: None,
 ) -> WorkingRange:
     """Find a parameter's intervals that a decoder reads; ``settings``: checked, of one decoder."""
-    return _Search(scene, name, rate, settings, heartbeat).working_range()
+    with Faults().counting() as faults:
+        found = _Search(scene, name, rate, settings, heartbeat).working_range()
+    return replace(found, faults=str(faults))
 
 
 def expected_images(images: int) -> int:

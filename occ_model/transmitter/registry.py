@@ -4,17 +4,21 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cache
 from importlib import import_module
-from numbers import Integral
-from typing import Any, Generic, TypeVar
-
-import numpy as np
+from typing import Generic, TypeVar
 
 from occ_model import plugins
 from occ_model.arrays import ByteArray
-from occ_model.errors import ParameterError, PluginError, one_line, shown
+from occ_model.errors import PluginError, shown
 from occ_model.scene.parameters import open_choice
 from occ_model.transmitter.framings.framing import Framed, FrameFormat, Framing
 from occ_model.transmitter.line_codes.line_code import Decoded, LineCode
+from occ_model.transmitter.plugin_checks import (
+    checked_bits,
+    checked_count,
+    checked_failure,
+    checked_places,
+    checked_text,
+)
 
 _Kind = TypeVar("_Kind")
 
@@ -53,73 +57,61 @@ class Registry(Generic[_Kind]):
 MOST_CHIPS = 65_536  # of a plug-in's period or result: more than any built-in packet has (57,116)
 
 
-def check_kinds(who: str, given: object, **kinds: Any) -> None:
-    """Refuse a plug-in's object if one of its parts, by name, is of another kind."""
-    for name, kind in kinds.items():
-        value = getattr(given, name)
-        if not isinstance(value, kind):
-            raise PluginError(
-                f"{who} gives {name} = {shown(value)} of the type {type(value).__name__}."
-            )
-
-
-def check_places(who: str, what: str, places: object, count: int) -> None:
-    """Refuse places that are not a tuple of whole numbers from 0 to before a count."""
-    if not isinstance(places, tuple) or not all(
-        isinstance(place, Integral) and 0 <= int(place) < count for place in places
-    ):
-        raise PluginError(f"{who} gives {what} that are not places among {count:,}.")
-
-
-def checked_bits(who: str, what: str, values: object, most: int) -> ByteArray:
-    """Return a plug-in's bits or chips as bytes, which it cannot change later."""
-    if not isinstance(values, np.ndarray) or values.ndim != 1:
-        raise PluginError(f"{who} gives {what} that are not an array of one dimension.")
-    if len(values) > most:
-        raise PluginError(f"{who} gives {len(values):,} {what}; allowed: up to {most:,}.")
-    if values.dtype.kind not in "biuf" or not np.isin(values, (0, 1)).all():
-        raise PluginError(f"{who} gives {what} that are not zeros and ones.")
-    return np.array(values, dtype=np.uint8)
-
-
-def plain_reason(failure: str | None) -> str | None:
-    return one_line(failure) if failure else None
-
-
 def _guarded_code(offered: LineCode) -> LineCode:
     """Return a plug-in's line code whose faults become sentences."""
     who = plugins.described(plugins.LINE_CODES, offered.name)
-    run = 1 if offered.longest_run is None else offered.longest_run
-    for name, count in (
-        ("block_bits", offered.block_bits),
-        ("block_chips", offered.block_chips),
-        ("longest_run", run),
-    ):
-        if not isinstance(count, int) or count < 1:
-            raise PluginError(f"{who} declares {name} = {shown(count)}; allowed: from 1.")
-    preamble: object = offered.preamble
-    if not isinstance(preamble, str) or set(preamble) - {"0", "1"}:
-        raise PluginError(f"{who} declares preamble = {shown(preamble)}; allowed: zeros and ones.")
+
+    def declared(code: LineCode) -> LineCode:
+        preamble = checked_text(who, "preamble", code.preamble)
+        if set(preamble) - {"0", "1"}:
+            raise PluginError(f"{who} gives preamble = {shown(preamble)}; allowed: zeros and ones.")
+        run, disparity = code.longest_run, code.disparity
+        return LineCode(
+            code.name,
+            checked_text(who, "title", code.title),
+            checked_count(who, "block_bits", code.block_bits, 1, MOST_CHIPS),
+            checked_count(who, "block_chips", code.block_chips, 1, MOST_CHIPS),
+            None if run is None else checked_count(who, "longest_run", run, 1, MOST_CHIPS),
+            None
+            if disparity is None
+            else checked_count(who, "disparity", disparity, 0, MOST_CHIPS),
+            bool(code.finds_wrong_chip),
+            code.encode,
+            code.decode,
+            preamble,
+        )
+
+    own = plugins.called(who, "be used", declared, lambda: offered)
 
     def encode(bits: ByteArray, level: int) -> ByteArray:
-        chips = plugins.called(who, "encode", np.ndarray, offered.encode, bits, level)
-        count = offered.chips_for(len(bits))
-        if chips.size != count:
-            raise PluginError(f"{who} gives {chips.size} chips in place of {count}.")
-        return checked_bits(who, "chips", chips, count)
+        count = own.chips_for(len(bits))
+
+        def checked(chips: object) -> ByteArray:
+            found = checked_bits(who, "chips", chips, MOST_CHIPS)
+            if len(found) != count:
+                raise PluginError(f"{who} gives {len(found)} chips in place of {count}.")
+            return found
+
+        return plugins.called(who, "encode", checked, own.encode, bits.copy(), level)
 
     def decode(chips: ByteArray, level: int) -> Decoded:
-        most = (len(chips) // offered.block_chips + 1) * offered.block_bits
-        try:
-            read = plugins.called(who, "decode", Decoded, offered.decode, chips, level)
-            check_kinds(who, read, failure=str | None)
-            bits = checked_bits(who, "bits", read.bits, most)
-            check_places(who, "violations", read.violations, len(bits))
-        except (ParameterError, PluginError) as error:
-            return Decoded(failure=str(error))
-        return Decoded(bits, read.violations, plain_reason(read.failure))
+        blocks, rest = divmod(len(chips), own.block_chips)
+        most = (blocks + 1) * own.block_bits
 
-    return replace(offered, title=one_line(str(offered.title)), encode=encode, decode=decode)
+        def checked(read: object) -> Decoded:
+            read = plugins.of_kind(who, Decoded)(read)
+            failure = checked_failure(who, read.failure)
+            bits = checked_bits(who, "bits", read.bits, most)
+            if failure is None and rest == 0 and len(bits) != blocks * own.block_bits:
+                raise PluginError(
+                    f"{who} gives {len(bits)} bits in place of {blocks * own.block_bits}."
+                )
+            places = checked_places(who, "violations", read.violations, len(bits))
+            return Decoded(bits, places, failure)
+
+        return plugins.called(who, "decode", checked, own.decode, chips.copy(), level)
+
+    return replace(own, encode=encode, decode=decode)
 
 
 LINE_CODES = Registry(  # the line codes that a scene chooses among
@@ -141,25 +133,43 @@ def _guarded_framing(offered: Framing) -> Framing:
     """Return a plug-in's framing whose faults become sentences."""
     who = plugins.described(plugins.FRAMINGS, offered.name)
 
+    def declared(framing: Framing) -> Framing:
+        title = checked_text(who, "title", framing.title)
+        return Framing(framing.name, title, bool(framing.checks), framing.encode, framing.decode)
+
+    own = plugins.called(who, "be used", declared, lambda: offered)
+    lengths: dict[tuple[str, str, int], int] = {}
+
     def encode(bits: ByteArray, form: FrameFormat) -> ByteArray:
-        chips = plugins.called(who, "encode", np.ndarray, offered.encode, bits, form)
-        if not chips.size:
-            raise PluginError(f"{who} gives no chips.")
-        return checked_bits(who, "chips", chips, MOST_CHIPS)
+        def checked(chips: object) -> ByteArray:
+            found = checked_bits(who, "chips", chips, MOST_CHIPS)
+            # As many for every payload, on which all that reads it relies.
+            key = form.line_code.name, form.preamble, form.bits
+            length = lengths.setdefault(key, len(found))
+            if not found.size:
+                raise PluginError(f"{who} gives no chips.")
+            if len(found) != length:
+                raise PluginError(
+                    f"{who} gives {len(found)} chips for one payload, {length} for another."
+                )
+            return found
+
+        return plugins.called(who, "encode", checked, own.encode, bits.copy(), form)
 
     def decode(chips: ByteArray, form: FrameFormat) -> Framed:
-        try:
-            read = plugins.called(who, "decode", Framed, offered.decode, chips, form)
-            check_kinds(who, read, failure=str | None)
+        def checked(read: object) -> Framed:
+            read = plugins.of_kind(who, Framed)(read)
+            failure = checked_failure(who, read.failure)
             bits = checked_bits(who, "bits", read.bits, form.bits)
-            check_places(who, "headers", read.headers, len(chips))
-            if not read.failure and not bits.size:
-                raise PluginError(f"{who} gives neither bits nor a failure.")
-        except (ParameterError, PluginError) as error:
-            return Framed.nothing(str(error))
-        return Framed(read.headers, bits, plain_reason(read.failure))
+            if failure is None and len(bits) != form.bits:
+                raise PluginError(
+                    f"{who} gives {len(bits)} bits in place of {form.bits}, and no failure."
+                )
+            return Framed(checked_places(who, "headers", read.headers, len(chips)), bits, failure)
 
-    return replace(offered, title=one_line(str(offered.title)), encode=encode, decode=decode)
+        return plugins.called(who, "decode", checked, own.decode, chips.copy(), form)
+
+    return replace(own, encode=encode, decode=decode)
 
 
 FRAMINGS = Registry(  # the framings that a scene chooses among

@@ -9,7 +9,7 @@ from occ_model.arrays import BoolArray, ByteArray, FloatArray
 from occ_model.camera.enhancement import Enhancement
 from occ_model.photo.chips.edges import Edges, chip_numbers, coherence, lattice_at
 from occ_model.receiver.decode import decode
-from occ_model.receiver.decoders import decoder_named
+from occ_model.receiver.decoders import read_with
 from occ_model.receiver.light import in_light
 from occ_model.receiver.signal import column_means
 from occ_model.results.decoding import PAPER_DECODER, DecodeResult, Region
@@ -68,7 +68,7 @@ def read_by_itself(
     if plain.failure is None or region is None or method == "none":
         return plain, False
     signal = enhanced_picture(image, region, method).mean(axis=0)
-    enhanced = decoder_named(decoder).read(signal, scene)
+    enhanced = read_with(decoder, signal, scene)
     if enhanced.failure is not None:
         return plain, False
     return replace(enhanced, region=region, location=plain.location), True
@@ -114,7 +114,7 @@ class FrameReader:
         signal = enhanced_picture(frame.image, region, scene.model.enhancement).mean(axis=0)
         before = found.first_column - region.first_column
         part = signal[before : before + found.columns]
-        result = decoder_named(self._decoder).read(part, scene)
+        result = read_with(self._decoder, part, scene)
         return _timing(result, signal, light, before, scene)
 
     @staticmethod

@@ -8,6 +8,7 @@ import numpy as np
 from occ_model.arrays import ByteArray
 from occ_model.camera.pixel_arrays import bytes_of, white_of
 from occ_model.errors import DecodeInputError, ParameterError, shown
+from occ_model.plugins import Faults
 from occ_model.receiver.decoders import decoder_named
 from occ_model.receiver.sequence.soft_frame import SoftFrame
 from occ_model.receiver.sequence.soft_frame import read_frame as read_soft_frame
@@ -136,7 +137,7 @@ class VideoReader:
         self._shape: tuple[int, ...] | None = None
         self._white: float | None = None  # the value of it in the first frame
         self._complete_with: int | None = None
-        self._payload = ""
+        self._payload, self._faults = "", Faults()
 
     @property
     def time_step(self) -> float:
@@ -162,7 +163,8 @@ class VideoReader:
             one, or is of another size than the first: the frames before are kept.
         """
         frame, white = self._checked(frame)
-        timed = self._reads.read(frame)
+        with self._faults.counting():
+            timed = self._reads.read(frame)
         self._shape, self._placed.columns = frame.image.shape, frame.image.shape[1]
         self._white = white
         if self._placed.add(timed):
@@ -207,6 +209,7 @@ class VideoReader:
             duration=0.0 if times is None else sum(part.duration for part in times.parts),
             failure=failure,
             problems=self._problems(times) if clock is None else clock.problems,
+            faults=str(self._faults),
             complete_after=None
             if number is None or times is None or placed.clock is None
             else times.elapsed(number),

@@ -16,6 +16,7 @@ from occ_model.arrays import FloatArray
 from occ_model.camera.exposure import lit_fraction
 from occ_model.errors import ParameterError, shown
 from occ_model.parallel.job import Heartbeat
+from occ_model.plugins import Faults
 from occ_model.receiver.decode import decode
 from occ_model.receiver.decoders import decoder_named, decoders
 from occ_model.results.bench import BenchBounds, BenchPlace, BenchPoint, BenchRequest
@@ -56,6 +57,7 @@ def measure_bench_point(
     wrong: dict[str, list[int]] = {name: [] for name in names}
     right = dict.fromkeys(names, 0)
     notes = dict.fromkeys(names, "")
+    faults = {name: Faults() for name in names}
     random = np.random.default_rng(request.seed)
     for _ in range(-(-request.bits // length)):
         heartbeat()
@@ -64,7 +66,8 @@ def measure_bench_point(
         sent = with_payload(scene, bits.tolist()).replace(start_time=start)
         signal = bench_signal(sent, ratio, random)
         for name in names:
-            read = decode(signal, sent, name)
+            with faults[name].counting():
+                read = decode(signal, sent, name)
             # Rejected bits count in the rate, as theory decides every bit, but not as a payload
             # read.
             is_whole = read.bits.size == length
@@ -72,14 +75,15 @@ def measure_bench_point(
             right[name] += read.failure is None and not wrong[name][-1]
             notes[name] = notes[name] or read.failure or ""
     return tuple(
-        BenchPoint(*place, _errors(scene, name, wrong[name], right[name]), notes[name])
-        for name in names
+        BenchPoint(*place, _errors(scene, name, wrong[name], right[name], found), found or note)
+        for (name, note), found in zip(notes.items(), map(str, faults.values()), strict=True)
     )
 
 
-def _errors(scene: Scene, decoder: str, wrong: list[int], right: int) -> BitErrors:
+def _errors(scene: Scene, decoder: str, wrong: list[int], right: int, faults: str) -> BitErrors:
     errors = bit_errors_of(scene, decoder, wrong, right)
-    return replace(errors, picture_time=errors.readout_time)  # every row sees the light
+    # Every row sees the light.
+    return replace(errors, picture_time=errors.readout_time, faults=faults)
 
 
 def check_bench(request: BenchRequest) -> None:

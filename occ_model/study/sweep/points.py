@@ -9,6 +9,7 @@ import numpy as np
 
 from occ_model.errors import OccError
 from occ_model.parallel.job import Heartbeat
+from occ_model.plugins import Faults
 from occ_model.results.sweep import SweepTable, joined_lines
 from occ_model.results.sweep_request import RateSettings, SweepPoint, SweepRequest
 from occ_model.scene.parameter_kinds import ParameterValue
@@ -33,15 +34,17 @@ def measure_point(
     values: dict[str, ParameterValue],
     heartbeat: Heartbeat = lambda: None,
 ) -> SweepPoint:
-    """Measure one point; an error of the model becomes the point's note."""
+    """Measure one point; an error of the model, or a plug-in's faults, become the point's note."""
     try:
         at = scene.replace(**values)
         check_rate(at, settings)
-        right, whole = right_and_whole(at, settings, heartbeat)
+        with Faults().counting() as faults:
+            right, whole = right_and_whole(at, settings, heartbeat)
     except OccError as refusal:
         none = (0,) * len(settings.decoders)
         return SweepPoint(index, 0, none, joined_lines(str(refusal)), none)
-    return SweepPoint(index, settings.images * at.transmitter.payload_length, right, "", whole)
+    sent = settings.images * at.transmitter.payload_length
+    return SweepPoint(index, sent, right, joined_lines(str(faults)), whole)
 
 
 def measure_points(

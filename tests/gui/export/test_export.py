@@ -232,7 +232,6 @@ def test_a_disk_full_midway_leaves_no_part_of_any_figure(
     bench.simulate()
     written: list[Path] = []
     write = Path.write_bytes
-    monkeypatch.setattr(drawing, "FORMATS", ())  # tables are written in a moment
     monkeypatch.setattr(drawing, "ENDINGS", endings := (".csv",))
 
     def full(path: Path, content: bytes) -> int:

@@ -1,7 +1,11 @@
 """Plug-ins that raise or give rubbish: each is named in a sentence, and the program lives."""
 
-from collections.abc import Iterator
+import csv
+import re
+import signal
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import NoReturn
 
 import numpy as np
 import pytest
@@ -9,7 +13,15 @@ from model.plugins.installed_package import forget_plugins, install
 
 import occ_model as occ
 from occ_model import plugins
+from occ_model.cli import main
+from occ_model.commands.limits import sentences
+from occ_model.files.writing import write_image
 from occ_model.receiver import decoders
+from occ_model.results.bench import BenchRequest
+from occ_model.results.sweep_request import RateSettings
+from occ_model.study.bench.bench import measure_bench_point
+from occ_model.study.most_bits import most_bits
+from occ_model.study.sweep.points import measure_point
 
 MODULE = """
 from dataclasses import replace
@@ -27,6 +39,47 @@ def fail(*_):
 
 def leave(*_):
     raise SystemExit(3)
+
+
+class Own(BaseException):
+    pass
+
+
+class WordlessError(Exception):
+    def __str__(self):
+        raise Own
+
+
+def fall(*_):
+    raise Own("out of\x1b[31m reach")
+
+
+def say_nothing(*_):
+    raise WordlessError
+
+
+def stop(*_):
+    raise StopIteration
+
+
+def close(*_):
+    raise GeneratorExit
+
+
+class Mine(occ.DecodeResult):
+    def __init__(self, decoder):
+        object.__setattr__(self, "decoder", decoder)
+
+
+def sometimes(signal, scene):
+    if scene.transmitter.switching_frequency > 4e3:
+        raise ValueError("too fast")
+    return occ.DecodeResult("sometimes", failure="Nothing was read.")
+
+
+def sure(signal, scene):
+    read = occ.decode(signal, scene, "threshold")
+    return replace(read, confidence=0.75)
 
 
 def overwrite(signal, scene):
@@ -53,11 +106,20 @@ floats = spoiled("floats", bits=np.array([0.5]))
 huge = spoiled("huge", chips=endless)
 overwrites = decoder("overwrites", overwrite)
 misnamed = decoder("another", fail)
+unset = decoder("unset", lambda *_: Mine("unset"))
+falls, wordless = decoder("falls", fall), decoder("wordless", say_nothing)
+stops, closes = decoder("stops", stop), decoder("closes", close)
+occasional, confident = decoder("occasional", sometimes), decoder("confident", sure)
+titleless = occ.Decoder("titleless", None, fail)
 threshold = decoder("threshold", fail)
 
 code_raises = replace(LINE_CODE, name="code_raises", encode=fail, decode=fail)
 code_short = replace(LINE_CODE, name="code_short", encode=lambda bits, level: bits)
 code_grey = replace(LINE_CODE, name="code_grey", encode=lambda bits, _: np.arange(2 * len(bits)))
+code_endless = replace(LINE_CODE, name="code_endless", longest_run=10**12)
+code_partial = replace(
+    LINE_CODE, name="code_partial", decode=lambda chips, level: occ.Decoded(chips[:3])
+)
 code_mute = replace(LINE_CODE, name="code_mute", decode=lambda chips, level: None)
 
 code_scalar = replace(LINE_CODE, name="code_scalar", encode=lambda *_: np.array(1))
@@ -69,6 +131,9 @@ code_lettered = replace(LINE_CODE, name="code_lettered", preamble="ab")
 
 frame_empty = replace(FRAMING, name="frame_empty", encode=lambda bits, form: np.array([]))
 frame_huge = replace(FRAMING, name="frame_huge", encode=lambda *_: endless)
+frame_varies = replace(
+    FRAMING, name="frame_varies", encode=lambda bits, _: np.resize([1, 0], 50 + int(bits.sum()))
+)
 frame_fails = replace(FRAMING, name="frame_fails", decode=fail)
 frame_elsewhere = replace(
     FRAMING, name="frame_elsewhere", decode=lambda *_: occ.Framed((-1,), np.array([1]))
@@ -80,13 +145,16 @@ frame_says_nothing = replace(
 
 DECODERS = [
     "raises", "leaves", "nothing", "empty", "floats", "overwrites", "misnamed", "threshold", "gone",
-    "huge",
+    "huge", "unset", "falls", "wordless", "stops", "closes", "occasional", "confident", "titleless",
 ]  # fmt: skip
 CODES = [
     "code_raises", "code_short", "code_grey", "code_mute", "code_scalar", "code_wordless",
-    "code_blockless", "code_lettered",
+    "code_blockless", "code_lettered", "code_endless", "code_partial",
 ]  # fmt: skip
-FRAMINGS = ["frame_empty", "frame_huge", "frame_fails", "frame_elsewhere", "frame_says_nothing"]
+FRAMINGS = [
+    "frame_empty", "frame_huge", "frame_fails", "frame_elsewhere", "frame_says_nothing",
+    "frame_varies",
+]  # fmt: skip
 SCENE = occ.load_preset("phone-68us").replace(rows=100, distance=0.6, switching_frequency=4e3)
 
 
@@ -120,9 +188,14 @@ def decode(decoder: str) -> occ.DecodeResult:
         ("raises", "cannot read: ValueError: not today."),
         ("leaves", "cannot read: SystemExit: 3."),
         ("nothing", "gives a NoneType, not a DecodeResult."),
-        ("empty", "gives neither a code with its bits nor a failure."),
+        ("empty", "gives 0 bits in place of 10, and no failure."),
         ("floats", "gives bits that are not zeros and ones."),
         ("huge", "gives 1,000,000,000,000 chips; allowed: up to 65,536."),
+        ("unset", "cannot read: AttributeError: 'Mine' object has no attribute 'bits'."),
+        ("falls", r"cannot read: Own: out of\x1b[31m reach."),
+        ("wordless", "cannot read: WordlessError: it has no message that could be read."),
+        ("stops", "cannot read: StopIteration."),
+        ("closes", "cannot read: GeneratorExit."),
     ],
 )
 def test_a_decoder_that_fails_is_named_in_the_failure(decoder: str, said: str) -> None:
@@ -138,6 +211,7 @@ def test_a_decoder_that_fails_is_named_in_the_failure(decoder: str, said: str) -
         ("broken", "cannot be imported: SystemExit: no licence."),
         ("gone", "cannot be imported: AttributeError: "),
         ("misnamed", "calls itself 'another'."),
+        ("titleless", "gives title = None of the type NoneType."),
     ],
 )
 def test_a_decoder_that_is_none_is_refused_by_name(decoder: str, said: str) -> None:
@@ -165,10 +239,11 @@ def test_a_plugin_does_not_replace_a_built_in_decoder() -> None:
     [
         ("code_raises", "cannot encode: ValueError: not today."),
         ("code_short", "gives 10 chips in place of 20."),
-        ("code_scalar", "gives 1 chips in place of 20."),
-        ("code_blockless", "declares block_chips = 0; allowed: from 1."),
-        ("code_lettered", "declares preamble = 'ab'; allowed: zeros and ones."),
+        ("code_scalar", "gives chips that are not an array of one dimension."),
+        ("code_blockless", "gives block_chips = 0; allowed: 1 to 65,536."),
+        ("code_lettered", "gives preamble = 'ab'; allowed: zeros and ones."),
         ("code_grey", "gives chips that are not zeros and ones."),
+        ("code_endless", "gives longest_run = 1000000000000; allowed: 1 to 65,536."),
     ],
 )
 def test_a_line_code_that_cannot_be_sent_is_named(name: str, said: str) -> None:
@@ -196,8 +271,9 @@ def test_a_framing_that_cannot_be_sent_is_named(name: str, said: str) -> None:
     [
         ({"line_code": "code_mute"}, "gives a NoneType, not a Decoded."),
         ({"line_code": "code_wordless"}, "gives failure = 3 of the type int."),
-        ({"framing": "frame_says_nothing"}, "gives neither bits nor a failure."),
-        ({"framing": "frame_elsewhere"}, "gives headers that are not places among 111."),
+        ({"line_code": "code_partial", "framing": "preamble"}, "gives 3 bits in place of 10."),
+        ({"framing": "frame_says_nothing"}, "gives 0 bits in place of 10, and no failure."),
+        ({"framing": "frame_elsewhere"}, "gives 1 bits in place of 10, and no failure."),
         ({"framing": "frame_fails"}, "cannot decode: ValueError: not today."),
     ],
 )
@@ -215,3 +291,107 @@ def test_a_scene_with_an_unknown_plugin_lists_those_there_are() -> None:
     assert occ.Scene.from_toml(text).transmitter.line_code == "code_mute"
     with pytest.raises(occ.ParameterError, match="'mine'"):
         occ.Scene.from_toml(text.replace("code_mute", "mine"))
+
+
+def test_a_framing_whose_payloads_have_other_lengths_is_named() -> None:
+    scene = SCENE.replace(framing="frame_varies")
+    assert len(occ.packet(scene.replace(code=0))) == 50
+    with pytest.raises(occ.PluginError, match="gives 51 chips for one payload, 50 for another"):
+        occ.packet(scene.replace(code=1))
+
+
+def test_the_shell_prints_what_a_decoder_says_of_itself_and_no_more(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    picture, scene = tmp_path / "picture.png", tmp_path / "scene.toml"
+    write_image(picture, occ.render(SCENE).image)
+    scene.write_text(SCENE.to_toml())
+    assert main(["decode", str(picture), "--scene", str(scene), "--decoder", "confident"]) == 0
+    said = capsys.readouterr().out
+    assert "confidence   0.750\n" in said
+    assert "correlation" not in said
+
+
+FIRST = "The plug-in '{0}' of the package 'hostile' cannot read: {1}."
+ALWAYS = "With the raises decoder a plug-in failed in {0} of {0} readings; first: " + FIRST.format(
+    "raises", "ValueError: not today"
+)
+
+
+def test_a_rate_of_a_plug_in_that_fails_is_none() -> None:
+    with pytest.raises(occ.PluginError) as caught:
+        occ.success_rate(SCENE, 3, "raises")
+    assert str(caught.value) == ALWAYS.format(3)
+    assert occ.success_rate(SCENE, 3, "occasional") == 0.0
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_a_sweep_says_where_and_how_often_a_plug_in_has_failed(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], jobs: int
+) -> None:
+    scene, table = tmp_path / "scene.toml", tmp_path / "table.csv"
+    scene.write_text(SCENE.to_toml())
+    words = ["sweep", "--scene", str(scene), "--vary", "switching_frequency=3kHz,4kHz,5kHz,6kHz"]
+    words += ["--images", "2", "--decoder", "occasional", "--decoder", "threshold"]
+    words += ["--jobs", str(jobs), "--out", str(table)]
+    expected = (
+        "With the occasional decoder a plug-in failed in 2 of 2 readings; first: "
+        + FIRST.format("occasional", "ValueError: too fast")
+    )
+    for _ in range(2):  # also where all of it is read from the file
+        assert main(words) == 0
+        assert f"occ-model: At 2 points: {expected}\n" in capsys.readouterr().err
+        lines = table.read_text().splitlines()
+        rows = list(csv.DictReader(line for line in lines if line[0] != "#"))
+        assert [row["note"] for row in rows] == [""] * 4 + [expected] * 4
+    assert [float(row["success rate (%)"]) for row in rows[1::2]] == [100.0] * 4
+
+
+def test_every_study_says_how_often_a_plug_in_has_failed() -> None:
+    errors = occ.bit_error_rate(SCENE, "raises", bits=20)
+    assert errors.faults == ALWAYS.format(2)
+    assert occ.bit_error_rate(SCENE, "threshold", bits=20).faults == ""
+    found = occ.limits(SCENE, "raises", images=2)
+    for each in (found.frequency, found.exposure):
+        assert re.sub(r"\d+", "N", each.faults) == ALWAYS.format("N")
+        assert f"failed in {each.own.images} of" not in each.faults  # of all values tried
+    assert any(ALWAYS[:40] in line for line in sentences([found]))
+    (most,) = most_bits(SCENE, ("raises",), pictures=2)
+    assert re.sub(r"\d+", "N", most.faults) == ALWAYS.format("N")
+    request = BenchRequest(decoders=("raises", "threshold"), payload_bits=8, bits=16, rows=200)
+    bad, good = measure_bench_point(request, request.points[0])
+    assert bad.errors.faults == bad.note == ALWAYS.format(2)
+    assert good.errors.faults == ""
+    film = occ.render_video(SCENE.replace(enhancement="none"), 3)
+    assert occ.decode_video(film, SCENE.replace(enhancement="none"), "raises").faults == (
+        ALWAYS.format(3)
+    )
+
+
+@pytest.mark.parametrize("changes", [{"line_code": "code_mute"}, {"framing": "frame_fails"}])
+def test_what_fails_of_a_line_code_or_a_framing_is_counted_too(changes: dict[str, str]) -> None:
+    point = measure_point(
+        SCENE.replace(**changes), RateSettings(2, ("threshold", "matched")), 0, {}
+    )
+    name = next(iter(changes.values()))
+    assert f"failed in 2 of 2 readings; first: The plug-in '{name}'" in point.note
+
+
+def test_what_a_signal_raises_within_a_plug_in_is_for_the_program() -> None:
+    class Late(Exception):  # noqa: N818 - no error
+        pass
+
+    def end(error: BaseException) -> Callable[..., NoReturn]:
+        def answer(*_: object) -> NoReturn:
+            raise error
+
+        return answer
+
+    before = signal.getsignal(signal.SIGTERM)
+    for error in (SystemExit(143), Late(), KeyboardInterrupt()):
+        signal.signal(signal.SIGTERM, end(error))
+        with pytest.raises(type(error)):
+            plugins.called("It", "wait", str, lambda: signal.raise_signal(signal.SIGTERM))
+    signal.signal(signal.SIGTERM, before)
+    with pytest.raises(occ.PluginError, match=r"^It cannot leave: SystemExit: 143\.$"):
+        plugins.called("It", "leave", str, end(SystemExit(143)))

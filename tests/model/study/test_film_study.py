@@ -89,7 +89,7 @@ def test_the_rule_of_the_published_simulator_is_within_two_points_of_counting() 
 def test_the_command_writes_the_numbers_that_it_prints(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("occ_model.figures.drawing.FORMATS", ("png",))
+    monkeypatch.setattr("occ_model.figures.drawing.ENDINGS", (".png", ".csv"))
     out = tmp_path / "films"
     assert main(["film-study", "--frequencies", "8kHz", "--gaps", "20", "--bits", "16",
                  "--frames", "6", "--set", "framing=preamble", "--set", "line_code=manchester",

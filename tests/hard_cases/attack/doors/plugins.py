@@ -1,0 +1,234 @@
+"""What plug-ins give: a decoder's results, and those of a line code and of a framing."""
+
+import io
+import math
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, redirect_stderr, redirect_stdout
+from dataclasses import fields, replace
+from pathlib import Path
+from random import Random
+from types import SimpleNamespace
+from typing import Any, NoReturn
+from unittest.mock import patch
+
+import numpy as np
+from model.plugins.installed_package import forget_plugins
+
+import occ_model as occ
+from hard_cases.attack.promise import Door
+from occ_model import plugins
+from occ_model.cli import main
+from occ_model.figures.decoding import decode_drawing
+from occ_model.files.writing import write_image
+from occ_model.program import EXIT_FAILURE, EXIT_MISUSE
+from occ_model.receiver.decoders import decoder_named
+from occ_model.results.bench import BenchRequest
+from occ_model.results.sweep_request import RateSettings
+from occ_model.study.bench.bench import measure_bench_point
+from occ_model.study.sweep.points import measure_point
+from occ_model.transmitter.framings.preamble import FRAMING
+from occ_model.transmitter.line_codes.manchester import LINE_CODE
+from occ_model.transmitter.packet import code_of
+
+NAME = "own"
+
+SCENES = tuple(
+    occ.load_preset("phone-68us").replace(rows=60, distance=0.6, switching_frequency=4e3, **changes)
+    for changes in ({}, {"payload": "text:HI"}, {"pattern": "1100"}, {"enhancement": "none"})
+)
+
+RUBBISH: tuple[Any, ...] = (
+    None, True, -1, 0, 1, 2**70, 10**5000, 1.5, -7.0, 1e-320, float("nan"), float("inf"), 1j, "",
+    "a\x1b[31m", "x" * 10_000, b"\0", object(), [], [1], {}, (), (1, "2"), (0, 0), (2**70,),
+    np.array(1), np.array([]), np.array([0.5, 1.0]), np.array([1, 0, 1]), np.zeros((2, 2)),
+    np.array(["1", "0"]), np.array([1, None]), np.array([1j, 0]), np.array([np.nan, 1.0]),
+    np.array([np.inf, 1.0]), np.array([2**70, 1]), np.zeros(2, dtype=[("a", "u1")]),
+    np.array([1, 0], dtype="datetime64[s]"), np.array([np.longdouble("1e4000"), 0]),
+    np.ma.masked_array([1, 0], [True, False]), np.broadcast_to(np.uint8(0), 10**12),
+    np.zeros(200), np.float32(0.5), np.int64(3), np.str_("a"), np.bool_(1), occ.Scene(), len,
+    SimpleNamespace(),
+)  # fmt: skip
+
+
+class Own(BaseException):
+    """What no ``except Exception`` takes."""
+
+
+class WordlessError(Exception):
+    def __str__(self) -> str:
+        raise ValueError("no words")
+
+
+FAULTS: tuple[BaseException, ...] = (
+    ValueError("not today"), ValueError("a\x1b[31m\nb" * 1000), Own("out"), WordlessError(),
+    SystemExit(3), GeneratorExit(), StopIteration(1), MemoryError(), RecursionError(), OSError(),
+    UnicodeDecodeError("utf-8", b"\xff", 0, 1, "no"), occ.ParameterError("y is 3; allowed: 1."),
+    occ.ParameterError("long " * 1000), occ.PluginError("odd\n"), KeyError("k"),
+)  # fmt: skip
+
+
+def check_read(result: occ.DecodeResult, columns: int, scene: occ.Scene) -> None:
+    """See that a result is whole and possible, whatever has made it."""
+    assert type(result) is occ.DecodeResult
+    for name in ("bits", "chips"):
+        values = getattr(result, name)
+        assert values.dtype == np.uint8
+        assert values.ndim == 1
+        assert set(np.unique(values)) <= {0, 1}
+    if result.failure is None:
+        assert result.code == code_of(result.bits.tolist())
+        assert len(result.bits) == scene.transmitter.payload_length
+    else:
+        assert type(result.failure) is str
+        assert result.failure
+        assert result.failure.isprintable()
+        assert result.code is None
+    assert type(result.payload) is str
+    for name, low, high in (
+        ("threshold", -math.inf, math.inf), ("chip_length", 0.0, math.inf),
+        ("correlation", -1.0, 1.0), ("confidence", 0.0, 1.0),
+    ):  # fmt: skip
+        number = getattr(result, name)
+        assert number is None or (type(number) is float and low <= number <= high)
+        assert number is None or math.isfinite(number)
+    assert result.chip_length != 0.0
+    folded = result.model if result.folded is None else result.folded
+    bins = None if folded is None else len(folded)
+    for name, length in {
+        "signal": columns, "equalized": columns, "light": columns, "light_model": columns,
+        "chip_starts": len(result.chips), "chip_likelihoods": len(result.chips),
+        "bit_likelihoods": len(result.bits), "folded": bins, "model": bins,
+    }.items():  # fmt: skip
+        values = getattr(result, name)
+        assert values is None or (values.dtype == np.float64 and values.shape == (length,))
+        assert values is None or np.isfinite(values).all()
+        if name.endswith("likelihoods") and values is not None:
+            assert np.all((values >= 0.0) & (values <= 1.0))
+    assert all(type(place) is int and 0 <= place < len(result.chips) for place in result.headers)
+
+
+def _raise(error: BaseException) -> NoReturn:
+    raise error
+
+
+def _unset(kind: type) -> object:
+    """Make an object of a subclass whose fields have no values."""
+    return object.__new__(type("Mine", (kind,), {}))
+
+
+def _instead(chance: Random, given: Any) -> Any:
+    """Spoil what a plug-in gives: some of its parts, all of it, or not at all."""
+    kind = chance.random()
+    if kind < 0.15:
+        return _raise(chance.choice(FAULTS))
+    if kind < 0.2:
+        return _unset(type(given))
+    if kind < 0.25:
+        return chance.choice(RUBBISH)
+    if kind < 0.35 or isinstance(given, np.ndarray):
+        return given if chance.random() < 0.6 else chance.choice(RUBBISH)
+    names = [field.name for field in fields(given)]
+    return replace(
+        given,
+        **{name: chance.choice(RUBBISH) for name in chance.sample(names, chance.choice((1, 1, 2)))},
+    )
+
+
+def _spoiled(chance: Random, function: Callable[..., Any]) -> Callable[..., Any]:
+    if chance.random() < 0.05:
+        return chance.choice(RUBBISH)
+    return lambda *given: _instead(chance, function(*given))
+
+
+def offered(chance: Random, group: str) -> object:
+    """A plug-in's object, which fails in any way."""
+    if group == plugins.DECODERS:
+        read = decoder_named(chance.choice(("threshold", "matched"))).read
+        title = "Own" if chance.random() < 0.97 else chance.choice(RUBBISH)
+        return occ.Decoder(NAME, title, _spoiled(chance, read))
+    base: Any = LINE_CODE if group == plugins.LINE_CODES else FRAMING
+    changes: dict[str, Any] = {"name": NAME, "decode": _spoiled(chance, base.decode)}
+    if chance.random() < 0.3:
+        changes["encode"] = _spoiled(chance, base.encode)
+    if chance.random() < 0.2:
+        names = [field.name for field in fields(base) if field.name != "name"]
+        changes[chance.choice(names)] = chance.choice(RUBBISH)
+    return replace(base, **changes)
+
+
+@contextmanager
+def installed(group: str, offer: object) -> Iterator[None]:
+    """Install a plug-in of one object within the context."""
+    entry = SimpleNamespace(name=NAME, dist=None, load=lambda: offer)
+
+    def found(asked: str) -> dict[str, Any]:
+        return {NAME: entry} if asked == group else {}
+
+    forget_plugins()
+    with patch.object(plugins, "_found", found):
+        yield
+    forget_plugins()
+
+
+def _decoded(scene: occ.Scene, decoder: str, _folder: Path) -> list[str]:
+    profile = occ.column_profile(scene)
+    result = occ.decode(profile, scene, decoder)
+    check_read(result, len(profile), scene)
+    rows = list(decode_drawing(scene, result).rows())
+    assert len(rows) >= len(profile)
+    failure = result.failure or ""
+    return [failure] if failure.startswith("The plug-in") else []
+
+
+def _by_shell(scene: occ.Scene, decoder: str, folder: Path) -> list[str]:
+    scene_file, picture = folder / "scene.toml", folder / "picture.png"
+    plain = scene.replace(line_code="manchester", framing="paper")
+    scene_file.write_text(scene.to_toml(), "utf-8")
+    write_image(picture, occ.render(plain).image)
+    said, complaints = io.StringIO(), io.StringIO()
+    with redirect_stdout(said), redirect_stderr(complaints):
+        code = main(["decode", str(picture), "--scene", str(scene_file), "--decoder", decoder])
+    assert code in (0, EXIT_FAILURE, EXIT_MISUSE), complaints.getvalue()
+    assert "mistake" not in complaints.getvalue(), complaints.getvalue()
+    return []
+
+
+def _studied(scene: occ.Scene, decoder: str, _folder: Path) -> list[str]:
+    point = measure_point(scene, RateSettings(2, (decoder,)), 0, {})
+    assert 0 <= point.right[0] <= point.sent
+    return [point.note] if point.note else []
+
+
+def _benched(scene: occ.Scene, decoder: str, _folder: Path) -> list[str]:
+    sent = scene.transmitter
+    request = BenchRequest(
+        (f"{sent.line_code}/{sent.framing}",), (decoder,), payload_bits=8, bits=16, rows=400
+    )
+    (point,) = measure_bench_point(request, request.points[0])
+    assert 0 <= point.errors.errors <= point.errors.bits
+    return [point.errors.faults] if point.errors.faults else []
+
+
+_CHANGES = {
+    plugins.DECODERS: {},
+    plugins.LINE_CODES: {"line_code": NAME, "framing": "preamble"},
+    plugins.FRAMINGS: {"framing": NAME, "line_code": "manchester"},
+}
+"""What a scene chooses of each group of plug-ins."""
+
+
+def _plugin(chance: Random, folder: Path) -> list[str]:
+    group = chance.choice(
+        (plugins.DECODERS, plugins.DECODERS, plugins.LINE_CODES, plugins.FRAMINGS)
+    )
+    with installed(group, offered(chance, group)):
+        scene = chance.choice(SCENES).replace(**_CHANGES[group])
+        decoder = NAME if group == plugins.DECODERS else chance.choice(("threshold", "matched"))
+        come = chance.choice((_decoded, _decoded, _by_shell, _studied, _benched))
+        return come(scene, decoder, folder)
+
+
+PLUGINS = Door(
+    "plug-ins", "results of plug-ins", _plugin, (occ.PluginError, occ.ParameterError), fraction=40,
+    patience=5.0,
+)  # fmt: skip

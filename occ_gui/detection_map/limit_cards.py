@@ -186,16 +186,15 @@ class LimitCard(QFrame):
         self._show(limit, text, None if inside is None else inside.value)
 
     def show_range(self, found: WorkingRange) -> None:
-        if found.lowest is None:
-            return
-        text = f"from {_written(found.lowest.value)}"
+        texts = ["a plug-in failed"] if found.faults else []
         if found.gaps:
             end, after = found.gaps[0]
             more = len(found.gaps) - 1
-            text += f"; gap {_written(end.value)} to {_written(after.value)}" + (
-                f" and {counted(more, 'gap')} more" if more else ""
-            )
-        self.range.set_full_text(text)
+            gap = f"gap {_written(end.value)} to {_written(after.value)}"
+            texts.insert(0, f"{gap} and {counted(more, 'gap')} more" if more else gap)
+        if found.lowest is not None:
+            texts.insert(0, f"from {_written(found.lowest.value)}")
+        self.range.set_full_text("; ".join(texts))
 
     def set_outdated(self, outdated: bool) -> None:
         self._is_outdated = outdated

@@ -43,6 +43,12 @@ def test_a_card_states_what_the_page_of_advice_states(qtbot: QtBot, small_scene:
     assert card.value.toolTip() == f"{sentence}\n{bits}"
     assert card.range.toolTip() == "from 14.7 kHz"
     assert cards.cards["matched"].value.text() == ""
+    found = advice_on(small_scene)
+    failing = replace(found.limits.frequency, faults="A plug-in failed.")
+    view.show_advice(replace(found, limits=replace(found.limits, frequency=failing)))
+    assert "A plug-in failed." in view.sentences()
+    assert card.value.toolTip() == f"{sentence}\nA plug-in failed.\n{bits}"
+    assert card.range.toolTip() == "from 14.7 kHz; a plug-in failed"
 
 
 def test_go_leads_to_where_every_bit_was_read(cards: LimitCards, small_scene: Scene) -> None:

@@ -65,6 +65,17 @@ def test_the_status_shows_rate_bits_and_interval_or_why_not(view: MapView) -> No
     assert view.status.toolTip() == "7 of 91 points measured"
 
 
+def test_a_plug_in_that_fails_is_named_beside_the_rate_and_for_the_whole_map(view: MapView) -> None:
+    fault = "With the own decoder a plug-in failed in 2 of 2 readings; first: It cannot."
+    rates = whole((10, 10), refused=(45,))
+    rates.enter([SweepPoint(3, 10, (0, 0), fault, (0, 0))], 1)
+    view.show_map(rates)
+    view.show_progress(91, 91, 1)
+    assert view.status.toolTip() == fault
+    view.show_facts(PointFacts(10e3, 1.2, (("own", 0, 0.0, 79.3),), 10, 1, fault))
+    assert view.status.toolTip() == f"10 kHz, 1.2 m: own 0 %, 0 of 10 bits (0 to 79 %); {fault}"
+
+
 def whole(count: tuple[int, int], refused: tuple[int, ...] = ()) -> RateMap:
     points = SHAPE[0] * SHAPE[1]
     return rates_of({i: count for i in range(points) if i not in refused}, refused)

@@ -1,6 +1,7 @@
 """The card of what carries most states the model's own result, and leads to what is read."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 from types import SimpleNamespace
 
 import pytest
@@ -72,9 +73,9 @@ def test_a_cancelled_or_earlier_result_is_marked_and_none_says_why(
     assert buttons(card) == {"Search", "Go"}
     assert not card.go.isEnabled()
     card.show_begun()
-    card.show_found(none_by("threshold"))
+    card.show_found(replace(none_by("threshold"), faults="A plug-in failed."))
     card.show_ended("")
-    assert "threshold: None of 9 combinations was read." in card.text.toolTip()
+    assert "threshold: None of 9 combinations was read. A plug-in failed." in card.text.toolTip()
     assert buttons(card) == {"Search"}
 
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from gui.conftest import RememberingWorkers
-from gui.kinds import add_widget
+from gui.kinds import add_widget, not_none
 from gui.pane_bench import ControlsBench, handle_middle
 from gui.stores import store_of
 from PySide6.QtWidgets import QApplication
@@ -26,8 +26,10 @@ from occ_gui.detection_map.wiring import Measuring
 from occ_gui.detection_map.worker import Along
 from occ_gui.scene.control_panel import MAIN
 from occ_gui.scene.parameter_rows import QuantityRow
+from occ_model.results.sweep_request import SweepPoint
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
+from occ_model.study.sweep.points import MeasuredPoints
 
 POSITIONS = 5
 NAMES = ("switching_frequency", "iso")
@@ -108,6 +110,13 @@ def test_nothing_is_measured_while_the_strips_are_not_seen(bench: Bench, qtbot: 
     bench.scenes.change(pattern="10")
     bench.controller.set_seen(True)
     assert set(bench.wait_until_idle()["iso"]) == {None}
+
+
+def test_where_a_plug_in_fails_no_rate_is_known() -> None:
+    failed, read = (SweepPoint(0, 20, (0,), note, (0,)) for note in ("A plug-in failed.", ""))
+    assert module.own_rate(MeasuredPoints((failed,), 2, 0.0)) is None
+    assert not_none(module.own_rate(MeasuredPoints((read,), 2, 0.0))).fraction == 0.0
+    assert (module._fraction(failed), module._fraction(read)) == (None, 0.0)
 
 
 def test_moving_a_slider_leaves_its_own_strip_as_it_is(bench: Bench) -> None:

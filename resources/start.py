@@ -16,6 +16,7 @@ import shlex
 import shutil
 import subprocess
 import sys
+import time
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
@@ -311,43 +312,48 @@ def usable_cores() -> int:
     return os.cpu_count() or 1
 
 
-def run_check(check: str, *, quietly: bool) -> tuple[bool, str]:
-    """Run one check; return whether it passed, and its output where that is not shown at once."""
+def run_check(check: str, *, quietly: bool) -> tuple[bool, str, float]:
+    """Run one check; return whether it passed, its output unless it is shown, and the seconds."""
     program, *arguments = shlex.split(check)
     # mypy and ruff write sentences on standard output, and their own failures on standard error.
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT} if quietly else {}
     command = [str(PROGRAMS / program), *arguments]
     # Compiled once, not by each of the hundreds of processes that the tests start.
     environment = {name: at for name, at in os.environ.items() if name != UNCOMPILED}
+    begun = time.monotonic()
     done = subprocess.run(command, cwd=ROOT, env=environment, check=False, text=True, **pipes)
-    return done.returncode == 0, (done.stdout or "").strip()
+    return done.returncode == 0, (done.stdout or "").strip(), time.monotonic() - begun
 
 
 def run_checks(pytest_arguments: Sequence[str]) -> int:
     """Run every check of the project, whichever fail; return the exit code.
 
-    The tests use all cores and show their progress. The other checks run beside them one after
-    another, and are reported when the tests have ended.
+    The tests use all cores and show their progress, and the ten that took longest. The other checks
+    run beside them one after another. When all have ended, each is reported by a line, behind its
+    output where it failed.
     """
     # Left to itself, pytest-xdist counts cores that are kept from this process, and half of those
     # that run two threads.
     os.environ.setdefault("PYTEST_XDIST_AUTO_NUM_WORKERS", str(usable_cores()))
     # Each process begins with a run of tests in their order, so that few fixtures are made twice.
-    pytest = shlex.join(["pytest", "-n", "auto", "--dist", "worksteal", *pytest_arguments])
+    pytest = ["pytest", "-n", "auto", "--dist", "worksteal", "--durations", "10"]
+    tests = shlex.join([*pytest, *pytest_arguments])
     others = ["ruff check .", "ruff format --check .", "mypy", "lint-imports"]
     with ThreadPoolExecutor(max_workers=1) as pool:
-        reports = [pool.submit(run_check, check, quietly=True) for check in others]
+        reports = {check: pool.submit(run_check, check, quietly=True) for check in others}
         try:
-            print(f"Check 1 of {len(others) + 1}: {pytest}", flush=True)
-            passed = {pytest: run_check(pytest, quietly=False)[0]}
+            print(tests, flush=True)
+            results = {tests: run_check(tests, quietly=False)}
         except KeyboardInterrupt:
             pool.shutdown(cancel_futures=True)
             raise
-        for number, (check, report) in enumerate(zip(others, reports, strict=True), start=2):
-            passed[check], output = report.result()
-            print(f"\nCheck {number} of {len(others) + 1}: {check}\n{output}", flush=True)
-    failed = [check for check, good in passed.items() if not good]
-    print(f"\nFailed: {'; '.join(failed)}" if failed else "\nEvery check passed.", flush=True)
+        results |= {check: report.result() for check, report in reports.items()}
+    for check, (good, output, seconds) in results.items():
+        last = output.splitlines()[-1:] if good else []
+        print("" if good else f"\n{check}\n{output}\n", end="")
+        print(f"{'passed' if good else 'FAILED'} {seconds:5.0f} s ", ": ".join([check, *last]))
+    failed = [check for check, (good, _, _) in results.items() if not good]
+    print(f"Failed: {'; '.join(failed)}" if failed else "Every check passed.", flush=True)
     return 1 if failed else 0
 
 

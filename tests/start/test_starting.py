@@ -3,13 +3,12 @@
 import json
 import os
 import select
-import shlex
 import stat
 import subprocess
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from types import ModuleType, SimpleNamespace
+from types import ModuleType
 from typing import NoReturn
 
 import pytest
@@ -67,31 +66,33 @@ def test_the_application_replaces_the_script_with_its_arguments(
     assert became == [[str(start.PYTHON), "-m", "occ_gui", "--screenshot", "a b.png"]]
 
 
-TESTS = "pytest -n auto --dist worksteal -k 'one or two'"
-CHECKS = {TESTS, "ruff check .", "ruff format --check .", "mypy", "lint-imports"}
+TESTS = "pytest -n auto --dist worksteal --durations 10 -k words"
+CHECKS = (TESTS, "ruff check .", "ruff format --check .", "mypy", "lint-imports")
 
 
-@pytest.mark.parametrize("failing", [set(), {"mypy"}, {TESTS}, {"ruff check .", "mypy"}, CHECKS])
-def test_every_check_runs_and_any_failure_counts(
+@pytest.mark.parametrize("failing", [(), ("mypy",), (TESTS,), ("ruff check .", "mypy"), CHECKS])
+def test_every_check_runs_is_told_of_in_a_line_and_any_failure_counts(
     start: ModuleType,
     monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
-    failing: set[str],
+    capfd: pytest.CaptureFixture[str],
+    failing: tuple[str, ...],
 ) -> None:
-    ran: list[str] = []
-
-    def run(command: list[str], **options: object) -> SimpleNamespace:
-        ran.append(shlex.join([Path(command[0]).name, *command[1:]]))
-        return SimpleNamespace(returncode=int(ran[-1] in failing), stdout=f"words of {command[0]}")
-
-    monkeypatch.setattr(subprocess, "run", run)
-    assert start.run_checks(["-k", "one or two"]) == int(bool(failing))
-    assert sorted(ran) == sorted(CHECKS)
-    *lines, summary = capsys.readouterr().out.splitlines()
-    assert {check for check in CHECKS if check in summary} == failing
-    assert (summary == "Every check passed.") == (not failing)
-    for check in CHECKS - {TESTS}:
-        assert f"words of {start.PROGRAMS / check.split()[0]}" in lines
+    says = 'it="$(basename "$0") $*"; echo "words of $it"; echo "the last of $it"'
+    fails = 'case "$FAILING" in *"<${it% }>"*) exit 1;; esac'
+    for check in CHECKS:
+        put_program(start.PROGRAMS / check.split()[0], f"{says}; {fails}")
+    monkeypatch.setenv("FAILING", "".join(f"<{check}>" for check in failing))
+    assert start.run_checks(["-k", "words"]) == int(bool(failing))
+    first, *lines, summary = capfd.readouterr().out.splitlines()
+    assert first == TESTS
+    told = [line for line in lines if line.startswith(("passed ", "FAILED "))]
+    for check, line in zip(CHECKS, told, strict=True):
+        verdict, _, rest = line.partition(" s  ")
+        assert verdict.startswith("FAILED" if check in failing else "passed")
+        is_shown = check == TESTS or check in failing
+        assert rest.rstrip() == check + ("" if is_shown else f": the last of {check}")
+        assert any(each.startswith(f"words of {check}") for each in lines) == is_shown
+    assert summary == (f"Failed: {'; '.join(failing)}" if failing else "Every check passed.")
 
 
 @pytest.mark.parametrize(("given", "used"), [(None, "offscreen"), ("minimal", "minimal")])

@@ -52,6 +52,7 @@ def test_a_verdict_does_not_wait_for_the_picture(
     assert decode.origin.text() == "Read from the picture."
 
 
+@pytest.mark.own_window  # those are marked that have been made
 @pytest.mark.parametrize("jpeg", [pytest.param(0, marks=pytest.mark.whole), 60])
 def test_each_pane_is_marked_while_its_result_is_outdated(
     application: Application, user: User, held: Event, qtbot: QtBot, jpeg: int

@@ -1,146 +1,126 @@
 """Which chips are read from a photo, which are fitted again, and which others explain it best."""
 
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
+from simulated_photos import take
 
 import occ_model as occ
-from occ_model.photo.evidence import candidates
 from occ_model.photo.evidence.candidates import Candidates
-from occ_model.photo.evidence.other_codes import _others, _responses, nearest_other
+from occ_model.photo.evidence.hypothesis import Hypothesis
+from occ_model.photo.evidence.other_codes import nearest_other
 from occ_model.photo.fit.best_timing import Explanation
-from occ_model.photo.fit.camera_response import CameraTone
-from occ_model.photo.fit.chips_of_harmonics import ReadPattern
+from occ_model.photo.fit.camera_response import CameraTone, camera_tones
+from occ_model.photo.fit.chip_runs import canonical
+from occ_model.photo.fit.least_squares import StripeFit
 from occ_model.photo.fit.timing import Timing
+from occ_model.scene.scene import Scene
 from occ_model.transmitter.packet import sent_chips
 from occ_model.transmitter.waveform import Waveform
 
-SENT = np.array([1, 0, 0, 1, 1, 0], dtype=np.uint8)
-OTHER = np.array([1, 0, 0, 0, 1, 0], dtype=np.uint8)
-AGAIN = np.array([1, 1, 1, 0, 1, 0], dtype=np.uint8)
+NEAR = occ.load_preset("phone-68us").replace(
+    rows=60, columns=1200, distance=0.3, enhancement="none", averaging="light", code=345,
+    switching_frequency=12e3,
+)  # fmt: skip
+"""A panel that is wider than the picture, of 20.8 columns a chip."""
 
 
-class Reading:
-    """Notes how stripes are read, and which chips are fitted, each with a correlation."""
+class Case:
+    """What a photo's stripes may be, and how often the search for it came to its check."""
 
-    def __init__(self, monkeypatch: pytest.MonkeyPatch, correlation: float) -> None:
-        self.how: dict[str, Any] = {}
-        self.fitted: list[list[int]] = []
-        self.correlation = correlation
+    def __init__(self, scene: Scene, columns: int = 1200, told: Scene | None = None) -> None:
+        self.checks = 0
+        told = told or scene
+        stripes = occ.find_stripes(take(scene), (0, 60, 0, columns))
+        low, high = float(np.median(stripes.low)), float(np.median(stripes.high))
+        self.candidates = Candidates(
+            stripes, told, camera_tones(told, ("light",), low, high), False, "readout_time", None,
+            self._count,
+        )  # fmt: skip
 
-        def read(*_: object, **how: object) -> list[ReadPattern]:
-            self.how = how
-            return [pattern(np.roll(SENT, 2)), pattern(OTHER)]
+    def _count(self) -> None:
+        self.checks += 1
 
-        monkeypatch.setattr(candidates, "read_patterns", read)
-        monkeypatch.setattr(candidates, "read_otherwise", lambda *_: [pattern(AGAIN)])
-        monkeypatch.setattr(candidates, "replace", lambda one, **changes: one)
-        monkeypatch.setattr(Candidates, "_fitted_read", lambda _, read: self._fit(read))
-
-    def _fit(self, read: list[ReadPattern]) -> list[Any]:
-        self.fitted += [one.chips.tolist() for one in read]
-        fit = SimpleNamespace(correlation=self.correlation)
-        return [SimpleNamespace(fit=fit, chips=one.chips) for one in read]
-
-    def of(self, as_sent: Any, saturated: float = 0.0, period: float | None = 60.0) -> int:
-        """Read, and give the number of hypotheses."""
-        line = np.zeros(10)
-        stripes: Any = SimpleNamespace(
-            period=period, profile=line, flattened=line, saturated=saturated
-        )
-        made = Candidates(stripes, occ.Scene(), [], False, "readout_time", None, lambda: None)
-        return len(made.read(as_sent))
+    def as_sent(self) -> Hypothesis:
+        found = self.candidates.as_sent()
+        assert found is not None
+        self.checks = 0
+        return found
 
 
-def pattern(chips: np.ndarray) -> ReadPattern:
-    return ReadPattern(chips, 0.9, 0.5, 0.0)
+def is_of(found: Hypothesis, scene: Scene) -> bool:
+    return np.array_equal(canonical(found.chips), canonical(sent_chips(scene.transmitter)))
 
 
-def sent(correlation: float, information: float) -> Any:
-    fit = SimpleNamespace(correlation=correlation)
-    return SimpleNamespace(fit=fit, information=information, chips=SENT)
+def test_chips_that_are_explained_well_are_not_fitted_again_however_they_are_turned() -> None:
+    scene = NEAR.replace(switching_frequency=6e3, pattern="110100")
+    case = Case(scene, columns=400, told=scene.replace(pattern="001101"))
+    sent = case.as_sent()
+    assert (sent.fit.correlation > 0.99, sent.information < 100.0) == (True, True)
+    assert case.candidates.read(sent) == []
+    assert case.checks > 0
+    (read,) = case.candidates.read()
+    assert is_of(read, scene)
+    assert not np.array_equal(read.chips, sent.chips)
 
 
-def test_chips_that_are_explained_well_are_not_fitted_again_however_they_are_turned(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    reading = Reading(monkeypatch, 0.5)
-    assert reading.of(sent(0.99, 10.0)) == 1
-    assert reading.fitted == [OTHER.tolist()]
+def test_nothing_is_read_where_the_chips_given_are_sure() -> None:
+    case = Case(NEAR)
+    sent = case.as_sent()
+    assert case.candidates.read(sent) == []
+    assert case.checks == 0
 
 
-@pytest.mark.parametrize("as_sent", [None, sent(0.9, 10.0)])
-@pytest.mark.parametrize(("correlation", "count"), [(0.9, 3), (0.99, 2)])
-def test_where_nothing_explains_the_stripes_well_chips_are_read_otherwise_too(
-    monkeypatch: pytest.MonkeyPatch, as_sent: Any, correlation: float, count: int
-) -> None:
-    reading = Reading(monkeypatch, correlation)
-    assert reading.of(as_sent) == count
-    assert (AGAIN.tolist() in reading.fitted) == (count == 3)
-    assert reading.fitted[:2] == [np.roll(SENT, 2).tolist(), OTHER.tolist()]
+def test_where_nothing_explains_the_stripes_well_chips_are_read_otherwise_too() -> None:
+    bright = {"exposure_time": 0.8 / 12e3, "luminance": 1500.0 * NEAR.transmitter.luminance}
+    white = NEAR.replace(pattern="11101000", point_spread=2.0, iso=50.0, **bright)
+    found = Case(white, told=NEAR).candidates.read()
+    first = [one for one in found if not one.read_again]
+    assert max(one.fit.correlation for one in first) < 0.98
+    assert len(found) > len(first) > 0
+    assert not any(
+        one.read_again for one in Case(NEAR, told=NEAR.replace(code=1)).candidates.read()
+    )
+
+
+def test_stripes_that_do_not_repeat_are_not_read() -> None:
+    case = Case(NEAR.replace(switching_frequency=6e3, pattern="110100"), columns=200)
+    assert case.candidates.stripes.period is None
+    assert case.candidates.read() == []
 
 
 @pytest.mark.parametrize(
-    ("as_sent", "is_sure"),
-    [
-        (sent(0.99, 150.0), True),
-        (sent(0.99, 50.0), False),
-        (sent(0.9, 150.0), False),
-        (None, False),
-    ],
+    ("changes", "name"),
+    [({"code": 345}, "the code 0101011001"), ({"pattern": "110100"}, "6 chips")],
 )
-def test_nothing_is_read_where_the_chips_given_are_sure(
-    monkeypatch: pytest.MonkeyPatch, as_sent: Any, is_sure: bool
+def test_chips_are_named_by_their_code_or_by_their_number(
+    changes: dict[str, Any], name: str
 ) -> None:
-    assert (Reading(monkeypatch, 0.99).of(as_sent) == 0) == is_sure
+    found = Case(NEAR.replace(**changes), told=NEAR).candidates.read()
+    assert max(found, key=lambda one: one.fit.correlation).sent == f"{name} read from the photo"
 
 
-@pytest.mark.parametrize(("fraction", "is_clipped"), [(0.0, False), (0.01, False), (0.3, True)])
-def test_white_pixels_are_told_to_who_reads(
-    monkeypatch: pytest.MonkeyPatch, fraction: float, is_clipped: bool
-) -> None:
-    reading = Reading(monkeypatch, 0.99)
-    reading.of(None, fraction)
-    assert reading.how["is_clipped"] == is_clipped
-
-
-def test_stripes_that_do_not_repeat_are_not_read(monkeypatch: pytest.MonkeyPatch) -> None:
-    assert Reading(monkeypatch, 0.99).of(None, period=None) == 0
-
-
-def test_other_chips_are_as_many_a_second_as_those_they_replace(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    """A dimmed lamp's 25 chips take the time of two: their readout time is 12.5 times smaller."""
-    monkeypatch.setattr(candidates, "nearest_other", lambda *_: OTHER)
-    fit: Any = SimpleNamespace()
-    explained = Explanation(OTHER, (fit,), CameraTone("light", "none", lambda lit, _: lit))
-    monkeypatch.setattr(candidates, "explain_from", lambda *_: explained)
-    stripes: Any = SimpleNamespace(profile=np.zeros(10))
-    made = Candidates(stripes, occ.Scene(), [], False, "readout_time", None, lambda: None)
-    found: Any = SimpleNamespace(bits=1.0, rate=12.5, fit=SimpleNamespace(timing=None))
-    other = made.nearest_other(found)
-    assert other.rate == 12.5
+def test_other_chips_are_as_many_a_second_as_those_they_replace() -> None:
+    """A dimmed lamp's 5 chips take the time of two: their readout time is 2.5 times smaller."""
+    case = Case(NEAR.replace(pattern="1000"), told=NEAR.replace(pattern="10"))
+    dimmed = case.candidates.dimmed(None)
+    assert dimmed is not None
+    assert dimmed.rate == 2.5
+    other = case.candidates.nearest_other(dimmed)
+    assert other is not None
+    assert other.rate == dimmed.rate
 
 
 TIMING = Timing(0.08, 1.3, 4.2, 2.2)
 COLUMNS = 400
 
 
-@pytest.mark.parametrize("timing", [TIMING, Timing(0.3, 5.1, -3.0, 2.2)])
-@pytest.mark.parametrize("seed", [1, 2])
-def test_the_light_of_chips_is_the_sum_of_their_responses(timing: Timing, seed: int) -> None:
-    chips = np.random.default_rng(seed).integers(0, 2, 14).astype(np.uint8)
-    lit = _responses(timing, 14, COLUMNS) @ chips
-    assert lit == pytest.approx(timing.lit_fraction(Waveform(chips), COLUMNS), abs=1e-9)
-
-
-def hypothesis(chips: np.ndarray) -> Any:
+def hypothesis(chips: np.ndarray) -> Hypothesis:
     flat = np.ones(COLUMNS)
-    fit = SimpleNamespace(timing=TIMING, low=40.0 * flat, swing=100.0 * flat)
-    return SimpleNamespace(chips=chips, fit=fit)
+    fit = StripeFit(TIMING, np.zeros((4, 4)), 40.0 * flat, 100.0 * flat, flat, 0.9, 1.0, True)
+    tone = CameraTone("light", "none", lambda lit, _: lit)
+    return Hypothesis("", Explanation(chips, (fit,), tone), fit, 10.0, True)
 
 
 @pytest.mark.parametrize("wrong", [[3], [5, 6]])
@@ -164,23 +144,12 @@ def test_of_a_packet_all_codes_are_compared_turned_about() -> None:
 
 def test_neither_the_same_chips_turned_nor_chips_without_a_change_are_others() -> None:
     chips = np.array([1, 0, 0, 0], dtype=np.uint8)
-    others = _others(chips, occ.Scene().transmitter)
-    assert len(others) > 2
-    assert (others.min(axis=1) < others.max(axis=1)).all()
     turned = np.roll(chips, 1)
-    assert turned.tolist() in others.tolist()
     profile = 40.0 + 100.0 * TIMING.lit_fraction(Waveform(turned), COLUMNS)
     found = nearest_other(profile, hypothesis(chips), occ.Scene().transmitter)
+    assert 0 < found.sum() < 4
     assert sorted(found.tolist()) != sorted(chips.tolist())
     assert (
         nearest_other(np.zeros(9), hypothesis(np.zeros(5000, np.uint8)), occ.Scene().transmitter)
         is None
     )
-
-
-def test_chips_are_named_by_their_code_or_by_their_number() -> None:
-    stripes: Any = SimpleNamespace()
-    made = Candidates(stripes, occ.Scene(), [], False, "readout_time", None, lambda: None)
-    packet = sent_chips(occ.Scene().replace(code=345).transmitter)
-    assert made._named(packet) == "the code 0101011001"
-    assert made._named(packet[1:]) == f"{len(packet) - 1} chips"

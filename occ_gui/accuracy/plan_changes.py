@@ -19,9 +19,9 @@ class PlanNews(QObject):
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._last: Frame | None = None
-        self._forgetting = QTimer(self, singleShot=True)
-        self._forgetting.setInterval(_NEW_MS)
-        self._forgetting.timeout.connect(self._forget)
+        self.pause = QTimer(self, singleShot=True)
+        self.pause.setInterval(_NEW_MS)
+        self.pause.timeout.connect(self._forget)
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
         last, self._last = self._last, snapshot.frame
@@ -31,7 +31,7 @@ class PlanNews(QObject):
         switched = set(last.plan.included) ^ set(plan.included)
         if switched:
             self.changed.emit(tuple(d for d in plan.decisions if d.effect in switched))
-            self._forgetting.start()
+            self.pause.start()
 
     def _forget(self) -> None:
         self.changed.emit(())

@@ -60,13 +60,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def read_command_line(arguments: Sequence[str] | None) -> Callable[[], int]:
     """Parse a command line; return the function that opens the window."""
-    return partial(_start_and_run, _parser().parse_args(arguments))
+    return partial(_start_and_run, make_parser().parse_args(arguments))
 
 
 def _start_and_run(options: argparse.Namespace) -> int:
     _check_qt()
     settings = simulation_settings_of(options)
-    own = settings == simulation_settings_of(_parser().parse_args([]))
+    own = settings == simulation_settings_of(make_parser().parse_args([]))
     return _run(options, start_of(options, scene_of(options), settings, own))
 
 
@@ -86,7 +86,7 @@ def _check_qt() -> None:
         raise occ.OccError(reason) from error
 
 
-def _parser() -> argparse.ArgumentParser:
+def make_parser() -> argparse.ArgumentParser:
     parser = Parser(prog="occ-gui", description="Explore optical camera communication.")
     parser.add_argument("--version", action="version", version=f"%(prog)s {occ.__version__}")
     add_scene_options(parser)
@@ -155,7 +155,7 @@ def _run(options: argparse.Namespace, begin: Start) -> int:
     if options.dock:
         application.window.bring_to_front(options.dock)
     if options.screenshot:
-        _take_screenshot(application, options.screenshot)
+        take_screenshot(application, options.screenshot)
         return 0
     _close_on_interrupt(application)
     from occ_gui.widgets.icons import program_icon
@@ -164,7 +164,7 @@ def _run(options: argparse.Namespace, begin: Start) -> int:
     if begin.is_new and not (options.files or options.photo or options.mode or options.dock):
         application.shell.pane("welcome").show_once()
     code = qt.exec()
-    _leave_plugins(code, begin.preferences)
+    leave_plugins(code, begin.preferences)
     return code
 
 
@@ -183,7 +183,7 @@ def _check_pane(name: str | None, application: "Application") -> None:
         raise occ.OccError(f"--dock: there is no pane {shown(name)}; allowed: {', '.join(docks)}.")
 
 
-def _leave_plugins(code: int, preferences: "QSettings | None") -> None:
+def leave_plugins(code: int, preferences: "QSettings | None") -> None:
     """End the process at once if a plug-in hangs: a usual exit would wait for it."""
     hung = all_at_work()
     if hung:
@@ -307,7 +307,7 @@ def _is_idle(application: "Application", measured: bool) -> bool:
     return application.is_idle and (application.is_measured or not measured)
 
 
-def _take_screenshot(application: "Application", path: Path) -> None:
+def take_screenshot(application: "Application", path: Path) -> None:
     from PySide6.QtCore import QBuffer, QIODevice
 
     try:

@@ -20,7 +20,7 @@ class SceneInWindow(QObject):
         super().__init__(parts.window)
         self._parts = parts
         self.before = BeforeController(parts.store.store, parts.board.show_before)
-        self._news = PlanNews(self)
+        self.news = PlanNews(self)
         self._connect_scene()
         self._connect_simulation()
         self._list_presets()
@@ -47,10 +47,10 @@ class SceneInWindow(QObject):
 
     def _connect_simulation(self) -> None:
         parts, simulation = self._parts, self._parts.simulation
-        self._news.changed.connect(parts.board.show_switched)
-        self._news.changed.connect(self._report_switched)
+        self.news.changed.connect(parts.board.show_switched)
+        self.news.changed.connect(self._report_switched)
         # What the pictures are compared with comes before them.
-        for view in (self.before, parts.pins, self._news, parts.board):
+        for view in (self.before, parts.pins, self.news, parts.board):
             simulation.snapshot_ready.connect(view.show_snapshot)
         simulation.reading_shown.connect(parts.board.show_reading)
         simulation.picture_ready.connect(parts.board.show_picture)

@@ -24,7 +24,7 @@ AXES = ("exposure", "noise")
 SYMBOLS = ("o", "s", "t1", "d", "star", "p")
 COLOURS: tuple[QColor, ...] = (SIMULATION, BAND, PHOTO, REGION, NOISE)
 
-_FLOOR = {RATES: -6, BITS: 0}  # powers of ten at which all that is smaller is drawn
+FLOOR = {RATES: -6, BITS: 0}  # powers of ten at which all that is smaller is drawn
 _MARGIN = 0.06  # margin beside the points, as a fraction of their range
 _TOP_MARGIN = 0.3  # margin above the points, in powers of ten
 
@@ -55,7 +55,7 @@ class Drawn:
 
 
 def drawn(point: BenchPoint, what: str, frames_a_second: float) -> Drawn:
-    errors, floor = point.errors, _FLOOR[what]
+    errors, floor = point.errors, FLOOR[what]
     if what == RATES:
         value = _power(errors.rate, floor) if errors.errors else math.nan
         return Drawn(point.place, value, _power(errors.low, floor), _power(errors.high, floor))
@@ -80,29 +80,29 @@ class BenchPlots(QWidget):
             "noise": ("over the noise", "signal-to-noise ratio (dB)"),
         }
         self.plots: dict[str, Plot] = {}
-        self._curves: dict[str, list[_Curve]] = {axis: [] for axis in AXES}
-        self._bounds: dict[str, pg.PlotCurveItem] = {}
+        self.curves: dict[str, list[_Curve]] = {axis: [] for axis in AXES}
+        self.bounds: dict[str, pg.PlotCurveItem] = {}
         self._nulls: list[pg.InfiniteLine] = []
         row = filled(QHBoxLayout(self), margins=0)
         for axis, (name, bottom) in names.items():
             plot = new_plot(
-                f"{left} {name}", bottom, left, self.palette(), left=LogAxis("left", _FLOOR[what])
+                f"{left} {name}", bottom, left, self.palette(), left=LogAxis("left", FLOOR[what])
             )
             plot.limit("left", _FARTHEST_POWER, _LEAST_POWERS)
             plot.showGrid(x=True, y=True, alpha=0.15)
-            self._bounds[axis] = pg.PlotCurveItem()
-            plot.addItem(self._bounds[axis], ignoreBounds=True)
+            self.bounds[axis] = pg.PlotCurveItem()
+            plot.addItem(self.bounds[axis], ignoreBounds=True)
             self.plots[axis] = plot
             plot.dress_with(self._dress)
             row.addWidget(plot, 3 if axis == "exposure" else 2)
 
     def _dress(self, palette: QPalette) -> None:
         grey = palette.color(QPalette.ColorRole.Text)
-        for bound in self._bounds.values():
+        for bound in self.bounds.values():
             bound.setPen(thin(grey, Qt.PenStyle.DashLine))
         for null in self._nulls:
             null.setPen(thin(palette.color(QPalette.ColorRole.Mid), Qt.PenStyle.DotLine))
-        for curves in self._curves.values():
+        for curves in self.curves.values():
             for number, curve in enumerate(curves):
                 colour = seen_on(palette, COLOURS[number % len(COLOURS)])
                 for item in (curve.line, curve.intervals, curve.unseen):
@@ -111,11 +111,11 @@ class BenchPlots(QWidget):
 
     def show_begun(self, decoders: Sequence[str]) -> None:
         for axis, plot in self.plots.items():
-            for curve in self._curves[axis]:
+            for curve in self.curves[axis]:
                 for item in curve.items:
                     plot.removeItem(item)
-            self._curves[axis] = [self._new_curve(plot, n) for n in range(len(decoders))]
-            self._bounds[axis].setData([], [])
+            self.curves[axis] = [self._new_curve(plot, n) for n in range(len(decoders))]
+            self.bounds[axis].setData([], [])
         for null in self._nulls:
             self.plots["exposure"].removeItem(null)
         self._nulls = []
@@ -145,14 +145,14 @@ class BenchPlots(QWidget):
             plot.addItem(null, ignoreBounds=True)
         if self._what == BITS:
             for axis, (at, most) in bounds.most_bits.items():
-                power = [_power(frames_a_second * one, _FLOOR[BITS]) for one in most]
-                self._bounds[axis].setData(list(at), power)
+                power = [_power(frames_a_second * one, FLOOR[BITS]) for one in most]
+                self.bounds[axis].setData(list(at), power)
         self._dress(self.palette())
         self._fit()
 
     def show_points(self, points: Sequence[BenchPoint], frames_a_second: float) -> None:
         for axis in AXES:
-            for decoder, curve in zip(self._decoders, self._curves[axis], strict=True):
+            for decoder, curve in zip(self._decoders, self.curves[axis], strict=True):
                 some = [
                     drawn(point, self._what, frames_a_second)
                     for point in points
@@ -165,15 +165,15 @@ class BenchPlots(QWidget):
         values: list[float] = []
         for axis, plot in self.plots.items():
             at: list[float] = []
-            curves = self._curves[axis]
-            for item in (*(i for c in curves for i in c.items), self._bounds[axis]):
+            curves = self.curves[axis]
+            for item in (*(i for c in curves for i in c.items), self.bounds[axis]):
                 x, y = item.getData()
                 at += list(x)
                 values += list(y)
             if at:
                 margin = _MARGIN * (max(at) - min(at)) or 1.0
                 plot.setXRange(min(at) - margin, max(at) + margin, padding=0)
-        floor = _FLOOR[self._what]
+        floor = FLOOR[self._what]
         # An interval that begins at no error goes on below.
         shown = values if self._what == BITS else [value for value in values if value > floor]
         for plot in self.plots.values():

@@ -37,7 +37,7 @@ class BitStrip(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self._sent: tuple[int, ...] = ()
+        self.sent: tuple[int, ...] = ()
         self._received: tuple[int, ...] = ()
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.setAccessibleName("Sent and received bits")
@@ -45,9 +45,9 @@ class BitStrip(QWidget):
     def show_bits(self, sent: Sequence[int], received: Sequence[int]) -> None:
         """Show bits in the order sent; bits that were not received are missing at the end."""
         bits = tuple(map(int, sent)), tuple(map(int, received))[: len(sent)]
-        if bits == (self._sent, self._received):
+        if bits == (self.sent, self._received):
             return
-        self._sent, self._received = bits
+        self.sent, self._received = bits
         self._describe()
         self.update()
 
@@ -57,12 +57,10 @@ class BitStrip(QWidget):
 
     def _describe(self) -> None:
         wrong = self.wrong_places()
-        if len(self._sent) > _MOST_DIGITS:
-            text = (
-                f"sent {len(self._sent)} bits, received {len(self._received)}, {len(wrong)} wrong"
-            )
+        if len(self.sent) > _MOST_DIGITS:
+            text = f"sent {len(self.sent)} bits, received {len(self._received)}, {len(wrong)} wrong"
         else:
-            sent, received = ("".join(map(str, bits)) for bits in (self._sent, self._received))
+            sent, received = ("".join(map(str, bits)) for bits in (self.sent, self._received))
             text = received_in_words(sent, received, len(wrong))
         if not self.isEnabled():
             text = f"earlier scene: {text}"
@@ -70,7 +68,7 @@ class BitStrip(QWidget):
         self.setToolTip(text)
 
     def wrong_places(self) -> list[int]:
-        return wrong_places(self._sent, self._received)
+        return wrong_places(self.sent, self._received)
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         return QSize(_LABEL + 10 * (_CELL + _GAP), 2 * _CELL + 3 * _GAP)
@@ -85,8 +83,8 @@ class BitStrip(QWidget):
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         if not self.isEnabled():  # the bits are those of an earlier scene
             painter.setOpacity(_FADED_OPACITY)
-        rows = (("sent", self._sent), ("received", self._received))
-        count = max(1, len(self._sent))
+        rows = (("sent", self.sent), ("received", self._received))
+        count = max(1, len(self.sent))
         width = min(float(_CELL), (self.width() - _LABEL) / count - _GAP)
         wrong = set(self.wrong_places())
         for row, (label, bits) in enumerate(rows):
@@ -96,7 +94,7 @@ class BitStrip(QWidget):
             if width < _LEAST_CELL_WIDTH:
                 self._draw_bars(painter, top, bits, wrong if row == 1 else set())
                 continue
-            for place in range(len(self._sent)):
+            for place in range(len(self.sent)):
                 cell = QRectF(_LABEL + place * (width + _GAP), top, width, _CELL)
                 if place >= len(bits):
                     self._draw_missing(painter, cell)
@@ -107,7 +105,7 @@ class BitStrip(QWidget):
         self, painter: QPainter, top: float, bits: Sequence[int], wrong: set[int]
     ) -> None:
         span = self.width() - _LABEL - _GAP
-        count = len(self._sent)
+        count = len(self.sent)
         bars = max(1, min(count, span // _BAR_WIDTH))
         for bar in range(bars):
             first, last = bar * count // bars, (bar + 1) * count // bars

@@ -39,7 +39,7 @@ class AdviceView(QWidget):
         """The highest frequencies in short, placed outside this page."""
         self.cards.destination_chosen.connect(self.destination_chosen)
         self._frames_a_second = FRAMES_A_SECOND
-        self._lines: list[QWidget] = []
+        self.lines: list[QWidget] = []
         self.destinations: dict[QPushButton, tuple[str, QLabel]] = {}
         """The parameter that each button changes, and the sentence beside it."""
         self._common: list[str] = []
@@ -60,10 +60,10 @@ class AdviceView(QWidget):
         self.hint = paragraph(
             "Searching: the limits of each decoder appear here as soon as they are found."
         )
-        self._content = QWidget()
-        column = QVBoxLayout(self._content)
+        self.content = QWidget()
+        column = QVBoxLayout(self.content)
         self._column = filled(column, self.hint, (None, 1), margins=(0, 0, 4, 0))
-        scrolled = ScrollPane(self._content, _LEAST)
+        scrolled = ScrollPane(self.content, _LEAST)
         filled(QVBoxLayout(self), head, (scrolled, 1), margins=(4, 2, 4, 2))
 
     def _show_running(self, running: bool) -> None:
@@ -79,10 +79,10 @@ class AdviceView(QWidget):
 
     def show_advice_begun(self, left_out: tuple[str, ...]) -> None:
         """Remove the previous advice, and announce a search and what it leaves out."""
-        for line in self._lines:
+        for line in self.lines:
             self._column.removeWidget(line)
             line.deleteLater()
-        self._lines, self.destinations, self._common = [], {}, []
+        self.lines, self.destinations, self._common = [], {}, []
         self.progress.setValue(0)
         self._show_running(True)
         self.cards.show_begun()
@@ -112,11 +112,11 @@ class AdviceView(QWidget):
     def show_advice_outdated(self, outdated: bool, reachable: frozenset[str]) -> None:
         """Mark the advice as outdated; ``reachable``: parameters whose limits still hold."""
         self.cards.show_outdated(outdated and "switching_frequency" not in reachable)
-        if not self._lines:
+        if not self.lines:
             return
         text = still_holds(reachable)
         self.state.set_full_text(text if outdated else self._ended)
-        for line in self._lines:
+        for line in self.lines:
             for label in line.findChildren(QLabel):
                 label.setEnabled(not outdated)
         for button, (parameter, label) in self.destinations.items():
@@ -124,7 +124,7 @@ class AdviceView(QWidget):
                 part.setEnabled(not outdated or parameter in reachable)
 
     def sentences(self) -> list[str]:
-        return [label.text() for line in self._lines for label in line.findChildren(QLabel)]
+        return [label.text() for line in self.lines for label in line.findChildren(QLabel)]
 
     def _add_common(self, line: AdviceLine) -> None:
         self._common.append(line.text)
@@ -147,7 +147,7 @@ class AdviceView(QWidget):
             self.destinations[button] = (line.destination[0], label)
             layout.addWidget(button, 0, Qt.AlignmentFlag.AlignTop)
         self._column.insertWidget(place, row)
-        self._lines.append(row)
+        self.lines.append(row)
 
     def _destination(self, name: str, value: float, text: str, decoder: str) -> QPushButton:
         return push_button(

@@ -54,7 +54,7 @@ class ColourBar(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self._colours = QImage()
-        self._numbers: tuple[tuple[float, str], ...] = ()
+        self.numbers: tuple[tuple[float, str], ...] = ()
         self.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Expanding)
 
     def show_colours(
@@ -65,7 +65,7 @@ class ColourBar(QWidget):
         ``colours``: one pixel wide, the upper end first.
         ``numbers``: positions from 0, at the bottom, to 1, and the text at each.
         """
-        self._colours, self._numbers = colours, numbers
+        self._colours, self.numbers = colours, numbers
         self.setAccessibleName(name)
         self.setToolTip(name)
         self.updateGeometry()
@@ -73,7 +73,7 @@ class ColourBar(QWidget):
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         metrics = self.fontMetrics()
-        widest = max((metrics.horizontalAdvance(text) for _, text in self._numbers), default=0)
+        widest = max((metrics.horizontalAdvance(text) for _, text in self.numbers), default=0)
         return QSize(_BAR_WIDTH + 2 * _GAP + widest, 6 * metrics.height())
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
@@ -89,8 +89,8 @@ class ColourBar(QWidget):
         painter.drawRect(bar)
         painter.setPen(self.palette().color(QPalette.ColorRole.WindowText))
         most = max(2, int(self.height() / (1.4 * line)))
-        step = 1 if len(self._numbers) <= most else len(self._numbers) - 1
-        for place, text in self._numbers[::step]:
+        step = 1 if len(self.numbers) <= most else len(self.numbers) - 1
+        for place, text in self.numbers[::step]:
             middle = bar.bottom() - place * bar.height()
             spot = QRectF(bar.right() + _GAP, middle - line / 2, self.width(), line)
             painter.drawText(spot, Qt.AlignmentFlag.AlignVCenter, text)

@@ -19,7 +19,7 @@ from occ_model.scene.units import HERTZ
 _PARAMETER = "switching_frequency"
 _LINE_MARGINS = 32  # pixels of margins and gaps in a line of title and button
 
-_REST_MS = 800  # milliseconds that a scene must be at rest before its limits are searched
+REST_MS = 800  # milliseconds that a scene must be at rest before its limits are searched
 
 
 def _written(frequency: float) -> str:
@@ -43,9 +43,9 @@ class LimitCards(QWidget):
             card.chosen.connect(self._go)
         self.frames_a_second = FRAMES_A_SECOND  # by which bits a second are counted
         self._is_complete = self._is_running = self._is_outdated = False
-        self._waiting = QTimer(self, singleShot=True)
-        self._waiting.setInterval(_REST_MS)
-        self._waiting.timeout.connect(self.asked)
+        self.waiting = QTimer(self, singleShot=True)
+        self.waiting.setInterval(REST_MS)
+        self.waiting.timeout.connect(self.asked)
 
     def _go(self, frequency: float, decoder: str) -> None:
         self.destination_chosen.emit(_PARAMETER, frequency, decoder)
@@ -56,15 +56,15 @@ class LimitCards(QWidget):
 
     def hideEvent(self, event: QHideEvent) -> None:  # noqa: N802 - Qt's name
         super().hideEvent(event)
-        self._waiting.stop()
+        self.waiting.stop()
 
     def _plan(self) -> None:
         is_wanted = self._is_outdated or not self._is_complete
         if is_wanted and not self._is_running and self.isVisible():
-            self._waiting.start()
+            self.waiting.start()
 
     def show_begun(self) -> None:
-        self._waiting.stop()
+        self.waiting.stop()
         self._is_running, self._is_outdated = True, False
         for card in self.cards.values():
             card.show_searching()
@@ -91,7 +91,7 @@ class LimitCards(QWidget):
         self._is_outdated = outdated
         for card in self.cards.values():
             card.set_outdated(outdated)
-        self._waiting.stop()
+        self.waiting.stop()
         self._plan()
 
 

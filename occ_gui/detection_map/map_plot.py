@@ -187,7 +187,7 @@ class MapPlot(QWidget):
             painter.fillRect(self._cell(*cell), hatch)
         painter.setPen(self.palette().color(QPalette.ColorRole.Mid))
         painter.drawRect(area)
-        self._draw_axes(painter, area)
+        self.draw_axes(painter, area)
         painter.setClipRect(area)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         for key, lines in self.lines.items():
@@ -199,7 +199,7 @@ class MapPlot(QWidget):
         width, height = area.width() / self._shape[0], area.height() / self._shape[1]
         return QRectF(area.left() + x * width, area.bottom() - (y + 1) * height, width, height)
 
-    def _draw_axes(self, painter: QPainter, area: QRectF) -> None:
+    def draw_axes(self, painter: QPainter, area: QRectF) -> None:
         if self._axes is None:
             return
         line = self.fontMetrics().height()

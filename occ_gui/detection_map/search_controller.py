@@ -32,7 +32,7 @@ _USUAL_IMAGES = len(SEARCHED) * usual_images(IMAGES, READ_RATE)
 _ADVICE_COUNTERS = range(1, len(DECODERS) + 1)
 _MOST_COUNTER = len(DECODERS) + 1  # number of counters of tried pictures, one for each search
 
-_LOOK_MS = 100
+LOOK_MS = 100
 
 ASKED, IN_TURN = -1, 3
 """Priorities: first where the user asks; otherwise after all points of a visible map, before
@@ -62,7 +62,7 @@ class SearchController(QObject):
         self._asked: Any = None
         self._done = self._counted = 0
         self._look = QTimer(self)
-        self._look.setInterval(_LOOK_MS)
+        self._look.setInterval(LOOK_MS)
         self._look.timeout.connect(self._check_progress)
         channel.results_ready.connect(self._take)
         channel.finished.connect(self._finish)

@@ -196,7 +196,7 @@ class SliderStrips(QObject):
 
     def __init__(self, rows: dict[str, QuantityRow], parent: QObject | None = None) -> None:
         super().__init__(parent)
-        self._rows = rows
+        self.rows = rows
         self.legend = StripLegend()  # what the colours mean, for the place below the sliders
         self.strips: dict[str, SliderStrip] = {}
         for name, row in rows.items():
@@ -213,7 +213,7 @@ class SliderStrips(QObject):
     def set_shown(self, shown: bool) -> None:
         for name, strip in self.strips.items():
             strip.setVisible(shown)
-            self._rows[name].show_track(shown)
+            self.rows[name].show_track(shown)
         if self.legend.parentWidget() is not None:
             self.legend.setVisible(shown)
 

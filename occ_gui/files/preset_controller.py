@@ -67,7 +67,7 @@ class PresetController(QObject):
             scene = preset_named(name).scene
         except OccError as error:  # its file may have changed meanwhile
             self.status_message.emit(one_line(str(error), LONGEST_TEXT))
-            self._update()
+            self.update()
             return
         title = f"preset {name}"
         self._store.put(scene, title, new_gesture(), force={})
@@ -87,7 +87,7 @@ class PresetController(QObject):
         if wanted and self._may_replace(name):
             title = f"Measured from {one_line(photo.path.name)}"
             if matching.save(name, title):
-                self._update()
+                self.update()
                 self.status_message.emit(f"Saved the preset {name}")
 
     def ask_to_delete(self) -> None:
@@ -105,7 +105,7 @@ class PresetController(QObject):
         except OccError as error:
             self.status_message.emit(str(error))
             return
-        self._update()
+        self.update()
         self.status_message.emit(f"Deleted the preset {name}")
 
     def _may_replace(self, name: str) -> bool:
@@ -116,7 +116,7 @@ class PresetController(QObject):
         )
         return answer == QMessageBox.StandardButton.Yes
 
-    def _update(self) -> None:
+    def update(self) -> None:
         self._read()
         self.changed.emit()
 

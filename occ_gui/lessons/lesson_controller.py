@@ -54,7 +54,7 @@ class LessonController(QObject):
         self._store, self._board = store, board
         self._pane, self._answers = pane, answers
         self._all = LessonList(())
-        self._current: Lesson | None = None
+        self.current: Lesson | None = None
         self._done: dict[str, int] = {}
         self._places: dict[str, int] = {}
         self._user: Workspace | None = None
@@ -76,7 +76,7 @@ class LessonController(QObject):
 
     def set_seen(self, seen: bool) -> None:
         """Read the lessons when their pane is shown, unless one is under way."""
-        if seen and self._current is None and self._last is None:
+        if seen and self.current is None and self._last is None:
             failure = ""
             try:
                 self._all = lessons()
@@ -102,21 +102,21 @@ class LessonController(QObject):
                 if self._user is None:
                     self._user = self._store.workspace
                     self._first = self._user.photo.path
-                self._current, self._last = lesson, None
+                self.current, self._last = lesson, None
                 self._go(self._places.get(name, 0))
 
     def go(self, steps: int) -> None:
         """Go forward or back by some steps; after the last one end the lesson."""
-        if self._current is None:
+        if self.current is None:
             return
-        name, count = self._current.name, len(self._current.steps)
+        name, count = self.current.name, len(self.current.steps)
         place = self._places[name] + steps
         if place < count:
             self._go(max(place, 0))
             return
         self._done[name] = count
         self._places[name] = 0
-        self._last, self._current = self._current, None
+        self._last, self.current = self.current, None
         self.control_wanted.emit("")
         self.restore_user()
         self._show_end(self._last)
@@ -141,7 +141,7 @@ class LessonController(QObject):
 
     def leave(self) -> None:
         """End the lesson and return to the list; the step reached is kept."""
-        self._current = self._last = None
+        self.current = self._last = None
         self.control_wanted.emit("")
         self.restore_user()
         self._list()
@@ -165,11 +165,11 @@ class LessonController(QObject):
             self.pane_wanted.emit("")
 
     def set_again(self) -> None:
-        if self._current is not None:
-            self._set(self._current, self._places[self._current.name])
+        if self.current is not None:
+            self._set(self.current, self._places[self.current.name])
 
     def _go(self, place: int) -> None:
-        lesson = self._current
+        lesson = self.current
         if lesson is None:
             return
         self._places[lesson.name] = place
@@ -213,7 +213,7 @@ class LessonController(QObject):
         return sample.with_known_frequency(step.scene.transmitter.switching_frequency)
 
     def _step(self) -> Step | None:
-        lesson = self._current
+        lesson = self.current
         return None if lesson is None else lesson.steps[self._places[lesson.name]]
 
     def _want_control(self) -> None:
@@ -232,7 +232,7 @@ class LessonController(QObject):
             self._pane.step.animation.show_shutter(rolling_shutter(scene))
 
     def _mark_answer(self) -> None:
-        lesson = self._current
+        lesson = self.current
         if lesson is not None:
             place = self._places[lesson.name]
             self._pane.step.answer_field.show_outdated(
@@ -240,7 +240,7 @@ class LessonController(QObject):
             )
 
     def _check(self, text: str) -> None:
-        lesson = self._current
+        lesson = self.current
         if lesson is not None:
             self._pane.step.answer_field.show_waiting()
             results = self._board.results
@@ -253,7 +253,7 @@ class LessonController(QObject):
 
     def _show_checked(self, lesson: Lesson, place: int) -> None:
         answer = self._answers.of(lesson, place)
-        if lesson is self._current and place == self._places[lesson.name] and answer is not None:
+        if lesson is self.current and place == self._places[lesson.name] and answer is not None:
             self._pane.step.answer_field.show_checked(answer)
             self._mark_answer()
         if lesson is self._last:  # its end is shown already, before this answer was checked

@@ -31,8 +31,8 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
     def __init__(self, *, with_values: bool = False) -> None:
         super().__init__()
         self._with_values = with_values
-        self._image: ByteArray = np.zeros((0, 0), dtype=np.uint8)
-        self._halves: tuple[ByteArray, ...] = ()
+        self.image: ByteArray = np.zeros((0, 0), dtype=np.uint8)
+        self.halves: tuple[ByteArray, ...] = ()
         self._rect = QRectF()
         self._first_row, self._last_column = -math.inf, math.inf
         self._drawn: tuple[QRect, tuple[int, int], QImage] | None = None
@@ -49,7 +49,7 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
         if rect != self._rect:
             self.prepareGeometryChange()
             self._rect = rect
-        self._image, self._halves = image, tuple(halves)
+        self.image, self.halves = image, tuple(halves)
         self._drawn = None
         self.update()
 
@@ -81,10 +81,10 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
             painter.setClipRect(shown, Qt.ClipOperation.IntersectClip)
         painter.drawImage(target, self._drawn[2])
         if self._with_values:
-            _draw_values(painter, self._image, part, target)
+            _draw_values(painter, self.image, part, target)
 
     def _visible_part(self) -> QRect:
-        rows, columns = self._image.shape
+        rows, columns = self.image.shape
         view = self.viewRect()
         seen = QRectF() if view is None else view.intersected(self._rect)
         if seen.isEmpty():
@@ -98,7 +98,7 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
         return QRect(left, top, right - left, bottom - top).intersected(whole)
 
     def _target(self, part: QRect) -> QRectF:
-        rows, columns = self._image.shape
+        rows, columns = self.image.shape
         x_scale, y_scale = self._rect.width() / columns, self._rect.height() / rows
         return QRectF(
             self._rect.left() + part.left() * x_scale,
@@ -108,12 +108,12 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
         )
 
     def _averaged(self, part: QRect, size: tuple[int, int]) -> QImage:
-        pixels = self._image[
+        pixels = self.image[
             part.top() : part.top() + part.height(), part.left() : part.left() + part.width()
         ]
         # Only reduced along each axis here: the painter enlarges, without smoothing.
         smaller = (min(size[0], part.width()), min(size[1], part.height()))
-        if pixels.shape == self._image.shape:
+        if pixels.shape == self.image.shape:
             pixels = self._smallest_for(*smaller)
         pixels = np.ascontiguousarray(_mean_of_cells(pixels, *smaller))
         rows, columns = pixels.shape
@@ -122,8 +122,8 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
 
     def _smallest_for(self, columns: int, rows: int) -> ByteArray:
         """Return the smallest of the image and its halves with at least this many pixels."""
-        large = [h for h in self._halves if h.shape[0] >= rows and h.shape[1] >= columns]
-        return large[-1] if large else self._image
+        large = [h for h in self.halves if h.shape[0] >= rows and h.shape[1] >= columns]
+        return large[-1] if large else self.image
 
 
 def _mean_of_cells(pixels: ByteArray, columns: int, rows: int) -> ByteArray:

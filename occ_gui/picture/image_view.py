@@ -48,7 +48,7 @@ class ImageView(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self.shown_photo: Photo | None = None
-        self._frame: Frame | None = None
+        self.frame: Frame | None = None
         self._mode = MODES[0]
         self.whose = PICTURES[0]
         self.simulation = PicturePane("Simulated picture")
@@ -111,7 +111,7 @@ class ImageView(QWidget):
         )
 
     def _caption(self) -> str:
-        frame, mode = self._frame, self._mode
+        frame, mode = self.frame, self._mode
         picture = "Simulated picture"
         if frame is not None:
             picture = frame.picture_title(self.whose)
@@ -130,7 +130,7 @@ class ImageView(QWidget):
         return f"Difference × {self.gain.key()}: photo and {picture}; black where equal"  # noqa: RUF001
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
-        if snapshot.frame is not self._frame:  # it may have been shown before it was decoded
+        if snapshot.frame is not self.frame:  # it may have been shown before it was decoded
             self.show_picture(Picture(snapshot.frame, self.whose, ()))
         self.show_reading(snapshot)
 
@@ -139,7 +139,7 @@ class ImageView(QWidget):
 
     def show_picture(self, picture: Picture) -> None:
         """Show a picture in place of the previous one, whose decoded region stays."""
-        self._frame = frame = picture.frame
+        self.frame = frame = picture.frame
         image = frame.picture(self.whose)
         # The user may have chosen the other picture since this one was prepared.
         halves = picture.halves if picture.whose == self.whose else ()
@@ -160,13 +160,13 @@ class ImageView(QWidget):
         self.whose = whose
         self.switch.show_key(whose)
         self.before.choose_picture(whose)
-        if self._frame is not None:
-            self.show_picture(Picture(self._frame, whose, ()))
+        if self.frame is not None:
+            self.show_picture(Picture(self.frame, whose, ()))
         self.picture_chosen.emit(whose)
 
     def levels_at(self, column: int, row: int) -> dict[str, int] | None:
         """Return the levels of a pixel by whose picture it is in, None outside the picture."""
-        frame = self._frame
+        frame = self.frame
         if frame is None:
             return None
         camera = frame.scene.camera

@@ -162,7 +162,7 @@ class PhotoOverlay(QObject):
 
     def __init__(self, box: pg.ViewBox) -> None:
         super().__init__()
-        self._simulated = _NO_IMAGE
+        self.simulated = _NO_IMAGE
         self._photo: ByteArray | None = None
         self.placement = Placement()
         self.mode = MODES[0]
@@ -185,7 +185,7 @@ class PhotoOverlay(QObject):
 
     def set_simulated(self, image: ByteArray) -> None:
         """Set the picture under the photo, its first pixel's centre at (0, 0)."""
-        self._simulated = image
+        self.simulated = image
         if self.mode == "difference":
             self._compare()
 
@@ -239,7 +239,7 @@ class PhotoOverlay(QObject):
         self._updating_frame = False
 
     def _compare(self) -> None:
-        self.difference.set_image(0, self._simulated, rect_of(self._simulated, Placement()))
+        self.difference.set_image(0, self.simulated, rect_of(self.simulated, Placement()))
 
     def _split(self) -> None:
         self._over.show_within(self.line.value() if self.mode == "split" else -math.inf)

@@ -42,10 +42,10 @@ class ProfileView(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self._reading: Reading | None = None
+        self.reading: Reading | None = None
         self._is_behind = False
         self._photo: PhotoProfile | None = None
-        self._photo_levels: FloatArray | None = None
+        self.photo_levels: FloatArray | None = None
         self._before: Snapshot | None = None
         self._before_levels: FloatArray | None = None
         self._simulated_levels: tuple[FloatArray | None, ...] = ()
@@ -160,7 +160,7 @@ class ProfileView(QWidget):
 
     def show_reading(self, reading: Reading) -> None:
         """Show a reading; a hidden pane skips what the exact picture will soon replace."""
-        self._reading = reading
+        self.reading = reading
         text, tip = first_periods(not reading.scene.transmitter.pattern)
         if text != self._packets.text():  # Qt would lay the row out anew for the same text
             self._packets.setText(text)
@@ -180,13 +180,13 @@ class ProfileView(QWidget):
         if profile is not None:
             self.chips.place(profile.first_column, profile.scale)
         if profile is None:
-            self._photo_levels = None
+            self.photo_levels = None
             _draw(self.photo, None)
         elif profile.comparison is None:  # in the photo's own levels
-            self._photo_levels = profile.raw
+            self.photo_levels = profile.raw
             _draw(self.photo, profile.raw, profile.first_column, profile.scale)
         else:  # in the simulation's levels
-            self._photo_levels = profile.comparison.photo
+            self.photo_levels = profile.comparison.photo
             _draw(self.photo, profile.comparison.photo, profile.comparison.first_column)
         is_fitted = profile is not None and profile.comparison is not None
         self.legend.show_line("photo", profile is not None and not is_fitted)
@@ -196,11 +196,11 @@ class ProfileView(QWidget):
         if profile is not None:
             self.residual.show_profile(profile)
         self._fit_levels()
-        if self._reading is not None:
-            self._fit_columns(self._reading)
+        if self.reading is not None:
+            self._fit_columns(self.reading)
 
     def _redraw(self) -> None:
-        reading, self._is_behind = self._reading, False
+        reading, self._is_behind = self.reading, False
         if reading is None:
             return
         threshold = reading.results[PAPER_DECODER].threshold
@@ -238,7 +238,7 @@ class ProfileView(QWidget):
 
     def _offer_before(self) -> None:
         """Show the earlier curve, unless the simulation is compared with a photo."""
-        shown = self._before is not None and self._photo_levels is None
+        shown = self._before is not None and self.photo_levels is None
         self.before.setVisible(shown)
         self.legend.show_line("before", shown)
 
@@ -249,8 +249,8 @@ class ProfileView(QWidget):
 
     def _fit_levels(self) -> None:
         """Show from black to the largest value, rounded up so that the axis rarely changes."""
-        before = self._before_levels if self._photo_levels is None else None
-        profiles = (*self._simulated_levels, before, self._photo_levels)
+        before = self._before_levels if self.photo_levels is None else None
+        profiles = (*self._simulated_levels, before, self.photo_levels)
         largest = max((float(p.max()) for p in profiles if p is not None), default=0.0)
         step = 20.0
         self.plot.setYRange(0.0, max(step, np.ceil(largest / step) * step), padding=0.06)
@@ -273,7 +273,7 @@ class ProfileView(QWidget):
 
     def columns_in_view(self) -> tuple[int, int]:
         """Return the first visible column, and the one after the last."""
-        columns = 0 if self._reading is None else len(self._reading.profile)
+        columns = 0 if self.reading is None else len(self.reading.profile)
         low, high = self.plot.viewRange()[0]
         first = min(max(int(np.ceil(low)), 0), max(columns - 2, 0))
         return first, min(max(int(high) + 1, first + 2), columns)

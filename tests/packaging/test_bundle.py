@@ -13,7 +13,7 @@ import pytest
 from PIL import Image
 
 import occ_model as occ
-from occ_gui.app.command_line import _parser
+from occ_gui.app.command_line import make_parser
 
 ROOT = Path(__file__).parents[2]
 PACKAGING = ROOT / "resources" / "packaging"
@@ -41,7 +41,7 @@ def test_the_desktop_starts_the_program_with_a_file_or_none() -> None:
     assert program == "occ-gui"
     for files in ([], ["scene.occ.toml"]):
         given = [file for word in words for file in (files if word == "%f" else [word])]
-        assert _parser().parse_args(given).files == [Path(file) for file in files]
+        assert make_parser().parse_args(given).files == [Path(file) for file in files]
     assert entry["Desktop Entry"]["MimeType"] == f"{TYPE};"
     name = entry["Desktop Entry"]["Icon"]
     assert (ROOT / "resources" / "icons" / f"{name}.svg").is_file()

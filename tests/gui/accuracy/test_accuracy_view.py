@@ -68,8 +68,8 @@ def test_what_a_change_switches_is_marked_with_its_cost_for_a_while(
     assert "Switched out: LED rise and fall." in bench.told
     bench.simulate(edge_time=5e-6)
     assert bench.row("led-edges").new
-    bench.news._forgetting.setInterval(0)
-    bench.news._forgetting.start()
+    bench.news.pause.setInterval(0)
+    bench.news.pause.start()
     qtbot.waitUntil(lambda: not bench.row("led-edges").new)
     assert "Switched" not in bench.told
 
@@ -140,7 +140,6 @@ def test_a_selected_effect_has_the_plans_reason_and_the_time_is_the_sum_of_the_r
 
 def test_a_wrong_tolerance_is_refused_and_the_field_restored(qtbot: QtBot, bench: Bench) -> None:
     field = bench.view.tolerance.field
-    bench.view.refused.connect(bench.said.append)
     field.selectAll()
     qtbot.keyClicks(field, "little")
     qtbot.keyClick(field, Qt.Key.Key_Return)

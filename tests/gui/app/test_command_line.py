@@ -10,7 +10,7 @@ from PySide6.QtCore import QTimer
 
 import occ_model as occ
 from occ_gui.app.application import Application
-from occ_gui.app.command_line import _parser, _take_screenshot, main, wait_until_shown
+from occ_gui.app.command_line import main, make_parser, take_screenshot, wait_until_shown
 from occ_gui.app.system_libraries import missing_libraries
 from occ_gui.detection_map.wiring import Measuring
 
@@ -64,7 +64,7 @@ def test_a_screenshot_waits_for_the_study_in_view_and_the_rates_beside_the_slide
     timer = QTimer(application.window)
     timer.timeout.connect(lambda: looks.append(application.is_idle))
     timer.start(20)
-    _take_screenshot(application, tmp_path / "w.png")
+    take_screenshot(application, tmp_path / "w.png")
     assert looks.count(True) > 2
     with Image.open(tmp_path / "w.png") as image:
         colours = {colour for _, colour in image.convert("RGB").getcolors(2**24) or []}
@@ -179,6 +179,6 @@ def test_a_display_that_does_not_answer_gives_a_sentence(starts: Starts) -> None
 
 
 def test_files_need_no_option() -> None:
-    options = _parser().parse_args(["scene.occ.toml", "photo.jpg"])
+    options = make_parser().parse_args(["scene.occ.toml", "photo.jpg"])
     assert options.files == [Path("scene.occ.toml"), Path("photo.jpg")]
-    assert _parser().parse_args([]).files == []
+    assert make_parser().parse_args([]).files == []

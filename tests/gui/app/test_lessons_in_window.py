@@ -189,8 +189,8 @@ def test_a_lab_sheet_has_buttons_for_what_it_asks(
     assert dock.height() > window.height() // 2
     assert application.view("photo").isVisible()
     lessons = application.shell.pane("lessons")
-    assert lessons.controller._current is not None
-    first, *_, last = lessons.answers.all_of(lessons.controller._current)[:4]
+    assert lessons.controller.current is not None
+    first, *_, last = lessons.answers.all_of(lessons.controller.current)[:4]
     assert last.match is application.shell.pane("photo").matching.match is found
     assert last.photo == "led-1khz.jpg"
     assert first.match is None

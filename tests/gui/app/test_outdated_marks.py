@@ -44,7 +44,7 @@ def test_a_verdict_does_not_wait_for_the_picture(
     qtbot.waitUntil(lambda: decode.verdict.text() == "✗ No code read")
     assert tabs(application) == ["✗", "✗"]
     assert decode.origin.text() == "By the column profile; the picture follows."
-    shown = not_none(application.view("profile")._reading)
+    shown = not_none(application.view("profile").reading)
     assert shown.scene == application.store.scene
     held.set()
     user.wait_until_idle()
@@ -85,11 +85,11 @@ def test_each_pane_is_marked_while_its_result_is_outdated(
 def test_after_a_refusal_the_last_picture_is_marked_as_older(
     application: Application, user: User, qtbot: QtBot, small_scene: Scene
 ) -> None:
-    shown = application.view("picture")._frame
+    shown = application.view("picture").frame
     application.store.change(distance=0.1, yaw=1.2)
     user.wait_until_idle()
     qtbot.waitUntil(lambda: not any(mark.isHidden() for mark in marks(application)[:5]))
-    assert application.view("picture")._frame is shown
+    assert application.view("picture").frame is shown
     assert application.story.verdict.title.text() == "No picture of this scene"
     earlier = f"Earlier scene: {RIGHT}"
     strip = application.view("decode").strip

@@ -93,7 +93,7 @@ def test_all_places_say_that_what_was_typed_is_sent(
     assert [letter.sent for letter in rows.light.letters] == list(letters)
     assert [letter.received for letter in rows.code.letters] == list(letters)
     assert rows.light.sent_in_words().endswith(f", {bits} bits")
-    assert len(application.view("decode").strip._sent) == bits
+    assert len(application.view("decode").strip.sent) == bits
     code.bits.clear()
     qtbot.keyClick(code.bits, Qt.Key.Key_Return)
     user.wait_until_idle()

@@ -73,10 +73,10 @@ def test_a_plug_in_that_hangs_is_named_and_left_behind(
 ) -> None:
     left: list[int] = []
     monkeypatch.setattr(os, "_exit", left.append)
-    command_line._leave_plugins(0, None)
+    command_line.leave_plugins(0, None)
     assert left == []
     with plugins.at_work("The plug-in 'sleeper' of the package 'hanging'"):
-        command_line._leave_plugins(0, None)
+        command_line.leave_plugins(0, None)
     assert left == [0]
     assert capsys.readouterr().err == (
         "occ-gui: The plug-in 'sleeper' of the package 'hanging' does not come back: the window "

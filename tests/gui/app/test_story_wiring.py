@@ -112,7 +112,7 @@ def test_the_receivers_picture_is_chosen_in_all_panes(application: Application) 
     story.whose.chosen.emit("receiver")
     assert (story.whose.key(), image.whose) == ("receiver", "receiver")
     assert profile.enhanced.isChecked()
-    reading = not_none(profile._reading)
+    reading = not_none(profile.reading)
     assert story.rows.profile.levels is reading.signal
     image.choose_picture("camera")
     assert story.whose.key() == "camera"
@@ -142,7 +142,7 @@ def test_an_open_photo_is_drawn_in_the_story(
     application.files.open_photo(photo_file)
     user.wait_until_idle()
     assert application.story.shows_whole_picture
-    photo, shown = rows.profile.photo, application.view("profile")._photo_levels
+    photo, shown = rows.profile.photo, application.view("profile").photo_levels
     assert photo is not None
     assert shown is not None
     np.testing.assert_array_equal(photo[1], shown)
@@ -187,4 +187,4 @@ def test_the_context_menu_copies_the_values_at_the_crosshair_and_the_bar_leads_t
     application.story.verdict.lesson_wanted.emit(AVERAGES_LESSON)
     pane = application.shell.pane("lessons")
     assert not application.window.is_put_away("lessons")
-    assert pane.controller._current.name == AVERAGES_LESSON
+    assert pane.controller.current.name == AVERAGES_LESSON

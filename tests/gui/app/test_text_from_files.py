@@ -81,7 +81,7 @@ def test_no_name_of_a_file_and_no_note_in_it_becomes_a_mark(
     monkeypatch.setenv(USER_FOLDER, str(hostile_photo.parent / "presets"))
     save_preset("hostile", Scene(), title=NAME)
     window = application.window
-    application.presets._update()
+    application.presets.update()
     application.files.open_file(hostile_photo)
     user.wait_until_idle()
     facts = application.view("photo").facts
@@ -105,7 +105,7 @@ def test_no_name_of_a_file_and_no_note_in_it_becomes_a_mark(
     marked = [text for text in texts(window) if RichText.mightBeRichText(text) and "<img" in text]
     assert not marked
     delete_preset("hostile")
-    application.presets._update()
+    application.presets.update()
     assert combo.findData("hostile") == -1
 
 

@@ -53,7 +53,7 @@ class Measuring:
         self._qtbot = qtbot
 
     def said(self) -> str:
-        return self.pane.state._full
+        return self.pane.state.toolTip()
 
     def cell(self, row: int) -> str:
         item = not_none(self.pane.table.item(row, 2))
@@ -156,7 +156,7 @@ def test_a_cancelled_bench_keeps_its_points_and_is_not_whole(
 def test_more_pictures_than_are_read_out_are_refused_in_a_sentence(measuring: Measuring) -> None:
     measuring.measure()
     measuring.pane.what.show_key(BITS)
-    measuring.pane._show_what()
+    measuring.pane.what.chosen.emit(BITS)
     show(measuring.scenes.store, frame_rate=60.0)
     assert "frames_a_second is 60.0; allowed: above 0 to 36" in measuring.said()
     show(measuring.scenes.store, frame_rate=15.0)
@@ -210,12 +210,12 @@ def test_a_cell_tells_its_note_and_every_point_is_in_view(measuring: Measuring) 
     plots = measuring.pane.plots[RATES]
     values = [
         value
-        for curves in plots._curves.values()
+        for curves in plots.curves.values()
         for curve in curves
         for value in (curve.seen.getData()[1], curve.intervals.getData()[1])
     ]
     shown = np.concatenate(values)
-    above = shown[shown > bench_results._FLOOR[RATES]]
+    above = shown[shown > bench_results.FLOOR[RATES]]
     assert above.size < shown.size  # an interval that begins at no error goes on below
     for plot in plots.plots.values():
         low, high = plot.viewRange()[1]
@@ -227,21 +227,21 @@ def test_before_the_first_measurement_the_pane_says_what_it_is_for_and_then_what
     measuring: Measuring,
 ) -> None:
     pane = measuring.pane
-    assert pane._pages.currentWidget() is pane.invitation
+    assert not pane.invitation.isHidden()
     measuring.measure()
-    assert pane._pages.currentWidget() is pane.plots[RATES]
+    assert not pane.plots[RATES].isHidden()
     assert pane.frame_rate.isHidden()
     # What theory says stands beside the points, in either plot.
     pane.what.show_key(BITS)
-    pane._show_what()
-    assert pane._pages.currentWidget() is pane.plots[BITS]
+    pane.what.chosen.emit(BITS)
+    assert not pane.plots[BITS].isHidden()
     assert not pane.frame_rate.isHidden()  # which bits a second depend on
-    for curve in pane.plots[BITS]._bounds.values():
+    for curve in pane.plots[BITS].bounds.values():
         x, _ = curve.getData()
         assert len(x) > 1
     for plots in pane.plots.values():
         for axis, plot in plots.plots.items():
-            assert plots._bounds[axis] in plot.getPlotItem().items
+            assert plots.bounds[axis] in plot.getPlotItem().items
     pane.resize(700, 500)
     pane.show()
     QApplication.processEvents()

@@ -210,7 +210,7 @@ def test_a_search_ends_when_it_is_cancelled_the_scene_changes_or_the_window_stop
     qtbot: QtBot, map_bench: MapBench, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     map_bench.workers = Never()
-    monkeypatch.setattr(module, "_LOOK_MS", 5)
+    monkeypatch.setattr(module, "LOOK_MS", 5)
     advice, advisor = map_bench.view.advice, map_bench.pane.advisor
     for end, said in (
         (advice.cancel.click, "Cancelled."),
@@ -247,8 +247,8 @@ def test_what_holds_for_every_decoder_is_said_once_below_all(
         advice = advice_on(small_scene)
         view.show_advice(replace(advice, limits=replace(advice.limits, decoder=decoder)))
     QApplication.processEvents()
-    labels = [label for row in view._lines for label in row.findChildren(QLabel)]
-    labels.sort(key=lambda label: label.mapTo(view._content, QPoint()).y())
+    labels = [label for row in view.lines for label in row.findChildren(QLabel)]
+    labels.sort(key=lambda label: label.mapTo(view.content, QPoint()).y())
     shown = [label.text() for label in labels]
     common = shown.index("For every decoder")
     assert [text for text in shown[common:] if text in shown[:common]] == []
@@ -262,13 +262,13 @@ def test_outdated_advice_is_dimmed_and_leads_only_where_it_still_holds(advised: 
     advice = advised.view.advice
 
     def state() -> tuple[set[bool], list[bool]]:
-        labels = {label.isEnabled() for row in advice._lines for label in row.findChildren(QLabel)}
+        labels = {label.isEnabled() for row in advice.lines for label in row.findChildren(QLabel)}
         return labels, [button.isEnabled() for button in [*advice.destinations][:3]]
 
     assert state() == ({True}, [True, True, True])
     advised.scenes.change(switching_frequency=9e3)  # its limits do not depend on it
     assert state() == ({True, False}, [True, False, False])
-    (row,) = [row for row in advice._lines if next(iter(advice.destinations)) in row.children()]
+    (row,) = [row for row in advice.lines if next(iter(advice.destinations)) in row.children()]
     assert all(label.isEnabled() for label in row.findChildren(QLabel))
     advised.scenes.change(iso=200.0)
     assert state() == ({False}, [False, False, False])

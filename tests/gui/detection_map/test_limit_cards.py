@@ -18,7 +18,7 @@ from occ_model.study.limits import advice_of
 
 @pytest.fixture
 def cards(qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) -> LimitCards:
-    monkeypatch.setattr(limit_cards, "_REST_MS", 5)
+    monkeypatch.setattr(limit_cards, "REST_MS", 5)
     return add_widget(qtbot, LimitCards(["threshold", "matched"]))
 
 
@@ -87,15 +87,15 @@ def test_limits_are_asked_for_once_while_cards_are_seen_and_not_for_a_scene_that
     cards: LimitCards, small_scene: Scene, qtbot: QtBot
 ) -> None:
     cards.show_outdated(True)
-    assert not cards._waiting.isActive()
+    assert not cards.waiting.isActive()
     cards.show()
-    assert cards._waiting.isActive()
+    assert cards.waiting.isActive()
     cards.hide()
-    assert not cards._waiting.isActive()
+    assert not cards.waiting.isActive()
     cards.show()
     with qtbot.waitSignal(cards.asked):
         pass
-    assert not cards._waiting.isActive()
+    assert not cards.waiting.isActive()
     card = cards.cards["threshold"]
     cards.show_begun()
     assert card.value.text() == "…"
@@ -103,11 +103,11 @@ def test_limits_are_asked_for_once_while_cards_are_seen_and_not_for_a_scene_that
     cards.show_ended()
     assert card.go.isEnabled()
     cards.show_outdated(True)
-    assert cards._waiting.isActive()
+    assert cards.waiting.isActive()
     assert not card.go.isEnabled()
     assert "earlier scene" in card.name.text()
     cards.show_outdated(False)
-    assert not cards._waiting.isActive()
+    assert not cards.waiting.isActive()
     with qtbot.waitSignal(cards.asked):
         cards.show_outdated(True)
     cards.show_outdated(False)
@@ -116,7 +116,7 @@ def test_limits_are_asked_for_once_while_cards_are_seen_and_not_for_a_scene_that
     cards.show_ended("The scene has changed; ask again.")
     cards.show_outdated(True)
     cards.show_outdated(False)
-    assert cards._waiting.isActive()
+    assert cards.waiting.isActive()
 
 
 def test_a_search_without_a_limit_says_why(cards: LimitCards, small_scene: Scene) -> None:

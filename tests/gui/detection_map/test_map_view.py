@@ -162,7 +162,10 @@ def test_a_rate_has_its_own_colour_and_the_limits_not_hidden_their_lines(view: M
     seen = image.pixelColor(at)
     assert [seen.red(), seen.green(), seen.blue()] == pytest.approx(expected, abs=2)
     line = [np.array([[0.1, 0.1], [0.9, 0.9]])]
-    view.plots._lines = {"band": line, "null": line}
+    theory = Mock(spec=TheoryFields)
+    theory.lines.return_value = {"band": line, "null": line}
+    rates.theory = theory
+    view.show_map(rates)
     view.plots.show_limit("band", False)
     assert list(plot.lines) == ["null"]
     view.plots.show_limit("band", True)
@@ -218,7 +221,7 @@ def test_the_numbers_of_an_axis_are_round_and_as_close_as_they_may_be(name: str,
 def test_each_number_of_the_axes_stands_beside_its_tick(view: MapView) -> None:
     view.show_axes(FREQUENCY, DISTANCE)
     plot, painter = view.plots.plots[0], Mock()
-    plot._draw_axes(painter, plot.area())
+    plot.draw_axes(painter, plot.area())
     drawn = [call.args for call in painter.drawLine.call_args_list]
     texts = [(place, text) for place, _, text in (c.args for c in painter.drawText.call_args_list)]
     numbers = [place for place, text in texts if text.replace(".", "").isdigit()]
@@ -291,16 +294,16 @@ def test_bits_a_second_are_shown_of_whole_payloads(view: MapView, rates: RateMap
     facts = PointFacts(1e3, 1.0, ((DECODERS[0], 10, 70, 100), (DECODERS[1], 9, 60, 98)), 10, 1, "",
                        (1, 0), 250.0)  # fmt: skip
     view.show_facts(facts)
-    assert f"{DECODERS[0]} 250 bits a second, 1 of 1 pictures whole" in view.status._full
-    assert f"{DECODERS[1]} 0 bits a second" in view.status._full
+    assert f"{DECODERS[0]} 250 bits a second, 1 of 1 pictures whole" in view.status.toolTip()
+    assert f"{DECODERS[1]} 0 bits a second" in view.status.toolTip()
     view.show_bits("rate", 25.0)
-    assert f"{DECODERS[0]} 100 %, 10 of 10 bits" in view.status._full
+    assert f"{DECODERS[0]} 100 %, 10 of 10 bits" in view.status.toolTip()
     rates.picture_times = 0.1  # no more pictures are counted than can be read out
     assert rates.bits_a_second(DECODERS[0], 30.0)[0, 0] == pytest.approx(100.0)
 
 
 def bar_numbers(view: MapView) -> list[str]:
-    return [text for _, text in view.plots.bar._numbers]
+    return [text for _, text in view.plots.bar.numbers]
 
 
 def test_the_bar_of_bits_goes_from_none_to_the_most_that_are_possible(

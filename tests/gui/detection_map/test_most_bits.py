@@ -8,6 +8,7 @@ import pytest
 from gui.conftest import InlineWorkers, LazyWorkers
 from gui.kinds import show_widget
 from gui.stores import show, store_of
+from PySide6.QtCore import QTimer
 from pytestqt.qtbot import QtBot
 
 from occ_gui.background.signals import WorkQueue
@@ -135,8 +136,9 @@ def test_a_look_after_the_last_decoder_finds_nothing_more_to_count(
     bench.card.search.click()
     qtbot.waitUntil(lambda: bench.controller.channel.is_idle)
     shown = bench.card.text.toolTip()
+    (look,) = bench.controller.findChildren(QTimer)
     with qtbot.captureExceptions() as raised:
-        bench.controller._look.timeout.emit()
+        look.timeout.emit()
     assert raised == []
     assert bench.card.text.toolTip() == shown
 

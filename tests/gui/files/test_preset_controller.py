@@ -36,11 +36,11 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 @pytest.fixture(autouse=True)
 def own(folder: Path, application: Application) -> Iterator[Path]:
     """Let the window list the presets of the folder, and none of them after."""
-    application.presets._update()
+    application.presets.update()
     yield folder
     for path in folder.iterdir():
         path.unlink()
-    application.presets._update()
+    application.presets.update()
 
 
 @pytest.fixture

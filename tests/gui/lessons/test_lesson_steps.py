@@ -82,7 +82,7 @@ def test_check_formula_explanation_and_report_are_of_the_scene_that_is_shown(
     assert guide.step.equation.toPlainText().count("Columns") == 1
     assert "own scene (Readout time: 8 µs): One state lasts" in guide.step.answer.text()
     learning = bench.pane
-    lesson = not_none(learning.controller._current)
+    lesson = not_none(learning.controller.current)
     (first, *others) = learning.answers.all_of(lesson)
     assert first.scene == bench.scenes.scene
     assert [each.scene for each in others] == [each.step.asked for each in others]

@@ -96,7 +96,7 @@ def test_a_photo_is_compared_with_all_rows_of_a_draft(
     view.set_mode("difference")
     draft = occ.render(small_scene, rows_step=7)
     view.show_picture(Picture.of(draft, "camera"))
-    simulated = not_none(view.overlay._simulated)
+    simulated = not_none(view.overlay.simulated)
     assert simulated.shape == (small_scene.camera.rows, small_scene.camera.columns)
     assert np.array_equal(simulated[::7], draft.camera_image)
 
@@ -231,20 +231,20 @@ def test_the_camera_s_picture_is_shown_first_and_the_switch_shows_the_receiver_s
 ) -> None:
     frame = snapshot_of().frame
     view.show_picture(Picture.of(frame, "camera"))
-    assert shown_in(view)._image is frame.camera_image
+    assert shown_in(view).image is frame.camera_image
     assert view.simulation.caption.text() == "Camera's picture"
     assert view.switch.key() == "camera"
     assert not np.array_equal(frame.camera_image, frame.image)
     chosen = collect(view.picture_chosen)
     qtbot.keyClick(view.switch, Qt.Key.Key_Down)
     assert chosen == ["receiver"]
-    assert shown_in(view)._image is frame.image
+    assert shown_in(view).image is frame.image
     assert view.simulation.caption.text() == "Receiver's picture, enhanced by equalization"
     assert view.simulation.graphics.accessibleName() == view.simulation.caption.text()
-    assert view.overlay._simulated is frame.image
+    assert view.overlay.simulated is frame.image
     other = snapshot_of(enhancement="none").frame
     view.show_picture(Picture.of(other, "receiver"))
-    assert shown_in(view)._image is other.image
+    assert shown_in(view).image is other.image
     assert view.simulation.caption.text() == "Receiver's picture, not enhanced"
 
 
@@ -254,10 +254,10 @@ def test_the_smaller_copies_are_those_of_the_picture_shown(
     frame = snapshot_of(rows=1200).frame
     view.choose_picture("receiver")
     view.show_picture(Picture.of(frame, "camera"))  # prepared before the choice
-    assert shown_in(view)._halves == ()
+    assert shown_in(view).halves == ()
     view.show_picture(Picture.of(frame, "receiver"))
-    assert len(shown_in(view)._halves) == 2
-    assert abs(shown_in(view)._halves[0].mean() - frame.image.mean()) < 1.0
+    assert len(shown_in(view).halves) == 2
+    assert abs(shown_in(view).halves[0].mean() - frame.image.mean()) < 1.0
 
 
 def test_before_is_of_the_same_picture_as_now(view: ImageView, snapshot_of: SnapshotOf) -> None:
@@ -265,9 +265,9 @@ def test_before_is_of_the_same_picture_as_now(view: ImageView, snapshot_of: Snap
     view.show_snapshot(snapshot_of())
     view.before.show_before(before)
     view.before.chosen.setChecked(True)
-    assert view.before.picture._image is before.frame.camera_image
+    assert view.before.picture.image is before.frame.camera_image
     view.choose_picture("receiver")
-    assert view.before.picture._image is before.frame.image
+    assert view.before.picture.image is before.frame.image
 
 
 def test_every_way_of_showing_a_photo_names_the_picture(

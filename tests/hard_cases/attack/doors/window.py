@@ -57,7 +57,7 @@ def _window(folder: Path) -> Iterator[_Opened]:
     from PySide6.QtWidgets import QApplication
 
     from occ_gui.app.application import Application
-    from occ_gui.app.command_line import _parser
+    from occ_gui.app.command_line import make_parser
     from occ_gui.app.start import start_of
     from occ_gui.detection_map import wiring
     from occ_model.commands.options import scene_of, simulation_settings_of
@@ -68,7 +68,7 @@ def _window(folder: Path) -> Iterator[_Opened]:
         patch.setenv(PRESETS, str(folder / "presets"))
         patch.setenv(LESSONS, str(folder / "lessons"))
         patch.setattr(wiring, "new_workers", _no_workers)
-        options = _parser().parse_args(["--set", "rows=20"])
+        options = make_parser().parse_args(["--set", "rows=20"])
         settings = simulation_settings_of(options)
         begin = start_of(options, scene_of(options), settings, own=True)
         application = Application(begin.first, begin.preferences)

@@ -125,7 +125,7 @@ class AccuracyView(QWidget):
         """Show the expected time and error of a picture with the present settings."""
         self._forecast = (request, expected)
         if not self.tolerance.slider.isSliderDown():
-            self.tolerance.show_marks(marks_of(expected.ways))
+            self.tolerance.show_marks(marks_of(expected.effect_sets))
         self.plot.show_ways(expected)
         self._draw()
 

@@ -11,7 +11,7 @@ from occ_gui.scene.number_edits import QuantityEdit
 from occ_gui.scene.parameter_rows import explain
 from occ_gui.widgets.building import filled
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
-from occ_model.results.plan import Way
+from occ_model.results.plan import EffectSet
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.simulation_settings import TOLERANCE, unit_of
 from occ_model.scene.units import Unit
@@ -128,7 +128,7 @@ class ToleranceSlider(QWidget):
         self.edited.emit(tolerance)
 
 
-def marks_of(ways: Sequence[Way]) -> tuple[float, ...]:
+def marks_of(ways: Sequence[EffectSet]) -> tuple[float, ...]:
     """Return the tolerances at which plans begin, but for those at the slider's ends."""
     errors = (way.error for way in ways[1:] if 0.0 < way.error < math.inf)
     return tuple(error for error in errors if error > TOLERANCE.at(0.0))

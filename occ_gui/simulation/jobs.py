@@ -9,7 +9,7 @@ from typing import Any
 import occ_model as occ
 from occ_gui.simulation.snapshot import Reading, Snapshot
 from occ_gui.values.simulated import LEAST_DRAFT_STEP, SimulationRequest
-from occ_model.effects.plan import called_for_by_signal
+from occ_model.effects.plan import name_effects_for_signal
 from occ_model.errors import PluginError
 from occ_model.receiver.decoders import QUICK_DECODERS, decoder_named, read_with
 from occ_model.results.decoding import DecodeResult
@@ -124,7 +124,7 @@ def snapshot_of(request: SimulationRequest, frame: Frame) -> Snapshot:
     seconds = perf_counter() - start
     return Snapshot(
         source="picture",
-        called_for=called_for_by_signal(frame.plan, scene),
+        called_for=name_effects_for_signal(frame.plan, scene),
         has_picture=True,
         frame=frame,
         reading_seconds=seconds,

@@ -1,1 +1,1 @@
-"""Effects that the paper's model leaves out, and the plan that chooses among them."""
+"""Effects of a real camera that the paper's model lacks, and the plan that selects them."""

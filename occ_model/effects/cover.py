@@ -1,4 +1,4 @@
-"""The panel's fraction of the light of each pixel: its outline, bent and blurred by effects."""
+"""The fraction of each pixel's light that comes from the panel, bent and blurred by the lens."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -9,16 +9,16 @@ from occ_model.arrays import BoolArray, FloatArray
 from occ_model.camera.optics import Optics
 from occ_model.effects.normal_noise import normal_fraction
 
-NEGLIGIBLE_BLUR = 0.1  # blur in pixels below which a pixel receives nothing of its neighbours
-STEEP_SLOPE = 1.5  # slope from which a rim is steep
-_FAR_RIM = 1e6  # pixels from a rim, where it does not matter
+NEGLIGIBLE_BLUR = 0.1  # blur in pixels below which no light of a neighbour reaches a pixel
+STEEP_SLOPE = 1.5  # slope, in pixels a pixel, above which a rim counts as steep
+_FAR_RIM = 1e6  # distance in pixels at which a rim no longer matters
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Spans:
-    """Where an outline begins and ends along lines, with its slope there: shape (lines,).
+    """Where each line enters and leaves an outline, and the outline's slope there: shape (lines,).
 
-    A line that it does not meet has the place where it comes nearest, and ``missed`` is True.
+    For a line that misses the outline, ``missed`` is True, and both places are the nearest point.
     """
 
     first: FloatArray
@@ -29,7 +29,7 @@ class Spans:
 
 
 def spans_of(outline: FloatArray, lines: FloatArray, axis: int) -> Spans:
-    """Find the spans of an outline along lines of constant coordinate ``axis``."""
+    """Intersect an outline with lines along which the coordinate ``axis`` is constant."""
     along = np.roll(outline[:, axis], -int(np.argmin(outline[:, axis])))
     across = np.roll(outline[:, 1 - axis], -int(np.argmin(outline[:, axis])))
     turn = int(np.argmax(along))
@@ -39,7 +39,7 @@ def spans_of(outline: FloatArray, lines: FloatArray, axis: int) -> Spans:
     ends = [[np.interp(lines + step, *chain) for step in (0.0, -0.5, 0.5)] for chain in chains]
     if ends[0][0].sum() > ends[1][0].sum():
         ends.reverse()
-    # The smaller slope of either side: beyond a corner begins another edge.
+    # The smaller slope of the two sides, since another edge begins at a corner.
     slopes = [2.0 * np.minimum(abs(at - before), abs(after - at)) for at, before, after in ends]
     missed = (lines < along[0]) | (lines > along[turn])
     return Spans(ends[0][0], ends[1][0], slopes[0], slopes[1], missed)
@@ -52,10 +52,10 @@ def covers_of(
     blurs: Mapping[str, float],
     plain: Optics,
 ) -> dict[frozenset[str], FloatArray | None]:
-    """Return the panel's fraction of each pixel, for each set of effects on the outline."""
+    """Return the panel's fraction of each pixel, for every subset of the effects on the outline."""
     found: dict[frozenset[str], FloatArray | None] = {}
     distances: dict[str, tuple[FloatArray, ...]] = {}
-    for chosen in sets_of([*moved, *blurs]):
+    for chosen in subsets_of([*moved, *blurs]):
         bend = next((name for name in moved if name in chosen), "")
         blur = max((blurs[name] for name in blurs if name in chosen), default=0.0)
         if bend not in distances:
@@ -63,8 +63,8 @@ def covers_of(
             distances[bend] = _distances(outline, columns, rows, max(blurs.values(), default=0.0))
         top, bottom, left, right = distances[bend]
         if blur:
-            down = _blurred(top, blur) + _blurred(bottom, blur) - 1.0
-            along = _blurred(left, blur) + _blurred(right, blur) - 1.0
+            down = _light_fraction(top, blur) + _light_fraction(bottom, blur) - 1.0
+            along = _light_fraction(left, blur) + _light_fraction(right, blur) - 1.0
             found[chosen] = np.maximum(np.minimum(down, along), 0.0)
         else:
             inside = (top > 0.0) & (bottom > 0.0) & (left > 0.0) & (right > 0.0)
@@ -72,15 +72,15 @@ def covers_of(
     return found
 
 
-def sets_of(names: list[str]) -> list[frozenset[str]]:
+def subsets_of(names: list[str]) -> list[frozenset[str]]:
     numbers = range(2 ** len(names))
     return [frozenset(n for place, n in enumerate(names) if k >> place & 1) for k in numbers]
 
 
-def _blurred(distance: FloatArray, blur: float) -> FloatArray:
-    """Return the fraction of the light at some distance within a blurred rim.
+def _light_fraction(distance: FloatArray, blur: float) -> FloatArray:
+    """Return the fraction of the panel's light at some distance inside a blurred rim.
 
-    A narrow blur is one of whole pixels, whose weights are those of a Gaussian at whole distances.
+    A narrow blur is a sum over whole pixels, weighted by a Gaussian at whole distances.
     """
     if blur >= 1.0:
         return normal_fraction(distance / blur)
@@ -92,21 +92,26 @@ def _blurred(distance: FloatArray, blur: float) -> FloatArray:
 def _distances(
     outline: FloatArray, columns: FloatArray, rows: FloatArray, blur: float
 ) -> tuple[FloatArray, ...]:
-    """Return the distances of pixels inside the outline's top, bottom, left and right rim."""
+    """Return how far each pixel lies inside the top, the bottom, the left and the right rim."""
     down = spans_of(outline, columns, 0)
     along = spans_of(outline, rows.ravel(), 1)
     lines = np.broadcast_to(columns[:, None], rows.shape)
-    top, bottom = _within(down, rows.T, blur)
-    left, right = (distance.reshape(rows.shape) for distance in _within(along, lines.ravel(), blur))
+    top, bottom = _distances_from_rims(down, rows.T, blur)
+    left, right = (
+        distance.reshape(rows.shape)
+        for distance in _distances_from_rims(along, lines.ravel(), blur)
+    )
     lost = down.missed[:, None] & along.missed.reshape(rows.shape)
     return np.where(lost, -_FAR_RIM, top.T), bottom.T, left, right
 
 
-def _within(spans: Spans, places: FloatArray, blur: float) -> tuple[FloatArray, FloatArray]:
-    """Return the distances of places on lines inside the first and the last rim of these.
+def _distances_from_rims(
+    spans: Spans, places: FloatArray, blur: float
+) -> tuple[FloatArray, FloatArray]:
+    """Return how far places on lines lie inside the first and the last rim on their line.
 
-    From a slanting rim it is shorter than along the line; a narrow blur goes along the axes. Within
-    a steep rim the distance along the other axis counts.
+    The distance to a slanting rim is shorter than along the line, except for a narrow blur, which
+    acts along the axes. Inside a steep rim only the distance along the other axis counts.
     """
     found = []
     for sign, rim, slope in (
@@ -116,12 +121,12 @@ def _within(spans: Spans, places: FloatArray, blur: float) -> tuple[FloatArray, 
         slant = 1.0 / np.sqrt(1.0 + slope * slope)
         if blur < 1.0:
             slant = np.where(slope < STEEP_SLOPE, 1.0, slant)
-        distance = sign * (places - between(rim)) * slant
+        distance = sign * (places - pixel_boundary(rim)) * slant
         beside = spans.missed | ((slope > STEEP_SLOPE) & (distance > 0.0))
         found.append(np.where(beside, _FAR_RIM, distance))
     return found[0], found[1]
 
 
-def between(places: FloatArray) -> FloatArray:
-    """Return the place between two pixels where a rim separates their centres."""
+def pixel_boundary(places: FloatArray) -> FloatArray:
+    """Return the boundary between the two pixels whose centres a rim at each place separates."""
     return np.asarray(np.ceil(places) - 0.5)

@@ -1,7 +1,6 @@
-"""Lens distortion: straight lines are bent, the panel's outline but not the stripes.
+"""Lens distortion: it bends the panel's outline, but not the stripes.
 
-A stripe is made by the shutter when the light changes, and stays a straight column whatever the
-lens does.
+The shutter makes a stripe out of all pixels of a column, so that it stays straight behind any lens.
 """
 
 import math
@@ -19,24 +18,24 @@ from occ_model.effects.optics_effects import blur_of
 from occ_model.errors import ProjectionError
 from occ_model.scene.scene import Lens, Scene
 
-_PARTS = 64  # fewest parts that each edge of the panel is divided into
-_MOST_PARTS = 1024  # most parts of an edge
-_CURVE_TOLERANCE = 0.01  # largest distance of the straight parts from the curve, in pixels
-_DIRECTIONS = 64  # directions in which a fold of the lens's image is searched for
+_PARTS = 64  # fewest straight parts into which each edge of the panel is divided
+_MOST_PARTS = 1024  # most parts
+_CURVE_TOLERANCE = 0.01  # largest distance in pixels of a straight part from the curve
+_DIRECTIONS = 64  # directions in which to search for a fold of the image
 
-_ITERATIONS = 40  # of the inverse distortion; each leaves a few percent of the error
-_MOST_OFF = 1e-6  # largest error of an inverse, in focal lengths
+_ITERATIONS = 40  # of the inverse distortion; each leaves a few percent of the error before
+_MOST_OFF = 1e-6  # largest error of the inverse, in focal lengths
 
 _RADII = np.linspace(0.0, 4.0, 129)[1:]
-"""Radii at which a fold is searched for, in multiples of the picture's corner and of the radius
-needed."""
+"""Radii at which to search for a fold, in multiples of the picture's corner and of the needed
+radius."""
 
 
 class Distortion(OpticsEffect):
     """Radial and tangential distortion of the panel's outline.
 
-    A ray (x, y), r^2 = x^2 + y^2, in focal lengths, is pictured at
-    x (1 + k1 r^2 + k2 r^4) + 2 p1 x y + p2 (r^2 + 2 x^2), and y alike with p1 and p2 exchanged
+    A ray (x, y) in focal lengths, with r^2 = x^2 + y^2, is pictured at
+    x (1 + k1 r^2 + k2 r^4) + 2 p1 x y + p2 (r^2 + 2 x^2), and alike for y with p1 and p2 exchanged
     (D. C. Brown, "Decentering distortion of lenses", Photogrammetric Engineering 32, 1966).
     """
 
@@ -49,13 +48,13 @@ class Distortion(OpticsEffect):
         return scene.lens.distorts
 
     def apply(self, scene: Scene, optics: Optics) -> Optics:
-        """Bend the panel's outline; ProjectionError where that folds the picture's corners back."""
+        """Bend the panel's outline; ProjectionError if the lens folds the picture's corners."""
         if not self.is_present(scene):
             return optics
         return replace(optics, outline=_outlines(scene, optics.outline)[1], cover_stage=self.name)
 
 
-def distorted(rays: FloatArray, lens: Lens) -> FloatArray:
+def distort(rays: FloatArray, lens: Lens) -> FloatArray:
     """Return the image points of rays (x, y), in focal lengths, shape as ``rays``."""
     x, y = rays[..., 0], rays[..., 1]
     square = x * x + y * y
@@ -70,103 +69,103 @@ def distorted(rays: FloatArray, lens: Lens) -> FloatArray:
     )
 
 
-def undistorted(points: FloatArray, scene: Scene) -> FloatArray:
+def undistort(points: FloatArray, scene: Scene) -> FloatArray:
     """Return points of the picture, (column, row), where a lens without distortion shows them.
 
-    Points without an inverse are returned unchanged. OpenCV's ``undistortPoints`` ends after five
-    iterations: with k1 = -0.25 it was off by up to 3.5 pixels.
+    Points without an inverse are returned unchanged. OpenCV's ``undistortPoints`` stops after five
+    iterations, which left errors of up to 3.5 pixels at k1 = -0.25.
     """
     lens, camera = scene.lens, scene.camera
     if not lens.distorts:
         return points
     rays = straight = image_rays(points, camera)
     for _ in range(_ITERATIONS):
-        straight = straight - (distorted(straight, lens) - rays)
-    off = np.abs(distorted(straight, lens) - rays)
+        straight = straight - (distort(straight, lens) - rays)
+    off = np.abs(distort(straight, lens) - rays)
     found = np.isfinite(off) & (off < _MOST_OFF)
     return image_points(np.where(found, straight, rays), camera)
 
 
 def _outlines(scene: Scene, corners: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return the outline of a panel with these corners, without and with distortion, by points."""
+    """Return points of the outline of a panel with these corners, without and with distortion."""
     lens = scene.lens, *geometry_of(scene.camera), blur_of(scene)
     key = "outlines", corners.tobytes(), *lens
-    return MEMORY.recall(key, lambda: _traced(scene, corners), tuple)
+    return MEMORY.recall(key, lambda: _trace_outlines(scene, corners), tuple)
 
 
-def _traced(scene: Scene, corners: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Trace both outlines, cut off beyond all light in the picture, where equations may fail."""
+def _trace_outlines(scene: Scene, corners: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Trace both outlines as far as their light can reach the picture; beyond, the law may fold."""
     camera = scene.camera
     rays = image_rays(corners, camera)
     focal = camera.focal_length_pixels
     corner = (math.hypot(camera.rows, camera.columns) / 2 + 1.0) / focal
     needed = corner + 4.0 * blur_of(scene) / focal
-    view = _view(scene.lens, corner, needed)
+    view = _find_visible_rays(scene.lens, corner, needed)
     if np.hypot(*rays.T).max() > view.radius:
-        rays = clipped(rays, view.rim)
+        rays = clip_polygon(rays, view.rim)
     if len(rays) == 0:
-        rays = np.full((3, 2), 2.0 * view.radius)  # a panel without area, outside the picture
+        rays = np.full((3, 2), 2.0 * view.radius)  # a panel of no area, outside the picture
         return image_points(rays, camera), image_points(rays, camera)
-    rays = subdivided(rays, _parts(rays, scene))
-    bent = distorted(rays, scene.lens)
-    # A panel that extends beyond the fold is continued as far as light can reach the picture.
+    rays = subdivide(rays, _count_parts(rays, scene))
+    bent = distort(rays, scene.lens)
+    # A panel that extends beyond the fold continues as far as light can still reach the picture.
     beyond = np.hypot(*rays.T) >= view.radius
     far = np.maximum(needed / np.hypot(*bent[beyond].T), 1.0)
     bent[beyond] *= far[:, None]
     return image_points(rays, camera), image_points(bent, camera)
 
 
-def _parts(rays: FloatArray, scene: Scene) -> IndexArray:
+def _count_parts(rays: FloatArray, scene: Scene) -> IndexArray:
     """Return the number of parts that each edge of a polygon is divided into."""
-    halves = subdivided(rays, np.full(len(rays), 2 * _PARTS))
-    halves = distorted(halves, scene.lens) * scene.camera.focal_length_pixels
+    halves = subdivide(rays, np.full(len(rays), 2 * _PARTS))
+    halves = distort(halves, scene.lens) * scene.camera.focal_length_pixels
     starts, middles = halves[::2], halves[1::2]
     off = np.hypot(*(middles - (starts + np.roll(starts, -1, axis=0)) / 2.0).T)
-    # The distance from the curve falls with the square of the number of parts.
+    # The distance from the curve falls as the square of the number of parts.
     wanted = _PARTS * np.sqrt(off.reshape(len(rays), _PARTS).max(axis=1) / _CURVE_TOLERANCE)
     parts: IndexArray = np.ceil(np.clip(wanted, _PARTS, _MOST_PARTS)).astype(np.int64)
     return parts
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class _View:
-    """The rays that can reach the picture: their radius, and a polygon to clip by."""
+class _VisibleRays:
+    """The rays that can reach the picture: their largest radius, and a polygon to clip by."""
 
     radius: float
     rim: FloatArray
 
 
 @lru_cache(maxsize=16)
-def _view(lens: Lens, corner: float, needed: float) -> _View:
+def _find_visible_rays(lens: Lens, corner: float, needed: float) -> _VisibleRays:
     """Find the rays that are pictured up to ``needed`` focal lengths from the centre.
 
-    Where the lens folds before that, they end at the fold; before the picture's ``corner`` it is a
-    ProjectionError.
+    If the lens folds the image before that radius, they end at the fold; a fold before the
+    picture's ``corner`` is a ProjectionError.
     """
     angle = 2.0 * math.pi * np.arange(_DIRECTIONS) / _DIRECTIONS
     circle = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
     radii = np.union1d(_RADII * corner, _RADII * needed)
     rays = radii[:, None, None] * circle
     folded = np.asarray((_area_scale(rays, lens) <= 0.0).any(axis=1))
-    far = np.hypot(*np.moveaxis(distorted(rays, lens), -1, 0)).min(axis=1)
+    far = np.hypot(*np.moveaxis(distort(rays, lens), -1, 0)).min(axis=1)
     last = int(np.argmax(far >= needed)) if (far >= needed).any() else len(radii) - 2
     if folded[: last + 2].any():
         last = int(np.argmax(folded)) - 2
     if last < 0 or far[last] < corner:
         raise ProjectionError(
             f"A lens with k_1 = {lens.radial_k1:g}, k_2 = {lens.radial_k2:g}, "
-            f"p_1 = {lens.tangential_p1:g} and p_2 = {lens.tangential_p2:g} folds the picture back "
-            "before its corners are reached; bring them nearer to 0.",
+            f"p_1 = {lens.tangential_p1:g} and p_2 = {lens.tangential_p2:g} folds the picture "
+            "before its corners; choose values nearer to 0.",
             parameters=("radial_k1", "radial_k2", "tangential_p1", "tangential_p2"),
         )
     radius = float(radii[last])
-    # The rays that a lens without distortion would need are included: an estimate compares both.
+    # Include the rays that a lens without distortion would need, since an estimate compares both.
     kept = max(radius, needed)
-    return _View(radius, circle * kept / math.cos(math.pi / _DIRECTIONS))
+    return _VisibleRays(radius, circle * kept / math.cos(math.pi / _DIRECTIONS))
 
 
 def _area_scale(rays: FloatArray, lens: Lens) -> FloatArray:
-    """Return the magnification of area at each ray; 0 or less where the picture folds."""
+    """Return the magnification of area at each ray; it is 0 or less where the picture folds."""
     x, y = rays[..., 0], rays[..., 1]
     square = x * x + y * y
     k1, k2, p1, p2 = lens.radial_k1, lens.radial_k2, lens.tangential_p1, lens.tangential_p2
@@ -177,17 +176,17 @@ def _area_scale(rays: FloatArray, lens: Lens) -> FloatArray:
     return np.asarray(along_x * along_y - across * across)
 
 
-def clipped(polygon: FloatArray, window: FloatArray) -> FloatArray:
-    """Clip a polygon by a convex one whose corners, (corners, 2), are in counter-clockwise order.
+def clip_polygon(polygon: FloatArray, window: FloatArray) -> FloatArray:
+    """Clip a polygon by a convex window, whose corners (corners, 2) run counter-clockwise.
 
-    Edge by edge of the window, the part outside is removed (I. E. Sutherland and
-    G. W. Hodgman, "Reentrant polygon clipping", Comm. ACM 17, 1974).
+    The part outside each edge of the window is removed in turn (I. E. Sutherland and G. W. Hodgman,
+    "Reentrant polygon clipping", Comm. ACM 17, 1974).
     """
     for start, end in zip(window, np.roll(window, -1, axis=0), strict=True):
         if len(polygon) == 0:
             break
         edge = end - start
-        # Above 0 inside.
+        # It is positive inside the window.
         side = edge[0] * (polygon[:, 1] - start[1]) - edge[1] * (polygon[:, 0] - start[0])
         if (side >= 0.0).all():
             continue
@@ -196,7 +195,7 @@ def clipped(polygon: FloatArray, window: FloatArray) -> FloatArray:
 
 
 def part_inside(polygon: FloatArray, side: FloatArray) -> FloatArray:
-    """Return the part of a polygon where a number, linear between its corners, is not negative."""
+    """Return the part of a polygon where ``side``, linear between its corners, is not negative."""
     kept = []
     for here in range(len(polygon)):
         there = (here + 1) % len(polygon)
@@ -208,8 +207,8 @@ def part_inside(polygon: FloatArray, side: FloatArray) -> FloatArray:
     return np.array(kept, dtype=np.float64).reshape(-1, polygon.shape[1])
 
 
-def subdivided(polygon: FloatArray, parts: IndexArray) -> FloatArray:
-    """Divide each edge of a polygon, from its corner to the next, into so many equal parts."""
+def subdivide(polygon: FloatArray, parts: IndexArray) -> FloatArray:
+    """Divide each edge of a polygon into its number of equal ``parts``."""
     edge = np.repeat(np.arange(len(polygon)), parts)
     before = np.cumsum(parts) - parts
     fraction = ((np.arange(len(edge)) - before[edge]) / parts[edge])[:, None]

@@ -1,8 +1,8 @@
-"""The interface of an effect: something that the paper's model leaves out.
+"""The interface of an effect: something real that the paper's model lacks.
 
-An effect belongs to one stage of the light's way from the panel to the file. It determines whether
-a scene has it (``is_present``), and simulates it (``apply``). How much leaving it out changes what
-is observed follows from that, on a sample of the pixels: see :mod:`occ_model.effects.estimates`.
+An effect belongs to one stage of the light's path from the panel to the file. It says whether a
+scene has it (``is_present``), and simulates it (``apply``). :mod:`occ_model.effects.estimates`
+applies it to a sample of the pixels, to estimate how much is lost without it.
 """
 
 from abc import ABC, abstractmethod
@@ -16,9 +16,9 @@ from occ_model.results.plan import Stage
 from occ_model.scene.scene import Scene
 
 Kind: TypeAlias = Literal["column", "noise", "image"]
-"""Whether an effect leaves all rows equal, equal but for independent noise, or different."""
+"""Whether the rows stay equal, stay equal except for independent noise, or become different."""
 
-Values = TypeVar("Values", FloatArray, Pixels)  # pixel values of either precision
+Values = TypeVar("Values", FloatArray, Pixels)  # pixel values in double or in single precision
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,18 +30,18 @@ class Cost:
 
 
 class Effect(ABC):
-    name: ClassVar[str]  # The identifier, as in a plan
-    label: ClassVar[str]  # The field's term for it, as on screen
-    kind: ClassVar[Kind]  # How it leaves the rows of a picture
-    stage: ClassVar[Stage]  # Where on the light's way it happens
-    parameters: ClassVar[tuple[str, ...]]  # The parameters of a scene that it depends on, by name
+    name: ClassVar[str]  # Its identifier, as in a plan
+    label: ClassVar[str]  # Its usual name in the field, as on screen
+    kind: ClassVar[Kind]  # What it does to the rows of a picture
+    stage: ClassVar[Stage]  # Where on the light's path it happens
+    parameters: ClassVar[tuple[str, ...]]  # Names of the scene's parameters that it depends on
 
     cost: ClassVar[Cost] = Cost()
-    """Its own computing time, as measured: see :mod:`occ_model.effects.effect_sets`."""
+    """Its own computing time as measured; see :mod:`occ_model.effects.effect_sets`."""
 
     @abstractmethod
     def is_present(self, scene: Scene) -> bool:
-        """Return whether a scene has the effect; without it the effect changes exactly nothing."""
+        """Return whether a scene has the effect; if not, applying it changes exactly nothing."""
 
 
 class LightEffect(Effect):
@@ -52,66 +52,66 @@ class LightEffect(Effect):
 
     @abstractmethod
     def apply(self, scene: Scene, light: ColumnLight) -> ColumnLight:
-        """Return the columns' light with the effect."""
+        """Add the effect to the columns' light."""
 
 
 class OpticsEffect(Effect):
-    """An effect on how the lens pictures the panel."""
+    """An effect of the lens on where and how bright the panel is in the picture."""
 
     kind = "image"
     stage = "optics"
 
     @abstractmethod
     def apply(self, scene: Scene, optics: Optics) -> Optics:
-        """Return how the panel is pictured with the effect."""
+        """Add the effect to the panel's optics."""
 
 
 class PixelEffect(Effect):
-    """An effect on a pixel's mean value that depends on that value alone."""
+    """An effect on a pixel's mean value which depends on that value alone."""
 
     kind = "column"
     stage = "sensor"
 
     @abstractmethod
     def apply(self, scene: Scene, values: Values) -> Values:
-        """Return pixel values before saturation with the effect."""
+        """Add the effect to pixel values before they saturate."""
 
 
 class NoiseEffect(Effect):
-    """Noise that is independent from pixel to pixel, its mean zero."""
+    """Noise of mean zero, independent from pixel to pixel."""
 
     kind = "noise"
     stage = "sensor"
     of_the_camera: ClassVar[bool] = False
-    """Whether the noise is the same in every picture that the camera takes."""
+    """Whether the noise is the same in every picture of a camera."""
 
     @abstractmethod
     def spread(self, scene: Scene, values: FloatArray) -> FloatArray:
-        """Return the standard deviation in grey levels of pixels with these mean values."""
+        """Return the noise's standard deviation in grey levels at these mean values."""
 
 
 class FileEffect(Effect):
-    """An effect of the file that the picture is kept in."""
+    """An effect of the file in which the camera stores the picture."""
 
     kind = "image"
     stage = "processing"
 
     @abstractmethod
     def apply(self, scene: Scene, image: ByteArray) -> ByteArray:
-        """Return the picture as read back; rows of whole 8-row blocks do not depend on others."""
+        """Return the picture as read from the file; 8 rows of blocks depend on no others."""
 
     @abstractmethod
     def check_size(self, scene: Scene, shape: tuple[int, ...]) -> None:
-        """Refuse a picture that the file cannot hold."""
+        """Raise a ParameterError for a picture that the file cannot hold."""
 
     @abstractmethod
     def steps(self, scene: Scene) -> FloatArray:
-        """Return the steps to which cosine coefficients of 8 x 8 pixels are rounded."""
+        """Return the steps to which the cosine coefficients of 8 x 8 pixels are rounded."""
 
     @abstractmethod
     def rounding_of_means(self, scene: Scene) -> tuple[float, float]:
-        """Return what the file's rounding adds to a column's mean over one block, in grey levels.
+        """Return the error of a column's mean over one block by rounding, in grey levels.
 
-        Its standard deviation, if the block's coefficients lie anywhere between their steps, and
-        the most that it can be, root mean square over the columns.
+        First its standard deviation, for coefficients that lie anywhere between their steps with
+        equal probability; then its largest possible root mean square over the columns.
         """

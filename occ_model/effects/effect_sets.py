@@ -1,9 +1,9 @@
-"""The sets of effects that a scene can be simulated with, with their times and errors.
+"""The sets of effects with which a scene can be simulated, with their times and errors.
 
-Times are as measured: the shortest of some pictures of the presets on one computer. A plan compares
-times, and must be the same on every computer. Where pixels are simulated at all, exposing and
-storing them takes the same time for any effects; noise from a stored plane is scaled once for all
-noise.
+The times were measured once on one computer, as the shortest of some pictures of the presets, so
+that a plan is the same on every computer. Once pixels are simulated at all, exposing and storing
+them takes the same time for any effects, and scaling noise from a stored plane takes the same time
+for any number of noises.
 """
 
 import math
@@ -19,72 +19,88 @@ from occ_model.effects.effect import Effect, FileEffect, NoiseEffect
 from occ_model.effects.estimates import Estimates
 from occ_model.effects.paper_view import PaperView
 from occ_model.effects.registry import EFFECTS
-from occ_model.results.plan import Way
+from occ_model.results.plan import EffectSet
 from occ_model.scene.simulation_settings import NoiseSource, SimulationSettings
 
 _SUM_RATIO = 1.15
-"""Largest ratio of the sum of changes to the tolerance at which the changes are tried together."""
+"""Largest ratio of added changes to the tolerance at which the effects are tried together: changes
+may cancel in part."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class EffectSets:
-    """The sets of effects that no other is both faster and more exact than, the fastest first."""
+    """The Pareto front of sets of effects, fastest first: each slower set has a smaller error."""
 
     estimates: Estimates
-    names: frozenset[str]  # The effects that may be left out
-    everything: float  # Seconds with all of them
-    ways: tuple[Way, ...]  # The sets, with their errors as if changes added
+    names: frozenset[str]  # All effects of the scene that are not switched off
+    complete_seconds: float  # Seconds for a picture with all of them
+    effect_sets: tuple[EffectSet, ...]  # Errors are as if changes added
 
     @classmethod
     def of(cls, estimates: Estimates, view: PaperView, settings: SimulationSettings) -> Self:
-        """Compare all sets of a scene's effects that are not switched by hand."""
+        """Compare all subsets of the effects that the user has not switched on or off."""
         force = settings.force
         free = tuple(e for e in EFFECTS if e.name in estimates.sizes and e.name not in force)
         forced_in = tuple(e for e in EFFECTS if force.get(e.name))
         pixels = view.scene.camera.rows * view.scene.camera.columns
-        subsets = _subsets(free, forced_in, pixels, settings.noise)
-        errors = _errors_of(estimates, free, subsets.left_out)
+        subsets = _list_subsets(free, forced_in, pixels, settings.noise)
+        errors = _errors_if_added(estimates, free, subsets.left_out)
         ordered = errors[subsets.order]
         is_closer = ordered[1:] < np.minimum.accumulate(ordered)[:-1]
         front = subsets.order[np.append(True, is_closer)]
-        ways = tuple(
-            Way(subsets.effects[at], seconds, error)
+        effect_sets = tuple(
+            EffectSet(subsets.effects[at], seconds, error)
             for at, seconds, error in zip(
                 front.tolist(), subsets.seconds[front].tolist(), errors[front].tolist(), strict=True
             )
         )
-        return cls(estimates, subsets.effects[0], float(subsets.seconds[0]), ways)
+        return cls(estimates, subsets.effects[0], float(subsets.seconds[0]), effect_sets)
 
-    def errors_of(self, ways: Sequence[Way]) -> list[float]:
-        """Return each set's least tolerance, for its effects together: changes need not add."""
-        found = self.estimates.errors_of([self.names - way.effects for way in ways])
-        return [max(own, way.error / _SUM_RATIO) for own, way in zip(found, ways, strict=True)]
-
-    def chosen(self, tolerance: float) -> tuple[Way, float]:
-        """Return the fastest set within a tolerance, and its error."""
-        if tolerance == math.inf:
-            return Way(frozenset(), self.ways[0].seconds, math.inf), math.inf
-        near = (
-            [way for way in self.ways if way.error <= tolerance * _SUM_RATIO] if tolerance else []
+    def errors_of(self, effect_sets: Sequence[EffectSet]) -> list[float]:
+        """Return the smallest tolerance for each set, with all that it omits tried together."""
+        found = self.estimates.errors_of(
+            [self.names - effect_set.effects for effect_set in effect_sets]
         )
-        for some in (near[:1], near[1:5], near[5:]):  # mostly the first one is within it
-            for way, error in zip(some, self.errors_of(some) if some else (), strict=True):
+        return [
+            max(own, effect_set.error / _SUM_RATIO)
+            for own, effect_set in zip(found, effect_sets, strict=True)
+        ]
+
+    def choose(self, tolerance: float) -> tuple[EffectSet, float]:
+        """Choose the fastest set within a tolerance; return it and its error."""
+        if tolerance == math.inf:
+            return EffectSet(frozenset(), self.effect_sets[0].seconds, math.inf), math.inf
+        near = (
+            [
+                effect_set
+                for effect_set in self.effect_sets
+                if effect_set.error <= tolerance * _SUM_RATIO
+            ]
+            if tolerance
+            else []
+        )
+        for some in (
+            near[:1],
+            near[1:5],
+            near[5:],
+        ):  # the first one usually suffices
+            for effect_set, error in zip(some, self.errors_of(some) if some else (), strict=True):
                 if error <= tolerance:
-                    return way, error
-        return Way(self.names, self.everything, 0.0), 0.0
+                    return effect_set, error
+        return EffectSet(self.names, self.complete_seconds, 0.0), 0.0
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Subsets:
     effects: tuple[frozenset[str], ...]
-    left_out: FloatArray  # 1 where a subset does not have an effect: (subsets, effects)
+    left_out: FloatArray  # 1 where a subset lacks an effect, shape (subsets, effects)
 
     seconds: FloatArray
-    order: IndexArray  # The fastest first
+    order: IndexArray  # Indices of the subsets, fastest first
 
 
 @lru_cache(maxsize=8)
-def _subsets(
+def _list_subsets(
     free: tuple[Effect, ...], forced_in: tuple[Effect, ...], pixels: int, noise: NoiseSource
 ) -> _Subsets:
     number = np.arange(2 ** len(free))[:, None]
@@ -98,33 +114,35 @@ def _subsets(
     return _Subsets(tuple(names), left_out, seconds, np.argsort(seconds, kind="stable"))
 
 
-def _errors_of(estimates: Estimates, free: tuple[Effect, ...], left_out: FloatArray) -> FloatArray:
-    """Return the changes by leaving out sets of effects, in levels, as if changes added."""
+def _errors_if_added(
+    estimates: Estimates, free: tuple[Effect, ...], left_out: FloatArray
+) -> FloatArray:
+    """Return the change when a set of effects is left out, in levels, as if changes added."""
     if estimates.seen is None:
         return np.where(left_out.any(axis=1), math.inf, 0.0)
     if not free:
         return np.zeros(1)
     names = [effect.name for effect in free]
     factors = np.array([estimates.factors[name] for name in names])
-    squares = estimates.seen.of_subsets(names, left_out)
+    squares = estimates.seen.largest_squares_if_added(names, left_out)
     factor = np.maximum((left_out * factors).max(axis=1), 1.0)
     errors = np.sqrt(squares) * estimates.stretch * factor
     errors[0] = 0.0
     return np.asarray(errors)
 
 
-_PIXEL_SECONDS = 1.1e-3  # seconds for a million pixels whose rows differ
+_PIXEL_SECONDS = 1.1e-3  # seconds for a million pixels in rows that differ
 
 _NOISE_SECONDS: dict[NoiseSource, float] = {"exact": 10e-3, "reused": 0.9e-3}
-"""Seconds to draw a million random numbers, or to fetch them."""
+"""Seconds to draw a million random numbers, or to read them from a stored plane."""
 
-_NOISY_FILE_SECONDS = 6e-3  # seconds by which a million noisy pixels take longer in a file
+_NOISY_FILE_SECONDS = 6e-3  # extra seconds to store a million pixels with noise in a file
 
 
 def seconds_of(
     effects: Sequence[Effect], sets: FloatArray, pixels: int, noise: NoiseSource
 ) -> FloatArray:
-    """Return the times of sets of effects, given as (sets, effects): 1 where simulated."""
+    """Return the time of each set, given by rows of ``sets``: 1 where an effect is simulated."""
     millions = pixels * 1e-6
     each = np.array([effect.cost.picture + effect.cost.pixels * millions for effect in effects])
     by_pixel = np.array([effect.kind != "column" for effect in effects], dtype=bool)

@@ -1,4 +1,4 @@
-"""How much leaving effects out changes what is observed of a scene, estimated from a sample."""
+"""How much the observable of a scene changes without some effects, estimated from a sample."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -9,51 +9,54 @@ import numpy as np
 
 from occ_model.camera.photometry import FLAT_SPAN, WHITE
 from occ_model.effects.effect import Effect
-from occ_model.effects.observed import Observed
-from occ_model.effects.observed_image import observed_image, observed_profile
-from occ_model.effects.observed_signal import observed_signal, signal_swing
+from occ_model.effects.observed import SampledObservable
+from occ_model.effects.observed_image import observe_image, observe_profile
+from occ_model.effects.observed_signal import observe_signal, signal_swing
 from occ_model.effects.paper_view import PaperView
 from occ_model.effects.registry import EFFECTS
-from occ_model.effects.sampled_pixels import SampledPixels, sampled_pixels
+from occ_model.effects.sampled_pixels import SampledPixels, sample_pixels
 from occ_model.errors import ProjectionError
 from occ_model.scene.simulation_settings import Observable, SimulationSettings
 
 ALLOWANCE = 1.05
-"""Factor on the change that a sample shows, so that hardly any exceeds its estimate."""
+"""Factor from the change of the sample to the estimate, which hardly any true change exceeds."""
 
 _PEAK, _NOISE_PEAK = 2.0, 3.0
-"""Root mean squares of a smooth change, and of noise, that are to stay within a chip's margin."""
+"""How many root mean squares, of a smooth change and of noise, must fit within a chip's margin."""
 
 _LEAST_ESTIMATE = 1e-9
-"""Estimate, in grey levels, of a scene's effect that the sample does not show."""
+"""Estimate, in grey levels, for an effect of the scene that changes nothing in the sample."""
 
 _UNDITHERED_FRACTION = 0.25
-"""Fraction of a mean square by which a file without noise may change it further."""
+"""Fraction of any mean square by which a file may enlarge it where no noise spreads its
+rounding."""
 
-_READ_FRACTION = 0.15  # fraction of a chip from its middle at which it is read
+_READ_FRACTION = 0.15  # largest distance from a chip's middle, in chips, at which it is read
 
 
-def observed(pixels: SampledPixels, observable: Observable) -> Observed:
+def observe(pixels: SampledPixels, observable: Observable) -> SampledObservable:
     if observable == "image":
-        found = observed_image(pixels)
+        found = observe_image(pixels)
     else:
-        found = observed_profile(pixels) if observable == "profile" else observed_signal(pixels)
+        found = observe_profile(pixels) if observable == "profile" else observe_signal(pixels)
     if pixels.file is not None:
         found.unsure = _UNDITHERED_FRACTION * pixels.file.undithered_fraction
-        doubt = pixels.file.undithered()
-        rims = pixels.rims.fraction  # where no noise spreads it, a rim's blocks round otherwise
+        doubt = pixels.file.undithered_square()
+        rims = (
+            pixels.rims.fraction
+        )  # of blocks that may round otherwise where no noise spreads them
         square = rims * max(pixels.view.swing, pixels.contrast) ** 2 / 64.0
-        at_rims = pixels.file.undithered_fraction * pixels.file.added_at_a_rim(rims, square)
+        at_rims = pixels.file.undithered_fraction * pixels.file.growth_at_rim(rims, square)
         doubt += at_rims if observable == "image" else at_rims / pixels.file.block_rows
         found.add_doubt(pixels.names, doubt)
     return found
 
 
-def margins(pixels: SampledPixels, signal: Observed) -> tuple[float, float]:
-    """Return the chips' distance from the threshold, and the steps between columns near it.
+def decision_margins(pixels: SampledPixels, signal: SampledObservable) -> tuple[float, float]:
+    """Return the smallest distance of a chip from the threshold, and the step of columns there.
 
-    Both in levels of the signal. A chip that passes the threshold is read wrongly; where the signal
-    crosses it, noise larger than the step between columns makes false runs.
+    Both are in levels of the signal. A chip on the wrong side of the threshold is misread; where
+    the signal crosses it, noise larger than the step between columns makes false runs.
     """
     scene, sample = pixels.scene, pixels.sample
     seen = signal.complete / np.sqrt(sample.weights)
@@ -73,68 +76,70 @@ def margins(pixels: SampledPixels, signal: Observed) -> tuple[float, float]:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Estimates:
-    """What leaving out each effect of a scene changes, in levels of the stretched profile."""
+    """The change without each effect of a scene, in levels of the stretched profile."""
 
-    sizes: Mapping[str, float]  # As the sample shows it
-    limits: Mapping[str, float]  # With what it may not show
+    sizes: Mapping[str, float]  # As in the sample
+    limits: Mapping[str, float]  # With what the sample may have missed
 
-    seen: Observed | None
-    """The observable, None where no set of effects is known to be small enough."""
+    seen: SampledObservable | None
+    """The sampled observable; None where no bound is known, so that nothing may be left out."""
 
     stretch: float  # Levels of the stretched profile per grey level
-    factors: Mapping[str, float]  # By what an effect's change counts more than by its size
-    unknown: str = ""  # Why no change is known; every limit is then infinite
+    factors: Mapping[str, float]  # Weight of an effect's change, at least 1
+    unknown: str = ""  # Why no bound is known; every limit is then infinite
 
     def errors_of(self, sets: Sequence[frozenset[str]]) -> list[float]:
-        """Return the largest changes by leaving out sets of effects together, in levels."""
+        """Return bounds of the change, in levels, when each set of effects is left out."""
         if self.seen is None:
             return [math.inf if left_out else 0.0 for left_out in sets]
-        most = np.sqrt(self.seen.together(sets)).tolist()
+        most = np.sqrt(self.seen.largest_squares(sets)).tolist()
         factors = [max((self.factors[name] for name in one), default=1.0) for one in sets]
         return [self.stretch * one * own for one, own in zip(factors, most, strict=True)]
 
 
 def estimates_of(view: PaperView, settings: SimulationSettings) -> Estimates:
-    """Estimate what leaving out each effect changes, with some switched by hand."""
+    """Estimate the change without each effect, where the user has switched some on or off."""
     try:
-        found = _estimates_of(view, settings.observable, EFFECTS)
-    except ProjectionError:  # the simulation refuses the lens
+        found = _estimate_from_sample(view, settings.observable, EFFECTS)
+    except ProjectionError:  # the simulation of this lens fails too
         unknown = {"distortion": math.inf}
         why = "the lens cannot be simulated"
         return Estimates(unknown, unknown, None, WHITE / view.swing, {}, why)
     force = settings.force
     if any(not on and name in found.sizes for name, on in force.items()):
         kept = tuple(effect for effect in EFFECTS if force.get(effect.name, True))
-        own = _estimates_of(view, settings.observable, kept)
+        own = _estimate_from_sample(view, settings.observable, kept)
         sizes, limits = {**found.sizes, **own.sizes}, {**found.limits, **own.limits}
         found = replace(own, sizes=sizes, limits=limits)
     if view.swing > FLAT_SPAN:
         return found
-    # Far above the tolerance, or hidden to a sample, which then determines nothing.
+    # A change is either far above the tolerance or absent from the sample, which then says nothing.
     limits = dict.fromkeys(found.sizes, math.inf)
     why = "the stripes span less than a grey level"
     return replace(found, seen=None, limits=limits, unknown=why)
 
 
-def _estimates_of(
+def _estimate_from_sample(
     view: PaperView, observable: Observable, effects: tuple[Effect, ...]
 ) -> Estimates:
-    pixels = sampled_pixels(view, effects)
+    pixels = sample_pixels(view, effects)
     of_signal = observable in ("signal", "decision")
     swing = signal_swing(pixels) if of_signal else view.swing
     stretch, factors = WHITE / swing, dict.fromkeys(pixels.names, 1.0)
-    seen = observed(pixels, "signal" if of_signal else observable)
+    seen = observe(pixels, "signal" if of_signal else observable)
     if observable == "decision":
-        margin, step = (max(found, 1e-6) for found in margins(pixels, seen))
+        margin, step = (max(found, 1e-6) for found in decision_margins(pixels, seen))
         stretch = _PEAK / margin
-        for effect in (*pixels.noises, *pixels.files):  # which differ from column to column
+        for effect in (*pixels.noises, *pixels.files):  # their changes differ from column to column
             factors[effect.name] = _NOISE_PEAK / _PEAK * max(margin / step, 1.0)
     sizes, limits = {}, {}
     names = [effect.name for effect in pixels.effects]
-    most = np.sqrt(seen.of_subsets(names, np.eye(len(names)))).tolist() if names else []
+    most = (
+        np.sqrt(seen.largest_squares_if_added(names, np.eye(len(names)))).tolist() if names else []
+    )
     for name, of_sample in zip(names, most, strict=True):
         unit = stretch * factors[name]
         allowance = 1.0 if name in seen.known else ALLOWANCE
-        sizes[name] = max(math.sqrt(seen.shown(name)), _LEAST_ESTIMATE) * unit * allowance
+        sizes[name] = max(math.sqrt(seen.sampled_square(name)), _LEAST_ESTIMATE) * unit * allowance
         limits[name] = max(of_sample * unit, sizes[name])
     return Estimates(sizes, limits, seen, stretch, factors)

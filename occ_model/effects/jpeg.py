@@ -1,4 +1,4 @@
-"""JPEG: the camera's file keeps cosine coefficients, rounded."""
+"""JPEG: the camera's file stores rounded cosine coefficients."""
 
 import math
 
@@ -23,15 +23,14 @@ _LUMINANCE_STEPS = (
 )
 """Steps of the 8 x 8 cosine coefficients at quality 50 (ITU-T T.81, table K.1)."""
 
-_LARGEST_ROUNDING = 0.5  # largest change in grey levels by rounding the pixels once
+_LARGEST_ROUNDING = 0.5  # largest change of a pixel, in grey levels, when it is rounded once
 
 
 class Jpeg(FileEffect):
     """Each block of 8 x 8 pixels is written as cosine coefficients, rounded to steps.
 
-    The cosine transform is orthonormal, so that the pixels' mean square error is that of the
-    coefficients (Parseval). The contrast enhancement is applied to the picture read back from the
-    file.
+    The cosine transform is orthonormal, so that the mean square error of the pixels is that of the
+    coefficients (Parseval). The receiver enhances the contrast of the picture read from the file.
     """
 
     name = "jpeg"
@@ -46,11 +45,11 @@ class Jpeg(FileEffect):
         return quantization_steps(scene.camera.jpeg_quality)
 
     def rounding_of_means(self, scene: Scene) -> tuple[float, float]:
-        """Return that of the coefficients without a vertical frequency, which alone have a mean.
+        """Return the error by the coefficients of vertical frequency 0: only they change the mean.
 
-        Each varies by its step q over the root of 12, and the mean of a block's eight rows by an
-        eighth of the root of the sum of their squares. Where only a part of the rows is averaged,
-        all coefficients count, half a step each.
+        Each has the standard deviation q / sqrt(12) for its step q, and the mean over a block's
+        eight rows an eighth of the root of their summed squares. For a mean over fewer rows all
+        coefficients count, with half a step each.
         """
         if not self.is_present(scene):
             return 0.0, 0.0
@@ -77,9 +76,9 @@ class Jpeg(FileEffect):
 
 
 def quantization_steps(quality: int) -> FloatArray:
-    """Return the steps of the coefficients at a quality from 1 to 100, shape (8, 8).
+    """Return the quantization steps for a quality from 1 to 100, shape (8, 8).
 
-    The scaling is that of the Independent JPEG Group's library, which all common writers follow.
+    They are scaled as in the Independent JPEG Group's library, which all common writers follow.
     """
     percent = 5000 // quality if quality < 50 else 200 - 2 * quality
     scaled = (np.array(_LUMINANCE_STEPS) * percent + 50) // 100

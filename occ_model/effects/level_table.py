@@ -1,4 +1,4 @@
-"""Quantities that are tabulated over the grey levels, such as the noise of a pixel."""
+"""Tables of a quantity against the grey level, such as the noise of a pixel."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,18 +9,18 @@ from occ_model.camera.photometry import FLAT_SPAN
 _LEVELS = 129
 
 Places = tuple[NDArray[np.intp], FloatArray]
-"""The level below each value, and how far the value lies towards the next one."""
+"""The index of the level below each value, and the fraction of the way to the next level."""
 
 
 class LevelTable:
-    """Levels from the lowest to the highest value, both with a margin, one of them at ``full``.
+    """Even levels from below the lowest to above the highest value, one of them at ``full``.
 
-    A table of any quantity has a value for each, along its last axis.
+    A table has a value for each level along its last axis.
     """
 
     def __init__(self, low: float, high: float, full: float) -> None:
         self.step = max(high - low, FLAT_SPAN) / (_LEVELS - 3)
-        if low < full < high:  # where noise ends
+        if low < full < high:  # noise ends at ``full``
             low -= self.step * (1.0 - (full - low) / self.step % 1.0)
         self.levels: FloatArray = low + self.step * np.arange(_LEVELS, dtype=np.float64)
 
@@ -33,21 +33,21 @@ class LevelTable:
         fraction -= below
         return below, fraction
 
-    def at(self, table: FloatArray, places: Places) -> FloatArray:
-        """Interpolate one table, shape as ``places``."""
+    def interpolate_at(self, table: FloatArray, places: Places) -> FloatArray:
+        """Interpolate one table at places of values, shape as these."""
         below, fraction = places
-        return np.asarray(table.take(below) + fraction * _steps(table).take(below))
+        return np.asarray(table.take(below) + fraction * _differences(table).take(below))
 
-    def look(self, tables: FloatArray, values: FloatArray) -> FloatArray:
-        """Interpolate tables at values: (..., *values.shape)."""
+    def interpolate(self, tables: FloatArray, values: FloatArray) -> FloatArray:
+        """Interpolate tables (..., levels) at values, shape (..., *values.shape)."""
         below, fraction = self.place(values)
-        return np.asarray(tables[..., below] + fraction * _steps(tables)[..., below])
+        return np.asarray(tables[..., below] + fraction * _differences(tables)[..., below])
 
-    def look_each(self, tables: FloatArray, values: FloatArray) -> FloatArray:
-        """Interpolate a table of its own for each of the values along their first axis."""
+    def interpolate_each(self, tables: FloatArray, values: FloatArray) -> FloatArray:
+        """Interpolate the n-th table at the n-th of the values along their first axis."""
         below, fraction = self.place(values)
         below += _LEVELS * np.arange(len(tables)).reshape(-1, *(1,) * (values.ndim - 1))
-        return self.at(tables.ravel(), (below, fraction))
+        return self.interpolate_at(tables.ravel(), (below, fraction))
 
     def slope(self, table: FloatArray) -> FloatArray:
         ends = np.concatenate([table[:1], table, table[-1:]])
@@ -55,10 +55,10 @@ class LevelTable:
         slope[[0, -1]] *= 2.0
         return np.asarray(slope)
 
-    def divided(self, weights: FloatArray, places: Places) -> FloatArray:
-        """Divide weights among the levels beside their places.
+    def divide_weights(self, weights: FloatArray, places: Places) -> FloatArray:
+        """Divide each weight among the two levels beside its place.
 
-        The product of a table with it is the weighted sum of what is interpolated there.
+        The product of a table with the result is the weighted sum of the interpolated values.
         """
         below, fraction = places
         above = (weights * fraction).ravel()
@@ -67,6 +67,6 @@ class LevelTable:
         return found
 
 
-def _steps(tables: FloatArray) -> FloatArray:
-    """Return the differences of neighbours, faster than NumPy."""
+def _differences(tables: FloatArray) -> FloatArray:
+    """Return the differences of neighbours, faster than ``np.diff``."""
     return np.asarray(tables[..., 1:] - tables[..., :-1])

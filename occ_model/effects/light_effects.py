@@ -1,4 +1,4 @@
-"""Effects on the light: LED rise and fall, and mains flicker of the surroundings."""
+"""Effects on the light: the LED's rise and fall, and flicker of the surroundings' lamps."""
 
 import math
 from dataclasses import replace
@@ -17,12 +17,12 @@ from occ_model.transmitter.waveform import EdgedWaveform
 
 
 class LedEdges(LightEffect):
-    """The light follows the chips as their running mean over the edge time tau.
+    """The light is the running mean of the chips over the edge time tau.
 
-    A change of chip becomes a ramp of length tau: (1/tau) of the chips' integral over the last tau.
-    The running integral of that has a closed form in turn, for any tau: see
-    :class:`.EdgedWaveform`. As the rise and the fall take equally long, the mean light stays what
-    it was; where tau is longer than a chip, single chips no longer reach full light.
+    Each change becomes a ramp of length tau: the light is the chips' integral over the last tau,
+    divided by tau. Its own integral has a closed form for any tau; see :class:`.EdgedWaveform`.
+    Rise and fall take equally long, so that the mean light does not change. If tau is longer than a
+    chip, single chips no longer reach full light.
     """
 
     name = "led-edges"
@@ -36,11 +36,11 @@ class LedEdges(LightEffect):
     def apply(self, scene: Scene, light: ColumnLight) -> ColumnLight:
         if not self.is_present(scene):
             return light
-        return replace(light, lit=edged_lit_fraction(scene))
+        return replace(light, lit=lit_fraction_with_edges(scene))
 
 
 @lru_cache(maxsize=4)
-def edged_lit_fraction(scene: Scene) -> FloatArray:
+def lit_fraction_with_edges(scene: Scene) -> FloatArray:
     """Return the mean light in each column's exposure, 1 being the panel fully lit."""
     frequency = Fraction(scene.transmitter.switching_frequency)
     exposure = Fraction(scene.camera.exposure_time) * frequency
@@ -61,8 +61,7 @@ class Flicker(LightEffect):
     """The external illuminance is E_v (1 + m cos(2 pi F x + phi)) at the time x.
 
     Its mean over an exposure [x, x + t] is E_v (1 + m sinc(F t) cos(2 pi F (x + t/2) + phi)) with
-    sinc(y) = sin(pi y) / (pi y): the exposure is a moving average, and that is its frequency
-    response.
+    sinc(y) = sin(pi y) / (pi y), the frequency response of an exposure as a moving average.
     """
 
     name = "flicker"
@@ -71,16 +70,16 @@ class Flicker(LightEffect):
     cost = Cost(picture=0.12e-3)
 
     def is_present(self, scene: Scene) -> bool:
-        return seen_depth(scene) != 0.0
+        return depth_in_exposure(scene) != 0.0
 
     def apply(self, scene: Scene, light: ColumnLight) -> ColumnLight:
         return replace(light, ambient=light.ambient * ambient_fractions(scene))
 
 
-def seen_depth(scene: Scene) -> float:
-    """Return the flicker's depth in the mean light of an exposure."""
+def depth_in_exposure(scene: Scene) -> float:
+    """Return the depth of the flicker that is left after averaging over an exposure."""
     depth = scene.surroundings.flicker_depth
-    return depth * abs(response(scene)) if depth else 0.0
+    return depth * abs(exposure_response(scene)) if depth else 0.0
 
 
 @lru_cache(maxsize=4)
@@ -89,15 +88,15 @@ def ambient_fractions(scene: Scene) -> FloatArray:
     surroundings, exposure = scene.surroundings, Fraction(scene.camera.exposure_time)
     cycles = cycle_phases(scene, surroundings.flicker_frequency, exposure / 2)
     swing = np.cos(2.0 * math.pi * cycles + surroundings.flicker_phase)
-    found = np.asarray(1.0 + surroundings.flicker_depth * response(scene) * swing)
+    found = np.asarray(1.0 + surroundings.flicker_depth * exposure_response(scene) * swing)
     found.flags.writeable = False
     return found
 
 
-def response(scene: Scene) -> float:
-    """Return sinc(F t), the fraction of the flicker that an exposure leaves.
+def exposure_response(scene: Scene) -> float:
+    """Return sinc(F t), the fraction of the flicker's depth that is left after an exposure.
 
-    Whole cycles are subtracted before the sine, so that it is exactly 0 for a whole number of them.
+    Whole cycles are subtracted before the sine, so that a whole number of them gives exactly 0.
     """
     cycles = Fraction(scene.surroundings.flicker_frequency) * Fraction(scene.camera.exposure_time)
     whole = round(cycles)

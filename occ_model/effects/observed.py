@@ -1,4 +1,4 @@
-"""The observable of a sample of pixels, and its changes without some of the effects."""
+"""The observable of a sample of pixels, and its change without some of the effects."""
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -8,17 +8,17 @@ import numpy as np
 from occ_model.arrays import FloatArray
 
 LIMIT_ALLOWANCE = 1.3
-"""Factor from the change that a sample shows to its limit, which keeps a plan's promise."""
+"""Factor from the change in the sample to its upper bound, so that a plan's error stays below."""
 
 _SURE_DEVIATIONS = 3.5
-"""Standard deviations by which the root mean square of finite noise may exceed its expectation."""
+"""Standard deviations by which the RMS of a finite number of noise values may exceed its mean."""
 
 
-class Observed:
-    """The observable of a sample, and its changes without some of the effects.
+class SampledObservable:
+    """The observable of a sample, and its change without some of the effects.
 
-    What is the same in every picture adds with its sign; what noise and a file's rounding change is
-    independent, and its mean squares add.
+    Changes that are the same in every picture add with their signs. Those by noise and by a file's
+    rounding are independent, so that their mean squares add.
     """
 
     def __init__(
@@ -27,53 +27,53 @@ class Observed:
         seen: Callable[[Sequence[frozenset[str]]], FloatArray],
         changing: Sequence[str],
     ) -> None:
-        """Observe all effects, and without each that changes the observable.
+        """Observe the sample with all effects, and without each of ``changing``.
 
-        ``seen`` returns values times the roots of their weights, (sets, values), for sets of
-        effects.
+        ``seen`` maps sets of effects to the observed values times the square roots of their
+        weights, (sets, values).
         """
         self._names = names
         self._seen = seen
         self._place = {name: at for at, name in enumerate(changing)}
         self.alone: dict[str, float] = {}
-        """Mean square of the independent part of an effect's change."""
+        """Mean square of the independent part of each effect's change."""
         self.doubt: dict[str, float] = {}
-        """Mean square of what the sample may not show of an effect."""
+        """Mean square of a change by each effect that the sample may have missed."""
         self.known: dict[str, float] = {}
-        """Factor on the root of ``alone`` for the largest change, where its law is known."""
-        self.unsure = 0.0  # fraction by which any mean square may be larger
+        """Factor from the root of ``alone`` to its upper bound, for changes of a known law."""
+        self.unsure = 0.0  # relative amount by which any mean square may be larger
         found = seen([names, *(names - {name} for name in changing)])
         self.complete = found[0]
         self._moved = moved = found[1:] - found[0]
         self._products = moved @ moved.T
 
     def add_noise(self, squares: Mapping[str, float], values: int) -> None:
-        """Add the mean squares of noise whose law is known, over so many independent values.
+        """Add noise of a known law, by mean squares over a number of independent ``values``.
 
-        The root mean square of n normal numbers deviates by 1 / sqrt(2 n) of theirs.
+        The RMS of n normal numbers has a relative standard deviation of 1 / sqrt(2 n).
         """
         self.alone.update(squares)
         self.known.update(dict.fromkeys(squares, 1.0 + _SURE_DEVIATIONS / math.sqrt(2.0 * values)))
 
     def add_doubt(self, names: Iterable[str], square: float) -> None:
-        """Add a mean square that the sample may not show, to some effects."""
+        """Add a mean square that the sample may have missed, for each of some effects."""
         for name in names:
             self.doubt[name] = self.doubt.get(name, 0.0) + square
 
-    def shown(self, name: str) -> float:
-        """Return the mean square of an effect's change, as the sample shows it."""
+    def sampled_square(self, name: str) -> float:
+        """Return the mean square of the sample's change without an effect."""
         place = self._place.get(name)
         square = 0.0 if place is None else float(self._products[place, place])
         return max(square + self.alone.get(name, 0.0), 0.0)
 
     def sampling_error(self, name: str, values: int) -> float:
-        """Return the standard error of :meth:`shown` where the sample is a part of ``values``."""
+        """Return the standard error of :meth:`sampled_square` as a mean over ``values``."""
         squares = self._moved[self._place[name]] ** 2
         left = max(1.0 - len(squares) / values, 0.0)
         return math.sqrt(left * float((squares**2).sum()))
 
-    def together(self, sets: Sequence[frozenset[str]]) -> FloatArray:
-        """Return the largest mean squares of changes by leaving out sets of effects."""
+    def largest_squares(self, sets: Sequence[frozenset[str]]) -> FloatArray:
+        """Return upper bounds of the mean square changes without each set of effects."""
         moved = [
             [self._place[name] for name in left_out if name in self._place] for left_out in sets
         ]
@@ -84,10 +84,10 @@ class Observed:
             squares[several] = np.einsum("sv,sv->s", changes, changes)
         names = sorted(self._names)
         members = np.array([[float(name in left_out) for name in names] for left_out in sets])
-        return self._most(names, members, squares)
+        return self._add_allowances(names, members, squares)
 
-    def of_subsets(self, names: Sequence[str], members: FloatArray) -> FloatArray:
-        """Return about :meth:`together` for many sets of effects, as if their changes added.
+    def largest_squares_if_added(self, names: Sequence[str], members: FloatArray) -> FloatArray:
+        """Approximate :meth:`largest_squares` for many sets, as if changes added.
 
         ``members``: 1 where a set has an effect, shape (sets, effects).
         """
@@ -95,14 +95,16 @@ class Observed:
         places = [self._place[names[at]] for at in moving]
         moved = members[:, moving]
         squares = ((moved @ self._products[np.ix_(places, places)]) * moved).sum(axis=1)
-        return self._most(names, members, squares)
+        return self._add_allowances(names, members, squares)
 
-    def _most(self, names: Sequence[str], members: FloatArray, squares: FloatArray) -> FloatArray:
-        """Add to mean squares the independent and the doubtful ones, with the allowances."""
+    def _add_allowances(
+        self, names: Sequence[str], members: FloatArray, squares: FloatArray
+    ) -> FloatArray:
+        """Add the independent and the doubtful changes to mean squares, with the allowances."""
         alone = np.array([self.alone.get(name, 0.0) for name in names])
         known = np.array([self.known.get(name, 0.0) for name in names])
         doubt = np.array([self.doubt.get(name, 0.0) for name in names])
-        # Sums along rows, which are the same for one set and for many: a product's need not be.
+        # A sum along rows is the same for one set and for many, which a matrix product need not be.
         sure = squares + (members * np.where(known, 0.0, alone)).sum(axis=1)
         most = np.maximum(sure, 0.0) * (1.0 + self.unsure)
         most += (members * doubt).max(axis=1, initial=0.0)

@@ -1,4 +1,4 @@
-"""Effects of angle and focus: bundled emission, vignetting, defocus."""
+"""Effects of angle and focus: directed emission, vignetting, defocus."""
 
 import math
 from dataclasses import replace
@@ -16,10 +16,10 @@ from occ_model.scene.scene import Scene
 class Emission(OpticsEffect):
     """The panel's intensity falls as cos^m of the angle to its normal.
 
-    Its luminance, the intensity over the area that is seen, falls as cos^(m - 1): a Lambertian
+    Its luminance, the intensity divided by the visible area, falls as cos^(m - 1): a Lambertian
     panel, m = 1, is equally bright from all sides (J. M. Kahn and J. R. Barry, "Wireless infrared
-    communications", Proc. IEEE 85, 1997, for the generalized Lambertian source). External
-    light that the panel reflects is not changed.
+    communications", Proc. IEEE 85, 1997, for the generalized Lambertian source). External light
+    that the panel reflects does not change.
     """
 
     name = "emission"
@@ -58,11 +58,11 @@ def _cosine(normal: FloatArray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
 
 
 class Vignetting(OpticsEffect):
-    """The light at a pixel falls as cos^n of its angle off the optical axis.
+    """The light at a pixel falls as cos^n of its angle to the optical axis.
 
-    n = 4 is the natural fall-off of a thin lens that keeps straight lines straight (W. J. Smith,
-    *Modern Optical Engineering*); lenses corrected for it have less. On the axis nothing
-    is lost. The angle is that of a lens without distortion.
+    n = 4 is the natural fall-off of a thin lens without distortion (W. J. Smith, *Modern Optical
+    Engineering*); lenses corrected for it have less. On the axis nothing is lost. The angle is
+    taken as that of a lens without distortion.
     """
 
     name = "vignetting"
@@ -88,18 +88,18 @@ class Vignetting(OpticsEffect):
 
 
 _LARGEST_SPREAD = 1e12
-"""Largest point spread in pixels: any larger one leaves nothing of any panel either."""
+"""Largest point spread in pixels; it already blurs any panel away."""
 
 
 class Defocus(OpticsEffect):
-    """A Gaussian point spread: the lens's own spot, and the circle of confusion out of focus.
+    """A Gaussian point spread: the lens's own spot, and the circle of confusion when out of focus.
 
-    A point at the distance d makes a disc of diameter c = f^2 / N |1/d_f - 1/d| on the sensor of a
-    lens of focal length f that is focused on d_f, for d and d_f far beyond f (S. F. Ray, *Applied
-    Photographic Optics*). A disc of diameter c has the standard deviation c / 4 along each axis;
-    both spots' variances add. Inside an evenly bright panel a pixel receives as much light from its
-    neighbours as it loses to them: the lens softens the panel's rim. The stripes are made by the
-    shutter, behind the lens, and stay sharp.
+    A lens of focal length f and f-number N, focused at d_f, images a point at the distance d as a
+    disc of diameter c = f^2 / N |1/d_f - 1/d|, for d and d_f far beyond f (S. F. Ray, *Applied
+    Photographic Optics*). A disc of diameter c has the standard deviation c / 4 along each axis,
+    and the variances of disc and spot add. Inside an evenly bright panel a pixel receives as much
+    light from its neighbours as it loses to them, so that only the panel's rim softens. The shutter
+    makes the stripes behind the lens, and they stay sharp.
     """
 
     name = "defocus"

@@ -1,6 +1,6 @@
-"""The paper's view of a scene: where the panel is seen and how bright, without any effect.
+"""A scene as the paper models it, without any effect: where the panel is, and how bright.
 
-A simulation starts from it, and so does the estimate of what each effect changes.
+Simulations start from it, and so do the estimates of what each effect changes.
 """
 
 import math
@@ -24,10 +24,10 @@ from occ_model.scene.scene import Scene
 
 @dataclass(frozen=True, slots=True)
 class PaperView:
-    """The picture of a scene by the paper's model; all follows from the scene and the corners."""
+    """The picture of a scene by the paper's model; it follows from the scene and the corners."""
 
     scene: Scene
-    corner_bytes: bytes  # The corners' numbers, by which views are compared
+    corner_bytes: bytes  # The corners as bytes, by which views are compared
     corners: FloatArray = field(compare=False)  # (column, row) of each of the panel's four
 
     light: ColumnLight = field(compare=False)
@@ -35,15 +35,15 @@ class PaperView:
     """Pixel value of each column on the panel before saturation."""
 
     sides: tuple[float, float, float, float] | None = field(compare=False)
-    """Left, top, right and bottom of a panel that is pictured level, None of any other."""
+    """Left, top, right and bottom of a panel whose image is an upright rectangle, else None."""
 
-    is_seen: bool = field(compare=False)  # Whether any of the panel is in the image
+    is_seen: bool = field(compare=False)  # Whether any part of the panel is in the image
 
     region: Region = field(compare=False)
-    """The panel's bounding rectangle in the image; the whole image where no panel is seen."""
+    """The panel's bounding rectangle in the image; the whole image if no panel is in it."""
 
     swing: float = field(compare=False)
-    """Largest less smallest column value, at least one grey level."""
+    """Largest minus smallest column value, at least one grey level."""
 
 
 def paper_view_of(
@@ -51,7 +51,7 @@ def paper_view_of(
 ) -> PaperView:
     """Compute the paper's view of a scene: one projection and one exposure.
 
-    ``stage_ended`` is called with the name of each stage that has just ended.
+    ``stage_ended`` is called with the name of each stage at its end.
     """
     corners = panel_corners(scene)
     corner_bytes = corners.tobytes()
@@ -84,7 +84,7 @@ class _Outline:
 
 @lru_cache(maxsize=16)
 def _outline_of(corners: bytes, rows: int, columns: int) -> _Outline:
-    """Return what follows from the corners, cached while pose and lens stay."""
+    """Return what follows from the corners alone, cached while pose and lens stay."""
     places = np.frombuffer(corners).reshape(-1, 2)
     seen = region_of(places, rows, columns)
     region = seen or Region(0, rows, 0, columns)
@@ -101,14 +101,14 @@ def _sides(corners: FloatArray) -> tuple[float, float, float, float] | None:
 
 
 def region_of(corners: FloatArray, rows: int, columns: int) -> Region | None:
-    """Return the bounding rectangle in the image of (column, row) corners, None without one."""
+    """Return the bounding rectangle in the image of (column, row) corners, None if it is empty."""
     across, down = corners.T.tolist()
-    left, right = (_first_from(end(across), columns) for end in (min, max))
-    top, bottom = (_first_from(end(down), rows) for end in (min, max))
+    left, right = (_first_pixel(end(across), columns) for end in (min, max))
+    top, bottom = (_first_pixel(end(down), rows) for end in (min, max))
     if left >= right or top >= bottom:
         return None
     return Region(top, bottom, left, right)
 
 
-def _first_from(place: float, size: int) -> int:
+def _first_pixel(place: float, size: int) -> int:
     return math.ceil(min(max(place, 0.0), float(size)))

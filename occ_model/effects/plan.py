@@ -10,7 +10,7 @@ from occ_model.effects.effect_sets import EffectSets
 from occ_model.effects.estimates import Estimates, estimates_of
 from occ_model.effects.paper_view import PaperView, paper_view_of
 from occ_model.effects.registry import EFFECTS, NAMES
-from occ_model.results.plan import Decision, Plan, Way
+from occ_model.results.plan import Decision, EffectSet, Plan
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import (
     TOLERANCE,
@@ -22,9 +22,9 @@ from occ_model.scene.simulation_settings import (
 from occ_model.scene.units import NONE
 
 _ROUNDING_FACTOR = 1.0 + 1e-9
-"""Factor on an error in comparisons with one whose sums were rounded otherwise."""
+"""Allowance when errors are compared whose sums were rounded differently."""
 
-_CLEAR_RATIO = 1.3  # ratio of limit to estimate from which both are stated
+_CLEAR_RATIO = 1.3  # ratio of limit to estimate above which the reason states both
 
 
 def plan(
@@ -35,27 +35,28 @@ def plan(
 ) -> Plan:
     """Decide which effects are simulated.
 
-    Of all sets of effects whose absence changes what is observed by no more than the tolerance, the
-    one is simulated that takes the least time. Changes are estimated from a sample of the pixels,
-    with an allowance. Estimates and tolerance are counted in levels of the stretched profile, grey
-    levels times 255 / swing: what a decoder sees is contrast. The swing is that of the profile, and
-    for the signal that of the enhanced profile.
+    The plan leaves out the effects that save most time, as long as the observable changes by no
+    more than the tolerance. Changes are estimated from a sample of the pixels, with an allowance.
+    Estimates and tolerance are in levels of the stretched profile, which are grey levels times 255
+    / swing, since a decoder depends on contrast. The swing is that of the profile, or of the
+    enhanced profile for the signal.
 
     Parameters
     ----------
     scene
         The scene.
     tolerance
-        Root mean square in levels of the stretched profile. 0: every effect that is not exactly
-        nothing; infinity: none, the paper's model.
+        Root mean square in levels of the stretched profile. 0 includes every effect that is not
+        exactly nothing; infinity includes none, which is the paper's model.
     observable
         ``"image"``: the camera's pixels of the panel's bounding rectangle; ``"profile"``: the means
         of its columns; ``"signal"``: the means of its columns after the receiver's contrast
-        enhancement, which is what a decoder reads; ``"decision"``: the code that is read by a
-        threshold. The tolerance is then a fraction of the chips' margin from it.
+        enhancement, which is what a decoder reads; ``"decision"``: the code that a threshold
+        decoder reads. For the decision, the tolerance is a fraction of the chips' margin from the
+        threshold.
     force
-        Effects that are always simulated (True) or left out (False). The tolerance does not cover
-        what is left out by hand.
+        Effects that are always simulated (True) or always left out (False). The tolerance does not
+        cover the effects that are left out here.
 
     Returns
     -------
@@ -64,7 +65,7 @@ def plan(
     Raises
     ------
     ParameterError
-        The tolerance is negative or no number, or there is no such observable or effect.
+        The tolerance is negative or not a number, or there is no such observable or effect.
     ProjectionError
         Part of the panel is behind the camera.
     """
@@ -77,11 +78,11 @@ def plan_with(scene: Scene, settings: SimulationSettings) -> Plan:
     return plan_of(paper_view_of(scene), settings)
 
 
-def called_for_by_signal(chosen: Plan, scene: Scene) -> tuple[str, ...]:
-    """Name the effects that a plan leaves out and one for the signal includes.
+def name_effects_for_signal(chosen: Plan, scene: Scene) -> tuple[str, ...]:
+    """Name the effects that a plan leaves out, although a plan for the signal includes them.
 
-    A picture planned for its pixels, with a large tolerance, may so be decoded otherwise than in a
-    study, which plans for the signal. Effects switched by hand are so in both.
+    Without them, a picture planned for its pixels may be decoded differently than in a study, which
+    plans for the signal. Effects that the user has switched are the same in both plans.
     """
     left_out = {d.effect for d in chosen.decisions if d.estimate and not (d.included or d.forced)}
     if not left_out or chosen.observable == "signal" or chosen.tolerance == math.inf:
@@ -95,8 +96,8 @@ def plan_of(view: PaperView, settings: SimulationSettings) -> Plan:
     """Decide which effects are simulated, from a view of a scene and checked settings."""
     sets = _sets_of(view, settings)
     estimates = sets.estimates
-    way, error = sets.chosen(settings.tolerance)
-    left_out = sets.names - way.effects
+    effect_set, error = sets.choose(settings.tolerance)
+    left_out = sets.names - effect_set.effects
     decisions = tuple(_decide(effect, estimates, left_out, settings) for effect in EFFECTS)
     return Plan(
         tolerance=settings.tolerance,
@@ -104,20 +105,21 @@ def plan_of(view: PaperView, settings: SimulationSettings) -> Plan:
         decisions=decisions,
         left_out=0.0 if settings.tolerance == math.inf else error,
         stretch=estimates.stretch,
-        saved=sets.everything - way.seconds,
-        ways=sets.ways,
+        saved=sets.complete_seconds - effect_set.seconds,
+        effect_sets=sets.effect_sets,
     )
 
 
 def complete_plan(scene: Scene, settings: SimulationSettings) -> Plan:
-    """Include every effect of a scene but those switched off by hand, without any estimate."""
+    """Include every effect of a scene that is not switched off, without estimates."""
     decisions = tuple(
-        _take_in(effect, scene, settings.force.get(effect.name)) for effect in EFFECTS
+        _decide_without_estimate(effect, scene, settings.force.get(effect.name))
+        for effect in EFFECTS
     )
     return Plan(0.0, settings.observable, decisions, left_out=0.0, stretch=math.nan)
 
 
-def _take_in(effect: Effect, scene: Scene, by_hand: bool | None) -> Decision:
+def _decide_without_estimate(effect: Effect, scene: Scene, by_hand: bool | None) -> Decision:
     is_present = effect.is_present(scene)
     included = is_present if by_hand is None else by_hand
     estimate = math.inf if is_present else 0.0
@@ -134,10 +136,10 @@ def _take_in(effect: Effect, scene: Scene, by_hand: bool | None) -> Decision:
 def signal_plan(
     scenes: Sequence[Scene], settings: SimulationSettings, *, needs_pixels: bool
 ) -> Plan:
-    """Decide on the effects of pictures for decoders, which differ in phase and code alone.
+    """Plan pictures for decoders, which differ only in phase and code.
 
-    Where pixels are simulated, those that the signal of any of them calls for. Without pixels all
-    effects take less time than estimating what they change.
+    If pixels are simulated, the plan includes the effects that the signal of any picture needs. If
+    not, simulating all effects takes less time than estimating what they change.
     """
     own = replace(settings, observable="signal").checked(NAMES)
     complete = complete_plan(scenes[0], own)
@@ -147,13 +149,13 @@ def signal_plan(
 
 
 def plan_of_any(views: Sequence[PaperView], settings: SimulationSettings) -> Plan:
-    """Decide which effects are simulated in several pictures: those that any of them calls for."""
+    """Plan several pictures at once: include the effects that any of them needs."""
     present = {e.name for e in EFFECTS if any(e.is_present(view.scene) for view in views)}
     present -= {name for name, is_on in settings.force.items() if not is_on}
     chosen = plan_of(views[0], settings)
     for view in views[1:]:
         if present <= set(chosen.included):
-            break  # none can call for more
+            break  # no other picture can need more
         other = plan_of(view, settings)
         pairs = zip(chosen.decisions, other.decisions, strict=True)
         decisions = tuple(max(pair, key=lambda d: (d.included, d.estimate)) for pair in pairs)
@@ -162,26 +164,28 @@ def plan_of_any(views: Sequence[PaperView], settings: SimulationSettings) -> Pla
     return chosen
 
 
-def ways_of(scene: Scene, settings: SimulationSettings) -> tuple[Way, ...]:
-    """Return the sets of effects that a plan chooses among, the fastest first.
+def effect_sets_of(scene: Scene, settings: SimulationSettings) -> tuple[EffectSet, ...]:
+    """Return the sets of effects among which a plan chooses, fastest first.
 
-    The error of each is the least tolerance at which it is chosen; no two are the same.
+    The error of each is the smallest tolerance at which it is chosen; no two are equal.
     """
     sets = _sets_of(paper_view_of(scene), settings.checked(NAMES))
-    found: list[Way] = []
-    for way, error in zip(sets.ways, sets.errors_of(sets.ways), strict=True):
+    found: list[EffectSet] = []
+    for effect_set, error in zip(sets.effect_sets, sets.errors_of(sets.effect_sets), strict=True):
         if error < (found[-1].error if found else math.inf):
-            found.append(Way(way.effects, way.seconds, error * _ROUNDING_FACTOR))
+            found.append(
+                EffectSet(effect_set.effects, effect_set.seconds, error * _ROUNDING_FACTOR)
+            )
     return tuple(found)
 
 
 def _sets_of(view: PaperView, settings: SimulationSettings) -> EffectSets:
     force = tuple(sorted(settings.force.items()))
-    return _known_sets(view, settings.observable, force, settings.noise)
+    return _cached_sets(view, settings.observable, force, settings.noise)
 
 
-@lru_cache(maxsize=4)  # a picture, its forecast and its reading ask the same
-def _known_sets(
+@lru_cache(maxsize=4)  # a picture, its forecast and its decoding ask for the same sets
+def _cached_sets(
     view: PaperView,
     observable: Observable,
     force: tuple[tuple[str, bool], ...],

@@ -30,16 +30,16 @@ NAMES: tuple[str, ...] = tuple(effect.name for effect in EFFECTS)
 _Kind = TypeVar("_Kind", bound=Effect)
 
 
-def planned(plan: Plan, kind: type[_Kind]) -> tuple[_Kind, ...]:
-    """Return the planned effects of a kind, in order."""
-    return named(plan.included, kind)
+def effects_planned(plan: Plan, kind: type[_Kind]) -> tuple[_Kind, ...]:
+    """Return the effects of a kind that a plan includes, in order."""
+    return effects_named(plan.included, kind)
 
 
-def named(names: Collection[str], kind: type[_Kind]) -> tuple[_Kind, ...]:
+def effects_named(names: Collection[str], kind: type[_Kind]) -> tuple[_Kind, ...]:
     """Return the effects of a kind with these names, in order."""
-    return tuple(effect for effect in _of_kind(kind) if effect.name in names)
+    return tuple(effect for effect in _effects_of_kind(kind) if effect.name in names)
 
 
 @lru_cache(maxsize=16)
-def _of_kind(kind: type[_Kind]) -> tuple[_Kind, ...]:
+def _effects_of_kind(kind: type[_Kind]) -> tuple[_Kind, ...]:
     return tuple(effect for effect in EFFECTS if isinstance(effect, kind))

@@ -1,4 +1,4 @@
-"""The panel's rims in a sample of the pixels, and what effects move there."""
+"""The panel's rims in a sample of the pixels, and how effects move them."""
 
 from functools import cached_property
 
@@ -6,15 +6,15 @@ import numpy as np
 
 from occ_model.arrays import FloatArray
 from occ_model.effects.paper_view import PaperView
-from occ_model.effects.sample import Sample
+from occ_model.effects.sample import PixelSample
 
-_SEEN_FRACTION = 0.003  # change of a pixel's light from beyond a rim that can round it otherwise
+_SEEN_FRACTION = 0.003  # smallest change of the panel's fraction that can change a pixel's level
 
 
 class Rims:
-    """The rims of a scene's panel. A panel that covers all of the picture has none."""
+    """The rims of a scene's panel; a panel that covers the whole picture has none."""
 
-    def __init__(self, view: PaperView, sample: Sample) -> None:
+    def __init__(self, view: PaperView, sample: PixelSample) -> None:
         self._region, self._camera = view.region, view.scene.camera
         self.is_level = view.sides is not None
         self._sample = sample
@@ -22,20 +22,23 @@ class Rims:
 
     @property
     def blocks(self) -> int:
-        """Number of a file's blocks that the panel spans in a column."""
+        """Number of a file's blocks that the panel touches in a column."""
         return -(-self._region.last_row // 8) - self._region.first_row // 8
 
     @property
     def cut(self) -> float:
-        """Variance of a column's sum over the rows of cut blocks, whose mean is 0, by a pixel's."""
+        """Variance of a column's sum over the panel's rows in cut blocks, relative to a pixel's.
+
+        Over the rows of a whole block the rounding errors add to 0.
+        """
         ends = self._region.first_row % 8, self._region.last_row % 8
         return sum(rows * (8 - rows) / 8.0 for rows in ends)
 
     @cached_property
     def fractions(self) -> tuple[float, float]:
-        """Fractions of pixels in blocks of a file with rims along the rows, and upright ones.
+        """Fractions of the pixels in blocks at a rim along the rows, and at an upright rim.
 
-        A turned rim is both.
+        A slanting rim counts as both.
         """
         region, camera = self._region, self._camera
         if self._sample.is_covered:
@@ -48,20 +51,20 @@ class Rims:
 
     @property
     def fraction(self) -> float:
-        """The fraction of the pixels in a file's blocks with any rim."""
+        """The fraction of the pixels in blocks at any rim."""
         return min(1.0, sum(self.fractions))
 
-    def _moved(self, name: str) -> FloatArray | None:
-        """Return an effect's change of the panel's fraction of each pixel, None for none."""
+    def _cover_change(self, name: str) -> FloatArray | None:
+        """Return how an effect changes the panel's fraction of each pixel; None if it does not."""
         covers, outline = self._sample.covers, self._sample.outline
         whole, without = covers[outline], covers[outline - {name}]
         if whole is without or whole is None or without is None:
             return None
         return whole - without
 
-    def moved(self, name: str) -> float:
-        """Return how many rims of a column, 0 to 2, an effect moves or softens in the mean."""
-        moved, sample = self._moved(name), self._sample
+    def count_moved_rims(self, name: str) -> float:
+        """Return how many rims of a column, 0 to 2, an effect moves or softens on average."""
+        moved, sample = self._cover_change(name), self._sample
         if moved is None:
             return 0.0
         is_seen = np.abs(moved) > _SEEN_FRACTION
@@ -69,13 +72,13 @@ class Rims:
         above, below = is_seen[:, :middle].any(axis=1), is_seen[:, middle:].any(axis=1)
         return float(((above * 1.0 + below) * sample.weights).sum())
 
-    def crossed(self, name: str) -> float:
-        """Return the mean square of the error of a column's fraction of an upright rim.
+    def upright_rim_error(self, name: str) -> float:
+        """Return the mean square error of the fraction of a column that lies inside an upright rim.
 
-        Where an effect moves the rim in some of a column's nodes within the panel and not in the
-        others, the nodes show the fraction of its rows to a third.
+        Where an effect moves the rim across only some of a column's nodes, these give the fraction
+        of its rows to within a third.
         """
-        moved = self._moved(name)
+        moved = self._cover_change(name)
         if moved is None:
             return 0.0
         spans = np.ptp(moved[:, self._sample.inner], axis=1)

@@ -1,8 +1,8 @@
-"""A sample of a scene's pixels: where they lie, and how the lens changes them.
+"""A sample of a scene's pixels: where they are, and how the lens changes them.
 
-The sample is small enough to be computed with each of the effects and without it, while a scene is
-planned. Rows are taken by quadrature: the light changes smoothly between the panel's rims. The
-rims, where an outline moves or is blurred, have nodes of their own.
+The sample is small, so that a plan can compute it with and without each effect. Its rows are the
+nodes of a quadrature, as the light changes smoothly between the panel's rims. Rims that an effect
+moves or blurs have nodes of their own.
 """
 
 import math
@@ -18,16 +18,16 @@ from occ_model.effects.cover import (
     NEGLIGIBLE_BLUR,
     STEEP_SLOPE,
     Spans,
-    between,
     covers_of,
-    sets_of,
+    pixel_boundary,
     spans_of,
+    subsets_of,
 )
 from occ_model.results.decoding import Region
 
-COLUMNS = 192  # most columns of a sample of a large picture
-_ALL_COLUMNS = 288  # most columns that are sampled one and all: of so few, each can matter
-_REACH = 3.5  # standard deviations from a blurred rim that its nodes cover
+COLUMNS = 192  # most columns of a sample of a wide picture
+_ALL_COLUMNS = 288  # widest region of which all columns are sampled, since each can matter
+_REACH = 3.5  # distance from a blurred rim, in standard deviations, that its nodes cover
 
 _GAUSS, _GAUSS_WEIGHTS = (
     (np.polynomial.legendre.leggauss(4)[0] + 1.0) / 2.0,
@@ -35,40 +35,41 @@ _GAUSS, _GAUSS_WEIGHTS = (
 )
 
 _MOVED_NODES, _BLURRED_NODES = 2, 3
-"""Nodes where an outline moves, and on each side of it where it is blurred."""
+"""Nodes across a rim that moves, and on each side of a blurred rim."""
 
 _BESIDE_NODES = 3  # nodes above and below the panel
 _SIDE_NODES = 32  # columns across an upright rim
-_RIM_COLUMNS = 33  # columns in which a panel is to reach beyond the picture for no rim to be seen
-_GAIN_ROWS = 9  # rows in which a gain is computed; between them it is interpolated
+_RIM_COLUMNS = 33  # columns at which to check whether the panel reaches beyond the picture
+_GAIN_ROWS = 9  # rows at which a gain is computed; it is interpolated between them
 
 
 @dataclass(frozen=True, eq=False)
-class Sample:
+class PixelSample:
     """The pixels of a sample: rows in each of some columns."""
 
     columns: IndexArray
-    weights: FloatArray  # Fraction of the region's columns that each stands for; their sum is 1
-    rows: FloatArray  # Those that are sampled in each column, (columns, nodes), as all that follows
+    weights: FloatArray  # Fraction of the region's columns for which each stands; their sum is 1
+    rows: FloatArray  # In each column, shape (columns, nodes), as of all arrays below
 
     row_weights: FloatArray
-    """Fraction of the region's rows by which each is weighted; their sum is 1 in each column."""
+    """Fraction of the region's rows for which each stands; their sum is 1 in each column."""
 
     covers: Mapping[frozenset[str], FloatArray | None]
-    """The panel's fraction of each pixel's light, by the effects on the outline that are simulated.
+    """The panel's fraction of each pixel's light, for each set of simulated effects on the outline.
 
     None where it is 1 everywhere."""
 
-    emission: Mapping[str, FloatArray]  # Factors of the panel's light, by the effect
-    transmission: Mapping[str, FloatArray]  # Factors of all light
+    emission: Mapping[str, FloatArray]  # Factors of the panel's light, by effect
+    transmission: Mapping[str, FloatArray]  # Factors of all light, by effect
     inner: slice  # The nodes between the panel's rims
 
     is_covered: bool
-    """Whether the panel covers all that is observed, with any of the effects: no rim is seen."""
+    """Whether the panel covers the whole region under any of the effects, so that it shows no
+    rim."""
 
     @cached_property
     def blocks(self) -> IndexArray:
-        """The places in ``columns`` of whole blocks of a file, shape (blocks, 8)."""
+        """Indices into ``columns`` of a file's whole blocks, shape (blocks, 8)."""
         ordered = np.argsort(self.columns, kind="stable")
         column = self.columns[ordered]
         starts = np.flatnonzero(column[: max(len(column) - 7, 0)] % 8 == 0)
@@ -77,7 +78,7 @@ class Sample:
 
     @cached_property
     def outline(self) -> frozenset[str]:
-        """The effects that move or soften the rims of the panel."""
+        """The effects that move or blur the panel's rims."""
         return max(self.covers, key=len)
 
     @property
@@ -92,13 +93,13 @@ class Sample:
         return self.weights[:, None] * self.row_weights
 
 
-def sample_of(
+def choose_sample(
     region: Region, level: bool, optics: Mapping[str, Optics], plain: Optics, in_blocks: bool
-) -> Sample:
-    """Choose the pixels of a sample in the observed region, which a level panel fills.
+) -> PixelSample:
+    """Sample the pixels of the observed region, which a ``level`` panel fills.
 
-    ``optics``: the ``plain`` ones with each effect alone. ``in_blocks``: columns are taken
-    by whole blocks of a file.
+    ``optics`` are those with each effect alone, ``plain`` those without any. With ``in_blocks``,
+    the columns are whole blocks of a file.
     """
     moved = {name: own.outline for name, own in optics.items() if own.outline is not plain.outline}
     blurs = {name: own.blur for name, own in optics.items() if own.blur > NEGLIGIBLE_BLUR}
@@ -118,27 +119,27 @@ def sample_of(
     outlines = [plain.outline, *moved.values()]
     blur = max(blurs.values(), default=0.0)
     if (outlines[1:] or blur) and not few:
-        columns, weights = _with_side_rims(columns, region, outlines, blur)
+        columns, weights = _add_side_columns(columns, region, outlines, blur)
     covered = _is_covered(region, outlines, blur)
     if covered or (level and not (moved or blur)):
         low, high = np.full(len(columns), region.first_row - 0.5), region.last_row - 0.5
         rows = low[:, None] + (high - low)[:, None] * _GAUSS
         row_weights = np.broadcast_to(_GAUSS_WEIGHTS, rows.shape).copy()
         first = 0
-        covers = dict.fromkeys(sets_of([*moved, *blurs]))
+        covers = dict.fromkeys(subsets_of([*moved, *blurs]))
     else:
         spans = [spans_of(outline, columns, 0) for outline in outlines]
-        rows, row_weights, first = _row_nodes(region, spans, bool(moved or blur), blur)
+        rows, row_weights, first = _choose_rows(region, spans, bool(moved or blur), blur)
         covers = covers_of(columns, rows, moved, blurs, plain)
     places = np.clip(np.rint(columns), region.first_column, region.last_column - 1).astype(np.int64)
     along = slice(int(main[0]), int(main[-1]) + 1, step)
     nearest = np.clip((places - along.start + step // 2) // step, 0, len(main) - 1)
     gains = {
-        name: _gain(own.emission or own.transmission, rows, along, nearest, region)
+        name: _gain_at_sample(own.emission or own.transmission, rows, along, nearest, region)
         for name, own in optics.items()
         if own.emission or own.transmission
     }
-    return Sample(
+    return PixelSample(
         columns=places,
         weights=weights,
         rows=rows,
@@ -152,7 +153,7 @@ def sample_of(
 
 
 def _is_covered(region: Region, outlines: list[FloatArray], blur: float) -> bool:
-    """Return whether each outline encloses a rectangle with all that a blur carries into it."""
+    """Return whether each outline encloses the region and a margin for the blur."""
     reach = _REACH * blur + 1.0
     low, high = region.first_row - reach, region.last_row + reach
     lines = np.linspace(region.first_column - reach, region.last_column + reach, _RIM_COLUMNS)
@@ -163,10 +164,10 @@ def _is_covered(region: Region, outlines: list[FloatArray], blur: float) -> bool
     return True
 
 
-def _with_side_rims(
+def _add_side_columns(
     columns: FloatArray, region: Region, outlines: list[FloatArray], blur: float
 ) -> tuple[FloatArray, FloatArray]:
-    """Add columns across the left and the right rim, where these are upright."""
+    """Add columns across the left and the right rim if these are upright."""
     row = np.linspace(region.first_row, region.last_row - 1, 9)
     spans = [spans_of(outline, row, 1) for outline in outlines]
     low, high = region.first_column - 0.5, region.last_column - 0.5
@@ -174,7 +175,7 @@ def _with_side_rims(
     for side in ("first", "last"):
         upright = [getattr(span, side + "_slope") < STEEP_SLOPE for span in spans]
         ends = [getattr(span, side)[own] for span, own in zip(spans, upright, strict=True)]
-        places = between(np.concatenate(ends))
+        places = pixel_boundary(np.concatenate(ends))
         if not len(places):
             continue
         reach = math.ceil(_REACH * blur)
@@ -183,7 +184,7 @@ def _with_side_rims(
         if not 0.0 < right - left < region.columns / 4.0:
             continue
         kept &= (columns < left) | (columns > right)
-        nodes = np.rint(left + (right - left) * _evenly(_SIDE_NODES)[0])
+        nodes = np.rint(left + (right - left) * _even_nodes(_SIDE_NODES)[0])
         parts.append((nodes, (right - left) / (high - low)))
     fractions = sum(fraction for _, fraction in parts)
     left_over = int(np.count_nonzero(kept))
@@ -194,17 +195,17 @@ def _with_side_rims(
     return np.concatenate([columns[kept], *(nodes for nodes, _ in parts)]), np.concatenate(weights)
 
 
-def _row_nodes(
+def _choose_rows(
     region: Region, spans: list[Spans], rims: bool, blur: float
 ) -> tuple[FloatArray, FloatArray, int]:
-    """Choose the rows in each column: beside the panel, across its rims and, from a place, within.
+    """Choose each column's rows beside the panel, across its rims, and, from an index on, inside.
 
-    Of those that stand for nothing in any column one is kept at each end, as a rim may lie there.
+    Nodes of zero weight in all columns are dropped, except one at each end, where a rim may lie.
     """
     low, high = region.first_row - 0.5, region.last_row - 0.5
     edges: list[FloatArray] = []
     for side in ("first", "last"):
-        places = between(np.stack([getattr(span, side) for span in spans]))
+        places = pixel_boundary(np.stack([getattr(span, side) for span in spans]))
         slopes = np.stack([getattr(span, side + "_slope") for span in spans]).max(axis=0)
         reach = np.ceil(_REACH * blur * np.sqrt(1.0 + np.minimum(slopes, 1e3) ** 2))
         least, most = places.min(axis=0), places.max(axis=0)
@@ -215,9 +216,9 @@ def _row_nodes(
     ends += [np.clip(edge, low, middle) for edge in edges[:half]]
     ends += [np.clip(edge, middle, high) for edge in edges[half:]]
     ends += [np.full(len(middle), high)]
-    moved = _evenly(_MOVED_NODES if rims else 0)
-    across = [_evenly(_BLURRED_NODES), moved, _evenly(_BLURRED_NODES)] if blur else [moved]
-    beside = _evenly(_BESIDE_NODES)
+    moved = _even_nodes(_MOVED_NODES if rims else 0)
+    across = [_even_nodes(_BLURRED_NODES), moved, _even_nodes(_BLURRED_NODES)] if blur else [moved]
+    beside = _even_nodes(_BESIDE_NODES)
     parts = [beside, *across, (_GAUSS, _GAUSS_WEIGHTS), *across, beside]
     rows, weights = [], []
     for (nodes, fractions), start, end in zip(parts, ends[:-1], ends[1:], strict=True):
@@ -233,19 +234,19 @@ def _row_nodes(
     return places[:, needed], fractions[:, needed], int(np.count_nonzero(needed[:first]))
 
 
-def _evenly(count: int) -> tuple[FloatArray, FloatArray]:
-    """Return places from 0 to 1 and their weights."""
+def _even_nodes(count: int) -> tuple[FloatArray, FloatArray]:
+    """Return evenly spaced places between 0 and 1, and their weights."""
     return (np.arange(count) + 0.5) / max(count, 1), np.full(count, 1.0 / max(count, 1))
 
 
-def _gain(
+def _gain_at_sample(
     gains: tuple[Gain, ...],
     rows: FloatArray,
     along: slice,
     nearest: IndexArray,
     region: Region,
 ) -> FloatArray:
-    """Return the product of gains at the pixels of a sample."""
+    """Return the product of gains at the sample's pixels."""
     first, last = float(region.first_row), float(max(region.last_row - 1, region.first_row + 1))
     lines = np.linspace(first, last, _GAIN_ROWS)
     place = np.clip((rows - first) * ((_GAIN_ROWS - 1) / (last - first)), 0.0, _GAIN_ROWS - 1.001)

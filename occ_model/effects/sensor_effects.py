@@ -16,7 +16,7 @@ from occ_model.scene.scene import Scene
 
 
 class FullWell(PixelEffect):
-    """A pixel holds at most its full well of electrons; more light changes nothing.
+    """A pixel holds at most its full well of electrons; more light does not change it.
 
     At low ISO speeds the well is full before the pixel value reaches 255.
     """
@@ -27,7 +27,7 @@ class FullWell(PixelEffect):
     cost = Cost(pixels=0.05e-3)
 
     def is_present(self, scene: Scene) -> bool:
-        """Return whether any column can have more light than a full well holds."""
+        """Return whether any column can get more light than fills the well."""
         dark, bright = luminance_levels(scene)
         most = bright + dark * scene.surroundings.flicker_depth
         return min(float(pixel_value(most, scene.camera)), WHITE) > saturation_value(scene)
@@ -40,8 +40,8 @@ class FullWell(PixelEffect):
 class FixedPattern(NoiseEffect):
     """Photo response non-uniformity: each pixel's gain differs from the mean by a fraction p.
 
-    n electrons become n (1 + p z), z standard normal and the same in every picture that the camera
-    takes (J. R. Janesick, *Photon Transfer*, 2007).
+    n electrons become n (1 + p z), where z is standard normal and the same in every picture of the
+    camera (J. R. Janesick, *Photon Transfer*, 2007).
     """
 
     name = "fixed-pattern"
@@ -61,9 +61,9 @@ class FixedPattern(NoiseEffect):
 class SensorNoise(NoiseEffect):
     """Shot noise, read noise and the converter's rounding.
 
-    A pixel that holds n electrons in the mean varies by n + r^2 + q^2 / 12: the photons' own
-    number, the read noise r and a converter of steps q (J. R. Janesick, *Photon Transfer*, 2007).
-    The distribution is taken as normal, which Poisson's is from some ten electrons on.
+    A pixel with a mean of n electrons has the variance n + r^2 + q^2 / 12, by shot noise, read
+    noise r, and a converter of steps q (J. R. Janesick, *Photon Transfer*, 2007). The distribution
+    is taken as normal, as a Poisson distribution nearly is above some ten electrons.
     """
 
     name = "sensor-noise"
@@ -71,8 +71,8 @@ class SensorNoise(NoiseEffect):
     parameters = ("pixel_pitch", "quantum_efficiency", "read_noise", "adc_bits")
     cost = Cost(pixels=0.4e-3)
 
-    def is_present(self, scene: Scene) -> bool:  # noqa: ARG002 - as light is
-        """Every scene has it: light comes in photons."""
+    def is_present(self, scene: Scene) -> bool:  # noqa: ARG002 - light is always there
+        """Return True, since all light comes in photons."""
         return True
 
     def spread(self, scene: Scene, values: FloatArray) -> FloatArray:

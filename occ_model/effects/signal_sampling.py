@@ -1,4 +1,4 @@
-"""What the mean of few enhanced pixels deviates by, for each effect, estimated from a sample."""
+"""How far the mean of few enhanced pixels deviates without each effect, from a sample."""
 
 import math
 from functools import cached_property
@@ -10,14 +10,15 @@ from occ_model.effects.sampled_pixels import SampledPixels
 from occ_model.effects.smoothed_curves import SmoothedCurves
 
 SURE_DEVIATIONS = 3.5
-"""Standard deviations by which the mean square of few columns may exceed its expectation."""
+"""Standard deviations by which the mean square of few columns may exceed its mean."""
 
 
 class SignalSampling:
-    """The mean square of what a column's mean deviates by where an effect is left out.
+    """The mean square deviation of a column's mean without each effect.
 
-    A pixel that moves by d passes the curve's steps in proportion to d, which noise spreads
-    over the rows. Where the steps are even, a change of a whole step passes no more than one.
+    A pixel that changes by d crosses a step of the curve with a probability in proportion to d, as
+    noise spreads the pixels of a column. Where the steps are even, a change of one step crosses no
+    more than one.
     """
 
     def __init__(self, pixels: SampledPixels, curves: SmoothedCurves) -> None:
@@ -30,91 +31,106 @@ class SignalSampling:
         )
         self._even = pixels.table.slope(curve) ** 2
         self._uneven = np.maximum(pixels.table.slope(jumps) - self._even, 0.0)
-        inside = pixels.inside([pixels.names])
+        inside = pixels.panel_mask([pixels.names])
         self._inside = None if inside is None else inside[0]  # beside the panel nothing is enhanced
         self._off_panel_fraction = 0.0 if inside is None else pixels.mean_of_rows(~inside[0])
-        self._gain = pixels.mean_of_columns(self._of_panel(self._even) + self._off_panel_fraction)
+        self._gain = pixels.mean_of_columns(
+            self._panel_means(self._even) + self._off_panel_fraction
+        )
         one = 1.0 / (self._rows**2 * pixels.view.region.columns)
-        self._pixel = pixels.mean_at_whole(self._even + self._uneven) * one
-        # One pixel whose noise is drawn otherwise.
-        self._drawn = pixels.mean_at_whole(self._even * spread**2) * one
-        self._of_columns = {**self._of_noise(), **self._of_file(), **self._of_changes()}
+        self._pixel = pixels.mean_over_pixels(self._even + self._uneven) * one
+        # One pixel whose noise has another random value.
+        self._drawn = pixels.mean_over_pixels(self._even * spread**2) * one
+        self._column_squares = {
+            **self._noise_squares(),
+            **self._file_squares(),
+            **self._change_squares(),
+        }
 
-    def _of_panel(self, table: FloatArray) -> FloatArray:
-        """Return the mean of a table over the rows, as if it were 0 beside the panel."""
-        found = self._pixels.at_whole(table)
+    def _panel_means(self, table: FloatArray) -> FloatArray:
+        """Return each column's mean of a table over its pixels, counted as 0 beside the panel."""
+        found = self._pixels.interpolate_at_pixels(table)
         return self._pixels.mean_of_rows(found if self._inside is None else found * self._inside)
 
-    def of_effects(self) -> dict[str, float]:
-        """Return the mean square for each effect."""
+    def effect_squares(self) -> dict[str, float]:
+        """Return the mean square for each effect, over the columns."""
         mean = self._pixels.mean_of_columns
-        return {name: mean(squares) for name, squares in self._of_columns.items()}
+        return {name: mean(squares) for name, squares in self._column_squares.items()}
 
     def fluctuations(self) -> dict[str, float]:
-        """Return the possible excess of each mean square in the columns of one picture.
+        """Return how much each mean square may be exceeded in the columns of one picture.
 
-        The mean square of n numbers of the variance v deviates by the root of (2 v^2 + k) / n. The
-        fourth cumulant k is that of few pixels that pass large steps.
+        The mean square of n numbers of variance v and fourth cumulant k has the standard deviation
+        sqrt((2 v^2 + k) / n). Here k is that of a few pixels that cross large steps.
         """
         mean, n = self._pixels.mean_of_columns, self._pixels.view.region.columns
         return {
             name: SURE_DEVIATIONS * math.sqrt(2.0 * mean(v**2) / n + mean(v) * self._pixel)
-            for name, v in self._of_columns.items()
+            for name, v in self._column_squares.items()
         }
 
-    def _of_mean(self, square: FloatArray, of_means: float) -> FloatArray:
-        """Return the mean square of a mean, from that of its pixels and the known one of means."""
+    def _square_of_mean(self, square: FloatArray, of_means: float) -> FloatArray:
+        """Return the mean square of a column's mean, from that of its pixels."""
         return square / self._rows + of_means * self._gain
 
-    def _of_noise(self) -> dict[str, FloatArray]:
+    def _noise_squares(self) -> dict[str, FloatArray]:
         pixels, total = self._pixels, self._spread**2
         found = {}
         for name, variance in pixels.variances.items():
             read, of_means = pixels.noise_read_back.get(name, (0.0, 0.0))
             own = np.maximum(np.sqrt(variance), math.sqrt(read))
-            known = self._even * total if pixels.files else 0.0  # the file has rounded it already
+            known = self._even * total if pixels.files else 0.0  # the file already rounds it
             most = np.maximum(self._deviation**2 - known, 0.0)
             part = self._even * np.tanh(4.8 * own) / 6.0 + self._uneven * 0.8 * own
             if not pixels.files:
                 part = part + self._even * own**2
             part = np.where(own**2 > 0.7 * total, most, np.minimum(part, most))
-            square = self._of_panel(part)
+            square = self._panel_means(part)
             if self._inside is not None and not pixels.files:
-                square = square + pixels.mean_of_rows(pixels.at_whole(own**2) * ~self._inside)
-            found[name] = self._of_mean(square, of_means) + self._drawn
+                square = square + pixels.mean_of_rows(
+                    pixels.interpolate_at_pixels(own**2) * ~self._inside
+                )
+            found[name] = self._square_of_mean(square, of_means) + self._drawn
         return found
 
-    def _of_file(self) -> dict[str, FloatArray]:
+    def _file_squares(self) -> dict[str, FloatArray]:
         file = self._pixels.file
         if file is None:
             return {}
-        return {self._pixels.files[0].name: self._of_mean(self._rounded, file.own_sampling())}
+        return {
+            self._pixels.files[0].name: self._square_of_mean(
+                self._rounding_square, file.own_sampling_square()
+            )
+        }
 
     @cached_property
-    def _rounded(self) -> FloatArray:
-        """The mean square of what a file's rounding changes in an enhanced pixel."""
+    def _rounding_square(self) -> FloatArray:
+        """The mean square change of an enhanced pixel by a file's rounding."""
         file = self._pixels.file
         moved = 0.0 if file is None else min(math.sqrt(file.own_change), 1.0)
         part = self._even / 6.0 + self._uneven * 0.8 * moved
-        return self._of_panel(part) + self._off_panel_fraction / 6.0
+        return self._panel_means(part) + self._off_panel_fraction / 6.0
 
     @property
     def doubt_of_file(self) -> float:
-        """Possible excess of the file's mean square: it rounds the rows of a block equally."""
-        return 7.0 * self._pixels.mean_of_columns(self._rounded) / self._rows
+        """Possible excess of the file's mean square, as it rounds the rows of a block alike."""
+        return 7.0 * self._pixels.mean_of_columns(self._rounding_square) / self._rows
 
-    def _of_changes(self) -> dict[str, FloatArray]:
-        """Return the mean squares of effects on the pixels' means."""
+    def _change_squares(self) -> dict[str, FloatArray]:
+        """Return the mean squares for effects on the pixels' means."""
         pixels = self._pixels
         changes = np.abs(pixels.stack[1:] - pixels.whole)
         of_means: FloatArray = np.zeros(len(changes))
-        by_file = np.zeros((len(changes), 1, 1))  # Like noise, also where it is no small one
+        by_file = np.zeros((len(changes), 1, 1))  # Acts like noise, also where it is large
         if pixels.file is not None:
-            added, of_means, _ = (of_sets[1:] for of_sets in pixels.file.added)
+            added, of_means, _ = (of_sets[1:] for of_sets in pixels.file.growth)
             by_file = np.maximum(added, 0.0)[:, None, None]
             changes = np.sqrt(changes**2 + by_file)
         np.minimum(changes, 0.5, out=changes)
-        even, uneven = pixels.at_whole(self._even), pixels.at_whole(self._uneven)
+        even, uneven = (
+            pixels.interpolate_at_pixels(self._even),
+            pixels.interpolate_at_pixels(self._uneven),
+        )
         if self._inside is not None:
             even, uneven = np.where(self._inside, even, 1.0), uneven * self._inside
         passed = np.maximum(changes, 0.8 * np.sqrt(by_file))
@@ -122,6 +138,6 @@ class SignalSampling:
             even * (changes * (1.0 - changes) + by_file) + uneven * passed
         )
         return {
-            name: self._of_mean(square, own)
+            name: self._square_of_mean(square, own)
             for name, square, own in zip(pixels.moving, squares, of_means.tolist(), strict=True)
         }

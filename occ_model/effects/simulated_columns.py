@@ -1,4 +1,4 @@
-"""The columns of a whole picture as some of the effects leave them: they cost microseconds."""
+"""The columns of a whole picture with some of the effects; they take microseconds."""
 
 from collections.abc import Sequence
 
@@ -16,7 +16,7 @@ Names = frozenset[str]  # effects by name
 class SimulatedColumns:
     """The light of a view's columns, their values, and the receiver's enhancement of them.
 
-    Each is cached by the effects on it: on the light, and on a pixel's mean value.
+    Each result is cached by those of the effects that change it.
     """
 
     def __init__(
@@ -42,7 +42,7 @@ class SimulatedColumns:
         return self._light[key]
 
     def light_at(self, sets: Sequence[Names], columns: IndexArray) -> tuple[ColumnLight, list[int]]:
-        """Return the different lights at some columns, (lights, columns), and each set's index."""
+        """Return the distinct lights at some columns, (lights, columns), and each set's index."""
         keys = [included & self._of_light for included in sets]
         known = list(dict.fromkeys(keys))
         lights = [self.light(key) for key in known]
@@ -58,19 +58,19 @@ class SimulatedColumns:
     def profile(self, included: Names) -> FloatArray:
         key = included & self._of_value
         if key not in self._profile:
-            self._profile[key] = self.dimmed(key, slice(None), 1.0)
+            self._profile[key] = self.dim_values(key, slice(None), 1.0)
         return self._profile[key]
 
-    def dimmed(self, included: Names, columns: slice, factor: FloatArray | float) -> FloatArray:
-        """Return the values of some columns as a lens dims them, before saturation."""
-        values = self._exposed_by(included)[columns] * factor
+    def dim_values(self, included: Names, columns: slice, factor: FloatArray | float) -> FloatArray:
+        """Return the values of some columns after dimming by a lens and saturation."""
+        values = self._expose(included)[columns] * factor
         for limit in self._limits:
             if limit.name in included:
                 values = limit.apply(self._view.scene, values)
         return saturate(values)
 
-    def _exposed_by(self, included: Names) -> FloatArray:
-        """Return the values of all columns by their light alone."""
+    def _expose(self, included: Names) -> FloatArray:
+        """Return the unsaturated values of all columns from their light alone."""
         key = included & self._of_light
         if key not in self._exposed:
             light, view = self.light(key), self._view

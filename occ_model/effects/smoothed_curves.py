@@ -1,6 +1,6 @@
-"""The receiver's enhancement as a noisy pixel passes it in the mean: a curve that noise smooths.
+"""The receiver's enhancement, averaged over the noise of a pixel: noise smooths its curve.
 
-Also what light changes in few columns, of which a sample may have none or too many.
+Also the changes in few columns, of which a sample may have none or too many.
 """
 
 from collections.abc import Sequence
@@ -11,19 +11,19 @@ import numpy as np
 from occ_model.arrays import FloatArray
 from occ_model.camera.enhancement import PassedSteps
 from occ_model.camera.photometry import WHITE
-from occ_model.effects.observed import Observed
+from occ_model.effects.observed import SampledObservable
 from occ_model.effects.sampled_pixels import SampledPixels
 from occ_model.effects.simulated_columns import Names
 
 LEAST_SMOOTHING_NOISE = 0.5
-"""Noise in grey levels below which the enhancement's steps show between the levels."""
+"""Noise in grey levels below which single steps of the enhancement remain visible in its mean."""
 
 _LEAST_TABULATED_NOISE = 1.5
-"""Noise in steps of the table from which a curve that it smooths is interpolated closely."""
+"""Noise, in steps of the table, above which interpolation in a smoothed curve is close."""
 
 
-class _Noise(NamedTuple):
-    """The deviation at each level, as a file has it, its least, and the steps that pixels pass."""
+class _CurveNoise(NamedTuple):
+    """The noise at each level after the file, its smallest value, and the steps it crosses."""
 
     spread: FloatArray
     least: float
@@ -31,7 +31,7 @@ class _Noise(NamedTuple):
 
 
 class SmoothedCurves:
-    """The enhancement's curves, smoothed by the noise that some effects leave, over the levels."""
+    """The enhancement's curves over the levels, smoothed by the noise of some effects."""
 
     def __init__(self, pixels: SampledPixels) -> None:
         self._pixels = pixels
@@ -39,31 +39,31 @@ class SmoothedCurves:
         self._moving = frozenset(pixels.moving)
         self._lenses = frozenset(effect.name for effect in pixels.lenses)
         self.files = frozenset(effect.name for effect in pixels.files)
-        self._noises: dict[Names, _Noise] = {}
+        self._noises: dict[Names, _CurveNoise] = {}
         self._curves: dict[Names, FloatArray] = {}
 
-    def noise(self, included: Names) -> _Noise:
+    def noise(self, included: Names) -> _CurveNoise:
         key = included - self._moving
         if key not in self._noises:
             spread, file = self._pixels.spread(included), self._pixels.file
             if file is not None and self.files & included:
                 spread = file.spread(spread)
             passed = PassedSteps.of(self._levels, spread)
-            self._noises[key] = _Noise(spread, float(spread.min()), passed)
+            self._noises[key] = _CurveNoise(spread, float(spread.min()), passed)
         return self._noises[key]
 
     def curve(self, included: Names) -> FloatArray:
-        """Return the mean of enhanced pixels at each level."""
+        """Return the mean of the enhanced pixels at each level."""
         key = included - self._lenses
         if key not in self._curves:
             enhancement = self._pixels.columns.enhancement(included)
             self._curves[key] = enhancement.mean(self.noise(included).passed)
         return self._curves[key]
 
-    def enhanced(self, sets: Sequence[Names], values: FloatArray) -> FloatArray:
-        """Return the means of enhanced pixels of some mean values, shape as ``values``."""
+    def enhance(self, sets: Sequence[Names], values: FloatArray) -> FloatArray:
+        """Return the mean of the enhanced pixels for each mean value, shape as ``values``."""
         pixels = self._pixels
-        found = pixels.table.look_each(np.stack([self.curve(one) for one in sets]), values)
+        found = pixels.table.interpolate_each(np.stack([self.curve(one) for one in sets]), values)
         tabulated = max(LEAST_SMOOTHING_NOISE, _LEAST_TABULATED_NOISE * pixels.table.step)
         for included, own, of_own in zip(sets, values, found, strict=True):
             noise = self.noise(included)
@@ -71,7 +71,7 @@ class SmoothedCurves:
                 flat = np.clip(own, 0.0, WHITE)
                 filed = self.files & included
                 own_noise = (
-                    pixels.table.look(noise.spread, flat)
+                    pixels.table.interpolate(noise.spread, flat)
                     if filed
                     else pixels.noise_at(included, flat)
                 )
@@ -82,17 +82,17 @@ class SmoothedCurves:
         return found
 
 
-_MISSED_FRACTION = 0.1  # part of a change that a sample must miss for its columns to be too few
+_MISSED_FRACTION = 0.1  # fraction of a change above which the sample counts as missing it
 
 
 def add_unsampled(
-    pixels: SampledPixels, found: Observed, curves: SmoothedCurves | None = None
+    pixels: SampledPixels, found: SampledObservable, curves: SmoothedCurves | None = None
 ) -> None:
-    """Add to the mean square of each change what columns beside the sample add to it.
+    """Add to the mean square of each change the contribution of columns outside the sample.
 
-    Where most columns are white or black, or an enhancement makes them so, a change of the light
-    shows in the few that are not, and where little noise spreads the rounding, so does noise. All
-    columns of a profile cost microseconds, without the enhancement's curves.
+    If most columns are white or black, or become so by the enhancement, a change of the light
+    appears only in the few others; so does a change of the noise if there is too little to spread
+    the rounding. Computing all columns takes microseconds, apart from the enhancement's curves.
     """
     lacking = pixels.unsampled
     if lacking is None:
@@ -108,7 +108,7 @@ def add_unsampled(
             continue
         sets = [pixels.names, pixels.names - {effect.name}]
         changed = profiles
-        if curves is not None:  # as if there were no noise
+        if curves is not None:  # first as if there were no noise
             pairs = zip(sets, profiles, strict=True)
             levels = [pixels.columns.enhancement(one)(own) for one, own in pairs]
             changed = np.array(levels, dtype=np.float64)
@@ -116,22 +116,22 @@ def add_unsampled(
         if squares @ lacking <= _MISSED_FRACTION * squares.mean():
             continue
         if curves is not None:
-            changed = curves.enhanced(sets, profiles)
+            changed = curves.enhance(sets, profiles)
         add(effect.name, changed)
     if curves is not None and pixels.least_noise(pixels.names) < LEAST_SMOOTHING_NOISE:
         profiles = np.stack([pixels.profile(pixels.names)] * 2)
         for noise in pixels.noises:
             sets = [pixels.names, pixels.names - {noise.name}]
-            add(noise.name, curves.enhanced(sets, profiles))
+            add(noise.name, curves.enhance(sets, profiles))
 
 
 def _profiles(pixels: SampledPixels, name: str) -> FloatArray | None:
-    """Return the profile with an effect and without it, None where it moves rims alone.
+    """Return the profile with and without an effect, None if the effect only moves rims.
 
-    What dims each pixel otherwise is taken for its mean over the rows.
+    Dimming is taken as its mean over the rows.
     """
     whole, dimming = pixels.profile(pixels.names), pixels.dimming(name)
     if dimming is None:
         is_rim = name in pixels.sample.outline
         return None if is_rim else np.stack([whole, pixels.profile(pixels.names - {name})])
-    return np.stack([pixels.profile(pixels.names, pixels.over_columns(dimming)), whole])
+    return np.stack([pixels.profile(pixels.names, pixels.interpolate_columns(dimming)), whole])

@@ -7,7 +7,7 @@ import numpy as np
 from occ_model.arrays import ByteArray
 from occ_model.camera.photometry import luminance_of
 from occ_model.camera.projection import image_rays
-from occ_model.effects.distortion import undistorted
+from occ_model.effects.distortion import undistort
 from occ_model.errors import MatchError, ParameterError
 from occ_model.photo.fit.least_squares import StripeFit
 from occ_model.photo.reading.load import Photo
@@ -71,7 +71,7 @@ def at_the_photo(scene: Scene, photo: Photo, region: Region) -> Scene:
             [across, region.last_row - 0.5],
         ]
     )
-    rays = image_rays(undistorted(rims, scene), scene.camera) * scene.pose.distance
+    rays = image_rays(undistort(rims, scene), scene.camera) * scene.pose.distance
     (left, _), (right, _), (_, top), (_, bottom) = rays.tolist()
     return with_allowed(
         scene,

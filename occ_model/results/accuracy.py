@@ -7,7 +7,7 @@ from typing import Self
 
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.results.frame import Frame
-from occ_model.results.plan import Plan, Way
+from occ_model.results.plan import EffectSet, Plan
 from occ_model.scene.units import LEVEL
 
 ACCURACY_PARTS = {  # titles of the parts of an accuracy study, by name
@@ -167,6 +167,8 @@ class Forecast:
     # they were independent; None where a change is not yet known
     error: float | None
     is_measured: bool
-    ways: tuple[Way, ...] = ()  # Alternatives of the plan, fastest first: see `ways_of`
+    effect_sets: tuple[
+        EffectSet, ...
+    ] = ()  # Alternatives of the plan, fastest first: see `ways_of`
     # Expected time of each, None where not yet known
     ways_seconds: tuple[float | None, ...] = ()

@@ -47,7 +47,7 @@ class Decision:
 
 
 @dataclass(frozen=True, slots=True)
-class Way:
+class EffectSet:
     """A set of simulated effects, with its time and error."""
 
     effects: frozenset[str]  # Those simulated, of those that the scene has
@@ -81,7 +81,7 @@ class Plan:
     left_out: float
     stretch: float
     saved: float = 0.0
-    ways: tuple[Way, ...] = field(default=(), repr=False)
+    effect_sets: tuple[EffectSet, ...] = field(default=(), repr=False)
 
     def __contains__(self, effect: object) -> bool:
         return any(d.effect == effect and d.included for d in self.decisions)

@@ -13,7 +13,7 @@ import numpy as np
 from occ_model.arrays import BoolArray, ByteArray, FloatArray, IndexArray
 from occ_model.camera.coverage import column_spans
 from occ_model.camera.photometry import luminance_of
-from occ_model.effects.distortion import undistorted
+from occ_model.effects.distortion import undistort
 from occ_model.room.room import Room, RoomLamp
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.packet import sent_chips
@@ -283,7 +283,7 @@ def _fitted(side: int, found: _Points, scene: Scene) -> _Line | None:
     """Fit a line through points; None where too few are left near it."""
     if len(found.places) < _MIN_POINTS:
         return None
-    points = undistorted(found.places, scene)
+    points = undistort(found.places, scene)
     level = bool(np.ptp(points[:, 0]) >= np.ptp(points[:, 1]))
     along = 0 if level else 1
     x, y, grid = points[:, along], points[:, 1 - along], found.places[:, along]

@@ -16,7 +16,7 @@ from occ_model.camera.projection import check_size
 from occ_model.effects.effect import OpticsEffect
 from occ_model.effects.paper_view import PaperView, paper_view_of, region_of
 from occ_model.effects.plan import plan_of_any
-from occ_model.effects.registry import NAMES, planned
+from occ_model.effects.registry import NAMES, effects_planned
 from occ_model.results.decoding import Region
 from occ_model.results.plan import Plan
 from occ_model.room.room import Room, RoomLamp
@@ -162,7 +162,7 @@ def _extreme(views: Sequence[PaperView]) -> list[PaperView]:
 
 def _optics_of(view: PaperView, chosen: Plan) -> Optics:
     optics = Optics(view.corners)
-    for effect in planned(chosen, OpticsEffect):
+    for effect in effects_planned(chosen, OpticsEffect):
         optics = effect.apply(view.scene, optics)
     return optics
 

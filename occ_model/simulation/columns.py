@@ -14,7 +14,7 @@ from occ_model.camera.photometry import panel_values, saturate, surroundings_val
 from occ_model.camera.picture_rows import Rows
 from occ_model.effects.effect import LightEffect, PixelEffect
 from occ_model.effects.paper_view import PaperView
-from occ_model.effects.registry import planned
+from occ_model.effects.registry import effects_planned
 from occ_model.results.plan import Plan
 from occ_model.simulation.stage_timer import StageTimer
 
@@ -33,7 +33,7 @@ class Columns:
 def expose_columns(view: PaperView, chosen: Plan, timer: StageTimer | None = None) -> Columns:
     timer = timer or StageTimer()
     scene, light, panel = view.scene, view.light, view.values
-    for effect in planned(chosen, LightEffect):
+    for effect in effects_planned(chosen, LightEffect):
         light = effect.apply(scene, light)
         timer.stage_ended(effect.name)
     if light is not view.light:
@@ -41,7 +41,7 @@ def expose_columns(view: PaperView, chosen: Plan, timer: StageTimer | None = Non
     surroundings = np.broadcast_to(surroundings_values(scene, light), panel.shape)
     profile, around = panel, surroundings
     timer.stage_ended("exposure")
-    for limit in planned(chosen, PixelEffect):
+    for limit in effects_planned(chosen, PixelEffect):
         profile, around = limit.apply(scene, profile), limit.apply(scene, around)
         timer.stage_ended(limit.name)
     return Columns(panel, surroundings, saturate(profile), saturate(around))

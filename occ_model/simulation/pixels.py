@@ -14,7 +14,7 @@ from occ_model.camera.photometry import WHITE
 from occ_model.camera.picture_rows import LitPanel, PictureRows, Rows, in_blocks, split_at
 from occ_model.effects.effect import FileEffect, NoiseEffect, OpticsEffect, PixelEffect
 from occ_model.effects.paper_view import PaperView
-from occ_model.effects.registry import planned
+from occ_model.effects.registry import effects_planned
 from occ_model.parallel.job import Heartbeat
 from occ_model.results.plan import Plan
 from occ_model.scene.simulation_settings import NoiseSource, Observable
@@ -83,16 +83,16 @@ class PixelExposure:
         self._region = view.region
         self._timer = timer
         self._columns = columns
-        self._limits = planned(plan, PixelEffect)
-        self._noises = planned(plan, NoiseEffect)
-        self._files = planned(plan, FileEffect)
+        self._limits = effects_planned(plan, PixelEffect)
+        self._noises = effects_planned(plan, NoiseEffect)
+        self._files = effects_planned(plan, FileEffect)
         self._bands = bands or in_blocks(range(scene.camera.rows))
         height = sum(len(band) for band in self._bands)
         self._shape = (height, scene.camera.columns)
         for file in self._files:
             file.check_size(scene, self._shape)
         self._optics = Optics(view.corners)
-        for effect in planned(plan, OpticsEffect):
+        for effect in effects_planned(plan, OpticsEffect):
             self._optics = effect.apply(scene, self._optics)
             timer.stage_ended(effect.name)
         if self._optics.is_plain and not self._files and view.sides:

@@ -22,7 +22,7 @@ from occ_model.camera.projection import check_size
 from occ_model.effects.effect import NoiseEffect
 from occ_model.effects.paper_view import paper_view_of
 from occ_model.effects.plan import plan
-from occ_model.effects.registry import planned
+from occ_model.effects.registry import effects_planned
 from occ_model.results.accuracy import CLOSED_FORM, AccuracyPoint
 from occ_model.results.plan import Plan
 from occ_model.scene.argument_checks import check_seed
@@ -77,7 +77,7 @@ def accuracy(
 def point_count(scene: Scene, settings: SimulationSettings | None = None) -> int:
     settings = settings or SimulationSettings()
     complete = plan(scene, 0.0, settings.observable)
-    noise = 2 if planned(complete, NoiseEffect) else 0
+    noise = 2 if effects_planned(complete, NoiseEffect) else 0
     paths = 1 if panel_span(scene) is None else 2
     drafts = len(draft_steps(scene))
     return len(SAMPLES) + 1 + len(complete.included) + 2 + paths + drafts + noise
@@ -202,7 +202,7 @@ def _noise_sources(
 ) -> Iterator[AccuracyPoint]:
     """Compare the standard deviation of each noise source with that of the sensor."""
     complete = plan(scene, 0.0, "image")
-    noises = planned(complete, NoiseEffect)
+    noises = effects_planned(complete, NoiseEffect)
     if not noises:
         return
     names = frozenset(effect.name for effect in noises)

@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 from occ_model.arrays import ByteArray, FloatArray, Pixels
 from occ_model.camera.photometry import WHITE
 from occ_model.effects.paper_view import paper_view_of
-from occ_model.effects.plan import plan, plan_with, ways_of
+from occ_model.effects.plan import effect_sets_of, plan, plan_with
 from occ_model.effects.registry import EFFECTS
 from occ_model.results.accuracy import EffectCrop, EffectDifference, Forecast, MeasuredCosts
-from occ_model.results.plan import Plan, Way
+from occ_model.results.plan import EffectSet, Plan
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import NoiseSource, Observable, SimulationSettings
 from occ_model.simulation.render import observe, render_plan
@@ -199,9 +199,11 @@ def forecast(scene: Scene, settings: SimulationSettings, costs: MeasuredCosts) -
 @lru_cache(maxsize=4)
 def _known_ways(
     scene: Scene, observable: Observable, force: tuple[tuple[str, bool], ...], noise: NoiseSource
-) -> tuple[Way, ...]:
+) -> tuple[EffectSet, ...]:
     """Return the sets of effects that a plan chooses among, cached without the tolerance."""
-    return ways_of(scene, SimulationSettings(observable=observable, force=dict(force), noise=noise))
+    return effect_sets_of(
+        scene, SimulationSettings(observable=observable, force=dict(force), noise=noise)
+    )
 
 
 def _seconds(included: tuple[str, ...], costs: MeasuredCosts) -> float | None:

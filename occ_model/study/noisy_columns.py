@@ -13,7 +13,7 @@ from occ_model.arrays import FloatArray
 from occ_model.camera.enhancement import Enhancement, byte_fractions, fraction_above
 from occ_model.camera.photometry import WHITE, saturate
 from occ_model.effects.effect import NoiseEffect, PixelEffect
-from occ_model.effects.registry import planned
+from occ_model.effects.registry import effects_planned
 from occ_model.receiver.signal import bright_level
 from occ_model.results.decoding import Region
 from occ_model.results.plan import Plan
@@ -43,8 +43,8 @@ class NoisyColumns:
         self._columns = columns
         self._span = span
         self._enhancement = enhancement
-        self._noise = _noise_of(planned(plan, NoiseEffect), scene.camera, scene.sensor)
-        self._limits = planned(plan, PixelEffect)
+        self._noise = _noise_of(effects_planned(plan, NoiseEffect), scene.camera, scene.sensor)
+        self._limits = effects_planned(plan, PixelEffect)
 
     def _distribution(self, values: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return mean and standard deviation of pixels with some values before saturation."""

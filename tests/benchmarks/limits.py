@@ -17,7 +17,7 @@ import occ_model as occ
 from occ_model.camera.photometry import level_values
 from occ_model.commands.limits import range_cells
 from occ_model.effects.effect import NoiseEffect
-from occ_model.effects.registry import NAMES, named
+from occ_model.effects.registry import NAMES, effects_named
 from occ_model.results.limits import Limits
 from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.scene import Scene
@@ -60,7 +60,7 @@ def with_noise(scene: Scene, levels: float) -> Scene:
     low, high = 1e-7, 1e-4  # much noise, and little
     for _ in range(40):
         middle = (low * high) ** 0.5
-        found = float(NoiseSpread(named(NAMES, NoiseEffect), of_pitch(middle))(lit)[0, 0])
+        found = float(NoiseSpread(effects_named(NAMES, NoiseEffect), of_pitch(middle))(lit)[0, 0])
         low, high = (middle, high) if found > levels else (low, middle)
     return of_pitch(high)
 

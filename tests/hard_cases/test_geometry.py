@@ -201,12 +201,12 @@ REFUSED: dict[str, tuple[dict[str, float], str]] = {
     "the largest panel at the smallest distance": (
         {"distance": 0.001, "yaw": STEEP, "panel_width": 100.0}, r"49\.999 m behind the camera"),
     # k_1 = -10 folds at 0.18 focal lengths; the picture ends at 0.83.
-    "a lens that folds": ({"radial_k1": -10.0}, "k_1 = -10.* folds the picture back"),
+    "a lens that folds": ({"radial_k1": -10.0}, "k_1 = -10.* folds the picture before"),
     # It folds and unfolds again within the picture: the corners themselves are unharmed.
     "a lens that folds and unfolds": (
-        {"radial_k1": -3.2, "radial_k2": 4.0}, "k_1 = -3.2, k_2 = 4,.* folds the picture back"),
+        {"radial_k1": -3.2, "radial_k2": 4.0}, "k_1 = -3.2, k_2 = 4,.* folds the picture before"),
     # Tangential distortion alone folds, and on one side only.
-    "a lens far off centre": ({"tangential_p1": 1.0}, "p_1 = 1 .*folds the picture back"),
+    "a lens far off centre": ({"tangential_p1": 1.0}, "p_1 = 1 .*folds the picture before"),
 }  # fmt: skip
 
 

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from hard_cases.laws import cases, record
 from hard_cases.references import PATTERNS, STARTS, ExactTimes, decades, some_columns, within
 from occ_model.camera.exposure import lit_fraction
-from occ_model.effects.light_effects import edged_lit_fraction
+from occ_model.effects.light_effects import lit_fraction_with_edges
 from occ_model.scene.scene import Scene
 
 LONG = ["1" * 2048 + "0" * 2048, "10" * 2048, "1" + "0" * 4095, ("1" * 63 + "0") * 64]
@@ -34,7 +34,7 @@ def edged(edge: float, exposure: float, **changes: float | str) -> Scene:
 
 def edge_error(scene: Scene) -> float:
     """The worst column's lit fraction less that of rational arithmetic."""
-    exact, found = ExactTimes(scene), edged_lit_fraction(scene)
+    exact, found = ExactTimes(scene), lit_fraction_with_edges(scene)
     assert 0.0 <= found.min() <= found.max() <= 1.0
     columns = some_columns(scene)
     return max(
@@ -73,7 +73,7 @@ def test_a_vanishing_edge_moves_no_more_light_than_its_fraction(
 ) -> None:
     scene = edged(edge, exposure, start_time=start, pattern=pattern)
     tau = scene.transmitter.edge_time * FREQUENCY
-    moved = float(np.abs(edged_lit_fraction(scene) - lit_fraction(scene)).max())
+    moved = float(np.abs(lit_fraction_with_edges(scene) - lit_fraction(scene)).max())
     # Half of it at each end of the exposure; or all of a window shorter than the edge.
     beyond = max(moved - min(tau / (scene.camera.exposure_time * FREQUENCY), 1.0), 0.0)
     record(

@@ -14,7 +14,7 @@ from hard_cases.laws import cases, record
 from hard_cases.references import GEOMETRY, POSES, decades, lenses, poses, signed_decades
 from occ_model.camera.optics import Optics
 from occ_model.camera.projection import MAX_PIXELS, image_rays
-from occ_model.effects.distortion import Distortion, distorted
+from occ_model.effects.distortion import Distortion, distort
 from occ_model.effects.optics_effects import blur_of
 from occ_model.scene.scene import Scene
 
@@ -77,7 +77,7 @@ def test_the_bent_outline_lies_on_the_curve_that_opencv_projects(
 def test_browns_equation_is_that_of_forty_digits(
     lens: dict[str, float], x: float, y: float
 ) -> None:
-    found = distorted(np.array([x, y]), Scene().replace(**lens).lens)
+    found = distort(np.array([x, y]), Scene().replace(**lens).lens)
     with mpmath.workdps(40):
         k1, k2, p1, p2, u, v = map(mpmath.mpf, (*lens.values(), x, y))
         square = u * u + v * v

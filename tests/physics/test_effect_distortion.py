@@ -11,7 +11,7 @@ from amount import amount
 
 import occ_model as occ
 from occ_model.camera.projection import image_points, image_rays
-from occ_model.effects.distortion import distorted, undistorted
+from occ_model.effects.distortion import distort, undistort
 from occ_model.scene.scene import Lens, Scene
 
 ROWS, COLUMNS = 100, 200
@@ -106,9 +106,9 @@ def test_stripes_stay_columns(lens: dict[str, float]) -> None:
 def test_undistorted_points_are_pictured_where_they_were(lens: dict[str, float]) -> None:
     scene = bent(**lens)
     points = np.array([[0.0, 0.0], [COLUMNS - 1.0, 0.0], [30.0, 70.0], [COLUMNS / 2.0, ROWS - 1.0]])
-    rays = image_rays(undistorted(points, scene), scene.camera)
+    rays = image_rays(undistort(points, scene), scene.camera)
     np.testing.assert_allclose(
-        image_points(distorted(rays, scene.lens), scene.camera), points, atol=1e-3
+        image_points(distort(rays, scene.lens), scene.camera), points, atol=1e-3
     )
 
 

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 import occ_model as occ
 from occ_model.camera.photometry import luminance_levels, pixel_value
 from occ_model.camera.projection import row_spans
-from occ_model.effects.light_effects import ambient_fractions, edged_lit_fraction
+from occ_model.effects.light_effects import ambient_fractions, lit_fraction_with_edges
 from occ_model.scene.scene import Scene
 
 FREQUENCY = 8192.0
@@ -37,7 +37,7 @@ def test_an_edge_and_an_exposure_are_the_same_average(
     # The start is rounded, and the light's slope is at most one over the shorter of the two.
     largest = 1e-12 / min(edge, exposure)
     np.testing.assert_allclose(
-        edged_lit_fraction(scene), edged_lit_fraction(other), rtol=0, atol=largest
+        lit_fraction_with_edges(scene), lit_fraction_with_edges(other), rtol=0, atol=largest
     )
 
 

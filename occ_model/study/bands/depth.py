@@ -13,7 +13,7 @@ from occ_model.camera.photometry import (
     saturate,
     saturation_value,
 )
-from occ_model.effects.light_effects import seen_depth
+from occ_model.effects.light_effects import depth_in_exposure
 from occ_model.errors import ParameterError, shown
 from occ_model.results.bands import BandDepth, Depth
 from occ_model.scene.scene import Scene
@@ -63,7 +63,7 @@ def light_depth(scene: Scene, exposed: ExposedLight | None = None) -> Depth:
     of_lamp, of_flicker = light_fractions(scene)
     low, high = exposed.extremes
     of_lamp /= float(exposure_in_chips(scene))
-    of_flicker *= seen_depth(scene)
+    of_flicker *= depth_in_exposure(scene)
     return Depth(
         of_lamp * (high - low) + 2.0 * of_flicker,
         math.hypot(of_lamp * math.sqrt(exposed.variance), of_flicker / math.sqrt(2.0)),
@@ -104,11 +104,11 @@ def _of_pixels(scene: Scene, exposed: ExposedLight) -> tuple[Depth, float]:
 
     def values(above_mean: FloatArray, cycle: FloatArray) -> FloatArray:
         fraction = np.clip(lit + above_mean / chips, 0.0, 1.0)
-        ambient = 1.0 + seen_depth(scene) * np.cos(cycle)[:, None]
+        ambient = 1.0 + depth_in_exposure(scene) * np.cos(cycle)[:, None]
         return np.minimum(saturate(panel_values(scene, ColumnLight(fraction, ambient))), full)
 
     of_light, weights = exposed.sampled(_NODES)
-    phases = _FLICKER_PHASES if seen_depth(scene) else 1
+    phases = _FLICKER_PHASES if depth_in_exposure(scene) else 1
     cycle = 2.0 * math.pi * (np.arange(phases) + 0.5) / phases
     sampled = values(of_light.ravel(), cycle)
     each = weights.ravel() / phases
@@ -139,7 +139,7 @@ def strongest_part(scene: Scene) -> tuple[float, float]:
     best = int(amplitudes.argmax())
     base = Fraction(scene.transmitter.switching_frequency) / period
     frequency = base * int(cycles[best])
-    if dark * seen_depth(scene) > amplitudes[best]:
+    if dark * depth_in_exposure(scene) > amplitudes[best]:
         frequency = Fraction(scene.surroundings.flicker_frequency)
     step = frequency * Fraction(scene.camera.readout_time)
     seen = abs(float(step - round(step)))

@@ -11,7 +11,7 @@ import occ_model as occ
 from occ_gui.accuracy.accuracy_plot import COLOURS, SYMBOLS, AccuracyPlot
 from occ_gui.accuracy.ways_shown import ways_shown
 from occ_gui.widgets.axes import _NUMBER_LENGTH, LogAxis
-from occ_model.effects.plan import ways_of
+from occ_model.effects.plan import effect_sets_of
 from occ_model.results.accuracy import LEAST_ERROR, AccuracyPoint, Forecast
 from occ_model.scene.simulation_settings import SimulationSettings
 
@@ -150,7 +150,7 @@ def test_a_logarithmic_axis_within_a_power_of_ten_is_numbered_at_round_values(
 
 def test_each_plan_is_a_cross_at_the_limit_of_its_error(plot: AccuracyPlot) -> None:
     scene = occ.load_preset("phone-136us-real").replace(rows=200)
-    ways = ways_of(scene, SimulationSettings())
+    ways = effect_sets_of(scene, SimulationSettings())
     seconds = (None, *(1e-3 * (place + 1) for place in range(len(ways) - 1)))
     plot.show_ways(Forecast(occ.plan(scene), None, None, False, ways, seconds))
     limits = [max(way.error, LEAST_ERROR) for way in ways[1:] if way.error < math.inf]

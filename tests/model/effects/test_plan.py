@@ -1,4 +1,4 @@
-"""The plan: what it includes, what it leaves out, and its reasons."""
+"""The plan: what it includes, what it leaves out, and why."""
 
 import math
 from itertools import pairwise
@@ -9,12 +9,12 @@ import pytest
 import occ_model as occ
 from occ_model.effects import plan as module
 from occ_model.effects.paper_view import PaperView, paper_view_of
-from occ_model.effects.plan import called_for_by_signal, plan_of, plan_of_any, ways_of
+from occ_model.effects.plan import effect_sets_of, name_effects_for_signal, plan_of, plan_of_any
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import Observable, SimulationSettings
 from occ_model.simulation.render import observe
 
-LIGHTS_WAY = [
+LIGHT_PATH = [
     "led-edges",
     "flicker",
     "emission",
@@ -38,40 +38,44 @@ def included(plan: occ.Plan) -> set[str]:
 
 
 def test_decisions_stand_in_the_order_that_light_travels(scene: Scene) -> None:
-    assert [decision.effect for decision in occ.plan(scene).decisions] == LIGHTS_WAY
+    assert [decision.effect for decision in occ.plan(scene).decisions] == LIGHT_PATH
 
 
 @pytest.mark.parametrize("observable", ["image", "profile"])
-def test_of_all_sets_within_the_tolerance_the_fastest_is_left_out(
+def test_a_plan_takes_the_fastest_set_within_the_tolerance(
     scene: Scene, observable: Observable
 ) -> None:
     bare = occ.plan(scene, math.inf, observable)
-    everything = bare.saved + bare.ways[0].seconds
+    everything = bare.saved + bare.effect_sets[0].seconds
     for tolerance in np.geomspace(0.01, 300.0, 12).tolist():
         plan = occ.plan(scene, tolerance, observable)
         assert plan.left_out <= tolerance
         seconds = everything - plan.saved
-        # Each way's error is the sum of its changes, from which they may differ together.
+        # The error of a set is as if changes added; together they may change less or more.
         assert all(
-            way.seconds >= seconds - 1e-12 for way in plan.ways if way.error <= tolerance / 2
+            effect_set.seconds >= seconds - 1e-12
+            for effect_set in plan.effect_sets
+            if effect_set.error <= tolerance / 2
         )
         assert any(
-            way.seconds <= seconds + 1e-12 for way in plan.ways if way.error <= tolerance * 2
+            effect_set.seconds <= seconds + 1e-12
+            for effect_set in plan.effect_sets
+            if effect_set.error <= tolerance * 2
         )
 
 
-def test_ways_run_from_fast_and_far_to_slow_and_exact(scene: Scene) -> None:
-    ways = occ.plan(scene).ways
-    assert len(ways) > 10
-    for faster, slower in pairwise(ways):
+def test_effect_sets_run_from_fast_and_inexact_to_slow_and_exact(scene: Scene) -> None:
+    effect_sets = occ.plan(scene).effect_sets
+    assert len(effect_sets) > 10
+    for faster, slower in pairwise(effect_sets):
         assert faster.seconds <= slower.seconds
         assert faster.error > slower.error
-    assert ways[-1].error == 0.0
-    assert ways[0].effects == frozenset()
+    assert effect_sets[-1].error == 0.0
+    assert effect_sets[0].effects == frozenset()
 
 
-def test_a_plan_saves_what_takes_the_time(scene: Scene) -> None:
-    """Noise and a file take most; a plan for the profile needs neither, one for pixels does."""
+def test_a_plan_saves_the_effects_that_take_most_time(scene: Scene) -> None:
+    """Noise and a file take most; a plan for pixels needs them, one for the profile does not."""
     filed = scene.replace(jpeg_quality=90, rows=4000, columns=3000)
     of_pixels, of_means = occ.plan(filed, 5.0), occ.plan(filed, 5.0, "profile")
     assert "jpeg" not in of_means
@@ -79,7 +83,7 @@ def test_a_plan_saves_what_takes_the_time(scene: Scene) -> None:
 
 
 def test_a_decision_needs_less_than_the_signal() -> None:
-    """Where every chip keeps far from the threshold, no effect could change what is read."""
+    """Where every chip is far from the threshold, no effect can change the code that is read."""
     scene = occ.load_preset("phone-136us-real").replace(switching_frequency=3e3)
     signal, decision = occ.plan(scene, 0.5, "signal"), occ.plan(scene, 0.5, "decision")
     assert included(decision) < included(signal)
@@ -87,7 +91,7 @@ def test_a_decision_needs_less_than_the_signal() -> None:
 
 
 def test_the_margin_of_a_decision_is_about_half_of_the_signals_swing() -> None:
-    """Two root mean squares of a smooth change are to stay within it."""
+    """It must hold two root mean squares of a smooth change."""
     scene = occ.load_preset("phone-136us").replace(switching_frequency=3e3, enhancement="none")
     margin = 2.0 / occ.plan(scene, observable="decision").stretch
     assert 0.4 < margin / np.ptp(occ.column_profile(scene)) < 0.55
@@ -97,7 +101,7 @@ def test_the_margin_of_a_decision_is_about_half_of_the_signals_swing() -> None:
 def test_the_user_has_the_last_word(scene: Scene, on: bool) -> None:
     plan = occ.plan(scene, 0.5 if on else 0.0, force={"led-edges": on, "jpeg": on})
     for effect in ("led-edges", "jpeg"):
-        decision = plan.decisions[LIGHTS_WAY.index(effect)]
+        decision = plan.decisions[LIGHT_PATH.index(effect)]
         assert (decision.included, decision.forced) == (on, True)
         assert decision.reason.endswith(f"switched {'on' if on else 'off'} by hand")
 
@@ -122,12 +126,12 @@ def test_reasons_name_the_estimate_and_the_tolerance(scene: Scene) -> None:
         else:
             assert decision.reason == "none in this scene: left out"
     lines = str(plan).splitlines()
-    assert len(lines) == len(LIGHTS_WAY)
+    assert len(lines) == len(LIGHT_PATH)
     assert lines[0].startswith("LED rise and fall: about ")
 
 
 def test_the_reason_is_the_comparison_that_decides(scene: Scene) -> None:
-    """Above the tolerance by itself or perhaps, within it, or within it and not worth it."""
+    """An effect is above the tolerance, perhaps above it, within it, or saves less than others."""
     seen = set()
     for tolerance in np.geomspace(0.05, 30.0, 12).tolist():
         for decision in occ.plan(scene, tolerance).decisions:
@@ -150,36 +154,36 @@ def test_the_reason_is_the_comparison_that_decides(scene: Scene) -> None:
         assert "tolerance" not in decision.reason
 
 
-def test_what_only_the_signal_calls_for_is_named() -> None:
+def test_effects_that_only_the_signal_needs_are_named() -> None:
     scene = occ.load_preset("phone-136us").replace(switching_frequency=14.6e3)
     of_profile = occ.plan(scene, observable="profile")
     assert "sensor-noise" not in of_profile
-    assert "Shot and read noise" in called_for_by_signal(of_profile, scene)
-    assert called_for_by_signal(occ.plan(scene), scene) == ()
-    assert called_for_by_signal(occ.plan(scene, observable="signal"), scene) == ()
-    # By hand it is left out of both, and without a tolerance of everything.
+    assert "Shot and read noise" in name_effects_for_signal(of_profile, scene)
+    assert name_effects_for_signal(occ.plan(scene), scene) == ()
+    assert name_effects_for_signal(occ.plan(scene, observable="signal"), scene) == ()
+    # Switched off by hand, it is in neither plan; without a tolerance, no effect is.
     off = dict.fromkeys(["sensor-noise", "fixed-pattern"], False)
-    assert called_for_by_signal(occ.plan(scene, observable="profile", force=off), scene) == ()
-    assert called_for_by_signal(occ.plan(scene, math.inf), scene) == ()
+    assert name_effects_for_signal(occ.plan(scene, observable="profile", force=off), scene) == ()
+    assert name_effects_for_signal(occ.plan(scene, math.inf), scene) == ()
 
 
 @pytest.mark.parametrize("observable", ["image", "profile", "signal", "decision"])
 @pytest.mark.parametrize("name", [name for name in occ.presets() if name.endswith("6us-real")])
-def test_a_plan_changes_at_the_error_of_each_way_and_nowhere_else(
+def test_a_plan_changes_at_the_error_of_each_set_and_nowhere_else(
     name: str, observable: Observable
 ) -> None:
     scene = occ.load_preset(name)
-    ways = ways_of(scene, SimulationSettings(observable=observable))
-    assert len(ways) > 15
-    for faster, way in pairwise(ways):
-        assert way.error < faster.error
-        for tolerance in (way.error, faster.error / (1.0 + 1e-8)):
+    effect_sets = effect_sets_of(scene, SimulationSettings(observable=observable))
+    assert len(effect_sets) > 15
+    for faster, effect_set in pairwise(effect_sets):
+        assert effect_set.error < faster.error
+        for tolerance in (effect_set.error, faster.error / (1.0 + 1e-8)):
             if tolerance:
-                assert set(occ.plan(scene, tolerance, observable).included) == way.effects
+                assert set(occ.plan(scene, tolerance, observable).included) == effect_set.effects
 
 
 def test_the_limit_of_noise_in_the_means_of_columns_is_its_law() -> None:
-    """The RMS of n normal numbers deviates by 1 / sqrt(2 n) from theirs: 3.5 times are allowed."""
+    """The RMS of n normal numbers deviates by 1 / sqrt(2 n) of it; 3.5 times that is allowed."""
     scene = occ.load_preset("phone-68us").replace(rows=200, columns=300)
     everything = occ.plan(scene, 0.0, "profile")
     (noise,) = (d for d in everything.decisions if d.effect == "sensor-noise")
@@ -201,7 +205,7 @@ def test_the_limit_of_noise_in_the_means_of_columns_is_its_law() -> None:
     assert max(found) <= noise.limit
 
 
-def test_of_a_scene_without_stripes_no_change_is_stated() -> None:
+def test_no_change_is_stated_for_a_scene_without_stripes() -> None:
     dark = occ.load_preset("phone-136us-real").replace(luminance=0.5, rows=100, columns=200)
     unknown = occ.plan(dark, 0.5)
     assert set(unknown.included) == {d.effect for d in unknown.decisions if d.estimate}
@@ -212,7 +216,7 @@ def test_of_a_scene_without_stripes_no_change_is_stated() -> None:
             assert "about" not in decision.reason
 
 
-def test_no_picture_is_planned_after_one_that_calls_for_all_effects(
+def test_no_picture_is_planned_after_one_that_needs_all_effects(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     planned: list[PaperView] = []

@@ -22,7 +22,7 @@ _INFINITE = ("∞", "inf", "infinity", "infinite")
 
 _OF_DECISION = replace(
     TOLERANCE,
-    meaning="How much effects left out may change what is observed, in margins: at 1 a chip could "
+    meaning="How much the omitted effects may change the observable, in margins: at 1 a chip could "
     "be misread.",
     unit=Unit(unit_of("decision")),
 )

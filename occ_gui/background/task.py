@@ -9,7 +9,7 @@ from PySide6.QtCore import QObject, Qt, QThread, QTimer, Signal, Slot
 
 from occ_model import plugins
 from occ_model.errors import OccError
-from occ_model.scene.refusal import labelled
+from occ_model.scene.refusal import sentence_with_label
 
 PATIENCE_MS = 2000  # how long the ends of all threads together wait for plug-ins
 
@@ -51,7 +51,7 @@ _log = logging.getLogger(__name__)
 def sentence_of(error: Exception, name: str, request: object) -> str:
     """Explain why work has no result; an unexpected error is logged with its traceback."""
     if isinstance(error, OccError):
-        return labelled(error)
+        return sentence_with_label(error)
     _log.error("%s failed for %r", name, request, exc_info=error)
     reason = f"{type(error).__name__}: {error}".rstrip(": .")
     return f"The {name} failed: {reason}."

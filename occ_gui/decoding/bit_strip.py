@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
 from occ_gui.simulation.verdict import received_in_words, wrong_places
 from occ_gui.widgets.guarded_paint import guarded
 from occ_model import colours
-from occ_model.scene.payload import Piece, compared
+from occ_model.scene.payload import PayloadPiece, compare_payload
 
 _CELL = 24
 _GAP = 3
@@ -157,7 +157,7 @@ class PayloadText(QLabel):
         self.setAccessibleName("Sent and received payload")
 
     def show_payload(self, payload: str, received: Sequence[int]) -> None:
-        pieces = compared(payload, received)
+        pieces = compare_payload(payload, received)
         self.setVisible(bool(pieces))
         if not pieces:
             return
@@ -172,7 +172,7 @@ def _shortened(text: str) -> str:
     return text if len(text) <= _MAX_SHOWN_LETTERS else f"{text[: _MAX_SHOWN_LETTERS - 1]}…"
 
 
-def _marked(pieces: Iterable[Piece]) -> str:
+def _marked(pieces: Iterable[PayloadPiece]) -> str:
     """Write what was received, with wrong letters crossed out and coloured."""
     marked, letters = "", 0
     for piece in pieces:

@@ -18,7 +18,7 @@ from occ_gui.widgets.columns import PACKETS_IN_VIEW
 from occ_gui.widgets.plain_text import LONGEST_TEXT
 from occ_model.errors import OccError, one_line
 from occ_model.results.teaching import Lesson, LessonList, Step
-from occ_model.scene.parameter_kinds import distinguished
+from occ_model.scene.parameter_kinds import format_distinctly
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import GROUPS, Scene
 from occ_model.teaching.answers import explanation
@@ -288,7 +288,7 @@ def changed_sentence(step: Step, scene: Scene) -> str:
     for name in (name for names in GROUPS.values() for name in names):
         now, own = scene.value(name), step.scene.value(name)
         if now != own:
-            texts = (text or "empty" for text in distinguished(PARAMETERS[name], now, own))
+            texts = (text or "empty" for text in format_distinctly(PARAMETERS[name], now, own))
             changes.append(f"{PARAMETERS[name].label} is {next(texts)} instead of {next(texts)}")
     named = changes[:_MOST_NAMED]
     if len(changes) > _MOST_NAMED:

@@ -22,7 +22,7 @@ from occ_model.photo.stripes.find import find_stripes
 from occ_model.results.lamp import Lamp
 from occ_model.results.match import ChipReading, Comparison, counterpart
 from occ_model.scene.scene import Scene
-from occ_model.scene.square_wave import blinking
+from occ_model.scene.square_wave import send_square_wave
 
 PartOfPhoto = tuple[Photo, Part]
 
@@ -97,7 +97,7 @@ def known_scene(scene: Scene, choice: MatchChoice) -> tuple[Scene, str]:
     if choice.sent != "square":
         return scene, choice.sent
     # A lamp that is dimmed by the width of its pulses blinks too: "scene" would refuse it.
-    return blinking(scene, choice.square_frequency), "auto"
+    return send_square_wave(scene, choice.square_frequency), "auto"
 
 
 def compared(part: PhotoPart) -> tuple[object, ...]:

@@ -17,7 +17,7 @@ from occ_gui.values.simulated import PinnedScene, Pins, SimulationRequest
 from occ_model.arrays import FloatArray
 from occ_model.errors import OccError, one_line
 from occ_model.results.decoding import PAPER_DECODER, DecodeResult
-from occ_model.scene.parameter_kinds import Parameter, ParameterValue, distinguished
+from occ_model.scene.parameter_kinds import Parameter, ParameterValue, format_distinctly
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import GROUPS, Scene
 from occ_model.scene.simulation_settings import TOLERANCE, SimulationSettings
@@ -204,7 +204,7 @@ class PinController(QObject):
         rows = []
         for declared, one, other in inputs:
             if one != other:
-                texts = distinguished(declared, one, other)
+                texts = format_distinctly(declared, one, other)
                 first, second = (text or "none" for text in texts)
                 rows.append(ComparedRow(declared.label, first, second, explain(declared)))
         if a.settings.force != b.settings.force:

@@ -19,7 +19,7 @@ from occ_gui.widgets.state_look import State
 from occ_gui.widgets.unchanged import are_same
 from occ_model.arrays import FloatArray
 from occ_model.results.decoding import DecodeResult
-from occ_model.scene.payload import Piece, compared, form_of
+from occ_model.scene.payload import PayloadPiece, compare_payload, form_of
 
 Span: TypeAlias = tuple[float, float]  # where a bit is drawn: its first and its last x
 
@@ -41,7 +41,7 @@ class CodeRow(StoryRow):
         self._drawn_from: tuple[object, ...] = ()
         self.edges: FloatArray | None = None
         self.fields: tuple[PacketField, ...] = ()
-        self.letters: tuple[Piece, ...] = ()
+        self.letters: tuple[PayloadPiece, ...] = ()
         self._form = ""
 
     def show_reading(self, reading: ColumnView, decoded: DecodeResult) -> None:
@@ -57,7 +57,7 @@ class CodeRow(StoryRow):
         self._decoded, self._sent = decoded, reading.sent
         self.edges = received_edges(decoded)
         self.fields = fields
-        self.letters = compared(payload, decoded.bits.tolist()) if decoded.bits.size else ()
+        self.letters = compare_payload(payload, decoded.bits.tolist()) if decoded.bits.size else ()
         self._form = form_of(payload)
         self.updateGeometry()
         self.setAccessibleDescription(self._in_words())

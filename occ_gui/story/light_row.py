@@ -15,7 +15,7 @@ from occ_gui.widgets.chip_cell import draw_digits, have_room_for_digits
 from occ_gui.widgets.state_look import is_dark
 from occ_model.errors import counted, one_line
 from occ_model.results.teaching import LightCurve
-from occ_model.scene.payload import Piece, compared
+from occ_model.scene.payload import PayloadPiece, compare_payload
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import SECOND
 
@@ -53,14 +53,14 @@ class LightRow(StoryRow):
         self._drawn_from: tuple[object, ...] = ()
         self._edged = False
         self._sent: tuple[int, ...] = ()
-        self.letters: tuple[Piece, ...] = ()
+        self.letters: tuple[PayloadPiece, ...] = ()
         self._grabbed: float | None = None
 
     def show_reading(self, reading: ColumnView) -> None:
         if reading.scene != self._scene:
             self.update()  # the window, at least
         self._scene, self._sent = reading.scene, reading.sent
-        self.letters = compared(reading.scene.transmitter.payload, self._sent)
+        self.letters = compare_payload(reading.scene.transmitter.payload, self._sent)
         self._edged = reading.has_edges
         drawn = (
             self._scene.transmitter, self._scene.camera.readout_time,

@@ -13,7 +13,7 @@ from occ_gui.widgets.work_bar import WorkBar
 from occ_model.errors import OccError
 from occ_model.scene.parameter_kinds import Count
 from occ_model.scene.recording import DECLARED, Recording
-from occ_model.scene.refusal import labelled, refusal_of
+from occ_model.scene.refusal import refusal_of, sentence_with_label
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import SECOND
 
@@ -82,7 +82,7 @@ class RecordingForm(QWidget):
         try:
             self.recording.check(scene)
         except OccError as error:
-            self.gap.setText(labelled(error))
+            self.gap.setText(sentence_with_label(error))
             return
         gap, fraction = self.recording.gap(scene), 100.0 * self.recording.gap_ratio(scene)
         self.gap.setText(

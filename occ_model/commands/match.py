@@ -26,7 +26,7 @@ from occ_model.results.lamp import Lamp
 from occ_model.results.match import ChipReading, Match
 from occ_model.scene.from_text import write_scene_file
 from occ_model.scene.scene import Scene
-from occ_model.scene.square_wave import SQUARE_FREQUENCY, blinking
+from occ_model.scene.square_wave import SQUARE_FREQUENCY, send_square_wave
 from occ_model.scene.units import Unit
 
 
@@ -149,7 +149,7 @@ def _how_known(match: Match, options: argparse.Namespace) -> str:
 
 def _square_wave(scene: Scene, text: str) -> Scene:
     """Make a scene send a square wave; the sentence about a wrong value names the option."""
-    return blinking(scene, replace(SQUARE_FREQUENCY, name="--led-frequency").parse(text))
+    return send_square_wave(scene, replace(SQUARE_FREQUENCY, name="--led-frequency").parse(text))
 
 
 def _report(match: Match, assumption: str, noted: float | None) -> list[str]:

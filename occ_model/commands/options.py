@@ -9,7 +9,7 @@ from occ_model.effects.registry import NAMES
 from occ_model.errors import ParameterError, one_line, shown
 from occ_model.receiver.decoders import DECODERS, decoders
 from occ_model.results.photo_table import assumption
-from occ_model.scene.from_text import DEFAULT_PRESET, read_scene_file, with_settings
+from occ_model.scene.from_text import DEFAULT_PRESET, change_scene, read_scene_file
 from occ_model.scene.presets import load_preset
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import (
@@ -42,15 +42,15 @@ class Parser(argparse.ArgumentParser):
 
 def number(text: str) -> float:
     """Parse the number of an option, with a decimal point or comma, or ``inf``."""
-    readings = NONE.readings(text)
-    if len(readings) > 1:
-        comma, thousands = (NONE.format(value) for value in readings)
+    meanings = NONE.meanings(text)
+    if len(meanings) > 1:
+        comma, thousands = (NONE.format(value) for value in meanings)
         raise argparse.ArgumentTypeError(
             f"{shown(text)} means {comma} with a decimal comma and {thousands} with a comma "
             "between thousands; write it without that comma"
         )
     try:
-        return readings[0] if readings else float(text)
+        return meanings[0] if meanings else float(text)
     except ValueError:
         raise argparse.ArgumentTypeError(f"{shown(text)} is not a number") from None
 
@@ -104,7 +104,7 @@ def add_scene_options(parser: argparse.ArgumentParser) -> None:
 
 def scene_of(options: argparse.Namespace) -> Scene:
     scene = read_scene_file(options.scene) if options.scene else load_preset(options.preset)
-    return with_settings(scene, options.settings)
+    return change_scene(scene, options.settings)
 
 
 def add_plan_options(parser: argparse.ArgumentParser) -> None:
@@ -146,7 +146,7 @@ def add_simulation_options(parser: argparse.ArgumentParser) -> None:
 def simulation_settings_of(options: argparse.Namespace) -> SimulationSettings:
     return SimulationSettings(
         options.tolerance, options.observable, forced(options), options.noise, options.seed
-    ).checked(NAMES)
+    ).check(NAMES)
 
 
 def forced(options: argparse.Namespace) -> dict[str, bool]:

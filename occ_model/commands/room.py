@@ -29,7 +29,7 @@ from occ_model.room.pose_fit import Located
 from occ_model.room.render import RoomFrame, render_room
 from occ_model.room.room import Place, Room
 from occ_model.room.rooms import load_room, rooms
-from occ_model.scene.from_text import with_settings
+from occ_model.scene.from_text import change_scene
 from occ_model.scene.simulation_settings import TOLERANCE, SimulationSettings
 from occ_model.study.code_length import CodeLength, code_lengths
 from occ_model.study.room_map import (
@@ -119,7 +119,7 @@ def _add_room(parser: argparse.ArgumentParser, axes: Sequence[str] = _AXES) -> N
 
 def _room_of(options: argparse.Namespace) -> Room:
     room = load_room(options.room)
-    changed = with_settings(room.scene, options.settings)
+    changed = change_scene(room.scene, options.settings)
     names = [text.split("=", 1)[0].strip() for text in options.settings]
     room = room.with_sent(**{name: changed.value(name) for name in names})
     given = {name: value for name in _AXES if (value := getattr(options, name, None)) is not None}

@@ -74,7 +74,7 @@ def plan(
 
 
 def plan_with(scene: Scene, settings: SimulationSettings) -> Plan:
-    settings = settings.checked(NAMES)
+    settings = settings.check(NAMES)
     return plan_of(paper_view_of(scene), settings)
 
 
@@ -141,7 +141,7 @@ def signal_plan(
     If pixels are simulated, the plan includes the effects that the signal of any picture needs. If
     not, simulating all effects takes less time than estimating what they change.
     """
-    own = replace(settings, observable="signal").checked(NAMES)
+    own = replace(settings, observable="signal").check(NAMES)
     complete = complete_plan(scenes[0], own)
     if needs_pixels or "image" in complete.kinds or own.tolerance == math.inf:
         return plan_of_any([paper_view_of(scene) for scene in scenes], own)
@@ -169,7 +169,7 @@ def effect_sets_of(scene: Scene, settings: SimulationSettings) -> tuple[EffectSe
 
     The error of each is the smallest tolerance at which it is chosen; no two are equal.
     """
-    sets = _sets_of(paper_view_of(scene), settings.checked(NAMES))
+    sets = _sets_of(paper_view_of(scene), settings.check(NAMES))
     found: list[EffectSet] = []
     for effect_set, error in zip(sets.effect_sets, sets.errors_of(sets.effect_sets), strict=True):
         if error < (found[-1].error if found else math.inf):

@@ -237,7 +237,7 @@ def _rounded(scene: Scene, uncertainties: Mapping[str, float]) -> Scene:
 
     def rounded(name: str, declared: Quantity) -> float:
         value = float(scene.value(name))
-        return declared.unit.rounded_estimate(value, min(uncertainties[name], abs(value)))
+        return declared.unit.round_estimate(value, min(uncertainties[name], abs(value)))
 
     found = {name: PARAMETERS[name] for name in uncertainties}
     return scene.replace(

@@ -14,7 +14,7 @@ _BINS = 256
 MAX_UNEXPLAINED = 0.05
 """Fraction of a signal's variance, neither its model's nor noise, above which it is another's.
 
-Of packets that the equalizer had read rightly up to 3 %, of wrong ones as a rule more than 7 %.
+Of packets that the equalizer had read correctly up to 3 %, of wrong ones as a rule more than 7 %.
 """
 
 _MIN_VARIANCE = 1e-8  # of light in fractions of full light: no model is more exact

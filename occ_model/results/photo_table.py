@@ -206,7 +206,7 @@ def _given(known: Quantity, value: float) -> str:
 def _mean(name: str, found: CombinedEstimate | None, condition: str) -> list[str]:
     if found is None:
         return [f"# no mean of {name}"]
-    value = quantity(name).unit.rounded_estimate(found.value, found.uncertainty)
+    value = quantity(name).unit.round_estimate(found.value, found.uncertainty)
     photos, left_out = counted(found.count, f"{SURE} photo"), len(found.outliers)
     lines = [
         f"# mean of {name}: {condition}{value!r} +- {_error(found.uncertainty)}, from "

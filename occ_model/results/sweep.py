@@ -50,7 +50,7 @@ class SweepTable:
     sent : ndarray of int64, shape (values of the first axis, of the second, ...)
         Bits sent at each point; 0 where the model refuses the scene.
     right : ndarray of int64, shape (..., decoders)
-        Bits of them that were read rightly.
+        Bits of them that were read correctly.
     low, high : ndarray of float64, shape (..., decoders)
         The 95 % interval, percent, which counts images, as bits of one image fail together; not a
         number where the model refuses the scene.
@@ -58,7 +58,7 @@ class SweepTable:
         Why the model refuses a scene, or how often a plug-in has failed, by the point's index, the
         last axis running fastest.
     whole : ndarray of int64, shape (..., decoders)
-        Images of which every bit was read rightly.
+        Images of which every bit was read correctly.
     """
 
     request: SweepRequest

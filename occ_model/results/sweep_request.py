@@ -98,7 +98,7 @@ class SweepRequest:
 class SweepPoint:
     index: int  # The point's index, the last axis running fastest
     sent: int  # Bits sent in all images, 0 where the model refuses the scene
-    right: tuple[int, ...]  # Number of these bits that each decoder read rightly
+    right: tuple[int, ...]  # Number of these bits that each decoder read correctly
     # Why the model refuses the scene, or how often a plug-in has failed; else empty
     note: str = ""
     # Images of which each decoder read every bit rightly; empty where they were not counted

@@ -109,7 +109,7 @@ def render_room(
     ProjectionError
         A lamp in the picture reaches behind the camera, or the picture would be too large.
     """
-    settings = SimulationSettings(tolerance, observable, force or {}, noise, seed).checked(NAMES)
+    settings = SimulationSettings(tolerance, observable, force or {}, noise, seed).check(NAMES)
     check_size(room.scene.camera)
     timer = StageTimer()
     seen = lamps_in_view(room)

@@ -1,1 +1,1 @@
-"""Scenes: frozen values of declared parameters, their files and presets."""
+"""Scenes as frozen values of declared parameters, their files, and presets."""

@@ -1,4 +1,4 @@
-"""Check the arguments of functions: counts, choices, switches, seeds."""
+"""Checks of arguments: counts, choices, switches, seeds."""
 
 from collections.abc import Mapping, Sequence
 from numbers import Integral, Real
@@ -10,7 +10,7 @@ from occ_model.errors import ParameterError, shown
 
 
 def check_count(name: str, value: object, least: int, most: int | None = None) -> None:
-    """Refuse a value that is not a whole number from ``least`` to ``most``, if that is given."""
+    """Refuse a value that is not a whole number from ``least`` to ``most``; None is no limit."""
     whole = isinstance(value, Integral) and not isinstance(value, bool)
     if not whole or value < least or (most is not None and value > most):  # type: ignore[operator]
         top = "" if most is None else f" to {most:,}"
@@ -28,7 +28,7 @@ def check_choice(name: str, value: object, choices: Sequence[str]) -> None:
 
 
 def check_switches(switches: object, names: Sequence[str]) -> dict[str, bool]:
-    """Return switches, on (True) or off (False) by name, or refuse what is not such a mapping."""
+    """Return switches, True or False by name; refuse a value that is not such a mapping."""
     if switches is None:
         return {}
     if not isinstance(switches, Mapping):
@@ -41,5 +41,5 @@ def check_switches(switches: object, names: Sequence[str]) -> dict[str, bool]:
 
 
 def check_seed(seed: object) -> None:
-    """Refuse a value that is not a seed of random numbers: a whole number from 0."""
+    """Refuse a value that is not a seed of random numbers, a whole number from 0."""
     check_count("seed", seed, 0)

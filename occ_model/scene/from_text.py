@@ -1,4 +1,4 @@
-"""Scenes from files, and changed by texts such as ``switching_frequency=10kHz``."""
+"""Scenes from files, and changes by texts such as ``switching_frequency=10kHz``."""
 
 from collections.abc import Iterable
 from pathlib import Path
@@ -11,13 +11,13 @@ from occ_model.scene.parameters import parameter_named
 from occ_model.scene.provenance import ENDINGS, scene_inside
 from occ_model.scene.scene import Scene
 
-SCENE_ENDING = ".toml"  # ending of the files that scenes are saved to
+SCENE_ENDING = ".toml"  # ending of scene files
 
-DEFAULT_PRESET = "phone-68us"  # where none is named: all models and decoders give a result
+DEFAULT_PRESET = "phone-68us"  # when none is named; all models and decoders give a result for it
 
 
 def read_scene_file(path: Path) -> Scene:
-    """Read a scene file, or the scene inside a figure or table that was exported."""
+    """Read a scene file, or the scene inside an exported figure or table."""
     if path.suffix.lower() in ENDINGS:
         return scene_inside(path)
     text = read_text(path)
@@ -28,10 +28,10 @@ def read_scene_file(path: Path) -> Scene:
 
 
 def check_scene_path(path: Path) -> None:
-    """Refuse to save a scene to a file with the ending of a figure, table or photo."""
+    """Refuse to save a scene in a file that does not have the ending of scene files."""
     if path.suffix.lower() != SCENE_ENDING:
         raise OutputError(
-            f"{one_line(str(path))} has no ending of a scene file; use {SCENE_ENDING}."
+            f"{one_line(str(path))} does not end as a scene file does; use {SCENE_ENDING}."
         )
 
 
@@ -40,7 +40,7 @@ def write_scene_file(path: Path, scene: Scene) -> None:
     write_whole(path, scene.to_toml().encode("utf-8"))
 
 
-def with_settings(scene: Scene, settings: Iterable[str]) -> Scene:
+def change_scene(scene: Scene, settings: Iterable[str]) -> Scene:
     """Change a scene by texts such as ``"switching_frequency=10kHz"``."""
     changes: dict[str, ParameterValue] = {}
     for setting in settings:

@@ -1,6 +1,6 @@
-"""Kinds of parameter: quantities, counts, choices, patterns, payloads; each checks a value.
+"""Kinds of parameter: quantities, counts, choices, patterns, payloads. Each checks its values.
 
-Values are in SI units; a unit says how they are shown (:mod:`occ_model.scene.units`).
+Values are in SI units; their unit formats them (:mod:`occ_model.scene.units`).
 """
 
 import math
@@ -10,7 +10,7 @@ from typing import Literal, TypeAlias
 
 from occ_model.errors import ParameterError, shown
 from occ_model.plugins import plugin_names
-from occ_model.scene.payload import PAYLOADS, canonical, typed_form
+from occ_model.scene.payload import PAYLOADS, canonical_payload, typed_form
 from occ_model.scene.units import LONGEST_TEXT, Unit
 
 ParameterValue: TypeAlias = float | int | str
@@ -21,17 +21,17 @@ MAX_PATTERN_CHIPS = 4096
 @dataclass(frozen=True, slots=True)
 class Declaration:
     name: str  # The identifier, as in a scene file
-    label: str  # The field's term for it, as on screen
-    symbol: str  # The symbol in the paper's equations, empty where it has none
+    label: str  # Its usual name in the field, as on screen
+    symbol: str  # Its symbol in the paper's equations, empty if it has none
     meaning: str
 
     @property
     def in_sentence(self) -> str:
-        """The label within a sentence, where ISO, LED and JPEG stay in capitals."""
+        """The label inside a sentence: in lower case, except ISO, LED and JPEG."""
         return self.label if self.label[:2].isupper() else self.label[:1].lower() + self.label[1:]
 
     def refuse(self, problem: str, allowed: str) -> ParameterError:
-        """Return the error; ``problem``: a verb and the value, such as "is 3 m"."""
+        """Return the error for a ``problem``, a verb and the value such as "is 3 m"."""
         verb, _, value = problem.partition(" ")
         return ParameterError.of(self.name, value, allowed, verb=verb, parameters=(self.name,))
 
@@ -44,33 +44,33 @@ class Declaration:
             )
 
 
-def _whole(value: object) -> int | None:
-    """Return a whole number of any numeric type as an int, None for anything else."""
+def _as_whole_number(value: object) -> int | None:
+    """Convert a whole number of any numeric type to an int; None for anything else."""
     if isinstance(value, bool):
         return None
     if isinstance(value, Integral):
         return int(value)
     try:
         number = float(value) if isinstance(value, Real) else math.nan
-    except OverflowError:  # a fraction too large for a float, and so for every declaration
+    except OverflowError:  # a fraction too large for a float is too large for any parameter
         return None
     return int(number) if number.is_integer() else None
 
 
-def _read_whole(text: str) -> int:
-    """Parse a whole number in any of Python's notations, or with leading zeros."""
+def _parse_whole_number(text: str) -> int:
+    """Parse a whole number in any of Python's notations, also with leading zeros."""
     try:
         return int(text, 0)
     except ValueError:
         return int(text, 10)
 
 
-_LIMIT_DIGITS = 12  # digits up to which a limit is written without a power of ten
+_LIMIT_DIGITS = 12  # digits of a limit that are written without an exponent
 
 
 @dataclass(frozen=True, slots=True)
 class Quantity(Declaration):
-    """A real number with a unit, from ``low`` to ``high``, of which a slider offers a part."""
+    """A real number with a unit, from ``low`` to ``high``; its slider covers part of the range."""
 
     unit: Unit
     low: float
@@ -82,15 +82,15 @@ class Quantity(Declaration):
     @property
     def allowed(self) -> str:
         if self.high == math.inf:
-            return f"from {self._limit(self.low)}"
-        return f"{self._limit(self.low)} to {self._limit(self.high)}"
+            return f"from {self._format_limit(self.low)}"
+        return f"{self._format_limit(self.low)} to {self._format_limit(self.high)}"
 
-    def _limit(self, value: float) -> str:
-        """Format a limit in full, as 1000000 s and not 1e+06 s, unless that is too long to read."""
+    def _format_limit(self, value: float) -> str:
+        """Format a limit in full, 1000000 s and not 1e+06 s, unless it has too many digits."""
         return self.unit.format(value, digits=_LIMIT_DIGITS)
 
     def check(self, value: object) -> float:
-        if type(value) is float:  # as most are, and checked faster than any number
+        if type(value) is float:  # the usual case, checked faster
             number = value
         elif isinstance(value, bool) or not isinstance(value, Real):
             raise self.refuse(f"is {shown(value)}, which is not a number", self.allowed)
@@ -100,40 +100,44 @@ class Quantity(Declaration):
             except OverflowError:
                 number = -math.inf if value < 0 else math.inf
         if not self.low <= number <= self.high:
-            raise self.refuse(f"is {self._outside(number)}", self.allowed)
+            raise self.refuse(f"is {self._format_refused(number)}", self.allowed)
         return number
 
-    def _outside(self, number: float) -> str:
-        """Format a refused value with enough digits to differ from every allowed one."""
+    def _format_refused(self, number: float) -> str:
+        """Format a refused value with enough digits to look different from every allowed one."""
         text = self.unit.format(number)
-        read = self.unit.parse(text)  # 0.999999999 mm is written as 1000 µm
+        read = self.unit.parse(text)  # 0.999999999 mm is formatted as 1000 µm
         is_rounded_in = read is not None and self.low <= read <= self.high
         return self.unit.format(number, digits=17) if is_rounded_in else text
 
     def parse(self, text: str, plain: float | None = None) -> float:
         """Parse a value as people write it.
 
-        A number without a unit is in SI, or in ``plain`` SI units in a field that shows another
-        unit. It is refused where it lies beyond the slider and would not in the other unit: 20000
-        for a frequency shown in kHz hardly means 20 MHz, and 136 for an exposure time hardly means
-        136 s.
+        A number without a unit is in SI units, or in ``plain`` SI units in a field that shows
+        another unit. It is refused if it is off the slider in this unit but on the slider in the
+        other one: 20000 for a frequency shown in kHz hardly means 20 MHz, and 136 for an exposure
+        time hardly means 136 s.
         """
         self.check_length(text, self.allowed)
-        readings = self.unit.readings(text, 1.0 if plain is None else plain)
-        if len(readings) > 1:
-            comma, thousands = (self.unit.format(value) for value in readings)
+        meanings = self.unit.meanings(text, 1.0 if plain is None else plain)
+        if len(meanings) > 1:
+            comma, thousands = (self.unit.format(value) for value in meanings)
             raise self.refuse(
                 f"is {shown(text)}, which means {comma} with a decimal comma and {thousands} with "
                 "a comma between thousands",
                 f"{self.allowed}, written without that comma",
             )
-        if not readings:
+        if not meanings:
             unit = f" in {self.unit.display(self.default)[0]}" if self.unit.symbol else ""
             raise self.refuse(f"is {shown(text)}, which is not a number{unit}", self.allowed)
-        value = self.check(readings[0])
+        value = self.check(meanings[0])
         usual = self.unit.display(self.default)
         other = self.unit.parse(text, usual[1] if plain is None else 1.0)
-        if other not in (value, None) and self._offers(other) and not self._offers(value):
+        if (
+            other not in (value, None)
+            and self._is_on_slider(other)
+            and not self._is_on_slider(value)
+        ):
             found = (self.unit.format(value), self.unit.format(other))
             both = (
                 f"is {found[0]} and may be meant as {found[1]}"
@@ -146,7 +150,7 @@ class Quantity(Declaration):
             )
         return value
 
-    def _offers(self, value: float) -> bool:
+    def _is_on_slider(self, value: float) -> bool:
         low, high = self.slider
         return low <= value <= high
 
@@ -154,18 +158,18 @@ class Quantity(Declaration):
         return self.unit.format(value, digits)
 
     def at(self, fraction: float) -> float:
-        """Return the value at a slider's position, from 0 to 1, to four significant digits."""
+        """Return the value at a slider's position from 0 to 1, to four significant digits."""
         low, high = self.slider
         if self.scale == "log":
             value = low * (high / low) ** fraction
         else:
             value = low + (high - low) * fraction
-        # Through its text, so that the shown text, typed again, is the same value.
+        # Rounded by way of its text, so that typing the displayed text gives the same value.
         rounded = self.unit.parse(self.unit.format(value, digits=4))
         return min(max(value if rounded is None else rounded, low), high)
 
     def fraction(self, value: float) -> float:
-        """Return a slider's position for a value, clamped to 0 and 1."""
+        """Return a slider's position from 0 to 1 for a value; values off it are at its ends."""
         low, high = self.slider
         value = min(max(value, low), high)
         if self.scale == "log":
@@ -184,7 +188,7 @@ class Count(Declaration):
         return f"a whole number from {self.low} to {self.high}"
 
     def check(self, value: object) -> int:
-        number = _whole(value)
+        number = _as_whole_number(value)
         if number is None:
             raise self.refuse(f"is {shown(value)}", self.allowed)
         if not self.low <= number <= self.high:
@@ -195,7 +199,7 @@ class Count(Declaration):
         """Parse a whole number, also as ``0b...``, ``0x...`` or ``007``."""
         self.check_length(text, self.allowed)
         try:
-            number = _read_whole(text)
+            number = _parse_whole_number(text)
         except ValueError:
             raise self.refuse(f"is {shown(text)}", self.allowed) from None
         return self.check(number)
@@ -229,7 +233,7 @@ class Choice(Declaration):
 
 @dataclass(frozen=True, slots=True)
 class OpenChoice(Choice):
-    """One of a few words, or the name of a plug-in of the entry point ``group``."""
+    """One of a few words, or the name of a plug-in with the entry point ``group``."""
 
     group: str
 
@@ -238,7 +242,7 @@ class OpenChoice(Choice):
         return f"{', '.join(self.choices)}, or a plug-in's name"
 
     def all_choices(self) -> tuple[str, ...]:
-        """Return the built-in words and the names of the plug-ins that are installed."""
+        """Return the built-in words and the names of the installed plug-ins."""
         return tuple(dict.fromkeys((*self.choices, *plugin_names(self.group))))
 
     def check(self, value: object) -> str:
@@ -249,10 +253,10 @@ class OpenChoice(Choice):
 
 @dataclass(frozen=True, slots=True)
 class Payload(Declaration):
-    """What is sent: a text, bytes or bits; or nothing."""
+    """What is sent: a text, bytes, bits or nothing."""
 
     default: str
-    empty: str = "the code"  # what is sent where there is no payload
+    empty: str = "the code"  # what is sent without a payload
 
     @property
     def allowed(self) -> str:
@@ -260,7 +264,7 @@ class Payload(Declaration):
 
     def check(self, value: object) -> str:
         try:
-            return canonical(value)
+            return canonical_payload(value)
         except ValueError as problem:
             raise self.refuse(str(problem), self.allowed) from None
 
@@ -277,7 +281,7 @@ class ChipPattern(Declaration):
 
     default: str
     most: int = MAX_PATTERN_CHIPS
-    empty: str = "packets"  # what is sent where there is no pattern
+    empty: str = "packets"  # what is sent without a pattern
 
     @property
     def allowed(self) -> str:
@@ -291,7 +295,7 @@ class ChipPattern(Declaration):
         return value
 
     def parse(self, text: str) -> str:
-        """Parse a pattern, which may have spaces between chips."""
+        """Parse a pattern, ignoring spaces between chips."""
         return self.check("".join(text.split()))
 
     def format(self, value: str) -> str:
@@ -303,10 +307,10 @@ Parameter: TypeAlias = Quantity | Count | Choice | ChipPattern | Payload
 _ALL_DIGITS = 17
 
 
-def distinguished(
+def format_distinctly(
     declared: Parameter, one: ParameterValue, other: ParameterValue
 ) -> tuple[str, str]:
-    """Format two different values with enough digits to distinguish them."""
+    """Format two values with enough digits to distinguish them."""
     if isinstance(declared, Quantity):
         a, b = float(one), float(other)
         texts = declared.format(a), declared.format(b)

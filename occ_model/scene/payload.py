@@ -1,7 +1,7 @@
 """Payloads as texts: ``text:HELLO``, ``hex:48656c6c6f`` and ``bits:0100100001``.
 
-The word before the colon is the form in which the payload is written, and a received one is shown.
-Without one of these words it is a text: ``HELLO`` is ``text:HELLO``.
+The word before the colon is the form in which a payload is written, and in which a received one is
+shown. Without one of these words a payload is a text: ``HELLO`` is ``text:HELLO``.
 """
 
 import re
@@ -13,29 +13,29 @@ from occ_model.errors import shown
 
 MAX_PAYLOAD_BITS = 4096
 
-PAYLOADS = (  # the forms of a payload, in words
+PAYLOADS = (  # the forms of a payload, for sentences
     "HELLO or text:HELLO (UTF-8), hex:48656c6c6f or bits:0100100001, "
     f"of 1 to {MAX_PAYLOAD_BITS} bits"
 )
 
 _FORMS = ("text", "hex", "bits")
 _SHORT_FORM = re.compile(r"\s*(?:0x([0-9a-f ]+)|0b([01 ]+))", re.IGNORECASE)
-"""Bytes or bits as programs write them."""
+"""Bytes or bits as in program code."""
 
 _DIGITS_ALONE = re.compile("[0-9 ]*")
 
-_REPLACEMENT_LETTER = "?"  # in place of bytes that are not text
+_REPLACEMENT_LETTER = "?"  # stands for bytes that are not text
 
 
-def canonical(value: object) -> str:
-    """Return a payload in its shortest form; a ValueError holds a part of a sentence."""
+def canonical_payload(value: object) -> str:
+    """Return a payload in its canonical form; a ValueError has part of a sentence."""
     if not isinstance(value, str):
-        raise ValueError(f"is {shown(value)}")  # noqa: TRY004 - a wrong value as any other
+        raise ValueError(f"is {shown(value)}")  # noqa: TRY004 - one kind for all wrong values
     if len(value) > 4 * MAX_PAYLOAD_BITS:
         raise ValueError(f"is a text of {len(value):,} characters")
     if not value.strip():
         return ""
-    form, content = _form_and_content(value)
+    form, content = _split_form(value)
     if form != "text":
         content = "".join(content.split()).lower()
     if not _is_content(form, content):
@@ -47,7 +47,7 @@ def canonical(value: object) -> str:
     return text
 
 
-def _form_and_content(typed: str) -> tuple[str, str]:
+def _split_form(typed: str) -> tuple[str, str]:
     word, colon, content = typed.partition(":")
     form = word.strip().lower()
     if colon and form in _FORMS:
@@ -59,17 +59,17 @@ def _form_and_content(typed: str) -> tuple[str, str]:
 
 
 def typed_form(payload: str) -> str:
-    """Return a payload as it is typed: a text as it is, if no other form has it."""
+    """Return a payload as one would type it: a text without its form, unless that is ambiguous."""
     form, _, content = payload.partition(":")
     if form != "text" or not content.strip() or _DIGITS_ALONE.fullmatch(content):
         return payload
-    return content if _form_and_content(content) == ("text", content) else payload
+    return content if _split_form(content) == ("text", content) else payload
 
 
 def _is_content(form: str, content: str) -> bool:
     match form:
         case "text":
-            # Half of a surrogate pair is not a character.
+            # Half of a surrogate pair is no character.
             return not any("\ud800" <= letter <= "\udfff" for letter in content)
         case "hex":
             return re.fullmatch("(?:[0-9a-f]{2})*", content) is not None
@@ -80,7 +80,7 @@ def _is_content(form: str, content: str) -> bool:
 
 @lru_cache(maxsize=64)
 def bits_of_payload(payload: str) -> tuple[int, ...]:
-    """Return the bits of a payload in its canonical form, each byte's most significant first."""
+    """Return the bits of a canonical payload, the most significant of each byte first."""
     form, _, content = payload.partition(":")
     if form == "bits":
         return tuple(map(int, content))
@@ -89,9 +89,10 @@ def bits_of_payload(payload: str) -> tuple[int, ...]:
 
 
 def payload_of_bits(bits: Sequence[int], form: str) -> str:
-    """Write bits as ``text``, ``hex`` or ``bits``, without the form's name, from whole bytes.
+    """Write bits as ``text``, ``hex`` or ``bits``, without the form's name.
 
-    Bytes that are not text are written as question marks, and so are hidden characters.
+    Text and hex end with the last whole byte. In a text, question marks stand for bytes that are no
+    text, and for characters that cannot be printed.
     """
     if form == "bits":
         return "".join(str(int(bit)) for bit in bits)
@@ -115,20 +116,20 @@ def form_of(payload: str) -> str:
 
 
 @dataclass(frozen=True, slots=True)
-class Piece:
-    """A letter of a text or a byte in hex, as sent and as received."""
+class PayloadPiece:
+    """A letter of a text, or a byte in hex, as sent and as received."""
 
-    # How it is written; ``received`` is empty where its bits were not received
+    # As written; ``received`` is empty if not all of its bits were received
     sent: str
     received: str
     is_right: bool
-    # Its first bit among those sent, and the one after its last
+    # Index of its first bit among those sent, and of the bit after its last
     first: int
     last: int
 
 
-def compared(payload: str, received: Sequence[int]) -> tuple[Piece, ...]:
-    """Compare a payload with received bits, letter by letter or byte by byte; empty for bits."""
+def compare_payload(payload: str, received: Sequence[int]) -> tuple[PayloadPiece, ...]:
+    """Compare a text or bytes with received bits, piece by piece; empty for a payload of bits."""
     if form_of(payload) not in ("text", "hex"):
         return ()
     bits, pieces, start = bits_of_payload(payload), [], 0
@@ -137,7 +138,7 @@ def compared(payload: str, received: Sequence[int]) -> tuple[Piece, ...]:
         seen = tuple(received[start:end])
         written = payload_of_bits(seen, form_of(payload)) if len(seen) == end - start else ""
         shown_letter = payload_of_bits(bits[start:end], form_of(payload))
-        pieces.append(Piece(shown_letter, written, seen == bits[start:end], start, end))
+        pieces.append(PayloadPiece(shown_letter, written, seen == bits[start:end], start, end))
         start = end
     return tuple(pieces)
 

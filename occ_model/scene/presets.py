@@ -1,6 +1,6 @@
-"""Presets, the package's and the user's own: list, load, save and delete them.
+"""List, load, save and delete presets: the package's, and the user's own.
 
-Each value has its source, or the reason why it is assumed, in the preset's file.
+A preset's file gives the source of each value, or the reason why it is assumed.
 """
 
 import re
@@ -26,16 +26,16 @@ from occ_model.scene.preset_file import (
     ENDING,
     FOLDER,
     Preset,
-    checked_notes,
+    check_notes,
     package_preset,
     preset_from,
 )
 from occ_model.scene.scene import Scene
 
-USER_FOLDER = "OCC_PRESETS"  # environment variable of another folder for the user's presets
+USER_FOLDER = "OCC_PRESETS"  # environment variable that names another folder for the user's presets
 _NAME = re.compile(r"[A-Za-z0-9](?:[A-Za-z0-9 _-]{0,58}[A-Za-z0-9_-])?")
 _NAME_RULE = (
-    "1 to 60 letters, digits, spaces, - and _, the first a letter or digit, the last no space"
+    "1 to 60 letters, digits, spaces, - and _; the first a letter or digit, the last not a space"
 )
 _WINDOWS_DEVICE = re.compile(r"con|prn|aux|nul|(?:com|lpt)[0-9]", re.IGNORECASE)
 """Names that Windows reserves for devices."""
@@ -44,10 +44,10 @@ _WINDOWS_DEVICE = re.compile(r"con|prn|aux|nul|(?:com|lpt)[0-9]", re.IGNORECASE)
 def presets() -> tuple[str, ...]:
     """List the names of the presets: those of the package, then the user's own.
 
-    A file among the user's own that cannot be read as a preset is left out;
-    :func:`unreadable_presets` gives the reason.
+    A file of the user that cannot be read as a preset is left out; :func:`unreadable_presets` says
+    why.
     """
-    return (*_built_in(), *user_presets())
+    return (*_package_names(), *user_presets())
 
 
 def user_presets() -> tuple[str, ...]:
@@ -56,11 +56,11 @@ def user_presets() -> tuple[str, ...]:
 
 def all_presets() -> tuple[Preset, ...]:
     """Load all presets that can be read: those of the package, then the user's own."""
-    return (*(package_preset(name) for name in _built_in()), *_read_own()[0].values())
+    return (*(package_preset(name) for name in _package_names()), *_read_own()[0].values())
 
 
 def unreadable_presets() -> dict[str, str]:
-    """Return why preset files of the user cannot be used, by name, as printable text."""
+    """Return why preset files of the user cannot be used, as printable texts by name."""
     return _read_own()[1]
 
 
@@ -79,11 +79,11 @@ def load_preset(name: str) -> Scene:
 
 def preset_named(name: str) -> Preset:
     if isinstance(name, str):
-        if name in _built_in():
+        if name in _package_names():
             return package_preset(name)
         if name in _own_names():
             return _load_own(name)
-    raise _unknown(name, presets())
+    raise _unknown_preset(name, presets())
 
 
 def save_preset(
@@ -110,14 +110,14 @@ def save_preset(
     PresetError
         The name is not allowed, or is that of a preset of the package.
     ParameterError
-        ``scene`` is not a scene, ``title`` no text, or a source is given for an unknown parameter.
+        ``scene`` is not a scene, ``title`` is not a text, or a source is for an unknown parameter.
     OutputError
         The file cannot be written.
     """
     _check_name(name)
     if not isinstance(title, str):
         raise ParameterError.of("title", shown(title), "a text")
-    notes = checked_notes(dict(sources or {}))
+    notes = check_notes(dict(sources or {}))
     head = tomli_w.dumps({"title": title or name})
     tables: dict[str, Mapping[str, object]] = {**scene.tables()}
     if notes:
@@ -138,11 +138,11 @@ def delete_preset(name: str) -> None:
     OutputError
         It cannot be deleted.
     """
-    if isinstance(name, str) and name in _built_in():
+    if isinstance(name, str) and name in _package_names():
         raise PresetError(f"The preset {shown(name)} comes with the program and cannot be deleted.")
     own = _own_names()
     if not isinstance(name, str) or name not in own:
-        raise _unknown(name, own)
+        raise _unknown_preset(name, own)
     path = _own_file(name)
     try:
         path.unlink()
@@ -156,7 +156,7 @@ def user_folder() -> Path:
     return resources.user_folder(USER_FOLDER, FOLDER)
 
 
-def _built_in() -> tuple[str, ...]:
+def _package_names() -> tuple[str, ...]:
     return resources.resource_names(FOLDER, ENDING)
 
 
@@ -168,7 +168,7 @@ def _own_names() -> tuple[str, ...]:
 
 
 def _read_own() -> tuple[dict[str, Preset], dict[str, str]]:
-    """Load the user's own presets by name, with the reasons for files that are not presets."""
+    """Load the user's own presets by name, and the reasons for files that are not presets."""
     loaded: dict[str, Preset] = {}
     failures: dict[str, str] = {}
     for path in resources.files_in(user_folder(), ENDING):
@@ -188,10 +188,10 @@ def _own_file(name: str) -> Path:
 
 
 def _name_problem(name: object) -> str | None:
-    """Return why a name is not allowed for a preset, None where it is."""
+    """Return why a preset cannot have a name, None if it can."""
     if not isinstance(name, str) or not _NAME.fullmatch(name):
         return f"A preset cannot be named {shown(name)}; allowed: {_NAME_RULE}."
-    if name.lower() in {other.lower() for other in _built_in()}:
+    if name.lower() in {other.lower() for other in _package_names()}:
         return f"{shown(name)} is a preset of the program; choose another name."
     return None
 
@@ -204,7 +204,7 @@ def _check_name(name: str) -> None:
         raise PresetError(problem)
 
 
-def _unknown(name: object, known: tuple[str, ...]) -> PresetError:
+def _unknown_preset(name: object, known: tuple[str, ...]) -> PresetError:
     from difflib import get_close_matches  # takes a moment, and only a mistake needs it
 
     near = get_close_matches(name, known, n=1) if isinstance(name, str) else ()
@@ -214,7 +214,7 @@ def _unknown(name: object, known: tuple[str, ...]) -> PresetError:
 
 
 def _load_own(name: str) -> Preset:
-    """Load one of the user's own presets, whose file may change at any time and hold anything."""
+    """Load one of the user's own presets; its file may change at any time and contain anything."""
     path = _own_file(name)
     text = read_text(path)
     try:

@@ -1,6 +1,6 @@
-"""The provenance of a figure or table: its scenes, version and seed, written in the file and read.
+"""The provenance of a figure or table: its scenes, version and seed, stored in the file.
 
-The time and memory that reading a file takes grow as its size does at most, whatever is in it.
+Time and memory for reading a file grow at most in proportion to its size, whatever is in it.
 """
 
 import codecs
@@ -16,16 +16,16 @@ from occ_model.files.reading import read_bytes, read_start
 from occ_model.scene.scene import Scene
 from occ_model.version import __version__
 
-ENDINGS = (".png", ".svg", ".pdf", ".csv")  # the endings of files that may carry a scene
+ENDINGS = (".png", ".svg", ".pdf", ".csv")  # endings of files that may contain a scene
 
 _SCENE = re.compile(r"^scene (.+):$", re.MULTILINE)
 
-_MAX_SEARCHED_BYTES = 64_000_000  # searched of a drawing or document, whose text may stand anywhere
-_MAX_TEXT_BYTES = 1_000_000  # of the text, and of the start of a picture or table, which holds it
+_MAX_SEARCHED_BYTES = 64_000_000  # of a drawing or document, whose text may be anywhere
+_MAX_TEXT_BYTES = 1_000_000  # of the text, and of the start of a picture or table that contains it
 _SVG = b"<dc:description>", b"</dc:description>"
 _COMMENTS = re.compile(rb"(?:#[^\n]*+\n?+)*+")
 _PDF = b"/Subject ("
-# Possessive, so that no byte is matched twice.
+# Possessive quantifiers, so that no byte is matched twice.
 _PDF_LITERAL = re.compile(rb"((?:[^\\()]++|\\.)*+)\)", re.DOTALL)
 _PDF_ESCAPE = re.compile(rb"\\([0-7]{1,3}|.)", re.DOTALL)
 _ESCAPED = {b"n": b"\n", b"r": b"\r", b"t": b"\t", b"b": b"\b", b"f": b"\f"}
@@ -39,10 +39,10 @@ class Provenance:
     scenes: Mapping[str, Scene]
     seed: int | None = None
     notes: tuple[str, ...] = field(default=())
-    date: str = ""  # When they were made; empty for a file that must not depend on it
+    date: str = ""  # When the file was made; empty if it must not depend on the date
 
     def __post_init__(self) -> None:
-        # Whatever they are made of, none of them can look like a further line, or a scene.
+        # Line breaks are removed, so that none of these can look like another line or a scene.
         object.__setattr__(self, "title", printable(self.title))
         object.__setattr__(self, "notes", tuple(map(printable, self.notes)))
         object.__setattr__(self, "date", printable(self.date))
@@ -63,7 +63,7 @@ class Provenance:
 
 
 def first_scene_in(text: str) -> Scene | None:
-    """Read the first scene from a text that :meth:`Provenance.text` wrote, None without any."""
+    """Read the first scene in a text of :meth:`Provenance.text`; None if it has none."""
     start = _SCENE.search(text)
     if start is None:
         return None
@@ -72,7 +72,7 @@ def first_scene_in(text: str) -> Scene | None:
 
 
 def scene_inside(path: Path) -> Scene:
-    """Read the first scene that an exported figure or table (PNG, SVG, PDF, CSV) carries."""
+    """Read the first scene in an exported figure or table (PNG, SVG, PDF, CSV)."""
     where = one_line(str(path))
     try:
         text = _READERS[path.suffix.lower()](path)
@@ -81,26 +81,28 @@ def scene_inside(path: Path) -> Scene:
     try:
         scene = first_scene_in(text)
     except SceneFileError as error:
-        raise SceneFileError(f"{where} carries a scene that cannot be read. {error}") from None
+        raise SceneFileError(f"{where} contains a scene that cannot be read. {error}") from None
     if scene is None:
-        raise SceneFileError(f"{where} carries no scene; figures and tables exported here do.")
+        raise SceneFileError(
+            f"{where} contains no scene; figures and tables that this program exports do."
+        )
     return scene
 
 
-def _of_png(path: Path) -> str:
+def _text_in_png(path: Path) -> str:
     start = BytesIO(read_start(path, _MAX_TEXT_BYTES))
-    # Pillow is slow to import, and only needed when a picture is really opened.
+    # Pillow is slow to import, and needed only when a picture is opened.
     from PIL.PngImagePlugin import PngImageFile
 
     try:
-        # Pillow reads up to the pixels, and unpacks no more text than its own limits allow.
+        # Pillow reads only up to the pixels, and unpacks no more text than its own limits allow.
         with PngImageFile(start) as picture:
             return str(picture.info.get("Description", ""))
     except Exception:  # noqa: BLE001 - Pillow raises anything on damaged files
         return ""
 
 
-def _of_svg(path: Path) -> str:
+def _text_in_svg(path: Path) -> str:
     content = read_bytes(path, _MAX_SEARCHED_BYTES)
     start, end = _SVG
     first = content.find(start)
@@ -110,17 +112,17 @@ def _of_svg(path: Path) -> str:
     text = content[first + len(start) : min(last, first + _MAX_TEXT_BYTES)].decode("utf-8")
     try:
         return html.unescape(text)
-    except ValueError:  # the number of a character has thousands of digits
+    except ValueError:  # a character reference of thousands of digits
         return ""
 
 
-def _of_csv(path: Path) -> str:
+def _text_in_csv(path: Path) -> str:
     comments = _COMMENTS.match(read_start(path, _MAX_TEXT_BYTES).removeprefix(codecs.BOM_UTF8))
     lines = comments[0].decode("utf-8").splitlines() if comments else []
     return "\n".join(line[1:].removeprefix(" ") for line in lines if line.startswith("#"))
 
 
-def _of_pdf(path: Path) -> str:
+def _text_in_pdf(path: Path) -> str:
     content = read_bytes(path, _MAX_SEARCHED_BYTES)
     place = content.find(_PDF)
     while place >= 0:
@@ -128,7 +130,7 @@ def _of_pdf(path: Path) -> str:
         literal = _PDF_LITERAL.match(content, place, place + _MAX_TEXT_BYTES)
         if literal:
             return _literal_text(literal[1])
-        # The bytes after a start are searched once; the next start is beyond it.
+        # The search goes on after this start, so that no byte is searched twice.
         place = content.find(_PDF, place)
     return ""
 
@@ -146,4 +148,4 @@ def _literal_text(literal: bytes) -> str:
     return text.decode("latin-1")
 
 
-_READERS = {".png": _of_png, ".svg": _of_svg, ".pdf": _of_pdf, ".csv": _of_csv}
+_READERS = {".png": _text_in_png, ".svg": _text_in_svg, ".pdf": _text_in_pdf, ".csv": _text_in_csv}

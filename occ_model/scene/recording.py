@@ -1,4 +1,4 @@
-"""How a film is recorded: frame rate, jitter, drift of the clocks, motion, exposure times."""
+"""How a film is recorded: frame rate, jitter, drift of clocks, motion, exposure times."""
 
 from bisect import bisect_right
 from collections.abc import Mapping, Sequence
@@ -16,7 +16,7 @@ from occ_model.scene.scene import Scene
 from occ_model.scene.toml_format import parse_toml
 from occ_model.scene.units import HERTZ, PPM, SECOND
 
-FrameTimes: TypeAlias = Literal["measured", "nominal"]  # as started, or in equal steps
+FrameTimes: TypeAlias = Literal["measured", "nominal"]  # when each frame started, or equal steps
 FRAME_TIMES: tuple[FrameTimes, ...] = ("measured", "nominal")
 
 # fmt: off
@@ -40,26 +40,25 @@ TRANSMITTER_DRIFT = Quantity(
 # fmt: on
 
 DECLARED: tuple[Quantity, ...] = (FRAME_RATE, FRAME_JITTER, CAMERA_DRIFT, TRANSMITTER_DRIFT)
-"""The quantities of a recording, each declared once: unit, range, slider, default."""
+"""Declarations of the quantities of a recording: unit, range, slider, default."""
 
-MOTIONS = tuple(Pose.declarations())  # the parameters of a waypoint: those of the pose
-_PREFIX = "recording."  # before the name of a setting in the note of a film
-_JITTERS_IN_GAP = 6  # the gap holds three standard deviations of jitter on either side
+MOTIONS = tuple(Pose.declarations())  # the parameters of a waypoint are those of the pose
+_PREFIX = "recording."  # before the name of each setting in a film's description
+_JITTERS_IN_GAP = 6  # the gap must hold three standard deviations of jitter on either side
 
 
 @dataclass(frozen=True, slots=True)
 class Waypoint:
-    """A place on a path: a time, and how much the panel has moved from where the scene has it.
+    """A point on a path: a time, and how far the panel has moved from its pose in the scene.
 
-    The panel's motion and that of the hand that holds the camera are one: the panel as the camera
-    sees it.
+    Motion is relative to the camera, so that it stands for a moving panel or a moving camera.
 
     Parameters
     ----------
     time
-        In seconds by the camera's clock, 0 for the film's first frame.
+        In seconds by the camera's clock, 0 at the film's first frame.
     distance, offset_x, offset_y, yaw, pitch, roll
-        Added to the scene's parameters, in metres and radians.
+        Changes of the scene's parameters, in metres and radians.
     """
 
     time: float
@@ -84,24 +83,24 @@ class Recording:
     frame_rate
         Frames a second by the camera's clock, in Hz.
     frame_jitter
-        Standard deviation of a frame's start from its nominal time, in seconds. Starts deviate by
+        Standard deviation of a frame's start from its nominal time, in seconds. A start deviates by
         at most half a gap, so that frames do not overlap.
     camera_drift, transmitter_drift
-        How much each clock is too fast: 1e-6 is one part in a million (ppm).
+        How much each clock runs too fast: 1e-6 is one part in a million (ppm).
     path
-        Where the panel is, from waypoint to waypoint along straight lines; before the first and
-        after the last it stands still. It stands still within a frame too, where it is when the
-        frame starts. None: where the scene has it.
+        The panel's path: straight lines between waypoints, at rest before the first and after the
+        last. Within a frame the panel rests where it is when the frame starts. If empty, it stays
+        where the scene has it.
     exposure_times
-        Exposure times of the frames in seconds, in turn and repeatedly; none: the scene's.
+        Exposure times of the frames in seconds, repeated in turn; if empty, the scene's.
     frame_times
-        The times that the frames state: ``"measured"``, when each started, or ``"nominal"``, equal
-        steps whatever the jitter.
+        The times stated by the frames: ``"measured"``, when each started, or ``"nominal"``, equal
+        steps despite the jitter.
 
     Raises
     ------
     ParameterError
-        A value is not of its kind or out of range, or the waypoints are not in the order of time.
+        A value is of the wrong kind or out of range, or the waypoints are not in the order of time.
     """
 
     frame_rate: float = FRAME_RATE.default
@@ -116,8 +115,8 @@ class Recording:
         for declared in DECLARED:
             object.__setattr__(self, declared.name, declared.check(getattr(self, declared.name)))
         check_choice("frame_times", self.frame_times, FRAME_TIMES)
-        object.__setattr__(self, "path", _checked_path(self.path))
-        object.__setattr__(self, "exposure_times", _checked_exposures(self.exposure_times))
+        object.__setattr__(self, "path", _check_path(self.path))
+        object.__setattr__(self, "exposure_times", _check_exposure_times(self.exposure_times))
 
     def replace(self, **changes: object) -> Self:
         """Return the recording with some settings changed.
@@ -133,21 +132,21 @@ class Recording:
         return replace(self, **changes)  # type: ignore[arg-type]
 
     def lines(self) -> list[str]:
-        """Write the recording as lines of a text: TOML with keys ``recording.``."""
+        """Write the recording as lines of TOML whose keys begin with ``recording.``."""
         values: dict[str, object] = {each.name: getattr(self, each.name) for each in fields(self)}
         values["exposure_times"] = list(self.exposure_times)
         values["path"] = [asdict(point) for point in self.path]
-        texts = {name: _in_toml(value) for name, value in values.items()}
+        texts = {name: _format_toml(value) for name, value in values.items()}
         return [f"{_PREFIX}{name} = {text}" for name, text in texts.items()]
 
     @classmethod
     def from_text(cls, text: str) -> Self | None:
-        """Read the recording from a text among whose lines are those of :meth:`lines`.
+        """Read the recording from a text that contains the lines of :meth:`lines`.
 
         Returns
         -------
         Recording or None
-            None where the text has no such lines, or they are damaged.
+            None if the text has no such lines, or they are damaged.
         """
         own = [line for line in text.splitlines() if line.startswith(_PREFIX)]
         if not own:
@@ -165,25 +164,25 @@ class Recording:
         return 1.0 / self.frame_rate
 
     def gap(self, scene: Scene) -> float:
-        """Return the time in which no column starts, from one frame to the next, in seconds.
+        """Return the time between two frames in which no column starts, in seconds.
 
-        The frame period less columns times readout time, all by the camera's clock. Below 0 the
-        frames would overlap.
+        It is the frame period minus columns times readout time, by the camera's clock. If it is
+        negative, frames would overlap.
         """
         read = scene.camera.columns * Fraction(scene.camera.readout_time)
         return float(1 / Fraction(self.frame_rate) - read)
 
     def gap_ratio(self, scene: Scene) -> float:
-        """Return the fraction of the frame period that the gap takes."""
+        """Return the gap as a fraction of the frame period."""
         return self.gap(scene) * self.frame_rate
 
     def check(self, scene: Scene) -> None:
-        """Refuse a scene that cannot be recorded so.
+        """Refuse a scene that cannot be recorded with these settings.
 
         Raises
         ------
         ParameterError
-            Reading out a frame takes longer than a frame period, an exposure does, or the jitter
+            Reading out a frame, or an exposure, takes longer than the frame period, or the jitter
             would let frames overlap.
         """
         period, gap = self.frame_period, self.gap(scene)
@@ -220,7 +219,7 @@ class Recording:
         return self.exposure_times[index % len(self.exposure_times)]
 
     def motion(self, time: float) -> dict[str, float]:
-        """Return how much the pose's parameters have changed at a time, by name."""
+        """Return the changes of the pose's parameters at a time, by name."""
         if not self.path:
             return {}
         after = bisect_right([point.time for point in self.path], time)
@@ -235,18 +234,20 @@ class Recording:
         }
 
 
-def _in_toml(value: object) -> str:
+def _format_toml(value: object) -> str:
     if isinstance(value, dict):
-        return "{" + ", ".join(f"{name} = {_in_toml(part)}" for name, part in value.items()) + "}"
+        return (
+            "{" + ", ".join(f"{name} = {_format_toml(part)}" for name, part in value.items()) + "}"
+        )
     if isinstance(value, list):
-        return f"[{', '.join(map(_in_toml, value))}]"
+        return f"[{', '.join(map(_format_toml, value))}]"
     return f'"{value}"' if isinstance(value, str) else repr(value)
 
 
-def _checked_path(path: object) -> tuple[Waypoint, ...]:
+def _check_path(path: object) -> tuple[Waypoint, ...]:
     if not isinstance(path, Sequence) or not all(isinstance(point, Waypoint) for point in path):
         raise ParameterError.of("path", shown(path), "Waypoints, in the order of time")
-    points = tuple(_checked_waypoint(point) for point in path)
+    points = tuple(_check_waypoint(point) for point in path)
     for before, after in pairwise(points):
         if after.time <= before.time:
             raise ParameterError.of(
@@ -258,10 +259,10 @@ def _checked_path(path: object) -> tuple[Waypoint, ...]:
     return points
 
 
-def _checked_waypoint(point: Waypoint) -> Waypoint:
+def _check_waypoint(point: Waypoint) -> Waypoint:
     values: Mapping[str, float] = {each.name: getattr(point, each.name) for each in fields(point)}
     for name, value in values.items():
-        # Infinity and NaN are out of this range too.
+        # This also refuses infinity and NaN.
         if isinstance(value, bool) or not isinstance(value, int | float) or not abs(value) <= 1e9:
             raise ParameterError.of(
                 f"A waypoint's {name}", shown(value), "numbers from -1e9 to 1e9"
@@ -269,7 +270,7 @@ def _checked_waypoint(point: Waypoint) -> Waypoint:
     return Waypoint(**{name: float(value) for name, value in values.items()})
 
 
-def _checked_exposures(times: object) -> tuple[float, ...]:
+def _check_exposure_times(times: object) -> tuple[float, ...]:
     if isinstance(times, str) or not isinstance(times, Sequence):
         raise ParameterError.of("exposure_times", shown(times), "times in seconds")
     declared = PARAMETERS["exposure_time"]

@@ -1,4 +1,4 @@
-"""Sentences about values, in which a parameter has the label of its field in place of its name."""
+"""Sentences about refused values that name a parameter by its label on screen."""
 
 from occ_model.errors import OccError, ParameterError
 from occ_model.scene.parameters import PARAMETERS
@@ -6,8 +6,8 @@ from occ_model.scene.parameters import PARAMETERS
 _CANNOT = {"is": "cannot be", "has": "cannot have"}
 
 
-def labelled(error: OccError) -> str:
-    """Return the sentence of an error, with labels in place of parameter names."""
+def sentence_with_label(error: OccError) -> str:
+    """Return the sentence of an error, with the parameter's label in place of its name."""
     refused = error.refused if isinstance(error, ParameterError) else None
     if refused is None or refused.parameter not in PARAMETERS:
         return str(error)
@@ -15,14 +15,14 @@ def labelled(error: OccError) -> str:
 
 
 def refusal_of(error: OccError) -> str:
-    """Phrase an error as a refusal, not as a fault of the present value.
+    """Phrase an error as the refusal of a value, not as a fault of the present one.
 
-    "Distance cannot be 0 m" stands beside a field that shows the last allowed value again. Where
-    what is allowed depends on other parameters, the value may be the present one.
+    "Distance cannot be 0 m" stands beside a field that shows the last allowed value again. If the
+    allowed range depends on other parameters, the refused value may be the present one.
     """
     refused = error.refused if isinstance(error, ParameterError) else None
     if refused is None or refused.condition or refused.verb not in _CANNOT:
-        return f"Refused: {labelled(error)}"
+        return f"Refused: {sentence_with_label(error)}"
     declared = PARAMETERS.get(refused.parameter)
     label = refused.parameter.replace("_", " ") if declared is None else declared.label
     return refused.sentence(f"{label[:1].upper()}{label[1:]}", _CANNOT[refused.verb])

@@ -1,4 +1,4 @@
-"""A scene: everything that one simulated picture depends on, as frozen values."""
+"""A scene: everything on which one simulated picture depends, as frozen values."""
 
 import dataclasses
 from collections.abc import Mapping
@@ -19,13 +19,13 @@ from occ_model.scene.parameters.pose_receiver_model import Pose as Pose
 from occ_model.scene.parameters.pose_receiver_model import Receiver as Receiver
 
 
-# Without slots, with which Python 3.11 says "super(type, obj)" of ``scene.code = 5``.
+# No slots: with them, ``scene.code = 5`` gives an obscure message about super() in Python 3.11.
 @dataclass(frozen=True, kw_only=True)
 class Scene:
     """Everything that one simulated picture depends on.
 
-    A scene is a value: it never changes, compares by content, and can be a dictionary's key.
-    Its parameters stand in groups; :meth:`replace` and :meth:`value` find them by name.
+    A scene is a value: it never changes, compares by content, and can be a dictionary's key. Its
+    parameters are in groups; :meth:`replace` and :meth:`value` find them by name.
     """
 
     transmitter: Transmitter = field(default_factory=Transmitter)
@@ -76,7 +76,7 @@ class Scene:
 
     @classmethod
     def from_toml(cls, text: str) -> Self:
-        """Read the text of a scene file; parameters that it does not name have their defaults.
+        """Read the text of a scene file; parameters that it does not name get their defaults.
 
         Raises
         ------
@@ -88,7 +88,7 @@ class Scene:
         return cls().with_tables(toml_format.from_toml(text))
 
     def with_tables(self, tables: Mapping[str, object]) -> Self:
-        """Return the scene with the parameters of ``tables`` changed, each in its own group."""
+        """Return the scene with the parameters in ``tables`` changed; each table is a group."""
         changes: dict[str, Any] = {}
         for group, values in tables.items():
             if group not in GROUPS:
@@ -106,12 +106,12 @@ class Scene:
         return self.replace(**changes)
 
 
-GROUPS: dict[str, tuple[str, ...]] = {  # the names of the parameters, group by group
+GROUPS: dict[str, tuple[str, ...]] = {  # names of the parameters by group
     part.name: tuple(getattr(Scene(), part.name).declarations())
     for part in dataclasses.fields(Scene)
 }
 
-_NEW_CHOICES = {("band_reading", "charitable"): "aligned"}  # new names of choices in earlier files
+_NEW_CHOICES = {("band_reading", "charitable"): "aligned"}  # choices renamed since
 _GROUP_OF = {name: group for group, names in GROUPS.items() for name in names}
 
 

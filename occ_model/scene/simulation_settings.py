@@ -1,4 +1,4 @@
-"""Settings of a simulation: its tolerance, its source of noise, its seed."""
+"""Settings of a simulation: tolerance, observable, switched effects, source of noise, seed."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -10,20 +10,21 @@ from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.units import LEVEL
 
 Observable: TypeAlias = Literal["signal", "profile", "image", "decision"]
-"""The quantity observed: the camera's pixels of the panel's bounding rectangle, the means of its
-columns, what a decoder reads, the means of its columns after the receiver's enhancement, or the
-code that is read, by how far the signal's chips keep from the threshold."""
+"""The quantity to which a tolerance refers. "image": the camera's pixels in the panel's bounding
+rectangle; "profile": the means of its columns; "signal": these means after the receiver's
+enhancement, which a decoder reads; "decision": the code that is read, by the signal's distance from
+the threshold."""
 
 OBSERVABLES: tuple[Observable, ...] = ("signal", "profile", "image", "decision")
 
 
 def unit_of(observable: Observable) -> str:
-    """Return the unit of tolerance and errors, as it stands behind a number."""
+    """Return the unit of tolerances and errors, as written after a number."""
     return "margins" if observable == "decision" else LEVEL.symbol
 
 
 NoiseSource: TypeAlias = Literal["exact", "reused"]
-"""Source of noise: drawn for every pixel, or taken repeatedly from one plane of noise."""
+"""Source of noise: random numbers for every pixel, or one stored plane of noise used repeatedly."""
 
 NOISE_SOURCES: tuple[NoiseSource, ...] = ("exact", "reused")
 
@@ -32,7 +33,7 @@ TOLERANCE = Quantity(
     "tolerance",
     "Tolerance",
     "",
-    "How much effects left out may change what is observed, in levels of the stretched profile.",
+    "How much the omitted effects may change the observable, in levels of the stretched profile.",
     unit=LEVEL, low=0.0, high=math.inf, slider=(0.01, 100.0), scale="log", default=0.5,
 )  # fmt: skip
 
@@ -44,12 +45,12 @@ class SimulationSettings:
     Parameters
     ----------
     tolerance
-        How much the effects left out may change the observable, root mean square in levels of the
+        How much the omitted effects may change the observable, root mean square in levels of the
         stretched profile.
     observable
-        The quantity that the tolerance refers to.
+        The quantity to which the tolerance refers.
     force
-        Effects switched on (True) or off (False) by hand.
+        Effects that the user has switched on (True) or off (False).
     noise
         The source of noise.
     seed
@@ -62,10 +63,10 @@ class SimulationSettings:
     noise: NoiseSource = "exact"
     seed: int = 1
 
-    def checked(self, effects: Sequence[str]) -> Self:
-        """Return the settings, the tolerance as a float, or raise a ParameterError.
+    def check(self, effects: Sequence[str]) -> Self:
+        """Return the settings with the tolerance as a float; ParameterError if any is wrong.
 
-        ``effects``: the names that ``force`` may have.
+        ``effects`` are the names that ``force`` may have.
         """
         check_seed(self.seed)
         check_choice("noise", self.noise, NOISE_SOURCES)

@@ -1,4 +1,4 @@
-"""The square wave of an LED that only blinks, as a scene sends it."""
+"""The square wave of an LED that only blinks, as a scene."""
 
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import quantity
@@ -24,14 +24,14 @@ SQUARE_FREQUENCY = Quantity(
 )
 
 
-def blinking(scene: Scene, cycles: float) -> Scene:
-    """Return a scene that sends a square wave.
+def send_square_wave(scene: Scene, cycles: float) -> Scene:
+    """Let a scene send a square wave.
 
-    ``cycles``: cycles per second, a value that ``SQUARE_FREQUENCY`` allows.
+    ``cycles`` is the number per second, a value that ``SQUARE_FREQUENCY`` allows.
     """
     return scene.replace(pattern=SQUARE_WAVE, switching_frequency=CHIPS_OF_A_CYCLE * cycles)
 
 
 def chips_of_cycle(pattern: str) -> int:
-    """Return the chips of a pattern that is one pulse, of any duty, and 0 of any other."""
+    """Return the number of chips of a pattern with one pulse of any duty, 0 of any other."""
     return len(pattern) if (pattern + pattern[:1]).count("01") == 1 else 0

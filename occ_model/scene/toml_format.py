@@ -1,4 +1,4 @@
-"""TOML format of scene files: tables of parameters and the format's version, parsed strictly."""
+"""The TOML format of scene files: tables of parameters and the format's version."""
 
 import re
 import tomllib
@@ -11,10 +11,10 @@ from occ_model.errors import SceneFileError, one_line, shown
 
 FORMAT = 1
 
-_MAX_KEY_PARTS = 32  # of a dotted key: the parser's time grows with their square; ours have two
+_MAX_KEY_PARTS = 32  # of a dotted key: the parser's time grows as their square; scenes need two
 _LONG_KEY = re.compile(rf"(?:(?<![\w-])[\w-]++[ \t]*+\.[ \t]*+){{{_MAX_KEY_PARTS}}}")
 
-_STRING_OR_COMMENT = re.compile(  # one that has no end ends with its line or with the text
+_STRING_OR_COMMENT = re.compile(  # an unclosed one ends with its line or with the text
     r'''"""(?:[^"\\]|\\.|"(?!""))*+(?:"""|\Z)'''
     r"""|'''(?:[^']|'(?!''))*+(?:'''|\Z)"""
     r"""|"(?:[^"\\\n]|\\[^\n])*+"?"""
@@ -24,12 +24,12 @@ _STRING_OR_COMMENT = re.compile(  # one that has no end ends with its line or wi
 
 
 def to_toml(tables: Mapping[str, Mapping[str, object]]) -> str:
-    """Write tables as TOML, the format's version first."""
+    """Write tables as TOML, with the format's version first."""
     return tomli_w.dumps({"format": FORMAT, **tables})
 
 
 def from_toml(text: str) -> dict[str, Any]:
-    """Parse a text of :func:`to_toml`, without its version."""
+    """Parse a text of :func:`to_toml` into its tables, and check its version."""
     content = parse_toml(text)
     version = content.pop("format", None)
     if version is None:
@@ -48,17 +48,17 @@ def table_of(value: object, name: str) -> Mapping[str, Any]:
 
 
 def parse_toml(text: str) -> dict[str, Any]:
-    """Parse TOML from an untrusted source, in a time that grows with the text's length."""
+    """Parse TOML from an untrusted source, in a time in proportion to the text's length."""
     if not isinstance(text, str):
         raise SceneFileError(f"A scene is read from text (str), not from {type(text).__name__}.")
-    # A string is not a key, and a string that is a part of a key is one part.
+    # A dot inside a string does not separate parts of a key.
     if _LONG_KEY.search(_STRING_OR_COMMENT.sub("s", text)):
         raise SceneFileError(
             f"This is not a scene file: a key has more than {_MAX_KEY_PARTS} parts."
         )
     try:
         return tomllib.loads(text)
-    except ValueError as error:  # a TOMLDecodeError, or a number of thousands of digits
+    except ValueError as error:  # also for a number of thousands of digits
         raise SceneFileError(f"This is not a TOML file: {one_line(str(error))}.") from None
     except RecursionError:
         raise SceneFileError("This is not a scene file: it is nested too deeply.") from None

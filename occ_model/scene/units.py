@@ -1,6 +1,6 @@
-"""Units: quantities read and written as people do, ``"10 kHz"``, ``"68us"``, ``"1/8000 s"``.
+"""Units: quantities as people write them, ``"10 kHz"``, ``"68us"``, ``"1/8000 s"``.
 
-Elsewhere in the package every value is in its SI unit; only this module knows prefixes.
+Everywhere else values are in SI units; only this module knows prefixes.
 """
 
 import math
@@ -24,31 +24,31 @@ _NUMBER = r"[+-]?(?:\d+(?:\.\d*|,\d+)?|[.,]\d+)(?:[eE][+-]?\d+)?"
 _QUANTITY = re.compile(rf"({_NUMBER})\s*(?:/\s*({_NUMBER}))?\s*(.*)", re.DOTALL)
 
 _THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}(?:[eE][+-]?\d+)?")
-"""Numbers whose comma may also separate thousands: one to three digits before it, three after."""
+"""Numbers whose comma may separate thousands: one to three digits before it, three after."""
 
-_MAX_DECIMALS = 6  # decimals of an estimate above which its error is written in a unit of its own
+_MAX_DECIMALS = 6  # of an estimate; with more, its error is written in a unit of its own
 
-_LARGEST_PLAIN = 1e6  # a number below it, and not below 1, is written without an exponent
+_LARGEST_PLAIN = 1e6  # numbers from 1 to this one are written without an exponent
 
-_ROUNDING_ERROR = 1e-12  # relative error that is the arithmetic's, and is not stated
-LONGEST_TEXT = 200  # of a quantity's text: several times the characters of 17 digits and a unit
+_ROUNDING_ERROR = 1e-12  # a relative error this small is only that of the arithmetic
+LONGEST_TEXT = 200  # characters of a quantity's text; 17 digits and a unit need far fewer
 
 
 @dataclass(frozen=True, slots=True)
 class Unit:
-    """A unit of measure and the way its values are shown."""
+    """A unit of measure, and how its values are displayed."""
 
     symbol: str  # The SI unit, empty for a pure number
     prefixes: tuple[str, ...] = ("",)
-    # From this magnitude (in the unit itself) up to the next prefix no prefix is used
+    # Smallest value displayed without a prefix
     smallest_plain: float = 1.0
-    # Other spellings that are read, each with its value in the SI unit
+    # Other accepted spellings, each with its value in the SI unit
     spellings: tuple[tuple[str, float], ...] = ()
-    # Symbol, and value in the SI unit, of a unit that is shown in place of the SI unit
+    # Symbol of a unit that is displayed in place of the SI unit, and its value in the SI unit
     shown: tuple[str, float] | None = None
 
     def factor(self, text: str) -> float | None:
-        """Return the SI value of the unit written ``text``, None if it is not understood."""
+        """Return the SI value of a unit written as ``text``, None if it is unknown."""
         known = dict(self.spellings)
         if self.shown is not None:
             known[self.shown[0]] = self.shown[1]
@@ -59,20 +59,21 @@ class Unit:
         if text == self.symbol:
             return 1.0
         stem = text.removesuffix(self.symbol)
-        # "10k" means ten kilohertz; "5m" of a length is read above, m being the unit.
+        # "10k" means ten kilohertz; the "m" of "5m" was matched as metre above.
         return _PREFIXES.get(stem) if stem else None
 
     def parse(self, text: str, plain: float = 1.0) -> float | None:
-        """Parse a number or fraction with a unit, or in ``plain`` SI units; None if unclear."""
-        readings = self.readings(text, plain)
-        return readings[0] if len(readings) == 1 else None
+        """Parse a number or fraction with a unit, else in ``plain`` SI units; None if unclear."""
+        meanings = self.meanings(text, plain)
+        return meanings[0] if len(meanings) == 1 else None
 
-    def readings(self, text: str, plain: float = 1.0) -> tuple[float, ...]:
-        """Return the values in SI that a text can mean: none, one, or two.
+    def meanings(self, text: str, plain: float = 1.0) -> tuple[float, ...]:
+        """Return the SI values that a text can mean: none, one or two.
 
-        A comma is a decimal comma; in ``1,000 Hz`` it may separate thousands, the second value.
+        A comma is first read as a decimal comma; the comma in ``1,000 Hz`` may also separate
+        thousands.
         """
-        # Stripped before: the search for a unit's end among n spaces takes a time as n^2.
+        # Stripped first, since a match among n trailing spaces takes a time in proportion to n^2.
         match = _QUANTITY.fullmatch(text.strip()) if len(text) <= LONGEST_TEXT else None
         if match is None:
             return ()
@@ -88,12 +89,12 @@ class Unit:
                 [part.replace(",", "" if _THOUSANDS.fullmatch(part) else ".") for part in parts]
             )
         values = [(float(above), float(below)) for above, below in texts]
-        return tuple(_scaled(above / below, factor) for above, below in values if below != 0.0)
+        return tuple(_scale(above / below, factor) for above, below in values if below != 0.0)
 
     def display(self, value: float) -> tuple[str, float]:
-        """Choose the unit to show ``value`` in: its symbol and its value in SI."""
+        """Choose the unit in which to display ``value``; return its symbol and its SI value."""
         if self.shown is not None:
-            # What would be infinite in that unit is shown in the plain one.
+            # A value that would be infinite in that unit is displayed in the SI unit.
             is_too_large = math.isfinite(value) and math.isinf(value / self.shown[1])
             return (self.symbol, 1.0) if is_too_large else self.shown
         size = abs(value)
@@ -107,32 +108,32 @@ class Unit:
         return chosen + self.symbol, _PREFIXES[chosen]
 
     def format_estimate(self, value: float, deviation: float | None) -> str:
-        """Format a value with its standard deviation to significant digits."""
+        """Format a value with its standard deviation, both to significant digits."""
         if deviation is None or not _ROUNDING_ERROR * abs(value) < deviation < math.inf:
             return self.format(value)
         symbol, factor = self.display(max(abs(value), deviation))
-        decimals = _decimals(deviation / factor)
+        decimals = _count_decimals(deviation / factor)
         if decimals > _MAX_DECIMALS:
             whole = math.floor(math.log10(abs(value / factor))) + 1 if value else 0
             number = f"{value / factor:.{max(whole + decimals, 1)}g} {symbol}".rstrip()
             return f"{number} ± {self.format_deviation(deviation)}"
-        number = _rounded(value / factor, decimals)
-        return f"{number} ± {_rounded(deviation / factor, decimals)} {symbol}".rstrip()
+        number = _format_rounded(value / factor, decimals)
+        return f"{number} ± {_format_rounded(deviation / factor, decimals)} {symbol}".rstrip()
 
     def format_deviation(self, deviation: float) -> str:
-        """Format a standard deviation by itself, to two digits and in a unit of its own."""
+        """Format a standard deviation by itself, to two digits and in the unit that suits it."""
         symbol, factor = self.display(deviation)
         number = deviation / factor
-        decimals = _decimals(number)
-        text = _rounded(number, decimals) if decimals <= _MAX_DECIMALS else f"{number:.1e}"
+        decimals = _count_decimals(number)
+        text = _format_rounded(number, decimals) if decimals <= _MAX_DECIMALS else f"{number:.1e}"
         return f"{text} {symbol}".rstrip()
 
-    def rounded_estimate(self, value: float, deviation: float | None) -> float:
-        """Round a value to a tenth of its deviation or finer, as :meth:`format_estimate` does."""
+    def round_estimate(self, value: float, deviation: float | None) -> float:
+        """Round a value to a tenth of its deviation or finer, as in :meth:`format_estimate`."""
         if deviation is None or not _ROUNDING_ERROR * abs(value) < deviation < math.inf:
             return value
         _, factor = self.display(value)
-        return _scaled(round(value / factor, max(_decimals(deviation / factor), 0)), factor)
+        return _scale(round(value / factor, max(_count_decimals(deviation / factor), 0)), factor)
 
     def format(self, value: float, digits: int = 6) -> str:
         """Format ``value`` with ``digits`` significant digits and its unit."""
@@ -145,18 +146,18 @@ class Unit:
         return f"{number}{symbol}" if symbol == "°" else f"{number} {symbol}"
 
 
-def _decimals(deviation: float) -> int:
-    """Return the decimals that show two digits of a standard deviation; negative for hundreds."""
+def _count_decimals(deviation: float) -> int:
+    """Return the decimals for two digits of a standard deviation; negative for hundreds."""
     return 1 - math.floor(math.log10(float(f"{deviation:.1e}")))
 
 
-def _rounded(value: float, decimals: int) -> str:
-    """Format a value with so many decimals, or rounded before the point where negative."""
+def _format_rounded(value: float, decimals: int) -> str:
+    """Format a value with some decimals; a negative number rounds before the decimal point."""
     return f"{round(value, decimals):z.{max(decimals, 0)}f}"
 
 
-def _scaled(value: float, factor: float) -> float:
-    """Multiply, dividing instead where that is exact: 68 us is 68 / 1e6, not 68 * 1e-6."""
+def _scale(value: float, factor: float) -> float:
+    """Multiply, or divide where that is exact: 68 us is 68 / 1e6, not 68 * 1e-6."""
     if 0.0 < factor < 1.0 and round(1.0 / factor) * factor == 1.0:
         return value / round(1.0 / factor)
     return value * factor

@@ -88,7 +88,7 @@ class PlannedScene:
 
 def plan_scene(scene: Scene, settings: SimulationSettings) -> PlannedScene:
     """Choose the effects of a scene with some settings, whatever their seed and noise."""
-    settings = settings.checked(NAMES)
+    settings = settings.check(NAMES)
     check_size(scene.camera)
     timer = StageTimer()
     view = paper_view_of(scene, timer.stage_ended)
@@ -109,7 +109,7 @@ def render_with(
     The heartbeat is called before each band of rows; ``planned`` spares :func:`plan_scene`.
     """
     check_count("rows_step", rows_step, 1, scene.camera.rows)
-    settings = settings.checked(NAMES)
+    settings = settings.check(NAMES)
     if planned is None:
         planned = plan_scene(scene, settings)
     timer = StageTimer(planned.timings)

@@ -1,4 +1,4 @@
-"""Measure the success rate: the fraction of bits read rightly over several images."""
+"""Measure the success rate: the fraction of bits read correctly over several images."""
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
@@ -50,7 +50,7 @@ def success_rate(
     force: Mapping[str, bool] | None = None,
     path: SignalPath = "auto",
 ) -> float:
-    """Return the fraction of bits read rightly over several images, in percent.
+    """Return the fraction of bits read correctly over several images, in percent.
 
     SR = correct bits / (images x bits) x 100, the paper's definition. The images differ in start
     time, evenly distributed over one packet, and in noise. An image in which no bits are read, or

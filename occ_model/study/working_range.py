@@ -63,13 +63,13 @@ def expected_images(images: int) -> int:
 def right_bits_at(
     scene: Scene, name: str, value: float, settings: RateSettings, heartbeat: Heartbeat
 ) -> Iterator[int]:
-    """Count the bits read rightly in each image at a value, as a decoder reads them."""
+    """Count the bits read correctly in each image at a value, as a decoder reads them."""
     at = scene.replace(**{name: value})
     return (right for (right,) in right_bits_of_images(at, settings, heartbeat))
 
 
 class Images:
-    """The bits that are read rightly in the images at one value, one image after the other."""
+    """The bits that are read correctly in the images at one value, one image after the other."""
 
     def __init__(self, images: Iterator[int]) -> None:
         self._coming = images

@@ -11,7 +11,7 @@ from occ_model.files.reading import read_text
 from occ_model.files.resources import files_in, resource_names, resource_text, user_folder
 from occ_model.files.writing import make_folder, write_whole
 from occ_model.results.teaching import Check, Lesson, LessonList, Step
-from occ_model.scene.from_text import with_settings
+from occ_model.scene.from_text import change_scene
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.presets import load_preset
 from occ_model.scene.scene import Scene
@@ -182,7 +182,7 @@ def _changed(scene: Scene, content: Mapping[str, Any]) -> Scene:
     if not isinstance(values, Mapping):
         raise _MistakeError(f"set is {shown(values)}, not a table of parameters.", "set")
     settings = [f"{name}={_written(value)}" for name, value in values.items()]
-    return with_settings(scene, settings)
+    return change_scene(scene, settings)
 
 
 def _written(value: object) -> str:

@@ -61,7 +61,7 @@ def render_video(
     if frames is not None:
         check_count("frames", frames, 1, MOST_FRAMES)
     check_count("rows_step", rows_step, 1, scene.camera.rows)
-    settings = (settings or SimulationSettings()).checked(NAMES)
+    settings = (settings or SimulationSettings()).check(NAMES)
     recording = recording or Recording()
     recording.check(scene)
     check_size(scene.camera)

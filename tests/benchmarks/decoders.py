@@ -56,7 +56,7 @@ FREQUENCIES = tuple(np.arange(4e3, 61e3, 2e3).tolist())
 def signal_of(scene: Scene, random: np.random.Generator) -> FloatArray:
     """Return the column means that a decoder reads of one picture."""
     view = paper_view_of(scene)
-    chosen = plan_of(view, SimulationSettings(observable="signal").checked(NAMES))
+    chosen = plan_of(view, SimulationSettings(observable="signal").check(NAMES))
     span = panel_span(scene)
     if span is not None and "image" not in chosen.kinds:
         return np.asarray(observe_profile(view, span, chosen, random).signal, dtype=np.float64)
@@ -185,9 +185,9 @@ def print_confidences(options: argparse.Namespace) -> None:
         if result.code is not None and result.confidence is not None:
             kept = right if result.code == scene.transmitter.code else wrong
             kept.append(result.confidence)
-    print(f"{options.trials} trials: {len(right)} read rightly, {len(wrong)} wrongly")
+    print(f"{options.trials} trials: {len(right)} read correctly, {len(wrong)} wrongly")
     print(f"largest confidence of a wrong one {max(wrong, default=0.0):.3f}")
-    print(f"read rightly with a confidence of 0.5 or more: {sum(c >= 0.5 for c in right)}")
+    print(f"read correctly with a confidence of 0.5 or more: {sum(c >= 0.5 for c in right)}")
 
 
 def scene_of(line_code: str, framing: str, preset: str, **changes: float) -> Scene | str:
@@ -205,7 +205,7 @@ def scene_of(line_code: str, framing: str, preset: str, **changes: float) -> Sce
 
 
 def payloads_read(scene: Scene, decoder: str, pictures: int) -> tuple[int, int, str]:
-    """Count the payloads that are read rightly and wrongly, and say why the first one is not."""
+    """Count the payloads that are read correctly and wrongly, and say why the first one is not."""
     random = np.random.default_rng(1)
     right, wrong, why = 0, 0, ""
     period = len(occ.packet(scene)) * scene.transmitter.switching_period

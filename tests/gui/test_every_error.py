@@ -35,7 +35,7 @@ from occ_model.parallel.job import Job, JobResult, WorkersLostError
 from occ_model.scene.parameter_kinds import ChipPattern, Choice, Count, Payload
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.presets import USER_FOLDER, save_preset
-from occ_model.scene.refusal import labelled, refusal_of
+from occ_model.scene.refusal import refusal_of, sentence_with_label
 from occ_model.scene.scene import Scene
 
 
@@ -260,7 +260,7 @@ def test_every_class_becomes_a_sentence_and_the_picture_stays(
         shown = case(stage)
         met = [each for each in made if type(each) is error]
         assert met, f"no {error.__name__}, but {made}, and the window says: {shown!r}"
-        words = {say(each) for each in met for say in (str, labelled, refusal_of)}
+        words = {say(each) for each in met for say in (str, sentence_with_label, refusal_of)}
         assert shown in words, error
         assert shown.isprintable()
         assert shown.endswith("."), error

@@ -8,7 +8,7 @@ from each_case import each_case
 from occ_model.errors import OccError, ParameterError, counted, one_line, shown
 from occ_model.scene.parameter_kinds import Parameter
 from occ_model.scene.parameters import PARAMETERS
-from occ_model.scene.refusal import labelled, refusal_of
+from occ_model.scene.refusal import refusal_of, sentence_with_label
 
 
 def nested(levels: int) -> object:
@@ -87,7 +87,7 @@ def test_every_parameters_refusal_is_its_data_in_words(declared: Parameter) -> N
         assert error.refused.parameter == declared.name
         assert str(error).startswith(f"{declared.name} {error.refused.verb} {error.refused.value}")
         assert str(error).endswith(f"; allowed: {error.refused.allowed}.")
-        assert labelled(error) == str(error).replace(declared.name, declared.label, 1)
+        assert sentence_with_label(error) == str(error).replace(declared.name, declared.label, 1)
         assert refusal_of(error).startswith(f"{declared.label} cannot ")
         again = pickle.loads(pickle.dumps(error))  # as it comes from another process
         assert (str(again), again.refused) == (str(error), error.refused)
@@ -123,5 +123,5 @@ def test_a_refused_value_is_not_said_to_be_the_present_one(error: OccError, said
 def test_an_error_of_a_place_names_the_place_first() -> None:
     error = ParameterError.of("iso", "0", "1 to 2", parameters=("iso",)).within("Frame 5")
     assert str(error) == "Frame 5: iso is 0; allowed: 1 to 2."
-    assert labelled(error) == "Frame 5: ISO speed is 0; allowed: 1 to 2."
+    assert sentence_with_label(error) == "Frame 5: ISO speed is 0; allowed: 1 to 2."
     assert error.parameters == ("iso",)

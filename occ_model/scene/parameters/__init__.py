@@ -36,15 +36,15 @@ def parameter_named(name: str, among: Iterable[str] = PARAMETERS) -> Parameter:
     names = list(among)
     if name in names:
         return PARAMETERS[name]
-    from difflib import get_close_matches  # takes a moment, and only a mistake needs it
+    from difflib import get_close_matches  # slow to import, and needed only after a mistake
 
     near = get_close_matches(name, names, n=1)
     hint = f"did you mean {near[0]}?" if near else f"known are {', '.join(names)}."
     raise ParameterError(f"There is no parameter {shown(name)}; {hint}")
 
 
-def _of_kind(name: str, kind: type[_Kind]) -> _Kind:
-    """Return a declaration of this kind, or raise a TypeError."""
+def _declared_as(name: str, kind: type[_Kind]) -> _Kind:
+    """Return a declaration; TypeError if it is of another kind."""
     declared = PARAMETERS[name]
     if not isinstance(declared, kind):
         raise TypeError(f"{name} is declared as a {type(declared).__name__}, not a {kind.__name__}")
@@ -52,16 +52,16 @@ def _of_kind(name: str, kind: type[_Kind]) -> _Kind:
 
 
 def count(name: str) -> Count:
-    return _of_kind(name, Count)
+    return _declared_as(name, Count)
 
 
 def quantity(name: str) -> Quantity:
-    return _of_kind(name, Quantity)
+    return _declared_as(name, Quantity)
 
 
 def open_choice(name: str) -> OpenChoice:
-    return _of_kind(name, OpenChoice)
+    return _declared_as(name, OpenChoice)
 
 
 def payload_parameter() -> Payload:
-    return _of_kind("payload", Payload)
+    return _declared_as("payload", Payload)

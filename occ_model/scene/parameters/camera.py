@@ -9,7 +9,7 @@ from occ_model.scene.parameters.group import (
 )
 from occ_model.scene.units import ELECTRON, METRE, NONE, PIXEL, SECOND
 
-DIAGONAL_35MM = 0.04327  # metres of a 24 mm x 36 mm frame: of equivalent focal lengths
+DIAGONAL_35MM = 0.04327  # metres, of the 24 mm x 36 mm frame of equivalent focal lengths
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -71,7 +71,7 @@ class Lens(Group):
     # fmt: off
     vignetting_exponent: float = quantity_field(
         "Vignetting exponent", "",
-        "The light falls as cos^n of a pixel's angle off the optical axis: 4 by nature; 0: evenly.",
+        "Light falls as cos^n of a pixel's angle to the optical axis; 4: a plain lens, 0: no fall.",
         unit=NONE, low=0.0, high=20.0, slider=(0.0, 8.0), scale="linear", default=0.0,
     )
     radial_k1: float = quantity_field(

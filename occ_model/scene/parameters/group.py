@@ -1,4 +1,4 @@
-"""Groups of parameters, as frozen dataclasses: each field declares its parameter."""
+"""Groups of parameters as frozen dataclasses, each field of which declares a parameter."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import Field, field, replace
@@ -20,17 +20,17 @@ _Arguments = ParamSpec("_Arguments")
 _Value_co = TypeVar("_Value_co", covariant=True)
 
 
-class _WithDefault(Protocol[_Value_co]):
-    """A declaration, by the type of its default."""
+class _HasDefault(Protocol[_Value_co]):
+    """A declaration with a default of some type."""
 
     @property
     def default(self) -> _Value_co: ...
 
 
 def _field_of(
-    kind: Callable[Concatenate[str, _Arguments], _WithDefault[_Value_co]],
+    kind: Callable[Concatenate[str, _Arguments], _HasDefault[_Value_co]],
 ) -> Callable[_Arguments, _Value_co]:
-    """Return a field's function, by which type checkers know a declaration's arguments and type."""
+    """Make a function that declares a field, with the arguments and type of its declaration."""
 
     def declare(*args: _Arguments.args, **kwargs: _Arguments.kwargs) -> _Value_co:
         declared = kind("", *args, **kwargs)
@@ -48,7 +48,7 @@ payload_field = _field_of(Payload)
 
 
 class Group:
-    """Base of the groups: checks every field against its declaration."""
+    """Base of the groups, which checks every field against its declaration."""
 
     __slots__ = ()
     __dataclass_fields__: ClassVar[dict[str, Field[Any]]]
@@ -59,7 +59,7 @@ class Group:
         self._check_together()
 
     def _check_together(self) -> None:
-        """Refuse values that are allowed each but not together."""
+        """Refuse values that are allowed one by one but not together."""
 
     @classmethod
     @cache
@@ -70,7 +70,7 @@ class Group:
         }
 
     def replaced(self, changes: Mapping[str, ParameterValue]) -> Self:
-        """Return the group with some values changed; only these are checked again."""
+        """Return the group with some values changed; only these are checked."""
         made = object.__new__(type(self))
         declarations = self.declarations()
         for name in declarations:

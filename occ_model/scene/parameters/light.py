@@ -41,7 +41,7 @@ class Transmitter(Group):
     )
     framing: str = open_choice_field(
         "Framing", "",
-        "How the chips show where a payload starts, and whether it was read rightly.",
+        "How the chips show where a payload starts, and whether it was read correctly.",
         ("paper", "preamble", "c-ook", "raw"), "paper", group=plugins.FRAMINGS,
     )
     preamble: str = pattern_field(
@@ -50,7 +50,7 @@ class Transmitter(Group):
         "", most=MAX_PREAMBLE_CHIPS, empty="the line code's own",
     )
     error_correction: str = choice_field(
-        "Error correction", "", "Bytes added to the payload, by which wrong ones are corrected.",
+        "Error correction", "", "Bytes added to the payload, which let wrong ones be corrected.",
         ("none", "reed-solomon"), "none",
     )
     pattern: str = pattern_field(
@@ -98,7 +98,7 @@ class Transmitter(Group):
 
     @property
     def payload_bits(self) -> tuple[int, ...]:
-        """The bits that are sent, first sent first: the payload's, or the code's without one."""
+        """The bits in the order sent: the payload's if there is one, else the code's."""
         if self.payload:
             return bits_of_payload(self.payload)
         return tuple(self.code >> place & 1 for place in reversed(range(self.bits)))

@@ -54,12 +54,12 @@ class Receiver(Group):
     # fmt: off
     bright_fraction: float = quantity_field(
         "Brightest pixels", "",
-        "Fraction of the image's pixels, the brightest, that mark the panel for the decoder.",
+        "Fraction of the image's pixels, the brightest, by which the decoder finds the panel.",
         unit=NONE, low=1e-4, high=0.5, slider=(0.01, 0.2), scale="log", default=0.05,
     )
     equalizer: str = choice_field(
         "Equalizer", "",
-        "How the equalizer undoes the exposure: with the least error, or as if without noise.",
+        "How the equalizer undoes the exposure: with the least error, or neglecting noise.",
         ("mmse", "zero-forcing"), "mmse",
     )
     # fmt: on
@@ -67,7 +67,7 @@ class Receiver(Group):
 
 @dataclass(frozen=True, kw_only=True)
 class Model(Group):
-    """The start time, and the choices that the model leaves open."""
+    """The start time, and the choices between variants of the model."""
 
     # fmt: off
     start_time: float = quantity_field(
@@ -82,7 +82,7 @@ class Model(Group):
     )
     enhancement: str = choice_field(
         "Contrast enhancement", "",
-        "What is done to the column values: histogram equalization (the paper), stretch, none.",
+        "How column values are enhanced: by histogram equalization (the paper), linearly, or not.",
         ("equalization", "stretch", "none"), "equalization",
     )
     band_reading: str = choice_field(

@@ -29,7 +29,7 @@ for number, decoder in enumerate(table.decoders):
         [f / 1e3 for f in frequencies], rates, yerr=interval, marker="o", capsize=3, label=decoder
     )
 axis.axvline(2 / 136e-6 / 1e3, color="grey", linewidth=0.8)
-axis.set(xlabel="switching frequency in kHz", ylabel="bits read rightly, %")
+axis.set(xlabel="switching frequency in kHz", ylabel="bits read correctly, %")
 axis.legend()
 figure.tight_layout()
 plt.show()

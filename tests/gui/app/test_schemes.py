@@ -12,7 +12,7 @@ from pytestqt.qtbot import QtBot
 from occ_gui.app.application import Application
 from occ_gui.scene.parameter_rows import CountRow, OpenChoiceRow, ParameterRow, PatternRow
 from occ_model import plugins
-from occ_model.scene.from_text import with_settings
+from occ_model.scene.from_text import change_scene
 
 
 def row(application: Application, name: str) -> ParameterRow:
@@ -82,7 +82,7 @@ def test_all_places_say_that_what_was_typed_is_sent(
     qtbot.keyClick(field.field, Qt.Key.Key_Return)
     user.wait_until_idle()
     scene = application.store.scene
-    assert with_settings(scene.replace(payload=""), [f"payload={typed}"]) == scene
+    assert change_scene(scene.replace(payload=""), [f"payload={typed}"]) == scene
     bits = scene.transmitter.payload_length
     code, count = application.controls.code, row(application, "bits")
     assert isinstance(count, CountRow)

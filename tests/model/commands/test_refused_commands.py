@@ -72,7 +72,7 @@ READING = {
     "match 0.png p.png --known 0.png=2kHz --known 0.png=3kHz": "0.png is given again, as 3kHz; ",
 }
 
-NO_SCENE = "has no ending of a scene file; use .toml."
+NO_SCENE = "does not end as a scene file does; use .toml."
 NO_TABLE = "has no ending of a table; use .csv."
 
 WRITING = {
@@ -104,7 +104,7 @@ SAME_FILE = {
     "match p.png w.csv --out w.csv": "the same file as one of the photos; ",
     "match p.png w.csv --out w.png": NO_TABLE,
     "match p.png --scene s.toml --out s.toml": "the same file as the file of --scene; ",
-    "match p.png --out t.csv": "t.csv has no ending of a scene file; use .toml.",
+    "match p.png --out t.csv": "t.csv does not end as a scene file does; use .toml.",
     "render -o q.png --save-scene q.png": "--out and --save-scene are the same file, ",
     "render -o q.png --save-scene dangling.toml": "--out and --save-scene are the same file, ",
     "render -o p.png --save-scene hard.toml": "--out and --save-scene are the same file, ",

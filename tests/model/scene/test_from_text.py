@@ -1,4 +1,4 @@
-"""Scenes as a user asks for them: from a file, and by name=value."""
+"""Scenes as a user gives them: by a file, and by name=value."""
 
 import os
 from pathlib import Path
@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from occ_model.errors import ParameterError, SceneFileError
-from occ_model.scene.from_text import read_scene_file, with_settings, write_scene_file
+from occ_model.scene.from_text import change_scene, read_scene_file, write_scene_file
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
@@ -22,7 +22,7 @@ def test_a_setting_changes_its_parameter_and_nothing_else(
     data: st.DataObject, quantity: Quantity
 ) -> None:
     value = data.draw(st.floats(quantity.low, quantity.high))
-    scene = with_settings(Scene(), [f"{quantity.name}={value!r} {quantity.unit.symbol}"])
+    scene = change_scene(Scene(), [f"{quantity.name}={value!r} {quantity.unit.symbol}"])
     assert scene == Scene().replace(**{quantity.name: value})
 
 
@@ -52,17 +52,17 @@ def test_a_setting_is_read_as_its_kind_of_parameter_is_written(
     setting: str, name: str, value: float | str
 ) -> None:
     start = Scene().replace(pattern="1")
-    assert with_settings(start, [setting]) == start.replace(**{name: value})
+    assert change_scene(start, [setting]) == start.replace(**{name: value})
 
 
 def test_the_order_of_settings_does_not_matter() -> None:
     settings = ["code=4095", "bits=12"]
-    assert with_settings(Scene(), settings) == Scene().replace(code=4095, bits=12)
-    assert with_settings(Scene(), settings[::-1]) == Scene().replace(code=4095, bits=12)
+    assert change_scene(Scene(), settings) == Scene().replace(code=4095, bits=12)
+    assert change_scene(Scene(), settings[::-1]) == Scene().replace(code=4095, bits=12)
 
 
 def test_the_last_of_two_settings_of_one_parameter_holds() -> None:
-    assert with_settings(Scene(), ["iso=200", "iso=400"]).value("iso") == 400
+    assert change_scene(Scene(), ["iso=200", "iso=400"]).value("iso") == 400
 
 
 @pytest.mark.parametrize(
@@ -83,7 +83,7 @@ def test_the_last_of_two_settings_of_one_parameter_holds() -> None:
 )
 def test_a_bad_setting_is_refused_in_a_sentence(setting: str, sentence: str) -> None:
     with pytest.raises(ParameterError, match=sentence):
-        with_settings(Scene(), ["gamma=2", setting])
+        change_scene(Scene(), ["gamma=2", setting])
 
 
 def test_a_scene_file_may_have_comments_and_a_byte_order_mark(tmp_path: Path) -> None:
@@ -113,7 +113,7 @@ def test_an_unreadable_scene_file_is_refused_with_the_reason(
         read_scene_file(path)
 
 
-def test_what_is_wrong_with_a_scene_file_is_said_with_its_name(tmp_path: Path) -> None:
+def test_a_refused_scene_file_is_named_with_the_reason(tmp_path: Path) -> None:
     path = tmp_path / "scene.toml"
     path.write_text("format = 1\n[film]\n")
     with pytest.raises(SceneFileError) as refused:

@@ -45,7 +45,7 @@ def test_a_quantity_accepts_every_number_in_its_range_unchanged(
 
 
 @every_quantity
-def test_a_quantity_refuses_what_is_no_number(quantity: Quantity) -> None:
+def test_a_quantity_refuses_all_but_numbers(quantity: Quantity) -> None:
     for value in NO_NUMBERS:
         with pytest.raises(ParameterError) as refused:
             quantity.check(value)
@@ -60,7 +60,7 @@ def test_a_refused_text_says_which_unit_was_expected() -> None:
         quantity.parse("10 Hz")
 
 
-def test_a_comma_of_two_readings_is_refused_with_both() -> None:
+def test_a_comma_of_two_meanings_is_refused_with_both() -> None:
     quantity = Quantity("t", "T", "t", "A time.", SECOND, 1e-9, 1.0, (1e-6, 1e-3), "log", 136e-6)
     with pytest.raises(ParameterError, match=r"'1,250 us', .* 1\.25 µs .* 1\.25 ms .*; allowed: "):
         quantity.parse("1,250 us")
@@ -81,7 +81,7 @@ def test_a_long_text_is_refused_in_a_short_line(declaration: Parameter) -> None:
 
 @every_declaration
 def test_a_number_too_large_for_a_float_is_refused(declaration: Parameter) -> None:
-    for large in (10**400, 10**5000):  # beyond what a float holds, and what Python prints
+    for large in (10**400, 10**5000):  # larger than a float holds, and than Python prints
         for number in (large, Fraction(large), Fraction(-large), Fraction(large, 3)):
             with pytest.raises(ParameterError, match=rf"^{declaration.name} is .*; allowed: "):
                 declaration.check(number)
@@ -102,7 +102,7 @@ def test_a_count_accepts_whole_numbers_of_any_type_in_range(
 
 
 @every_count
-def test_a_count_refuses_what_is_no_whole_number_in_its_range(count: Count) -> None:
+def test_a_count_refuses_all_but_whole_numbers_in_its_range(count: Count) -> None:
     for value in (1.5, math.nan, math.inf, -math.inf, count.low - 1, count.high + 1, *NO_NUMBERS):
         with pytest.raises(ParameterError) as refused:
             count.check(value)

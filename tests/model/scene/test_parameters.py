@@ -67,7 +67,7 @@ def test_slider_position_and_value_are_inverse_to_four_digits(
 
 
 @given(quantity=st.sampled_from(QUANTITIES), position=positions)
-def test_a_slider_s_value_is_the_one_that_its_text_says(
+def test_a_slider_s_value_is_the_one_that_its_text_means(
     quantity: Quantity, position: float
 ) -> None:
     value = quantity.at(position)
@@ -83,7 +83,7 @@ def test_a_value_outside_the_slider_s_range_stands_at_its_end(
 
 
 @every_quantity
-def test_the_middle_of_a_slider_is_the_mean_that_its_scale_says(quantity: Quantity) -> None:
+def test_the_middle_of_a_slider_is_the_mean_on_its_scale(quantity: Quantity) -> None:
     low, high = quantity.slider
     middle = (low * high) ** 0.5 if quantity.scale == "log" else (low + high) / 2
     assert quantity.at(0.5) == pytest.approx(middle, rel=6e-4, abs=1e-12)
@@ -122,7 +122,7 @@ def test_a_misspelt_name_is_answered_with_the_nearest() -> None:
 
 
 @pytest.mark.parametrize("name", ["", "zzzz", "0", "?"])
-def test_a_name_like_no_other_is_answered_with_all_there_are(name: str) -> None:
+def test_an_unknown_name_like_no_other_is_answered_with_all_names(name: str) -> None:
     with pytest.raises(ParameterError) as refused:
         parameter_named(name)
     assert str(refused.value) == (
@@ -137,7 +137,7 @@ def test_a_parameter_is_found_only_among_the_names_asked_for() -> None:
 
 
 @every_quantity
-def test_limits_are_written_in_full_where_they_can_be_read_so(quantity: Quantity) -> None:
+def test_limits_are_written_in_full_unless_that_is_unreadable(quantity: Quantity) -> None:
     limits = quantity.allowed.removeprefix("from ").split(" to ")
     for text, value in zip(limits, (quantity.low, quantity.high), strict=False):
         assert quantity.unit.parse(text) == pytest.approx(value, rel=1e-12)

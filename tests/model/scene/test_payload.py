@@ -8,13 +8,13 @@ from hypothesis import strategies as st
 from scene_values import PAYLOADS
 
 import occ_model as occ
-from occ_model.scene.from_text import with_settings
+from occ_model.scene.from_text import change_scene
 from occ_model.scene.parameters import payload_parameter
 from occ_model.scene.payload import (
     MAX_PAYLOAD_BITS,
     bits_of_payload,
-    canonical,
-    compared,
+    canonical_payload,
+    compare_payload,
     form_of,
     payload_of_bits,
 )
@@ -22,13 +22,13 @@ from occ_model.transmitter.packet import bits_of
 
 
 @given(payload=PAYLOADS.filter(bool))
-def test_a_payload_in_its_shortest_form_stays_as_it_is(payload: str) -> None:
-    assert canonical(payload) == payload
+def test_a_canonical_payload_stays_as_it_is(payload: str) -> None:
+    assert canonical_payload(payload) == payload
     assert occ.Scene().replace(payload=payload).transmitter.payload == payload
 
 
 @given(payload=PAYLOADS.filter(bool))
-def test_the_bits_of_a_payload_are_written_as_it_was(payload: str) -> None:
+def test_the_bits_of_a_payload_are_written_as_the_payload_was(payload: str) -> None:
     form, _, content = payload.partition(":")
     written = payload_of_bits(bits_of_payload(payload), form)
     if form != "text":
@@ -45,9 +45,9 @@ def test_a_text_is_sent_as_utf_8_most_significant_bit_first() -> None:
 
 
 def test_spaces_and_capitals_do_not_count_in_digits() -> None:
-    assert canonical("hex: 4A 4b") == "hex:4a4b"
-    assert canonical("bits: 01 10") == "bits:0110"
-    assert canonical("text: a ") == "text: a "
+    assert canonical_payload("hex: 4A 4b") == "hex:4a4b"
+    assert canonical_payload("bits: 01 10") == "bits:0110"
+    assert canonical_payload("text: a ") == "text: a "
 
 
 @each_case(
@@ -67,17 +67,19 @@ def test_spaces_and_capitals_do_not_count_in_digits() -> None:
         ("  ", ""),
     ]
 )
-def test_what_people_type_is_a_payload_and_shown_as_it_was_typed(typed: str, payload: str) -> None:
+def test_a_payload_as_people_type_it_is_understood_and_shown_as_typed(
+    typed: str, payload: str
+) -> None:
     declared = payload_parameter()
     assert declared.parse(typed) == payload
-    scene = with_settings(occ.Scene(), [f"payload={typed}"])
+    scene = change_scene(occ.Scene(), [f"payload={typed}"])
     assert scene == occ.Scene().replace(payload=typed)
     assert scene.transmitter.payload == payload
     assert declared.parse(declared.format(payload)) == payload
 
 
 @given(payload=PAYLOADS)
-def test_a_payload_as_it_would_be_typed_is_the_same_payload(payload: str) -> None:
+def test_a_payload_formatted_for_typing_is_the_same_payload(payload: str) -> None:
     declared = payload_parameter()
     assert declared.parse(declared.format(payload)) == payload
 
@@ -117,8 +119,8 @@ def test_form_of_names_the_form() -> None:
 
 
 @given(payload=PAYLOADS.filter(lambda text: text.startswith(("text:", "hex:"))))
-def test_what_was_received_rightly_compares_right_throughout(payload: str) -> None:
-    pieces = compared(payload, bits_of_payload(payload))
+def test_a_payload_received_correctly_has_no_wrong_piece(payload: str) -> None:
+    pieces = compare_payload(payload, bits_of_payload(payload))
     assert all(piece.is_right and piece.sent == piece.received for piece in pieces)
     assert "".join(piece.sent for piece in pieces) == payload_of_bits(
         bits_of_payload(payload), form_of(payload)
@@ -129,9 +131,9 @@ def test_what_was_received_rightly_compares_right_throughout(payload: str) -> No
 def test_one_wrong_bit_makes_one_wrong_letter(payload: str, data: st.DataObject) -> None:
     bits = list(bits_of_payload(payload))
     bits[data.draw(st.integers(0, len(bits) - 1))] ^= 1
-    assert sum(not piece.is_right for piece in compared(payload, bits)) == 1
+    assert sum(not piece.is_right for piece in compare_payload(payload, bits)) == 1
 
 
 def test_bits_have_no_letters_to_compare() -> None:
-    assert compared("bits:0101", [0, 1, 0, 1]) == ()
-    assert compared("", [0, 1]) == ()
+    assert compare_payload("bits:0101", [0, 1, 0, 1]) == ()
+    assert compare_payload("", [0, 1]) == ()

@@ -1,4 +1,4 @@
-"""The scenes that come with the package, and those that a user keeps."""
+"""The presets of the package."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -45,7 +45,7 @@ def test_no_value_has_both_a_source_and_an_assumption(name: str) -> None:
 
 
 @every_preset
-def test_a_value_that_is_not_nothing_has_a_source_or_a_reason(name: str) -> None:
+def test_a_value_other_than_nothing_has_a_source_or_a_reason(name: str) -> None:
     preset = preset_named(name)
     notes = {**preset.sources, **preset.assumed}
     values = {parameter for parameter in PARAMETERS if preset.scene.value(parameter) not in (0, "")}
@@ -109,7 +109,7 @@ def test_the_experiment_has_the_papers_numbers(name: str) -> None:
     assert {parameter: scene.value(parameter) for parameter in expected} == expected
 
 
-def test_a_values_source_stands_apart_from_it(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_value_and_its_source_are_apart(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["presets", "phone-136us-real"]) == 0
     lines = capsys.readouterr().out.splitlines()
     (line,) = [line for line in lines if line.startswith("line_code ")]
@@ -118,7 +118,8 @@ def test_a_values_source_stands_apart_from_it(capsys: pytest.CaptureFixture[str]
 
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A folder of presets of our own; names that are used nowhere else, since presets are kept."""
+    """A folder in place of the package's; use names found nowhere else, since presets are
+    cached."""
     monkeypatch.setattr(resources, "_resource", tmp_path.joinpath)
     (tmp_path / "presets").mkdir()
     return tmp_path / "presets"
@@ -144,7 +145,7 @@ def test_a_changed_values_note_replaces_the_one_before(folder: Path) -> None:
     assert preset_named("own-base").sources == {"iso": "a book"}
 
 
-def test_a_note_on_what_is_no_parameter_is_refused(folder: Path) -> None:
+def test_a_note_on_an_unknown_parameter_is_refused(folder: Path) -> None:
     (folder / "own-note.toml").write_text('format = 1\n[sources]\nisoo = "a book"\n')
     with pytest.raises(ParameterError, match=r"^There is no parameter 'isoo'; did you mean iso\?$"):
         preset_named("own-note")
@@ -161,7 +162,7 @@ def test_a_preset_file_that_is_not_text_is_refused_by_its_name(folder: Path) -> 
     "name",
     ["", "phone", "devices/phone", "../x", None, ["phone-136us"]],
 )
-def test_what_names_no_preset_is_refused_with_the_names_there_are(
+def test_an_unknown_preset_is_refused_with_the_names_of_all(
     load: Callable[[object], object], name: object
 ) -> None:
     with pytest.raises(PresetError) as refused:

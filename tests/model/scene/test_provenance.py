@@ -1,4 +1,4 @@
-"""Exported figures and tables give their scenes back."""
+"""The scene in an exported figure or table can be read again."""
 
 import os
 import struct
@@ -21,13 +21,13 @@ pytestmark = pytest.mark.usefixtures("plain_figures")
 
 SCENE = occ.load_preset("tablet-122us-real").replace(pattern="10110", start_time=-0.125)
 OTHER = occ.load_preset("phone-68us")
-# All that a format might stumble over.
+# Characters that are special in some of the formats.
 PROVENANCE = Provenance(
     "Title (of it) \\ with µs & <b>", {"at hand": SCENE, "other": OTHER}, 7, ("π)", "(("), "2026"
 )
 
 
-def exported(path: Path, provenance: Provenance = PROVENANCE) -> Path:
+def export_file(path: Path, provenance: Provenance = PROVENANCE) -> Path:
     if path.suffix == ".csv":
         write_table(path, ("a",), [(1,)], provenance)
         return path
@@ -48,7 +48,7 @@ def test_a_provenance_gives_all_its_scenes_back() -> None:
 
 @pytest.mark.parametrize("ending", ENDINGS)
 def test_a_figure_is_opened_as_a_scene_is(tmp_path: Path, ending: str) -> None:
-    path = exported(tmp_path / f"figure{ending}")
+    path = export_file(tmp_path / f"figure{ending}")
     assert read_scene_file(path) == scene_inside(path) == SCENE
     assert main(["plan", "--scene", str(path)]) == 0
 
@@ -66,7 +66,7 @@ def test_a_foreign_file_is_refused_in_a_sentence(
 ) -> None:
     path = tmp_path / f"foreign{ending}"
     path.write_bytes(content)
-    with pytest.raises(occ.SceneFileError, match="carries no scene"):
+    with pytest.raises(occ.SceneFileError, match="contains no scene"):
         scene_inside(path)
 
 
@@ -102,7 +102,7 @@ HOSTILE: dict[str, Callable[[], bytes]] = {
     "key.toml": lambda: b"format = 1\n" + b"a." * 490_000 + b"a = 1",
     "keys.toml": lambda: b"format = 1\n" + b"[a" + b".a" * 30 + b"]\n" * 15_000,
 }
-"""Made where they are asked for: collecting the tests makes none."""
+"""Contents of hostile files, made only when a test needs them."""
 
 READ = """
 import resource, sys
@@ -127,7 +127,7 @@ for name in sys.argv[1:]:
 @pytest.mark.whole
 @pytest.mark.skipif(sys.platform != "linux", reason="only there the limits can be set like this")
 def test_no_file_hangs_the_reader_or_fills_the_memory(tmp_path: Path) -> None:
-    # A second is enough for each; a minute of the processor's time only ends what would hang.
+    # Each takes less than a second; the limit of a minute only ends a reader that hangs.
     paths = [tmp_path / name for name in HOSTILE]
     for path in paths:
         path.write_bytes(HOSTILE[path.name]())
@@ -146,20 +146,20 @@ def test_only_the_start_of_a_large_picture_or_table_is_read(
 ) -> None:
     read, given = os.read, []
 
-    def counted(descriptor: int, count: int) -> bytes:
+    def read_and_count(descriptor: int, count: int) -> bytes:
         content = read(descriptor, count)
         given.append(len(content))
         return content
 
     for ending in (".png", ".csv"):
-        path = exported(tmp_path / f"figure{ending}")
-        os.truncate(path, 10**11)  # a hole, which takes no room on the disk
+        path = export_file(tmp_path / f"figure{ending}")
+        os.truncate(path, 10**11)  # a hole, which takes no space on the disk
         with monkeypatch.context() as patch:
-            patch.setattr(os, "read", counted)
+            patch.setattr(os, "read", read_and_count)
             assert scene_inside(path) == SCENE
     assert sum(given) <= 2_000_000
     for ending in (".svg", ".pdf"):
-        path = exported(tmp_path / f"figure{ending}")
+        path = export_file(tmp_path / f"figure{ending}")
         os.truncate(path, 10**11)
         with pytest.raises(occ.SceneFileError, match="more than 64,000,000 bytes"):
             scene_inside(path)

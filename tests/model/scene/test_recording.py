@@ -1,4 +1,4 @@
-"""A film's path: straight lines from waypoint to waypoint, and rest before and after."""
+"""A film's path: straight lines between waypoints, and rest before and after."""
 
 import pytest
 
@@ -28,7 +28,7 @@ def test_the_panel_moves_along_straight_lines_and_rests_before_and_after(
     assert {motion[name] for name in ("offset_x", "offset_y", "pitch", "roll")} == {0.0}
 
 
-def test_one_waypoint_is_where_the_panel_always_is_and_none_moves_nothing() -> None:
+def test_one_waypoint_is_a_constant_pose_and_no_waypoint_moves_nothing() -> None:
     one = Recording(path=PATH[1:2])
     assert {one.motion(time)["distance"] for time in (0.0, 3.0, 8.0)} == {0.5}
     assert Recording().motion(1.0) == {}

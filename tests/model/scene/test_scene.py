@@ -14,7 +14,7 @@ from occ_model.errors import ParameterError
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import GROUPS, Scene, group_of
 
-# A code must fit its bits: the law of that has tests of its own.
+# A code must fit its bits, which has tests of its own.
 FREE = {name: values_of(p) for name, p in PARAMETERS.items() if name not in ("code", "bits")}
 changes = st.fixed_dictionaries({}, optional=FREE)
 
@@ -34,7 +34,7 @@ def test_replace_changes_what_it_names_and_nothing_else(changes: dict[str, float
     assert before == Scene()
 
 
-def test_what_a_scene_holds_cannot_be_assigned() -> None:
+def test_no_field_of_a_scene_can_be_assigned() -> None:
     for name, group in (("transmitter", Scene()), ("code", Scene()), ("isoo", Scene().camera)):
         said = f"cannot assign to field '{name}'"
         with pytest.raises(dataclasses.FrozenInstanceError, match=said):
@@ -102,11 +102,11 @@ def test_a_chip_lasts_one_over_the_switching_frequency(frequency: float) -> None
 
 def test_a_26_mm_lens_sees_the_angle_of_its_35_mm_equivalent() -> None:
     camera = Scene().replace(rows=2400, columns=3600, equivalent_focal_length=0.026).camera
-    # 24 mm x 36 mm has a diagonal of 43.27 mm: as many pixels a millimetre as 3600 over 36.
+    # On a frame of 24 mm x 36 mm, with its diagonal of 43.27 mm, 3600 columns are 100 a millimetre.
     assert camera.focal_length_pixels == pytest.approx(26 * 3600 / 36, rel=1e-4)
 
 
-def test_a_choice_of_an_earlier_file_opens_as_what_it_is_called_now() -> None:
+def test_an_earlier_name_of_a_choice_opens_as_its_present_name() -> None:
     text = 'format = 1\n[model]\nband_reading = "{}"\n'
     assert Scene.from_toml(text.format("charitable")) == Scene.from_toml(text.format("aligned"))
     with pytest.raises(ParameterError, match="allowed: aligned, literal"):

@@ -1,4 +1,4 @@
-"""Scene files: TOML out and in."""
+"""Scene files: TOML written and read."""
 
 import pytest
 from each_case import each_case
@@ -16,7 +16,7 @@ from occ_model.scene.toml_format import parse_toml
 
 @st.composite
 def scenes(draw: st.DrawFn) -> Scene:
-    """Any scene there can be."""
+    """Draw any possible scene."""
     changes = {name: draw(values_of(parameter)) for name, parameter in PARAMETERS.items()}
     declared = PARAMETERS["bits"]
     assert isinstance(declared, Count)
@@ -25,8 +25,8 @@ def scenes(draw: st.DrawFn) -> Scene:
     return Scene().replace(**changes)
 
 
-def exact(scene: Scene) -> list[str]:
-    """All values with every bit: also the sign of a zero."""
+def exact_texts(scene: Scene) -> list[str]:
+    """Write all values exactly, with the sign of a zero."""
     texts = []
     for name in PARAMETERS:
         value = scene.value(name)
@@ -38,7 +38,7 @@ def exact(scene: Scene) -> list[str]:
 def test_a_scene_comes_back_from_its_file_to_the_last_bit(scene: Scene) -> None:
     read = Scene.from_toml(scene.to_toml())
     assert read == scene
-    assert exact(read) == exact(scene)
+    assert exact_texts(read) == exact_texts(scene)
 
 
 @given(scene=scenes())
@@ -71,7 +71,7 @@ def test_a_file_with_nothing_but_its_format_is_the_default_scene() -> None:
 
 def test_whole_and_real_numbers_may_stand_for_each_other() -> None:
     text = "format = 1\n[camera]\niso = 200\nrows = 300.0\n"
-    assert exact(Scene.from_toml(text)) == exact(Scene().replace(iso=200.0, rows=300))
+    assert exact_texts(Scene.from_toml(text)) == exact_texts(Scene().replace(iso=200.0, rows=300))
 
 
 def test_a_code_and_its_bits_may_stand_in_either_order() -> None:
@@ -122,7 +122,7 @@ def test_a_code_and_its_bits_may_stand_in_either_order() -> None:
         ('format = 1\n["\\u001b[31m"]', r"^A scene file has no table \[\\x1b\[31m\]; known are "),
     ]
 )
-def test_what_is_no_scene_file_is_refused_in_a_sentence(text: str, sentence: str) -> None:
+def test_a_text_that_is_no_scene_file_is_refused_in_a_sentence(text: str, sentence: str) -> None:
     with pytest.raises(SceneFileError, match=sentence):
         Scene.from_toml(text)
 
@@ -143,7 +143,7 @@ def test_dots_in_texts_and_numbers_make_no_long_key(text: str) -> None:
 
 
 @pytest.mark.parametrize("text", [None, 3, b"format = 1", ["format = 1"]])
-def test_what_is_no_text_is_refused_in_a_sentence(text: object) -> None:
+def test_an_argument_that_is_no_text_is_refused_in_a_sentence(text: object) -> None:
     with pytest.raises(SceneFileError) as refused:
         Scene.from_toml(text)  # type: ignore[arg-type]
     assert str(refused.value) == (

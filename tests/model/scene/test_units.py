@@ -13,7 +13,7 @@ from occ_model.scene.units import HERTZ, LUX, METRE, NIT, NONE, RADIAN, SECOND, 
 
 UNITS = (NONE, SECOND, HERTZ, METRE, RADIAN, LUX, NIT)
 
-# As a power of ten in the text of a literal, so that Python's own reading is the judge.
+# Powers of ten, to write literals whose values Python itself determines.
 POWERS = {"n": -9, "u": -6, "µ": -6, "\u03bc": -6, "m": -3, "c": -2, "k": 3, "M": 6, "G": 9}
 
 exact_integers = st.integers(-(2**53), 2**53)
@@ -21,7 +21,7 @@ magnitudes = st.floats(1e-290, 1.7e308)
 
 
 @given(unit=st.sampled_from(UNITS), size=magnitudes, sign=st.sampled_from((-1.0, 1.0)))
-def test_what_is_written_with_17_digits_is_read_back(unit: Unit, size: float, sign: float) -> None:
+def test_a_value_written_with_17_digits_is_read_back(unit: Unit, size: float, sign: float) -> None:
     value = sign * size
     read = unit.parse(unit.format(value, 17))
     assert read == pytest.approx(value, rel=1e-15, abs=0.0)
@@ -104,7 +104,7 @@ NONSENSE = (
 
 
 @each_case(NONSENSE)
-def test_what_is_no_quantity_is_not_understood(text: str) -> None:
+def test_a_text_that_is_no_quantity_is_not_understood(text: str) -> None:
     for unit in UNITS:
         assert unit.parse(text) is None
         assert unit.parse(f"{text} {unit.symbol or '!'}") is None
@@ -120,16 +120,16 @@ def test_a_comma_is_a_point_where_it_cannot_separate_thousands(whole: int, decim
 
 
 @given(first=st.integers(1, 999), last=st.integers(0, 999), sign=st.sampled_from(("", "-", "+")))
-def test_a_comma_that_may_separate_thousands_has_two_readings(
+def test_a_comma_that_may_separate_thousands_has_two_meanings(
     first: int, last: int, sign: str
 ) -> None:
     text = f"{sign}{first},{last:03d}"
     decimal, thousands = float(text.replace(",", ".")), float(text.replace(",", ""))
-    assert HERTZ.readings(f"{text} Hz") == (decimal, thousands)
+    assert HERTZ.meanings(f"{text} Hz") == (decimal, thousands)
     assert HERTZ.parse(f"{text} Hz") is None
-    assert SECOND.readings(f"1/{text} s") == (1 / decimal, 1 / thousands)
+    assert SECOND.meanings(f"1/{text} s") == (1 / decimal, 1 / thousands)
     # Beside a decimal comma that cannot separate thousands.
-    assert SECOND.readings(f"0,5/{text} s") == (0.5 / decimal, 0.5 / thousands)
+    assert SECOND.meanings(f"0,5/{text} s") == (0.5 / decimal, 0.5 / thousands)
 
 
 @pytest.mark.parametrize(
@@ -170,7 +170,7 @@ def test_any_text_is_a_number_or_not_understood(text: str, unit: Unit) -> None:
         (METRE, 0.6, "0.6 m"),
         (METRE, 0.026, "26 mm"),
         (METRE, 2000.0, "2 km"),
-        (METRE, math.nan, "nan m"),  # no prefix suits what has no size
+        (METRE, math.nan, "nan m"),  # no prefix suits NaN
         (RADIAN, math.radians(30), "30°"),
         (RADIAN, 0.0, "0°"),
         (RADIAN, 1.5e308, "1.5e+308 rad"),  # in degrees it would be infinite
@@ -186,9 +186,7 @@ def test_a_value_is_shown_in_the_unit_that_suits_its_size(
 
 
 @given(unit=st.sampled_from((SECOND, HERTZ)), exponent=st.floats(-9, 12))
-def test_where_a_prefix_fits_the_number_shown_is_from_1_to_1000(
-    unit: Unit, exponent: float
-) -> None:
+def test_with_a_prefix_that_fits_the_number_is_from_1_to_1000(unit: Unit, exponent: float) -> None:
     value = 10.0**exponent
     assume(value < (1e3 if unit is SECOND else 1e12))
     assume(value >= (1e-9 if unit is SECOND else 1.0))
@@ -240,14 +238,14 @@ def test_hundreds_to_two_digits_have_no_exponent() -> None:
 
 def test_a_pure_number_has_no_unit() -> None:
     assert NONE.format_estimate(2.2191, 0.03) == "2.219 ± 0.030"
-    assert NONE.format_estimate(-0.001, 0.3) == "0.00 ± 0.30"  # no sign before nothing
+    assert NONE.format_estimate(-0.001, 0.3) == "0.00 ± 0.30"  # no sign before zero
 
 
-def test_a_rounded_estimate_is_what_is_written_of_it_and_moves_by_less_than_a_tenth() -> None:
+def test_a_rounded_estimate_is_the_number_written_and_moves_by_less_than_a_tenth() -> None:
     for value, deviation in ((8.00123e-6, 2.1e-9), (136.4567e-6, 4.4e-7), (6012.3, 99.0)):
         unit = SECOND if value < 1.0 else HERTZ
-        rounded = unit.rounded_estimate(value, deviation)
+        rounded = unit.round_estimate(value, deviation)
         written = unit.format_estimate(value, deviation).split(" ± ", maxsplit=1)[0]
         assert float(unit.format(rounded).split(" ")[0]) == float(written)
         assert abs(rounded - value) <= 0.05 * deviation
-    assert SECOND.rounded_estimate(1.23456789e-3, None) == 1.23456789e-3
+    assert SECOND.round_estimate(1.23456789e-3, None) == 1.23456789e-3

@@ -1,4 +1,4 @@
-"""The user's own presets: saved, listed and deleted, and what may stand among them."""
+"""The user's own presets: saving, listing and deleting them, and other files among them."""
 
 from pathlib import Path
 
@@ -23,7 +23,7 @@ from occ_model.scene.scene import Scene
 
 @pytest.fixture
 def own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Keep the user's own presets in a folder that is not there yet."""
+    """Use a folder for the user's presets that does not exist yet."""
     folder = tmp_path / "own" / "presets"
     monkeypatch.setenv(USER_FOLDER, str(folder))
     return folder
@@ -114,7 +114,7 @@ HOSTILE: dict[str, bytes | str] = {
     "escapes": '["a\\u001b[31m\\n"]',
     "large": "#" * 2_000_000,
 }
-"""Files that are no presets; a text is what stands behind the line of the format."""
+"""Contents of files that are no presets; texts follow the line of the format."""
 
 
 @pytest.mark.parametrize("name", HOSTILE)
@@ -232,12 +232,12 @@ def test_a_preset_that_cannot_be_written_says_so(own: Path) -> None:
     assert presets() == tuple(sorted(presets()))
 
 
-def test_a_text_that_no_file_can_hold_is_saved_all_the_same(own: Path) -> None:
+def test_a_title_that_utf_8_cannot_write_is_saved_with_question_marks(own: Path) -> None:
     save_preset("mine", MINE, title="photo \udcff.png")
     assert preset_named("mine").title == "photo ?.png"
 
 
-def test_the_users_folder_is_the_systems_where_none_is_named(
+def test_the_users_folder_is_the_systems_by_default(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.delenv(USER_FOLDER)

@@ -13,7 +13,7 @@ from occ_model.commands.vary import axes_of
 from occ_model.results.sweep_request import MOST_POINTS
 from occ_model.results.teaching import Step
 from occ_model.scene import units
-from occ_model.scene.from_text import with_settings
+from occ_model.scene.from_text import change_scene
 from occ_model.scene.parameter_kinds import Choice, Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.recording import DECLARED
@@ -57,10 +57,10 @@ def _parameter(chance: Random, _folder: Path) -> list[str]:
 
 def _unit(chance: Random, _folder: Path) -> list[str]:
     unit, text = chance.choice(_UNITS), _text(chance)
-    readings = unit.readings(text)
-    assert len(readings) <= 2
-    assert unit.parse(text) == (readings[0] if len(readings) == 1 else None)
-    for value in readings:
+    meanings = unit.meanings(text)
+    assert len(meanings) <= 2
+    assert unit.parse(text) == (meanings[0] if len(meanings) == 1 else None)
+    for value in meanings:
         assert not math.isnan(value), text
         shown = unit.format(value)
         assert shown.isprintable()
@@ -79,7 +79,7 @@ def _settings(chance: Random, _folder: Path) -> list[str]:
         equals = "=" if chance.random() < 0.95 else chance.choice((":", "", "=="))
         name = name if chance.random() < 0.95 else made.word(chance)
         texts.append(f"{name}{equals}{text}")
-    check_scene(with_settings(Scene(), texts))
+    check_scene(change_scene(Scene(), texts))
     return []
 
 

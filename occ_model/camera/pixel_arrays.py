@@ -42,14 +42,14 @@ def bytes_of(
     pixels = numbers_of(pixels, what)
     if pixels.dtype == np.uint8:
         return np.ascontiguousarray(pixels)
-    white = white_of(pixels, what, white)
+    white = _white_of(pixels, what, white)
     return np.ascontiguousarray(to_bytes(pixels.astype(np.float64) * (WHITE / white)))
 
 
 def samples_of(pixels: NDArray[Any], what: str = "The image") -> Samples:
     """Round floating-point pixels to 16 bits; arguments and errors as for :func:`bytes_of`."""
     pixels = numbers_of(pixels, what)
-    return pixels if pixels.dtype.kind == "u" else in_16_bits(pixels, white_of(pixels, what))
+    return pixels if pixels.dtype.kind == "u" else in_16_bits(pixels, _white_of(pixels, what))
 
 
 def in_16_bits(pixels: NDArray[Any], white: float) -> Samples:
@@ -58,9 +58,12 @@ def in_16_bits(pixels: NDArray[Any], white: float) -> Samples:
     return np.asarray(np.rint(within * (_WHITE_OF_16_BITS / white)), np.uint16)
 
 
-def white_of(pixels: NDArray[Any], what: str = "The image", white: float | None = None) -> float:
+def white_of(pixels: NDArray[Any], what: str = "The image") -> float:
     """Return which value of pixels is white; arguments and errors as for :func:`bytes_of`."""
-    pixels = numbers_of(pixels, what)
+    return _white_of(numbers_of(pixels, what), what)
+
+
+def _white_of(pixels: NDArray[Any], what: str, white: float | None = None) -> float:
     if pixels.dtype.kind == "u":
         return WHITE if pixels.dtype == np.uint8 else _WHITE_OF_16_BITS
     return white_between(float(pixels.min()), float(pixels.max()), what, white)

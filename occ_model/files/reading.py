@@ -10,7 +10,8 @@ from occ_model.errors import SceneFileError, one_line
 
 LARGEST_TEXT = 1_000_000  # bytes allowed in a scene, preset or lesson; ours have a few thousand
 
-_MOST_READS = 4_000_000  # of a file by its decoder; one in Python takes some seconds for them
+_MOST_READS = 1_000_000  # of a file by its decoder; one in Python takes some seconds for them
+_MOST_BYTES_ONE_BY_ONE = 4_000_000  # of a file that a decoder may read byte by byte, as that of QOI
 
 _NO_FILE = "it is a device, pipe or socket"
 
@@ -75,11 +76,13 @@ class BoundedFile(io.BufferedReader):
     def __init__(self, path: Path) -> None:
         super().__init__(path.open("rb", buffering=0))
         self._path, self._reads = path, 0
+        size = os.fstat(self.fileno()).st_size
+        self._most = max(size if size <= _MOST_BYTES_ONE_BY_ONE else 0, _MOST_READS)
 
     def read(self, size: int | None = -1, /) -> bytes:
         self._reads += 1
-        if self._reads > _MOST_READS:
-            raise _unreadable(self._path, f"it is in more than {_MOST_READS:,} parts")
+        if self._reads > self._most:
+            raise _unreadable(self._path, f"it is in more than {self._most:,} parts")
         return super().read(size)
 
 

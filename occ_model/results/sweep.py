@@ -256,24 +256,48 @@ class PointReader:
     """Reads the text that :func:`point_text` writes."""
 
     def __init__(self, request: SweepRequest) -> None:
+        self._request = request
         self._axes = [
             {written(value): place for place, value in enumerate(values)}
             for values in request.axes.values()
         ]
 
-    def read(self, lines: Sequence[str]) -> SweepPoint | None:
-        """Parse a point's rows, one a decoder; the caller checks by writing it again."""
+    def read(self, lines: Sequence[str], number: int) -> SweepPoint | None:
+        """Parse a point's rows, one a decoder; the caller checks by writing it again.
+
+        None where they are no rows of this sweep. ``number``: that of the first line. A count that
+        cannot be raises ParameterError.
+        """
         first = len(self._axes) + 3
         try:
             rows = [next(csv.reader([line], strict=True)) for line in lines]
             index = 0
             for places, text in zip(self._axes, rows[0], strict=False):
                 index = index * len(places) + places[text]
-            right = tuple(int(row[first] or 0) for row in rows)
-            whole = tuple(int(row[first + 5] or 0) for row in rows)
-            return SweepPoint(index, int(rows[0][first + 1] or 0), right, rows[0][-1], whole)
-        except (ValueError, LookupError, StopIteration, csv.Error):
+            cells = [(row[first], row[first + 1], row[first + 5], row[first + 7]) for row in rows]
+        except (LookupError, StopIteration, csv.Error):
             return None
+        (_, sent, _, note), *_ = cells
+        if not sent and note:  # the model refuses the scene
+            return SweepPoint(index, 0, (0,) * len(rows), note, (0,) * len(rows))
+        images, bits = self._request.settings.images, self._request.bits_sent(index)
+        right, whole = [], []
+        for line, (right_bits, sent_bits, read_whole, _) in enumerate(cells, number):
+            read_count("sent bits", sent_bits, images * bits, images * bits, line)
+            whole.append(read_count("images read whole", read_whole, 0, images, line))
+            least = whole[-1] * bits  # each image that is not read whole has a wrong bit
+            most = least + (images - whole[-1]) * (bits - 1)
+            right.append(read_count("right bits", right_bits, least, most, line))
+        return SweepPoint(index, images * bits, tuple(right), note, tuple(whole))
+
+
+def read_count(name: str, text: str, least: int, most: int, line: int) -> int:
+    """Parse a count of a table; ParameterError says in which line it cannot be, and why."""
+    is_count = text.isascii() and text.isdigit() and len(text) <= len(str(most))
+    if is_count and least <= int(text) <= most:
+        return int(text)
+    allowed = str(most) if least == most else f"{least} to {most}"
+    raise ParameterError.of(name, shown(text), allowed).within(f"line {line}")
 
 
 def joined_lines(sentence: str) -> str:

@@ -69,6 +69,13 @@ class SweepRequest:
             found.append(values[place])
         return dict(zip(self.axes, reversed(found), strict=True))
 
+    def bits_sent(self, index: int) -> int:
+        """Return the bits that an image of a point shows."""
+        names = ("payload", "bits")
+        sent = {name: value for name, value in self.values(index).items() if name in names}
+        scene = self.scene.replace(**sent) if sent else self.scene
+        return scene.transmitter.payload_length
+
     def bits_a_second(self, point: "SweepPoint", decoder: int) -> float | None:
         """Return the net bits a second of a point; None where the model refuses the scene.
 

@@ -10,10 +10,10 @@ from time import perf_counter
 
 import numpy as np
 
-from occ_model.errors import OccError
+from occ_model.errors import OccError, ParameterError, shown
 from occ_model.parallel.job import Heartbeat
 from occ_model.results.decoding import Region
-from occ_model.results.sweep import csv_row, joined_lines
+from occ_model.results.sweep import csv_row, joined_lines, read_count
 from occ_model.room.locate import RoomReading, read_room
 from occ_model.room.reading import ReadLamp, code_sent
 from occ_model.room.render import RoomFrame, render_room
@@ -188,19 +188,48 @@ class RoomMapText:
             point.misread, point.wrong, point.sure, point.error, point.stated, point.note,
         ))  # fmt: skip
 
-    def read(self, lines: Sequence[str]) -> RoomPoint | None:
-        """Parse a place; the caller checks it by writing it again."""
+    def read(self, lines: Sequence[str], number: int) -> RoomPoint | None:
+        """Parse a place; the caller checks it by writing it again.
+
+        None where it is no row of this map. A count or an error that cannot be, in the line of this
+        number, raises ParameterError.
+        """
         try:
             (line,) = lines
             x, y, _, *counts, error, stated, note = next(csv.reader([line], strict=True))
             across = [repr(place) for place in self._request.across].index(x)
             along = [repr(place) for place in self._request.along].index(y)
-            shown, named, misread, wrong, sure = map(int, counts)
+            seen, named, misread, wrong, sure = counts
         except (ValueError, StopIteration, csv.Error):
             return None
-        index = across * len(self._request.along) + along
-        distance, deviation = (float(text) if text else math.nan for text in (error, stated))
-        return RoomPoint(index, shown, named, misread, wrong, sure, distance, deviation, note)
+        images, camera = self._request.images, self._request.room.scene.camera
+        lamps = images * len(self._request.room.lamps)
+        pixels = images * camera.rows * camera.columns  # more than there can be lamps, known or not
+        whole = read_count("whole lamps", seen, 0, lamps, number)
+        places = read_count("sure places", sure, 0, images, number)
+        return RoomPoint(
+            across * len(self._request.along) + along,
+            whole,
+            read_count("named rightly", named, 0, whole, number),
+            read_count("misread", misread, 0, pixels, number),
+            read_count("named wrongly", wrong, 0, lamps, number),
+            places,
+            _read_distance("error (m)", error, bool(places), number),
+            _read_distance("stated error (m)", stated, bool(places), number),
+            note,
+        )
+
+
+def _read_distance(name: str, text: str, is_known: bool, line: int) -> float:
+    """Parse a distance in metres, not a number where none is known."""
+    try:
+        distance = float(text) if text else math.nan
+    except ValueError:
+        distance = -1.0
+    if math.isnan(distance) if not is_known else 0.0 <= distance < math.inf:
+        return distance
+    allowed = "numbers from 0 m" if is_known else "nothing, without a sure place"
+    raise ParameterError.of(name, shown(text), allowed).within(f"line {line}")
 
 
 def room_map(

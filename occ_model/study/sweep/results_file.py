@@ -13,7 +13,7 @@ from time import monotonic
 from types import TracebackType
 from typing import BinaryIO, Generic, Protocol, Self, TypeVar
 
-from occ_model.errors import OutputError, one_line, shown
+from occ_model.errors import OutputError, ParameterError, one_line, shown
 from occ_model.files.locking import locked
 from occ_model.files.writing import check_replaceable, write_whole
 
@@ -43,8 +43,11 @@ class TableText(Protocol[Point]):
 
     lines_a_point: int
 
-    def read(self, lines: Sequence[str]) -> Point | None:
-        """Parse a point, None where the lines are not of this study."""
+    def read(self, lines: Sequence[str], number: int) -> Point | None:
+        """Parse a point from its lines, of which the first has this number.
+
+        None where they are not of this study; ParameterError where a count cannot be.
+        """
 
     def text(self, point: Point) -> str:
         """Format a point."""
@@ -142,7 +145,13 @@ class ResultsFile(Generic[Point]):
                 is_cut = len(lines) < height or not text.endswith(b"\n")
                 if is_cut and all(len(line) < _LONGEST_LINE for line in lines):
                     break
-                point = self._table.read(text.decode("utf-8", errors="replace").splitlines())
+                rows_of_point = text.decode("utf-8", errors="replace").splitlines()
+                try:
+                    point = self._table.read(rows_of_point, line_number + 1)
+                except ParameterError as impossible:
+                    raise OutputError(
+                        f"{self._name}, {impossible} Mend or remove the line, or name another file."
+                    ) from None
                 if point is None or seen[point.index] or self._text(point) != text:
                     raise OutputError(
                         f"{self._name} holds something else in line {line_number + 1}: it is no "

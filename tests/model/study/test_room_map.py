@@ -11,6 +11,7 @@ from small_rooms import small_room
 
 import occ_model as occ
 from occ_model.cli import main
+from occ_model.errors import shown
 from occ_model.room.room import Place
 from occ_model.study import room_map as study
 from occ_model.study.code_length import (
@@ -19,7 +20,7 @@ from occ_model.study.code_length import (
     code_lengths,
     least_distance,
 )
-from occ_model.study.room_map import RoomMapRequest, RoomMapText, floor_under, room_map
+from occ_model.study.room_map import RoomMapRequest, RoomMapText, RoomPoint, floor_under, room_map
 from occ_model.transmitter.packet import sent_chips
 
 
@@ -94,6 +95,35 @@ def test_a_map_that_was_killed_goes_on_and_is_the_same(tmp_path: Path) -> None:
     path.write_bytes(text.replace(b"seed 1", b"seed 2"))
     with pytest.raises(occ.OutputError, match="another map of a room"):
         room_map(request, results=path)
+
+
+@pytest.mark.parametrize(
+    ("cell", "value", "said"),
+    [
+        (3, "-1", "whole lamps is '-1'; allowed: 0 to 2."),
+        (3, "9" * 400, f"whole lamps is {shown('9' * 400)}; allowed: 0 to 2."),
+        (4, "3", "named rightly is '3'; allowed: 0 to 2."),
+        (5, "nan", f"misread is 'nan'; allowed: 0 to {2 * 240 * 320}."),
+        (6, "5", "named wrongly is '5'; allowed: 0 to 2."),
+        (7, "1", "error (m) is ''; allowed: numbers from 0 m."),
+        (7, "3", "sure places is '3'; allowed: 0 to 2."),
+        (8, "0.5", "error (m) is '0.5'; allowed: nothing, without a sure place."),
+    ],
+)
+def test_counts_of_a_map_that_cannot_be_are_refused_with_line_and_value(
+    tmp_path: Path, cell: int, value: str, said: str
+) -> None:
+    room = small_room(1, rows=240, columns=320)
+    request = RoomMapRequest(room, (0.0,), (0.0,), images=2)
+    text, path = RoomMapText(request), tmp_path / "map.csv"
+    row = text.text(RoomPoint(0, 2, 2, 0, 0, 0, math.nan, math.nan, "No place.")).split(",")
+    row[cell] = value
+    path.write_text(text.header + ",".join(row))
+    line = text.header.count("\n") + 1
+    with pytest.raises(occ.OutputError) as refused:
+        room_map(request, results=path)
+    assert str(refused.value).startswith(f"{path}, line {line}: ")
+    assert str(refused.value).endswith(f"{said} Mend or remove the line, or name another file.")
 
 
 def test_the_command_measures_a_room_file_with_other_settings(

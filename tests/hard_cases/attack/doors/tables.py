@@ -16,8 +16,10 @@ from hard_cases.attack.promise import Door
 from occ_model.errors import one_line
 from occ_model.photo.many.other_programs import lines_to_paste
 from occ_model.results.photo_table import csv_text
-from occ_model.results.sweep_request import RateSettings, SweepRequest
+from occ_model.results.sweep import csv_row
+from occ_model.results.sweep_request import RateSettings, SweepPoint, SweepRequest
 from occ_model.study.bench.data_set import COLUMNS, load_samples, read_samples
+from occ_model.study.confidence import interval_of_pictures
 from occ_model.study.sweep.request_check import checked_request
 from occ_model.study.sweep.sweep import run_sweep
 
@@ -34,11 +36,37 @@ def _sweep() -> tuple[SweepRequest, bytes]:
         return request, path.read_bytes()
 
 
+def _with_counts(chance: Random, request: SweepRequest, whole: bytes) -> bytes:
+    """Put other counts into a point's rows, with the rates and intervals that follow from them."""
+    lines = whole.decode().splitlines(keepends=True)
+    first = next(place for place, line in enumerate(lines) if line[0] != "#") + 1
+    first += len(request.settings.decoders) * chance.randrange(request.points)
+    for place in range(first, first + len(request.settings.decoders)):
+        row = next(csv.reader([lines[place]]))
+        for cell in chance.sample((5, 6, 10), chance.choice((1, 1, 2))):
+            row[cell] = (
+                made.number(chance) if chance.random() < 0.7 else str(chance.randint(-9, 30))
+            )
+        try:
+            right, sent, read = (int(row[cell]) for cell in (5, 6, 10))
+            index = (place - first) // len(request.settings.decoders)
+            row[7] = repr(100.0 * right / sent)
+            row[8], row[9] = map(repr, interval_of_pictures(right, sent, request.settings.images))
+            point = SweepPoint(index, sent, (right,), "", (read,))
+            row[11] = repr(request.bits_a_second(point, 0))
+        except (ValueError, ArithmeticError):
+            pass
+        lines[place] = csv_row(row)
+    return "".join(lines).encode()
+
+
 def _resumed(chance: Random, folder: Path) -> list[str]:
     request, whole = _sweep()
     path = folder / "results.csv"
     kind = chance.random()
-    if kind < 0.5:
+    if kind < 0.3:
+        content = _with_counts(chance, request, whole)
+    elif kind < 0.5:
         content = made.encoded(chance, made.damaged(chance, whole.decode()))
     elif kind < 0.7:
         content = whole[: chance.randrange(len(whole))]
@@ -46,11 +74,16 @@ def _resumed(chance: Random, folder: Path) -> list[str]:
         content = damage.damaged(np.random.default_rng(chance.getrandbits(32)), whole)
     path.write_bytes(content)
     try:
-        run_sweep(request, results=path)
+        table = run_sweep(request, results=path)
     except occ.OutputError:
         assert path.read_bytes() == content, "a refused file was changed"
         raise
-    assert path.read_bytes() == whole
+    bits = request.scene.transmitter.payload_length
+    for point in table.each_point():
+        assert point.sent in (0, request.settings.images * bits)
+        for right, read in zip(point.right, point.whole, strict=True):
+            assert 0 <= read * bits <= right <= point.sent
+    assert kind < 0.3 or path.read_bytes() == whole
     return []
 
 

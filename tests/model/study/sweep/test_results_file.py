@@ -10,6 +10,7 @@ import pytest
 from amount import amount
 
 import occ_model as occ
+from occ_model.errors import shown
 from occ_model.results.sweep import SweepTable
 from occ_model.scene.scene import Scene
 from occ_model.study.sweep import points
@@ -188,6 +189,63 @@ def test_lines_of_another_origin_are_refused_and_kept(
     with pytest.raises(occ.OutputError, match=r"holds something else in line \d+"):
         run(scene, path)
     assert path.read_bytes() == change(whole)
+
+
+RIGHT, SENT, READ = 5, 6, 10  # the cells of a row with two axes
+
+HUGE = "9" * 5000
+
+
+@pytest.mark.parametrize(
+    ("cells", "said"),
+    [
+        ({RIGHT: "-10"}, "right bits is '-10'; allowed: 10."),
+        ({RIGHT: "11"}, "right bits is '11'; allowed: 10."),
+        ({RIGHT: "9"}, "right bits is '9'; allowed: 10."),
+        ({RIGHT: "nan"}, "right bits is 'nan'; allowed: 10."),
+        ({RIGHT: "1e1"}, "right bits is '1e1'; allowed: 10."),
+        ({RIGHT: "\u0661"}, "right bits is '\u0661'; allowed: 10."),
+        ({RIGHT: HUGE}, f"right bits is {shown(HUGE)}; allowed: 10."),
+        ({RIGHT: "12", READ: "0"}, "right bits is '12'; allowed: 0 to 9."),
+        ({RIGHT: "10", READ: "0"}, "right bits is '10'; allowed: 0 to 9."),
+        ({SENT: "20"}, "sent bits is '20'; allowed: 10."),
+        ({SENT: "-10"}, "sent bits is '-10'; allowed: 10."),
+        ({SENT: ""}, "sent bits is ''; allowed: 10."),
+        ({SENT: "inf"}, "sent bits is 'inf'; allowed: 10."),
+        ({READ: "2"}, "images read whole is '2'; allowed: 0 to 1."),
+        ({READ: "-1"}, "images read whole is '-1'; allowed: 0 to 1."),
+    ],
+)
+def test_counts_that_cannot_be_are_refused_with_line_and_value(
+    scene: Scene, whole: bytes, tmp_path: Path, cells: dict[int, str], said: str
+) -> None:
+    lines = whole.decode().splitlines()
+    place = next(n for n, line in enumerate(lines) if line.startswith("1.0,15000.0,matched,"))
+    row = lines[place].split(",")
+    assert (row[RIGHT], row[SENT], row[READ]) == ("10", "10", "1")
+    for cell, count in cells.items():
+        row[cell] = count
+    if cells.keys() == {RIGHT} and cells[RIGHT] in ("11", "9"):  # what follows from it agrees
+        row[7] = repr(10.0 * int(cells[RIGHT]))
+    path = tmp_path / "r.csv"
+    content = "\n".join([*lines[:place], ",".join(row), *lines[place + 1 :], ""]).encode()
+    path.write_bytes(content)
+    with pytest.raises(occ.OutputError) as refused:
+        run(scene, path)
+    assert str(refused.value) == (
+        f"{path}, line {place + 1}: {said} Mend or remove the line, or name another file."
+    )
+    assert path.read_bytes() == content
+
+
+def test_a_count_of_a_varied_payload_is_that_of_its_own_bits(scene: Scene, tmp_path: Path) -> None:
+    path, axes = tmp_path / "r.csv", {"distance": [1.0], "bits": [10, 12]}
+    found = run(scene, path, axes=axes)
+    assert found.sent.tolist() == [[10, 12]]
+    assert run(scene, path, axes=axes) == found
+    path.write_bytes(path.read_bytes().replace(b",12,100.0,", b",10,100.0,"))
+    with pytest.raises(occ.OutputError, match=r"sent bits is '10'; allowed: 12\."):
+        run(scene, path, axes=axes)
 
 
 def test_a_path_that_is_no_file_for_results_is_refused(scene: Scene, tmp_path: Path) -> None:

@@ -48,14 +48,14 @@ class Section:
 
 
 def sections(folder: Path) -> list[Section]:
-    """Read the sections of all pages but the table of contents, in its order."""
+    """Read the sections of all pages, but for the table of contents itself, in its order."""
     found = []
-    for title, name in pages(folder)[1:]:
+    for title, name in pages(folder):
         parts = _parts((folder / name).read_text(encoding="utf-8"))
         for place, (heading, text) in enumerate(parts):
             shown, link = (title, name) if place == 0 else (f"{title}: {heading}", "")
             found.append(Section(shown, link or f"{name}#{heading_id(heading)}", heading, text))
-    return found
+    return found[1:]
 
 
 def _parts(page: str) -> Iterator[tuple[str, str]]:

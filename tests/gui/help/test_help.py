@@ -237,6 +237,7 @@ def test_a_page_is_divided_at_its_headings_and_all_words_are_there_a_heading_cou
     assert titles(search(found, "BARS")) == ["First: Bars", "First: Flicker"]
     assert titles(search(found, "light bars")) == ["First: Flicker"]
     assert titles(search(found, "light unknown")) == []
+    assert "Contents: Licences" in titles(sections(docs_folder()))
 
 
 def test_every_section_of_the_manual_is_found_by_its_heading_and_shown_there(qtbot: QtBot) -> None:

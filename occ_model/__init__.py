@@ -9,17 +9,33 @@ Everything here works without a window. A scene is a value; the functions take i
     result = occ.decode(frame.image, scene)
 """
 
-import lazy_loader
+import ast
+import importlib
+import pkgutil
 
-# The module of each public name is imported at its first use: Ctrl-C and ``--help`` need no numpy.
-_load, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+# The public names stand in a stub, which type checkers read, too. The module of each is imported at
+# its first use: Ctrl-C and ``--help`` need no numpy.
+_MODULES = {
+    alias.name: f"{__name__}.{statement.module}"
+    for statement in ast.parse(pkgutil.get_data(__name__, "__init__.pyi") or b"").body
+    if isinstance(statement, ast.ImportFrom)
+    for alias in statement.names
+}
+
+__all__ = sorted(_MODULES)
 
 
 def __getattr__(name: str) -> object:
-    value = _load(name)
+    if name not in _MODULES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    value = getattr(importlib.import_module(_MODULES[name]), name)
     if type(value) is type(__getattr__):  # a function
         from occ_model.argument_kinds import checked
 
         value = checked(value)
     globals()[name] = value
     return value
+
+
+def __dir__() -> set[str]:
+    return {*globals(), *__all__}

@@ -85,7 +85,7 @@ def test_every_public_name_is_there_and_listed() -> None:
     starred: dict[str, object] = {}
     exec("from occ_model import *", starred)
     assert starred.keys() - {"__builtins__"} == {*names}
-    with pytest.raises(AttributeError, match="occ_model attribute nothing"):
+    with pytest.raises(AttributeError, match="'occ_model' has no attribute 'nothing'"):
         occ_model.nothing  # type: ignore[attr-defined]  # noqa: B018
 
 

@@ -21,6 +21,7 @@ def archive(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("archive") / "occ.zip"
     with zipfile.PyZipFile(str(path), "w") as packed:
         packed.writepy(str(ROOT / "occ_model"))  # compiled already
+        packed.write(ROOT / "occ_model" / "__init__.pyi", "occ_model/__init__.pyi")
         for folder in ("docs", "lessons", "photos", "pictures", "presets", "rooms"):
             for file in sorted((ROOT / "resources" / folder).rglob("*.*")):
                 packed.write(file, Path("occ_model", file.relative_to(ROOT)))

@@ -161,8 +161,8 @@ class AccuracyPlot(QWidget):
         self._fit()
 
     def _lay_out(self) -> None:
-        self._fit_button = push_button("Fit", "Show all points.", self._fit_again)
-        head = filled(QHBoxLayout(), (self.title, 1), self._fit_button)
+        self.fit_button = push_button("Fit", "Show all points.", self._fit_again)
+        head = filled(QHBoxLayout(), (self.title, 1), self.fit_button)
         filled(QVBoxLayout(self), head, self.legend, (self.plot, 1), margins=0, spacing=2)
 
     @property

@@ -60,14 +60,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def read_command_line(arguments: Sequence[str] | None) -> Callable[[], int]:
     """Parse a command line; return the function that opens the window."""
-    return partial(_start_and_run, make_parser().parse_args(arguments))
+    return partial(_run, make_parser().parse_args(arguments))
 
 
-def _start_and_run(options: argparse.Namespace) -> int:
+def begin(options: argparse.Namespace) -> Start:
+    """Read what the window starts with."""
     _check_qt()
     settings = simulation_settings_of(options)
     own = settings == simulation_settings_of(make_parser().parse_args([]))
-    return _run(options, start_of(options, scene_of(options), settings, own))
+    return start_of(options, scene_of(options), settings, own)
 
 
 def _check_qt() -> None:
@@ -132,15 +133,16 @@ def _size(text: str) -> tuple[int, int]:
     return width, height
 
 
-def _run(options: argparse.Namespace, begin: Start) -> int:
+def _run(options: argparse.Namespace) -> int:
+    begun = begin(options)
     _prepare(options)
-    qt, application = start(begin.first, sys.argv[:1], begin.preferences)
+    qt, application = start(begun.first, sys.argv[:1], begun.preferences)
     _check_pane(options.dock, application)
     if not (options.screenshot or options.size):
         from occ_gui.app.display import open_first
 
         open_first(application.window, qt.primaryScreen().availableGeometry())
-    begin.restore(application, with_photo=options.photo is None)
+    begun.restore(application, with_photo=options.photo is None)
     if options.theme:
         application.options.theme.choose(options.theme)
     if options.size:
@@ -161,10 +163,10 @@ def _run(options: argparse.Namespace, begin: Start) -> int:
     from occ_gui.widgets.icons import program_icon
 
     application.window.setWindowIcon(program_icon())
-    if begin.is_new and not (options.files or options.photo or options.mode or options.dock):
+    if begun.is_new and not (options.files or options.photo or options.mode or options.dock):
         application.shell.pane("welcome").show_once()
     code = qt.exec()
-    leave_plugins(code, begin.preferences)
+    leave_plugins(code, begun.preferences)
     return code
 
 

@@ -98,14 +98,14 @@ class ShutterAnimation(QWidget):
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
         if self._shutter is None:
             return
-        _Drawing(QPainter(self), self, self._shutter, min(self.moment / (1.0 - _PAUSE), 1.0)).draw()
+        Drawing(QPainter(self), self, self._shutter, min(self.moment / (1.0 - _PAUSE), 1.0)).draw()
 
 
-class _Drawing:
+class Drawing:
     def __init__(
         self, painter: QPainter, widget: QWidget, shutter: RollingShutter, moment: float
     ) -> None:
-        self._painter, self._shutter = painter, shutter
+        self.painter, self._shutter = painter, shutter
         self._now = moment * shutter.duration
         self._width, self._height = widget.width(), widget.height()
         self._ink = widget.palette().color(QPalette.ColorRole.WindowText)
@@ -113,11 +113,11 @@ class _Drawing:
 
     def draw(self) -> None:
         self._draw_lamp()
-        self._draw_bars()
-        self._draw_stripes()
+        self.draw_bars()
+        self.draw_stripes()
         x = self._x(self._now)
-        self._painter.setPen(QPen(self._accent, 2))
-        self._painter.drawLine(int(x), 0, int(x), self._height - _STRIPE_HEIGHT - _GAP)
+        self.painter.setPen(QPen(self._accent, 2))
+        self.painter.drawLine(int(x), 0, int(x), self._height - _STRIPE_HEIGHT - _GAP)
 
     def _x(self, time: float) -> float:
         return self._width * time / self._shutter.duration
@@ -127,11 +127,11 @@ class _Drawing:
         for begin, end, on in zip(edges[:-1], edges[1:], lit, strict=True):
             left, right = self._x(max(begin, 0.0)), self._x(min(end, self._shutter.duration))
             if right > left:
-                self._painter.fillRect(
+                self.painter.fillRect(
                     QRectF(left, 0, right - left, _LAMP_HEIGHT), _LIT if on else _DARK
                 )
 
-    def _draw_bars(self) -> None:
+    def draw_bars(self) -> None:
         shutter = self._shutter
         top = _LAMP_HEIGHT + _GAP
         height = self._height - _STRIPE_HEIGHT - _GAP - top
@@ -146,11 +146,11 @@ class _Drawing:
             passed = min(max(self._now - start, 0.0), shutter.exposure_time)
             bar = QRectF(x, y, width, max(step - 1.0, 1.0))
             filled = QRectF(x, y, width * passed / shutter.exposure_time, bar.height())
-            self._painter.fillRect(filled, mixed(_LIT, _DARK, fraction))
-            self._painter.setPen(QPen(outline, 1))
-            self._painter.drawRect(bar)
+            self.painter.fillRect(filled, mixed(_LIT, _DARK, fraction))
+            self.painter.setPen(QPen(outline, 1))
+            self.painter.drawRect(bar)
 
-    def _draw_stripes(self) -> None:
+    def draw_stripes(self) -> None:
         shutter = self._shutter
         top = self._height - _STRIPE_HEIGHT
         width = self._width / len(shutter.columns)
@@ -158,11 +158,11 @@ class _Drawing:
             zip(shutter.starts, shutter.lit_fraction, strict=True)
         ):
             if self._now >= start + shutter.exposure_time * (1.0 - 1e-9):
-                self._painter.fillRect(
+                self.painter.fillRect(
                     QRectF(place * width, top, width + 1.0, _STRIPE_HEIGHT), _grey(fraction)
                 )
-        self._painter.setPen(QPen(self._ink, 1))
-        self._painter.drawRect(QRectF(0.5, top + 0.5, self._width - 1.0, _STRIPE_HEIGHT - 1.0))
+        self.painter.setPen(QPen(self._ink, 1))
+        self.painter.drawRect(QRectF(0.5, top + 0.5, self._width - 1.0, _STRIPE_HEIGHT - 1.0))
 
 
 def _grey(fraction: float) -> QColor:

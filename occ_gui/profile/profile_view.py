@@ -82,8 +82,8 @@ class ProfileView(QWidget):
         self.photo = self.plot.add_curve(pens["photo"][1])
         self.threshold = pg.InfiniteLine(angle=0, pen=pens["threshold"][1])
         # As in the story, the columns that the decoder does not read are shaded.
-        self._outside = tuple(pg.LinearRegionItem(pen=pg.mkPen(None), movable=False) for _ in "lr")
-        for item in (*self._outside, self.threshold):
+        self.outside = tuple(pg.LinearRegionItem(pen=pg.mkPen(None), movable=False) for _ in "lr")
+        for item in (*self.outside, self.threshold):
             item.setZValue(-10)
             item.hide()
             self.plot.addItem(item, ignoreBounds=True)
@@ -92,7 +92,7 @@ class ProfileView(QWidget):
     def _dress(self, palette: QPalette) -> None:
         shade = palette.color(QPalette.ColorRole.Text)
         shade.setAlpha(_SHADE)
-        for item in self._outside:
+        for item in self.outside:
             item.setBrush(shade)
 
     def _make_controls(self) -> None:
@@ -212,10 +212,10 @@ class ProfileView(QWidget):
         self.reason.setText(reading.band_undefined or drift_sentence(reading))
         self.reason.setVisible(bool(self.reason.text()))
         region = reading.region
-        for item in self._outside:
+        for item in self.outside:
             item.setVisible(region is not None)
         if region is not None:
-            low, high = self._outside
+            low, high = self.outside
             low.setRegion((-_BEYOND_ANY_PICTURE, region.first_column))
             high.setRegion((region.last_column, _BEYOND_ANY_PICTURE))
         self.threshold.setVisible(enhanced and threshold is not None)

@@ -41,7 +41,7 @@ class ParameterRow(QWidget):
     def __init__(self, declaration: Declaration) -> None:
         super().__init__()
         self.name = declaration.name
-        self._gestures = Gestures()
+        self.gestures = Gestures()
         self.refused.connect(self.show_problem)
 
     def show_problem(self, sentence: str) -> None:
@@ -60,7 +60,7 @@ class ParameterRow(QWidget):
     def _enter(self, value: ParameterValue) -> None:
         self.value = value
         self.end_refusal()
-        self.edited.emit(self.name, value, self._gestures.of_change())
+        self.edited.emit(self.name, value, self.gestures.of_change())
 
 
 class QuantityRow(ParameterRow):
@@ -82,9 +82,9 @@ class QuantityRow(ParameterRow):
         for control in (self.slider, self.field):
             _name(control, quantity)
             keep_wheel_for_scrolling(control)
-        self.slider.sliderPressed.connect(self._gestures.end)
-        self.slider.sliderReleased.connect(self._gestures.end)
-        self.field.lineEdit().textEdited.connect(self._gestures.end)
+        self.slider.sliderPressed.connect(self.gestures.end)
+        self.slider.sliderReleased.connect(self.gestures.end)
+        self.field.lineEdit().textEdited.connect(self.gestures.end)
         self.slider.valueChanged.connect(self._slide)
         self.field.edited.connect(self._take)
         self.field.refused.connect(self.refused)
@@ -116,7 +116,7 @@ class QuantityRow(ParameterRow):
 
     def begin_run(self) -> None:
         """Begin a run of the slider, which is undone as one change."""
-        self._gestures.end()
+        self.gestures.end()
         self._is_running = True
 
     def run_to(self, fraction: float) -> None:
@@ -128,7 +128,7 @@ class QuantityRow(ParameterRow):
 
     def end_run(self) -> None:
         self._is_running = False
-        self._gestures.end()
+        self.gestures.end()
 
     def _place_slider(self, value: float) -> None:
         with QSignalBlocker(self.slider):
@@ -145,7 +145,7 @@ class QuantityRow(ParameterRow):
         self.field.set_value(value)
         self._announce_value(value)
         held = self.slider.isSliderDown() or self._is_running
-        gesture = self._gestures.of_change(held=held)
+        gesture = self.gestures.of_change(held=held)
         self.edited.emit(self.name, value, gesture)
 
     def _take(self, value: float) -> None:
@@ -160,7 +160,7 @@ class CountRow(ParameterRow):
         self.field = CountEdit(declared)
         keep_wheel_for_scrolling(self.field)
         _fill(self, self.field, declared)
-        self.field.lineEdit().textEdited.connect(self._gestures.end)
+        self.field.lineEdit().textEdited.connect(self.gestures.end)
         self.field.valueChanged.connect(self._enter)
         self.field.accepted.connect(self.end_refusal)
         self.field.refused.connect(self.refused)
@@ -230,7 +230,7 @@ class PatternRow(ParameterRow):
         self.field = QLineEdit(placeholderText=f"empty: {declared.empty}")
         leave_undo_to_window(self.field)
         _fill(self, self.field, declared)
-        self.field.textEdited.connect(self._gestures.end)
+        self.field.textEdited.connect(self.gestures.end)
         self.field.editingFinished.connect(self._read)
         self.notice.dismissed.connect(lambda: self.field.setText(self._shown))
 

@@ -130,7 +130,7 @@ class SceneStore(QObject):
         return replace(workspace, scene=scene, preset=preset)
 
 
-_PAUSE_MS = 700  # a longer pause between two changes of a control ends a gesture
+PAUSE_MS = 700  # a longer pause between two changes of a control ends a gesture
 
 _numbers = count()
 
@@ -153,7 +153,7 @@ class Gestures:
     def of_change(self, held: bool = False) -> int:
         """Return the gesture of a change made now; while held, a pause does not end a gesture."""
         goes_on = self._since_change.isValid() and (
-            held or not self._since_change.hasExpired(_PAUSE_MS)
+            held or not self._since_change.hasExpired(PAUSE_MS)
         )
         if not goes_on:
             self._number = new_gesture()

@@ -46,17 +46,17 @@ class SliderScale(QWidget):
     def _meaning(self, mark: MarkedValue) -> str:
         return f"{self._quantity.format(mark.value, 3)}: {mark.meaning}"
 
-    def _font(self) -> QFont:
+    def text_font(self) -> QFont:
         return resized(self.font(), _TEXT_SCALE)
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        return QSize(60, round(QFontMetricsF(self._font()).height() + _TICK + 2))
+        return QSize(60, round(QFontMetricsF(self.text_font()).height() + _TICK + 2))
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         """Return a small width: names of marks are left out where there is no space."""
         return QSize(20, self.sizeHint().height())
 
-    def _x(self, value: float) -> float:
+    def x_of(self, value: float) -> float:
         first, last = slider_travel(self._slider)
         x = first + self._quantity.fraction(value) * (last - first)
         return x + self._slider.x() - self.x()
@@ -67,7 +67,7 @@ class SliderScale(QWidget):
             near = [
                 m
                 for m in self.marks
-                if abs(self._x(m.value) - event.pos().x()) <= _TOOLTIP_DISTANCE
+                if abs(self.x_of(m.value) - event.pos().x()) <= _TOOLTIP_DISTANCE
             ]
             if near:
                 QToolTip.showText(event.globalPos(), self._meaning(near[0]), self)
@@ -79,22 +79,22 @@ class SliderScale(QWidget):
     @guarded
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
         painter = QPainter(self)
-        font = self._font()
+        font = self.text_font()
         metrics = QFontMetricsF(font)
         painter.setFont(font)
         ink = self.palette().color(QPalette.ColorRole.WindowText)
-        ends, names = self._texts(metrics)
+        ends, names = self.texts(metrics)
         painter.setPen(self.palette().color(QPalette.ColorRole.PlaceholderText))
         for text, box in ends:
             painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)
         painter.setPen(QPen(ink, 1.5))
         for mark in self.marks:
-            x = self._x(mark.value)
+            x = self.x_of(mark.value)
             painter.drawLine(QPointF(x, 0.0), QPointF(x, _TICK))
         for text, box in names:
             painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)
 
-    def _texts(self, metrics: QFontMetricsF) -> tuple[list[_Text], list[_Text]]:
+    def texts(self, metrics: QFontMetricsF) -> tuple[list[_Text], list[_Text]]:
         """Return the end values and the marks' names, each with its place.
 
         An end value that leaves a mark no place for its name is left out: where the slider ends is
@@ -112,7 +112,7 @@ class SliderScale(QWidget):
         """
         places: list[list[_Text | None]] = []
         for mark in self.marks:
-            text, x = mark.label.replace("t_LED", "1 chip"), self._x(mark.value)
+            text, x = mark.label.replace("t_LED", "1 chip"), self.x_of(mark.value)
             width = metrics.horizontalAdvance(text)
             most = max(self.width() - width, 0.0)
             lefts = [x - width * fraction for fraction in (0.5, 0.75, 0.25)]

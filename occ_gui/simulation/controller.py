@@ -45,7 +45,7 @@ _REST_TIME = 0.05  # seconds without a change after which the exact picture is b
 
 _LONGEST_PAINT = 0.1  # longest time, in seconds, for which work waits for the window to paint
 
-_CHECK_SECONDS, _MOST_CHECKS = 0.005, 20
+CHECK_SECONDS, _MOST_CHECKS = 0.005, 20
 """Seconds between two checks whether the exact picture may begin, and the most checks."""
 
 
@@ -159,7 +159,7 @@ class SimulationController(QObject):
         for _ in range(_MOST_CHECKS):
             if not self._others_first():
                 return
-            report.give_way(_CHECK_SECONDS)
+            report.give_way(CHECK_SECONDS)
 
     def _show_early(self, part: Picture | Reading) -> None:
         reading = part.reading if isinstance(part, Picture) else part

@@ -42,7 +42,7 @@ class SpectrumView(QWidget):
         )  # fmt: skip
         self.amplitudes = self.spectrum.add_curve(thin(SIMULATION))
         self.response = self.spectrum.add_curve(thin(BAND, Qt.PenStyle.DashLine))
-        self._zeros: list[pg.InfiniteLine] = []
+        self.zeros: list[pg.InfiniteLine] = []
         self.legend = LineLegend()
         self.legend.add_line("profile", thin(SIMULATION), "profile")
         self.legend.add_line(
@@ -66,11 +66,11 @@ class SpectrumView(QWidget):
         self.histogram.setXRange(-2, 257, padding=0)
 
     def show_spectrum(self, spectrum: Spectrum | None) -> None:
-        for line in self._zeros:
+        for line in self.zeros:
             self.spectrum.removeItem(line)
         zeros = [] if spectrum is None else spectrum.zeros[:12]
-        self._zeros = [pg.InfiniteLine(zero * _KILO, pen=thin(BAND)) for zero in zeros]
-        for line in self._zeros:
+        self.zeros = [pg.InfiniteLine(zero * _KILO, pen=thin(BAND)) for zero in zeros]
+        for line in self.zeros:
             self.spectrum.addItem(line, ignoreBounds=True)
         if spectrum is not None:
             self._draw_spectrum(spectrum)

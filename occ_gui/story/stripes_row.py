@@ -103,7 +103,7 @@ class FrameThumbnail(QAbstractButton):
         self._pixels: ByteArray | None = None
         self._image: QImage | None = None
         self._size = (0, 0)
-        self._view = QRectF()
+        self.view = QRectF()
         self.setAttribute(Qt.WidgetAttribute.WA_Hover)
         self.setCursor(Qt.CursorShape.PointingHandCursor)
         self.setAccessibleName("Show the whole picture")
@@ -129,7 +129,7 @@ class FrameThumbnail(QAbstractButton):
         self._image = None
 
     def show_view(self, first: float, last: float, first_row: int, last_row: int) -> None:
-        self._view = QRectF(first, first_row, last - first, last_row - first_row)
+        self.view = QRectF(first, first_row, last - first, last_row - first_row)
         self.update()
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
@@ -152,9 +152,9 @@ class FrameThumbnail(QAbstractButton):
             self._image = self._scaled(self._pixels, place)
         painter.drawImage(place.topLeft(), self._image)
         scale = place.width() / self._size[1]
-        left = place.left() + (self._view.left() + 0.5) * scale
-        top = place.top() + self._view.top() * scale
-        view = QRectF(left, top, self._view.width() * scale, self._view.height() * scale)
+        left = place.left() + (self.view.left() + 0.5) * scale
+        top = place.top() + self.view.top() * scale
+        view = QRectF(left, top, self.view.width() * scale, self.view.height() * scale)
         view = view.intersected(place)
         painter.setPen(QPen(REGION, 1.5))
         painter.drawRect(view)

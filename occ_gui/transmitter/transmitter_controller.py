@@ -19,7 +19,7 @@ from occ_model.scene.scene import Scene
 
 # matplotlib takes half a second to import: nothing here imports a figure before it is drawn.
 
-_MOST_FOLDERS = 1000
+MOST_FOLDERS = 1000
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -64,13 +64,13 @@ def save_files(job: SaveJob) -> Saved:
 
 def new_folder(parent: Path, name: str) -> Path:
     """Make a folder, with a number after its name where that exists already."""
-    for number in range(1, _MOST_FOLDERS):
+    for number in range(1, MOST_FOLDERS):
         folder = parent / (name if number == 1 else f"{name}-{number}")
         if not folder.exists():
             make_folder(folder)
             return folder
     raise OutputError(
-        f"{one_line(str(parent))} has {_MOST_FOLDERS - 1:,} folders {name} already; choose another "
+        f"{one_line(str(parent))} has {MOST_FOLDERS - 1:,} folders {name} already; choose another "
         "folder."
     )
 

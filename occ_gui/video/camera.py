@@ -20,7 +20,7 @@ AXES = ("lines", "columns")
 
 _DEVICES = Path("/sys/class/video4linux")
 
-_IS_LINUX = platform.system() == "Linux"
+IS_LINUX = platform.system() == "Linux"
 
 _MOST_PROBED = 4  # cameras that are tried one by one where the system does not list them
 
@@ -64,7 +64,7 @@ class CameraDevice:
 
 def find_cameras(devices: Path = _DEVICES) -> tuple[CameraDevice, ...]:
     """List the cameras; where the system has no list, try to open each of the first."""
-    return tuple(_listed(devices) if _IS_LINUX else _probed())
+    return tuple(_listed(devices) if IS_LINUX else _probed())
 
 
 def _listed(devices: Path) -> Iterator[CameraDevice]:
@@ -109,7 +109,7 @@ class CameraSource:
         """Open the camera at the size of a full-HD film, or the nearest that it has."""
         self.close()
         with quiet_opencv():
-            kind = cv2.CAP_V4L2 if _IS_LINUX else cv2.CAP_ANY
+            kind = cv2.CAP_V4L2 if IS_LINUX else cv2.CAP_ANY
             capture = cv2.VideoCapture(self._device.number, kind)
             if not capture.isOpened():
                 capture.release()

@@ -28,13 +28,13 @@ class FilmPlayer(QObject):
 
     playing_changed = Signal(bool)
 
-    def __init__(self, parent: QObject | None = None) -> None:
+    def __init__(self, parent: QObject | None = None, clock: QElapsedTimer | None = None) -> None:
         super().__init__(parent)
         self.index = 0  # the number of the frame that is shown, or about to be
         self.count = 0  # how many frames there are, as far as is known
         self._rate = USUAL_RATE
         self._began_at = 0
-        self._clock = QElapsedTimer()
+        self._clock = clock or QElapsedTimer()
         self._turns = QTimer(self)
         self._turns.setInterval(_TURN_MS)
         self._turns.timeout.connect(self.advance)

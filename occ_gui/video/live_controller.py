@@ -54,7 +54,7 @@ class LiveVideo(Video):
         self.last: VideoFrame | None = None
         self._problem: str | None = None
         self._orders: list[Callable[[], None]] = []
-        self._thread = Thread(target=self._film, name="camera", daemon=True)
+        self.thread = Thread(target=self._film, name="camera", daemon=True)
 
     @property
     def simulated(self) -> bool:
@@ -66,7 +66,7 @@ class LiveVideo(Video):
         return self._problem
 
     def start(self) -> None:
-        self._thread.start()
+        self.thread.start()
 
     def end(self) -> None:
         """End filming: the device is released as soon as it answers."""
@@ -77,8 +77,8 @@ class LiveVideo(Video):
 
     def join(self) -> None:
         """Wait until the device is released, but not for ever: a driver may hang."""
-        if self._thread.ident is not None:
-            self._thread.join(_JOIN_SECONDS)
+        if self.thread.ident is not None:
+            self.thread.join(_JOIN_SECONDS)
 
     def lock_exposure(self, on: bool, answer: Callable[[bool], None]) -> None:
         """Lock or release the exposure, between two pictures.

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QGraphicsSceneResizeEvent, QStyleOptionGraphicsIte
 from occ_gui.widgets.columns import round_step
 from occ_gui.widgets.guarded_paint import guarded
 
-_NUMBER_LENGTH = {"left": 18.0, "bottom": 36.0}  # pixels that a number occupies along the axis
+NUMBER_LENGTH = {"left": 18.0, "bottom": 36.0}  # pixels that a number occupies along the axis
 
 _LEAST_SPACING = 3.0  # least distance, in pixels, of unnumbered ticks at powers of ten
 
@@ -83,7 +83,7 @@ class LogAxis(Axis):
 
     def __init__(self, side: str, least: int | None = None) -> None:
         super().__init__(side)
-        self._number_length = _NUMBER_LENGTH[side]
+        self._number_length = NUMBER_LENGTH[side]
         self._least = least
 
     def tickValues(  # noqa: N802 - pyqtgraph's name

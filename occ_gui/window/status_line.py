@@ -38,11 +38,11 @@ class StatusLine(QStatusBar):
         self._sentence.setAccessibleName("Message")
         self.reading = WorkBar("How much of the photo has been read")
         self.filming = WorkBar("How much of the animation has been written")
-        self.pointed, self._timing = _Readout(), _Readout()
+        self.pointed, self.timing = _Readout(), _Readout()
         self.addWidget(self._sentence, 1)
-        for widget in (self.reading, self.filming, self.pointed, self._timing):
+        for widget in (self.reading, self.filming, self.pointed, self.timing):
             self.addPermanentWidget(widget)
-        for readout in (self.pointed, self._timing):
+        for readout in (self.pointed, self.timing):
             readout.hide()
 
     def showMessage(self, message: str, timeout: int | None = 0) -> None:  # noqa: ARG002, N802 - Qt's name
@@ -86,13 +86,13 @@ class StatusLine(QStatusBar):
 
     def show_times(self, shown: bool) -> None:
         self._shows_times = shown
-        self._timing.set_full_text(self._times if shown else "")
+        self.timing.set_full_text(self._times if shown else "")
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         super().resizeEvent(event)
         self._sentence.setMinimumWidth(round(_MESSAGE_FRACTION * self.width()))
         self.pointed.setMaximumWidth(round(_POINTED_FRACTION * self.width()))
-        self._timing.setMaximumWidth(round(_TIMING_FRACTION * self.width()))
+        self.timing.setMaximumWidth(round(_TIMING_FRACTION * self.width()))
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         """Return a width that does not depend on the present one: the window can be narrowed."""

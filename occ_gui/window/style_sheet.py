@@ -10,7 +10,7 @@ from PySide6.QtGui import QPalette
 
 from occ_model.files.resources import resource_path
 
-_SHEET = """
+SHEET = """
 QToolBar {
     border: none; border-bottom: 1px solid palette(midlight); padding: 2px 4px; spacing: 4px;
 }
@@ -163,7 +163,7 @@ _ROLE = re.compile(r"palette\(([\w-]+)\)")
 
 
 def style_sheet(palette: QPalette) -> str:
-    sheet = _SHEET.replace("{icons}", resource_path("icons", "style").as_posix())
+    sheet = SHEET.replace("{icons}", resource_path("icons", "style").as_posix())
     return _ROLE.sub(lambda found: _colour(palette, found[1]), sheet)
 
 

@@ -10,7 +10,7 @@ from pytestqt.qtbot import QtBot
 import occ_model as occ
 from occ_gui.accuracy.accuracy_plot import COLOURS, SYMBOLS, AccuracyPlot
 from occ_gui.accuracy.ways_shown import ways_shown
-from occ_gui.widgets.axes import _NUMBER_LENGTH, LogAxis
+from occ_gui.widgets.axes import NUMBER_LENGTH, LogAxis
 from occ_model.effects.plan import effect_sets_of
 from occ_model.results.accuracy import LEAST_ERROR, AccuracyPoint, Forecast
 from occ_model.scene.simulation_settings import SimulationSettings
@@ -114,7 +114,7 @@ def test_a_view_that_the_user_moved_stays_until_asked_to_fit(plot: AccuracyPlot)
     box.sigRangeChangedManually.emit([True, True])
     plot.show_point(POINTS[2], 3, 7)
     assert box.viewRange() == [[0.0, 1.0], [0.0, 1.0]]
-    plot._fit_button.click()
+    plot.fit_button.click()
     assert box.viewRange()[1][0] < math.log10(LEAST_ERROR)
 
 
@@ -145,7 +145,7 @@ def test_a_logarithmic_axis_within_a_power_of_ten_is_numbered_at_round_values(
     (_, numbered), _ = axis.tickValues(low, high, 400.0)
     assert axis.tickStrings(numbered, 1.0, 1.0) == texts
     pixels = [400.0 * (place - low) / (high - low) for place in numbered]
-    assert min(after - before for before, after in pairwise(pixels)) >= _NUMBER_LENGTH["bottom"]
+    assert min(after - before for before, after in pairwise(pixels)) >= NUMBER_LENGTH["bottom"]
 
 
 def test_each_plan_is_a_cross_at_the_limit_of_its_error(plot: AccuracyPlot) -> None:

@@ -6,7 +6,7 @@ import pytest
 from gui.kinds import show_widget
 from gui.pane_bench import PaneBench
 from gui.stores import store_of
-from PySide6.QtCore import Qt
+from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QFont
 from pytestqt.qtbot import QtBot
 
@@ -77,7 +77,8 @@ def test_what_depends_on_the_change_is_marked_for_a_moment(
     view.show_equations(equations(small_scene), frozenset({"gamma"}))
     assert "1/2.22" in "".join(marked(view))
     assert "8 µs" not in "".join(marked(view))
-    view._fading.setInterval(10)
+    (fading,) = view.findChildren(QTimer)
+    fading.setInterval(10)
     view.show_equations(equations(small_scene), frozenset({"gamma"}))
     qtbot.waitUntil(lambda: marked(view) == [])
     assert "1/2.22" in view.toPlainText()

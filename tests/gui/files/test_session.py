@@ -200,14 +200,12 @@ def test_a_scene_that_is_asked_for_wins(tmp_path: Path, small_scene: Scene) -> N
 def test_only_a_command_line_that_names_a_scene_asks_for_one(
     words: list[str], asks: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    begun: list[Start] = []
     monkeypatch.setenv("OCC_STATE", str(tmp_path))
-    monkeypatch.setattr(command_line, "_run", lambda _options, begin: begun.append(begin) or 0)
-    command_line.read_command_line(words)()
-    file = begun[0].session_file
+    begun = command_line.begin(command_line.make_parser().parse_args(words))
+    file = begun.session_file
     assert file is not None
     file.close()
-    assert begun[0].is_scene_asked is asks
+    assert begun.is_scene_asked is asks
 
 
 def crash(folder: Path, scene: Scene) -> None:

@@ -63,8 +63,7 @@ def test_who_chooses_a_square_wave_tells_its_frequency_until_another_choice(
     qtbot.keyClicks(view.form.square, "1.5 kHz\r")
     assert view.form.certain.isChecked()
     assert view.choice.certain == {"switching_frequency": 3e3}
-    view.form.sent.show_key("auto")
-    view.form._take_sent("auto")
+    choose(qtbot, view.form.sent, "auto")
     assert view.choice.certain == {}
     assert not view.form.certain.isChecked()
 

@@ -281,7 +281,7 @@ def test_with_no_panel_in_the_picture_or_at_its_rim_there_is_a_range_to_look_at(
     assert columns_in_view(view) == pytest.approx((0, last_column), abs=0.02 * last_column)
     for pattern, text in (("10", "2 cycles"), ("", "2 packets")):
         view.show_reading(snapshot_of(pattern=pattern))
-        assert view._packets.text() == text
+        assert button(view, text).isVisibleTo(view)
 
 
 def test_the_columns_in_view_are_some_of_the_picture(view: ProfileView, snapshot: Snapshot) -> None:
@@ -299,7 +299,7 @@ def test_the_columns_in_view_are_some_of_the_picture(view: ProfileView, snapshot
 def test_the_columns_that_are_not_read_are_shaded_where_there_is_a_region(
     view: ProfileView, snapshot: Snapshot
 ) -> None:
-    before, after = view._outside
+    before, after = view.outside
     read = not_none(snapshot.results["threshold"].region)
     assert (before.isVisible(), after.isVisible()) == (True, True)
     assert before.getRegion()[0] <= 0 < before.getRegion()[1] == read.first_column

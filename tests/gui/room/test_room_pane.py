@@ -280,7 +280,7 @@ def test_the_map_is_that_of_the_study_and_goes_with_the_turn_that_it_is_of(
     monkeypatch.setattr(jobs, "SIDE", 1)
     view, aim = pane.view, pane.view.plan.aim
     said: list[str] = []
-    pane._map.reported.connect(lambda _: said.append(view.floor.text()))
+    pane.tasks[1].reported.connect(lambda _: said.append(view.floor.text()))
     for is_measured in (False, True):
         view.measure.click()
         if is_measured:

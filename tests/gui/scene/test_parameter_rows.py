@@ -140,7 +140,7 @@ def test_one_drag_is_one_gesture_and_so_are_keys_until_a_pause_but_none_of_the_d
         for _ in range(3):
             qtbot.keyClick(slider, Qt.Key.Key_Right)
         assert len(told.gestures) == gestures
-        told.row._gestures.end()  # as after a pause
+        told.row.gestures.end()  # as after a pause
     told = Told("iso", qtbot)
     told.row.slider.setSliderDown(True)
     told.row.slider.setValue(500)
@@ -155,7 +155,7 @@ def test_steps_of_the_field_are_one_gesture_until_a_pause(qtbot: QtBot) -> None:
         for key in (Qt.Key.Key_Up, Qt.Key.Key_Up, Qt.Key.Key_Down):
             qtbot.keyClick(told.row.field, key)
         assert len(told.gestures) == gestures
-        told.row._gestures.end()  # as after a pause
+        told.row.gestures.end()  # as after a pause
     assert len(told.edits) == 6
 
 

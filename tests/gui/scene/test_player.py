@@ -59,14 +59,14 @@ def test_a_value_that_is_entered_ends_the_run_and_another_parameter_does_not(
     bench: ControlsBench, qtbot: QtBot
 ) -> None:
     player = bench.controls.player
-    press(bench)
-    qtbot.waitUntil(lambda: player._set is not None)
+    with qtbot.waitSignal(bench.scenes.changed):
+        press(bench)
     bench.scenes.change(switching_frequency=5e3)
     assert player.playing == ""
     assert bench.scenes.scene.transmitter.switching_frequency == 5e3
     player = bench.controls.player
-    press(bench)
-    qtbot.waitUntil(lambda: player._set is not None)
+    with qtbot.waitSignal(bench.scenes.changed):
+        press(bench)
     bench.scenes.change(distance=1.5)
     assert player.playing == NAME
     press(bench, "iso")
@@ -105,18 +105,18 @@ def test_a_mark_is_named_wherever_it_stands_and_an_end_gives_way(qtbot: QtBot) -
     scale = SliderScale(slider, gamma, whole)
     for part in (slider, scale):
         part.setGeometry(0, 0, 170, 30)
-    metrics = QFontMetricsF(scale._font())
+    metrics = QFontMetricsF(scale.text_font())
     low, high = gamma.slider
     kept = []
     for fraction in np.linspace(0.0, 1.0, 41):
         scale.show_marks([MarkedValue(float(low + fraction * (high - low)), "t = 1 chip", "")])
-        ends, names = scale._texts(metrics)
+        ends, names = scale.texts(metrics)
         assert [name for name, _ in names] == ["t = 1 chip"]
         assert not any(box.intersects(names[0][1]) for _, box in ends)
         kept.append(len(ends))
         if fraction == 0.5:
-            assert names[0][1].center().x() == pytest.approx(scale._x(scale.marks[0].value))
+            assert names[0][1].center().x() == pytest.approx(scale.x_of(scale.marks[0].value))
     assert set(kept) == {1, 2}
     assert kept[20] == 2, "in the middle both ends keep their values"
     scale.show_marks([])
-    assert len(scale._texts(metrics)[0]) == 2
+    assert len(scale.texts(metrics)[0]) == 2

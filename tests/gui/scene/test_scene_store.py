@@ -209,7 +209,7 @@ def test_changes_without_a_pause_are_one_gesture_and_no_others() -> None:
 def test_a_pause_ends_a_gesture_unless_it_is_held(
     qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(scene_store, "_PAUSE_MS", 1)
+    monkeypatch.setattr(scene_store, "PAUSE_MS", 1)
     gestures = Gestures()
     first = gestures.of_change()
     qtbot.wait(10)

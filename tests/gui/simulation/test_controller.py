@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from gui.kinds import SnapshotOf, collect, not_none
+from gui.kinds import SnapshotOf, collect
 from gui.simulation.conftest import Bench
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
@@ -131,8 +131,7 @@ def test_the_snapshot_holds_each_decoders_result_of_one_picture(
 
 def test_a_decoder_asked_for_reads_this_scene_and_later_ones(bench: Bench) -> None:
     def read() -> list[str]:
-        shown = not_none(bench.controller._read)
-        return list(shown.results)
+        return list(bench.views[0].read[-1].results)
 
     bench.wait_until_idle()
     assert read() == list(QUICK_DECODERS)

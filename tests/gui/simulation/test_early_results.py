@@ -216,7 +216,7 @@ def test_a_picture_under_way_gives_way_to_a_newer_scene(
 def test_an_exact_picture_begins_after_what_the_user_waits_for_sooner(
     bench: Bench, pictures: list[Picture], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(controller, "_CHECK_SECONDS", 0.001)
+    monkeypatch.setattr(controller, "CHECK_SECONDS", 0.001)
     looks: list[int] = []
 
     def others_first() -> bool:

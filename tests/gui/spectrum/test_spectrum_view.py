@@ -33,11 +33,11 @@ def test_the_strongest_line_of_an_alternating_pattern_is_half_its_frequency(
     assert view.response.getData()[1].max() == pytest.approx(amplitudes.max())
     assert amplitudes.max() < top
     assert "first zero of the exposure's response: 20 kHz" in view.spectrum.accessibleDescription()
-    assert len(view._zeros) == 3
+    assert len(view.zeros) == 3
     measured(view, snapshot_of(columns=1))
     assert view.spectrum.listDataItems() == [view.amplitudes, view.response]
     assert [curve.getData() for curve in (view.amplitudes, view.response)] == 2 * [(None, None)]
-    assert (view._zeros, view.spectrum.accessibleDescription()) == ([], "")
+    assert (view.zeros, view.spectrum.accessibleDescription()) == ([], "")
 
 
 def test_a_bright_panel_is_told_to_lose_light_and_every_grey_level_is_in_view(

@@ -87,13 +87,13 @@ def test_the_stripes_show_each_column_at_its_place(
 def test_a_draft_shows_the_stripes_at_the_same_place(
     rows: StoryRows, snapshot: Snapshot, grey_picture: GreyPicture
 ) -> None:
-    exact, view = grey_picture(rows.stripes), rows.stripes.thumbnail._view
+    exact, view = grey_picture(rows.stripes), rows.stripes.thumbnail.view
     draft = occ.render(snapshot.frame.scene, tolerance=np.inf, rows_step=7)
     rows.show_picture(Picture.of(draft, "camera", snapshot.request))
     shown = grey_picture(rows.stripes)
     np.testing.assert_array_equal(shown[:, GUTTER:], exact[:, GUTTER:])
-    assert rows.stripes.thumbnail._view.top() == pytest.approx(view.top(), abs=7)
-    assert rows.stripes.thumbnail._view.height() == pytest.approx(view.height(), abs=14)
+    assert rows.stripes.thumbnail.view.top() == pytest.approx(view.top(), abs=7)
+    assert rows.stripes.thumbnail.view.height() == pytest.approx(view.height(), abs=14)
 
 
 @pytest.mark.parametrize(

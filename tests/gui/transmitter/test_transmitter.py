@@ -207,7 +207,7 @@ def test_what_cannot_be_saved_is_said_in_the_dialog_and_when_closed_in_the_statu
 def test_folders_of_one_name_are_numbered_up_to_a_limit(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(transmitter_controller, "_MOST_FOLDERS", 4)
+    monkeypatch.setattr(transmitter_controller, "MOST_FOLDERS", 4)
     made = [new_folder(tmp_path, "uno") for _ in range(3)]
     assert made == [tmp_path / name for name in ("uno", "uno-2", "uno-3")]
     assert all(folder.is_dir() for folder in made)

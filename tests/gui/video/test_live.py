@@ -57,7 +57,7 @@ def capture(monkeypatch: pytest.MonkeyPatch) -> FakeCapture:
 def test_a_system_with_a_list_is_asked_for_it(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(camera, "_IS_LINUX", True)
+    monkeypatch.setattr(camera, "IS_LINUX", True)
     for folder, index, name in (
         ("video0", "0", "Webcam\n"), ("video1", "1", "Webcam\n"), ("video10", "0", ""),
         ("video2", "0", "Other"), ("radio0", "0", "Radio"),
@@ -76,7 +76,7 @@ def test_a_system_with_a_list_is_asked_for_it(
 def test_a_system_without_a_list_is_tried(
     capture: FakeCapture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(camera, "_IS_LINUX", False)
+    monkeypatch.setattr(camera, "IS_LINUX", False)
     assert [device.number for device in find_cameras()] == [0, 1, 2, 3]
     assert capture.is_released
 
@@ -123,7 +123,7 @@ def test_a_camera_is_opened_the_way_its_system_has(
         asked.append(how)
         return FakeCapture()
 
-    monkeypatch.setattr(camera, "_IS_LINUX", is_linux)
+    monkeypatch.setattr(camera, "IS_LINUX", is_linux)
     monkeypatch.setattr(cv2, "VideoCapture", opened)
     CameraSource(CameraDevice(2, "Webcam")).open()
     assert asked == [(2, kind)]

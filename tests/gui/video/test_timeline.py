@@ -5,7 +5,7 @@ import pytest
 from gui.kinds import add_widget, collect, show_widget
 from hypothesis import given
 from hypothesis import strategies as st
-from PySide6.QtCore import QPoint, QRectF, Qt
+from PySide6.QtCore import QElapsedTimer, QPoint, QRectF, Qt
 from PySide6.QtGui import QColor, QImage, QPainter
 from pytestqt.qtbot import QtBot
 
@@ -134,10 +134,11 @@ def test_ticks_are_apart_and_their_numbers_differ(span: float, width: int) -> No
     assert first != second
 
 
-class Clock:
+class Clock(QElapsedTimer):
     """A clock that is set by hand."""
 
     def __init__(self) -> None:
+        super().__init__()
         self.now = 0
 
     def start(self) -> None:
@@ -151,9 +152,8 @@ clock = Clock()
 
 
 @pytest.fixture
-def player(qapp: object, monkeypatch: pytest.MonkeyPatch) -> FilmPlayer:
-    player = FilmPlayer()
-    monkeypatch.setattr(player, "_clock", clock)
+def player(qapp: object) -> FilmPlayer:
+    player = FilmPlayer(clock=clock)
     player.set_film(30, 10.0)
     return player
 

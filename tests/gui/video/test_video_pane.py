@@ -98,7 +98,7 @@ def test_a_camera_is_read_live_and_released_with_the_mode(
     assert not pane.view.transport.play.isEnabled()
     application.window.modes.switch("explore")
     assert not pane.live.is_filming
-    qtbot.waitUntil(lambda: not video._thread.is_alive())
+    qtbot.waitUntil(lambda: not video.thread.is_alive())
 
 
 @pytest.mark.own_window

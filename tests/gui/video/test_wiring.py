@@ -16,6 +16,7 @@ from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.results import Board
 from occ_gui.video.film_reading import MarkState
 from occ_gui.video.wiring import VideoWiring
+from occ_gui.widgets.outdated_mark import OutdatedMark
 from occ_model.results.video import Video
 from occ_model.scene.scene import Scene
 
@@ -90,7 +91,7 @@ def test_the_frame_that_is_sought_is_the_one_that_is_shown(pane: VideoWiring, wa
 def test_a_reading_of_an_earlier_scene_is_marked(
     pane: VideoWiring, scenes: SceneStore, wait: Wait
 ) -> None:
-    mark = pane.view._outdated[0]
+    mark = pane.view.findChildren(OutdatedMark)[0]
     pane.view.bar.read.click()
     wait()
     assert mark.isHidden()

@@ -16,7 +16,7 @@ from occ_gui.widgets.colours import contrast
 from occ_gui.widgets.state_look import State, colours_of
 from occ_gui.widgets.text_scale import heading_font
 from occ_gui.window.docks import beside
-from occ_gui.window.style_sheet import _SHEET, style_sheet
+from occ_gui.window.style_sheet import SHEET, style_sheet
 from occ_gui.window.text_size import SIZES
 from occ_gui.window.theme import palette_of
 from occ_model.files.resources import resource_names
@@ -86,7 +86,7 @@ def test_a_button_can_be_read_in_every_state(
 
 
 def test_the_sheet_has_the_colours_of_the_palette_only() -> None:
-    assert re.findall(r"#[0-9a-fA-F]{3,8}\b(?![^{]*\{)", _SHEET) == []
+    assert re.findall(r"#[0-9a-fA-F]{3,8}\b(?![^{]*\{)", SHEET) == []
     for theme in THEMES:
         palette = palette_of(theme)
         known = {palette.color(role).name() for role in ROLE if role != ROLE.NColorRoles}
@@ -96,7 +96,7 @@ def test_the_sheet_has_the_colours_of_the_palette_only() -> None:
 
 
 def test_each_icon_of_the_sheet_is_a_file() -> None:
-    named = set(re.findall(r"\{icons\}/(\w+)\.svg", _SHEET))
+    named = set(re.findall(r"\{icons\}/(\w+)\.svg", SHEET))
     assert named == set(resource_names("icons/style", ".svg"))
 
 

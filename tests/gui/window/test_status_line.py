@@ -95,7 +95,7 @@ def test_times_are_shown_to_three_digits(line: StatusLine) -> None:
     line.resize(1600, 24)
     line.show_times(False)
     line.show_timing(0.01234, 1.28971)
-    assert line._timing.isHidden()
+    assert line.timing.isHidden()
     line.show_times(True)
     QApplication.processEvents()
     texts = [label.text() for label in line.findChildren(QLabel)]

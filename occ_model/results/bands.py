@@ -153,8 +153,9 @@ class EyeFlicker:
         100 (largest - smallest) / (largest + smallest).
     flicker_index
         Area of a period above the mean, relative to the whole area.
-    visibility
-        Stroboscopic visibility measure SVM; at 1, half of the observers see the effect.
+    visibility, visibility_2016
+        Stroboscopic visibility measure SVM by the threshold of Perz (2018), and by that of CIE TN
+        006:2016; at 1, half of the observers see the effect.
     frequency
         Repetition frequency of the light, in Hz.
     frequencies, modulations : ndarray of float64, shape (n,)
@@ -168,11 +169,20 @@ class EyeFlicker:
     percent_flicker: float
     flicker_index: float
     visibility: float
+    visibility_2016: float
     frequency: float
     frequencies: FloatArray
     modulations: FloatArray
     risk: str
     parts_risk: str
+
+    @property
+    def _visibilities(self) -> str:
+        """SVM by the one threshold, and by the other where only one of them exceeds 1."""
+        text = f"{self.visibility:.3g} by Perz (2018)"
+        if (self.visibility > 1.0) != (self.visibility_2016 > 1.0):
+            text += f" and {self.visibility_2016:.3g} by CIE TN 006:2016"
+        return text
 
     @property
     def sentences(self) -> tuple[str, ...]:
@@ -181,7 +191,7 @@ class EyeFlicker:
             return ("For the eye: the lamp's light does not flicker.",)
         return (
             f"For the eye: percent flicker {self.percent_flicker:.3g} %, flicker index "
-            f"{self.flicker_index:.3g}, SVM {self.visibility:.3g} (1: half of the observers see "
+            f"{self.flicker_index:.3g}, SVM {self._visibilities} (1: half of the observers see "
             "it);",
             f"by IEEE 1789-2015: {self.risk} as a whole, repeated at "
             f"{HERTZ.format(self.frequency, 4)}; {self.parts_risk} by each of its sines.",

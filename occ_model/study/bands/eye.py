@@ -1,10 +1,11 @@
 """Flicker of a lamp for the eye: flicker index, IEEE 1789-2015, SVM.
 
 The texts of IEEE Std 1789-2015 and IEC TR 63158:2018 were not available. The limits of the former
-are those that manufacturers quote from its recommended practices 1 and 2; SVM is as published by M.
-Perz and others, Stroboscopic effect: contrast threshold function and dependence on illumination
-level, J. Opt. Soc. Am. A 35 (2018) 309.
+are those that manufacturers quote from its recommended practices 1 and 2; of SVM two thresholds are
+published.
 """
+
+from collections.abc import Callable
 
 import numpy as np
 
@@ -41,7 +42,8 @@ def eye_flicker(scene: Scene) -> EyeFlicker:
     return EyeFlicker(
         percent_flicker=percent,
         flicker_index=above / lit if lit else 0.0,
-        visibility=_visibility(frequencies, modulations / 100.0),
+        visibility=_visibility(frequencies, modulations / 100.0, threshold),
+        visibility_2016=_visibility(frequencies, modulations / 100.0, threshold_2016),
         frequency=frequency,
         frequencies=frequencies,
         modulations=modulations,
@@ -73,13 +75,30 @@ def risk_lines() -> RiskLines:
 
 
 def threshold(frequencies: FloatArray) -> FloatArray:
-    """Return the modulation, 0 to 1, at which half of the observers see the effect."""
+    """Return the modulation, 0 to 1, at which half of the observers see the effect.
+
+    Of M. Perz and others, Stroboscopic effect: contrast threshold function and dependence on
+    illumination level, J. Opt. Soc. Am. A 35 (2018) 309.
+    """
     return np.asarray(2.865e-5 * frequencies**1.543 + 0.225)
 
 
-def _visibility(frequencies: FloatArray, modulations: FloatArray) -> float:
+def threshold_2016(frequencies: FloatArray) -> FloatArray:
+    """Return the same by CIE TN 006:2016, Visual aspects of time-modulated lighting systems.
+
+    Both are alike up to some 700 Hz; faster, this one rises no further than to 1.
+    """
+    rising = 1.0 / (1.0 + np.exp(-0.00518 * (frequencies - 306.6)))
+    return np.asarray(rising + 20.0 * np.exp(-frequencies / 10.0))
+
+
+def _visibility(
+    frequencies: FloatArray,
+    modulations: FloatArray,
+    threshold_of: Callable[[FloatArray], FloatArray],
+) -> float:
     seen = (frequencies >= _SVM_BAND[0]) & (frequencies <= _SVM_BAND[1])
-    ratios = modulations[seen] / threshold(frequencies[seen])
+    ratios = modulations[seen] / threshold_of(frequencies[seen])
     return float((ratios**_SVM_EXPONENT).sum() ** (1.0 / _SVM_EXPONENT))
 
 

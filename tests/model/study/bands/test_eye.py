@@ -62,6 +62,22 @@ def test_a_sine_at_the_threshold_measures_one() -> None:
     assert float(threshold(np.array([777.0]))[0]) == pytest.approx(1.05, abs=0.01)
 
 
+@pytest.mark.parametrize(
+    ("frequency", "perz", "cie"),
+    [(1000.0, 0.882, 1.308), (1500.0, 0.508, 1.276), (2000.0, 0.337, 1.273)],
+)
+def test_two_published_thresholds_differ_and_both_are_told_where_one_is_exceeded(
+    frequency: float, perz: float, cie: float
+) -> None:
+    found = occ.eye_flicker(_PHONE.replace(pattern="10", switching_frequency=2.0 * frequency))
+    assert found.visibility == pytest.approx(perz, abs=5e-4)
+    assert found.visibility_2016 == pytest.approx(cie, abs=5e-4)
+    assert f"SVM {perz:.3g} by Perz (2018) and {cie:.3g} by CIE TN 006:2016" in found.sentences[0]
+    slow = occ.eye_flicker(_PHONE.replace(pattern="10", switching_frequency=200.0))
+    assert min(slow.visibility, slow.visibility_2016) > 1.0
+    assert "SVM 4.9 by Perz (2018) (1:" in slow.sentences[0]
+
+
 def test_the_lines_of_risk_are_those_quoted_at_their_ends() -> None:
     no_effect, low_risk = risk_limits(np.array([50.0, 100.0, 120.0, 1250.0, 1251.0, 3001.0]))
     assert no_effect[:3] == pytest.approx([0.5, 3.33, 4.0], abs=0.01)

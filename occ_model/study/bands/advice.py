@@ -11,9 +11,8 @@ from occ_model.results.bands import NO_BARS_DEPTH, BandAdvice, Cure, ShutterSpee
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 from occ_model.study.bands.depth import duty, light_depth
-from occ_model.study.bands.least_depth import DepthOver
+from occ_model.study.bands.least_depth import MAX_NODES, DepthOver
 
-_MAX_CHIPS = 10_000  # exposure in chips from which the code's bars are bounded, not computed
 _MIN_LIMIT = 1e-4
 
 _HALVINGS = 60
@@ -74,19 +73,16 @@ def speed_depths(scene: Scene) -> tuple[SpeedDepth, ...]:
 def _exposures(over: DepthOver, frequency: float, limit: float) -> tuple[Ranges, float | None]:
     allowed = quantity("exposure_time")
     # The code's bars fall as 1 / (f t), the flicker's as 1 / (pi F t).
-    flicker = over.of_flicker / np.pi / over.flicker_frequency
-    end = (over.most / frequency + flicker) / limit
-    known = min(end, _MAX_CHIPS / frequency)
-    nodes = np.arange(1, int(known * frequency) + 1) / frequency
-    nulls = np.arange(1, int(end * over.flicker_frequency) + 1) / over.flicker_frequency
-    nodes = np.concatenate([nodes, nulls if over.of_flicker else [], [known, end]])
+    end = (over.most / frequency + over.most_flicker / over.flicker_frequency) / limit
+    nodes = [
+        np.arange(1, int(min(end * rate, MAX_NODES)) + 1) / rate
+        for rate in (frequency, over.flicker_frequency)
+    ]
 
     def depths(exposures: FloatArray) -> FloatArray:
-        chips = frequency * exposures
-        code = np.where(chips > _MAX_CHIPS, over.most / chips, over.of_code(chips))
-        return code + over.flicker(exposures)
+        return over.code_bound(frequency * exposures) + over.flicker_bound(exposures)
 
-    return _split(_below(depths, nodes, limit, allowed.low, end), allowed.high)
+    return _split(_below(depths, np.concatenate(nodes), limit, allowed.low, end), allowed.high)
 
 
 def _frequencies(over: DepthOver, exposure: float, limit: float) -> tuple[Ranges, float | None]:
@@ -95,13 +91,11 @@ def _frequencies(over: DepthOver, exposure: float, limit: float) -> tuple[Ranges
     if left <= 0.0:
         return (), None
     end = over.most / left
-    nodes = np.arange(1, int(min(end, _MAX_CHIPS)) + 1) / exposure
+    nodes = np.arange(1, int(min(end, MAX_NODES)) + 1) / exposure
 
     def depths(frequencies: FloatArray) -> FloatArray:
-        chips = frequencies * exposure
-        return np.where(chips > _MAX_CHIPS, over.most / chips, over.of_code(chips))
+        return over.code_bound(frequencies * exposure)
 
-    nodes = np.concatenate([nodes, [end / exposure]])
     return _split(_below(depths, nodes, left, allowed.low, end / exposure), allowed.high)
 
 

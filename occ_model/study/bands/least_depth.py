@@ -13,7 +13,10 @@ from occ_model.scene.scene import Scene
 from occ_model.study.bands.depth import light_fractions
 from occ_model.transmitter.packet import sent_chips
 
-_MAX_NODES = 10_000  # maximum nodes evaluated in a range; beyond, bars are invisible
+MAX_NODES = 10_000
+"""Chips, and cycles of the flicker, of an exposure up to which bars are computed; beyond they are
+bounded. The flicker's are below 0.01 % there."""
+
 _MAP_EXPOSURES = (1e-5, 0.1)  # seconds; to usual shutter speeds, beyond the slider
 _MAP_CELLS = 120
 
@@ -51,6 +54,20 @@ class DepthOver:
         """Bound of the code's depth times the exposure in chips."""
         return self.of_lamp * float(self.swing.max())
 
+    @property
+    def most_flicker(self) -> float:
+        """Bound of the flicker's depth times the exposure in its cycles."""
+        return self.of_flicker / np.pi
+
+    def code_bound(self, chips: FloatArray) -> FloatArray:
+        """Return the depth of the code's bars, or what it is at most in long exposures."""
+        return np.where(chips > MAX_NODES, self.most / chips, self.of_code(chips))
+
+    def flicker_bound(self, exposures: FloatArray) -> FloatArray:
+        """Return the depth of the flicker's bars, or what it is at most in long exposures."""
+        cycles = self.flicker_frequency * exposures
+        return np.where(cycles > MAX_NODES, self.most_flicker / cycles, self.flicker(exposures))
+
     def of_code(self, chips: FloatArray) -> FloatArray:
         """Return the depth of the code's bars for exposures in chips."""
         return np.asarray(self.of_lamp * self.swing_in(chips) / chips)
@@ -73,8 +90,8 @@ class DepthOver:
         least = np.minimum(at_ends[:-1], at_ends[1:])
         for rate in (frequency, self.flicker_frequency):
             first = np.maximum(np.ceil(rate * ends[:-1]), 1.0)
-            inside = np.floor(rate * ends[1:]) - first + 1.0
-            count = np.clip(inside, 0.0, _MAX_NODES).astype(np.int64)
+            last = np.minimum(np.floor(rate * ends[1:]), MAX_NODES)
+            count = np.maximum(last - first + 1.0, 0.0).astype(np.int64)
             place = np.repeat(np.arange(len(count)), count)
             node = first[place] + np.arange(len(place)) - (np.cumsum(count) - count)[place]
             exposures = node / rate

@@ -71,16 +71,15 @@ class DepthPlot(QWidget):
         self.plot.setXRange(left, right, padding=0)
         self.plot.setYRange(bottom, top, padding=0)
         for order, line in enumerate(self.valleys, 1):
-            above = np.log10(order * found.map.period)
+            line.setVisible(found.map.period > 0)
+            above = np.log10(order * max(found.map.period, 1))
             line.setData([left, right], [above - left, above - right])
         scene = found.scene
         self.setting.setData(
             [np.log10(scene.transmitter.switching_frequency)],
             [np.log10(scene.camera.exposure_time)],
         )
-        self.plot.setAccessibleDescription(
-            f"Bars vanish at whole multiples of {SECOND.format(found.advice.valley, 4)}"
-        )
+        self.plot.setAccessibleDescription(found.advice.sentence)
 
     def _name_ticks(
         self, side: str, unit: Unit, kinds: tuple[float, ...], low: float, high: float

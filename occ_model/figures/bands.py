@@ -66,7 +66,7 @@ def _draw_map(scene: Scene, found: DepthMap) -> Figure:
         norm=LogNorm(*_DEPTHS), cmap="viridis", rasterized=True,
     )  # fmt: skip
     ends = found.frequencies[[0, -1]]
-    for order in range(1, _MAX_VALLEY_LINES + 1):
+    for order in range(1, _MAX_VALLEY_LINES + 1 if found.period else 1):
         label = "exposures of whole periods" if order == 1 else None
         valley = order * found.period / ends
         ax.plot(ends, valley, color="white", linewidth=0.5, label=label)

@@ -97,8 +97,9 @@ class BandAdvice:
     ----------
     limit
         Depth, peak to peak, below which there are no bars.
-    valley
-        Exposure in seconds whose integer multiples show no bars of the code.
+    valley, flicker_valley
+        Exposures in seconds whose integer multiples show no bars of the lamp, and none of the
+        surroundings' flicker; 0 where it makes none at any exposure.
     exposures, frequencies
         Ranges in s and Hz with a depth below the limit, rising: those below ``all_exposures`` and
         ``all_frequencies``.
@@ -110,6 +111,7 @@ class BandAdvice:
 
     limit: float
     valley: float
+    flicker_valley: float
     exposures: tuple[tuple[float, float], ...]
     all_exposures: float | None
     frequencies: tuple[tuple[float, float], ...]
@@ -118,8 +120,17 @@ class BandAdvice:
 
     @property
     def sentence(self) -> str:
-        """At which exposures the code leaves no bars."""
-        return f"The lamp's bars vanish at whole multiples of {SECOND.format(self.valley, 4)}."
+        """At which exposures the lamp and the surroundings leave no bars."""
+        places = [
+            f"{bars} vanish at whole multiples of {SECOND.format(valley, 4)}"
+            for bars, valley in (
+                ("the lamp's bars", self.valley),
+                ("the bars of the surroundings' flicker", self.flicker_valley),
+            )
+            if valley
+        ]
+        text = "; ".join(places) or "nothing blinks: no exposure shows bars"
+        return f"{text[:1].upper()}{text[1:]}."
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -131,7 +142,9 @@ class DepthMap:
     exposures: FloatArray
     # Shape (n, m): least depth within the exposures of each cell, at its middle frequency
     least: FloatArray
-    period: int  # Chips after which the code repeats; bars vanish at its integer multiples
+    # Chips after which the lamp's light repeats: bars vanish at its integer multiples; 0 for a
+    # steady one
+    period: int
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -1,5 +1,6 @@
 """Values of a parameter at which the picture changes in kind, to mark on its slider."""
 
+from occ_model.camera.photometry import luminance_levels
 from occ_model.errors import OccError
 from occ_model.results.teaching import MarkedValue
 from occ_model.scene.scene import Scene
@@ -12,7 +13,7 @@ def marked_values(scene: Scene, parameter: str) -> tuple[MarkedValue, ...]:
     """Return the values to mark on a parameter's slider; of frequency and exposure time only.
 
     Where t = t_LED, where t = 2 t_LED (of codes, the first null of alternating chips), and where
-    the exposure is a whole period of what is sent, so that there are no bars.
+    the exposure is a whole period of what is sent, so that the panel leaves no bars.
     """
     exposure, transmitter = scene.camera.exposure_time, scene.transmitter
     if exposure <= 0.0 or parameter not in ("switching_frequency", "exposure_time"):
@@ -28,23 +29,27 @@ def marked_values(scene: Scene, parameter: str) -> tuple[MarkedValue, ...]:
     equal, null, barless = ends[parameter]
     ends_there = "Exposure and switching period are equal: the band model ends."
     what = "pattern" if is_raw else "packet"
-    why = f"The exposure is a whole {what}: no bars, here and at its whole multiples."
+    why = f"The exposure is a whole {what}: no bars of the panel, here and at its whole multiples."
     marks = [MarkedValue(equal, "t = t_LED", ends_there)]
     if not is_raw:
         nulls = "The exposure is two chips long: the first null of 0101."
         marks.append(MarkedValue(null, "null", nulls))
     if period:
-        marks.append(MarkedValue(barless, "no bars", why))
+        flickers = scene.surroundings.flicker_depth * luminance_levels(scene)[0] > 0.0
+        marks.append(MarkedValue(barless, f"whole {what}" if flickers else "no bars", why))
     return tuple(marks)
 
 
 def _period(scene: Scene) -> float:
-    """Return the chips after which what is sent repeats; 0 where no packet can be made at once."""
+    """Return the chips after which the light repeats; 0 for a steady one, or no packet at once."""
+    if not scene.transmitter.luminance:
+        return 0.0
     if scene.transmitter.pattern:  # which can hold shorter ones; a packet's header comes once
         # Imported only for it: no packet needs it.
         from occ_model.study.bands.least_depth import DepthOver
 
-        return float(DepthOver.of(scene).period)
+        over = DepthOver.of(scene)
+        return float(over.period) if over.most else 0.0
     sent = scene.transmitter
     if not (LINE_CODES.is_built_in(sent.line_code) and FRAMINGS.is_built_in(sent.framing)):
         return 0.0  # marks are drawn while a slider moves: a plug-in may take any time

@@ -49,7 +49,8 @@ def band_advice(scene: Scene, limit: float = NO_BARS_DEPTH) -> BandAdvice:
     frequencies, all_frequencies = _frequencies(over, scene.camera.exposure_time, limit)
     return BandAdvice(
         limit,
-        over.period / frequency,
+        over.period / frequency if over.most else 0.0,
+        1.0 / over.flicker_frequency if over.of_flicker else 0.0,
         exposures,
         all_exposures,
         frequencies,

@@ -84,7 +84,8 @@ class DepthOver:
     def least(self, frequency: float, ends: FloatArray) -> FloatArray:
         """Return the smallest depth within each range of exposures, between ``ends`` in seconds.
 
-        It lies at whole chips, at the flicker's nulls or at an end: quasi-concave between.
+        It lies at whole chips, at the flicker's nulls or at an end: quasi-concave between. Nodes
+        beyond the first many are not tried.
         """
         at_ends = self.of_code(frequency * ends) + self.flicker(ends)
         least = np.minimum(at_ends[:-1], at_ends[1:])
@@ -109,7 +110,7 @@ def depth_map(scene: Scene) -> DepthMap:
     )
     middles = np.sqrt(frequencies[:-1] * frequencies[1:])
     least = np.stack([over.least(float(each), exposures) for each in middles])
-    return DepthMap(frequencies, exposures, least, over.period)
+    return DepthMap(frequencies, exposures, least, over.period if over.most else 0)
 
 
 @lru_cache(maxsize=16)

@@ -95,6 +95,15 @@ def test_bars_vanish_at_their_mark_and_not_before(pattern: str, parameter: str) 
         assert occ.band_depth(scene.replace(**{parameter: part * mark.value})).peak_to_peak > 0.005
 
 
+def test_no_mark_promises_no_bars_where_nothing_blinks_or_the_surroundings_flicker() -> None:
+    scene = occ.load_preset("phone-136us").replace(pattern="10")
+    for changes in ({"pattern": "11"}, {"luminance": 0.0}):
+        marks = marked_values(scene.replace(**changes), "exposure_time")
+        assert [mark.label for mark in marks] == ["t = t_LED"]
+    flickering = marked_values(scene.replace(flicker_depth=0.3), "exposure_time")
+    assert [mark.label for mark in flickering] == ["t = t_LED", "whole pattern"]
+
+
 def test_only_a_code_has_a_mark_at_two_chips() -> None:
     scene = occ.load_preset("phone-136us")
     for pattern, labels in (

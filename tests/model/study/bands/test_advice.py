@@ -13,7 +13,7 @@ from occ_model.results.bands import NO_BARS_DEPTH
 from occ_model.scene.scene import Scene
 from occ_model.study.bands.advice import shutter_speeds
 from occ_model.study.bands.depth import light_depth
-from occ_model.study.bands.least_depth import DepthOver
+from occ_model.study.bands.least_depth import DepthOver, depth_map
 
 _PHONE = occ.load_preset("phone-136us")
 _CODES = st.text("01", min_size=2, max_size=24).filter(lambda chips: len(set(chips)) == 2)
@@ -146,6 +146,57 @@ def test_a_flicker_that_no_frequency_of_the_lamp_can_cure_is_told_by_none() -> N
 
 
 def test_a_steady_lamp_shows_no_bars_at_any_exposure() -> None:
-    advice = occ.band_advice(_lamp("1", 1e3))
+    scene = _lamp("1", 1e3)
+    advice = occ.band_advice(scene)
     assert (advice.exposures, advice.all_exposures) == ((), 0.0)
     assert all(speed.is_free for speed in advice.speeds)
+    assert advice.sentence == "Nothing blinks: no exposure shows bars."
+    assert depth_map(scene).period == 0
+
+
+_FLICKER = {"flicker_depth": 0.9, "flicker_frequency": 120.0, "illuminance": 1000.0}
+
+
+@pytest.mark.parametrize(
+    ("changes", "sentence"),
+    [
+        ({}, "The lamp's bars vanish at whole multiples of 200 µs."),
+        ({"luminance": 0.0, **_FLICKER},
+         "The bars of the surroundings' flicker vanish at whole multiples of 8.333 ms."),
+        (_FLICKER, "The lamp's bars vanish at whole multiples of 200 µs; the bars of the "
+         "surroundings' flicker vanish at whole multiples of 8.333 ms."),
+        ({**_FLICKER, "illuminance": 0.0}, "The lamp's bars vanish at whole multiples of 200 µs."),
+        ({"luminance": 0.0}, "Nothing blinks: no exposure shows bars."),
+    ],
+)  # fmt: skip
+def test_what_blinks_is_told_when_its_bars_vanish(changes: dict[str, float], sentence: str) -> None:
+    scene = _lamp("10", 1e4, **changes)
+    advice = occ.band_advice(scene)
+    assert advice.sentence == sentence
+    for valley, other in (
+        (advice.valley, {"illuminance": 0.0}), (advice.flicker_valley, {"luminance": 0.0})
+    ):  # fmt: skip
+        alone = scene.replace(**other)
+        for multiple in (1, 2, 3) if valley else ():
+            assert _depth(alone, exposure_time=multiple * valley) < 1e-12
+            assert _depth(alone, exposure_time=(multiple - 0.5) * valley) > 0.01
+
+
+@pytest.mark.parametrize("flicker", [1e6, 1e9])
+def test_a_flicker_of_any_frequency_takes_no_exposure_from_a_slow_lamp(flicker: float) -> None:
+    lamp = _lamp("10", 1e3)
+    fast = occ.band_advice(lamp.replace(flicker_depth=1.0, flicker_frequency=flicker))
+    alone = occ.band_advice(lamp)
+    assert fast.exposures == pytest.approx(np.array(alone.exposures), rel=1e-3)
+    assert fast.all_exposures == pytest.approx(alone.all_exposures, rel=1e-3)
+
+
+def test_a_long_exposure_s_bars_are_not_above_their_bounds() -> None:
+    over = DepthOver.of(_lamp("1101000", 1e3, flicker_depth=1.0, flicker_frequency=777.0))
+    exposures = np.geomspace(1e-3, 1e3, 20_001)
+    for found, bound in (
+        (over.of_code(1e3 * exposures), over.code_bound(1e3 * exposures)),
+        (over.flicker(exposures), over.flicker_bound(exposures)),
+    ):
+        assert (found <= bound * (1.0 + 1e-9)).all()
+        np.testing.assert_array_equal(found[exposures < 10.0], bound[exposures < 10.0])

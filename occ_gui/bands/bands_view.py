@@ -120,18 +120,22 @@ class BandsView(QWidget):
         exposure = SECOND.format(found.scene.camera.exposure_time, _DIGITS)
         if depth < found.advice.limit:
             return f"No bars at {exposure}: {percent(depth)}"
-        return f"Bars of {percent(depth)} of the mean light at {exposure}"
+        bars = f"Bars of {percent(depth)} of the mean light at {exposure}"
+        return f"{bars}, not seen: {found.depth.hidden}" if found.depth.hidden else bars
 
     def _sentences(self, found: ShownBands) -> list[str]:
         depth, advice = found.depth, found.advice
-        seen = "they are seen" if depth.is_visible else "they are not seen"
         lines = [
-            f"RMS {percent(depth.rms)}; in pixel values "
-            f"{percent(depth.pixel.peak_to_peak)} peak to peak: {seen}.",
+            f"RMS {percent(depth.rms)}; in the picture's columns "
+            f"{percent(depth.columns.peak_to_peak)}, in pixel values "
+            f"{percent(depth.pixel.peak_to_peak)} peak to peak. {depth.sentence}",
             advice.sentence,
         ]
-        if advice.all_exposures is not None:
-            lines[-1] += f" From {SECOND.format(advice.all_exposures, 3)} on no exposure shows 1 %."
+        if advice.all_exposures:
+            limit = f"{100.0 * advice.limit:.3g} %"
+            lines[-1] += (
+                f" From {SECOND.format(advice.all_exposures, 3)} on no exposure shows {limit}."
+            )
         if found.scene.transmitter.edge_time:
             lines.append("The map is of sharp edges: the LED's own make weaker bars.")
         return [*lines, " ".join(found.eye.sentences)]

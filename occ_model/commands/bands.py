@@ -1,6 +1,7 @@
 """The command ``occ-model bands``: how deep the bars are, and which settings show none."""
 
 import argparse
+import math
 
 from occ_model.commands.options import Commands, add_option, add_scene_options, scene_of
 from occ_model.results.bands import NO_BARS_DEPTH, BandAdvice, BandDepth, percent
@@ -38,15 +39,16 @@ def _run(options: argparse.Namespace) -> int:
 
 def _depth(scene: Scene, found: BandDepth) -> list[str]:
     exposure = SECOND.format(scene.camera.exposure_time)
-    columns = f"{found.period:.4g} columns" if found.period < scene.camera.columns else "none"
+    columns = "none" if found.period == math.inf else f"{found.period:.4g} columns"
+    if scene.camera.columns < found.period < math.inf:
+        columns = f"more than the picture's {scene.camera.columns} columns"
     return [
         f"Bars at {exposure}: {percent(found.peak_to_peak)} of the mean light peak to peak, "
         f"{percent(found.rms)} RMS;",
-        f"  in pixel values {percent(found.pixel.peak_to_peak)} and {percent(found.pixel.rms)}; "
-        f"from bar to bar: {columns}; "
-        f"{'visible' if found.is_visible else 'not visible'} on a display "
-        f"(there {percent(found.contrast)} of the mean light peak to peak, seen from "
-        f"{percent(found.threshold)}).",
+        f"  in the picture's columns {percent(found.columns.peak_to_peak)} and "
+        f"{percent(found.columns.rms)}, in pixel values {percent(found.pixel.peak_to_peak)} and "
+        f"{percent(found.pixel.rms)}; from bar to bar: {columns}.",
+        f"  {found.sentence}",
     ]
 
 

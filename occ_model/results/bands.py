@@ -24,16 +24,18 @@ class Depth:
 
 @dataclass(frozen=True, slots=True)
 class BandDepth:
-    """Depth of the bars in the picture of a scene.
+    """Depth of the bars of a scene's light, and in its picture.
 
     Parameters
     ----------
     light
-        Depth of the light of an exposure, before the tone curve.
+        Depth of the light of an exposure over all its starts, before the tone curve.
+    columns
+        Depth of the light of the picture's columns, before the tone curve.
     pixel
-        Depth of the pixel values, after the tone curve, saturation and the full well.
+        Depth of their pixel values, after the tone curve, saturation and the full well.
     frequency
-        Of the strongest part of the light that an exposure leaves, in Hz; 0 for none.
+        Of the strongest part of the light that the columns show, in Hz; 0 for none.
     period
         Columns from one bar of that part to the next, as the columns sample it; infinite where
         there are no bars or all columns see the same.
@@ -41,14 +43,18 @@ class BandDepth:
         Depth, peak to peak, of the picture on a display of exponent 2.2.
     threshold
         Contrast from which bars of this period are seen.
+    hidden
+        What keeps the picture from showing the light's bars, as a clause; empty where nothing does.
     """
 
     light: Depth
+    columns: Depth
     pixel: Depth
     frequency: float
     period: float
     contrast: float
     threshold: float
+    hidden: str = ""
 
     @property
     def peak_to_peak(self) -> float:
@@ -62,8 +68,19 @@ class BandDepth:
 
     @property
     def is_visible(self) -> bool:
-        """Whether the contrast exceeds the threshold of vision."""
-        return self.contrast > self.threshold
+        """Whether the picture's contrast exceeds the threshold of vision."""
+        return self.contrast > self.threshold and not self.hidden
+
+    @property
+    def sentence(self) -> str:
+        """Whether the picture's bars are seen, or what hides them."""
+        if self.hidden:
+            return f"Not seen, since {self.hidden}."
+        return (
+            f"{'Visible' if self.is_visible else 'Not visible'} on a display: there "
+            f"{percent(self.contrast)} of the mean light peak to peak, seen from "
+            f"{percent(self.threshold)}."
+        )
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,6 +1,7 @@
 """Depth of the bars in a scene's picture, in its light and its pixels, and what of it is seen."""
 
 import math
+from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
@@ -13,7 +14,9 @@ from occ_model.camera.photometry import (
     saturate,
     saturation_value,
 )
+from occ_model.effects.effect import LightEffect
 from occ_model.effects.light_effects import depth_in_exposure
+from occ_model.effects.registry import NAMES, effects_named
 from occ_model.errors import ParameterError, shown
 from occ_model.results.bands import BandDepth, Depth
 from occ_model.scene.scene import Scene
@@ -21,21 +24,22 @@ from occ_model.study.bands.exposed_light import ExposedLight, exposed_light
 from occ_model.transmitter.packet import sent_chips
 
 _DISPLAY_EXPONENT = 2.2  # approximates sRGB by one power
-_NODES = 16  # Gauss-Legendre nodes in each piece of the light, for the mean of the pixel values
-_FLICKER_PHASES = 32
+_BLACK = 0.5  # grey levels that a file rounds to 0
+_NO_DEPTH = Depth(0.0, 0.0)
 
 _HARMONICS_PER_CHIP = 4  # harmonics of the code that are searched; higher ones are below a quarter
 _ROUNDING_DEPTH = 1e-12
+_WINDOW_BINS = 1.5  # of a spectrum behind a Hann window, within which a sine lies from its peak
 
 
 def band_depth(scene: Scene) -> BandDepth:
-    """Return the depth of the bars in a scene's picture, relative to its mean.
+    """Return the depth of the bars of a scene's light, and what of it the scene's picture shows.
 
-    Each column sees the code from another start. The depth is taken over all starts and over all
-    phases of the ambient flicker, which is not synchronous with the code; a single picture with few
-    bars shows less. LED edges, flicker, tone curve, saturation and full well are included; noise,
-    blur and vignetting are not. The relative error of the light's depth is below 1e-9 with sharp
-    edges; with LED edges it is below 1e-13 of the mean.
+    The depth of the light is taken over all starts of an exposure within the code, and over all
+    phases of the ambient flicker, which is not synchronous with the code. Its relative error is
+    below 1e-9 with sharp edges; with LED edges it is below 1e-13 of the mean. The picture's columns
+    are those of the scene: they start where its readout time and start time put them. LED edges,
+    flicker, tone curve, saturation and full well are included; noise, blur and vignetting are not.
 
     Returns
     -------
@@ -44,14 +48,67 @@ def band_depth(scene: Scene) -> BandDepth:
     """
     exposed = exposed_light_of(scene)
     light = light_depth(scene, exposed)
-    if not luminance_levels(scene)[1]:
-        return BandDepth(light, light, 0.0, math.inf, 0.0, contrast_threshold(scene, math.inf))
-    frequency, period = (
-        strongest_part(scene) if light.peak_to_peak > _ROUNDING_DEPTH else (0.0, math.inf)
+    columns = _column_light(scene)
+    dark, bright = luminance_levels(scene)
+    of_columns = dark * columns.ambient + (bright - dark) * columns.lit
+    frequency, period = 0.0, math.inf
+    if _depth(of_columns).peak_to_peak > _ROUNDING_DEPTH:
+        frequency, period = _strongest_part(scene, of_columns)
+    values = panel_values(scene, columns)
+    pixels = np.minimum(saturate(values), saturation_value(scene))
+    found = BandDepth(
+        light=light,
+        columns=_depth(of_columns),
+        pixel=_depth(pixels),
+        frequency=frequency,
+        period=period,
+        contrast=_contrast(pixels),
+        threshold=contrast_threshold(scene, period),
     )
-    pixel, contrast = _of_pixels(scene, exposed)
-    threshold = contrast_threshold(scene, period)
-    return BandDepth(light, pixel, frequency, period, contrast, threshold)
+    return replace(found, hidden=_what_hides(found, pixels, values, _extremes(scene, exposed)))
+
+
+def _what_hides(
+    found: BandDepth, pixels: FloatArray, values: FloatArray, extremes: FloatArray
+) -> str:
+    """Return why the picture does not show the light's bars, as a clause; empty if it does.
+
+    ``values`` are those of the columns before saturation, ``extremes`` those over all starts.
+    """
+    if float(pixels.max()) < _BLACK:
+        return "the picture is black"
+    if found.is_visible:
+        return ""
+    if _contrast(values) > found.threshold:
+        return "the picture is overexposed"
+    sees_part = found.columns.peak_to_peak < 0.5 * found.light.peak_to_peak
+    if sees_part and _contrast(extremes) > found.threshold:
+        return "the picture's columns all start at like places of the light's period"
+    return ""
+
+
+def _column_light(scene: Scene) -> ColumnLight:
+    light = ColumnLight.of(scene)
+    for effect in effects_named(NAMES, LightEffect):
+        light = effect.apply(scene, light)
+    return light
+
+
+def _extremes(scene: Scene, exposed: ExposedLight) -> FloatArray:
+    """Return the least and the largest pixel value over all starts, before saturation."""
+    lit = duty(scene) + np.array(exposed.extremes) / float(exposure_in_chips(scene))
+    ambient = 1.0 + depth_in_exposure(scene) * np.array([-1.0, 1.0])
+    return panel_values(scene, ColumnLight(np.clip(lit, 0.0, 1.0), ambient))
+
+
+def _depth(values: FloatArray) -> Depth:
+    mean = float(values.mean())
+    return Depth(float(np.ptp(values)) / mean, float(values.std()) / mean) if mean else _NO_DEPTH
+
+
+def _contrast(values: FloatArray) -> float:
+    """Return the depth, peak to peak, of what a display shows of pixel values."""
+    return _depth(values**_DISPLAY_EXPONENT).peak_to_peak
 
 
 def light_depth(scene: Scene, exposed: ExposedLight | None = None) -> Depth:
@@ -97,33 +154,28 @@ def exposed_light_of(scene: Scene) -> ExposedLight:
     return exposed_light(chips, exposure_in_chips(scene), edge_in_chips(scene))
 
 
-def _of_pixels(scene: Scene, exposed: ExposedLight) -> tuple[Depth, float]:
-    """Return the depth of the pixel values, and the peak-to-peak contrast on the display."""
-    chips, lit = float(exposure_in_chips(scene)), duty(scene)
-    full = saturation_value(scene)
+def _strongest_part(scene: Scene, light: FloatArray) -> tuple[float, float]:
+    """Return the frequency in Hz of the strongest part of the columns' light, and its period.
 
-    def values(above_mean: FloatArray, cycle: FloatArray) -> FloatArray:
-        fraction = np.clip(lit + above_mean / chips, 0.0, 1.0)
-        ambient = 1.0 + depth_in_exposure(scene) * np.cos(cycle)[:, None]
-        return np.minimum(saturate(panel_values(scene, ColumnLight(fraction, ambient))), full)
-
-    of_light, weights = exposed.sampled(_NODES)
-    phases = _FLICKER_PHASES if depth_in_exposure(scene) else 1
-    cycle = 2.0 * math.pi * (np.arange(phases) + 0.5) / phases
-    sampled = values(of_light.ravel(), cycle)
-    each = weights.ravel() / phases
-    mean = float((sampled * each).sum())
-    spread = math.sqrt(float(((sampled - mean) ** 2 * each).sum()))
-    ends = values(np.array(exposed.extremes), np.array([math.pi, 0.0]))
-    low, high = float(ends[0, 0]), float(ends[1, 1])
-    shown = (high**_DISPLAY_EXPONENT - low**_DISPLAY_EXPONENT) / mean**_DISPLAY_EXPONENT
-    return Depth((high - low) / mean, spread / mean), shown
+    The period is in columns, as these sample the light: above half the row rate, an alias. The
+    columns' spectrum says near which period they vary most, and of the code's harmonics and the
+    flicker the strongest near it is the exact one.
+    """
+    count = len(light)
+    spectrum = np.abs(np.fft.rfft((light - light.mean()) * np.hanning(count)))
+    peak = int(spectrum.argmax()) / count
+    frequencies, steps, amplitudes = _parts(scene)
+    near = np.abs(np.abs(steps) - peak) < _WINDOW_BINS / count
+    best = int(np.where(near, amplitudes * _swing_of_columns(steps, count), 0.0).argmax())
+    step = abs(float(steps[best]))
+    return float(frequencies[best]), 1.0 / step if step else math.inf
 
 
-def strongest_part(scene: Scene) -> tuple[float, float]:
-    """Return the frequency in Hz of the strongest component, and the period of its bars in columns.
+def _parts(scene: Scene) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return the sines of an exposure's light: frequencies in Hz, cycles a column, amplitudes.
 
-    Components are the code's harmonics and the flicker; above half the row rate, aliases.
+    Those of the code, and the flicker. Of the cycles from one column's start to the next whole ones
+    are left out.
     """
     chips = sent_chips(scene.transmitter)
     dark, bright = (float(each) for each in luminance_levels(scene))
@@ -136,14 +188,30 @@ def strongest_part(scene: Scene) -> tuple[float, float]:
     # |sinc| of the exposure; whole periods are subtracted before the sine.
     amplitudes *= np.abs(np.sin(np.pi * of_a_chip * float(exposure % period)))
     amplitudes /= np.pi * of_a_chip * float(exposure)
-    best = int(amplitudes.argmax())
     base = Fraction(scene.transmitter.switching_frequency) / period
-    frequency = base * int(cycles[best])
-    if dark * depth_in_exposure(scene) > amplitudes[best]:
-        frequency = Fraction(scene.surroundings.flicker_frequency)
+    flicker = Fraction(scene.surroundings.flicker_frequency)
+    steps = np.append(_step(scene, base) * cycles, _step(scene, flicker))
+    return (
+        np.append(float(base) * cycles, float(flicker)),
+        steps - np.round(steps),
+        np.append(amplitudes, dark * depth_in_exposure(scene)),
+    )
+
+
+def _step(scene: Scene, frequency: Fraction) -> float:
+    """Return the cycles from one column's start to the next, less whole ones."""
     step = frequency * Fraction(scene.camera.readout_time)
-    seen = abs(float(step - round(step)))
-    return float(frequency), 1.0 / seen if seen else math.inf
+    return float(step - round(step))
+
+
+def _swing_of_columns(steps: FloatArray, columns: int) -> FloatArray:
+    """Return the deviation of a sine's samples from their mean, relative to the sine's own.
+
+    It is that of the root mean square over all phases, sqrt(1 - D^2), where N samples in steps of s
+    cycles have the mean D = sin(pi N s) / (N sin(pi s)).
+    """
+    mean = np.sinc(columns * steps) / np.sinc(steps)
+    return np.sqrt(np.maximum(1.0 - mean * mean, 0.0))
 
 
 _WEBER_FRACTION = 0.01

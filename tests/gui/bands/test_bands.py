@@ -49,7 +49,8 @@ def test_the_pane_shows_the_depth_and_the_speeds_of_the_model(view: BandsView) -
     view.show_bands(_shown(_LAMP))
     depth = occ.band_depth(_LAMP)
     assert f"{100 * depth.peak_to_peak:.3g} %" in view.headline.text()
-    assert "peak to peak: they are seen." in view.sentences.text()
+    assert depth.is_visible
+    assert depth.sentence in view.sentences.text()
     assert "whole multiples of 520.8 µs" in view.sentences.text()
     rows = _rows(view)
     assert rows["1/60 s"] == ["0 %", "0 %", "none"]
@@ -57,7 +58,28 @@ def test_the_pane_shows_the_depth_and_the_speeds_of_the_model(view: BandsView) -
     assert rows["1/500 s"][2] == "yes"
     assert rows["1/1000 s"][2] == "yes"
     view.show_bands(_shown(_LAMP.replace(exposure_time=1 / 1920)))
-    assert "peak to peak: they are not seen." in view.sentences.text()
+    assert "Not visible on a display" in view.sentences.text()
+
+
+@pytest.mark.parametrize(
+    ("changes", "why"),
+    [({"exposure_time": 1e-3, "iso": 4e6}, "overexposed"),
+     ({"exposure_time": 1e-4, "readout_time": 1 / 1920}, "like places")],
+)  # fmt: skip
+def test_bars_that_the_picture_hides_are_not_headlined_as_seen(
+    view: BandsView, changes: dict[str, float], why: str
+) -> None:
+    view.show_bands(_shown(_LAMP.replace(**changes)))
+    assert ", not seen: " in view.headline.text()
+    assert why in view.headline.text()
+    assert why in view.sentences.text()
+
+
+def test_a_lamp_without_light_has_no_valleys(view: BandsView) -> None:
+    view.show_bands(_shown(_LAMP.replace(luminance=0.0)))
+    assert not any(line.isVisible() for line in view.map.valleys)
+    assert "Nothing blinks" in view.sentences.text()
+    assert "From" not in view.sentences.text()
 
 
 def test_the_map_is_dark_along_the_valleys_which_are_marked(view: BandsView) -> None:

@@ -188,3 +188,18 @@ def test_a_dimmed_lamp_gets_its_depth_and_its_shutter_speeds(
     assert rows["1/60"].endswith("no bars if the camera keeps the former")
     assert rows["1/100"].endswith("%")
     assert any("percent flicker 100 %" in line for line in lines)
+
+
+def test_what_hides_the_bars_of_a_picture_is_told(capsys: pytest.CaptureFixture[str]) -> None:
+    pulses = "bands --set pattern=10 --set"
+    for words, what, bars in (
+        ("switching_frequency=64kHz --set readout_time=31.25us --set exposure_time=10us",
+         "like places of the light's period", "196 %"),
+        ("switching_frequency=240Hz --set exposure_time=10ms", "is overexposed", "32.7 %"),
+    ):  # fmt: skip
+        assert main(f"{pulses} {words}".split()) == 0
+        first, second, third, *_ = capsys.readouterr().out.splitlines()
+        assert f"{bars} of the mean light peak to peak" in first
+        assert "in pixel values 0 % and 0 %" in second
+        assert third.startswith("  Not seen, since ")
+        assert what in third

@@ -9,6 +9,7 @@ import pytest
 from amount import amount
 
 import occ_model as occ
+from occ_model.arrays import FloatArray
 from occ_model.camera.photometry import luminance_of
 from occ_model.results.bands import Depth
 from occ_model.scene.scene import Scene
@@ -44,12 +45,19 @@ def test_a_flicker_of_the_surroundings_alone_is_a_sine_behind_the_exposure(
 def test_code_and_flicker_add_up_where_they_meet_at_all_phases() -> None:
     scene = _PHONE.replace(flicker_depth=0.5, luminance=30.0, exposure_time=3e-4, iso=3200.0)
     both = occ.band_depth(scene)
-    many = {"columns": 100_000, "readout_time": 24 / 10e3 / 100_000, "flicker_depth": 0.0}
-    profile = occ.column_profile(scene.replace(**many))
     steady = occ.band_depth(scene.replace(flicker_depth=0.0))
-    assert both.peak_to_peak > steady.peak_to_peak
-    assert steady.pixel.rms == pytest.approx(profile.std() / profile.mean(), rel=1e-3)
-    assert steady.pixel.peak_to_peak == pytest.approx(np.ptp(profile) / profile.mean(), rel=1e-3)
+    as_bright = 30.0 * float(occ.packet(scene).mean())
+    flicker = occ.band_depth(scene.replace(pattern="1", luminance=as_bright))
+    assert both.peak_to_peak == pytest.approx(steady.peak_to_peak + flicker.peak_to_peak)
+
+
+@pytest.mark.parametrize("start_time", [0.0, 0.0123])
+def test_the_pixel_values_are_those_of_the_scene_s_own_columns(start_time: float) -> None:
+    scene = _PHONE.replace(exposure_time=3e-4, start_time=start_time, columns=100)
+    profile = occ.column_profile(scene)
+    found = occ.band_depth(scene).pixel
+    assert found.rms == pytest.approx(profile.std() / profile.mean(), rel=1e-12)
+    assert found.peak_to_peak == pytest.approx(np.ptp(profile) / profile.mean(), rel=1e-12)
 
 
 @pytest.mark.parametrize("averaging", ["light", "pixel-value"])
@@ -95,6 +103,127 @@ def test_what_is_saturated_shows_no_bars() -> None:
     assert found.pixel.peak_to_peak == 0.0
     assert found.pixel.rms < 1e-12
     assert not found.is_visible
+    assert "overexposed" in found.sentence
+
+
+_LINE_RATE = {"pattern": "10", "switching_frequency": 64e3, "readout_time": 31.25e-6,
+              "exposure_time": 10e-6}  # fmt: skip
+
+
+def test_of_a_lamp_that_blinks_at_the_line_rate_the_columns_see_nothing() -> None:
+    scene = _PHONE.replace(**_LINE_RATE)
+    found = occ.band_depth(scene)
+    assert np.ptp(occ.column_profile(scene)) < 1e-9
+    assert found.peak_to_peak > 1.9  # of another start
+    assert found.columns.peak_to_peak < 1e-12
+    assert (found.is_visible, found.period, found.frequency) == (False, math.inf, 0.0)
+    assert "like places" in found.sentence
+    beside = occ.band_depth(scene.replace(switching_frequency=64.2e3))
+    assert (beside.is_visible, beside.hidden) == (True, "")
+    assert beside.period == pytest.approx(320.0)
+
+
+def test_the_period_is_that_of_the_columns_where_they_do_not_see_the_strongest_sine() -> None:
+    # The strongest of eight, the fourth, is seen at the same phase by all columns.
+    scene = _PHONE.replace(pattern="10101000", switching_frequency=2.0 * 2**16,
+                           readout_time=2.0**-16, exposure_time=2.0**-18)  # fmt: skip
+    profile = occ.column_profile(scene)
+    assert np.ptp(profile[::4]) < 1e-9 < np.ptp(profile[:4])
+    assert 4.0 % occ.band_depth(scene).period == pytest.approx(0.0)
+
+
+def test_what_is_black_shows_no_bars_however_deep_they_are() -> None:
+    scene = _pulses(2, 1, 1000.0, 1e-4, iso=1.0, luminance=1e-4)
+    found = occ.band_depth(scene)
+    assert found.contrast > found.threshold
+    assert not found.is_visible
+    assert "black" in found.sentence
+
+
+_FEWEST_SAMPLES = 400  # within an exposure, and in each period and edge
+
+
+def _sampled_columns(scene: Scene) -> tuple[FloatArray, FloatArray]:
+    """Return each column's lit fraction and the ambient light's, sampled within its exposure."""
+    sent, camera, around = scene.transmitter, scene.camera, scene.surroundings
+    chips = occ.packet(scene).astype(float)
+    before = np.concatenate([[0.0], np.cumsum(chips)])
+
+    def sent_until(x: FloatArray) -> FloatArray:
+        periods, rest = np.divmod(x, len(chips))
+        return periods * before[-1] + np.interp(rest, np.arange(len(before)), before)
+
+    start = scene.model.start_time + camera.readout_time * np.arange(camera.columns)
+    count = _FEWEST_SAMPLES * math.ceil(camera.exposure_time * sent.switching_frequency)
+    inside = (np.arange(count) + 0.5) / count * camera.exposure_time
+    light = np.empty(len(start))
+    for column, first in enumerate(start):
+        x = (first + inside) * sent.switching_frequency
+        edge = max(sent.edge_time * sent.switching_frequency, 1e-3)
+        light[column] = ((sent_until(x) - sent_until(x - edge)) / edge).mean()
+    angle = 2.0 * math.pi * around.flicker_frequency * (start[:, None] + inside[:: count // 200])
+    ambient = 1.0 + around.flicker_depth * np.cos(angle + around.flicker_phase).mean(axis=1)
+    return light, ambient
+
+
+def _shown_contrasts(scene: Scene) -> tuple[float, float, float]:
+    """Return the contrast on a display, that without a limit of pixels, and the largest value."""
+    lit, ambient = _sampled_columns(scene)
+    reflected = 0.4 / math.pi * scene.surroundings.illuminance * ambient
+    camera, sent = scene.camera, scene.transmitter.luminance
+    gain = camera.iso * camera.exposure_time / (12.5 * camera.f_number**2)
+    values = 118.0 * (gain * (reflected + sent * lit)) ** (1.0 / camera.gamma)
+    seen = [np.minimum(values, limit) ** 2.2 for limit in (255.0, math.inf)]
+    contrasts = (float(np.ptp(each) / max(each.mean(), 1e-300)) for each in seen)
+    return *contrasts, float(values.max())
+
+
+def _any_scene(random: np.random.Generator) -> Scene:
+    """A lamp, a flicker or both at any brightness; every second one nearly in step with columns."""
+    chips = "".join(map(str, random.integers(0, 2, int(random.integers(1, 9)))))
+    readout = float(10.0 ** random.uniform(-5.5, -4.0))
+    frequency = float(10.0 ** random.uniform(2.5, 4.5))
+    if random.random() < 0.5:
+        off = float(random.choice([0.0, 1e-6, 1e-3])) * random.random()
+        frequency = len(chips) / readout / int(random.integers(1, 5)) * (1.0 + off)
+    exposure = float(10.0 ** random.uniform(-1.5, 0.8)) / frequency
+    scene = _PHONE.replace(
+        pattern=f"10{chips}", switching_frequency=frequency, readout_time=readout, columns=100,
+        exposure_time=exposure, averaging="light", full_well=1e9,
+        edge_time=float(random.choice([0.0, 0.3 / frequency])),
+        luminance=float(random.choice([0.0, 300.0, 3000.0])),
+        illuminance=float(random.choice([0.0, 300.0, 3000.0])),
+        flicker_depth=float(random.choice([0.0, 0.02, 0.5])), flicker_frequency=120.0,
+        start_time=float(random.uniform(0.0, 0.1)),
+    )  # fmt: skip
+    white = 5.5 * 12.5 * scene.camera.f_number**2 / exposure / 1000.0  # ISO speed of a white panel
+    return scene.replace(iso=float(np.clip(white * 10.0 ** random.uniform(-3.0, 1.5), 1.0, 4e6)))
+
+
+def test_bars_are_called_visible_where_sampled_columns_show_them() -> None:
+    random = np.random.default_rng(26)
+    tried = {"visible": 0, "overexposed": 0, "black": 0, "not visible": 0}
+    for _ in range(amount(150, 2000)):
+        scene = _any_scene(random)
+        if scene.transmitter.luminance == scene.surroundings.illuminance == 0.0:
+            continue
+        found = occ.band_depth(scene)
+        contrast, unlimited, brightest = _shown_contrasts(scene)
+        sure = [not 0.8 < each / found.threshold < 1.25 for each in (contrast, unlimited)]
+        if not all(sure) or 0.4 < brightest < 0.6:
+            continue
+        seen = contrast > found.threshold
+        kind = (
+            "black" if brightest < 0.5
+            else "visible" if seen
+            else "overexposed" if unlimited > found.threshold
+            else "not visible"
+        )  # fmt: skip
+        tried[kind] += 1
+        assert found.is_visible == (kind == "visible"), scene
+        for word in ("overexposed", "black"):
+            assert (word in found.sentence) == (word == kind), (scene, found.sentence)
+    assert min(tried.values()) >= 1, tried
 
 
 def test_without_light_there_are_no_bars() -> None:

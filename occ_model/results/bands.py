@@ -189,8 +189,8 @@ class EyeFlicker:
     frequency
         Repetition frequency of the light, in Hz.
     frequencies, modulations : ndarray of float64, shape (n,)
-        Its Fourier components as far as IEEE 1789-2015 has limits: Hz, and amplitude over mean in
-        percent.
+        Its Fourier components as far as IEEE 1789-2015 has limits, of very many the strongest: Hz,
+        and amplitude over mean in percent.
     risk, parts_risk
         "no effect", "low risk" or "above low risk" by IEEE 1789-2015: of the percent flicker at the
         repetition frequency, and of the Fourier components.

@@ -24,6 +24,7 @@ _NO_EFFECT = (0.01, 0.0333, 3000.0)  # % per Hz below and above 90 Hz, and the l
 _SVM_BAND = (80.0, 2000.0)  # Hz
 _SVM_EXPONENT = 3.7  # of the Minkowski sum over the components
 _MAX_CHIPS = 64  # highest component in switching frequencies; higher ones are below 1 %
+_MAX_SINES = 10_000  # components that are returned; a long payload has millions
 
 
 def eye_flicker(scene: Scene) -> EyeFlicker:
@@ -39,14 +40,15 @@ def eye_flicker(scene: Scene) -> EyeFlicker:
     percent = 100.0 * (most - least) / (most + least) if most else 0.0
     frequencies, modulations = _sines(scene)
     whole = np.array([frequency]), np.array([percent])
+    strongest = np.sort(np.argsort(modulations)[-_MAX_SINES:])
     return EyeFlicker(
         percent_flicker=percent,
         flicker_index=above / lit if lit else 0.0,
         visibility=_visibility(frequencies, modulations / 100.0, threshold),
         visibility_2016=_visibility(frequencies, modulations / 100.0, threshold_2016),
         frequency=frequency,
-        frequencies=frequencies,
-        modulations=modulations,
+        frequencies=frequencies[strongest],
+        modulations=modulations[strongest],
         risk=_risk(*whole),
         parts_risk=_risk(frequencies, modulations),
     )

@@ -70,7 +70,7 @@ def attack(door: Door, seeds: range) -> Outcomes:
         except (Exception, OutOfTime, SystemExit) as fault:
             if len(seeds) == 1:
                 raise
-            found.fallen[seed] = f"{type(fault).__name__}: {str(fault)[:600]} {_place(fault)}"
+            found.fallen[seed] = f"{type(fault).__name__}: {str(fault)[:600]} {place_of(fault)}"
         else:
             found.sentences += bool(sentences)
             found.results += not sentences
@@ -95,12 +95,12 @@ def _bounded(door: Door, seed: int) -> list[str]:
     with (
         TemporaryDirectory(prefix="occ-attack-") as folder,
         chdir(folder),
-        _time_bound(door.patience),
+        time_bound(door.patience),
     ):
         return sentences_of(door, seed, Path(folder))
 
 
-def _place(fault: BaseException) -> str:
+def place_of(fault: BaseException) -> str:
     """Name the lines that an exception went through last."""
     trace, places = fault.__traceback__, []
     while trace is not None:
@@ -110,7 +110,7 @@ def _place(fault: BaseException) -> str:
 
 
 @contextmanager
-def _time_bound(seconds: float) -> Iterator[None]:
+def time_bound(seconds: float) -> Iterator[None]:
     """Raise within a case that takes too long; end the process where that does not end it."""
 
     def late(_signal: int, _frame: FrameType | None) -> NoReturn:

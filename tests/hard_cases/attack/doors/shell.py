@@ -40,6 +40,7 @@ COMMANDS: dict[str, tuple[str, ...]] = {
     "accuracy": (),
     "sweep": ("--vary", "distance=0.5,1", "--images", "1", "--out", "{out}.csv"),
     "limits": ("--images", "1", "--jobs", "1"),
+    "bands": (),
     "bench": ("--bits", "10", "--decoder", "threshold"),
     "most-bits": ("--pictures", "1", "--decoder", "threshold"),
     "decode": ("{in}.png",),

@@ -106,12 +106,10 @@ def test_what_is_saturated_shows_no_bars() -> None:
     assert "overexposed" in found.sentence
 
 
-_LINE_RATE = {"pattern": "10", "switching_frequency": 64e3, "readout_time": 31.25e-6,
-              "exposure_time": 10e-6}  # fmt: skip
-
-
 def test_of_a_lamp_that_blinks_at_the_line_rate_the_columns_see_nothing() -> None:
-    scene = _PHONE.replace(**_LINE_RATE)
+    scene = _PHONE.replace(
+        pattern="10", switching_frequency=64e3, readout_time=31.25e-6, exposure_time=10e-6
+    )
     found = occ.band_depth(scene)
     assert np.ptp(occ.column_profile(scene)) < 1e-9
     assert found.peak_to_peak > 1.9  # of another start
@@ -173,9 +171,11 @@ def _shown_contrasts(scene: Scene) -> tuple[float, float, float]:
     camera, sent = scene.camera, scene.transmitter.luminance
     gain = camera.iso * camera.exposure_time / (12.5 * camera.f_number**2)
     values = 118.0 * (gain * (reflected + sent * lit)) ** (1.0 / camera.gamma)
-    seen = [np.minimum(values, limit) ** 2.2 for limit in (255.0, math.inf)]
-    contrasts = (float(np.ptp(each) / max(each.mean(), 1e-300)) for each in seen)
-    return *contrasts, float(values.max())
+    contrast, unlimited = (
+        float(np.ptp(each) / max(each.mean(), 1e-300))
+        for each in (np.minimum(values, 255.0) ** 2.2, values**2.2)
+    )
+    return contrast, unlimited, float(values.max())
 
 
 def _any_scene(random: np.random.Generator) -> Scene:

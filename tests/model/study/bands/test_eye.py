@@ -78,6 +78,17 @@ def test_two_published_thresholds_differ_and_both_are_told_where_one_is_exceeded
     assert "SVM 4.9 by Perz (2018) (1:" in slow.sentences[0]
 
 
+def test_of_a_long_payloads_millions_of_sines_the_strongest_are_listed_and_all_are_judged() -> None:
+    sent = {"payload": "bits:" + "1001" * 1000, "line_code": "nrz", "switching_frequency": 300.0}
+    many = occ.eye_flicker(_PHONE.replace(**sent))
+    assert len(many.frequencies) == 10_000
+    assert (np.diff(many.frequencies) > 0.0).all()
+    # Of a payload of one pattern over and over little else than that pattern's sines is left.
+    alone = occ.eye_flicker(_PHONE.replace(pattern="1001", switching_frequency=300.0))
+    assert many.visibility == pytest.approx(alone.visibility, rel=0.02)
+    assert many.modulations.max() == pytest.approx(alone.modulations.max(), rel=0.02)
+
+
 def test_the_lines_of_risk_are_those_quoted_at_their_ends() -> None:
     no_effect, low_risk = risk_limits(np.array([50.0, 100.0, 120.0, 1250.0, 1251.0, 3001.0]))
     assert no_effect[:3] == pytest.approx([0.5, 3.33, 4.0], abs=0.01)

@@ -109,9 +109,9 @@ class FileEffect(Effect):
         """Return the steps to which the cosine coefficients of 8 x 8 pixels are rounded."""
 
     @abstractmethod
-    def rounding_of_means(self, scene: Scene) -> tuple[float, float]:
+    def rounding_of_means(self, scene: Scene) -> float:
         """Return the error of a column's mean over one block by rounding, in grey levels.
 
-        First its standard deviation, for coefficients that lie anywhere between their steps with
-        equal probability; then its largest possible root mean square over the columns.
+        It is the standard deviation for coefficients that lie anywhere between their steps with
+        equal probability.
         """

@@ -23,8 +23,6 @@ _LUMINANCE_STEPS = (
 )
 """Steps of the 8 x 8 cosine coefficients at quality 50 (ITU-T T.81, table K.1)."""
 
-_LARGEST_ROUNDING = 0.5  # largest change of a pixel, in grey levels, when it is rounded once
-
 
 class Jpeg(FileEffect):
     """Each block of 8 x 8 pixels is written as cosine coefficients, rounded to steps.
@@ -44,18 +42,16 @@ class Jpeg(FileEffect):
     def steps(self, scene: Scene) -> FloatArray:
         return quantization_steps(scene.camera.jpeg_quality)
 
-    def rounding_of_means(self, scene: Scene) -> tuple[float, float]:
+    def rounding_of_means(self, scene: Scene) -> float:
         """Return the error by the coefficients of vertical frequency 0: only they change the mean.
 
         Each has the standard deviation q / sqrt(12) for its step q, and the mean over a block's
-        eight rows an eighth of the root of their summed squares. For a mean over fewer rows all
-        coefficients count, with half a step each.
+        eight rows an eighth of the root of their summed squares.
         """
         if not self.is_present(scene):
-            return 0.0, 0.0
+            return 0.0
         steps = quantization_steps(scene.camera.jpeg_quality)
-        most = math.sqrt(float((steps**2).mean())) / 2.0 + 2.0 * _LARGEST_ROUNDING
-        return math.sqrt(float((steps[0] ** 2).sum()) / 12.0) / 8.0, most
+        return math.sqrt(float((steps[0] ** 2).sum()) / 12.0) / 8.0
 
     def check_size(self, scene: Scene, shape: tuple[int, ...]) -> None:
         if self.is_present(scene) and max(shape) > LONGEST_SIDE["JPEG"]:

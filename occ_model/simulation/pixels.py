@@ -108,9 +108,8 @@ class PixelExposure:
         columns = slice(self._region.first_column, self._region.last_column)
         size = (self._scene.camera.rows, self._scene.camera.columns)
         outline, blur = self._optics.outline, self._optics.blur
-        found = [file.rounding_of_means(self._scene) for file in self._files]
-        usual, most = (sum(sizes) for sizes in zip((0.0, 0.0), *found, strict=True))
-        return DraftedPanel(rows, columns, outline, size, blur, usual, most)
+        rounding = sum(file.rounding_of_means(self._scene) for file in self._files)
+        return DraftedPanel(rows, columns, outline, size, blur, rounding)
 
     def rows(self, seed: int, source: NoiseSource | NoiseMaker) -> Iterator[ExposedRows]:
         spreads: dict[Sequence[NoiseEffect], NoiseSpread] = {}

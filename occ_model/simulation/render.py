@@ -5,15 +5,17 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
+from numpy.typing import NDArray
 
-from occ_model.arrays import Pixels
+from occ_model.arrays import FloatArray, Pixels
 from occ_model.camera.enhancement import Enhancement, to_bytes
 from occ_model.camera.photometry import FLAT_SPAN
 from occ_model.camera.picture_rows import in_blocks
 from occ_model.camera.projection import check_size, paint
+from occ_model.effects.effect import NoiseEffect
 from occ_model.effects.paper_view import PaperView, paper_view_of
 from occ_model.effects.plan import plan_of
-from occ_model.effects.registry import NAMES
+from occ_model.effects.registry import NAMES, effects_planned
 from occ_model.parallel.job import Heartbeat
 from occ_model.results.frame import Frame
 from occ_model.results.plan import Plan
@@ -29,6 +31,8 @@ from occ_model.simulation.columns import Columns, expose_columns
 from occ_model.simulation.draft_error import DraftedMeans, draft_errors
 from occ_model.simulation.pixels import Pictures, PixelExposure
 from occ_model.simulation.stage_timer import StageTimer
+
+_EXPOSURES_OF_FEW_ROWS = 16  # of the rows of a draft's error, which differ by their noise
 
 
 def render(
@@ -159,7 +163,8 @@ def render_plan(
         camera_image = partial(np.asarray, made.camera_image)
         if rows_step > 1:
             means = _drafted(made, columns, enhancement)
-            errors = partial(draft_errors, exposure.drafted_panel(rows), means)
+            expose = partial(_expose_rows, view, chosen, columns, enhancement, seed)
+            errors = partial(draft_errors, exposure.drafted_panel(rows), means, expose)
     return Frame(
         scene=scene,
         plan=chosen,
@@ -183,6 +188,25 @@ def _drafted(made: Pictures, columns: Columns, enhancement: Enhancement) -> dict
         "profile": DraftedMeans(made.camera_image, made.profile, levels, 1.0),
         "signal": DraftedMeans(made.image, made.signal, seen, stretch),
     }
+
+
+def _expose_rows(
+    view: PaperView,
+    chosen: Plan,
+    columns: Columns,
+    enhancement: Enhancement,
+    seed: int,
+    shown: NDArray[np.bool_],
+) -> dict[str, FloatArray]:
+    """Return column means over some rows of the whole picture, exposed with other noise."""
+    blocks = in_blocks(range(view.scene.camera.rows))
+    bands = [rows for rows in blocks if shown[rows.start : rows.stop].any()]
+    exposure = PixelExposure(view, chosen, columns, StageTimer(), bands, panel_only=True)
+    times = _EXPOSURES_OF_FEW_ROWS if effects_planned(chosen, NoiseEffect) else 1
+    made = (exposure.pictures(enhancement, seed + 1 + k, "reused") for k in range(times))
+    # One picture at a time is kept.
+    profiles, signals = zip(*((one.profile, one.signal) for one in made), strict=True)
+    return {"profile": np.array(profiles), "signal": np.array(signals)}
 
 
 def every_row(rows: int, step: int) -> range:

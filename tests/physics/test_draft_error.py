@@ -15,7 +15,6 @@ from occ_model.scene.scene import Scene
 from occ_model.simulation.draft_error import (
     DraftedMeans,
     DraftedPanel,
-    _of_few_rows,
     _of_parts,
     draft_errors,
 )
@@ -118,6 +117,10 @@ def test_fewer_rows_have_a_larger_error() -> None:
 ROWS, STEP = 64, 4
 
 
+def _none_short(_rows: np.ndarray) -> dict[str, np.ndarray]:
+    raise AssertionError("every column has parts enough")
+
+
 @pytest.mark.parametrize("columns", [32, 128, 2048])
 def test_of_independent_noise_it_is_that_of_the_means_with_a_margin_of_five_deviations(
     columns: int,
@@ -129,10 +132,10 @@ def test_of_independent_noise_it_is_that_of_the_means_with_a_margin_of_five_devi
         high = ROWS * STEP
         outline = np.array([[0.0, 0.0], [columns, 0.0], [columns, high], [0.0, high]]) - 0.5
         panel = DraftedPanel(
-            range(0, high, STEP), slice(0, columns), outline, (high, columns), 0.0, 0.0, 0.0
+            range(0, high, STEP), slice(0, columns), outline, (high, columns), 0.0, 0.0
         )
         means = DraftedMeans(image, image.mean(axis=0), np.array([120.0]), 1.0)
-        stated.append(draft_errors(panel, {"profile": means})["profile"])
+        stated.append(draft_errors(panel, {"profile": means}, _none_short)["profile"])
     # The whole picture's mean has noise of its own, of as many more rows.
     deviation = 12.0 / math.sqrt(ROWS) * math.sqrt(1.0 + 1.0 / STEP)
     # Eight neighbouring columns count as one independent estimate of a variance.
@@ -149,9 +152,9 @@ def test_the_rounding_of_a_file_counts_by_its_deviation_a_block(rounding: float)
 
     def stated(of_a_block: float) -> float:
         panel = DraftedPanel(
-            range(0, high, STEP), slice(0, columns), outline, (high, columns), 0.0, of_a_block, 0.0
+            range(0, high, STEP), slice(0, columns), outline, (high, columns), 0.0, of_a_block
         )
-        return draft_errors(panel, {"profile": means})["profile"]
+        return draft_errors(panel, {"profile": means}, _none_short)["profile"]
 
     assert stated(0.0) == 0.0
     # Of as many blocks as the draft has, twice the deviation is twice the error.
@@ -191,20 +194,62 @@ def test_only_whole_parts_within_the_panel_count() -> None:
     assert np.isnan(variance[2])
 
 
-def test_few_rows_bound_a_mean_by_their_own_scatter_and_one_row_by_all_that_can_be() -> None:
+def test_columns_of_few_rows_are_compared_with_all_of_them() -> None:
+    columns, high = 40, ROWS * STEP
+    outline = np.array([[0.0, 0.0], [columns, 0.0], [columns, 9.0], [0.0, 9.0]]) - 0.5
+    panel = DraftedPanel(
+        range(0, high, STEP), slice(0, columns), outline, (high, columns), 0.0, 0.0
+    )  # fmt: skip
+    image = np.full((ROWS, columns), 100, dtype=np.uint8)
+    drafted = DraftedMeans(image, np.full(columns, 100.0), np.array([100.0]), 1.0)
     random = np.random.default_rng(2)
-    image = np.rint(random.normal(100.0, 9.0, (6, 400))).astype(np.uint8)
-    first, last = np.zeros(400, dtype=int), np.full(400, 6)
-    last[-1] = 1
-    short = np.ones(400, dtype=bool)
-    bound = _of_few_rows(image, first, last, short, 50.0)
-    # Of up to eight rows as much as of one: they may be alike.
-    assert bound[:-1] == pytest.approx(81.0, rel=0.1)
-    assert bound[-1] == pytest.approx(bound[0] + 50.0**2)
-    # Of more rows as much as of as many parts.
-    last[:-1] = 6
-    alone = _of_few_rows(image[:1], first, np.ones(400, dtype=int), short, 50.0)
-    assert alone == pytest.approx(2.0 * 50.0**2)
+
+    def stated(deviation: float) -> float:
+        def exposed(shown: np.ndarray) -> dict[str, np.ndarray]:
+            assert np.flatnonzero(shown).tolist() == list(range(9))
+            return {"profile": 93.0 + deviation * random.standard_normal((400, columns))}
+
+        return draft_errors(panel, {"profile": drafted}, exposed)["profile"]
+
+    assert stated(0.0) == pytest.approx(7.0)
+    margin = 1.0 + 5.0 / math.sqrt(2.0 * columns / 8)
+    other = 2.0 * math.sqrt(1.0 + 1.0 / STEP)
+    assert stated(2.0) == pytest.approx(7.0 + margin * other, rel=0.05)
+
+
+def test_of_an_even_white_that_the_lens_darkens_the_error_is_not_stated_as_none() -> None:
+    """All that the panel and its surroundings can be without the lens is one level."""
+    scene = occ.load_preset("phone-136us").replace(
+        rows=300, columns=300, iso=50.0, illuminance=3e5, reflectance=1.0, luminance=1e4,
+        vignetting_exponent=8.0, panel_height=0.004, panel_width=0.3, offset_y=0.35, distance=1.0,
+    )  # fmt: skip
+    for off, stated in errors(scene, 40):
+        assert 4.0 < off <= stated < 2.0 * off
+
+
+def small_scene(random: np.random.Generator, step: int) -> Scene:
+    """A scene of which a draft has no row, one or a few on the panel."""
+    scene = random_scene(random)
+    pixel = scene.pose.distance / scene.camera.focal_length_pixels
+    height = pixel * step * float(10 ** random.uniform(-1.5, 0.7))
+    width = pixel * float(10 ** random.uniform(-0.5, 2.3))
+    return scene.replace(panel_height=max(1e-4, height), panel_width=max(1e-4, width))
+
+
+def test_of_a_panel_with_few_rows_the_error_is_as_stated_and_not_much_less() -> None:
+    random = np.random.default_rng(8)
+    ratios: list[float] = []
+    while len(ratios) < amount(15, 300):
+        step = int(random.choice([2, 5, 16, 40]))
+        try:
+            found = errors(small_scene(random, step), step)
+        except occ.ProjectionError:
+            continue
+        for off, stated in found:
+            assert off <= stated + 1e-9, (step, found)
+            if off > 0.1:
+                ratios.append(stated / off)
+    assert np.median(ratios) < 5.0
 
 
 @pytest.mark.parametrize(("factor", "stretch"), [(0.3, 1.0), (1.0, 1.0), (2.5, 2.5)])
@@ -232,9 +277,9 @@ def test_the_blurred_rim_that_is_left_out_is_whole() -> None:
 
     def stated(blur: float) -> float:
         panel = DraftedPanel(
-            range(0, high, 4), slice(0, columns), outline, (high, columns), blur, 0.0, 0.0
+            range(0, high, 4), slice(0, columns), outline, (high, columns), blur, 0.0
         )
-        return draft_errors(panel, {"profile": means})["profile"]
+        return draft_errors(panel, {"profile": means}, _none_short)["profile"]
 
     # Less than a row of blur leaves out the block at either rim, all of whose rows differ.
     assert stated(0.05) < 0.2 * stated(0.0)

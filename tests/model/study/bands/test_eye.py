@@ -79,8 +79,8 @@ def test_two_published_thresholds_differ_and_both_are_told_where_one_is_exceeded
 
 
 def test_of_a_long_payloads_millions_of_sines_the_strongest_are_listed_and_all_are_judged() -> None:
-    sent = {"payload": "bits:" + "1001" * 1000, "line_code": "nrz", "switching_frequency": 300.0}
-    many = occ.eye_flicker(_PHONE.replace(**sent))
+    long = _PHONE.replace(payload="bits:" + "1001" * 1000, line_code="nrz")
+    many = occ.eye_flicker(long.replace(switching_frequency=300.0))
     assert len(many.frequencies) == 10_000
     assert (np.diff(many.frequencies) > 0.0).all()
     # Of a payload of one pattern over and over little else than that pattern's sines is left.

@@ -96,7 +96,7 @@ def cases() -> list[Case]:
     return [*alone, *paired, *long]
 
 
-@lru_cache(maxsize=1)
+@lru_cache(maxsize=2)
 def _frame(scene: Scene) -> occ.Frame:
     return occ.render(scene)
 
@@ -143,6 +143,7 @@ def questions() -> dict[str, Callable[[Scene], object]]:
         "picture": lambda scene: occ.render(scene, tolerance=0.0),
         **{f"plan {each}": partial(occ.plan, observable=each) for each in OBSERVABLES},
         **{f"decode {each}": partial(_decode, decoder=each) for each in DECODERS},
+        **{f"read a photo {each}": partial(_read_photo, decoder=each) for each in DECODERS},
         **{f"cause {each}": partial(cause_of, decoder=each) for each in DECODERS},
         **{f"success {each}": partial(_success, decoder=each) for each in DECODERS},
         "bit errors": lambda scene: occ.bit_error_rate(scene, "threshold", bits=20),
@@ -164,6 +165,11 @@ def questions() -> dict[str, Callable[[Scene], object]]:
 
 def _decode(scene: Scene, decoder: str) -> None:
     occ.decode(_frame(scene).image, scene, decoder)
+
+
+def _read_photo(scene: Scene, decoder: str) -> None:
+    """Decode a picture that is not the scene's: its settings are taken for a photo's."""
+    occ.decode(_frame(base()).image, scene, decoder)
 
 
 def _success(scene: Scene, decoder: str) -> None:

@@ -59,7 +59,7 @@ def test_the_edges_are_those_of_the_packet(uno: SimulatedUno, frequency: float) 
 def test_the_edges_of_all_codes_and_frequencies_are_those_of_the_packet(
     uno: SimulatedUno, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """Prints the table of the manual."""
+    """Prints the frequency that is sent, and the worst edge, of each code."""
     errors, lines = [], ["| code | chips | f, Hz | sent, Hz | ppm | worst edge, chips |"]
     for name, scene in CODES.items():
         for frequency in FREQUENCIES:

@@ -14,14 +14,14 @@ import numpy as np
 from occ_model.arrays import FloatArray
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.packet import sent_chips
-from occ_model.transmitter.waveform import Duration, Phases, Waveform
+from occ_model.transmitter.waveform import Duration, PhasesInPeriod, Waveform
 
 _NO_SHIFT = Fraction(0)
 
 
 def column_phases(
     scene: Scene, period: int, shift: Fraction = _NO_SHIFT, columns: int | None = None
-) -> Phases:
+) -> PhasesInPeriod:
     """Return the place in the sent period, in chips, where each column's exposure starts.
 
     Start and step are reduced to one period in exact arithmetic, as fractions; the columns follow
@@ -51,7 +51,7 @@ def _column_starts(
     period: int,
     shift: Fraction,
     columns: int,
-) -> Phases:
+) -> PhasesInPeriod:
     """Return the phases, cached by all that they depend on; not the exposure time."""
     frequency = Fraction(switching_frequency)
     start = (Fraction(start_time) * frequency + shift) % period
@@ -73,7 +73,7 @@ def cycle_phases(scene: Scene, frequency: float, delay: Fraction) -> FloatArray:
     return _phases(start, step, 1, scene.camera.columns).fraction
 
 
-def _phases(start: Fraction, step: Fraction, period: int, count: int) -> Phases:
+def _phases(start: Fraction, step: Fraction, period: int, count: int) -> PhasesInPeriod:
     """Count up from ``start`` by ``step``, both within one period."""
     start_chip = int(start)
     steps = _steps(step, count)
@@ -88,7 +88,7 @@ def _phases(start: Fraction, step: Fraction, period: int, count: int) -> Phases:
     chip = np.add(steps.chip, carry, out=carry)
     # Exact: a quotient of whole numbers this small never rounds up to a whole number.
     chip -= period * np.floor(chip / period)
-    return Phases(chip.astype(np.int64), fraction)
+    return PhasesInPeriod(chip.astype(np.int64), fraction)
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -80,10 +80,10 @@ def _codes(options: argparse.Namespace) -> int:
         return 0
     print("line codes")
     for name in LINE_CODES.names():
-        print(f"  {name:26}{_title(LINE_CODES.named, name)}")
+        print(f"  {name:26}{_title(LINE_CODES.get, name)}")
     print("framings")
     for name in FRAMINGS.names():
-        print(f"  {name:26}{_title(FRAMINGS.named, name)}")
+        print(f"  {name:26}{_title(FRAMINGS.get, name)}")
     print("decoders")
     for name in decoders():
         print(f"  {name:26}{_title(decoder_named, name)}")
@@ -105,7 +105,9 @@ def line_code_table() -> str:
         "| slowest wave | its runs unseen from | one wrong chip |",
         "|---|---|---|---|---|---|---|---|",
     ]
-    lines += [f"| {' | '.join(_properties(code))} |" for code in LINE_CODES.built_in().values()]
+    lines += [
+        f"| {' | '.join(_properties(code))} |" for code in LINE_CODES.load_built_in().values()
+    ]
     return "\n".join(lines)
 
 
@@ -136,12 +138,12 @@ def framing_table() -> str:
         f"| framing | a frame | chips for {bits} bits, `{name}` | checks the payload |",
         "|---|---|---|---|",
     ]
-    lines += [f"| {' | '.join(_frame(framing))} |" for framing in FRAMINGS.built_in().values()]
+    lines += [f"| {' | '.join(_frame(framing))} |" for framing in FRAMINGS.load_built_in().values()]
     return "\n".join(lines)
 
 
 def _frame(framing: Framing) -> tuple[str, ...]:
     name, bits = _EXAMPLE
-    scheme = Scheme(LINE_CODES.named(name), framing, "", "none", bits)
+    scheme = Scheme(LINE_CODES.get(name), framing, "", "none", bits)
     checks = "yes" if framing.checks else "no"
     return f"`{framing.name}`", framing.title, str(scheme.length), checks

@@ -208,7 +208,7 @@ def _codes(options: argparse.Namespace) -> int:
     best = found[gains.index(max(gains))]
     print(
         f"Of these, {best.bits} bits serve {counted(options.lamps, 'lamp')} best: {best.named} of "
-        f"{best.whole} whole lamps named rightly in these pictures."
+        f"{best.whole} whole lamps named correctly in these pictures."
     )
     alike = [f"{one.bits}" for one, gain in zip(found, gains, strict=True) if gain == max(gains)]
     if len(alike) > 1:

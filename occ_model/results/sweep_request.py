@@ -108,5 +108,5 @@ class SweepPoint:
     right: tuple[int, ...]  # Number of these bits that each decoder read correctly
     # Why the model refuses the scene, or how often a plug-in has failed; else empty
     note: str = ""
-    # Images of which each decoder read every bit rightly; empty where they were not counted
+    # Images of which each decoder read every bit correctly; empty if they were not counted
     whole: tuple[int, ...] = ()

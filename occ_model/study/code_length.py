@@ -38,7 +38,7 @@ class CodeLength:
     packets: float  # Packets that a whole lamp shows in the median
     # Chips in which two lamps' packets differ at the least, at any shift of one against the other
     distance: int
-    # Lamps whole in the pictures, those of them named rightly, and those whose code was read
+    # Lamps whole in the pictures, those of them named correctly, and those whose code was read
     # wrongly
     whole: int
     named: int

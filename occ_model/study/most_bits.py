@@ -151,7 +151,7 @@ def _frequencies(scene: Scene) -> list[float]:
 
 def _bits_in(line_code: str, chips: float) -> int:
     """Return the bits of a payload of at most so many chips."""
-    code = LINE_CODES.named(line_code)
+    code = LINE_CODES.get(line_code)
     overhead = scheme_of(_sending(Scene(), line_code, 1, 1e3).transmitter).length
     blocks = int((chips - overhead) // code.block_chips)
     return min(MAX_PAYLOAD_BITS, max(0, blocks) * code.block_bits)

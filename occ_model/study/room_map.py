@@ -64,7 +64,7 @@ class RoomPoint:
     """Results of the pictures at one place."""
 
     index: int  # The place's number
-    # Lamps whole in the pictures, and those of them that were named rightly, in all pictures
+    # Lamps whole in the pictures, and those of them that were named correctly, in all pictures
     # together
     shown: int
     named: int
@@ -177,8 +177,8 @@ class RoomMapText:
             *(f"# {line}".rstrip() for line in request.room.to_toml().splitlines()),
         ]  # fmt: skip
         columns = (
-            "x (m)", "y (m)", "images", "whole lamps", "named rightly", "misread", "named wrongly",
-            "sure places", "error (m)", "stated error (m)", "note",
+            "x (m)", "y (m)", "images", "whole lamps", "named correctly", "misread",
+            "named wrongly", "sure places", "error (m)", "stated error (m)", "note",
         )  # fmt: skip
         self.header = "\n".join(lines) + "\n" + csv_row(columns)
 

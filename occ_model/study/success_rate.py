@@ -129,7 +129,7 @@ def right_bits_of_images(
     heartbeat: Heartbeat = lambda: None,
     chosen: Plan | None = None,
 ) -> Iterator[tuple[int, ...]]:
-    """Count the bits that each decoder reads rightly, image by image, whatever follows.
+    """Count the bits that each decoder reads correctly, image by image, whatever follows.
 
     ``chosen``: the effects to simulate, by default those that the scene's own signal calls for.
     """

@@ -1,1 +1,1 @@
-"""The transmitter: from a code to the light's waveform."""
+"""The transmitter: from a code to the waveform of the light."""

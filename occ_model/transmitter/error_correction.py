@@ -11,23 +11,23 @@ from occ_model.errors import ParameterError
 if TYPE_CHECKING:  # an optional package
     from reedsolo import RSCodec
 
-PARITY_BYTES = 4  # bytes added to each block; half as many wrong bytes are corrected
+PARITY_BYTES = 4  # bytes added to each block; half as many wrong bytes can be corrected
 _BLOCK_BYTES = 255 - PARITY_BYTES  # most bytes of the payload in a block
 
 
-def protected_bits(bits: int) -> int:
+def count_protected_bits(bits: int) -> int:
     octets = -(-bits // 8)
     return 8 * (octets + PARITY_BYTES * -(-octets // _BLOCK_BYTES))
 
 
 def protect(bits: ByteArray) -> ByteArray:
-    """Add the parity to a payload, which is padded with zeros to whole bytes."""
+    """Pad a payload with zeros to whole bytes, and add the parity."""
     sent = _codec().encode(bytearray(np.packbits(bits).tobytes()))
     return np.unpackbits(np.frombuffer(bytes(sent), dtype=np.uint8))
 
 
 def correct(bits: ByteArray, count: int) -> ByteArray | None:
-    """Correct a payload of ``count`` bits with its parity; None where too many bytes are wrong."""
+    """Correct a payload of ``count`` bits by its parity; None if too many bytes are wrong."""
     codec = _codec()
     from reedsolo import ReedSolomonError
 
@@ -36,7 +36,7 @@ def correct(bits: ByteArray, count: int) -> ByteArray | None:
     except ReedSolomonError:
         return None
     payload = np.unpackbits(np.frombuffer(bytes(right), dtype=np.uint8))
-    # What fills the last byte is known to be 0.
+    # The padding of the last byte must be 0.
     return None if payload[count:].any() else payload[:count]
 
 

@@ -1,4 +1,4 @@
-"""The packet: what is sent repeatedly, by the paper's scheme or any other."""
+"""The packet: the chips that are sent repeatedly, by the paper's scheme or any other."""
 
 from collections.abc import Iterable
 from functools import lru_cache
@@ -31,7 +31,7 @@ def packet_length(bits: int) -> int:
 
 
 def sent_chips(transmitter: Transmitter) -> ByteArray:
-    """Return one period of the chips sent, raw pattern or packet; read-only."""
+    """Return one period of the chips sent, a raw pattern or a packet; read-only."""
     if transmitter.pattern:
         return _pattern_chips(transmitter.pattern)
     return _payload_chips(
@@ -60,19 +60,19 @@ def _payload_chips(
 
 
 def sends_paper_code(transmitter: Transmitter) -> bool:
-    """Whether a code is sent by the paper's scheme: no pattern, no payload."""
+    """Whether a code is sent by the paper's scheme, rather than a pattern or a payload."""
     return not (transmitter.pattern or transmitter.payload) and scheme_of(transmitter).is_papers
 
 
 def shortest_period(chips: ByteArray) -> int:
-    """Return the fewest chips after which chips sent repeatedly repeat themselves."""
+    """Return the number of chips after which a repeated sequence of chips first repeats."""
     count = len(chips)
     divisors = (number for number in range(1, count + 1) if count % number == 0)
     return next(number for number in divisors if np.array_equal(np.roll(chips, number), chips))
 
 
-def packets(codes: IndexArray, bits: int) -> ByteArray:
-    """Return the packets of some codes by the paper's scheme, shape (codes, chips)."""
+def packets_of_codes(codes: IndexArray, bits: int) -> ByteArray:
+    """Return the packets of some codes in the paper's scheme, shape (codes, chips)."""
     places = np.arange(bits)[::-1]
     data = differential_manchester.encode(codes[:, None] >> places & 1, level=HEADER[-1])
     header = np.broadcast_to(np.array(HEADER, dtype=np.uint8), (len(codes), len(HEADER)))
@@ -85,7 +85,7 @@ def packet(scene: Scene) -> ByteArray:
     Returns
     -------
     ndarray of uint8, shape (chips,), read-only
-        Of the paper's scheme the header, a zero and two chips a bit; or the raw pattern where the
-        scene has one.
+        For the paper's scheme these are the header 1 1 1 0 and two chips a bit; for a raw pattern
+        they are the pattern.
     """
     return sent_chips(scene.transmitter)

@@ -1,4 +1,4 @@
-"""Line codes and framings by name: the built-in ones, and those of plug-ins, which are checked."""
+"""Line codes and framings by name: built-in ones, and those of plug-ins, which are checked."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -25,14 +25,14 @@ _Kind = TypeVar("_Kind")
 
 @dataclass(frozen=True, eq=False)
 class Registry(Generic[_Kind]):
-    """The objects that a parameter chooses among, each imported when first needed."""
+    """The objects among which a parameter chooses, each imported when first needed."""
 
-    parameter: str  # The parameter, which declares the names of the built-in ones
+    parameter: str  # The parameter, whose declaration names the built-in ones
     kind: type[_Kind]
-    constant: str  # What a module calls the object that it offers
-    package: str  # The folder of the built-in ones, each in its name's file: c_ook.py, _4b6b.py
-    group: str  # The entry point of the plug-ins
-    guarded: Callable[[_Kind], _Kind]  # Turns the faults of a plug-in's object into sentences
+    constant: str  # Name in a module of the object that it offers
+    package: str  # Folder of the built-in ones, in files by name: c_ook.py, _4b6b.py
+    group: str  # The plug-ins' entry point
+    guard: Callable[[_Kind], _Kind]  # Wraps a plug-in's object so that its faults become sentences
 
     def names(self) -> tuple[str, ...]:
         """Return all names, those of plug-ins last."""
@@ -41,24 +41,24 @@ class Registry(Generic[_Kind]):
     def is_built_in(self, name: str) -> bool:
         return name in open_choice(self.parameter).choices
 
-    def built_in(self) -> dict[str, _Kind]:
-        return {name: self.named(name) for name in open_choice(self.parameter).choices}
+    def load_built_in(self) -> dict[str, _Kind]:
+        return {name: self.get(name) for name in open_choice(self.parameter).choices}
 
     @cache  # noqa: B019 - the registries live as long as the program, and names are few
-    def named(self, name: str) -> _Kind:
+    def get(self, name: str) -> _Kind:
         open_choice(self.parameter).check(name)
         if self.is_built_in(name):
             file = ("_" if name[0].isdigit() else "") + name.replace("-", "_")
             built_in: _Kind = getattr(import_module(f"{self.package}.{file}"), self.constant)
             return built_in
-        return self.guarded(plugins.load_plugin(self.group, name, self.kind))
+        return self.guard(plugins.load_plugin(self.group, name, self.kind))
 
 
-MOST_CHIPS = 65_536  # of a plug-in's period or result: more than any built-in packet has (57,116)
+MOST_CHIPS = 65_536  # in a plug-in's period or result; the longest built-in packet has 57,116
 
 
-def _guarded_code(offered: LineCode) -> LineCode:
-    """Return a plug-in's line code whose faults become sentences."""
+def _guard_line_code(offered: LineCode) -> LineCode:
+    """Wrap a plug-in's line code so that its faults become sentences."""
     who = plugins.described(plugins.LINE_CODES, offered.name)
 
     def declared(code: LineCode) -> LineCode:
@@ -114,13 +114,13 @@ def _guarded_code(offered: LineCode) -> LineCode:
     return replace(own, encode=encode, decode=decode)
 
 
-LINE_CODES = Registry(  # the line codes that a scene chooses among
+LINE_CODES = Registry(  # the line codes among which a scene chooses
     parameter="line_code",
     kind=LineCode,
     constant="LINE_CODE",
     package="occ_model.transmitter.line_codes",
     group=plugins.LINE_CODES,
-    guarded=_guarded_code,
+    guard=_guard_line_code,
 )
 
 
@@ -129,8 +129,8 @@ def line_codes() -> tuple[str, ...]:
     return LINE_CODES.names()
 
 
-def _guarded_framing(offered: Framing) -> Framing:
-    """Return a plug-in's framing whose faults become sentences."""
+def _guard_framing(offered: Framing) -> Framing:
+    """Wrap a plug-in's framing so that its faults become sentences."""
     who = plugins.described(plugins.FRAMINGS, offered.name)
 
     def declared(framing: Framing) -> Framing:
@@ -172,13 +172,13 @@ def _guarded_framing(offered: Framing) -> Framing:
     return replace(own, encode=encode, decode=decode)
 
 
-FRAMINGS = Registry(  # the framings that a scene chooses among
+FRAMINGS = Registry(  # the framings among which a scene chooses
     parameter="framing",
     kind=Framing,
     constant="FRAMING",
     package="occ_model.transmitter.framings",
     group=plugins.FRAMINGS,
-    guarded=_guarded_framing,
+    guard=_guard_framing,
 )
 
 

@@ -1,4 +1,4 @@
-"""A scheme: line code, framing and error correction together, the one way from bits to chips."""
+"""A scheme: line code, framing and error correction together, from bits to chips and back."""
 
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
@@ -23,9 +23,9 @@ class Scheme:
     Parameters
     ----------
     line_code, framing
-        What it is made of.
+        Its parts.
     preamble
-        Chips that start a frame, as a text; empty: the line code's own.
+        Chips that start a frame, as a text; if empty, the line code's own.
     correction
         ``"none"`` or ``"reed-solomon"``.
     """
@@ -43,23 +43,23 @@ class Scheme:
 
     @property
     def takes_any_chips(self) -> bool:
-        """Whether any chips behind the header 1 1 1 0 are a payload: no rule refuses some."""
+        """Whether any chips after the header 1 1 1 0 are a payload, as no rule refuses them."""
         paper = self.framing.name == _PAPER_SCHEME[1]
         return paper and self.line_code.longest_run is None
 
     @property
     def finds_wrong_chip(self) -> bool:
-        """Whether any single wrong chip of a payload is found or harmless."""
+        """Whether any single wrong chip of a payload is detected or harmless."""
         return self.framing.checks or self.line_code.finds_wrong_chip
 
     @cached_property
     def length(self) -> int:
-        """Chips of one period, which are the same for all payloads."""
+        """Number of chips of one period, the same for all payloads."""
         return len(self.encode(np.zeros(self.bits, dtype=np.uint8)))
 
     @property
     def chips_a_bit(self) -> float:
-        """Chips sent for each bit of the payload, all overhead included."""
+        """Chips sent for each bit of the payload, with all overhead."""
         return self.length / self.bits
 
     def encode(self, bits: ArrayLike) -> ByteArray:
@@ -87,17 +87,17 @@ class Scheme:
         return self.framing.encode(payload, self.form)
 
     def decode(self, chips: ByteArray) -> Framed:
-        """Read the payload from chips that show any part of what is sent repeatedly.
+        """Read the payload from the chips of any part of what is sent repeatedly.
 
         Parameters
         ----------
         chips : ndarray of uint8
-            The chips, first sent first.
+            The chips in the order sent.
 
         Returns
         -------
         Framed
-            With ``bits`` bits, or a sentence that says why not.
+            With ``bits`` bits, or with a sentence that says why not.
         """
         read = self.framing.decode(chips, self.form)
         if self.correction == "none" or len(read.bits) != self.form.bits:
@@ -115,14 +115,14 @@ class Scheme:
 
     @cached_property
     def form(self) -> FrameFormat:
-        """What the framing is given: line code, preamble, the bits it carries, their correction."""
+        """What the framing gets: line code, preamble, bits in a frame, and their correction."""
         bits = self.bits
         if self.correction != "none":
-            bits = error_correction.protected_bits(bits)
-        return FrameFormat(self.line_code, self.preamble, bits, self._corrected)
+            bits = error_correction.count_protected_bits(bits)
+        return FrameFormat(self.line_code, self.preamble, bits, self._correct_frame)
 
-    def _corrected(self, bits: ByteArray) -> ByteArray:
-        """Return the bits of a frame as they were sent, by the error correction; or as they are."""
+    def _correct_frame(self, bits: ByteArray) -> ByteArray:
+        """Correct the bits of a frame by the error correction, if there is one and it can."""
         if self.correction == "none" or len(bits) != self.form.bits:
             return bits
         payload = error_correction.correct(bits, self.bits)
@@ -130,7 +130,7 @@ class Scheme:
 
 
 def scheme_of(transmitter: Transmitter) -> Scheme:
-    """Return the scheme of a transmitter; it does not depend on what the payload is.
+    """Return the scheme of a transmitter; it depends only on the payload's length.
 
     Raises
     ------
@@ -150,5 +150,5 @@ def scheme_of(transmitter: Transmitter) -> Scheme:
 
 @lru_cache(maxsize=256)
 def scheme_named(line_code: str, framing: str, preamble: str, correction: str, bits: int) -> Scheme:
-    """Return the scheme of these names for payloads of some bits; errors as :func:`scheme_of`."""
-    return Scheme(LINE_CODES.named(line_code), FRAMINGS.named(framing), preamble, correction, bits)
+    """Return the scheme with these names for payloads of some bits; errors as :func:`scheme_of`."""
+    return Scheme(LINE_CODES.get(line_code), FRAMINGS.get(framing), preamble, correction, bits)

@@ -11,7 +11,7 @@ from occ_model.receiver.sequence.soft_frame import SoftFrame
 from occ_model.scene.payload import form_of, payload_of_bits
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.framings.raw import FRAMING as RAW
-from occ_model.transmitter.framings.raw import length_bits
+from occ_model.transmitter.framings.raw import count_length_bits
 from occ_model.video.joining import Joined
 from occ_model.video.period import SentPeriod
 from occ_model.video.read_frame import TimedFrame
@@ -64,7 +64,7 @@ def _of_blocks(chips: ByteArray, known: BoolArray, period: SentPeriod) -> IndexA
     # A block may count from the chip before it.
     of_block &= np.concatenate([[known[start - 1]], of_block[:-1]])
     of_bits = np.repeat(of_block, code.block_bits)[: len(read.bits)]
-    skipped = length_bits(scheme.bits) if scheme.framing.name == RAW.name else 0
+    skipped = count_length_bits(scheme.bits) if scheme.framing.name == RAW.name else 0
     own = read.bits[: len(of_bits)].astype(np.int64)
     values = np.where(of_bits, own, -1)[skipped : skipped + scheme.bits]
     bits[: len(values)] = values

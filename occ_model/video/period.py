@@ -58,7 +58,7 @@ class SentPeriod:
         """Parts of equal length that can be read each by itself: sub-packets, or 1."""
         if self.scheme is None or self.scheme.framing.name != c_ook.FRAMING.name:
             return 1
-        return c_ook.sub_packets(self.scheme.form.bits)
+        return c_ook.count_sub_packets(self.scheme.form.bits)
 
     @property
     def part_length(self) -> int:
@@ -139,7 +139,7 @@ class SentPeriod:
             return ()
         numbered = set()
         for at in found:
-            after, before = c_ook.number_beside(chips, at, form)
+            after, before = c_ook.read_numbers_beside(chips, at, form)
             if after is not None:
                 numbered.add((after * length - at) % self.length)
             if before is not None:

@@ -69,7 +69,7 @@ def signal_of(scene: Scene, random: np.random.Generator) -> FloatArray:
 def counts(
     base: Scene, codes: int, wrong: dict[str, float] | None = None
 ) -> dict[str, tuple[int, int]]:
-    """Count the codes that each decoder reads rightly and wrongly.
+    """Count the codes that each decoder reads correctly and wrongly.
 
     The receiver has the parameters in ``wrong`` off by these fractions.
     """

@@ -204,7 +204,7 @@ ROWS: list[Row] = [
     *calls(
         lambda **request: bench(BenchRequest(**request)),
         ({"schemes": ("morse",)}, "line_code", "'morse'", PLUGINS),
-        ({"schemes": ("nrz/c-ook",)}, "line_code", "'nrz', which limits no run", "a longest run"),
+        ({"schemes": ("nrz/c-ook",)}, "line_code", "'nrz', which does not limit", "a longest run"),
         ({"decoders": ("guess",)}, "decoder", "'guess'", DECODERS),
         ({"exposures": (0.0,)}, "exposure in symbols", "0.0", "0.001 to 100"),
         ({"decibels": (math.nan,)}, "signal-to-noise ratio in dB", "nan", "to"),

@@ -20,7 +20,7 @@ from occ_model.receiver.matched.templates import (
 )
 from occ_model.scene.scene import Scene
 from occ_model.study.success_rate import success_rate
-from occ_model.transmitter.packet import packet_length, packets
+from occ_model.transmitter.packet import packet_length, packets_of_codes
 
 HIGH_CONFIDENCE = 0.5
 
@@ -146,7 +146,9 @@ def test_a_sum_over_a_packet_is_that_over_its_halves(bits: int) -> None:
     values = np.random.default_rng(bits).normal(size=(packet_length(bits), 3))
     first, second = sums_of_halves(values, bits)
     sums = (first[:, None] + second).reshape(-1, 3)
-    np.testing.assert_allclose(sums, packets(codes_by_levels(bits), bits) @ values, atol=1e-12)
+    np.testing.assert_allclose(
+        sums, packets_of_codes(codes_by_levels(bits), bits) @ values, atol=1e-12
+    )
 
 
 @pytest.mark.parametrize("bits", range(2, 12, amount(3, 1)))

@@ -6,7 +6,7 @@ from occ_model.arrays import ByteArray, FloatArray
 from occ_model.photo.evidence.hypothesis import Hypothesis
 from occ_model.photo.fit.timing import Timing
 from occ_model.scene.scene import Transmitter
-from occ_model.transmitter.packet import packet_length, packets, sends_paper_code
+from occ_model.transmitter.packet import packet_length, packets_of_codes, sends_paper_code
 
 _MOST_BITS = 12  # bits up to which all codes are compared, and not those of one other chip
 _MOST_CHIPS = 512  # number of chips up to which other sequences are compared
@@ -50,7 +50,7 @@ def _others(chips: ByteArray, transmitter: Transmitter) -> FloatArray:
     turn = (np.arange(count)[:, None] + np.arange(count)) % count
     is_packet = sends_paper_code(transmitter) and count == packet_length(transmitter.bits)
     if is_packet and transmitter.bits <= _MOST_BITS:
-        all_codes = packets(np.arange(2**transmitter.bits), transmitter.bits)
+        all_codes = packets_of_codes(np.arange(2**transmitter.bits), transmitter.bits)
         others = all_codes[:, turn].reshape(-1, count)
     else:
         one = np.eye(count, dtype=np.uint8)

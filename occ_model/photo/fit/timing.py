@@ -6,7 +6,7 @@ from fractions import Fraction
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
-from occ_model.transmitter.waveform import Duration, Phases, Waveform
+from occ_model.transmitter.waveform import Duration, PhasesInPeriod, Waveform
 
 SHORTEST_EXPOSURE = 1e-3  # shortest exposure in chips: shorter ones make the same stripes
 
@@ -30,7 +30,7 @@ class Timing:
         """Return the fraction of each exposure in which the LED is on, shape (columns,)."""
         place = self._starts(columns)
         chip = np.floor(place)
-        phases = Phases((chip % waveform.period).astype(np.int64), place - chip)
+        phases = PhasesInPeriod((chip % waveform.period).astype(np.int64), place - chip)
         exposure = Duration.of(Fraction(self.exposure), waveform.period)
         lit = waveform.lit_chips(phases, exposure) / exposure.in_chips(waveform.period)
         return np.clip(lit, 0.0, 1.0)

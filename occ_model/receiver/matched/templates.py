@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from occ_model.arrays import FloatArray, IndexArray, Pixels
 from occ_model.transmitter.framings.paper import HEADER
-from occ_model.transmitter.packet import bits_of, packet_length, packets
+from occ_model.transmitter.packet import bits_of, packet_length, packets_of_codes
 from occ_model.transmitter.scheme import Scheme
-from occ_model.transmitter.waveform import Duration, Phases, Waveform
+from occ_model.transmitter.waveform import Duration, PhasesInPeriod, Waveform
 
 BINS_PER_CHIP = 8  # bins of a chip: an edge is known to a sixteenth of a chip
 
@@ -66,7 +66,7 @@ def chip_response(period: int, exposure: Fraction) -> FloatArray:
     first_chip = np.zeros(period, dtype=np.uint8)
     first_chip[0] = 1
     bins = np.arange(period * BINS_PER_CHIP)
-    starts = Phases(bins // BINS_PER_CHIP, (bins % BINS_PER_CHIP) / BINS_PER_CHIP)
+    starts = PhasesInPeriod(bins // BINS_PER_CHIP, (bins % BINS_PER_CHIP) / BINS_PER_CHIP)
     duration = Duration.of(exposure, period)
     return Waveform(first_chip).lit_chips(starts, duration) / duration.in_chips(period)
 
@@ -107,7 +107,7 @@ def codes_by_levels(bits: int) -> IndexArray:
 
 def _profiles(codes: IndexArray, bits: int, response: FloatArray) -> FloatArray:
     impulses = np.zeros((len(codes), len(response)))
-    impulses[:, ::BINS_PER_CHIP] = packets(codes, bits)
+    impulses[:, ::BINS_PER_CHIP] = packets_of_codes(codes, bits)
     spectrum = np.fft.rfft(impulses, axis=1) * np.fft.rfft(response)
     return np.asarray(np.fft.irfft(spectrum, len(response), axis=1))
 

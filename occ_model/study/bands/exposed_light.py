@@ -12,7 +12,7 @@ from itertools import pairwise
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
-from occ_model.transmitter.waveform import EdgedWaveform, Phases
+from occ_model.transmitter.waveform import EdgedWaveform, PhasesInPeriod
 
 _VARIANCE_NODES = 3  # Gauss-Legendre nodes that integrate the square of a quadratic exactly
 
@@ -118,11 +118,11 @@ def _ramped(chips: ByteArray, exposure: Fraction, edge: Fraction) -> ExposedLigh
     places = sorted({each % 1 for each in (Fraction(0), edge, -exposure, edge - exposure)})
 
     def light(place: Fraction) -> FloatArray:
-        def starts(shift: Fraction) -> Phases:
+        def starts(shift: Fraction) -> PhasesInPeriod:
             moved = place + shift
             whole = moved.numerator // moved.denominator
             chip = (np.arange(period, dtype=np.int64) + whole) % period
-            return Phases(chip, np.full(period, float(moved - whole)))
+            return PhasesInPeriod(chip, np.full(period, float(moved - whole)))
 
         return waveform.lit_chips(starts, exposure) - mean
 

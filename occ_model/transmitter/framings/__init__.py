@@ -1,1 +1,1 @@
-"""Framings: how chips show where a payload starts, one file a framing."""
+"""Framings: how chips show where a payload starts. One file each."""

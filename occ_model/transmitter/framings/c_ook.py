@@ -1,11 +1,11 @@
 """C-OOK, camera on-off keying of IEEE 802.15.7-2018 (PHY V), with sub-packets.
 
-A sub-packet is a preamble, asynchronous bits, a part of the payload, and the asynchronous bits once
-more, line-coded. The preamble is one that no payload contains. A sub-packet that is cut
-by the picture's edges is joined from its start at one edge and its end at the other, where the
-asynchronous bits of both agree. The standard has one asynchronous bit, which changes from one
-packet to the next; here they count the sub-packets of a longer payload, so that their order is
-known in a picture as well. A payload up to 16 bits is one sub-packet.
+A sub-packet is a preamble that no payload contains, and then, line-coded, asynchronous bits, a part
+of the payload, and the same asynchronous bits again. If the picture's edges cut every sub-packet,
+one is joined from a start at the last edge and an end at the first, if their asynchronous bits
+agree. The standard has one asynchronous bit, which changes from packet to packet; here these bits
+number the sub-packets of a long payload, so that a single picture shows their order. A payload of
+up to 16 bits is one sub-packet.
 """
 
 from dataclasses import dataclass
@@ -25,13 +25,13 @@ _PART_BITS = 16  # most bits of the payload in a sub-packet: two characters
 
 
 @dataclass(frozen=True, slots=True)
-class _Division:
+class _SubPacketLayout:
     parts: int
     part_bits: int
-    asynchronous: int  # asynchronous bits before and after each part
+    asynchronous: int  # number of asynchronous bits before, and again after, each part
 
     @classmethod
-    def of(cls, bits: int) -> "_Division":
+    def of(cls, bits: int) -> "_SubPacketLayout":
         parts = -(-bits // _PART_BITS)
         return cls(parts, -(-bits // parts), max(1, (parts - 1).bit_length()))
 
@@ -44,37 +44,37 @@ class _Division:
         return np.array([part >> place & 1 for place in places], dtype=np.uint8)
 
 
-def sub_packets(bits: int) -> int:
-    """Return the number of sub-packets of a payload; all have as many chips."""
-    return _Division.of(bits).parts
+def count_sub_packets(bits: int) -> int:
+    """Count the sub-packets of a payload; all are equally long."""
+    return _SubPacketLayout.of(bits).parts
 
 
 def read_sub_packet(chips: ByteArray, form: FrameFormat) -> tuple[int, ByteArray, str | None]:
-    """Read the number and payload bits of a sub-packet from its preamble on, or a problem."""
-    preamble, division = own_preamble(form.line_code), _Division.of(form.bits)
+    """Read a sub-packet from its preamble on: its number, its payload bits, and any problem."""
+    preamble, division = own_preamble(form.line_code), _SubPacketLayout.of(form.bits)
     if not np.array_equal(chips[: len(preamble)], preamble):
         return 0, chips[:0], "A sub-packet does not start with its preamble."
     data = chips[len(preamble) : len(preamble) + form.line_code.chips_for(division.bits)]
     read = form.line_code.decode(data, int(preamble[-1]))
-    number, problem = _number(read.bits, division)
+    number, problem = _check_number(read.bits, division)
     first = division.asynchronous
     part = read.bits[first : first + division.part_bits]
     left = form.bits - number * division.part_bits
     return number, part[: max(left, 0)], read.failure or problem
 
 
-def number_beside(
+def read_numbers_beside(
     chips: ByteArray, preamble_at: int, form: FrameFormat
 ) -> tuple[int | None, int | None]:
-    """Return the numbers of the sub-packets that a preamble starts and ends, None where unknown."""
+    """Read the numbers of the sub-packets after and before a preamble; None if unknown."""
     code, preamble = form.line_code, own_preamble(form.line_code)
-    division = _Division.of(form.bits)
+    division = _SubPacketLayout.of(form.bits)
     if division.parts == 1:
         return 0, 0
-    # The last bits are filled up to a whole block: only whole blocks can be read.
+    # Only whole blocks of the line code can be read; the last one is padded.
     length = code.chips_for(division.asynchronous)
     start = preamble_at + len(preamble)
-    after = _own_number(chips[start : start + length], length, int(preamble[-1]), 0, form)
+    after = _read_number(chips[start : start + length], length, int(preamble[-1]), 0, form)
     bits = -(-division.bits // code.block_bits) * code.block_bits
     within = division.bits - division.asynchronous
     first_block = within // code.block_bits
@@ -83,14 +83,14 @@ def number_beside(
     part = chips[max(begin, 0) : preamble_at] if begin > 0 else chips[:0]
     skipped = within - first_block * code.block_bits
     length = code.chips_for(bits) - first_block * code.block_chips
-    return after, _own_number(part, length, level, skipped, form)
+    return after, _read_number(part, length, level, skipped, form)
 
 
-def _own_number(
+def _read_number(
     chips: ByteArray, length: int, level: int, skipped: int, form: FrameFormat
 ) -> int | None:
-    """Read a number from some blocks of chips, behind some bits that are skipped."""
-    division = _Division.of(form.bits)
+    """Read a number from some blocks of chips, after a number of ``skipped`` bits."""
+    division = _SubPacketLayout.of(form.bits)
     if len(chips) < length:
         return None
     read = form.line_code.decode(chips, level)
@@ -102,7 +102,7 @@ def _own_number(
 
 
 def _encode(bits: ByteArray, form: FrameFormat) -> ByteArray:
-    preamble, division = own_preamble(form.line_code), _Division.of(len(bits))
+    preamble, division = own_preamble(form.line_code), _SubPacketLayout.of(len(bits))
     missing = division.parts * division.part_bits - len(bits)
     parts = np.pad(np.asarray(bits, dtype=np.uint8), (0, missing))
     sent = []
@@ -114,14 +114,14 @@ def _encode(bits: ByteArray, form: FrameFormat) -> ByteArray:
 
 
 def _decode(chips: ByteArray, form: FrameFormat) -> Framed:
-    preamble, division = own_preamble(form.line_code), _Division.of(form.bits)
+    preamble, division = own_preamble(form.line_code), _SubPacketLayout.of(form.bits)
     headers = find_preambles(chips, preamble)
     length = form.line_code.chips_for(division.bits)
     parts: dict[int, ByteArray] = {}
     failure = None
-    for data in _sub_packets(chips, headers, len(preamble), length):
+    for data in _join_sub_packets(chips, headers, len(preamble), length):
         read = form.line_code.decode(data, int(preamble[-1]))
-        number, problem = _number(read.bits, division)
+        number, problem = _check_number(read.bits, division)
         problem = read.failure or problem
         part = read.bits[division.asynchronous : division.asynchronous + division.part_bits]
         if problem is None and not np.array_equal(parts.setdefault(number, part), part):
@@ -129,7 +129,7 @@ def _decode(chips: ByteArray, form: FrameFormat) -> Framed:
         failure = failure or problem
     missing = [place for place in range(division.parts) if place not in parts]
     if missing:
-        reason = failure or _too_few(len(headers), len(chips), len(preamble) + length)
+        reason = failure or _too_few_chips(len(headers), len(chips), len(preamble) + length)
         if parts:
             reason = (
                 f"{len(parts)} of {division.parts} sub-packets were read; the first missing is "
@@ -142,10 +142,10 @@ def _decode(chips: ByteArray, form: FrameFormat) -> Framed:
     return Framed(headers, bits[: form.bits], failure)
 
 
-def _sub_packets(
+def _join_sub_packets(
     chips: ByteArray, headers: tuple[int, ...], preamble: int, length: int
 ) -> list[ByteArray]:
-    """Return the chips of the whole sub-packets, or those joined from both edges of the picture."""
+    """Cut out the whole sub-packets; if there are none, join one from both edges of the picture."""
     starts = [header + preamble for header in headers]
     whole = [chips[start : start + length] for start in starts if start + length <= len(chips)]
     if whole or not headers:
@@ -157,7 +157,7 @@ def _sub_packets(
     return [np.concatenate([start, chips[headers[0] - missing : headers[0]]])]
 
 
-def _number(bits: ByteArray, division: _Division) -> tuple[int, str | None]:
+def _check_number(bits: ByteArray, division: _SubPacketLayout) -> tuple[int, str | None]:
     first, last = bits[: division.asynchronous], bits[division.bits - division.asynchronous :]
     last = last[: division.asynchronous]
     if not np.array_equal(first, last):
@@ -170,7 +170,7 @@ def _number(bits: ByteArray, division: _Division) -> tuple[int, str | None]:
     return number, None
 
 
-def _too_few(headers: int, chips: int, sub_packet: int) -> str:
+def _too_few_chips(headers: int, chips: int, sub_packet: int) -> str:
     found = f"{headers} preambles" if headers != 1 else "One preamble"
     return (
         f"{found} and no whole sub-packet, which has {sub_packet} chips, among {chips} chips; come "

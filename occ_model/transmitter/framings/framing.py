@@ -10,9 +10,9 @@ from occ_model.errors import ParameterError
 from occ_model.transmitter.line_codes.line_code import LineCode
 
 BARKER = (1, 1, 1, 1, 1, 0, 0, 1, 1, 0, 1, 0, 1)
-"""Barker code of 13 chips: the preamble of a line code that limits no run.
+"""The Barker code of 13 chips: the preamble with a line code that does not limit runs.
 
-Its autocorrelation is at most 1 beside the peak of 13 (R. H. Barker, 1953).
+Its autocorrelation has a peak of 13, and is at most 1 elsewhere (R. H. Barker, 1953).
 """
 
 
@@ -23,10 +23,10 @@ class Framed:
     Parameters
     ----------
     headers
-        Where headers start among the chips.
+        Indices of the chips at which headers start.
     bits : ndarray of uint8
-        The bits read, empty where none were. They can be present with a failure, when the chips
-        break the line code or a check.
+        The bits read, empty if none. With a failure there can still be bits, which break the line
+        code or a check.
     failure
         None, or a sentence that says why no payload was read.
     """
@@ -43,19 +43,19 @@ class Framed:
 
 @dataclass(frozen=True, slots=True)
 class FrameFormat:
-    """What transmitter and receiver have agreed on.
+    """What transmitter and receiver have agreed.
 
     Parameters
     ----------
     line_code
         The line code.
     preamble
-        Chips that start a frame, as a text; empty: the line code's own.
+        Chips that start a frame, as a text of 0 and 1; if empty, the line code's own.
     bits
-        Number of bits that a framing carries.
+        Number of bits in a frame, with those of the error correction.
     correct
-        What the error correction makes of bits that were read, for a framing to check; bits that it
-        cannot correct come back as they are.
+        Corrects bits that were read, before a framing checks them; bits that cannot be corrected
+        are returned unchanged.
     """
 
     line_code: LineCode
@@ -66,19 +66,20 @@ class FrameFormat:
 
 @dataclass(frozen=True, slots=True)
 class Framing:
-    """A rule by which chips show where a payload starts.
+    """A rule that lets chips show where a payload starts.
 
     Parameters
     ----------
     name
-        The identifier, as in a scene file.
+        Its identifier, as in a scene file.
     checks
-        Whether it checks the payload itself, whatever the line code finds; its failure then stands,
-        so that ``decode`` corrects the bits by :attr:`FrameFormat.correct` before it checks them.
+        Whether it checks the payload by itself, as with a check sum. Its failure is then final, so
+        that ``decode`` must correct the bits with :attr:`FrameFormat.correct` before it checks
+        them.
     encode
-        Turns bits into one period of the chips sent, which is sent repeatedly.
+        Turns bits into chips, one period of what is sent repeatedly.
     decode
-        Turns chips, of any part of what is sent, into a :class:`Framed`.
+        Turns the chips of any part of what is sent into a :class:`Framed`.
     """
 
     name: str
@@ -91,16 +92,16 @@ class Framing:
 def own_preamble(line_code: LineCode) -> ByteArray:
     """Return a line code's own preamble, which no payload contains.
 
-    It is the one declared, or a run longer than any of the code. With a longest run of n that is
-    n + 1 ones between as many zeros, so it is balanced: of Manchester 0 111 00 and of 4B6B
-    00 11111 000, which are those of C-OOK in IEEE 802.15.7-2018.
+    It is the declared one, or else a run of ones longer than any run of the code: for a longest run
+    of n it has n + 1 ones between as many zeros, so that it is balanced. For Manchester this is 0
+    111 00 and for 4B6B 00 11111 000, the preambles of C-OOK in IEEE 802.15.7-2018.
     """
     if line_code.preamble:
         return _chips_of(line_code.preamble)
     if line_code.longest_run is None:
         raise ParameterError.of(
             "line_code",
-            f"'{line_code.name}', which limits no run: no preamble differs from all its payloads",
+            f"'{line_code.name}', which does not limit runs: any preamble can occur in a payload",
             "a line code with a longest run",
             condition="with this framing",
             parameters=("line_code", "framing"),
@@ -124,7 +125,7 @@ def _chips_of(text: str) -> ByteArray:
 
 
 def is_unique(preamble: ByteArray, line_code: LineCode) -> bool:
-    """Whether no payload contains a preamble: the code's own, or one with too long a run inside."""
+    """Whether no payload contains a preamble: it is the code's own, or contains too long a run."""
     if line_code.preamble and np.array_equal(preamble, _chips_of(line_code.preamble)):
         return True
     if line_code.longest_run is None:

@@ -8,9 +8,9 @@ from occ_model.transmitter.framings.framing import Framed, FrameFormat, Framing
 from occ_model.transmitter.framings.preamble import read_after, read_repeated
 
 HEADER = (1, 1, 1, 0)
-"""The header: three ones, which no data of a code with runs of two contain, and a zero.
+"""The header: three ones, which never occur in data with runs of at most two, and a zero.
 
-The paper names only the three ones. Without the zero the code 0 and the code with only its first
+The paper names only the three ones. Without the zero, the code 0 and the code with only its first
 bit set would send the same endless chip sequence.
 """
 
@@ -23,20 +23,20 @@ def _encode(bits: ByteArray, form: FrameFormat) -> ByteArray:
 
 
 def find_headers(chips: ByteArray) -> tuple[int, ...]:
-    """Find where headers start: the last three ones of every run of three or more."""
+    """Find where headers start: at the last three ones of every run of three or more."""
     edges = np.diff(np.concatenate([[0], chips.astype(np.int8), [0]]))
     starts, ends = np.flatnonzero(edges == 1), np.flatnonzero(edges == -1)
     return tuple((ends[ends - starts >= HEADER_ONES] - HEADER_ONES).tolist())
 
 
 def _decode(chips: ByteArray, form: FrameFormat) -> Framed:
-    """Read the packet between the first two headers, or all that fit where data may hold one."""
+    """Read the packet between the first two headers; try all headers if data can contain one."""
     length = len(HEADER) + form.line_code.chips_for(form.bits)
     if form.line_code.longest_run is None or form.line_code.longest_run >= HEADER_ONES:
         return read_repeated(chips, np.array(HEADER, dtype=np.uint8), form.bits, form, read_after)
     headers = find_headers(chips)
     if len(headers) < 2:
-        return Framed.nothing(_too_few(len(headers), len(chips), length), headers)
+        return Framed.nothing(_too_few_headers(len(headers), len(chips), length), headers)
     first, second = headers[:2]
     if second - first != length:
         return Framed.nothing(
@@ -48,7 +48,7 @@ def _decode(chips: ByteArray, form: FrameFormat) -> Framed:
     return Framed(headers, read.bits, read.failure)
 
 
-def _too_few(headers: int, chips: int, packet: int) -> str:
+def _too_few_headers(headers: int, chips: int, packet: int) -> str:
     found = "One header" if headers else "No header"
     if chips < 2 * packet:
         return (

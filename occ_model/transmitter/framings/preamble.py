@@ -1,4 +1,4 @@
-"""A given preamble, and the line-coded payload after it, sent over and over."""
+"""A given preamble and the line-coded payload, sent repeatedly."""
 
 from collections.abc import Callable, Iterator
 
@@ -26,7 +26,7 @@ def _decode(chips: ByteArray, form: FrameFormat) -> Framed:
 
 
 def read_after(data: ByteArray, level: int, form: FrameFormat) -> Framed:
-    """Read a payload of known length from the chips after a preamble, whose last is ``level``."""
+    """Read a payload of known length from the chips after a preamble that ends with ``level``."""
     read = form.line_code.decode(data[: form.line_code.chips_for(form.bits)], level)
     bits, padding = read.bits[: form.bits], read.bits[form.bits :]
     failure = read.failure
@@ -44,29 +44,31 @@ FRAMING = Framing(
 )
 
 
-_MAX_WHOLE_FRAMES = 32  # places of a preamble behind all of which the whole frame is read
+_MAX_WHOLE_FRAMES = (
+    32  # preambles above which the line code is checked before a whole frame is read
+)
 
-_CHECKED_CHIPS = 120  # chips behind preambles that must obey the line code: blocks of 2, 6, 10, 12
-# Reads the chips behind a preamble, at least a period; given also the preamble's last chip
+_CHECKED_CHIPS = 120  # chips that are then checked: whole blocks of 2, 6, 10 and 12
+# Reads the chips after a preamble, at least one period, given the preamble's last chip
 ReadData = Callable[[ByteArray, int, FrameFormat], Framed]
 
 
 def read_repeated(
     chips: ByteArray, preamble: ByteArray, bits: int, form: FrameFormat, read: ReadData
 ) -> Framed:
-    """Read the frame that chips show: a preamble, and some line-coded bits.
+    """Read the frame, a preamble and line-coded bits, from chips.
 
-    First each preamble with a whole frame after it is tried, then each one with the frame's end
-    before it: what is sent repeats. Where a payload may contain the preamble, all are tried.
+    Preambles with a whole frame after them are tried first; then, as the frame repeats, those whose
+    frame continues before them. If a payload can contain the preamble, all are tried.
     """
     length = len(preamble) + form.line_code.chips_for(bits)
     headers = find_preambles(chips, preamble)
     unique = is_unique(preamble, form.line_code)
     if len(chips) < length:
-        return Framed.nothing(too_few(len(chips), length), headers)
+        return Framed.nothing(too_few_chips(len(chips), length), headers)
     failed: list[Framed] = []
     found: dict[bytes, Framed] = {}
-    for wrapped, data in _candidates(chips, preamble, length, form):
+    for wrapped, data in _list_candidates(chips, preamble, length, form):
         if wrapped and unique and found:
             break
         one = read(data, int(preamble[-1]), form)
@@ -78,7 +80,7 @@ def read_repeated(
         (one,) = found.values()
         return Framed(headers, one.bits)
     if found:
-        return Framed.nothing(_ambiguous(len(found)), headers)
+        return Framed.nothing(_ambiguous_payloads(len(found)), headers)
     if failed:
         return Framed(headers, failed[0].bits, failed[0].failure)
     return Framed.nothing(
@@ -87,44 +89,47 @@ def read_repeated(
     )
 
 
-def _candidates(
+def _list_candidates(
     chips: ByteArray, preamble: ByteArray, length: int, form: FrameFormat
 ) -> Iterator[tuple[bool, ByteArray]]:
-    """Return what follows each preamble, each content once, and whether it is joined of two parts.
+    """Yield the distinct chips after preambles, and whether they are joined from two parts.
 
-    Of very many preambles only those count behind which the line code is obeyed.
+    If there are very many preambles, only those followed by valid line code count.
     """
     headers = find_preambles(chips, preamble)
     many = len(headers) > _MAX_WHOLE_FRAMES
     tried: set[bytes] = set()
-    frames = (_whole(chips, preamble, length, headers), _wrapped(chips, preamble, length))
+    frames = (
+        _cut_whole_frames(chips, preamble, length, headers),
+        _join_frame_ends(chips, preamble, length),
+    )
     for wrapped, datas in enumerate(frames):
         for data in datas:
             content = data[: length - len(preamble)].tobytes()
             is_new = content not in tried
             tried.add(content)
-            if is_new and (not many or _obeys(data[:_CHECKED_CHIPS], preamble, form)):
+            if is_new and (not many or _obeys_line_code(data[:_CHECKED_CHIPS], preamble, form)):
                 yield bool(wrapped), data
 
 
-def _obeys(chips: ByteArray, preamble: ByteArray, form: FrameFormat) -> bool:
-    """Whether the first chips behind a preamble obey the line code."""
+def _obeys_line_code(chips: ByteArray, preamble: ByteArray, form: FrameFormat) -> bool:
+    """Whether the first chips after a preamble obey the line code."""
     whole = len(chips) - len(chips) % form.line_code.block_chips
     return form.line_code.decode(chips[:whole], int(preamble[-1])).failure is None
 
 
-def _whole(
+def _cut_whole_frames(
     chips: ByteArray, preamble: ByteArray, length: int, headers: tuple[int, ...]
 ) -> Iterator[ByteArray]:
-    """Return what follows each preamble, where a whole period does."""
+    """Yield the chips after each preamble that a whole period follows."""
     for header in headers:
         if header + length <= len(chips):
             yield chips[header + len(preamble) :]
 
 
-def _wrapped(chips: ByteArray, preamble: ByteArray, length: int) -> Iterator[ByteArray]:
-    """Return what follows each preamble in one period, its end joined to its start."""
-    # The first and the last chip may be cut off.
+def _join_frame_ends(chips: ByteArray, preamble: ByteArray, length: int) -> Iterator[ByteArray]:
+    """Yield the chips after each preamble in one period, whose end is joined to its start."""
+    # The first and the last chip may be incomplete.
     inner = chips[1:-1] if len(chips) >= length + 2 else chips
     period = inner[:length]
     twice = np.concatenate([period, period])
@@ -132,15 +137,15 @@ def _wrapped(chips: ByteArray, preamble: ByteArray, length: int) -> Iterator[Byt
         yield twice[header + len(preamble) : header + length]
 
 
-def too_few(chips: int, length: int) -> str:
-    """Return the failure that less than one period is seen."""
+def too_few_chips(chips: int, length: int) -> str:
+    """Word the failure that the chips are less than one period."""
     return (
         f"Less than one packet: {chips} of {length} chips fit the panel's image; come closer, "
         "raise the frequency or send fewer bits."
     )
 
 
-def _ambiguous(payloads: int) -> str:
+def _ambiguous_payloads(payloads: int) -> str:
     return (
         f"The payload contains the preamble, and {payloads} payloads fit the chips; choose a "
         "preamble that it does not contain, or the framing raw, which checks the payload."

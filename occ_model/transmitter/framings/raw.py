@@ -1,9 +1,9 @@
 """A raw frame: preamble, number of bits, payload and a check sum.
 
-The number of bits is one byte up to 127, else two with the first bit set. The check sum covers it
-and the payload, bit by bit as they are sent: CRC-16/IBM-3740 (CCITT-FALSE). It finds any error
-within 16 bits in a row behind the number of bits, and all but 1 of 65,536 others. A receiver needs
-to know nothing but preamble and line code.
+The number of bits takes one byte up to 127, else two bytes with the first bit set. The check sum is
+CRC-16/IBM-3740 (CCITT-FALSE) of the number of bits and the payload, bit by bit as they are sent. It
+detects any error confined to 16 consecutive bits after the number of bits, and all but 1 in 65,536
+of the others. A receiver needs to know only the preamble and the line code.
 """
 
 import numpy as np
@@ -32,57 +32,57 @@ def _encode(bits: ByteArray, form: FrameFormat) -> ByteArray:
     return np.concatenate([preamble, form.line_code.encode(frame, int(preamble[-1]))])
 
 
-def length_bits(bits: int) -> int:
-    """Return the number of bits that state a payload's length."""
+def count_length_bits(bits: int) -> int:
+    """Return the length in bits of the field that states a payload's number of bits."""
     return len(_length_field(bits))
 
 
 def _length_field(bits: int) -> ByteArray:
     if bits < 1 << _SHORT_LENGTH_BITS - 1:
-        return _binary(bits, _SHORT_LENGTH_BITS)
-    return _binary(bits | 1 << _LONG_LENGTH_BITS - 1, _LONG_LENGTH_BITS)
+        return _binary_digits(bits, _SHORT_LENGTH_BITS)
+    return _binary_digits(bits | 1 << _LONG_LENGTH_BITS - 1, _LONG_LENGTH_BITS)
 
 
-def _binary(number: int, places: int) -> ByteArray:
+def _binary_digits(number: int, places: int) -> ByteArray:
     return np.array([number >> place & 1 for place in reversed(range(places))], dtype=np.uint8)
 
 
 def check_sum(body: ByteArray) -> ByteArray:
-    """Return CRC-16/IBM-3740 of any number of bits; the libraries at hand take whole bytes only."""
+    """Return the CRC-16/IBM-3740 of any number of bits; our libraries take only whole bytes."""
     rest = _START
     for bit in body.tolist():
         is_divided = rest >> _CRC_BITS - 1 ^ bit
         rest = rest << 1 & 0xFFFF
         if is_divided:
             rest ^= _POLYNOMIAL
-    return _binary(rest, _CRC_BITS)
+    return _binary_digits(rest, _CRC_BITS)
 
 
 def _decode(chips: ByteArray, form: FrameFormat) -> Framed:
     bits = len(_length_field(form.bits)) + form.bits + _CRC_BITS
-    return read_repeated(chips, preamble_of(form), bits, form, _read)
+    return read_repeated(chips, preamble_of(form), bits, form, _read_frame)
 
 
-def _read(data: ByteArray, level: int, form: FrameFormat) -> Framed:
-    """Read the frame that starts the chips, of whatever length it says."""
+def _read_frame(data: ByteArray, level: int, form: FrameFormat) -> Framed:
+    """Read the frame at the start of the chips, of the length that it states."""
     code = form.line_code
     head = code.decode(data[: code.chips_for(_LONG_LENGTH_BITS)], level).bits
     if len(head) < _LONG_LENGTH_BITS:
-        return Framed.nothing("The frame ends within its number of bits.")
+        return Framed.nothing("The frame ends inside its number of bits.")
     is_long = bool(head[0])
     start = _LONG_LENGTH_BITS if is_long else _SHORT_LENGTH_BITS
     count = int("".join(map(str, head[is_long:start].tolist())), 2)
     whole = start + count + _CRC_BITS
     if code.chips_for(whole) > len(data):
         return Framed.nothing(
-            f"The frame says that it holds {counted(count, 'bit')}, for which {len(data)} chips "
+            f"The frame states a length of {counted(count, 'bit')}, for which {len(data)} chips "
             "are too few: some chips were misread."
         )
     read = code.decode(data[: code.chips_for(whole)], level).bits
     body, check = read[: start + count], read[start + count : whole]
     bits = form.correct(body[start:])
     if not np.array_equal(check_sum(np.concatenate([body[:start], bits])), check):
-        return Framed((), bits, "The check sum (CRC-16) does not fit: some chips were misread.")
+        return Framed((), bits, "The check sum (CRC-16) does not match: some chips were misread.")
     return Framed((), bits)
 
 

@@ -1,13 +1,13 @@
 """4B6B, the run-length limited code of IEEE 802.15.7 for VPPM and C-OOK.
 
-The table is that of IEEE 802.15.7-2018, 10.5.1 (4B6B encoding). Every word has three ones, so all
-words are equally bright and any single wrong chip makes a word that is not in the table.
+The table is that of IEEE 802.15.7-2018, 10.5.1 (4B6B encoding). Every word has three ones, so that
+all words are equally bright, and a single wrong chip always gives a word outside the table.
 """
 
 from occ_model.transmitter.line_codes.line_code import LineCode
-from occ_model.transmitter.line_codes.word_table import WordTable, words_of
+from occ_model.transmitter.line_codes.word_table import WordTable, parse_words
 
-WORDS = words_of(  # of the numbers 0 to 15
+WORDS = parse_words(  # for the numbers 0 to 15
     "001110 001101 010011 010110 010101 100011 100110 100101 "
     "011001 011010 011100 110001 110010 101001 101010 101100"
 )

@@ -2,10 +2,9 @@
 
 The tables are those of A. X. Widmer and P. A. Franaszek, A DC-balanced, partitioned-block, 8B/10B
 transmission code, IBM J. Res. Develop. 27:440 (1983), as in IEEE 802.3, clause 36. A byte HGFEDCBA
-is sent as abcdei fghj: EDCBA by a code of six chips, HGF by one of four. A word has as many ones as
-zeros, or two more or two fewer; the running disparity, +1 or -1 between words, chooses between a
-word and its complement. It is -1 before the first byte. Bits are read into bytes with the most
-significant first.
+is sent as abcdei fghj: EDCBA as six chips, HGF as four. A word has as many ones as zeros, or two
+more or two fewer; the running disparity, +1 or -1 between words, selects a word or its complement.
+It is -1 before the first byte. Bits are grouped into bytes with the most significant first.
 """
 
 from functools import lru_cache
@@ -16,12 +15,12 @@ from occ_model.arrays import ByteArray
 from occ_model.transmitter.line_codes.line_code import (
     Decoded,
     LineCode,
-    no_whole_blocks,
-    numbers,
-    padded,
+    pad_bits,
+    read_numbers,
+    refuse_partial_block,
 )
 
-# Of a running disparity of -1, by EDCBA and by HGF.
+# For a running disparity of -1, by EDCBA and by HGF.
 _SIX = tuple(
     f"{word:06b}"
     for word in (
@@ -33,23 +32,26 @@ _SIX = tuple(
 )  # fmt: skip
 _FOUR = ("1011", "1001", "0101", "1100", "1101", "1010", "0110", "1110")
 
-_ALTERNATE = "0111"  # for HGF = 111 where it would make a run of five with the six chips before
-_ALTERNATE_AFTER = {-1: (17, 18, 20), 1: (11, 13, 14)}  # EDCBA before it, by the running disparity
+_ALTERNATE = "0111"  # for HGF = 111, if the usual word would end a run of five
+_ALTERNATE_AFTER = {
+    -1: (17, 18, 20),
+    1: (11, 13, 14),
+}  # EDCBA before it, by disparity
 _COMPLEMENT = str.maketrans("01", "10")
 
 _K28 = "001111"
 
 _CONTROL = {"K28.1": (_K28, "1001"), "K28.5": (_K28, "1010"), "K28.7": (_K28, "1000")}
-"""The control words that hold a comma, which no data do, of a running disparity of -1."""
+"""The control words with a comma, which data never contain, for a running disparity of -1."""
 
 
 def _disparity(word: str) -> int:
     return 2 * word.count("1") - len(word)
 
 
-def _chosen(word: str, disparity: int) -> str:
-    """Return a word or its complement, as the running disparity requires."""
-    # Two balanced words have two forms as well: they would make long runs otherwise.
+def _choose_form(word: str, disparity: int) -> str:
+    """Choose a word or its complement, as the running disparity requires."""
+    # Two balanced words also have two forms, to avoid long runs.
     has_two = _disparity(word) != 0 or word in ("111000", "1100")
     return word.translate(_COMPLEMENT) if has_two and disparity > 0 else word
 
@@ -57,10 +59,10 @@ def _chosen(word: str, disparity: int) -> str:
 def encode_byte(byte: int, disparity: int) -> tuple[str, int]:
     """Return the ten chips of a byte, and the running disparity (-1 or 1) after them."""
     low, high = byte & 31, byte >> 5
-    six = _chosen(_SIX[low], disparity)
+    six = _choose_form(_SIX[low], disparity)
     disparity += _disparity(six)
     alternate = high == 7 and low in _ALTERNATE_AFTER[disparity]
-    four = _chosen(_ALTERNATE if alternate else _FOUR[high], disparity)
+    four = _choose_form(_ALTERNATE if alternate else _FOUR[high], disparity)
     return six + four, disparity + _disparity(four)
 
 
@@ -71,8 +73,8 @@ def control_word(name: str, disparity: int = -1) -> str:
 
 
 @lru_cache(maxsize=1)
-def _words() -> tuple[ByteArray, ByteArray]:
-    """Return all words by running disparity before (-1, 1) and byte, and the disparity after."""
+def _tabulate_words() -> tuple[ByteArray, ByteArray]:
+    """Tabulate all words by the running disparity before (-1, 1) and the byte, and that after."""
     both = [[encode_byte(byte, disparity) for byte in range(256)] for disparity in (-1, 1)]
     words = np.array([[[*map(int, word)] for word, _ in row] for row in both], dtype=np.uint8)
     after = np.array([[int(end > 0) for _, end in row] for row in both], dtype=np.uint8)
@@ -80,20 +82,20 @@ def _words() -> tuple[ByteArray, ByteArray]:
 
 
 def _encode(bits: ByteArray, _level: int) -> ByteArray:
-    words, after = _words()
+    words, after = _tabulate_words()
     state, sent = 0, []
-    for byte in numbers(padded(bits, 8)).tolist():
+    for byte in read_numbers(pad_bits(bits, 8)).tolist():
         sent.append(words[state, byte])
         state = int(after[state, byte])
     return np.concatenate(sent) if sent else np.empty(0, dtype=np.uint8)
 
 
 def _decode(chips: ByteArray, _level: int) -> Decoded:
-    """Read each word as the nearest one of the present running disparity."""
+    """Read each word as the nearest one for the present running disparity."""
     if len(chips) % 10:
-        return no_whole_blocks(len(chips), 10)
-    words, after = _words()
-    # The distance of every word seen from every byte's, for both disparities.
+        return refuse_partial_block(len(chips), 10)
+    words, after = _tabulate_words()
+    # The distance of every received word to that of every byte, for both disparities.
     seen = chips.reshape(-1, 10).astype(np.int32)
     ones = words.astype(np.int32)
     distances = (
@@ -107,7 +109,7 @@ def _decode(chips: ByteArray, _level: int) -> Decoded:
         if distance[state, byte]:
             wrong.append(place)
             other = 1 - state
-            # A word of the other disparity is right in itself: an earlier error shows here.
+            # A word of the other disparity is valid by itself: an earlier error shows only here.
             if not distance[other].min():
                 state, byte = other, int(distance[other].argmin())
         values.append(byte)
@@ -116,7 +118,7 @@ def _decode(chips: ByteArray, _level: int) -> Decoded:
     if not wrong:
         return Decoded(bits)
     failure = (
-        f"Word {wrong[0] + 1} of {len(seen)} is no 8B10B word of its running disparity: "
+        f"Word {wrong[0] + 1} of {len(seen)} is not an 8B10B word of its running disparity: "
         f"{len(wrong)} of {len(seen)} words break the line code."
     )
     return Decoded(bits, tuple(8 * place for place in wrong), failure)
@@ -129,10 +131,10 @@ LINE_CODE = LineCode(
     block_chips=10,
     longest_run=5,
     disparity=2,
-    # An error may turn a balanced word into another of disparity 2, and no later word betrays it.
+    # An error may turn a balanced word into one of disparity 2 that no later word contradicts.
     finds_wrong_chip=False,
     encode=_encode,
     decode=_decode,
-    # It holds a comma, which no data do, and leaves the running disparity that the first byte has.
+    # It has a comma, which data never contain, and leaves the running disparity for the first byte.
     preamble=control_word("K28.5", 1),
 )

@@ -1,1 +1,1 @@
-"""Line codes: bits to chips and back, one file a code."""
+"""Line codes: from bits to chips and back. One file each."""

@@ -1,26 +1,26 @@
-"""Differential Manchester, the paper's line code, in the convention of IEEE 802.5.
+"""Differential Manchester, the paper's line code, by the convention of IEEE 802.5.
 
-Every bit is two chips with a transition between them. A bit 0 has a transition at its start as
-well, a bit 1 has none. A run of equal chips is therefore never longer than two.
+Every bit is two chips with a transition between them. A bit 0 also has a transition at its start, a
+bit 1 has none. A run of equal chips is therefore never longer than two.
 """
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from occ_model.arrays import ByteArray
-from occ_model.transmitter.line_codes.line_code import Decoded, LineCode, no_whole_blocks
+from occ_model.transmitter.line_codes.line_code import Decoded, LineCode, refuse_partial_block
 
 
 def encode(bits: ArrayLike, level: int = 0) -> ByteArray:
-    """Turn bits, shape (..., bits), into twice as many chips; ``level``: the chip before."""
-    # A bit 0 has two transitions and so leaves the level as it was; a bit 1 inverts it.
+    """Turn bits, shape (..., bits), into twice as many chips; ``level`` is the chip before."""
+    # A bit 0 has two transitions, which leave the level as it was; a bit 1 inverts it.
     after = np.bitwise_xor.accumulate(np.asarray(bits, dtype=np.uint8), axis=-1) ^ np.uint8(level)
     chips = np.stack([1 - after, after], axis=-1)
     return chips.reshape(*after.shape[:-1], 2 * after.shape[-1])
 
 
 def decode(chips: ByteArray, level: int = 0) -> tuple[ByteArray, list[int]]:
-    """Return the bits of chips, and which have no transition in their middle."""
+    """Return the bits of chips, and the indices of bits without a transition in their middle."""
     first = chips[0::2]
     second = chips[1::2]
     before = np.concatenate([[np.uint8(level)], second[:-1]])
@@ -28,8 +28,8 @@ def decode(chips: ByteArray, level: int = 0) -> tuple[ByteArray, list[int]]:
     return bits, np.flatnonzero(first == second).tolist()
 
 
-def no_transitions(violations: list[int], bits: int) -> str | None:
-    """Return the sentence about bits without a transition in their middle, None without any."""
+def missing_transitions(violations: list[int], bits: int) -> str | None:
+    """Word the failure of bits without a transition in their middle; None if there are none."""
     if not violations:
         return None
     return (
@@ -40,9 +40,9 @@ def no_transitions(violations: list[int], bits: int) -> str | None:
 
 def _decode(chips: ByteArray, level: int) -> Decoded:
     if len(chips) % 2:
-        return no_whole_blocks(len(chips), 2)
+        return refuse_partial_block(len(chips), 2)
     bits, violations = decode(chips, level)
-    return Decoded(bits, tuple(violations), no_transitions(violations, len(bits)))
+    return Decoded(bits, tuple(violations), missing_transitions(violations, len(bits)))
 
 
 LINE_CODE = LineCode(

@@ -1,9 +1,9 @@
-"""FSK of the rolling shutter: a symbol is a frequency, and so a width of the stripes.
+"""FSK for a rolling shutter: a symbol is a frequency, which sets the width of the stripes.
 
-A symbol is twelve chips of a square wave whose half period is 1, 2, 3 or 6 chips; it carries two
-bits. The frequencies are f/2, f/4, f/6 and f/12. Each symbol holds whole periods, starts dark and
-ends lit. It is on-off keying of a frequency as in UFSOOK and RS-FSK (IEEE 802.15.7-2018), with
-several symbols in one picture; there a picture shows one frequency.
+A symbol carries two bits. It is twelve chips of a square wave whose half period is 1, 2, 3 or 6
+chips, so that the frequencies are f/2, f/4, f/6 and f/12. Each symbol has whole periods, starts
+dark and ends lit. Light is switched at a frequency as in UFSOOK and RS-FSK (IEEE 802.15.7-2018),
+but a picture shows several symbols, where theirs shows one frequency.
 """
 
 import numpy as np
@@ -11,10 +11,10 @@ import numpy as np
 from occ_model.transmitter.line_codes.line_code import LineCode
 from occ_model.transmitter.line_codes.word_table import WordTable
 
-SYMBOL_CHIPS = 12  # chips of a symbol: the fewest that hold whole periods of all four frequencies
-HALF_PERIODS = (1, 2, 3, 6)  # chips of half a period, of the symbols 0 to 3
+SYMBOL_CHIPS = 12  # chips of a symbol, the fewest that have whole periods of all four frequencies
+HALF_PERIODS = (1, 2, 3, 6)  # chips of half a period, for the symbols 0 to 3
 
-# The symbols differ in at least four chips, so one wrong chip is corrected.
+# The symbols differ in at least four chips, so that one wrong chip can be corrected.
 _TABLE = WordTable(
     np.array(
         [np.arange(SYMBOL_CHIPS) // half % 2 for half in HALF_PERIODS],

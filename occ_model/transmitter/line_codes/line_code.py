@@ -9,43 +9,43 @@ import numpy as np
 from occ_model.arrays import ByteArray
 
 VISIBLE_LIMIT = 200.0
-"""Frequency in Hz below which people may see light flicker.
+"""Frequency in Hz below which people may see flicker.
 
-IEEE 802.15.7-2018, 4.4.3.1: light that changes within the maximum flickering time period of 5 ms
-is generally considered safe.
+IEEE 802.15.7-2018, 4.4.3.1: light that changes within the maximum flickering time period of 5 ms is
+generally considered safe.
 """
 
 
-def _nothing() -> ByteArray:
+def _no_bits() -> ByteArray:
     return np.empty(0, dtype=np.uint8)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Decoded:
-    """The bits that chips stand for.
+    """The bits read from chips.
 
     Parameters
     ----------
     bits : ndarray of uint8
-        The bits, first sent first, the padding of the last block included; the likeliest ones where
-        chips break the code, and none where the number of chips does.
+        The bits in the order sent, with the padding of the last block. Where chips break the code,
+        these are the likeliest bits; if the number of chips does, there are none.
     violations
-        The bits at which the chips break the code.
+        Indices of the bits at which the chips break the code.
     failure
         None, or a sentence that says where the chips break the code.
     """
 
-    bits: ByteArray = field(default_factory=_nothing)
+    bits: ByteArray = field(default_factory=_no_bits)
     violations: tuple[int, ...] = ()
     failure: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class LineCode:
-    """A rule that turns bits into chips, with the properties that it promises.
+    """A rule that turns bits into chips, with the properties that it guarantees.
 
     A code works in blocks: ``block_bits`` bits become ``block_chips`` chips. The last block is
-    filled up with zeros.
+    padded with zeros.
 
     Parameters
     ----------
@@ -54,19 +54,19 @@ class LineCode:
     block_bits, block_chips
         Bits and chips of a block.
     longest_run
-        Most equal chips in a row, in any payload; None where there is no limit.
+        Most equal consecutive chips in any payload; None if there is no limit.
     disparity
-        Largest difference of the numbers of ones and zeros in any payload, in chips; None where
-        there is no limit. 0: every payload is as bright as any other.
+        Largest difference between the numbers of ones and zeros in any payload; None if there is no
+        limit. With 0 all payloads are equally bright.
     finds_wrong_chip
-        Whether any single wrong chip of any payload is found or harmless.
+        Whether any single wrong chip of any payload is detected or harmless.
     encode
         Turns bits, shape (bits,), into chips; its second argument is the chip before the first.
     decode
-        Turns chips, shape (chips,), into a :class:`Decoded`; its second argument is the same.
+        Turns chips, shape (chips,), into a :class:`Decoded`; its second argument is the same chip.
     preamble
-        Chips, as a text, that start a frame and that no payload contains; empty: a run of ones
-        that is longer than the longest.
+        Chips that start a frame and that no payload contains, as a text; if empty, a run of ones
+        that is longer than the longest run.
     """
 
     name: str
@@ -91,13 +91,13 @@ class LineCode:
         return 1 - 1 / self.chips_a_bit
 
     def chips_for(self, bits: int) -> int:
-        """Count the chips of a number of bits, the padding of the last block included."""
+        """Count the chips for a number of bits, with the padding of the last block."""
         return -(-bits // self.block_bits) * self.block_chips
 
     def lowest_frequency(self, switching_frequency: float) -> float:
-        """Return the frequency of the slowest square wave in the code, f / (2 longest run), in Hz.
+        """Return the frequency in Hz of the code's slowest square wave, f / (2 longest run).
 
-        The repetition of a packet may be slower still: f / chips of the packet.
+        A packet repeats at a frequency that may be lower still, f / chips of the packet.
         """
         if self.longest_run is None:
             return 0.0
@@ -105,24 +105,24 @@ class LineCode:
 
     @property
     def least_switching_frequency(self) -> float | None:
-        """Switching frequency, in Hz, from which no run of chips lasts long enough to be seen.
+        """Switching frequency in Hz above which no run of chips lasts long enough to be seen.
 
-        None where runs have no limit. See :data:`VISIBLE_LIMIT`.
+        None if runs have no limit. See :data:`VISIBLE_LIMIT`.
         """
         return None if self.longest_run is None else VISIBLE_LIMIT * 2 * self.longest_run
 
 
-def padded(bits: ByteArray, block: int) -> ByteArray:
-    """Fill bits up with zeros to whole blocks, shape (blocks, block)."""
+def pad_bits(bits: ByteArray, block: int) -> ByteArray:
+    """Pad bits with zeros to whole blocks, shape (blocks, block)."""
     missing = -len(bits) % block
     return np.pad(np.asarray(bits, dtype=np.uint8), (0, missing)).reshape(-1, block)
 
 
-def numbers(blocks: ByteArray) -> ByteArray:
-    """Read each row of bits, at most eight, most significant first, as a number."""
+def read_numbers(blocks: ByteArray) -> ByteArray:
+    """Read each row of up to eight bits, the most significant first, as a number."""
     places = np.arange(blocks.shape[1])[::-1]
     return np.asarray((blocks.astype(np.int64) << places).sum(axis=1), dtype=np.uint8)
 
 
-def no_whole_blocks(count: int, block: int) -> Decoded:
+def refuse_partial_block(count: int, block: int) -> Decoded:
     return Decoded(failure=f"{count} chips are not a whole number of blocks of {block} chips.")

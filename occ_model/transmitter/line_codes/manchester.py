@@ -1,10 +1,10 @@
-"""Manchester in the convention of IEEE 802.15.7: 0 is sent as 0 1, and 1 as 1 0."""
+"""Manchester by the convention of IEEE 802.15.7: 0 is sent as 0 1, and 1 as 1 0."""
 
 import numpy as np
 
 from occ_model.arrays import ByteArray
-from occ_model.transmitter.line_codes.differential_manchester import no_transitions
-from occ_model.transmitter.line_codes.line_code import Decoded, LineCode, no_whole_blocks
+from occ_model.transmitter.line_codes.differential_manchester import missing_transitions
+from occ_model.transmitter.line_codes.line_code import Decoded, LineCode, refuse_partial_block
 
 
 def _encode(bits: ByteArray, _level: int) -> ByteArray:
@@ -14,10 +14,10 @@ def _encode(bits: ByteArray, _level: int) -> ByteArray:
 
 def _decode(chips: ByteArray, _level: int) -> Decoded:
     if len(chips) % 2:
-        return no_whole_blocks(len(chips), 2)
+        return refuse_partial_block(len(chips), 2)
     bits, second = chips[0::2], chips[1::2]
     violations = np.flatnonzero(bits == second).tolist()
-    return Decoded(bits.copy(), tuple(violations), no_transitions(violations, len(bits)))
+    return Decoded(bits.copy(), tuple(violations), missing_transitions(violations, len(bits)))
 
 
 LINE_CODE = LineCode(

@@ -1,4 +1,4 @@
-"""NRZ (non-return-to-zero): a bit is a chip. It limits no run and balances nothing."""
+"""NRZ (non-return-to-zero): each bit is a chip. Runs and brightness are not limited."""
 
 import numpy as np
 

@@ -109,7 +109,7 @@ def test_a_code_and_a_framing_that_do_not_fit_are_told_at_both_fields(
     choose(application, user, "framing", "c-ook")
     for name in ("line_code", "framing"):
         notice = row(application, name).notice
-        assert "'nrz', which limits no run" in notice.text()
+        assert "'nrz', which does not limit runs" in notice.text()
     choose(application, user, "line_code", "manchester")
     assert application.view("decode").verdict.text() == "✓ Code 718 read, all bits right"
     assert row(application, "framing").notice.text() == ""

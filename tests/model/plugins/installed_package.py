@@ -11,7 +11,7 @@ from occ_model.transmitter.registry import Registry
 _CACHES = (
     plugins._found,
     decoders._plugin,
-    Registry.named,
+    Registry.get,
     scheme.scheme_named,
     packet._payload_chips,
 )

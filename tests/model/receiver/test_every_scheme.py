@@ -11,8 +11,8 @@ import occ_model as occ
 from occ_model.receiver.decoders import DECODERS
 from occ_model.transmitter import registry
 
-LINE_CODES = registry.LINE_CODES.built_in()
-FRAMINGS = registry.FRAMINGS.built_in()
+LINE_CODES = registry.LINE_CODES.load_built_in()
+FRAMINGS = registry.FRAMINGS.load_built_in()
 
 SCENE = occ.load_preset("phone-68us").replace(
     switching_frequency=4e3, distance=0.6, rows=100, bits=8, code=0b10110010
@@ -100,7 +100,7 @@ def test_wrong_bits_of_a_text_are_shown_with_the_failure() -> None:
     place = int((13 + 8 + 24 + 0.2) * columns)
     levels[place : place + int(columns)] = levels.max()
     result = occ.decode(levels[: int(100 * columns)], scene)
-    assert result.failure == "The check sum (CRC-16) does not fit: some chips were misread."
+    assert result.failure == "The check sum (CRC-16) does not match: some chips were misread."
     assert result.payload == "HEL?O"
     assert result.code is None
 

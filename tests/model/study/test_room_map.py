@@ -220,7 +220,7 @@ def test_the_command_says_which_length_serves_best(
     assert main(words) == 0
     said = capsys.readouterr().out
     assert "6       64     16" in said
-    assert "6 bits serve 64 lamps best: 2 of 2 whole lamps named rightly" in said
+    assert "6 bits serve 64 lamps best: 2 of 2 whole lamps named correctly" in said
     assert "As well do" not in said
     assert main((*words, "--bits", "8")) == 0
     assert "As well do 8 bits: so few pictures do not distinguish them." in capsys.readouterr().out

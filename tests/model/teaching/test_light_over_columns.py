@@ -116,6 +116,6 @@ def test_only_a_code_has_a_mark_at_two_chips() -> None:
 
 def test_a_scene_whose_packet_cannot_be_made_has_the_marks_of_its_timing() -> None:
     scene = occ.load_preset("phone-136us").replace(line_code="nrz", framing="c-ook")
-    with pytest.raises(occ.ParameterError, match="limits no run"):
+    with pytest.raises(occ.ParameterError, match="does not limit runs"):
         occ.packet(scene)
     assert [mark.label for mark in marked_values(scene, "exposure_time")] == ["t = t_LED", "null"]

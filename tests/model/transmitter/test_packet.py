@@ -1,4 +1,4 @@
-"""The packet, and the endless sequence that it makes."""
+"""The packet, and the sequence when it is sent repeatedly."""
 
 from itertools import groupby
 
@@ -17,18 +17,18 @@ BITS = 10
 CODES = range(2**BITS)
 
 
-def sent(code: int) -> list[int]:
+def send_code(code: int) -> list[int]:
     return occ.packet(Scene().replace(code=code)).tolist()
 
 
-def endless(chips: list[int]) -> bytes:
-    """Name an endless sequence by the smallest of its periods' rotations."""
+def canonical_rotation(chips: list[int]) -> bytes:
+    """Return the smallest rotation of a period, which identifies the endless sequence."""
     twice = bytes(chips) * 2
     return min(twice[start : start + len(chips)] for start in range(len(chips)))
 
 
 def longest_run(chips: list[int], value: int) -> int:
-    """Length of the longest run in the endless sequence."""
+    """Return the length of the longest run in the endless sequence."""
     return max(len(list(run)) for chip, run in groupby(chips * 2) if chip == value)
 
 
@@ -49,29 +49,29 @@ def test_a_packet_is_four_chips_and_two_a_bit(bits: int) -> None:
 
 def test_the_packet_of_a_known_code() -> None:
     by_hand = "1110 01 01 10 01 01 01 10 01 10 10"
-    assert "".join(map(str, sent(0b1011001110))) == by_hand.replace(" ", "")
+    assert "".join(map(str, send_code(0b1011001110))) == by_hand.replace(" ", "")
 
 
 def test_no_two_codes_make_the_same_endless_sequence() -> None:
-    assert len({endless(sent(code)) for code in CODES}) == len(CODES)
+    assert len({canonical_rotation(send_code(code)) for code in CODES}) == len(CODES)
 
 
 def test_with_three_ones_alone_codes_0_and_512_would_be_the_same() -> None:
     sequences: dict[bytes, list[int]] = {}
     for code in CODES:
         data = differential_manchester.encode(bits_of(code, BITS), level=1)
-        sequences.setdefault(endless([1, 1, 1, *data.tolist()]), []).append(code)
+        sequences.setdefault(canonical_rotation([1, 1, 1, *data.tolist()]), []).append(code)
     assert [codes for codes in sequences.values() if len(codes) > 1] == [[0, 512]]
 
 
 def test_runs_have_at_most_four_ones_or_two_zeros() -> None:
-    assert {longest_run(sent(code), 1) for code in CODES} == {3, 4}
-    assert {longest_run(sent(code), 0) for code in CODES} <= {1, 2}
+    assert {longest_run(send_code(code), 1) for code in CODES} == {3, 4}
+    assert {longest_run(send_code(code), 0) for code in CODES} <= {1, 2}
 
 
-def test_three_ones_in_a_row_stand_nowhere_but_at_the_header() -> None:
+def test_three_ones_in_a_row_are_only_in_the_header() -> None:
     for code in CODES:
-        chips = sent(code)
+        chips = send_code(code)
         twice = chips * 2
         threes = {start for start in range(24) if twice[start : start + 3] == [1, 1, 1]}
         assert threes == ({0, 23} if chips[-1] else {0})
@@ -85,7 +85,7 @@ def test_a_raw_pattern_is_sent_as_it_is_whatever_the_code(pattern: str, code: in
 
 
 @pytest.mark.parametrize("pattern", ["", "0110"])
-def test_the_chips_sent_cannot_be_changed_by_who_reads_them(pattern: str) -> None:
+def test_the_chips_sent_are_read_only(pattern: str) -> None:
     scene = Scene().replace(pattern=pattern)
     for chips in (occ.packet(scene), sent_chips(scene.transmitter)):
         before = chips.tolist()

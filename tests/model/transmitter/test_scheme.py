@@ -14,15 +14,15 @@ import occ_model as occ
 from occ_model.arrays import ByteArray, IndexArray
 from occ_model.scene.parameters import open_choice
 from occ_model.transmitter import registry
-from occ_model.transmitter.error_correction import PARITY_BYTES, protected_bits
+from occ_model.transmitter.error_correction import PARITY_BYTES, count_protected_bits
 from occ_model.transmitter.framings.c_ook import FRAMING as C_OOK
 from occ_model.transmitter.framings.paper import HEADER
 from occ_model.transmitter.packet import sends_paper_code
 from occ_model.transmitter.registry import Registry
 from occ_model.transmitter.scheme import Scheme, scheme_named
 
-LINE_CODES = registry.LINE_CODES.built_in()
-FRAMINGS = registry.FRAMINGS.built_in()
+LINE_CODES = registry.LINE_CODES.load_built_in()
+FRAMINGS = registry.FRAMINGS.load_built_in()
 
 CORRECTIONS = ("none", "reed-solomon")
 
@@ -31,10 +31,10 @@ PAIRS = [
     for code, framing in itertools.product(LINE_CODES, FRAMINGS)
     if (code, framing) != ("nrz", C_OOK.name)
 ]
-"""Every line code in every framing, but for the one pair that is refused."""
+"""Every line code in every framing, except the one pair that is refused."""
 
 AMBIGUOUS = [(code, "paper") for code in ("nrz", "4b6b", "8b10b", "fsk")]
-"""Their payloads may hold the header; so the chips do not always tell where one starts."""
+"""Their payloads may contain the header, so that its place in the chips can be ambiguous."""
 
 every_pair = each_case(PAIRS)
 
@@ -43,13 +43,13 @@ def scheme(code: str, framing: str, bits: int, correction: str = "none") -> Sche
     return scheme_named(code, framing, "", correction, bits)
 
 
-def seen(chips: ByteArray, start: int, count: int) -> ByteArray:
-    """Chips sent repeatedly, from any of them on."""
+def repeat_chips(chips: ByteArray, start: int, count: int) -> ByteArray:
+    """Repeat a period of chips, starting at any of them."""
     return np.resize(np.roll(chips, -start), count)
 
 
-def has_another_reading(one: Scheme, payload: IndexArray) -> bool:
-    """Whether another payload gives the same endless chips."""
+def fits_another_payload(one: Scheme, payload: IndexArray) -> bool:
+    """Return whether another payload gives the same endless chips."""
     chips = one.encode(payload)
     turns = [np.roll(chips, -start) for start in range(1, one.length)]
     return any(
@@ -72,10 +72,10 @@ def test_two_periods_from_any_start_give_the_payload(
             chips = one.encode(payload)
             assert len(chips) == one.length
             start = int(random.integers(0, one.length))
-            read = one.decode(seen(chips, start, 2 * one.length + 8))
+            read = one.decode(repeat_chips(chips, start, 2 * one.length + 8))
             if read.failure is not None:
                 assert (code, framing) in AMBIGUOUS
-                assert has_another_reading(one, payload)
+                assert fits_another_payload(one, payload)
             else:
                 np.testing.assert_array_equal(read.bits, payload)
 
@@ -84,7 +84,7 @@ def test_two_periods_from_any_start_give_the_payload(
 def test_a_payload_of_4096_bits_comes_back(code: str, framing: str) -> None:
     one = scheme(code, framing, 4096)
     payload = np.random.default_rng(5).integers(0, 2, 4096)
-    read = one.decode(seen(one.encode(payload), 77, 2 * one.length + 8))
+    read = one.decode(repeat_chips(one.encode(payload), 77, 2 * one.length + 8))
     if (code, framing) in (("nrz", "paper"), ("nrz", "preamble")):
         assert "The payload contains the preamble" in read.failure
     else:
@@ -102,7 +102,7 @@ def test_no_part_of_what_is_sent_gives_another_payload(code: str, framing: str) 
         for _ in range(amount(15, 40)):
             count = int(random.integers(1, 3 * one.length))
             start = int(random.integers(0, one.length))
-            read = one.decode(seen(chips, start, count))
+            read = one.decode(repeat_chips(chips, start, count))
             if read.failure is None:
                 np.testing.assert_array_equal(read.bits, payload)
 
@@ -115,7 +115,9 @@ def test_a_wrong_chip_is_found_or_harmless_if_it_is_promised(code: str, framing:
     random = np.random.default_rng(8)
     for _ in range(amount(1, 3)):
         payload = random.integers(0, 2, 10)
-        chips = seen(one.encode(payload), int(random.integers(one.length)), 2 * one.length + 8)
+        chips = repeat_chips(
+            one.encode(payload), int(random.integers(one.length)), 2 * one.length + 8
+        )
         for place in range(len(chips)):
             wrong = chips.copy()
             wrong[place] ^= 1
@@ -128,7 +130,7 @@ def test_two_wrong_bytes_are_corrected(code: str, framing: str) -> None:
     bits = 64
     one = scheme(code, framing, bits, "reed-solomon")
     payload = np.random.default_rng(2).integers(0, 2, bits)
-    form_bits = protected_bits(bits)
+    form_bits = count_protected_bits(bits)
     assert form_bits == bits + 8 * PARITY_BYTES
     if framing in ("c-ook", "raw") or (code, framing) in AMBIGUOUS:
         return
@@ -137,16 +139,16 @@ def test_two_wrong_bytes_are_corrected(code: str, framing: str) -> None:
     start = one.length - line_code.chips_for(form_bits)
     period = chips.copy()
     period[start + 2 : start + 4] ^= 1  # in the first byte of every repetition
-    read = one.decode(seen(period, 0, 2 * one.length + 8))
+    read = one.decode(repeat_chips(period, 0, 2 * one.length + 8))
     assert read.failure is None
     np.testing.assert_array_equal(read.bits, payload)
 
 
-def test_more_wrong_bytes_than_are_corrected_are_told() -> None:
+def test_too_many_wrong_bytes_to_correct_are_a_failure() -> None:
     one = scheme("nrz", "preamble", 64, "reed-solomon")
     chips = one.encode(np.zeros(64))
     chips[-64:] ^= np.resize(np.array([1, 0, 0, 1, 0, 0, 0, 1], dtype=np.uint8), 64)
-    read = one.decode(seen(chips, 0, 2 * one.length))
+    read = one.decode(repeat_chips(chips, 0, 2 * one.length))
     assert "More than 2 bytes of a block are wrong" in read.failure
 
 
@@ -157,16 +159,17 @@ def test_two_wrong_bytes_are_corrected_before_the_check_sum_is_compared(wrong_su
     chips = one.encode(payload)
     chips[-16 - 8 * 12 :][[0, 30]] ^= 1
     chips[-1] ^= wrong_sum
-    read = one.decode(seen(chips, 0, 2 * one.length))
+    read = one.decode(repeat_chips(chips, 0, 2 * one.length))
     assert (read.failure is not None) == wrong_sum
     np.testing.assert_array_equal(read.bits, payload)
 
 
-def passing(octets: int) -> float:
+def passing_share(octets: int) -> float:
     """Return the share of blocks with three wrong bytes that are corrected to another payload.
 
-    They lie two bytes beside a codeword of weight 5; a code of distance 5 that is maximum distance
-    separable has 255 C(n, 5) of these, and each is beside 10 of the 255^3 C(n, 3) errors.
+    Such an error is two bytes away from a codeword of weight 5. A maximum distance separable code
+    of distance 5 has 255 C(n, 5) of these codewords, and each is near 10 of the 255^3 C(n, 3)
+    errors.
     """
     return math.comb(octets + PARITY_BYTES - 3, 2) / 255**2
 
@@ -186,8 +189,8 @@ def test_three_wrong_bytes_pass_as_often_as_stated_and_never_behind_a_check_sum(
             for place in random.choice(octets + PARITY_BYTES, 3, replace=False):
                 wrong = np.unpackbits(np.array([random.integers(1, 256)], dtype=np.uint8))
                 chips[first + 16 * place :][:16] ^= np.repeat(wrong, 2)
-            accepted[framing] += one.decode(seen(chips, 0, 2 * one.length)).failure is None
-    share = passing(octets)
+            accepted[framing] += one.decode(repeat_chips(chips, 0, 2 * one.length)).failure is None
+    share = passing_share(octets)
     off = 4 * math.sqrt(tries * share * (1 - share))
     assert accepted["preamble"] == pytest.approx(tries * share, abs=off)
     assert accepted["raw"] == 0
@@ -207,12 +210,14 @@ def test_the_default_is_the_papers_packet() -> None:
 
 
 def test_c_ook_refuses_a_line_code_without_a_longest_run() -> None:
-    with pytest.raises(occ.ParameterError, match="'nrz', which limits no run") as caught:
+    with pytest.raises(occ.ParameterError, match="'nrz', which does not limit runs") as caught:
         occ.packet(occ.Scene().replace(line_code="nrz", framing="c-ook"))
     assert caught.value.parameters == ("line_code", "framing")
 
 
 @pytest.mark.parametrize("registry", [registry.LINE_CODES, registry.FRAMINGS])
-def test_a_scheme_s_names_are_those_that_the_scene_declares(registry: Registry[Any]) -> None:
+def test_the_names_of_codes_and_framings_are_those_that_the_scene_declares(
+    registry: Registry[Any],
+) -> None:
     choices = open_choice(registry.parameter).choices
-    assert tuple(each.name for each in registry.built_in().values()) == choices
+    assert tuple(each.name for each in registry.load_built_in().values()) == choices

@@ -1,4 +1,4 @@
-"""What each framing sends, and what it says when it reads nothing."""
+"""What each framing sends, and its failure when it reads nothing."""
 
 import binascii
 
@@ -14,7 +14,7 @@ from occ_model.transmitter.framings.framing import BARKER, own_preamble
 from occ_model.transmitter.framings.raw import check_sum
 from occ_model.transmitter.scheme import scheme_named
 
-LINE_CODES = registry.LINE_CODES.built_in()
+LINE_CODES = registry.LINE_CODES.load_built_in()
 
 
 def chips_of(text: str) -> ByteArray:
@@ -63,7 +63,7 @@ def test_barker_correlates_with_no_shift_of_itself() -> None:
 
 def test_c_ook_sends_a_short_payload_as_one_sub_packet() -> None:
     one = scheme_named("manchester", "c-ook", "", "none", 4)
-    # The preamble, the asynchronous bit 0, the payload 1011, the asynchronous bit once more.
+    # The preamble, the asynchronous bit 0, the payload 1011, the asynchronous bit again.
     assert text_of(one.encode([1, 0, 1, 1])) == "011100" + "01" + "10011010" + "01"
 
 
@@ -74,7 +74,7 @@ def test_c_ook_sends_a_long_payload_as_numbered_sub_packets() -> None:
     assert len(sent) == 3 * (6 + 2 * (14 + 2 * 2))
 
 
-def test_c_ook_reads_of_its_last_sub_packet_what_the_payload_fills() -> None:
+def test_c_ook_reads_only_the_payload_in_its_last_sub_packet() -> None:
     payload = np.array([1, 0, 1, 1, 0] * 8)
     one = scheme_named("manchester", "c-ook", "", "none", 40)
     sent = one.encode(payload).reshape(3, -1)
@@ -88,7 +88,7 @@ def test_c_ook_reads_of_its_last_sub_packet_what_the_payload_fills() -> None:
 def test_c_ook_joins_a_sub_packet_that_the_picture_cuts() -> None:
     one = scheme_named("manchester", "c-ook", "", "none", 10)
     sent = one.encode([1, 0, 1, 1, 0, 0, 1, 1, 1, 0])
-    cut = np.roll(sent, 11)  # the preamble in the middle, data before it and after it
+    cut = np.roll(sent, 11)  # the preamble in the middle, with data before and after it
     assert one.decode(cut).bits.tolist() == [1, 0, 1, 1, 0, 0, 1, 1, 1, 0]
     wrong = cut.copy()
     wrong[9:11] ^= 1  # the asynchronous bit at the end
@@ -106,7 +106,7 @@ def test_c_ook_names_the_sub_packets_that_are_missing() -> None:
 
 RAW_PAYLOAD = "1011001110001111010100101101110010100110"
 
-# Of the number of bits and the first 1 to 40 bits, by anycrc 2.1.0: CRC16-IBM-3740, calc_bits.
+# CRC16-IBM-3740 of the first 1 to 40 bits with their number, by calc_bits of anycrc 2.1.0.
 CHECK_SUMS = np.frombuffer(
     bytes.fromhex(
         "e3a216e9bcfb07612aa08c0c8990031e707fa593d2aebd247caeff29e5caa4c637cd0adabc15a022"
@@ -131,7 +131,7 @@ def test_raw_carries_length_payload_and_the_crc_16_of_the_bits_sent() -> None:
 
 @pytest.mark.parametrize("bits", [8, 120, 128, 4096])
 def test_the_crc_16_of_whole_bytes_is_that_of_the_bytes(bits: int) -> None:
-    """So packets that were recorded of such payloads are read as before."""
+    """Recordings of such payloads from before can therefore still be read."""
     payload = np.random.default_rng(bits).integers(0, 2, bits)
     sent = scheme_named("nrz", "raw", "01", "none", bits).encode(payload)
     body = (f"{bits:08b}" if bits < 128 else f"1{bits:015b}") + text_of(payload)
@@ -141,7 +141,7 @@ def test_the_crc_16_of_whole_bytes_is_that_of_the_bytes(bits: int) -> None:
 
 @each_case(range(1, 41))
 def test_raw_finds_every_burst_of_up_to_16_bits(bits: int) -> None:
-    """All of them: a check sum over GF(2) is linear, so an error passes where its own sum is 0."""
+    """The check sum is linear over GF(2): an error passes only if its own check sum is 0."""
     body = np.concatenate([chips_of(f"{bits:08b}"), np.zeros(bits, dtype=np.uint8)])
     zero = check_sum(body)
     of_bits = []
@@ -165,12 +165,12 @@ def test_a_check_sum_is_linear() -> None:
         np.testing.assert_array_equal(check_sum(one ^ other ^ third), together)
 
 
-def test_raw_finds_four_wrong_chips_that_a_sum_of_filled_bytes_let_pass() -> None:
+def test_raw_finds_four_wrong_chips_that_a_check_sum_of_padded_bytes_misses() -> None:
     one = scheme_named("nrz", "raw", "", "none", 10)
     wrong = one.encode(chips_of("1011001110"))
     wrong[[26, 30, 31, 36]] ^= 1  # the payload becomes 1011011111
     read = one.decode(np.tile(wrong, 2))
-    assert read.failure == "The check sum (CRC-16) does not fit: some chips were misread."
+    assert read.failure == "The check sum (CRC-16) does not match: some chips were misread."
     assert text_of(read.bits) == "1011011111"
 
 
@@ -184,7 +184,7 @@ def test_raw_needs_not_know_how_many_bits_are_sent() -> None:
 def test_raw_finds_every_pair_of_wrong_chips() -> None:
     one = scheme_named("nrz", "raw", "", "none", 8)
     sent = one.encode([1, 1, 0, 0, 1, 0, 1, 0])
-    first = len(BARKER) + 8  # behind the number of bits
+    first = len(BARKER) + 8  # after the number of bits
     for one_place in range(first, len(sent)):
         for other in range(one_place + 1, len(sent)):
             wrong = sent.copy()
@@ -197,7 +197,7 @@ def test_a_given_preamble_starts_the_frame() -> None:
     assert text_of(occ.packet(scene)[:8]) == "11000011"
 
 
-def test_a_preamble_inside_the_payload_is_told_not_guessed() -> None:
+def test_a_preamble_inside_the_payload_is_a_failure_and_no_guess() -> None:
     one = scheme_named("nrz", "preamble", "10", "none", 6)
     read = one.decode(np.tile(one.encode([1, 0, 1, 1, 0, 0]), 3))
     assert "The payload contains the preamble" in read.failure
@@ -218,7 +218,7 @@ def test_the_first_and_last_chip_may_be_cut_off() -> None:
     one = scheme_named("manchester", "preamble", "", "none", 10)
     payload = [1, 0, 1, 1, 0, 0, 1, 1, 1, 0]
     sent = one.encode(payload)
-    # The preamble stands in the middle, so that the frame is joined of both ends.
+    # The preamble is in the middle, so that the frame is joined from both ends.
     seen = np.resize(np.roll(sent, one.length // 2), one.length + 2)
     seen[[0, -1]] ^= 1
     read = one.decode(seen)

@@ -14,20 +14,20 @@ from occ_model.transmitter.line_codes.line_code import VISIBLE_LIMIT, LineCode
 from occ_model.transmitter.packet import bits_of
 from occ_model.transmitter.registry import LINE_CODES as REGISTRY
 
-LINE_CODES = REGISTRY.built_in()
+LINE_CODES = REGISTRY.load_built_in()
 
 every_code = each_case(LINE_CODES.values())
 
 
 def all_payloads(most: int) -> Iterator[ByteArray]:
-    """Every payload up to a number of bits."""
+    """List every payload of up to a number of bits."""
     for bits in range(1, most + 1):
         for number in range(2**bits):
             yield np.array(bits_of(number, bits), dtype=np.uint8)
 
 
 def some_payloads() -> Iterator[ByteArray]:
-    """Payloads of all lengths, drawn at random, one of the longest among them."""
+    """Draw random payloads of all lengths, one of the greatest length among them."""
     random = np.random.default_rng(20)
     for bits in (*range(9, 60), 100, 333, 1000, MAX_PAYLOAD_BITS):
         yield random.integers(0, 2, bits).astype(np.uint8)
@@ -71,8 +71,8 @@ def test_long_payloads_are_read_as_they_were_sent(code: LineCode) -> None:
 
 
 @every_code
-def test_every_block_is_read_behind_every_other(code: LineCode) -> None:
-    # A block depends on itself and on what those before it leave: a level or a disparity.
+def test_every_block_is_read_after_every_other(code: LineCode) -> None:
+    # A block depends on itself, and on the level or disparity that those before it leave.
     width = code.block_bits
     blocks = np.array([bits_of(number, width) for number in range(2**width)], dtype=np.uint8)
     for block in blocks[:: amount(max(1, len(blocks) // 16), 1)]:
@@ -124,7 +124,7 @@ def test_a_wrong_chip_is_found_or_harmless_if_it_is_declared(code: LineCode) -> 
 @pytest.mark.parametrize(
     "code", [code for code in LINE_CODES.values() if code.block_chips > 1], ids=lambda c: c.name
 )
-def test_chips_that_are_no_whole_blocks_are_refused(code: LineCode) -> None:
+def test_a_partial_block_of_chips_is_refused(code: LineCode) -> None:
     read = code.decode(np.zeros(code.block_chips + 1, dtype=np.uint8), 0)
     assert read.failure == (
         f"{code.block_chips + 1} chips are not a whole number of blocks of "

@@ -1,4 +1,4 @@
-"""Line codes against tables and rules of their standards, differential Manchester among them."""
+"""Line codes against the tables and rules of their standards."""
 
 import itertools
 from itertools import product
@@ -64,7 +64,7 @@ def test_a_word_of_either_disparity_stands_for_one_byte_only() -> None:
 
 
 def test_8b10b_words_begin_with_their_bits_but_for_nine() -> None:
-    """Only 0, 31, bytes with one of the five bits set, and 15 and 24 begin otherwise."""
+    """Only 0, 31, 15, 24 and the values with one of the five bits set begin otherwise."""
     changed = []
     for low in range(32):
         bits = f"{low:05b}"[::-1]  # A, which is the lowest bit, first
@@ -85,9 +85,9 @@ def test_8b10b_words_begin_with_their_bits_but_for_nine() -> None:
         (11, 7, "1101001110", "1101001000"),  # D11.7
         (13, 7, "1011001110", "1011001000"),  # D13.7
         (14, 7, "0111001110", "0111001000"),  # D14.7
-        (7, 3, "1110001100", "0001110011"),  # D7.3: balanced, and still two forms
+        (7, 3, "1110001100", "0001110011"),  # D7.3: balanced, but with two forms
         (16, 2, "0110110101", "1001000101"),  # D16.2, an idle of 1000BASE-X
-        (5, 6, "1010010110", "1010010110"),  # D5.6, the other
+        (5, 6, "1010010110", "1010010110"),  # D5.6, the other idle
     ]
 )
 def test_8b10b_words_are_those_of_ieee_802_3(
@@ -134,17 +134,17 @@ def test_symbols_of_fsk_differ_so_much_that_one_wrong_chip_is_corrected() -> Non
     assert min(int((one != other).sum()) for one, other in pairs) >= 3
 
 
-def test_8b10b_is_read_from_any_word_on() -> None:
+def test_8b10b_is_read_from_any_word() -> None:
     bits = np.random.default_rng(1).integers(0, 2, 8 * 12).astype(np.uint8)
     code = _8b10b.LINE_CODE
     chips = code.encode(bits, 0)
     read = [code.decode(chips[10 * word :], 0) for word in range(12)]
     for word, decoded in enumerate(read):
         np.testing.assert_array_equal(decoded.bits, bits[8 * word :])
-    # Some of these words are of the other running disparity, which is told.
+    # Some of these words have the other running disparity, which is reported.
     told = [decoded.failure for decoded in read]
     assert None in told
-    assert any(said is not None and "is no 8B10B word of its running" in said for said in told)
+    assert any(said is not None and "is not an 8B10B word of its running" in said for said in told)
 
 
 BITS = 10
@@ -181,7 +181,7 @@ def test_the_convention_is_that_of_ieee_802_5(
 
 
 @given(bits=bit_strings, level=levels)
-def test_the_other_level_before_turns_every_chip_round(bits: list[int], level: int) -> None:
+def test_the_other_level_before_inverts_every_chip(bits: list[int], level: int) -> None:
     np.testing.assert_array_equal(encode(bits, level) ^ 1, encode(bits, 1 - level))
 
 

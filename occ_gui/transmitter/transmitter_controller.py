@@ -12,7 +12,7 @@ from occ_gui.shell.feature import Service
 from occ_gui.transmitter.transmitter_dialog import TransmitterDialog
 from occ_model.boards.chip_table import frequency_lines
 from occ_model.boards.sketch import BOARDS, DEFAULT_BOARD, board_named
-from occ_model.boards.transmission import Transmission, transmission
+from occ_model.boards.transmission import Transmission, prepare_transmission
 from occ_model.errors import OccError, OutputError, one_line
 from occ_model.files.writing import make_folder
 from occ_model.scene.scene import Scene
@@ -128,7 +128,7 @@ class TransmitterController(Service):
             return
         self.dialog.note.setText("")
         try:
-            self._sent = transmission(scene, board_named(self._board))
+            self._sent = prepare_transmission(scene, board_named(self._board))
         except OccError as error:
             self._sent = None
             self.dialog.show_refusal(str(error))

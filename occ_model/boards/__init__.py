@@ -1,1 +1,1 @@
-"""Boards that blink a scene: their sketches, the waveform as files, and the wiring."""
+"""Microcontroller boards that blink a scene: sketches, waveform files and timing."""

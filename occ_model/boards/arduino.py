@@ -1,14 +1,14 @@
-"""Sketches for Arduino boards with an ATmega328P: a timer's compare output switches the pin.
+"""Sketches for Arduino boards with an ATmega328P, where a timer's compare output sets the pin.
 
-The interrupt only programs what the timer does at the end of the chip. So edges
-are exact to the cycle of the clock, however late the interrupt comes within the chip.
+During each chip, an interrupt only tells the timer what to do at the chip's end. Edges are thus
+exact to a cycle of the clock, however late the interrupt runs.
 """
 
 from dataclasses import replace
 from string import Template
 
-from occ_model.boards.board import Board
-from occ_model.boards.chip_table import c_table, head
+from occ_model.boards.board import TransmitterBoard
+from occ_model.boards.chip_table import c_table, head_comment
 from occ_model.boards.transmission import Transmission
 from occ_model.scene.units import HERTZ
 
@@ -20,11 +20,11 @@ _CLOCK_SELECT = {  # bits of TCCR1B by prescaler: ATmega328P data sheet, table 1
     1024: "_BV(CS12) | _BV(CS10)",
 }
 
-UNO = Board(
+UNO = TransmitterBoard(
     name="arduino-uno",
     title="Arduino Uno",
     clock=16_000_000,
-    # The Uno's ceramic resonator: 0.5 %.
+    # The Uno has a ceramic resonator, with 0.5 %.
     clock_error=5000.0,
     prescalers=tuple(_CLOCK_SELECT),
     largest_count=65_536,
@@ -41,10 +41,10 @@ UNO = Board(
     language="C++",
     ending=".ino",
 )
-"""Chips are counted in 16 bits: their table takes a third of the flash memory at most.
+"""Chips are counted in 16 bits, and their table takes at most a third of the flash memory.
 
-The interrupt was measured in simavr: it takes up to 99 cycles, and below 90 edges are lost. The
-rest is left for waking up and for the code of another compiler.
+Measured in simavr, the interrupt takes up to 99 cycles, and edges are lost with fewer than 90. The
+rest of ``least_cycles`` is left for waking up and for the code of other compilers.
 """
 
 NANO = replace(UNO, name="arduino-nano", title="Arduino Nano")
@@ -105,11 +105,11 @@ void loop() { sleep_cpu(); }
 
 
 def arduino_sketch(sent: Transmission) -> str:
-    """Write the sketch: C++ for the Arduino IDE, or for avr-g++ with a ``main`` of its own."""
+    """Write the sketch in C++ for the Arduino IDE, or for avr-g++ with a ``main`` added."""
     timing = sent.timing
     clock = f"the cycles of the {HERTZ.format(timing.clock)} clock"
     return _SKETCH.substitute(
-        head=head(sent, "//"),
+        head=head_comment(sent, "//"),
         chips=len(sent.chips),
         table=c_table(sent.chips),
         counted=clock if timing.prescaler == 1 else f"every {timing.prescaler}th of {clock}",

@@ -1,4 +1,4 @@
-"""The packet in a sketch: its comment at the head, and its table of packed chips."""
+"""The packet in a sketch: the comment at the head, and the table of packed chips."""
 
 from collections.abc import Sequence
 
@@ -13,40 +13,40 @@ from occ_model.version import __version__
 
 _BYTES_A_LINE = 12
 
-_SHOWN_CHIPS = 72  # longest packet that is also written as zeros and ones
+_SHOWN_CHIPS = 72  # longest packet that the comment shows as zeros and ones
 
 
-def packed(chips: ByteArray) -> bytes:
-    """Pack chips into bytes, the first into the highest bit of the first byte."""
+def pack_chips(chips: ByteArray) -> bytes:
+    """Pack chips into bytes, the first chip into the highest bit of the first byte."""
     return np.packbits(chips).tobytes()
 
 
 def c_table(chips: ByteArray) -> str:
-    octets = [f"0x{octet:02X}" for octet in packed(chips)]
-    return "\n".join(f"    {', '.join(line)}," for line in _lines(octets))
+    octets = [f"0x{octet:02X}" for octet in pack_chips(chips)]
+    return "\n".join(f"    {', '.join(line)}," for line in _split_lines(octets))
 
 
 def python_table(chips: ByteArray) -> str:
-    octets = [f"\\x{octet:02x}" for octet in packed(chips)]
-    return "\n".join(f'    b"{"".join(line)}"' for line in _lines(octets))
+    octets = [f"\\x{octet:02x}" for octet in pack_chips(chips)]
+    return "\n".join(f'    b"{"".join(line)}"' for line in _split_lines(octets))
 
 
-def _lines(octets: Sequence[str]) -> list[Sequence[str]]:
+def _split_lines(octets: Sequence[str]) -> list[Sequence[str]]:
     starts = range(0, len(octets), _BYTES_A_LINE)
     return [octets[start : start + _BYTES_A_LINE] for start in starts]
 
 
-def head(sent: Transmission, mark: str) -> str:
-    """State in comment lines what a sketch sends, each after a mark.
+def head_comment(sent: Transmission, mark: str) -> str:
+    """Write what a sketch sends as comment lines that begin with ``mark``.
 
-    No line ends in the user's text: a backslash there would join the next line to it.
+    No line ends with the user's text, since a backslash at its end would continue the comment.
     """
     lines = [
         f"Blinks an LED so that a rolling-shutter camera can read it: {sent.board.title}.",
         "",
-        *_content(sent.scene.transmitter),
-        f"Packet: {len(sent.chips):,} chips, sent over and over.",
-        *_chips(sent.chips),
+        *_content_lines(sent.scene.transmitter),
+        f"Packet: {len(sent.chips):,} chips, sent repeatedly.",
+        *_chip_lines(sent.chips),
         *frequency_lines(sent),
         "",
         f"Written by occ_model {__version__}.",
@@ -54,7 +54,7 @@ def head(sent: Transmission, mark: str) -> str:
     return "\n".join(f"{mark} {line}".rstrip() for line in lines)
 
 
-def _content(transmitter: Transmitter) -> list[str]:
+def _content_lines(transmitter: Transmitter) -> list[str]:
     if transmitter.pattern:
         return ["Sends a raw chip pattern."]
     what = f"the code {transmitter.code} of {transmitter.bits} bits"
@@ -67,7 +67,7 @@ def _content(transmitter: Transmitter) -> list[str]:
     ]
 
 
-def _chips(chips: ByteArray) -> list[str]:
+def _chip_lines(chips: ByteArray) -> list[str]:
     if len(chips) > _SHOWN_CHIPS:
         return []
     text = "".join(map(str, chips.tolist()))
@@ -75,7 +75,7 @@ def _chips(chips: ByteArray) -> list[str]:
 
 
 def frequency_lines(sent: Transmission) -> list[str]:
-    """State the frequency that is sent, its error, and the unknown part of the clock's error."""
+    """State the sent frequency, its error by rounding, and the possible error of the clock."""
     timing = sent.timing
     asked = "as asked"
     if not timing.is_as_asked:

@@ -1,25 +1,25 @@
-"""Sketches for the ESP32: its remote-control peripheral (RMT) sends levels of given lengths.
+"""Sketches for the ESP32, whose remote-control peripheral (RMT) sends levels of given lengths.
 
-An endless transmission: a function fills one half of the peripheral's memory while the other half
-is sent. Interfaces: ESP-IDF 5.3, ``driver/rmt_tx.h`` and ``driver/rmt_encoder.h``, which are in the
-Arduino core 3.1 for the ESP32.
+The transmission is endless: a function fills one half of the peripheral's memory while the other
+half is sent. It uses ``driver/rmt_tx.h`` and ``driver/rmt_encoder.h`` of ESP-IDF 5.3, which are in
+the Arduino core 3.1 for the ESP32.
 """
 
 from string import Template
 
-from occ_model.boards.board import Board
-from occ_model.boards.chip_table import c_table, head
+from occ_model.boards.board import TransmitterBoard
+from occ_model.boards.chip_table import c_table, head_comment
 from occ_model.boards.transmission import Transmission
 
 _CLOCK = 80_000_000
 
-ESP32 = Board(
+ESP32 = TransmitterBoard(
     name="esp32",
     title="ESP32",
     clock=_CLOCK,
-    # Crystals of the modules: 10 ppm.
+    # The modules have crystals with 10 ppm.
     clock_error=10.0,
-    # The driver takes a resolution in whole Hz.
+    # The driver needs a resolution in whole Hz.
     prescalers=tuple(number for number in range(1, 257) if _CLOCK % number == 0),
     # A duration has 15 bits.
     largest_count=32_767,
@@ -105,10 +105,10 @@ void loop() {}
 
 
 def esp32_sketch(sent: Transmission) -> str:
-    """Write the sketch: C++ for the Arduino IDE with the core for the ESP32."""
+    """Write the sketch in C++ for the Arduino IDE with the core for the ESP32."""
     timing = sent.timing
     return _SKETCH.substitute(
-        head=head(sent, "//"),
+        head=head_comment(sent, "//"),
         chips=len(sent.chips),
         table=c_table(sent.chips),
         resolution=timing.clock // timing.prescaler,

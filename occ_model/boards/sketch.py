@@ -1,18 +1,18 @@
-"""The boards by name, their sketches, source text that blinks a scene, and the files' names."""
+"""The boards by name, the sketches that blink a scene on them, and the names of the files."""
 
 import re
 from collections.abc import Callable
 from pathlib import Path
 
 from occ_model.boards.arduino import NANO, UNO, arduino_sketch
-from occ_model.boards.board import Board
+from occ_model.boards.board import TransmitterBoard
 from occ_model.boards.esp32 import ESP32, esp32_sketch
 from occ_model.boards.pico import PICO, pico_sketch
-from occ_model.boards.transmission import Transmission, transmission
+from occ_model.boards.transmission import Transmission, prepare_transmission
 from occ_model.scene.argument_checks import check_choice
 from occ_model.scene.scene import Scene
 
-BOARDS: dict[str, Board] = {board.name: board for board in (UNO, NANO, ESP32, PICO)}
+BOARDS: dict[str, TransmitterBoard] = {board.name: board for board in (UNO, NANO, ESP32, PICO)}
 
 DEFAULT_BOARD = UNO.name
 
@@ -24,21 +24,21 @@ _SKETCHES: dict[str, Callable[[Transmission], str]] = {
 }
 
 
-def board_named(name: str) -> Board:
+def board_named(name: str) -> TransmitterBoard:
     check_choice("board", name, tuple(BOARDS))
     return BOARDS[name]
 
 
-def source_text(sent: Transmission) -> str:
+def write_sketch(sent: Transmission) -> str:
     return _SKETCHES[sent.board.name](sent)
 
 
 def transmitter_sketch(scene: Scene, board: str = DEFAULT_BOARD) -> str:
-    """Write a complete program for a board that blinks what a scene's transmitter sends.
+    """Write a complete program that lets a board blink what a scene's transmitter sends.
 
-    The pin follows :func:`occ_model.packet`, one period after another without a gap. A chip lasts a
-    whole number of cycles of the board's clock, so that the frequency sent may differ from the
-    scene's; the comment at the head states it with its error.
+    The pin repeats :func:`occ_model.packet` without gaps. A chip lasts a whole number of cycles of
+    the board's clock, so that the sent frequency may differ from the scene's; the comment at the
+    head states it and its error.
 
     Parameters
     ----------
@@ -53,12 +53,12 @@ def transmitter_sketch(scene: Scene, board: str = DEFAULT_BOARD) -> str:
     Raises
     ------
     ParameterError
-        There is no such board, it cannot blink that fast or that slowly, or the packet does not fit
-        into it.
+        There is no such board, it cannot blink that fast or slowly, or the packet does not fit into
+        its memory.
     PluginError
         A plug-in fails.
     """
-    return source_text(transmission(scene, board_named(board)))
+    return write_sketch(prepare_transmission(scene, board_named(board)))
 
 
 SCENE = "scene.toml"
@@ -67,15 +67,15 @@ _SKETCH_NAME = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_.-]{0,62}")  # a name for the
 _DEFAULT_NAME = "blink"
 
 
-def sketch_name(folder: Path, board: Board) -> str:
-    """Name the sketch's file: as its folder, as the Arduino IDE requires, or ``main.py``."""
+def sketch_name(folder: Path, board: TransmitterBoard) -> str:
+    """Name the sketch's file after its folder, as the Arduino IDE requires, or ``main.py``."""
     if board.ending == ".py":
         return f"main{board.ending}"
     name = folder.resolve().name
     return f"{name if _SKETCH_NAME.fullmatch(name) else _DEFAULT_NAME}{board.ending}"
 
 
-def file_names(folder: Path, board: Board) -> tuple[str, ...]:
+def file_names(folder: Path, board: TransmitterBoard) -> tuple[str, ...]:
     return (
         sketch_name(folder, board),
         "waveform.csv",

@@ -1,9 +1,8 @@
-"""What a board sends of a scene: chips, how long each lasts, and how much of it the eye may see.
+"""What a board sends for a scene: the chips, how long each lasts, and visible flicker.
 
-A period that is not a whole number of the clock's cycles is rounded, and the error is stated, in
-exact arithmetic. Spreading the fraction over the chips would keep the mean frequency, but move
-single edges by up to half a cycle, which no photo can be corrected for; a frequency that is known
-exactly is taken into the scene.
+A chip's length is rounded to whole cycles of the clock, and the error is stated exactly. Spreading
+the fraction over the chips would keep the mean frequency but move single edges by up to half a
+cycle, which cannot be corrected in a photo, whereas the exact frequency can be put into the scene.
 """
 
 from collections.abc import Iterator
@@ -15,7 +14,7 @@ from math import floor
 import numpy as np
 
 from occ_model.arrays import ByteArray
-from occ_model.boards.board import Board
+from occ_model.boards.board import TransmitterBoard
 from occ_model.errors import ParameterError
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
@@ -25,10 +24,10 @@ from occ_model.transmitter.packet import packet, shortest_period
 
 
 @dataclass(frozen=True, slots=True)
-class ChipTiming:
+class BoardTiming:
     clock: int  # Frequency of the board's clock in Hz
     prescaler: int
-    count: int  # How many divided cycles a chip lasts
+    count: int  # Divided cycles for a chip
     asked: Fraction  # The requested switching frequency, in Hz
 
     @property
@@ -46,40 +45,40 @@ class ChipTiming:
 
     @property
     def error_ppm(self) -> Fraction:
-        """Relative error of the frequency in parts per million, positive where it is too high."""
+        """Relative error of the frequency in parts per million, positive if it is too high."""
         return (self.frequency / self.asked - 1) * 10**6
 
     @property
     def is_as_asked(self) -> bool:
-        """Whether the frequency is the requested one, as exactly as a scene can hold it."""
+        """Whether the frequency is the requested one to the precision of a scene's numbers."""
         return float(self.frequency) == float(self.asked)
 
 
-def best_timing(board: Board, frequency: float) -> ChipTiming:
-    """Choose the setting of the nearest frequency; of equals the one with the finest timer."""
+def choose_timing(board: TransmitterBoard, frequency: float) -> BoardTiming:
+    """Choose the timer's setting with the nearest frequency; among equals the finest timer."""
     asked = Fraction(frequency)
     if not board.lowest_frequency <= asked <= board.highest_frequency:
-        raise _refusal(board, frequency)
+        raise _refuse_frequency(board, frequency)
     settings = (
-        ChipTiming(board.clock, prescaler, count, asked)
+        BoardTiming(board.clock, prescaler, count, asked)
         for prescaler in board.prescalers
-        for count in _counts(board, prescaler, asked)
+        for count in _list_counts(board, prescaler, asked)
     )
     return min(settings, key=lambda timing: (abs(timing.error_ppm), timing.prescaler))
 
 
-def _counts(board: Board, prescaler: int, asked: Fraction) -> Iterator[int]:
-    """Yield the whole numbers around the exact count that the board allows."""
+def _list_counts(board: TransmitterBoard, prescaler: int, asked: Fraction) -> Iterator[int]:
+    """Yield the whole numbers next to the exact count, as far as the board allows them."""
     below = floor(board.clock / (prescaler * asked))
     for count in (below, below + 1):
         if 1 <= count <= board.largest_count and prescaler * count >= board.least_cycles:
             yield count
 
 
-def _refusal(board: Board, frequency: float) -> ParameterError:
+def _refuse_frequency(board: TransmitterBoard, frequency: float) -> ParameterError:
     declared = quantity("switching_frequency")
     low, high = float(board.lowest_frequency), float(board.highest_frequency)
-    why = board.limit_reason if frequency > high else "the timer counts no longer"
+    why = board.limit_reason if frequency > high else "the timer cannot count longer"
     return ParameterError.of(
         declared.name,
         declared.format(frequency),
@@ -91,26 +90,26 @@ def _refusal(board: Board, frequency: float) -> ParameterError:
 
 @dataclass(frozen=True, eq=False)
 class Transmission:
-    """One period of the chips that a board repeats, and the length of each."""
+    """One period of the chips that a board repeats, and their length."""
 
     scene: Scene
-    board: Board
-    chips: ByteArray  # Shape (chips,): one period, first sent first; 1 is lit
-    timing: ChipTiming
+    board: TransmitterBoard
+    chips: ByteArray  # Shape (chips,): one period in the order sent; 1 is lit
+    timing: BoardTiming
 
     @property
     def sent_scene(self) -> Scene:
-        """The scene with the switching frequency that is really sent."""
+        """The scene with the switching frequency that is actually sent."""
         return self.scene.replace(switching_frequency=float(self.timing.frequency))
 
     @cached_property
     def edges(self) -> tuple[int, ...]:
-        """The chips of a period that differ from the one before, the last before the first."""
+        """Indices of the chips that differ from the chip before, in the repeated period."""
         return tuple(np.flatnonzero(self.chips != np.roll(self.chips, 1)).tolist())
 
     @property
     def longest_run(self) -> Fraction | None:
-        """The longest time in s without an edge, across the end of a period; None without edges."""
+        """Longest time in s without an edge in the repeated period; None if there are no edges."""
         if not self.edges:
             return None
         following = (*self.edges[1:], self.edges[0] + len(self.chips))
@@ -119,21 +118,21 @@ class Transmission:
 
     @property
     def lowest_frequency(self) -> Fraction | None:
-        """Lowest frequency in Hz that the light contains; None where it never changes."""
+        """Lowest frequency in Hz that the light contains; None if it never changes."""
         if not self.edges:
             return None
         return self.timing.frequency / shortest_period(self.chips)
 
     @property
     def is_visible(self) -> bool:
-        """Whether the light contains frequencies that may be seen as flicker."""
+        """Whether the light contains frequencies that people may see as flicker."""
         return self.lowest_frequency is not None and self.lowest_frequency < VISIBLE_LIMIT
 
 
-def transmission(scene: Scene, board: Board) -> Transmission:
-    """Prepare what a board sends; ParameterError where it cannot send that fast, or so much."""
+def prepare_transmission(scene: Scene, board: TransmitterBoard) -> Transmission:
+    """Prepare what a board sends; ParameterError if it cannot send at that frequency or so much."""
     chips = packet(scene)
-    room = table_size(board, len(chips))
+    room = count_table_bytes(board, len(chips))
     if room > board.table_bytes:
         raise ParameterError(
             f"The packet has {len(chips):,} chips, which take {room:,} bytes on {board.title}; "
@@ -141,25 +140,25 @@ def transmission(scene: Scene, board: Board) -> Transmission:
             parameters=("payload", "line_code", "framing"),
         )
     return Transmission(
-        scene, board, chips, best_timing(board, scene.transmitter.switching_frequency)
+        scene, board, chips, choose_timing(board, scene.transmitter.switching_frequency)
     )
 
 
-def table_size(board: Board, chips: int) -> int:
-    """Count a packet's bytes on a board: MicroPython unpacks periods into words of 32 chips."""
+def count_table_bytes(board: TransmitterBoard, chips: int) -> int:
+    """Count the bytes of a packet on a board; MicroPython's is unpacked into words of 32 chips."""
     if board.language == "MicroPython":
-        return chips * repeats_to_words(chips) // 8
+        return chips * count_repeats(chips) // 8
     return -(-chips // 8)
 
 
-def repeats_to_words(chips: int) -> int:
-    """Count the periods that fill whole words of 32 chips."""
+def count_repeats(chips: int) -> int:
+    """Count the repetitions of a period that fill whole words of 32 chips."""
     return next(times for times in (1, 2, 4, 8, 16, 32) if chips * times % 32 == 0)
 
 
 EYES = (
-    "Do not look into a bright LED or panel from near, nor let others do so; turn it off when "
-    "nobody photographs it."
+    "Do not look into a bright LED or panel at close range, nor let others do so; turn it off when "
+    "nobody is photographing it."
 )
 
 SEIZURES = (
@@ -175,7 +174,7 @@ def flicker_sentence(sent: Transmission) -> str:
         return "The light does not change: all chips are equal."
     limit = HERTZ.format(VISIBLE_LIMIT)
     said = (
-        f"The lowest frequency in the light is {HERTZ.format(float(lowest), 4)}, with which the "
+        f"The lowest frequency in the light is {HERTZ.format(float(lowest), 4)}, at which the "
         f"packet repeats; its longest time without an edge is {SECOND.format(float(run), 4)}."
     )
     if sent.is_visible:

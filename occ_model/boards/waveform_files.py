@@ -1,4 +1,4 @@
-"""The waveform that a board sends, as files: CSV of its edges, VCD for logic viewers, WAV."""
+"""Files of the waveform that a board sends: CSV of its edges, VCD for logic viewers, WAV."""
 
 import wave
 from collections.abc import Iterator
@@ -15,32 +15,32 @@ from occ_model.scene.units import HERTZ
 
 HEADER = ("chip", "clock cycles", "time in s", "lit")  # columns of the table of edges
 
-# Of the VCD file: a cycle of each board's clock is a whole number of the finest ticks. The coarsest
-# is 1 s: longer ones, which the format allows, are 0 Hz to sigrok.
+# For the VCD file: a cycle of any board's clock is a whole number of the finest ticks. The coarsest
+# tick is 1 s; the format allows longer ones, but sigrok takes these as 0 Hz.
 _DECIMALS = 10
 _TICK_UNITS = ("s", "ms", "us", "ns", "ps")
 
-HIGHEST_SAMPLE_RATE = 192_000  # in Hz: the highest of common sound cards
+HIGHEST_SAMPLE_RATE = 192_000  # in Hz, the highest of common sound cards
 
 LOWEST_SAMPLE_RATE = 8_000
 
 _USUAL_RATES = (44_100, 48_000, 96_000, 192_000)
 
-_MAX_RATES = 2_000  # sample rates that are compared, from the highest
-_LARGEST_WAV = 64_000_000  # samples of a file, one byte each
+_MAX_RATES = 2_000  # sample rates that are tried, from the highest down
+_LARGEST_WAV = 64_000_000  # samples in a file, of one byte each
 
 
 def edge_rows(sent: Transmission) -> Iterator[tuple[int, int, str, int]]:
-    """Yield the chips at which a period of light changes, and its two ends, with exact times."""
+    """Yield the chips at which the light changes, and the ends of the period, with exact times."""
     count = len(sent.chips)
     places = sorted({0, *sent.edges, count})
     for chip in places:
         time = chip * sent.timing.period
-        yield chip, chip * sent.timing.cycles, decimal(time), int(sent.chips[chip % count])
+        yield chip, chip * sent.timing.cycles, format_decimal(time), int(sent.chips[chip % count])
 
 
-def decimal(value: Fraction) -> str:
-    """Write a number exactly where it has few decimals, else to 18 digits after the point."""
+def format_decimal(value: Fraction) -> str:
+    """Write a number exactly if it has up to 18 decimals, else rounded to these."""
     digits = 18
     scaled = round(value * 10**digits)
     whole, part = divmod(scaled, 10**digits)
@@ -48,17 +48,17 @@ def decimal(value: Fraction) -> str:
 
 
 def vcd_text(sent: Transmission) -> str:
-    """Write one period as a value change dump (IEEE 1364-2005, 18), its edges exact.
+    """Write one period as a value change dump (IEEE 1364-2005, 18) with exact edges.
 
-    Its tick is the coarsest power of ten that all edges are multiples of: viewers such as sigrok
-    take a sample each tick.
+    Its tick is the coarsest power of ten of which all edges are multiples, since viewers such as
+    sigrok take a sample at each tick.
     """
     rows = list(edge_rows(sent))
     times = [cycles * (10**_DECIMALS // sent.timing.clock) for _, cycles, _, _ in rows]
     zeros = next(n for n in range(_DECIMALS, -1, -1) if gcd(*times) % 10**n == 0)
     thousands, tens = divmod(zeros - _DECIMALS, 3)
     lines = [
-        "$comment one packet, sent over and over $end",
+        "$comment one packet, sent repeatedly $end",
         f"$timescale {10**tens} {_TICK_UNITS[-thousands]} $end",
         "$scope module transmitter $end",
         "$var wire 1 ! light $end",
@@ -73,25 +73,25 @@ def vcd_text(sent: Transmission) -> str:
 
 @dataclass(frozen=True, slots=True)
 class WavTiming:
-    """Sample rate in Hz and samples a chip of a WAV file, and the error of its frequency."""
+    """Sample rate in Hz and samples a chip of a WAV file, and the error of the frequency."""
 
     sample_rate: int
     samples_a_chip: int
     error_ppm: Fraction
 
 
-def wav_timing(sent: Transmission) -> WavTiming:
-    """Choose the sample rate of a WAV file, with whole samples a chip so that edges are even.
+def choose_wav_timing(sent: Transmission) -> WavTiming:
+    """Choose a WAV file's sample rate, such that each chip has equally many samples.
 
-    It is a whole number of Hz, whose frequency is nearest to that sent; a usual one is preferred.
+    It is the whole number of Hz that gives the nearest frequency; common rates are preferred.
     """
     frequency = sent.timing.frequency
     fewest = max(2, ceil(LOWEST_SAMPLE_RATE / frequency))
     most = int(HIGHEST_SAMPLE_RATE / frequency)
     if most < fewest:
         raise OutputError(
-            f"A WAV file holds up to {HERTZ.format(HIGHEST_SAMPLE_RATE)}, two samples a chip, and "
-            f"thus up to {HERTZ.format(HIGHEST_SAMPLE_RATE / 2)}: the switching frequency is "
+            f"A WAV file has up to {HERTZ.format(HIGHEST_SAMPLE_RATE)}, and at least two samples a "
+            f"chip, for up to {HERTZ.format(HIGHEST_SAMPLE_RATE / 2)}; the switching frequency is "
             f"{HERTZ.format(float(frequency))}."
         )
     tried = range(max(fewest, most - _MAX_RATES), most + 1)
@@ -112,8 +112,8 @@ def _wav_timing(frequency: Fraction, samples: int) -> WavTiming:
 
 
 def wav_bytes(sent: Transmission) -> bytes:
-    """Write whole periods of at least one second as a WAV file of 8 bits: 255 is lit, 0 is dark."""
-    timing = wav_timing(sent)
+    """Write whole periods of at least one second as a WAV file of 8 bits; 255 is lit, 0 is dark."""
+    timing = choose_wav_timing(sent)
     period = len(sent.chips) * timing.samples_a_chip
     periods = ceil(timing.sample_rate / period)
     if periods * period > _LARGEST_WAV:

@@ -1,1 +1,1 @@
-"""The camera: exposure, pixel values, projection, optics and sensor."""
+"""The camera: exposure, projection, optics, sensor and pixel values."""

@@ -1,4 +1,4 @@
-"""Coverage: the fraction of each pixel that a panel of any outline covers, sharp or blurred."""
+"""Coverage: the fraction of each pixel that a panel covers, with any outline, sharp or blurred."""
 
 import math
 from dataclasses import dataclass
@@ -9,26 +9,26 @@ import cv2
 import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray, Pixels
-from occ_model.camera.row_interpolation import weighted
+from occ_model.camera.row_interpolation import apply_weights
 from occ_model.camera.row_memory import MEMORY
 
-_BLUR_REACH = 4.0  # standard deviations after which a blurred edge ends: 3e-5 of it are left
+_BLUR_REACH = 4.0  # standard deviations at which a blurred edge is cut off; 3e-5 of it are beyond
 
-_FINE_CELLS_A_BLUR = 4.0  # blur's standard deviation in cells that allows a coarser grid
-_SAMPLED_ROWS = 16  # rows of a cell that are sampled where the outline is high: as good as all
-_MAX_EXACT_ROWS = 4096  # maximum rows of an outline to use all of them: a blur may be wider
+_FINE_CELLS_A_BLUR = 4.0  # standard deviations of the blur, in cells, that a coarser grid needs
+_SAMPLED_ROWS = 16  # rows of a cell that are sampled of a high outline, which is as good as all
+_MAX_EXACT_ROWS = 4096  # most rows of an outline of which all are used
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class CoveredPart:
     columns: slice
-    # The fraction of the light in each pixel that comes from the panel: one for all pixels, or an
+    # The fraction of each pixel's light that comes from the panel: one number for all pixels, or an
     # array of float32, shape (rows, columns)
     fraction: float | Pixels
 
 
-def _divided(columns: slice, fraction: Pixels) -> list[CoveredPart]:
-    """Divide a rim whose rows are equal into columns that are covered wholly or not at all."""
+def _split_rim(columns: slice, fraction: Pixels) -> list[CoveredPart]:
+    """Split a rim of equal rows into runs of columns that are covered fully or not at all."""
     first = fraction[0]
     if not ((first == 0.0) | (first == 1.0)).all() or (fraction != first).any():
         return [CoveredPart(columns, fraction)]
@@ -39,7 +39,7 @@ def _divided(columns: slice, fraction: Pixels) -> list[CoveredPart]:
     ]
 
 
-def _joined(parts: list[CoveredPart]) -> list[CoveredPart]:
+def _join_parts(parts: list[CoveredPart]) -> list[CoveredPart]:
     joined: list[CoveredPart] = []
     for part in parts:
         before = joined[-1] if joined else part
@@ -58,9 +58,9 @@ def _fractions(parts: list[CoveredPart]) -> list[Pixels]:
 class Coverage:
     """The fraction of the light in each pixel that comes from the panel.
 
-    A pixel belongs to the panel when its centre lies inside the outline: the (column, row) of
-    each corner, in order round the panel, which may be concave. The blur (standard deviation in
-    pixels) includes light from beyond the picture's rim, as the lens blurs before the sensor cuts.
+    A pixel belongs to the panel if its centre is inside the outline, given as the (column, row) of
+    each corner in order; the outline may be concave. The blur (standard deviation in pixels) also
+    brings in light from beyond the picture's rim, since the lens blurs before the sensor ends.
     """
 
     def __init__(self, outline: FloatArray, rows: int, columns: int, blur: float = 0.0) -> None:
@@ -71,10 +71,12 @@ class Coverage:
         self._margin = math.ceil(_BLUR_REACH * blur)
         self._seen = seen = range(-self._margin, rows + self._margin)
         cell = max(1, int(blur / _FINE_CELLS_A_BLUR))
-        # The widest blur needs no more rows than a narrow one.
-        self._stride = max(1, min(cell // _SAMPLED_ROWS, _height(outline, seen) // _MAX_EXACT_ROWS))
+        # A very wide blur needs no more sampled rows than a narrow one.
+        self._stride = max(
+            1, min(cell // _SAMPLED_ROWS, _count_rows(outline, seen) // _MAX_EXACT_ROWS)
+        )
         self._cell = cell - cell % self._stride
-        self._coarse = self._whole(rows) if self._cell > 1 else None
+        self._coarse = self._blur_whole(rows) if self._cell > 1 else None
 
     @cached_property
     def _crossings(self) -> tuple[IndexArray, FloatArray, FloatArray]:
@@ -88,30 +90,30 @@ class Coverage:
         return covered
 
     def reaches(self, rows: range) -> bool:
-        """Whether the outline, or its blur, may reach any of some rows."""
+        """Return whether the outline with its blur may reach any of some rows."""
         reach, line = self._margin + self._cell, self._starts[1]
         return bool(line.min() - reach <= rows[-1] and line.max() + reach >= rows[0])
 
     def parts(self, rows: range) -> list[CoveredPart]:
-        """Return some rows part by part, from the left: the rims of the panel and what is between.
+        """Return the parts of some rows from the left: the panel's rims, and those between them.
 
-        Between its rims the panel covers either all of each pixel or nothing.
+        Between rims the panel covers all of each pixel, or nothing.
         """
-        return MEMORY.recall((*self._key, rows), lambda: self._parts(rows), _fractions)
+        return MEMORY.recall((*self._key, rows), lambda: self._compute_parts(rows), _fractions)
 
-    def _parts(self, rows: range) -> list[CoveredPart]:
+    def _compute_parts(self, rows: range) -> list[CoveredPart]:
         parts, before = [], 0
-        for start, stop in self._rims(rows):
+        for start, stop in self._find_rims(rows):
             if start > before:
-                parts.append(self._even(rows, slice(before, start)))
-            parts += _divided(slice(start, stop), self._rim(rows, slice(start, stop)))
+                parts.append(self._even_part(rows, slice(before, start)))
+            parts += _split_rim(slice(start, stop), self._cover_rim(rows, slice(start, stop)))
             before = stop
         if before < self._columns:
-            parts.append(self._even(rows, slice(before, self._columns)))
-        return _joined(parts)
+            parts.append(self._even_part(rows, slice(before, self._columns)))
+        return _join_parts(parts)
 
-    def _rims(self, rows: range) -> list[tuple[int, int]]:
-        """Return the columns near the outline in some rows, from the left."""
+    def _find_rims(self, rows: range) -> list[tuple[int, int]]:
+        """Find the columns near the outline in some rows, from the left."""
         (x0, y0), (x1, y1) = self._starts, self._ends
         reach = self._margin + self._cell
         low, high = rows[0] - reach, rows[-1] + reach
@@ -130,8 +132,8 @@ class Coverage:
         lasts = np.append(firsts[1:], len(start))[: len(firsts)] - 1
         return list(zip(start[firsts].tolist(), stop[lasts].astype(int).tolist(), strict=True))
 
-    def _even(self, rows: range, columns: slice) -> CoveredPart:
-        """Return columns away from the outline, covered where it runs round the first of them."""
+    def _even_part(self, rows: range, columns: slice) -> CoveredPart:
+        """Return columns away from the outline, covered if it encloses the first of them."""
         (x0, y0), (x1, y1) = self._starts, self._ends
         crossed = (y0 <= rows[0]) != (y1 <= rows[0])
         x0, y0, x1, y1 = x0[crossed], y0[crossed], x1[crossed], y1[crossed]
@@ -139,25 +141,25 @@ class Coverage:
         turns = np.sign(y1 - y0)[x < columns.start].sum()
         return CoveredPart(columns, float(turns != 0.0))
 
-    def _rim(self, rows: range, columns: slice) -> Pixels:
+    def _cover_rim(self, rows: range, columns: slice) -> Pixels:
         if self._coarse is not None:
-            return self._enlarged(self._coarse, rows, range(columns.start, columns.stop))
+            return self._enlarge(self._coarse, rows, range(columns.start, columns.stop))
         margin, step = self._margin, rows.step
         width = 2 * margin + 1
         if not margin:
-            return self._sharp(np.asarray(rows), columns, 1)
+            return self._cover_sharply(np.asarray(rows), columns, 1)
         if step < width:
             lines = np.arange(rows[0] - margin, rows[-1] + margin + 1)
             chosen = slice(margin, margin + rows[-1] - rows[0] + 1, step)
-        else:  # a window of rows round each
+        else:  # a window of rows around each
             lines = (np.asarray(rows)[:, None] + np.arange(-margin, margin + 1)).ravel()
             chosen = slice(margin, None, width)
         wide = slice(columns.start - margin, columns.stop + margin)
-        blurred = cv2.GaussianBlur(self._sharp(lines, wide, 1), (width, width), self._blur)
+        blurred = cv2.GaussianBlur(self._cover_sharply(lines, wide, 1), (width, width), self._blur)
         return np.asarray(blurred[chosen, margin : margin + columns.stop - columns.start])
 
-    def _sharp(self, rows: IndexArray, columns: slice, cell: int) -> Pixels:
-        """Return the fraction of each cell inside the outline; its first row is one of ``rows``."""
+    def _cover_sharply(self, rows: IndexArray, columns: slice, cell: int) -> Pixels:
+        """Return the fraction of each cell inside the outline; ``rows`` are their first ones."""
         row, x, sign = self._crossings
         chosen = slice(*np.searchsorted(row, (rows[0], rows[-1] + cell)).tolist())
         line = np.searchsorted(rows, row[chosen], side="right") - 1
@@ -173,43 +175,43 @@ class Coverage:
         np.add.at(steps, place, weight * (1.0 - fraction))
         np.add.at(steps, (place[0], place[1] + 1), weight * fraction)
         np.cumsum(steps, axis=1, out=steps)
-        # Their sign depends on the direction of the outline.
+        # The sign depends on the direction of the outline.
         return np.abs(steps[:, :-2])
 
-    def _whole(self, rows: int) -> Pixels:
-        """Blur the whole picture on a coarse grid, which is fine enough for a wide blur."""
+    def _blur_whole(self, rows: int) -> Pixels:
+        """Blur the whole picture on a grid of cells, fine enough for a wide blur."""
         margin = self._margin
         lines = np.arange(-margin, rows + margin, self._cell)
-        sharp = self._sharp(lines, slice(-margin, self._columns + margin), self._cell)
+        sharp = self._cover_sharply(lines, slice(-margin, self._columns + margin), self._cell)
         reach = math.ceil(self._margin / self._cell)
         size = (2 * reach + 1, 2 * reach + 1)
-        # The cells' own width and the interpolation between them blur by a half cell already.
+        # The cells' own width and the interpolation between them already blur by half a cell.
         blur = math.sqrt((self._blur / self._cell) ** 2 - 0.25)
         blurred = cv2.GaussianBlur(sharp, size, blur)
         return np.asarray(blurred, dtype=np.float32)
 
-    def _enlarged(self, coarse: Pixels, rows: range, columns: range) -> Pixels:
-        """Interpolate linearly between the cells' centres."""
-        # Not by OpenCV: its coordinates are short integers in many versions.
-        column, right = self._between(columns)
-        row, below = self._between(rows)
+    def _enlarge(self, coarse: Pixels, rows: range, columns: range) -> Pixels:
+        """Interpolate linearly between the centres of cells."""
+        # OpenCV does not serve here, as its coordinates are short integers in many versions.
+        column, right = self._find_cells(columns)
+        row, below = self._find_cells(rows)
         part = coarse[row[0] : row[-1] + 2]
         wide = part[:, column] * (1.0 - right) + part[:, column + 1] * right
         weight = np.zeros((len(rows), len(part)), dtype=np.float32)
         line = np.arange(len(rows))
         weight[line, row - row[0]] = 1.0 - below
         weight[line, row - row[0] + 1] = below
-        return weighted(weight, wide)
+        return apply_weights(weight, wide)
 
-    def _between(self, pixels: range) -> tuple[IndexArray, Pixels]:
-        """Return the cell before each pixel's centre, and the distance from it in cells."""
+    def _find_cells(self, pixels: range) -> tuple[IndexArray, Pixels]:
+        """Find the cell before each pixel's centre, and the distance from it in cells."""
         place = (np.asarray(pixels) + (self._margin + 0.5)) / self._cell - 0.5
         before = np.floor(place)
         return before.astype(np.int64), (place - before).astype(np.float32)
 
 
-def _height(outline: FloatArray, seen: range) -> int:
-    """Count the rows seen between the outline's first and its last."""
+def _count_rows(outline: FloatArray, seen: range) -> int:
+    """Count the rows of ``seen`` between the outline's first and last row."""
     low, high = np.clip(outline[:, 1], seen.start, seen.stop).min(), outline[:, 1].max()
     return int(min(float(high), float(seen.stop)) - low)
 
@@ -217,13 +219,13 @@ def _height(outline: FloatArray, seen: range) -> int:
 def _crossings(
     outline: FloatArray, seen: range, stride: int
 ) -> tuple[IndexArray, FloatArray, FloatArray]:
-    """Return row, column and direction (1 upwards, -1 downwards) of the outline's crossings.
+    """Return where the outline crosses rows: row, column, and direction (1 upwards, -1 downwards).
 
-    They lie in the rows seen, or in the middle one of every ``stride`` rows.
+    The rows are those of ``seen``, or the middle one of every ``stride`` of them.
     """
     (x0, y0), (x1, y1) = outline.T, np.roll(outline, -1, axis=0).T
-    # Half open, so that a corner on a row is crossed by one of its two edges only.
-    start, stop = (_rows_from(y, seen) for y in (np.minimum(y0, y1), np.maximum(y0, y1)))
+    # Half open, so that only one of the two edges at a corner crosses its row.
+    start, stop = (_first_rows(y, seen) for y in (np.minimum(y0, y1), np.maximum(y0, y1)))
     start += (seen.start + stride // 2 - start) % stride
     counts = np.maximum(-(-(stop - start) // stride), 0)
     edge = np.repeat(np.arange(len(outline)), counts)
@@ -231,16 +233,16 @@ def _crossings(
     row = start[edge] + (np.arange(len(edge)) - before[edge]) * stride
     x0, y0, x1, y1 = x0[edge], y0[edge], x1[edge], y1[edge]
     along = (row - y0) / (y1 - y0)
-    # Clipped to the ends, as rounding would move some rows of an upright edge.
+    # Clipped to the edge's ends, since rounding would move some rows of an upright edge.
     column = np.clip(x0 * (1.0 - along) + x1 * along, np.minimum(x0, x1), np.maximum(x0, x1))
     order = np.argsort(row, kind="stable")
     return row[order], column[order], np.where(y1 > y0, 1.0, -1.0)[order]
 
 
 def column_spans(outline: FloatArray, rows: int, columns: int) -> tuple[IndexArray, IndexArray]:
-    """Return each column's first row in an outline, and the one after the last; equal for none.
+    """Return each column's first row inside an outline and the row after the last; equal if none.
 
-    ``outline``: the (column, row) of each corner, in order.
+    ``outline`` is the (column, row) of each corner, in order.
     """
     column, row, _ = _crossings(outline[:, ::-1], range(columns), 1)
     top, bottom = np.full(columns, np.inf), np.full(columns, -np.inf)
@@ -250,5 +252,5 @@ def column_spans(outline: FloatArray, rows: int, columns: int) -> tuple[IndexArr
     return first, np.maximum(first, last)
 
 
-def _rows_from(y: FloatArray, seen: range) -> IndexArray:
+def _first_rows(y: FloatArray, seen: range) -> IndexArray:
     return np.ceil(np.clip(y, seen.start, seen.stop)).astype(np.int64)

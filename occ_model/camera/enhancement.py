@@ -1,4 +1,4 @@
-"""Contrast enhancement: histogram equalization or a stretch, and rounding to 8 bits."""
+"""Contrast enhancement: histogram equalization or a linear stretch, and rounding to 8 bits."""
 
 import math
 from dataclasses import dataclass
@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 from occ_model.arrays import ByteArray, FloatArray, IndexArray
 from occ_model.camera.photometry import FLAT_SPAN, WHITE
 
-_LEVEL_TOLERANCE = 1e-9  # grey levels within which column values are equal: their rounding error
+_LEVEL_TOLERANCE = 1e-9  # difference of column values in grey levels that is only rounding
 
 
-_NEGLIGIBLE_TAIL = 5.0  # standard deviations; beyond lies less than 1e-6 of a normal distribution
-_TABLE_END = 8.0  # standard deviations tabulated: none of 1e14 pixels is expected beyond
-_PER_DEVIATION = 2048  # entries of the table of the normal distribution to a standard deviation
+_NEGLIGIBLE_TAIL = 5.0  # standard deviations beyond which a normal distribution has less than 1e-6
+_TABLE_END = 8.0  # standard deviations that are tabulated; not one of 1e14 pixels is beyond
+_PER_DEVIATION = 2048  # entries of the table of the normal distribution for each standard deviation
 
 
 def to_bytes(values: NDArray[np.floating[Any]]) -> ByteArray:
@@ -26,13 +26,13 @@ def to_bytes(values: NDArray[np.floating[Any]]) -> ByteArray:
 
 
 class Enhancement:
-    """The contrast enhancement of a picture with some column values.
+    """The contrast enhancement for a picture with some column values.
 
-    Its curve, of shape (256,) and nowhere falling, follows from the columns' values alone; it is
-    applied to pixels that a lens, noise or a file has changed since. ``"equalization"``, the
-    paper's choice, equalizes the histogram of the rounded values; ``"stretch"`` makes the smallest
-    0 and the largest 255. A profile that spans less than one grey level is only rounded; one whose
-    values differ by rounding errors alone has one grey level, also half-way between two.
+    Its curve, of shape (256,) and never falling, follows from the column values alone; it is then
+    applied to pixels that a lens, noise or a file have changed. ``"equalization"``, the paper's
+    choice, equalizes the histogram of the rounded values; ``"stretch"`` maps the smallest to 0 and
+    the largest to 255. A profile that spans less than one grey level is only rounded. If its values
+    differ only by rounding errors, all round to the same level, even half-way between two.
     """
 
     def __init__(self, profile: FloatArray, method: str) -> None:
@@ -44,7 +44,7 @@ class Enhancement:
             return
         rounded = to_bytes(profile)
         if method == "equalization":
-            self.curve = _equalization(rounded)
+            self.curve = _equalize(rounded)
         elif rounded.max() > rounded.min():
             darkest, brightest = int(rounded.min()), int(rounded.max())
             self.curve = to_bytes((np.arange(256) - darkest) * (WHITE / (brightest - darkest)))
@@ -57,36 +57,37 @@ class Enhancement:
         return self.curve[to_bytes(values)]
 
     def moments(self, levels: FloatArray, spread: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the mean and the standard deviation of a noisy pixel after the enhancement.
+        """Return mean and standard deviation of noisy pixels after the enhancement.
 
-        A pixel of mean v and standard deviation s passes the step of the curve from level k to the
-        next with the probability Q((k + 1/2 - v) / s), Q being the tail of the normal distribution.
-        The mean is the sum of the steps times these probabilities, and that of the square likewise.
+        A pixel of mean v and standard deviation s is above the curve's step from level k to the
+        next with the probability Q((k + 1/2 - v) / s), where Q is the tail of the normal
+        distribution. The mean is the sum of the steps times these probabilities; that of the square
+        is found alike.
         """
-        return self._moments(PassedSteps.of(levels, spread))
+        return self._moments(LevelSteps.of(levels, spread))
 
-    def _moments(self, passed: "PassedSteps") -> tuple[FloatArray, FloatArray]:
+    def _moments(self, passed: "LevelSteps") -> tuple[FloatArray, FloatArray]:
         curve = self.curve.astype(np.float64)
         mean = passed.mean_of(curve)
         return mean, np.sqrt(np.maximum(passed.mean_of(curve**2) - mean**2, 0.0))
 
-    def mean(self, passed: "PassedSteps") -> FloatArray:
-        """Return the mean of :meth:`moments` alone."""
+    def mean(self, passed: "LevelSteps") -> FloatArray:
+        """Return only the mean of :meth:`moments`."""
         return passed.mean_of(self.curve.astype(np.float64))
 
-    def smoothed(self, passed: "PassedSteps") -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Return :meth:`moments`, and the mean of the sum of squares of the steps passed."""
+    def moments_and_jumps(self, passed: "LevelSteps") -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Return :meth:`moments`, and the mean sum of the squares of the steps below a pixel."""
         jumps = np.concatenate([[0.0], np.cumsum(np.diff(self.curve.astype(np.float64)) ** 2)])
         return *self._moments(passed), passed.mean_of(jumps)
 
-    def of_bytes(self, image: ByteArray, out: ByteArray | None = None) -> ByteArray:
-        """Enhance rounded levels, shape (rows, columns), optionally in place."""
+    def enhance_bytes(self, image: ByteArray, out: ByteArray | None = None) -> ByteArray:
+        """Enhance whole grey levels, shape (rows, columns), optionally in place."""
         return np.asarray(cv2.LUT(image, self.curve, dst=out), dtype=np.uint8)
 
 
 def byte_fractions(levels: FloatArray, spread: FloatArray, weights: FloatArray) -> FloatArray:
-    """Return the number of pixels of each of the 256 levels, by means, noise and weights."""
-    steps = PassedSteps.of(levels, spread)
+    """Return the expected number of pixels of each of the 256 levels, weighted."""
+    steps = LevelSteps.of(levels, spread)
     edge, passed = steps.edge, steps.passed
     ones, none = np.ones((len(levels), 1)), np.zeros((len(levels), 1))
     fraction = np.hstack([ones, passed]) - np.hstack([passed, none])
@@ -97,22 +98,21 @@ def byte_fractions(levels: FloatArray, spread: FloatArray, weights: FloatArray) 
 
 
 def fraction_above(limit: float, levels: FloatArray, spread: FloatArray) -> FloatArray:
-    """Return the fraction of noisy pixels above a limit, for each mean and standard deviation."""
+    """Return the fraction of noisy pixels above a limit, for each mean and noise."""
     return _tail((limit - levels) / np.maximum(spread, _LEVEL_TOLERANCE))
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class PassedSteps:
-    """The steps from one grey level to the next near some levels, and the pixels that pass them."""
+class LevelSteps:
+    """Steps between grey levels near some mean values, and the fraction of pixels above each."""
 
-    # Shape (values, steps): the grey level below each step; below the first one lies hardly any
-    # pixel
+    # Shape (values, steps): the grey level below each step; hardly any pixel is below the first
     edge: IndexArray
     passed: FloatArray  # Shape (values, steps): the fraction of the pixels above it
 
     @classmethod
     def of(cls, levels: FloatArray, spread: FloatArray) -> Self:
-        """Find the steps for noisy pixels of some mean values."""
+        """Find the steps that matter for noisy pixels of some mean values."""
         reach = min(math.ceil(_NEGLIGIBLE_TAIL * float(spread.max())) + 1, 256)
         lowest = np.minimum(np.maximum(np.rint(levels).astype(np.int64) - reach, 0), 255)
         step = lowest[:, None] + np.arange(2 * reach)
@@ -122,14 +122,14 @@ class PassedSteps:
         return cls(step, passed)
 
     def mean_of(self, values: FloatArray) -> FloatArray:
-        """Return the mean of what pixels get whose level has some value."""
+        """Return the mean of ``values``, given for each grey level, over the pixels."""
         steps = np.concatenate([np.diff(values), np.zeros(self.edge.shape[1] + 1)])
         passed = np.einsum("ij,ij->i", steps[self.edge], self.passed)
         return np.asarray(values[self.edge[:, 0]] + passed)
 
 
 def _tail(deviations: FloatArray) -> FloatArray:
-    """Return the fraction of a normal distribution above some deviations, exact to 1e-4."""
+    """Return the fraction of a normal distribution above some deviations, to within 1e-4."""
     place = np.maximum(deviations, -_TABLE_END)
     np.minimum(place, _TABLE_END, out=place)
     place += _TABLE_END
@@ -144,13 +144,13 @@ def _tail_table() -> FloatArray:
     return np.array([0.5 * math.erfc(u / math.sqrt(2.0)) for u in places.tolist()])
 
 
-def _equalization(rounded: ByteArray) -> ByteArray:
-    """Return the enhanced level of each of the 256 grey levels."""
-    # Explicitly one row: a one-dimensional array has different shapes in OpenCV 4 and 5.
+def _equalize(rounded: ByteArray) -> ByteArray:
+    """Return the curve that equalizes the histogram of rounded levels, shape (256,)."""
+    # Explicitly one row, since a one-dimensional array has different shapes in OpenCV 4 and 5.
     equalized = cv2.equalizeHist(rounded[None, :])[0]
     curve = np.zeros(256, dtype=np.uint8)
     curve[rounded] = equalized
-    # A level that no column has follows the next darker one: as many columns are below it.
+    # A level without columns takes the value of the next darker one.
     return np.maximum.accumulate(curve)
 
 

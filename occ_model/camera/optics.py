@@ -1,4 +1,4 @@
-"""Optics: how the lens pictures the panel, changed by one effect after the other."""
+"""Optics: where and how bright the lens images the panel. Effects change it one by one."""
 
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass, field
@@ -11,38 +11,38 @@ from occ_model.camera.row_memory import MEMORY
 @dataclass(frozen=True, eq=False, slots=True)
 class Gain:
     stage: str
-    # Gives the factors at some rows, which may lie between pixels, and in some columns
+    # Returns the factors at some rows, which may be between pixels, and in some columns
     at: Callable[[FloatArray, slice], Pixels]
 
     @classmethod
-    def remembered(
+    def cached(
         cls, stage: str, depends_on: tuple[Hashable, ...], at: Callable[[FloatArray, slice], Pixels]
     ) -> Self:
         def recalled(rows: FloatArray, columns: slice) -> Pixels:
             place = (rows[0], rows[-1], len(rows), columns.start, columns.stop)
-            return MEMORY.recall((stage, *depends_on, *place), lambda: at(rows, columns), _itself)
+            return MEMORY.recall((stage, *depends_on, *place), lambda: at(rows, columns), _as_tuple)
 
         return cls(stage, recalled)
 
 
-def _itself(factors: Pixels) -> tuple[Pixels]:
+def _as_tuple(factors: Pixels) -> tuple[Pixels]:
     return (factors,)
 
 
-STAGE = "optics"  # the stage that the time of no effect in particular is counted under
+STAGE = "optics"  # the stage that gets the time of no effect in particular
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Optics:
-    # Shape (corners, 2): the panel's outline in the picture, (column, row) of each corner
+    # Shape (corners, 2): (column, row) of each corner of the panel's outline in the picture
     outline: FloatArray
     blur: float = 0.0  # Standard deviation of the lens's blur in pixels
     emission: tuple[Gain, ...] = field(default=())
     transmission: tuple[Gain, ...] = field(default=())
-    # The stage that the time to compute the panel's coverage is counted under
+    # The stage that gets the time to compute the panel's coverage
     cover_stage: str = STAGE
 
     @property
     def is_plain(self) -> bool:
-        """Whether every pixel shows either the panel or its surroundings, without blur or gain."""
+        """Whether every pixel shows either the panel or the surroundings, without blur or gain."""
         return not (self.blur or self.emission or self.transmission)

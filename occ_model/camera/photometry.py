@@ -1,7 +1,7 @@
-"""Photometry: pixel values from luminance, equations (1) to (3) of the paper, and electrons.
+"""Photometry: pixel values from luminance by equations (1) to (3) of the paper, and electrons.
 
-The equations give the pixel value of a luminance, which is the mean of many pixels. How far a
-single pixel deviates from it follows from the number of its electrons.
+The equations give the pixel value for a luminance, which is the mean of many pixels. The deviation
+of a single pixel follows from its number of electrons.
 """
 
 import math
@@ -19,12 +19,12 @@ from occ_model.camera.exposure import lit_fraction
 from occ_model.scene.scene import Camera, Scene, Sensor
 
 WHITE = 255.0  # the largest pixel value
-FLAT_SPAN = 1.0  # least span in grey levels that is enhanced: stretching less would invent stripes
-_MID_GREY = 118.0  # the pixel value of a scene of the luminance that the meter is calibrated to
+FLAT_SPAN = 1.0  # least span in grey levels that is enhanced; stretching less would invent stripes
+_MID_GREY = 118.0  # the pixel value at the luminance to which the meter is calibrated
 
 
-def _gain(camera: Camera) -> float:
-    """Return S t / (K N^2), which makes a luminance a multiple of the meter's."""
+def _exposure_gain(camera: Camera) -> float:
+    """Return S t / (K N^2), by which a luminance becomes a multiple of the meter's."""
     return camera.iso * camera.exposure_time / (camera.meter_constant * camera.f_number**2)
 
 
@@ -33,22 +33,22 @@ def pixel_value(
     camera: Camera,
     power: Callable[[FloatArray, float], FloatArray] = operator.pow,
 ) -> FloatArray:
-    """Return the pixel value of a constant luminance in cd/m2, before the sensor saturates.
+    """Return the pixel value for a constant luminance in cd/m2, before the sensor saturates.
 
     PV = 118 (S t L / (K N^2))^(1/gamma), the paper's equations (1) and (2).
     """
-    return np.asarray(_MID_GREY * power(_gain(camera) * luminance, 1.0 / camera.gamma))
+    return np.asarray(_MID_GREY * power(_exposure_gain(camera) * luminance, 1.0 / camera.gamma))
 
 
 def fast_power(values: FloatArray, power: float) -> FloatArray:
-    """Return a power, faster than NumPy, with other last digits."""
+    """Return a power, faster than NumPy but with slightly different rounding."""
     found: FloatArray = np.asarray(cv2.pow(values.reshape(-1, 1), power), dtype=np.float64)
     return found.reshape(values.shape)
 
 
 def luminance_of(values: FloatArray, camera: Camera) -> FloatArray:
-    """Return the luminance of a pixel value, in cd/m2: the inverse of :func:`pixel_value`."""
-    return np.asarray((values / _MID_GREY) ** camera.gamma / _gain(camera))
+    """Return the luminance in cd/m2 for a pixel value, the inverse of :func:`pixel_value`."""
+    return np.asarray((values / _MID_GREY) ** camera.gamma / _exposure_gain(camera))
 
 
 def saturate(values: FloatArray) -> FloatArray:
@@ -56,7 +56,7 @@ def saturate(values: FloatArray) -> FloatArray:
 
 
 def luminance_levels(scene: Scene) -> FloatArray:
-    """Return the luminance of the panel, dark and lit, in cd/m2, both with E_v R / pi reflected."""
+    """Return the luminances of the dark and the lit panel in cd/m2, with E_v R / pi reflected."""
     reflected = scene.surroundings.illuminance * scene.surroundings.reflectance / math.pi
     return np.array([reflected, scene.transmitter.luminance + reflected])
 
@@ -68,14 +68,14 @@ def level_values(scene: Scene) -> FloatArray:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ColumnLight:
-    # Shape (columns,): mean light of the panel in the exposure, relative to the fully lit panel's
+    # Shape (columns,): mean light of the panel during the exposure, 1 if fully lit
     lit: FloatArray
-    # Shape (columns,) or (1,): the external light, as a multiple of its mean over time
+    # Shape (columns,) or (1,): mean external light, as a multiple of its mean over time
     ambient: FloatArray
 
     @classmethod
     def of(cls, scene: Scene) -> Self:
-        """Return the light of the paper's model: sharp edges, steady surroundings."""
+        """Return the light in the paper's model: sharp edges and steady surroundings."""
         return cls(lit_fraction(scene), np.ones(1))
 
 
@@ -84,11 +84,11 @@ def panel_values(
     light: ColumnLight,
     power: Callable[[FloatArray, float], FloatArray] = operator.pow,
 ) -> FloatArray:
-    """Return the pixel value that each column has on the panel, before saturation.
+    """Return the pixel value of each column on the panel, before saturation.
 
     With ``averaging = "pixel-value"`` this is the paper's equation (3), PV_sim(i) = (PV_max t_on(i)
-    + PV_min t_off(i)) / t. With ``"light"`` the luminances are averaged and the pixel value is
-    taken of their mean, as light adds up in a sensor before gamma encoding.
+    + PV_min t_off(i)) / t. With ``"light"`` the luminances are averaged before the gamma encoding,
+    as in a real sensor.
     """
     dark, bright = luminance_levels(scene)
     reflected, emitted = dark * light.ambient, bright - dark
@@ -107,8 +107,8 @@ def surroundings_values(scene: Scene, light: ColumnLight) -> FloatArray:
 def column_profile(scene: Scene) -> FloatArray:
     """Return the pixel value of every column before contrast enhancement, PV_sim.
 
-    It is :func:`panel_values` of the paper's model, saturated. The sum saturates, not its terms: a
-    pixel is full by the light of the whole exposure.
+    It is :func:`panel_values` in the paper's model, saturated. The sum saturates, not its terms,
+    since a pixel fills during the whole exposure.
 
     Returns
     -------
@@ -119,18 +119,18 @@ def column_profile(scene: Scene) -> FloatArray:
 
 
 _EXPOSURE_FACTOR = 0.65
-"""H = 0.65 L t / N^2 in lux seconds, the exposure behind a lens for a luminance (ISO 12232).
+"""H = 0.65 L t / N^2 in lux seconds is the exposure behind a lens for a luminance (ISO 12232).
 
-It includes the fall-off of light at 10 degrees off the axis, some 6 %."""
+It includes the fall-off of light at 10 degrees from the axis, some 6 %."""
 
-_PHOTONS_PER_LUMEN_SECOND = 8.8e15  # per lm s of white LED light: 320 lm/W, 3.55e-19 J a photon
+_PHOTONS_PER_LUMEN_SECOND = 8.8e15  # of white LED light, with 320 lm/W and 3.55e-19 J a photon
 
 
 _SMALLEST_FLOAT = np.finfo(np.float64).tiny
 
 
 def electrons_per_luminance(scene: Scene) -> float:
-    """Return the electrons that a pixel collects in the exposure time, for each cd/m2."""
+    """Return the electrons that a pixel collects in the exposure time for each cd/m2."""
     return _electrons_per_luminance(scene.camera, scene.sensor)
 
 
@@ -143,17 +143,17 @@ def _electrons_per_luminance(camera: Camera, sensor: Sensor) -> float:
 
 
 def electrons_of(values: FloatArray, scene: Scene) -> FloatArray:
-    """Return the mean number of electrons behind pixel values before saturation."""
+    """Return the mean number of electrons for pixel values before saturation."""
     return luminance_of(values, scene.camera) * electrons_per_luminance(scene)
 
 
 def values_of(electrons: FloatArray, scene: Scene) -> FloatArray:
-    """Return the pixel values, before saturation, of numbers of electrons."""
+    """Return the pixel values before saturation for numbers of electrons."""
     return pixel_value(electrons / electrons_per_luminance(scene), scene.camera)
 
 
 def converter_step(scene: Scene) -> float:
-    """Return the electrons per step of the converter, whose range ends at the largest value."""
+    """Return the electrons for each step of the converter, whose range ends at white."""
     return _converter_step(scene.camera, scene.sensor)
 
 
@@ -167,12 +167,12 @@ def _converter_step(camera: Camera, sensor: Sensor) -> float:
 def deviation(
     values: FloatArray, scene: Scene, variance: Callable[[FloatArray], FloatArray]
 ) -> FloatArray:
-    """Return the standard deviation of pixels in grey levels from that of their electrons.
+    """Return the standard deviation of pixels in grey levels from the variance of electrons.
 
     The deviation sigma of n electrons is multiplied by the slope of the gamma encoding, PV / (gamma
-    n), taken at sqrt(n^2 + sigma^2) electrons: n where there is light, finite where there is none.
-    It is at most the distance from saturation: a full pixel shows no noise, and one within a
-    deviation of being full shows less than a sensor that is saturated by its gain alone.
+    n), taken at sqrt(n^2 + sigma^2) electrons, which is nearly n in light and stays finite without.
+    The result is limited to the distance from saturation: a full pixel has no noise, and one that
+    is nearly full has little.
     """
     electrons = electrons_of(values, scene)
     square = variance(electrons)
@@ -183,7 +183,7 @@ def deviation(
 
 
 def saturation_value(scene: Scene) -> float:
-    """Return the pixel value at which a pixel is full, at most the largest."""
+    """Return the pixel value at which a pixel is full, at most white."""
     return _saturation_value(scene.camera, scene.sensor)
 
 

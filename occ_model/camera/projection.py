@@ -1,4 +1,4 @@
-"""Projection of the panel onto the image, and painting of the image."""
+"""Projecting the panel onto the image, and painting the image."""
 
 from functools import lru_cache
 
@@ -9,24 +9,24 @@ from occ_model.errors import ProjectionError
 from occ_model.scene.scene import Camera, Pose, Scene
 from occ_model.scene.units import METRE
 
-MAX_PIXELS = 170_000_000  # largest image that is made or read: a larger one would fill the memory
+MAX_PIXELS = 170_000_000  # of the largest image made or read, as a larger one could fill the memory
 _MIN_RELATIVE_DEPTH = 1e-6
-"""Depth, as a fraction of the distance, below which a corner counts as in the camera's plane.
+"""Depth, as a fraction of the distance, below which a corner counts as beside the camera.
 
-A depth is a difference of numbers; a smaller one has too few digits to place the corner.
+Depth is a difference of two numbers; a smaller one has too few exact digits.
 """
 
 
 def panel_corners(scene: Scene) -> FloatArray:
     """Project the panel's corners onto the image.
 
-    The camera looks along the optical axis at the panel's centre, if that is not shifted; the
-    centre of the pixel in row ``r`` and column ``c`` has the coordinates (c, r).
+    Without offsets, the optical axis meets the panel's centre. The centre of the pixel in row ``r``
+    and column ``c`` has the coordinates (c, r).
 
     Returns
     -------
     ndarray of float64, shape (4, 2)
-        (column, row) of each corner, in order round the panel.
+        (column, row) of each corner, in order around the panel.
 
     Raises
     ------
@@ -47,7 +47,7 @@ def _corner_rays(pose: Pose, width: float, height: float) -> FloatArray:
     if nearest <= pose.distance * _MIN_RELATIVE_DEPTH:
         place = f"{METRE.format(-nearest)} behind" if nearest < 0.0 else "beside"
         raise ProjectionError(
-            f"Turned like this at a distance of {METRE.format(pose.distance)}, part of the panel "
+            f"With these angles at a distance of {METRE.format(pose.distance)}, part of the panel "
             f"is {place} the camera; move it away or turn it back.",
             parameters=("distance", "yaw", "pitch"),
         )
@@ -55,17 +55,17 @@ def _corner_rays(pose: Pose, width: float, height: float) -> FloatArray:
 
 
 def image_points(rays: FloatArray, camera: Camera) -> FloatArray:
-    """Return where rays (x, y), in focal lengths, meet the image as (column, row), same shape."""
+    """Return where rays (x, y), in focal lengths, meet the image, as (column, row)."""
     return np.asarray(rays * camera.focal_length_pixels + _centre(camera))
 
 
 def image_rays(points: FloatArray, camera: Camera) -> FloatArray:
-    """Return points of the image, (column, row), as rays (x, y) in focal lengths, same shape."""
+    """Return the rays (x, y), in focal lengths, to points (column, row) of the image."""
     return np.asarray((points - _centre(camera)) / camera.focal_length_pixels)
 
 
 def pixel_rays(camera: Camera, rows: FloatArray) -> tuple[Pixels, Pixels]:
-    """Return x, shape (1, columns), and y, shape (rows, 1), of rays in focal lengths."""
+    """Return x, shape (1, columns), and y, shape (rows, 1), of pixels' rays in focal lengths."""
     column, row = _centre(camera)
     x = (np.arange(camera.columns) - column) / camera.focal_length_pixels
     y = (rows - row) / camera.focal_length_pixels
@@ -86,7 +86,7 @@ def rotation_of(pose: Pose) -> FloatArray:
 
 
 def rotations(yaw: FloatArray, pitch: FloatArray, roll: FloatArray) -> FloatArray:
-    """Return :func:`rotation_of` many angles, shape (*angles, 3, 3)."""
+    """Return the matrices of :func:`rotation_of` for many angles, shape (*angles, 3, 3)."""
     angles = (pitch, yaw, roll)
     (sx, cx), (sy, cy), (sz, cz) = ((np.sin(angle), np.cos(angle)) for angle in angles)
     one, zero = np.ones_like(sx), np.zeros_like(sx)
@@ -98,12 +98,12 @@ def rotations(yaw: FloatArray, pitch: FloatArray, roll: FloatArray) -> FloatArra
 
 
 def row_spans(corners: FloatArray, rows: int, columns: int) -> tuple[IndexArray, IndexArray]:
-    """Return each row's first column inside a convex polygon, and the one after the last.
+    """Return each row's first column inside a convex polygon, and the column after the last.
 
-    Equal where the row has none. ``corners``: the (column, row) of each, in order.
+    They are equal if the row has none. ``corners`` are (column, row), in order.
 
-    A pixel lies inside when its centre does, or lies on the left or upper rim, so that it belongs
-    to only one of two adjacent panels. Corners may lie any distance outside the image.
+    A pixel is inside if its centre is, or if that is on the left or upper rim, so that it belongs
+    to only one of two adjacent panels. Corners may be at any distance outside the image.
     """
     row = np.arange(rows, dtype=np.float64)
     left = np.full(rows, np.inf)
@@ -111,9 +111,9 @@ def row_spans(corners: FloatArray, rows: int, columns: int) -> tuple[IndexArray,
     for (x0, y0), (x1, y1) in zip(corners, np.roll(corners, -1, axis=0), strict=True):
         if y0 == y1:
             continue
-        crossed = slice(_row_from(min(y0, y1), rows), _row_from(max(y0, y1), rows))
-        # Interpolated from both ends, exact at each, however steep the edge; clipped, so that all
-        # rows of an upright edge are equal.
+        crossed = slice(_first_row(min(y0, y1), rows), _first_row(max(y0, y1), rows))
+        # Interpolated from both ends, so that it is exact at each; clipped, so that all rows of an
+        # upright edge are equal.
         along = (row[crossed] - y0) / (y1 - y0)
         x = np.clip(x0 * (1.0 - along) + x1 * along, min(x0, x1), max(x0, x1))
         np.minimum(left[crossed], x, out=left[crossed])
@@ -123,7 +123,7 @@ def row_spans(corners: FloatArray, rows: int, columns: int) -> tuple[IndexArray,
     return first, np.maximum(first, last)
 
 
-def _row_from(y: float, rows: int) -> int:
+def _first_row(y: float, rows: int) -> int:
     return int(min(max(np.ceil(y), 0), rows))
 
 
@@ -140,12 +140,12 @@ def check_size(camera: Camera) -> None:
 def paint(
     enhanced: ByteArray, corners: FloatArray, rows: range, surroundings: ByteArray
 ) -> ByteArray:
-    """Make the image: the profile in every row of the panel, and the surroundings beside it."""
+    """Paint the image: the profile in every row of the panel, and the surroundings beside it."""
     columns = len(enhanced)
     spans = row_spans(corners, rows.stop, columns)
     first, last = (ends[rows.start :: rows.step] for ends in spans)
     image = np.empty((len(rows), columns), dtype=np.uint8)
-    # Rows with the same span are painted as one block; a level panel is a single one.
+    # Rows with the same span are painted as one block; an upright panel is a single block.
     changes = np.flatnonzero((first[1:] != first[:-1]) | (last[1:] != last[:-1])) + 1
     starts = [0, *changes.tolist()]
     for top, bottom in zip(starts, [*starts[1:], len(rows)], strict=True):

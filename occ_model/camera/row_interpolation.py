@@ -1,9 +1,9 @@
-"""Interpolation from a few rows to all rows of a band.
+"""Interpolation of all rows of a band from a few.
 
-Within a band of rows the light changes smoothly with the row, so that a polynomial through its
-values at a few nodes gives all its rows. At the Chebyshev nodes its error falls geometrically with
-their number, and the last coefficients of its Chebyshev series bound it (L. N.
-Trefethen, *Approximation Theory and Approximation Practice*, 2013, chapters 3 and 8).
+In a band of rows the light changes smoothly, so that a polynomial through its values at a few nodes
+gives all rows. With Chebyshev nodes the error falls geometrically with their number, and the last
+coefficients of the Chebyshev series bound it (L. N. Trefethen, *Approximation Theory and
+Approximation Practice*, 2013, chapters 3 and 8).
 """
 
 from functools import lru_cache
@@ -16,11 +16,11 @@ from occ_model.arrays import FloatArray, Pixels
 
 NODES = 6  # nodes of a band
 
-TOLERANCE = 2e-3  # largest error of mean values, in grey levels: far below rounding to bytes
+TOLERANCE = 2e-3  # largest error of mean values in grey levels, far below that of rounding to bytes
 
 
 def node_rows(rows: range) -> FloatArray:
-    """Return the nodes of a band of evenly spaced rows, shape (nodes,): places between its rows."""
+    """Return the nodes of a band of evenly spaced rows, shape (nodes,); they are between rows."""
     first, last = rows[0], rows[-1]
     return np.asarray((first + last) / 2.0 + (last - first) / 2.0 * _nodes())
 
@@ -32,17 +32,17 @@ def row_weights(rows: int) -> Pixels:
     return np.asarray(found, dtype=np.float32)
 
 
-def weighted(weights: Pixels, values: Pixels) -> Pixels:
-    """Return the matrix product of weights (rows, nodes) and values (nodes, columns).
+def apply_weights(weights: Pixels, values: Pixels) -> Pixels:
+    """Multiply weights (rows, nodes) by values (nodes, columns) as matrices.
 
-    Not by BLAS, whose threads wait for each other beside those that compute the bands.
+    This avoids BLAS, whose threads would compete with those that compute the bands.
     """
     return np.asarray(np.einsum("ij,jk->ik", weights, values))
 
 
-def smooth_columns(values: Pixels, tolerance: float = TOLERANCE) -> NDArray[np.bool_]:
-    """Return the columns whose rows follow from the nodes within a tolerance."""
-    last = np.abs(weighted(_coefficients()[-2:].astype(np.float32), values))
+def find_smooth_columns(values: Pixels, tolerance: float = TOLERANCE) -> NDArray[np.bool_]:
+    """Return which columns can be interpolated from the nodes to within a tolerance."""
+    last = np.abs(apply_weights(_coefficients()[-2:].astype(np.float32), values))
     return np.asarray(last.sum(axis=0) <= tolerance)
 
 

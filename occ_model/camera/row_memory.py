@@ -1,7 +1,7 @@
-"""Cache of rows that depend on the pose and the lens alone.
+"""A cache of rows that depend only on the pose and the lens.
 
-A slider changes one parameter at a time: of picture after picture the gains and the panel's rims
-stay what they were.
+A slider changes one parameter at a time, so that gains and rims are often the same in one picture
+after another.
 """
 
 from collections import OrderedDict
@@ -13,15 +13,15 @@ from numpy.typing import NDArray
 
 _Made = TypeVar("_Made")
 
-CAPACITY = 24 * 2**20  # most bytes remembered: the rows of one large picture and of its draft
+CAPACITY = 24 * 2**20  # most bytes in the cache: the rows of one large picture and of its draft
 
 MOST_ENTRIES = 256
-"""Most objects in the cache: thousands of small pictures would fill the bytes, and each takes as
-much again in objects other than arrays."""
+"""Most entries of the cache, which could otherwise hold thousands of small pictures. Each of these
+takes as much memory again in objects other than arrays."""
 
 
 class RowMemory:
-    """Arrays by what they depend on, up to ``limit`` bytes; the least recently used go first."""
+    """Arrays by key, up to ``limit`` bytes; the least recently used are dropped first."""
 
     def __init__(self, limit: int, entries: int = MOST_ENTRIES) -> None:
         self._limit, self._entries = limit, entries
@@ -55,4 +55,4 @@ class RowMemory:
         return made
 
 
-MEMORY = RowMemory(CAPACITY)  # process-wide row cache
+MEMORY = RowMemory(CAPACITY)  # the cache of this process

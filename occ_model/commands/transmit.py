@@ -5,8 +5,8 @@ from pathlib import Path
 
 from occ_model.boards.chip_table import frequency_lines
 from occ_model.boards.sketch import BOARDS, DEFAULT_BOARD, SCENE, board_named, file_names
-from occ_model.boards.transmission import EYES, Transmission, flicker_sentence, transmission
-from occ_model.boards.waveform_files import wav_timing
+from occ_model.boards.transmission import EYES, Transmission, flicker_sentence, prepare_transmission
+from occ_model.boards.waveform_files import choose_wav_timing
 from occ_model.commands.files import Written
 from occ_model.commands.options import Commands, add_option, add_scene_options, scene_of
 from occ_model.errors import one_line
@@ -35,7 +35,7 @@ def _written(options: argparse.Namespace) -> Written:
 
 
 def _run(options: argparse.Namespace) -> int:
-    sent = transmission(scene_of(options), board_named(options.board))
+    sent = prepare_transmission(scene_of(options), board_named(options.board))
     make_folder(options.out)  # a refusal must not come after the drawing
     # matplotlib takes half a second to import: only where a figure is drawn.
     from occ_model.figures.transmitter_files import write_transmitter_files
@@ -56,7 +56,7 @@ def _facts(sent: Transmission) -> list[str]:
 
 def _wav(sent: Transmission) -> str:
     """State the frequency error of the WAV file, whose sample rate is a whole number of Hz."""
-    timing = wav_timing(sent)
+    timing = choose_wav_timing(sent)
     return (
         f"WAV: {timing.samples_a_chip} samples a chip at {HERTZ.format(timing.sample_rate)}, "
         f"{float(timing.error_ppm):+.3g} ppm from the frequency sent; sound cards block steady "

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.camera.enhancement import Enhancement, PassedSteps
+from occ_model.camera.enhancement import Enhancement, LevelSteps
 from occ_model.camera.photometry import FLAT_SPAN, WHITE, saturate
 from occ_model.effects.normal_noise import mean_after_clipping, unclipped_fraction
 from occ_model.effects.observed import SampledObservable
@@ -84,7 +84,7 @@ def _mean_rounded(pixels: SampledPixels, included: Names, values: FloatArray) ->
     spread = pixels.spread(included)
     if float(spread.max()) < LEAST_SMOOTHING_NOISE:
         flat = np.clip(values, 0.0, WHITE)
-        return PassedSteps.of(flat, pixels.noise_at(included, flat)).mean_of(_LEVELS)
+        return LevelSteps.of(flat, pixels.noise_at(included, flat)).mean_of(_LEVELS)
     return pixels.table.interpolate(mean_after_clipping(pixels.levels, spread, WHITE), values)
 
 

@@ -26,7 +26,7 @@ class SignalSampling:
         self._rows = pixels.view.region.rows
         noise = curves.noise(pixels.names - curves.files)
         self._spread = spread = noise.spread
-        curve, self._deviation, jumps = pixels.columns.enhancement(pixels.names).smoothed(
+        curve, self._deviation, jumps = pixels.columns.enhancement(pixels.names).moments_and_jumps(
             noise.passed
         )
         self._even = pixels.table.slope(curve) ** 2

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.camera.enhancement import PassedSteps
+from occ_model.camera.enhancement import LevelSteps
 from occ_model.camera.photometry import WHITE
 from occ_model.effects.observed import SampledObservable
 from occ_model.effects.sampled_pixels import SampledPixels
@@ -27,7 +27,7 @@ class _CurveNoise(NamedTuple):
 
     spread: FloatArray
     least: float
-    passed: PassedSteps
+    passed: LevelSteps
 
 
 class SmoothedCurves:
@@ -48,7 +48,7 @@ class SmoothedCurves:
             spread, file = self._pixels.spread(included), self._pixels.file
             if file is not None and self.files & included:
                 spread = file.spread(spread)
-            passed = PassedSteps.of(self._levels, spread)
+            passed = LevelSteps.of(self._levels, spread)
             self._noises[key] = _CurveNoise(spread, float(spread.min()), passed)
         return self._noises[key]
 
@@ -77,7 +77,7 @@ class SmoothedCurves:
                 )
                 sharp = own_noise < tabulated
                 if sharp.any():
-                    steps = PassedSteps.of(flat[sharp], own_noise[sharp])
+                    steps = LevelSteps.of(flat[sharp], own_noise[sharp])
                     of_own[sharp] = pixels.columns.enhancement(included).mean(steps)
         return found
 

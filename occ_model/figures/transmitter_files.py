@@ -15,9 +15,9 @@ from occ_model.boards.board import (
     LED_CURRENT,
     LED_VOLTS,
     PULL_DOWN,
-    Board,
+    TransmitterBoard,
 )
-from occ_model.boards.sketch import file_names, source_text
+from occ_model.boards.sketch import file_names, write_sketch
 from occ_model.boards.transmission import EYES, Transmission, flicker_sentence
 from occ_model.boards.waveform_files import HEADER, edge_rows, vcd_text, wav_bytes
 from occ_model.errors import OutputError
@@ -42,7 +42,7 @@ def write_transmitter_files(folder: Path, sent: Transmission) -> tuple[list[Path
 def _contents(folder: Path, sent: Transmission) -> tuple[dict[str, bytes], str]:
     sketch, table, vcd, wav, pdf, svg, png, scene = file_names(folder, sent.board)
     contents = {
-        sketch: source_text(sent).encode("utf-8"),
+        sketch: write_sketch(sent).encode("utf-8"),
         table: table_text(HEADER, edge_rows(sent), provenance(sent)).encode("utf-8"),
         vcd: vcd_text(sent).encode("ascii"),
         pdf: wiring_bytes(sent, "pdf"),
@@ -110,7 +110,7 @@ def notes(sent: Transmission) -> list[str]:
     ]
 
 
-def _draw_panel(axes: Axes, board: Board) -> None:
+def _draw_panel(axes: Axes, board: TransmitterBoard) -> None:
     """Draw the paper's circuit: a MOSFET switches the panel."""
     with _circuit(axes) as drawing:
         pins = [
@@ -142,7 +142,7 @@ def _draw_panel(axes: Axes, board: Board) -> None:
         drawing.add(elements.Wire("|-").at(chip.ground).to(pull_down.end))
 
 
-def _draw_led(axes: Axes, board: Board) -> None:
+def _draw_led(axes: Axes, board: TransmitterBoard) -> None:
     with _circuit(axes) as drawing:
         drawing.add(elements.Dot(open=True).label(board.pin, "right"))
         drawing.add(elements.RBox().down(2.6).label(f"{board.led_resistor} Ω", loc="bottom"))

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from occ_model.arrays import FloatArray
 from occ_model.camera.photometry import WHITE
-from occ_model.camera.pixel_arrays import bytes_of, numbers_of
+from occ_model.camera.pixel_arrays import bytes_of, check_pixels
 from occ_model.camera.projection import MAX_PIXELS
 from occ_model.errors import DecodeInputError
 from occ_model.receiver.decoders import decoder_named, read_with
@@ -58,7 +58,7 @@ def decode(image: NDArray[Any], scene: Scene, decoder: str = PAPER_DECODER) -> D
         ) from None
     _check(image)
     if image.ndim == 1:
-        levels = _levels(numbers_of(image))
+        levels = _levels(check_pixels(image))
         result = replace(read_with(decoder, levels, scene), region=Region(0, 1, 0, len(image)))
         return _with_hint(result, levels) if image.dtype.kind == "f" else result
     grey = bytes_of(image)

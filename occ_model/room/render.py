@@ -11,7 +11,7 @@ from occ_model.arrays import ByteArray, FloatArray
 from occ_model.camera.coverage import Coverage
 from occ_model.camera.enhancement import Enhancement
 from occ_model.camera.optics import Optics
-from occ_model.camera.picture_rows import LitPanel, PictureRows, in_blocks, split_at
+from occ_model.camera.picture_rows import LitPanel, PictureRows, split_at, split_into_blocks
 from occ_model.camera.projection import check_size
 from occ_model.effects.effect import OpticsEffect
 from occ_model.effects.paper_view import PaperView, paper_view_of, region_of
@@ -75,11 +75,11 @@ class RoomFrame:
         rows, columns = image.shape
         for shown in self.lamps:
             enhancement = Enhancement(shown.profile, method)
-            for band in in_blocks(range(rows)):
+            for band in split_into_blocks(range(rows)):
                 covered = Coverage(shown.outline, rows, columns, shown.blur).rows(band) >= 0.5
                 camera = self.camera_image[band.start : band.stop]
                 own = image[band.start : band.stop]
-                np.copyto(own, enhancement.of_bytes(camera), where=covered)
+                np.copyto(own, enhancement.enhance_bytes(camera), where=covered)
         return image
 
 
@@ -178,7 +178,7 @@ def _composed(
         for view, own in zip(views, columns, strict=True)
     ]
     timer.stage_ended("optics")
-    bands = in_blocks(range(camera.rows))
+    bands = split_into_blocks(range(camera.rows))
     if all(panel.optics.is_plain for panel in panels) and camera.jpeg_quality == 0:
         level = [view.region for view in views if view.sides]
         ends = [end for own in level for end in (own.first_row, own.last_row)]

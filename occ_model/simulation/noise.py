@@ -10,7 +10,7 @@ import numpy as np
 from occ_model.arrays import FloatArray, Pixels
 from occ_model.camera.photometry import saturation_value
 from occ_model.camera.picture_rows import Rows
-from occ_model.camera.row_interpolation import smooth_columns
+from occ_model.camera.row_interpolation import find_smooth_columns
 from occ_model.effects.effect import NoiseEffect
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import NoiseSource
@@ -130,7 +130,7 @@ class NoiseSpread:
             spread = self(rows.nodes)
             self._known = (rows.nodes, spread)
         rims = [self(rim.values) for rim in rows.rims]
-        if rows.weights is None or smooth_columns(spread, _TOLERANCE).all():
+        if rows.weights is None or find_smooth_columns(spread, _TOLERANCE).all():
             rows.combine(np.multiply, normal, spread, rims)
         else:
             each_row.combine(np.multiply, normal, self(each_row.nodes), rims)

@@ -11,7 +11,7 @@ from occ_model.arrays import ByteArray, FloatArray, Pixels
 from occ_model.camera.enhancement import Enhancement, to_bytes
 from occ_model.camera.optics import Optics
 from occ_model.camera.photometry import WHITE
-from occ_model.camera.picture_rows import LitPanel, PictureRows, Rows, in_blocks, split_at
+from occ_model.camera.picture_rows import LitPanel, PictureRows, Rows, split_at, split_into_blocks
 from occ_model.effects.effect import FileEffect, NoiseEffect, OpticsEffect, PixelEffect
 from occ_model.effects.paper_view import PaperView
 from occ_model.effects.registry import effects_planned
@@ -86,7 +86,7 @@ class PixelExposure:
         self._limits = effects_planned(plan, PixelEffect)
         self._noises = effects_planned(plan, NoiseEffect)
         self._files = effects_planned(plan, FileEffect)
-        self._bands = bands or in_blocks(range(scene.camera.rows))
+        self._bands = bands or split_into_blocks(range(scene.camera.rows))
         height = sum(len(band) for band in self._bands)
         self._shape = (height, scene.camera.columns)
         for file in self._files:
@@ -141,7 +141,7 @@ class PixelExposure:
         timer = band.timer
         timer.begin()
         mean = self._mean.of(band.rows, timer.stage_ended)
-        each_row = mean.each_row()
+        each_row = mean.expand_rows()
         values: Pixels | None = None
         for effects, normal in band.drawn() if band.drawn else ():
             if effects not in spreads:
@@ -159,9 +159,9 @@ class PixelExposure:
     def _held(self, mean: Rows, timer: StageTimer) -> Rows:
         """Limit mean values to those that a pixel can hold."""
         for limit in self._limits:
-            mean = mean.changed(partial(limit.apply, self._scene))
+            mean = mean.change_values(partial(limit.apply, self._scene))
             timer.stage_ended(limit.name)
-        return mean.changed(lambda values: np.minimum(values, np.float32(WHITE)))
+        return mean.change_values(lambda values: np.minimum(values, np.float32(WHITE)))
 
     def pictures(
         self,
@@ -238,7 +238,7 @@ def _enhance(camera_image: ByteArray, enhancement: Enhancement, rows: Rows, out:
     """Enhance grey levels within the panel, and copy them beside it."""
     out[:] = camera_image
     for columns in rows.inside:
-        enhancement.of_bytes(camera_image[:, columns], out[:, columns])
+        enhancement.enhance_bytes(camera_image[:, columns], out[:, columns])
     for rim in rows.rims:
-        enhanced = enhancement.of_bytes(camera_image[:, rim.columns])
+        enhanced = enhancement.enhance_bytes(camera_image[:, rim.columns])
         np.copyto(out[:, rim.columns], enhanced, where=rim.inside)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from occ_model.arrays import FloatArray, Pixels
 from occ_model.camera.enhancement import Enhancement, to_bytes
 from occ_model.camera.photometry import FLAT_SPAN
-from occ_model.camera.picture_rows import in_blocks
+from occ_model.camera.picture_rows import split_into_blocks
 from occ_model.camera.projection import check_size, paint
 from occ_model.effects.effect import NoiseEffect
 from occ_model.effects.paper_view import PaperView, paper_view_of
@@ -156,7 +156,7 @@ def render_plan(
         camera_image = partial(paint, to_bytes(profile), corners, rows, around)
     else:
         exposure = PixelExposure(
-            view, chosen, columns, timer, in_blocks(rows), panel_only=rows_step > 1
+            view, chosen, columns, timer, split_into_blocks(rows), panel_only=rows_step > 1
         )
         made = exposure.pictures(enhancement, seed, noise, heartbeat)
         image, profile, signal = made.image, made.profile, made.signal
@@ -199,7 +199,7 @@ def _expose_rows(
     shown: NDArray[np.bool_],
 ) -> dict[str, FloatArray]:
     """Return column means over some rows of the whole picture, exposed with other noise."""
-    blocks = in_blocks(range(view.scene.camera.rows))
+    blocks = split_into_blocks(range(view.scene.camera.rows))
     bands = [rows for rows in blocks if shown[rows.start : rows.stop].any()]
     exposure = PixelExposure(view, chosen, columns, StageTimer(), bands, panel_only=True)
     times = _EXPOSURES_OF_FEW_ROWS if effects_planned(chosen, NoiseEffect) else 1
@@ -234,7 +234,7 @@ def observe(
         return np.asarray(view.region.crop(image).mean(axis=0, dtype=np.float64), dtype=np.float32)
     columns = expose_columns(view, chosen, timer)
     seen = range(view.region.first_row, view.region.last_row)
-    blocks = in_blocks(range(scene.camera.rows))
+    blocks = split_into_blocks(range(scene.camera.rows))
     bands = [rows for rows in blocks if rows[0] < seen.stop and rows[-1] >= seen.start]
     exposure = PixelExposure(view, chosen, columns, timer, bands)
     return exposure.observed(chosen.observable, seed, noise)

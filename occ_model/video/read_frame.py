@@ -53,7 +53,7 @@ class TimedFrame:
 def enhanced_picture(image: ByteArray, region: Region, method: str) -> ByteArray:
     """Return the panel of a camera's picture as a receiver enhances it, by its columns' means."""
     enhancement = Enhancement(column_means(image, region), method)
-    return enhancement.of_bytes(np.ascontiguousarray(region.crop(image)))
+    return enhancement.enhance_bytes(np.ascontiguousarray(region.crop(image)))
 
 
 def read_by_itself(

@@ -5,7 +5,7 @@ import numpy as np
 import occ_model as occ
 from occ_model.camera.optics import Optics
 from occ_model.camera.photometry import ColumnLight, luminance_of, panel_values, surroundings_values
-from occ_model.camera.picture_rows import LitPanel, PictureRows, in_blocks
+from occ_model.camera.picture_rows import LitPanel, PictureRows, split_into_blocks
 from occ_model.effects.effect import OpticsEffect
 from occ_model.scene.scene import Scene
 
@@ -17,5 +17,5 @@ def pictured_luminance(scene: Scene, effect: OpticsEffect) -> np.ndarray:
     panel = panel_values(scene, light)
     around = np.broadcast_to(surroundings_values(scene, light), panel.shape)
     rows = PictureRows(scene.camera, [LitPanel(optics, panel)], around)
-    parts = [rows.of(place).values for place in in_blocks(range(scene.camera.rows))]
+    parts = [rows.of(place).values for place in split_into_blocks(range(scene.camera.rows))]
     return luminance_of(np.concatenate(parts), scene.camera)

@@ -11,7 +11,7 @@ import cv2
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.camera.pixel_arrays import Samples, in_16_bits, white_between, white_of
+from occ_model.camera.pixel_arrays import Samples, find_white, round_to_16_bits, white_of
 from occ_model.errors import DecodeInputError, PhotoError
 from occ_model.photo.reading.limits import is_deep_in_colours, raw_modes_of
 from occ_model.photo.reading.watched_file import Progress
@@ -95,7 +95,7 @@ class DecodedPicture:
         if self._lower is not None:
             return _deep_colours(part, self._lower.crop(box))
         if part.mode == "F":
-            return in_16_bits(np.asarray(part), self._white)
+            return round_to_16_bits(np.asarray(part), self._white)
         if part.mode.startswith("I"):
             return _whole_numbers(part, self._raw_modes)
         return _colours(part)
@@ -109,7 +109,7 @@ class DecodedPicture:
             low = min(low, float(values.min(initial=np.inf)))
             high = max(high, float(values.max(initial=-np.inf)))
         try:
-            return white_between(low, high, "The photo") if low <= high else 1.0
+            return find_white(low, high, "The photo") if low <= high else 1.0
         except DecodeInputError as error:
             raise PhotoError(str(error)) from None
 

@@ -137,7 +137,7 @@ def test_a_sentence_stands_once_and_goes_once_the_scene_has_a_picture_and_an_int
     application.store.change(distance=0.05, yaw=1.2)
     user.wait_until_idle()
     said = window.statusBar().currentMessage()
-    assert said.startswith("Turned like this")
+    assert said.startswith("With these angles")
     qtbot.waitUntil(lambda: said in application.story.verdict.accessibleDescription())
     qtbot.waitUntil(lambda: not line.text())
     window.toolbar.modes.setCurrentIndex(1)  # the photo's, without the banner of the simulation

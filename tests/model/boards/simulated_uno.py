@@ -1,4 +1,4 @@
-"""An Arduino Uno in simavr: a sketch is compiled by avr-g++, run, and its pin's edges are noted."""
+"""An Arduino Uno in simavr: compiles a sketch by avr-g++, runs it, and records the pin's edges."""
 
 import shutil
 import subprocess
@@ -10,10 +10,10 @@ import numpy as np
 
 import occ_model as occ
 from occ_model.arrays import IndexArray
-from occ_model.boards.sketch import source_text
+from occ_model.boards.sketch import write_sketch
 from occ_model.boards.transmission import Transmission
 
-PIN_IN_PORT_B = 1  # OC1A, which the boards call 9
+PIN_IN_PORT_B = 1  # OC1A, pin 9 of the board
 
 _TRACE = Path(__file__).with_name("pin_trace.c")
 _HEADER = Path("/usr/include/simavr/sim_avr.h")
@@ -40,11 +40,11 @@ int main() {{
   for (;;) loop();
 }}
 """
-"""As the Arduino core leaves the processor: interrupts of timer 0, and PWM by timer 1."""
+"""A main() that sets up the processor as the Arduino core does: timer 0 interrupts, timer 1 PWM."""
 
 
 def missing_tools() -> str:
-    """Name what is missing to run an AVR program here; '' where nothing is."""
+    """Name what is missing here to run an AVR program; '' if nothing is."""
     programs = [name for name in ("avr-g++", "avr-size", "gcc") if shutil.which(name) is None]
     headers = [] if _HEADER.is_file() else [str(_HEADER)]
     return ", ".join([*programs, *headers])
@@ -62,7 +62,7 @@ def run(*command: str | Path) -> str:
 class Trace:
     """Edges of the pin: cycles of the clock, shape (edges,), and the levels after them.
 
-    And the cycles of the longest interrupt, from its first instruction to its last.
+    Also the cycles of the longest interrupt, from its first instruction to its last.
     """
 
     cycles: IndexArray
@@ -95,7 +95,7 @@ class SimulatedUno:
 
     def edges(self, sent: Transmission, packets: int) -> Trace:
         """Run a sketch until the pin has the edges of some packets, or for twice their time."""
-        program = self.build(source_text(sent))
+        program = self.build(write_sketch(sent))
         count = len(expected_edges(sent, packets)[0])
         most = 2 * (packets + 1) * len(sent.chips) * sent.timing.cycles + 10**6
         lines = run(self._trace, program, str(PIN_IN_PORT_B), str(count), str(most)).split()
@@ -104,16 +104,17 @@ class SimulatedUno:
 
 
 def expected_edges(sent: Transmission, packets: int) -> tuple[IndexArray, IndexArray]:
-    """Return the chips at which the light of some packets changes, from dark on, and the levels."""
+    """Return the chips at which the light of some packets changes, starting dark, and the
+    levels."""
     chips = np.tile(occ.packet(sent.scene), packets).astype(np.int64)
     places = np.flatnonzero(np.diff(chips, prepend=0))
     return places, chips[places]
 
 
 def worst_error(sent: Transmission, trace: Trace, packets: int) -> Fraction:
-    """Measure how far an edge is from the packet's, at most, in chips; the first sets time zero.
+    """Measure the largest error of an edge in chips; the first edge is time zero.
 
-    Fails where an edge is missing, of the wrong kind, or more than half a chip off.
+    Fails if an edge is missing, of the wrong kind, or off by more than half a chip.
     """
     places, levels = expected_edges(sent, packets)
     np.testing.assert_array_equal(trace.levels, levels)

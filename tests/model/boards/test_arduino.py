@@ -1,4 +1,4 @@
-"""The sketch of the Arduino, compiled and run: its pin follows the packet."""
+"""The Arduino's sketch, compiled and run: its pin follows the packet."""
 
 from fractions import Fraction
 
@@ -7,8 +7,13 @@ from model.boards.simulated_uno import SimulatedUno, missing_tools, worst_error
 
 import occ_model as occ
 from occ_model.boards.arduino import UNO
-from occ_model.boards.sketch import source_text
-from occ_model.boards.transmission import ChipTiming, Transmission, table_size, transmission
+from occ_model.boards.sketch import write_sketch
+from occ_model.boards.transmission import (
+    BoardTiming,
+    Transmission,
+    count_table_bytes,
+    prepare_transmission,
+)
 from occ_model.scene.payload import MAX_PAYLOAD_BITS
 
 pytestmark = pytest.mark.compilers
@@ -38,33 +43,33 @@ def uno(tmp_path_factory: pytest.TempPathFactory) -> SimulatedUno:
     return SimulatedUno(tmp_path_factory.mktemp("uno"))
 
 
-def measured(uno: SimulatedUno, sent: Transmission, packets: int) -> Fraction:
+def measure_edge_error(uno: SimulatedUno, sent: Transmission, packets: int) -> Fraction:
     """Run a sketch for some packets; return its worst edge's error in chips."""
     return worst_error(sent, uno.edges(sent, packets), packets)
 
 
-def with_cycles(sent: Transmission, cycles: int) -> Transmission:
-    """Let chips last so many cycles, whatever the board's limit."""
-    timing = ChipTiming(UNO.clock, 1, cycles, Fraction(UNO.clock, cycles))
+def set_cycles(sent: Transmission, cycles: int) -> Transmission:
+    """Let chips last a number of cycles, whatever the board's limit."""
+    timing = BoardTiming(UNO.clock, 1, cycles, Fraction(UNO.clock, cycles))
     return Transmission(sent.scene, sent.board, sent.chips, timing)
 
 
 @pytest.mark.parametrize("frequency", [14.7e3, 40e3])
 def test_the_edges_are_those_of_the_packet(uno: SimulatedUno, frequency: float) -> None:
-    sent = transmission(PAPER.replace(switching_frequency=frequency), UNO)
-    assert measured(uno, sent, PACKETS) <= Fraction(1, 1000)
+    sent = prepare_transmission(PAPER.replace(switching_frequency=frequency), UNO)
+    assert measure_edge_error(uno, sent, PACKETS) <= Fraction(1, 1000)
 
 
 @pytest.mark.whole
 def test_the_edges_of_all_codes_and_frequencies_are_those_of_the_packet(
     uno: SimulatedUno, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """Prints the frequency that is sent, and the worst edge, of each code."""
+    """Also prints the frequency that is sent and the worst edge, for each code."""
     errors, lines = [], ["| code | chips | f, Hz | sent, Hz | ppm | worst edge, chips |"]
     for name, scene in CODES.items():
         for frequency in FREQUENCIES:
-            sent = transmission(scene.replace(switching_frequency=frequency), UNO)
-            errors.append(measured(uno, sent, PACKETS))
+            sent = prepare_transmission(scene.replace(switching_frequency=frequency), UNO)
+            errors.append(measure_edge_error(uno, sent, PACKETS))
             lines.append(
                 f"| {name} | {len(sent.chips)} | {frequency:g} | {float(sent.timing.frequency):.4f}"
                 f" | {float(sent.timing.error_ppm):+.1f} | {float(errors[-1]):.1g} |"
@@ -75,30 +80,30 @@ def test_the_edges_of_all_codes_and_frequencies_are_those_of_the_packet(
 
 
 def test_a_slow_scene_is_sent_with_a_divided_clock(uno: SimulatedUno) -> None:
-    sent = transmission(PAPER.replace(switching_frequency=30.0, pattern="0010111"), UNO)
+    sent = prepare_transmission(PAPER.replace(switching_frequency=30.0, pattern="0010111"), UNO)
     assert sent.timing.prescaler > 1
-    assert measured(uno, sent, 3) <= Fraction(1, 1000)
+    assert measure_edge_error(uno, sent, 3) <= Fraction(1, 1000)
 
 
 @pytest.mark.parametrize("code", CODES)
 def test_at_the_highest_frequency_the_edges_are_still_exact(uno: SimulatedUno, code: str) -> None:
     scene = CODES[code].replace(switching_frequency=float(UNO.highest_frequency))
-    sent = transmission(scene, UNO)
+    sent = prepare_transmission(scene, UNO)
     assert sent.timing.cycles == UNO.least_cycles
-    assert measured(uno, sent, 20) == 0
+    assert measure_edge_error(uno, sent, 20) == 0
 
 
 def test_well_above_the_highest_frequency_the_interrupt_does_not_keep_pace(
     uno: SimulatedUno,
 ) -> None:
-    sent = with_cycles(transmission(PAPER, UNO), UNO.least_cycles * 5 // 8)
+    sent = set_cycles(prepare_transmission(PAPER, UNO), UNO.least_cycles * 5 // 8)
     with pytest.raises(AssertionError):
-        measured(uno, sent, 5)
+        measure_edge_error(uno, sent, 5)
 
 
 @pytest.mark.whole
 def test_the_interrupt_takes_as_long_as_the_refusal_says(uno: SimulatedUno) -> None:
-    sent = transmission(CODES["8b10b, raw frame"], UNO)
+    sent = prepare_transmission(CODES["8b10b, raw frame"], UNO)
     (stated,) = (int(word) for word in UNO.limit_reason.split() if word.isdigit())
     longest = uno.edges(sent, 20).longest_interrupt
     assert abs(longest - stated) <= 10  # another compiler needs a few more or fewer
@@ -110,15 +115,15 @@ def test_the_largest_payload_fits_into_the_flash_memory(uno: SimulatedUno) -> No
         payload="bits:" + "01" * (MAX_PAYLOAD_BITS // 2), line_code="fsk", framing="c-ook",
         error_correction="reed-solomon",
     )  # fmt: skip
-    sent = transmission(scene, UNO)
+    sent = prepare_transmission(scene, UNO)
     flash, boot_loader = 32 * 1024, 2 * 1024
-    taken = uno.flash_bytes(source_text(sent))
+    taken = uno.flash_bytes(write_sketch(sent))
     assert taken <= flash - boot_loader
-    assert taken - table_size(UNO, len(sent.chips)) < 1024
+    assert taken - count_table_bytes(UNO, len(sent.chips)) < 1024
 
 
 @pytest.mark.whole
 def test_a_packet_of_thousands_of_chips_is_sent_whole(uno: SimulatedUno) -> None:
     scene = PAPER.replace(payload="bits:" + "0110" * (MAX_PAYLOAD_BITS // 4))
-    sent = transmission(scene.replace(switching_frequency=40e3), UNO)
-    assert measured(uno, sent, 3) <= Fraction(1, 1000)
+    sent = prepare_transmission(scene.replace(switching_frequency=40e3), UNO)
+    assert measure_edge_error(uno, sent, 3) <= Fraction(1, 1000)

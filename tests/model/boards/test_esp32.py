@@ -1,4 +1,4 @@
-"""The sketch of the ESP32, compiled against a stand-in of its driver: its symbols are a packet."""
+"""The ESP32's sketch, compiled with a stand-in for its driver: the symbols are the packet."""
 
 import re
 import shutil
@@ -10,8 +10,8 @@ import pytest
 
 import occ_model as occ
 from occ_model.boards.esp32 import ESP32
-from occ_model.boards.sketch import source_text
-from occ_model.boards.transmission import Transmission, transmission
+from occ_model.boards.sketch import write_sketch
+from occ_model.boards.transmission import Transmission, prepare_transmission
 
 PAPER = occ.load_preset("phone-68us")
 
@@ -29,13 +29,13 @@ _STUBS = Path(__file__).with_name("esp32_stubs.h")
 
 
 def sent_by(name: str) -> Transmission:
-    return transmission(SCENES[name], ESP32)
+    return prepare_transmission(SCENES[name], ESP32)
 
 
 @every_scene
 def test_the_table_is_the_packet(name: str) -> None:
     sent = sent_by(name)
-    source = source_text(sent)
+    source = write_sketch(sent)
     (table,) = re.findall(r"PACKET\[\] = \{([^}]*)\}", source)
     octets = [int(octet, 16) for octet in re.findall("0x([0-9A-F]{2})", table)]
     (count,) = re.findall(r"CHIPS = (\d+);", source)
@@ -51,11 +51,11 @@ def test_the_table_is_the_packet(name: str) -> None:
     ["odd number of chips"]
     + [pytest.param(one, marks=pytest.mark.whole) for one in SCENES if "odd" not in one],
 )
-def test_the_driver_is_given_the_packet_over_and_over(name: str, tmp_path: Path) -> None:
+def test_the_driver_gets_the_packet_repeatedly(name: str, tmp_path: Path) -> None:
     if shutil.which("g++") is None:
         pytest.skip("the sketch of the ESP32 cannot be compiled here; missing: g++")
     sent = sent_by(name)
-    clock, levels, durations = run_sketch(source_text(sent), 2 * len(sent.chips) + 64, tmp_path)
+    clock, levels, durations = run_sketch(write_sketch(sent), 2 * len(sent.chips) + 64, tmp_path)
     assert len(levels) > 4 * len(sent.chips)
     np.testing.assert_array_equal(levels, np.resize(sent.chips, len(levels)))
     assert set(durations) == {sent.timing.count}

@@ -1,4 +1,4 @@
-"""The Pico's program, run with stand-ins of MicroPython's modules: it sends the packet.
+"""The Pico's program, run with stand-ins for MicroPython's modules: it sends the packet.
 
 The stand-in counts the cycles of the state machine's one instruction as the RP2040's data sheet
 does: one, and its delay.
@@ -16,8 +16,8 @@ import pytest
 
 import occ_model as occ
 from occ_model.boards.pico import PICO
-from occ_model.boards.sketch import source_text
-from occ_model.boards.transmission import Transmission, table_size, transmission
+from occ_model.boards.sketch import write_sketch
+from occ_model.boards.transmission import Transmission, count_table_bytes, prepare_transmission
 
 PAPER = occ.load_preset("phone-68us")
 
@@ -30,13 +30,13 @@ SCENES = {
     "long": PAPER.replace(payload="text:" + "Photograph me. " * 30, line_code="4b6b"),
 }
 
-_TURNS = 3  # how often the endless loop of the program may fill the queue
+_TURNS = 3  # how often the program's endless loop may fill the queue
 
 _DIVIDER = 0x502000C8
 
 
 class Ended(Exception):  # noqa: N818 - no error
-    """The loop has turned often enough."""
+    """The loop has run often enough."""
 
 
 class Instruction:
@@ -115,11 +115,13 @@ class Machine:
 
 @pytest.fixture(params=SCENES)
 def sent(request: pytest.FixtureRequest) -> Transmission:
-    return transmission(SCENES[request.param], PICO)
+    return prepare_transmission(SCENES[request.param], PICO)
 
 
-def ran(source: str, monkeypatch: pytest.MonkeyPatch, machine: Machine | None = None) -> Machine:
-    """Run a program until its loop has turned some times."""
+def run_program(
+    source: str, monkeypatch: pytest.MonkeyPatch, machine: Machine | None = None
+) -> Machine:
+    """Run a program for some turns of its loop."""
     machine = machine or Machine()
     for name, module in machine.modules().items():
         monkeypatch.setitem(sys.modules, name, module)
@@ -129,7 +131,7 @@ def ran(source: str, monkeypatch: pytest.MonkeyPatch, machine: Machine | None = 
 
 
 def test_the_table_is_the_packet(sent: Transmission) -> None:
-    tree = ast.parse(source_text(sent))
+    tree = ast.parse(write_sketch(sent))
     values = {
         node.targets[0].id: ast.literal_eval(node.value)
         for node in tree.body
@@ -144,10 +146,10 @@ def test_the_table_is_the_packet(sent: Transmission) -> None:
 def test_the_state_machine_sends_packets_end_to_end(
     sent: Transmission, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    machine = ran(source_text(sent), monkeypatch)
+    machine = run_program(write_sketch(sent), monkeypatch)
     assert machine.settings["out_shiftdir"] == "left"
     assert (machine.settings["autopull"], machine.settings["pull_thresh"]) == (True, 32)
-    # Shifted to the left: the highest bit of a word first.
+    # Shifted out to the left, the highest bit of a word first.
     levels = [word >> place & 1 for word in machine.words for place in range(31, -1, -1)]
     assert len(levels) % len(sent.chips) == 0, "the loop ends with a whole packet"
     np.testing.assert_array_equal(levels, np.resize(sent.chips, len(levels)))
@@ -156,7 +158,7 @@ def test_the_state_machine_sends_packets_end_to_end(
 def test_a_chip_lasts_the_cycles_that_are_stated(
     sent: Transmission, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    machine = ran(source_text(sent), monkeypatch)
+    machine = run_program(write_sketch(sent), monkeypatch)
     (instruction,) = machine.program
     assert instruction.count == 1
     divider = machine.registers[_DIVIDER]
@@ -166,11 +168,11 @@ def test_a_chip_lasts_the_cycles_that_are_stated(
     assert f"GP{machine.pin}" == PICO.pin
 
 
-def test_what_is_unpacked_takes_the_room_that_is_stated(
+def test_the_unpacked_words_take_the_stated_number_of_bytes(
     sent: Transmission, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    machine = ran(source_text(sent), monkeypatch)
-    assert 4 * len(machine.words) // _TURNS == table_size(PICO, len(sent.chips))
+    machine = run_program(write_sketch(sent), monkeypatch)
+    assert 4 * len(machine.words) // _TURNS == count_table_bytes(PICO, len(sent.chips))
 
 
 class MeasuredMachine(Machine):
@@ -187,15 +189,15 @@ class MeasuredMachine(Machine):
 
 
 def test_the_table_of_a_long_packet_is_made_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A list as long takes as much again, which the Pico's heap does not have."""
+    """A second list of that length would not fit into the Pico's heap."""
     long = PAPER.replace(payload="bits:" + "01" * 2040, line_code="fsk", framing="c-ook")
-    sent = transmission(long, PICO)
+    sent = prepare_transmission(long, PICO)
     machine = MeasuredMachine()
     tracemalloc.start()
     try:
-        ran(source_text(sent), monkeypatch, machine)
+        run_program(write_sketch(sent), monkeypatch, machine)
     finally:
         tracemalloc.stop()
-    size = table_size(PICO, len(sent.chips))
+    size = count_table_bytes(PICO, len(sent.chips))
     assert size == 105_060
     assert size < machine.peak < 1.25 * size

@@ -1,4 +1,4 @@
-"""The text of sketches: whatever the payload is, the comment at the head stays a comment."""
+"""The text of sketches: with any payload, the comment at the head stays a comment."""
 
 import ast
 from itertools import product
@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 import occ_model as occ
 from occ_model.boards.sketch import BOARDS, board_named
-from occ_model.boards.transmission import transmission
+from occ_model.boards.transmission import prepare_transmission
 
 PAPER = occ.load_preset("phone-68us")
 
@@ -27,7 +27,7 @@ HOSTILE = (
 )
 
 
-def head_of(source: str) -> list[str]:
+def read_head(source: str) -> list[str]:
     return source.partition("\n\n")[0].splitlines()
 
 
@@ -35,7 +35,7 @@ def head_of(source: str) -> list[str]:
 def test_no_payload_leaves_the_comment(board: str, payload: str) -> None:
     source = occ.transmitter_sketch(PAPER.replace(payload=payload), board)
     mark = "#" if board == "raspberry-pi-pico" else "//"
-    head = head_of(source)
+    head = read_head(source)
     assert all(line.startswith(mark) for line in head)
     # Either would join the next line to the comment.
     assert not any(line.endswith(("\\", "??/")) for line in head)
@@ -50,8 +50,8 @@ def test_the_program_of_the_pico_is_python_with_any_payload(text: str) -> None:
 @every_board
 def test_the_head_states_what_is_sent(board: str) -> None:
     scene = PAPER.replace(switching_frequency=14.7e3)
-    sent = transmission(scene, board_named(board))
-    head = " ".join(line.lstrip("/# ") for line in head_of(occ.transmitter_sketch(scene, board)))
+    sent = prepare_transmission(scene, board_named(board))
+    head = " ".join(line.lstrip("/# ") for line in read_head(occ.transmitter_sketch(scene, board)))
     assert "Sends the code 718 of 10 bits." in head
     assert "Packet: 24 chips" in head
     assert "11100101 10010101 10011010" in head

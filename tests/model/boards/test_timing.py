@@ -1,4 +1,4 @@
-"""How long a chip lasts on a board: the nearest that the timer can do, and the error is exact."""
+"""A chip's length on a board: the timer's nearest, with an exact error."""
 
 from fractions import Fraction
 
@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 
 import occ_model as occ
 from occ_model.boards.arduino import UNO
-from occ_model.boards.board import Board
+from occ_model.boards.board import TransmitterBoard
 from occ_model.boards.sketch import BOARDS, board_named
-from occ_model.boards.transmission import best_timing, transmission
+from occ_model.boards.transmission import choose_timing, prepare_transmission
 
 PAPER = occ.load_preset("phone-68us")
 
@@ -21,8 +21,8 @@ frequencies = st.floats(60.0, 125e3)
 
 
 @given(board=st.sampled_from([*BOARDS.values()]), frequency=frequencies)
-def test_no_setting_of_the_timer_comes_nearer(board: Board, frequency: float) -> None:
-    found = best_timing(board, frequency)
+def test_no_setting_of_the_timer_comes_nearer(board: TransmitterBoard, frequency: float) -> None:
+    found = choose_timing(board, frequency)
     prescalers = np.array(board.prescalers, dtype=np.int64)
     exact = board.clock / (prescalers * frequency)
     counts = np.clip(np.stack([np.floor(exact), np.ceil(exact)]), 1, board.largest_count)
@@ -36,8 +36,8 @@ def test_no_setting_of_the_timer_comes_nearer(board: Board, frequency: float) ->
 
 
 @given(board=st.sampled_from([*BOARDS.values()]), frequency=frequencies)
-def test_frequency_period_and_error_are_one_statement(board: Board, frequency: float) -> None:
-    timing = best_timing(board, frequency)
+def test_frequency_period_and_error_agree(board: TransmitterBoard, frequency: float) -> None:
+    timing = choose_timing(board, frequency)
     assert timing.frequency * timing.period == 1
     assert timing.frequency == timing.asked * (1 + timing.error_ppm / 10**6)
     assert timing.prescaler in board.prescalers
@@ -45,43 +45,47 @@ def test_frequency_period_and_error_are_one_statement(board: Board, frequency: f
 
 
 @given(board=st.sampled_from([*BOARDS.values()]), frequency=frequencies)
-def test_the_frequency_that_is_sent_is_sent_again_as_it_is(board: Board, frequency: float) -> None:
-    first = transmission(PAPER.replace(switching_frequency=frequency), board)
-    again = transmission(first.sent_scene, board)
+def test_a_frequency_that_was_sent_can_be_sent_exactly(
+    board: TransmitterBoard, frequency: float
+) -> None:
+    first = prepare_transmission(PAPER.replace(switching_frequency=frequency), board)
+    again = prepare_transmission(first.sent_scene, board)
     assert again.timing.cycles == first.timing.cycles
-    # A float holds 1/3 to 16 digits.
+    # A float has only 16 digits of 1/3.
     assert abs(again.timing.error_ppm) < Fraction(1, 10**9)
     assert again.timing.is_as_asked
     assert again.sent_scene == first.sent_scene
 
 
 @every_board
-def test_the_ends_of_the_range_are_allowed_and_what_is_beyond_is_not(board: Board) -> None:
+def test_the_ends_of_the_range_are_allowed_and_frequencies_beyond_are_not(
+    board: TransmitterBoard,
+) -> None:
     low, high = float(board.lowest_frequency), float(board.highest_frequency)
-    assert best_timing(board, high).cycles == board.least_cycles
-    assert best_timing(board, low * (1 + 1e-12)).cycles == board.most_cycles
+    assert choose_timing(board, high).cycles == board.least_cycles
+    assert choose_timing(board, low * (1 + 1e-12)).cycles == board.most_cycles
     for beyond in (low * 0.999, high * 1.001):
         with pytest.raises(occ.ParameterError) as refused:
-            best_timing(board, beyond)
+            choose_timing(board, beyond)
         assert refused.value.parameters == ("switching_frequency",)
-        why = board.limit_reason if beyond > high else "the timer counts no longer"
+        why = board.limit_reason if beyond > high else "the timer cannot count longer"
         assert str(refused.value).endswith(f", since {why}.")
 
 
 def test_a_packet_that_does_not_fit_is_refused() -> None:
-    # 4,095 chips have no divisor in common with 32: 32 packets of them are unpacked.
+    # 4,095 and 32 have no common divisor, so that 32 packets are unpacked.
     pico = board_named("raspberry-pi-pico")
-    small = Board(
+    small = TransmitterBoard(
         **{name: getattr(pico, name) for name in pico.__slots__} | {"table_bytes": 16_000}
     )
     scene = PAPER.replace(pattern="1" + "0" * 4094)
     with pytest.raises(occ.ParameterError) as refused:
-        transmission(scene, small)
+        prepare_transmission(scene, small)
     assert str(refused.value) == (
         "The packet has 4,095 chips, which take 16,380 bytes on Raspberry Pi Pico; allowed: 16,000 "
         "bytes. Send fewer bits."
     )
-    assert transmission(scene, pico).timing.cycles
+    assert prepare_transmission(scene, pico).timing.cycles
 
 
 @pytest.mark.parametrize(
@@ -96,7 +100,7 @@ def test_a_packet_that_does_not_fit_is_refused() -> None:
 def test_the_lowest_frequency_is_that_of_the_shortest_repetition(
     pattern: str, lowest: float, run: float, visible: bool
 ) -> None:
-    sent = transmission(PAPER.replace(pattern=pattern, switching_frequency=10e3), UNO)
+    sent = prepare_transmission(PAPER.replace(pattern=pattern, switching_frequency=10e3), UNO)
     assert sent.lowest_frequency == lowest
     assert float(sent.longest_run) == run
     assert sent.is_visible == visible
@@ -105,7 +109,7 @@ def test_the_lowest_frequency_is_that_of_the_shortest_repetition(
 @settings(max_examples=25)
 @given(pattern=st.text("01", min_size=2, max_size=40))
 def test_below_the_lowest_frequency_the_spectrum_is_empty(pattern: str) -> None:
-    sent = transmission(PAPER.replace(pattern=pattern, switching_frequency=1e3), UNO)
+    sent = prepare_transmission(PAPER.replace(pattern=pattern, switching_frequency=1e3), UNO)
     chips = np.tile(sent.chips, 4).astype(np.float64)
     strengths = np.abs(np.fft.rfft(chips - chips.mean()))
     if sent.lowest_frequency is None:
@@ -113,6 +117,6 @@ def test_below_the_lowest_frequency_the_spectrum_is_empty(pattern: str) -> None:
         return
     found = np.fft.rfftfreq(len(chips), 1e-3)[strengths > 1e-6]
     assert found.min() >= float(sent.lowest_frequency) * (1 - 1e-9)
-    # It is the frequency of which all are multiples.
+    # All frequencies in the light are multiples of it.
     multiples = found / float(sent.lowest_frequency)
     np.testing.assert_allclose(multiples, np.round(multiples), atol=1e-9)

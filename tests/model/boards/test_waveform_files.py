@@ -1,4 +1,4 @@
-"""The waveform's files: what is read from them is the packet, with exact times."""
+"""The waveform's files: reading them gives the packet with exact times."""
 
 import re
 import wave
@@ -14,14 +14,14 @@ from hypothesis import strategies as st
 
 import occ_model as occ
 from occ_model.boards.sketch import BOARDS, board_named
-from occ_model.boards.transmission import Transmission, transmission
+from occ_model.boards.transmission import Transmission, prepare_transmission
 from occ_model.boards.waveform_files import (
     HIGHEST_SAMPLE_RATE,
-    decimal,
+    choose_wav_timing,
     edge_rows,
+    format_decimal,
     vcd_text,
     wav_bytes,
-    wav_timing,
 )
 
 PAPER = occ.load_preset("phone-68us")
@@ -30,7 +30,7 @@ _UNITS = {"s": 0, "ms": 3, "us": 6, "ns": 9, "ps": 12, "fs": 15}
 
 
 def sent_by(board: str, **changes: float | str) -> Transmission:
-    return transmission(PAPER.replace(**changes), board_named(board))
+    return prepare_transmission(PAPER.replace(**changes), board_named(board))
 
 
 every_board = pytest.mark.parametrize("board", BOARDS)
@@ -38,7 +38,7 @@ every_sent = each_case(product(BOARDS, ("", "0011", "10", "1", "0110")))
 
 
 @every_sent
-def test_the_table_gives_the_packet_back(board: str, pattern: str) -> None:
+def test_the_packet_can_be_read_from_the_table(board: str, pattern: str) -> None:
     sent = sent_by(board, switching_frequency=14.7e3, pattern=pattern)
     rows = list(edge_rows(sent))
     chips = [
@@ -76,7 +76,7 @@ def test_the_value_change_dump_has_exact_edges(board: str, pattern: str, frequen
 def test_the_value_change_dump_counts_the_coarsest_ticks(
     frequency: float, tick: str, last: int
 ) -> None:
-    """A viewer takes a sample each tick: 24 chips of 10 ms are 24 samples, not 2.4e9 of 100 ps."""
+    """A viewer samples at each tick: 24 chips of 10 ms are 24 samples, not 2.4e9 of 100 ps."""
     text = vcd_text(sent_by("arduino-uno", switching_frequency=frequency))
     assert f"$timescale {tick} $end" in text
     assert text.endswith(f"\n#{last}\n")
@@ -86,7 +86,7 @@ def test_the_value_change_dump_counts_the_coarsest_ticks(
 @pytest.mark.parametrize("frequency", [1e3, 14.7e3, 40e3])
 def test_a_wav_file_holds_whole_packets_with_even_edges(board: str, frequency: float) -> None:
     sent = sent_by(board, switching_frequency=frequency)
-    timing = wav_timing(sent)
+    timing = choose_wav_timing(sent)
     with wave.open(BytesIO(wav_bytes(sent))) as file:
         assert (file.getnchannels(), file.getsampwidth()) == (1, 1)
         assert file.getframerate() == timing.sample_rate <= HIGHEST_SAMPLE_RATE
@@ -102,26 +102,26 @@ def test_a_wav_file_holds_whole_packets_with_even_edges(board: str, frequency: f
 
 
 def test_a_frequency_that_divides_a_usual_rate_gets_it() -> None:
-    assert wav_timing(sent_by("arduino-uno", switching_frequency=2e3)).sample_rate == 192_000
+    assert choose_wav_timing(sent_by("arduino-uno", switching_frequency=2e3)).sample_rate == 192_000
 
 
-def test_a_wav_file_is_refused_where_its_sample_rate_is_too_low() -> None:
+def test_a_wav_file_is_refused_if_its_sample_rate_would_be_too_low() -> None:
     with pytest.raises(occ.OutputError) as refused:
-        wav_timing(sent_by("esp32", switching_frequency=100e3))
+        choose_wav_timing(sent_by("esp32", switching_frequency=100e3))
     assert str(refused.value) == (
-        "A WAV file holds up to 192 kHz, two samples a chip, and thus up to 96 kHz: the switching "
-        "frequency is 100 kHz."
+        "A WAV file has up to 192 kHz, and at least two samples a chip, for up to 96 kHz; the "
+        "switching frequency is 100 kHz."
     )
 
 
-def test_a_wav_file_is_refused_where_it_would_be_too_large() -> None:
+def test_a_wav_file_is_refused_if_it_would_be_too_large() -> None:
     scene = PAPER.replace(payload="bits:" + "01" * 2048, switching_frequency=1.0)
     with pytest.raises(occ.OutputError, match=r"^The waveform takes [\d,]+ samples; allowed"):
-        wav_bytes(transmission(scene, board_named("arduino-uno")))
+        wav_bytes(prepare_transmission(scene, board_named("arduino-uno")))
 
 
 @settings(max_examples=15)
 @given(value=st.fractions(0, 100, max_denominator=10**6))
 def test_a_decimal_is_the_number_to_eighteen_places(value: Fraction) -> None:
-    assert abs(Fraction(decimal(value)) - value) <= Fraction(1, 2 * 10**18)
-    assert not decimal(value).endswith(".")
+    assert abs(Fraction(format_decimal(value)) - value) <= Fraction(1, 2 * 10**18)
+    assert not format_decimal(value).endswith(".")

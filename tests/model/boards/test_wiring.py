@@ -1,4 +1,4 @@
-"""The circuit: its resistors keep currents within what is stated, and the figure says so."""
+"""The circuit: its resistors limit the currents as stated, and the figure says so."""
 
 import math
 
@@ -9,11 +9,11 @@ from occ_model.boards.board import (
     GATE_CAPACITANCE,
     LED_CURRENT,
     LED_VOLTS,
-    Board,
+    TransmitterBoard,
 )
 from occ_model.boards.pico import PICO
 from occ_model.boards.sketch import BOARDS, board_named
-from occ_model.boards.transmission import SEIZURES, flicker_sentence, transmission
+from occ_model.boards.transmission import SEIZURES, flicker_sentence, prepare_transmission
 from occ_model.figures.transmitter_files import notes, wiring_bytes
 
 PAPER = occ.load_preset("phone-68us")
@@ -22,14 +22,14 @@ every_board = pytest.mark.parametrize("board", BOARDS.values(), ids=lambda board
 
 
 @every_board
-def test_no_current_exceeds_what_pin_and_led_may_carry(board: Board) -> None:
+def test_no_current_exceeds_what_pin_and_led_may_carry(board: TransmitterBoard) -> None:
     assert board.volts / board.gate_resistor <= board.pin_current
     assert board.led_current <= LED_CURRENT < board.pin_current
     assert board.led_current * board.led_resistor == pytest.approx(board.volts - LED_VOLTS)
 
 
 @every_board
-def test_resistors_are_the_next_of_the_series_e12(board: Board) -> None:
+def test_resistors_are_the_next_of_the_series_e12(board: TransmitterBoard) -> None:
     series = [100, 120, 150, 180, 220, 270, 330, 390, 470, 560, 680, 820]  # IEC 60063
     for resistor, least in (
         (board.gate_resistor, board.volts / board.pin_current),
@@ -39,15 +39,15 @@ def test_resistors_are_the_next_of_the_series_e12(board: Board) -> None:
 
 
 @every_board
-def test_the_gate_rises_as_an_rc_circuit_does(board: Board) -> None:
+def test_the_gate_rises_as_an_rc_circuit_does(board: TransmitterBoard) -> None:
     constant = board.gate_resistor * GATE_CAPACITANCE
     low, high = (-constant * math.log(1 - part) for part in (0.1, 0.9))
     assert board.rise_time == pytest.approx(high - low)
 
 
-def test_flicker_is_warned_of_where_it_may_be_seen_only() -> None:
+def test_there_is_a_warning_of_flicker_only_if_it_may_be_seen() -> None:
     slow, fast, steady = (
-        flicker_sentence(transmission(PAPER.replace(**changes), board_named("arduino-uno")))
+        flicker_sentence(prepare_transmission(PAPER.replace(**changes), board_named("arduino-uno")))
         for changes in (
             {"switching_frequency": 1e3},
             {"switching_frequency": 10e3},
@@ -63,7 +63,7 @@ def test_flicker_is_warned_of_where_it_may_be_seen_only() -> None:
 
 @pytest.mark.usefixtures("plain_figures")
 def test_the_figure_says_pin_resistors_and_caution() -> None:
-    board, sent = PICO, transmission(PAPER, PICO)
+    board, sent = PICO, prepare_transmission(PAPER, PICO)
     svg = wiring_bytes(sent, "svg").decode()
     drawn = {line.strip(" <!->") for line in svg.splitlines() if line.strip().startswith("<!--")}
     assert {board.pin, board.ground, board.transistor} <= drawn

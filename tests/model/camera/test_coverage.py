@@ -1,4 +1,4 @@
-"""How much of each pixel the panel covers, against counting and against direct blurs."""
+"""How much of each pixel the panel covers, compared with counting and with direct blurs."""
 
 import cv2
 import numpy as np
@@ -13,14 +13,14 @@ STAR = np.array(
 )
 
 
-def covered(
+def cover_rows(
     outline: np.ndarray, blur: float = 0.0, size: tuple[int, int] = (ROWS, COLUMNS)
 ) -> np.ndarray:
     return Coverage(outline, *size, blur).rows(range(size[0]))
 
 
-def counted(outline: np.ndarray, rows: np.ndarray, columns: np.ndarray) -> np.ndarray:
-    """Which pixels lie inside, each by the edges that a ray to its left crosses."""
+def count_inside(outline: np.ndarray, rows: np.ndarray, columns: np.ndarray) -> np.ndarray:
+    """Return which pixels are inside, by the edges that a ray to the left of each crosses."""
     x, y = columns[None, :], rows[:, None]
     inside = np.zeros((len(rows), len(columns)), dtype=bool)
     for (x0, y0), (x1, y1) in zip(outline, np.roll(outline, -1, axis=0), strict=True):
@@ -31,11 +31,13 @@ def counted(outline: np.ndarray, rows: np.ndarray, columns: np.ndarray) -> np.nd
     return inside
 
 
-def blurred(outline: np.ndarray, blur: float, size: tuple[int, int]) -> np.ndarray:
-    """The same at full resolution: a sharp mask, wide margins round it, one Gaussian blur."""
+def blur_directly(outline: np.ndarray, blur: float, size: tuple[int, int]) -> np.ndarray:
+    """Blur a sharp mask with wide margins at full resolution."""
     rows, columns = size
     margin = int(5 * blur) + 1
-    mask = counted(outline, np.arange(-margin, rows + margin), np.arange(-margin, columns + margin))
+    mask = count_inside(
+        outline, np.arange(-margin, rows + margin), np.arange(-margin, columns + margin)
+    )
     wide = cv2.GaussianBlur(mask.astype(np.float64), (0, 0), blur)
     return wide[margin:-margin, margin:-margin]
 
@@ -44,26 +46,26 @@ def blurred(outline: np.ndarray, blur: float, size: tuple[int, int]) -> np.ndarr
 def test_an_outline_outside_covers_nothing_and_one_round_all_all(blur: float) -> None:
     square = np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]]) * 1e7
     for shift in ([3e7, 0], [-3e7, 0], [0, 3e7], [0, -3e7]):
-        assert covered(square + shift, blur).max() < 1e-7
-    np.testing.assert_allclose(covered(square, blur), 1.0, rtol=0, atol=1e-4)
+        assert cover_rows(square + shift, blur).max() < 1e-7
+    np.testing.assert_allclose(cover_rows(square, blur), 1.0, rtol=0, atol=1e-4)
 
 
 @pytest.mark.parametrize("blur", [0.4, 1.0, 3.0, 7.9, 8.0, 12.5, 30.0, 60.0])
 @pytest.mark.parametrize("scale", amount([3.0], [0.5, 1.0, 3.0]))
 def test_blurred_coverage_is_a_blur_at_full_resolution(scale: float, blur: float) -> None:
     outline = (STAR - [60, 45]) * scale + [70, 40]
-    expected = blurred(outline, blur, (ROWS, COLUMNS))
-    # The coarse grid's cells and the straight lines between them add 1/64 to its variance.
+    expected = blur_directly(outline, blur, (ROWS, COLUMNS))
+    # The coarse grid's cells and the straight lines between them add 1/64 to the blur's variance.
     largest = 6e-3 if blur >= 8.0 else 2e-4
-    np.testing.assert_allclose(covered(outline, blur), expected, rtol=0, atol=largest)
+    np.testing.assert_allclose(cover_rows(outline, blur), expected, rtol=0, atol=largest)
 
 
 @pytest.mark.parametrize("blur", [1e-3, 0.1, 2.0, 9.0, 20.0, 33.3])
 def test_a_blur_spreads_light_and_loses_none(blur: float) -> None:
     size = (400, 500)
     outline = np.array([[200.2, 170.9], [301.7, 180.3], [290.4, 230.8], [195.5, 220.6]])
-    sharp = covered(outline, 0.0, size)
-    soft = covered(outline, blur, size)
+    sharp = cover_rows(outline, 0.0, size)
+    soft = cover_rows(outline, blur, size)
     assert soft.sum() == pytest.approx(sharp.sum(), rel=2e-3)
     row, column = np.mgrid[0 : size[0], 0 : size[1]]
     for place in (row, column):
@@ -74,7 +76,7 @@ def test_a_blur_spreads_light_and_loses_none(blur: float) -> None:
             np.average((place - np.average(place, weights=w)) ** 2, weights=w)
             for w in (soft, sharp)
         ]
-        # Four deviations hold all but 0.1 % of it; the coarse grid takes its own off exactly.
+        # All but 0.1 % of the blur is within four deviations; the coarse grid's own is subtracted.
         assert spread[0] - spread[1] == pytest.approx(blur**2, rel=4e-3, abs=0.02)
 
 
@@ -91,8 +93,8 @@ def test_rows_are_the_same_however_many_are_asked_for(blur: float) -> None:
 
 @pytest.mark.parametrize("left", [-0.4, 30.3, COLUMNS + 0.6])
 @pytest.mark.parametrize("blur", [0.0, 0.7, 3.0, 20.0])
-def test_what_has_one_fraction_is_covered_wholly_or_not_at_all(blur: float, left: float) -> None:
-    # Upright edges: all rows are alike, also in the blurred rims.
+def test_a_part_with_one_fraction_is_covered_fully_or_not_at_all(blur: float, left: float) -> None:
+    # With upright edges all rows are equal, also in the blurred rims.
     square = np.array([[left, -900.0], [left + 50, -900], [left + 50, 900], [left, 900]])
     parts = Coverage(square, ROWS, COLUMNS, blur).parts(range(ROWS))
     assert {part.fraction for part in parts if isinstance(part.fraction, float)} <= {0.0, 1.0}
@@ -104,6 +106,6 @@ def test_an_outline_beyond_the_rim_is_not_darker_at_the_rim(blur: float) -> None
     outline = np.array(
         [[-reach, 20.0], [COLUMNS + reach, 20.0], [COLUMNS + reach, 70.0], [-reach, 70.0]]
     )
-    soft = covered(outline, blur)
-    # As many rows of it are above and below each pixel at the rim as in the middle.
+    soft = cover_rows(outline, blur)
+    # The panel has as many rows above and below each pixel at the rim as in the middle.
     np.testing.assert_allclose(soft, np.tile(soft[:, 60:61], COLUMNS), rtol=0, atol=1e-4)

@@ -56,12 +56,12 @@ def test_equalization_maps_each_level_to_its_fraction_of_columns(profile: np.nda
 
 
 @given(profile=profiles, method=methods)
-def test_a_receiver_knows_no_more_than_the_cameras_bytes(profile: np.ndarray, method: str) -> None:
-    if 0.0 < np.ptp(profile) < 1e-9:  # one level in truth, whichever way each was rounded
+def test_a_receiver_has_only_the_cameras_bytes(profile: np.ndarray, method: str) -> None:
+    if 0.0 < np.ptp(profile) < 1e-9:  # truly one level, whichever way each value was rounded
         return
     curve = Enhancement(profile, method)
     taken = np.rint(profile).astype(np.uint8)
-    np.testing.assert_array_equal(curve(profile), curve.of_bytes(taken[None, :])[0])
+    np.testing.assert_array_equal(curve(profile), curve.enhance_bytes(taken[None, :])[0])
 
 
 @given(profile=profiles, others=profiles, method=methods)
@@ -83,7 +83,7 @@ def test_an_images_enhancement_keeps_the_profiles_order(
         ([0.5, 1.5, 2.5, 127.5], [0, 2, 2, 128]),
     ],
 )
-def test_rounding_stays_within_what_a_byte_holds(values: list[float], levels: list[int]) -> None:
+def test_rounding_stays_within_the_range_of_a_byte(values: list[float], levels: list[int]) -> None:
     assert to_bytes(np.array(values)).tolist() == levels
 
 
@@ -98,7 +98,7 @@ def test_moments_of_a_noisy_pixel_are_those_of_its_levels(
     profile: np.ndarray, level: float, spread: float, method: str
 ) -> None:
     curve = Enhancement(profile, method)
-    # The probability of each of the 256 levels, those beyond black and white at the ends.
+    # The probability of each of the 256 levels; all beyond black and white is at the ends.
     limits = np.concatenate([[-np.inf], np.arange(255) + 0.5, [np.inf]])
     below = np.array([0.5 * math.erfc((level - limit) / spread / math.sqrt(2)) for limit in limits])
     fraction = np.diff(below)
@@ -109,7 +109,7 @@ def test_moments_of_a_noisy_pixel_are_those_of_its_levels(
     assert abs(deviation[0] ** 2 - (square - mean**2)) <= 2e-3 * 255**2
 
 
-def test_an_equalization_raises_noise_where_many_columns_are_alike() -> None:
+def test_an_equalization_amplifies_noise_where_many_columns_are_alike() -> None:
     profile = np.repeat([20.0, 100.0, 101.0, 200.0], [10, 40, 40, 10])
     curve = Enhancement(profile, "equalization")
     mean, deviation = curve.moments(np.array([100.4]), np.array([0.5]))

@@ -1,4 +1,4 @@
-"""Rows of a picture: interpolated within a band, divided into bands, and remembered."""
+"""Rows of a picture: interpolated in a band, divided into bands, and cached."""
 
 import math
 from itertools import product
@@ -13,9 +13,9 @@ from occ_model.camera.picture_rows import BLOCK_ROWS, Rim, Rows, split_at
 from occ_model.camera.row_interpolation import (
     NODES,
     TOLERANCE,
+    find_smooth_columns,
     node_rows,
     row_weights,
-    smooth_columns,
 )
 from occ_model.camera.row_memory import CAPACITY, MEMORY, RowMemory
 from occ_model.simulation.render import observe
@@ -33,16 +33,16 @@ def test_a_polynomial_of_few_terms_is_exact(rows: range, degree: int) -> None:
     np.testing.assert_allclose(found[:, 0], curve(np.array(rows)), rtol=0, atol=1e-4)
 
 
-def test_a_curve_with_a_bend_is_not_taken_for_smooth() -> None:
+def test_a_curve_with_a_bend_is_not_smooth() -> None:
     rows = range(BLOCK_ROWS)
     place = node_rows(rows)
     bends = np.linspace(2.0, 61.0, 200)
     bent = np.maximum(place[:, None] - bends, 0.0).astype(np.float32)
-    assert not smooth_columns(bent).any()
+    assert not find_smooth_columns(bent).any()
 
 
 @pytest.mark.parametrize("length", [40.0, 120.0, 400.0, 3000.0])
-def test_what_counts_as_smooth_is_exact_to_the_tolerance(length: float) -> None:
+def test_smooth_columns_are_exact_to_the_tolerance(length: float) -> None:
     rows = range(BLOCK_ROWS)
     phase = np.linspace(0.0, 2.0 * math.pi, 97)
 
@@ -50,7 +50,7 @@ def test_what_counts_as_smooth_is_exact_to_the_tolerance(length: float) -> None:
         return 100.0 * np.sin(row[:, None] / length + phase)
 
     nodes = curve(node_rows(rows)).astype(np.float32)
-    smooth = smooth_columns(nodes)
+    smooth = find_smooth_columns(nodes)
     off = np.abs(row_weights(BLOCK_ROWS) @ nodes - curve(np.arange(float(BLOCK_ROWS))))
     assert (off.max(axis=0)[smooth] <= TOLERANCE).all()
     assert smooth.all() == (length > 200.0)
@@ -66,7 +66,7 @@ def test_a_picture_is_the_same_by_single_rows(
     plan = occ.plan(scene, 0.0, force=STILL)
     interpolated = observe(scene, plan)
     monkeypatch.setattr(
-        "occ_model.camera.picture_rows.smooth_columns", lambda values: np.zeros(1, dtype=bool)
+        "occ_model.camera.picture_rows.find_smooth_columns", lambda values: np.zeros(1, dtype=bool)
     )
     np.testing.assert_allclose(interpolated, observe(scene, plan), rtol=0, atol=2.0 * TOLERANCE)
 
@@ -75,7 +75,7 @@ def kilobyte() -> tuple[np.ndarray, ...]:
     return (np.zeros(256, dtype=np.float32),)
 
 
-def test_what_was_made_for_a_key_is_made_once() -> None:
+def test_an_object_is_made_once_for_a_key() -> None:
     memory, made = RowMemory(10_000), []
 
     def make() -> tuple[np.ndarray, ...]:
@@ -88,7 +88,7 @@ def test_what_was_made_for_a_key_is_made_once() -> None:
     assert not first[0].flags.writeable
 
 
-def test_what_was_used_longest_ago_is_forgotten_first() -> None:
+def test_the_least_recently_used_is_dropped_first() -> None:
     memory = RowMemory(3 * 1024)
     kept = memory.recall("kept", kilobyte, tuple)
     for key in range(10):
@@ -98,7 +98,7 @@ def test_what_was_used_longest_ago_is_forgotten_first() -> None:
     assert memory.recall(0, kilobyte, tuple) is not memory.recall("other", kilobyte, tuple)
 
 
-def test_of_small_things_no_more_are_remembered_than_entries() -> None:
+def test_no_more_small_objects_are_cached_than_entries() -> None:
     memory = RowMemory(10**6, entries=5)
     for key in range(100):
         memory.recall(key, kilobyte, tuple)
@@ -107,14 +107,14 @@ def test_of_small_things_no_more_are_remembered_than_entries() -> None:
     assert memory.recall(99, kilobyte, tuple) is kept
 
 
-def test_what_is_larger_than_the_memory_is_not_remembered() -> None:
+def test_an_object_larger_than_the_cache_is_not_cached() -> None:
     memory = RowMemory(1000)
     assert memory.recall("a", kilobyte, tuple) is not memory.recall("a", kilobyte, tuple)
     assert memory.size == 0
 
 
 def test_no_number_of_moves_fills_more_than_the_limit(monkeypatch: pytest.MonkeyPatch) -> None:
-    limit = CAPACITY // amount(4, 1)  # less of it is full sooner
+    limit = CAPACITY // amount(4, 1)  # a smaller one is full sooner
     monkeypatch.setattr(MEMORY, "_limit", limit)
     scene = occ.load_preset("phone-136us-real").replace(rows=1152, jpeg_quality=0)
     for move in range(amount(8, 60)):
@@ -125,7 +125,7 @@ def test_no_number_of_moves_fills_more_than_the_limit(monkeypatch: pytest.Monkey
     assert held == MEMORY.size > limit / 2
 
 
-def test_a_remembered_picture_is_the_one_made_anew() -> None:
+def test_a_cached_picture_is_the_same_as_a_new_one() -> None:
     scene = occ.load_preset("phone-136us-real").replace(rows=400, columns=500, roll=0.1)
     first = occ.render(scene, tolerance=0.0).image
     for changes in ({"roll": 0.0}, {"vignetting_exponent": 1.0}, {"lambertian_order": 3.0}):
@@ -152,8 +152,8 @@ def test_rows_without_weights_are_the_same_rows() -> None:
     weights = np.array([[1.0, 0.0], [0.5, 0.5], [0.0, 1.0]], dtype=np.float32)
     rim = Rim(slice(1, 3), np.full((3, 2), 7.0, dtype=np.float32), np.ones((3, 2), dtype=bool))
     rows = Rows(range(3), nodes, weights, (rim,), (slice(3, 5),))
-    each = rows.each_row()
+    each = rows.expand_rows()
     np.testing.assert_allclose(each.values, rows.values, rtol=1e-6)
-    # What is not smooth may be done to them now.
-    squared = each.changed(np.square)
+    # Changes that are not smooth are now allowed.
+    squared = each.change_values(np.square)
     np.testing.assert_allclose(squared.values, rows.values**2, rtol=1e-6)

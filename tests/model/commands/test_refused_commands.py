@@ -16,7 +16,7 @@ WITHOUT_FILES = {
     "render --set iso=fast": "iso is 'fast', which is not a number; allowed: 1 to ",
     "render --set code=1024": "code is 1024; allowed with 10 bits: 0 to 1023.",
     "render --set iso": "'iso' is not a setting; write NAME=VALUE.",
-    "render --set yaw=80° --set distance=0.2m": "Turned like this at a distance of 0.2 m, ",
+    "render --set yaw=80° --set distance=0.2m": "With these angles at a distance of 0.2 m, ",
     "render --set rows=100000 --set columns=1000000": "An image of 100000 rows and 1000000 col",
     "presets phone": "There is no preset 'phone'. Did you mean phone-68us? Known are ",
     "plan --on jpeg --off jpeg": "effect 'jpeg' is switched both on and off",
@@ -40,7 +40,7 @@ WITHOUT_FILES = {
     "animate --vary averaging=light -o a.gif": "averaging cannot run through values",
     "figures --out new --seed -1": "seed is -1",
     "transmit --set switching_frequency=1MHz -o new": "switching_frequency is 1 MHz; allowed on",
-    "transmit --set line_code=nrz --set framing=c-ook -o new": "line_code is 'nrz', which limits",
+    "transmit --set line_code=nrz --set framing=c-ook -o new": "line_code is 'nrz', which does",
 }
 
 READING = {

@@ -68,4 +68,4 @@ def test_without_a_wav_file_it_is_said_why(
     folder = tmp_path / "fast"
     assert run("--set", "switching_frequency=120kHz", "-o", folder) == 0
     assert not (folder / "waveform.wav").exists()
-    assert "A WAV file holds up to 192 kHz" in capsys.readouterr().out
+    assert "A WAV file has up to 192 kHz" in capsys.readouterr().out

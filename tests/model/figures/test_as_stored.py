@@ -17,9 +17,9 @@ from model.figures.artists import cut_off, described, is_alike
 
 import occ_model as occ
 from occ_model.boards.arduino import UNO
-from occ_model.boards.board import Board
+from occ_model.boards.board import TransmitterBoard
 from occ_model.boards.pico import PICO
-from occ_model.boards.transmission import transmission
+from occ_model.boards.transmission import prepare_transmission
 from occ_model.figures import paper
 from occ_model.figures.accuracy import accuracy_drawing
 from occ_model.figures.bands import bands_drawing, flicker_drawing
@@ -82,9 +82,9 @@ def frame() -> Frame:
 
 
 @pytest.mark.parametrize("board", [UNO, PICO], ids=lambda board: board.name)
-def test_the_circuit_of_a_board(board: Board, is_as_stored: Compare) -> None:
+def test_the_circuit_of_a_board(board: TransmitterBoard, is_as_stored: Compare) -> None:
     with house_style():
-        figure = wiring_figure(transmission(occ.load_preset("phone-68us"), board))
+        figure = wiring_figure(prepare_transmission(occ.load_preset("phone-68us"), board))
     is_as_stored(f"wiring-{board.name}", figure)
 
 

@@ -214,7 +214,7 @@ def test_floating_point_pixels_are_fractions_or_levels_and_nan_is_black(
 @pytest.mark.parametrize("largest", [1.01, 2.0, 256.0, 65535.0])
 def test_a_photo_whose_white_is_not_known_is_refused(tmp_path: Path, largest: float) -> None:
     path = saved(tmp_path, np.array([[0.0, np.nan, largest]], np.float32), "x.tif")
-    with pytest.raises(PhotoError, match=rf"holds values from 0 to {largest:g}; allowed in float"):
+    with pytest.raises(PhotoError, match=rf"has values from 0 to {largest:g}; allowed in float"):
         load_photo(path)
 
 

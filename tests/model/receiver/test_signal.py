@@ -14,7 +14,7 @@ from occ_model.receiver.decoder import has_short_chips
 def test_a_single_value_that_is_no_grey_level_is_refused_with_it(far: float) -> None:
     image = np.full((4, 30), 100.0)
     image[2, 7] = far
-    with pytest.raises(occ.DecodeInputError, match=r"holds values from .*\b1e\+09.*; allowed"):
+    with pytest.raises(occ.DecodeInputError, match=r"has values from .*\b1e\+09.*; allowed"):
         occ.decode(image, occ.Scene())
 
 

@@ -276,7 +276,7 @@ def test_times_that_tell_no_clock_give_none_and_a_sentence(times: FloatArray, sa
         ),
         ({"image": np.zeros((31, 720), np.uint8)}, r"shape \(31, 720\)"),
         ({"image": np.zeros(720, np.uint8)}, r"image of frame 3 is uint8 \(720,\); allowed"),
-        ({"image": np.full((32, 720), 256.0)}, "image of frame 3 holds values from 256 to 256"),
+        ({"image": np.full((32, 720), 256.0)}, "image of frame 3 has values from 256 to 256"),
         ({"image": np.zeros((32, 720), bool)}, "image of frame 3 has pixels of type bool"),
         ({"image": None}, "image of frame 3 is None"),
         ({"exposure_time": math.nan}, "exposure_time is "),
@@ -310,7 +310,7 @@ def test_white_is_one_value_in_all_frames_of_floating_point(white: float) -> Non
     pixels = frames[0].image / (255.0 * scale)
     other = replace(frames[0], index=6, time=0.2, image=pixels)
     if white == 1.0:
-        with pytest.raises(occ.ParameterError, match="image of frame 6 holds values from"):
+        with pytest.raises(occ.ParameterError, match="image of frame 6 has values from"):
             reader.add(other)
     else:
         assert not reader.add(other).frame.chips.size  # a dark frame among bright ones

@@ -90,7 +90,7 @@ def test_what_the_model_refuses_is_a_row_with_a_sentence(scene: Scene) -> None:
     found = occ.sweep(scene.replace(rows=60, panel_height=0.01), axes, 1)
     refused = found.rows[1]
     assert refused.rate is refused.low is refused.high is None
-    assert refused.note.startswith("Turned like this at a distance of 0.1 m, part of the panel")
+    assert refused.note.startswith("With these angles at a distance of 0.1 m, part of the panel")
     assert np.isnan(found.rates()).tolist() == [[False, True], [False, False]]
     assert [row.note for row in found.rows if row is not refused].count("") == 3
     bits = occ.sweep(scene, {"bits": [4, 10], "code": [900]}, 1)

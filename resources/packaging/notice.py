@@ -6,6 +6,7 @@ import shutil
 import sysconfig
 from collections.abc import Collection, Iterable
 from importlib.metadata import Distribution, distributions
+from os.path import normpath
 from pathlib import Path
 
 OWN = "occ-explorer"
@@ -42,19 +43,20 @@ def write_notice(sources: Collection[Path], bundle: Path, project: Path) -> None
 
 def packages_of(sources: Iterable[Path]) -> tuple[dict[str, Distribution], list[Path]]:
     """Return the installed packages that the files belong to, and the files of none."""
-    owners = {
-        Path(str(file.locate())).resolve(): package
-        for package in distributions()
-        for file in package.files or ()
-    }
+    owners = {}
+    for package in distributions():
+        root = Path(
+            str(package.locate_file(""))
+        ).resolve()  # not each of tens of thousands of files
+        owners |= dict.fromkeys((normpath(root / each) for each in package.files or ()), package)
     found: dict[str, Distribution] = {}
     others = []
     for source in sources:
-        package = owners.get(source.resolve())
-        if package is None:
+        owner = owners.get(str(source.resolve()))
+        if owner is None:
             others.append(source)
         else:
-            found[package.name] = package
+            found[owner.name] = owner
     return found, others
 
 

@@ -18,7 +18,7 @@ from occ_model.video.file.source import StoredFrame
 
 _PACKAGES = Path(__file__).resolve().parents[3]  # the folder that holds this package
 
-_START = "import sys; sys.path.insert(0, sys.argv[1]); " \
+START = "import sys; sys.path.insert(0, sys.argv[1]); " \
     "from occ_model.video.file.decoder_main import main; main()"  # fmt: skip
 
 _ENVIRONMENT = {
@@ -167,17 +167,17 @@ _AT_ONCE = 16
 def _command() -> list[str]:
     if getattr(sys, "frozen", False):  # a bundle, whose programs are no Python
         return [sys.executable, DECODER_OPTION]
-    return [sys.executable, "-P", "-c", _START, str(_PACKAGES)]
+    return [sys.executable, "-P", "-c", START, str(_PACKAGES)]
 
 
-_spare: list[DecoderProcess] = []
+spare: list[DecoderProcess] = []
 _spare_lock = threading.Lock()
 
 
 def take_decoder() -> DecoderProcess:
     """Take the process that was put back last, or start one: that takes a third of a second."""
     with _spare_lock:
-        decoder = _spare.pop() if _spare else None
+        decoder = spare.pop() if spare else None
     if decoder is not None and decoder.is_alive:
         with suppress(DecoderStoppedError):  # it waited so long that it has ended just now
             decoder.close_film()
@@ -192,8 +192,8 @@ def put_back(decoder: DecoderProcess) -> None:
     except DecoderStoppedError:
         return
     with _spare_lock:
-        if not _spare:
-            _spare.append(decoder)
+        if not spare:
+            spare.append(decoder)
             return
     decoder.end()
 

@@ -111,7 +111,7 @@ def _run(options: argparse.Namespace) -> int:
     scene, axes = scene_of(options), axes_of(options.vary)
     settings = RateSettings(
         options.images,
-        _decoders(options.decoder or [PAPER_DECODER]),
+        decoders_of(options.decoder or [PAPER_DECODER]),
         options.seed,
         options.tolerance,
         forced(options),
@@ -156,7 +156,7 @@ def _decoder_or_all(text: str) -> str:
     return text if text in (BOTH, ALL) else decoder_name(text)
 
 
-def _decoders(names: Sequence[str]) -> tuple[str, ...]:
+def decoders_of(names: Sequence[str]) -> tuple[str, ...]:
     if ALL in names:
         return tuple(DECODERS)
     return QUICK_DECODERS if BOTH in names else tuple(dict.fromkeys(names))
@@ -215,7 +215,7 @@ def _warnings_as_sentences() -> Iterator[None]:
         yield
 
 
-_SECONDS = 5  # timeout of a scheduler's answer
+SECONDS = 5  # timeout of a scheduler's answer
 
 
 class ClusterError(OccError):
@@ -238,11 +238,11 @@ def cluster_executor(address: str) -> Iterator[Executor]:
             f"The cluster at {shown(address)} has no workers; start one with "
             f"'dask worker {one_line(address)}'."
         )
-    client: Any = Client(address, timeout=_SECONDS, set_as_default=False)
+    client: Any = Client(address, timeout=SECONDS, set_as_default=False)
     try:
         yield client.get_executor()
     finally:
-        client.close(timeout=_SECONDS)
+        client.close(timeout=SECONDS)
 
 
 async def _workers(address: str) -> int:
@@ -253,12 +253,12 @@ async def _workers(address: str) -> int:
     try:
         # As the client does: certificates for tls:// come from dask's configuration.
         keys: Any = Security().get_connection_args("client")
-        async with asyncio.timeout(_SECONDS):
+        async with asyncio.timeout(SECONDS):
             async with rpc(address, connection_args=keys) as scheduler:
                 known = await scheduler.identity()
             return len(known["workers"])
     except TimeoutError:
-        reason = f"no answer within {_SECONDS} s"
+        reason = f"no answer within {SECONDS} s"
     except Exception as error:  # noqa: BLE001 - whatever may listen there can answer anything
         reason = " ".join(str(error).split()).rstrip(".") or type(error).__name__
     raise ClusterError(

@@ -3,34 +3,43 @@
 import argparse
 import inspect
 import math
+import re
 from collections.abc import Callable
 
 import pytest
-from each_case import each_case
 
 import occ_model as occ
 from occ_model.cli import main
 from occ_model.commands import limits, most_bits, sweep
-from occ_model.commands.command_line import _MODULES, make_parser, read_command_line
+from occ_model.commands.command_line import make_parser, read_command_line
 from occ_model.commands.options import number, simulation_settings_of, whole_number
 
 
-def _commands(parser: argparse.ArgumentParser) -> list[str]:
-    (commands,) = [each for each in parser._actions if each.choices is not None]
-    return list(commands.choices or ())
+def commands_of(parser: argparse.ArgumentParser) -> list[str]:
+    return re.findall(r"^    ([a-z][\w-]*)(?:  |$)", parser.format_help(), re.MULTILINE)
 
 
-def test_the_table_names_every_command_in_the_order_of_the_help() -> None:
-    assert _commands(make_parser()) == list(_MODULES)
-    assert _commands(make_parser("no-command")) == list(_MODULES)
+COMMANDS = commands_of(make_parser())
 
 
-@each_case(_MODULES)
-def test_a_command_is_declared_by_its_own_module(name: str) -> None:
-    assert name in _commands(make_parser(name))
-    assert set(_commands(make_parser(name))) == {
-        other for other, module in _MODULES.items() if module == _MODULES[name]
-    }
+def help_of(parser: argparse.ArgumentParser, name: str, capsys: pytest.CaptureFixture[str]) -> str:
+    with pytest.raises(SystemExit):
+        parser.parse_args([name, "--help"])
+    return capsys.readouterr().out
+
+
+def test_where_there_is_no_such_command_all_are_listed() -> None:
+    assert len(COMMANDS) == len(set(COMMANDS)) > 15
+    assert commands_of(make_parser("no-command")) == COMMANDS
+
+
+def test_a_command_alone_is_what_it_is_among_all(capsys: pytest.CaptureFixture[str]) -> None:
+    whole = make_parser()
+    for name in COMMANDS:
+        alone = make_parser(name)
+        assert name in commands_of(alone)
+        assert len(commands_of(alone)) < 5, "others are imported with it"
+        assert help_of(alone, name, capsys) == help_of(whole, name, capsys) != ""
 
 
 NAMES = {"pictures": "pictures", "images": "images", "seed": "seed", "rate": "rate",

@@ -17,7 +17,7 @@ from PIL import Image
 import occ_model as occ
 from occ_model.cli import main
 from occ_model.commands import sweep as cluster
-from occ_model.commands.sweep import _decoders, run_with_bar
+from occ_model.commands.sweep import decoders_of, run_with_bar
 from occ_model.commands.vary import axes_of
 from occ_model.errors import OutputError, ParameterError
 from occ_model.figures.sweep import write_sweep_figure
@@ -150,7 +150,7 @@ def test_a_cluster_is_reached_with_dasks_certificates(monkeypatch: pytest.Monkey
 def test_an_unreachable_cluster_gives_a_sentence_in_time(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(cluster, "_SECONDS", 0.2)
+    monkeypatch.setattr(cluster, "SECONDS", 0.2)
     assert main(["sweep", "--vary", "distance=1", "--cluster", "tcp://127.0.0.1:9"]) == 2
     assert "127.0.0.1:9': no answer within 0.2 s. Allowed: " in capsys.readouterr().err
 
@@ -256,6 +256,6 @@ def test_a_number_of_too_many_digits_is_refused_in_short(
 
 
 def test_both_are_the_quick_decoders_and_all_every_one() -> None:
-    assert _decoders(["both"]) == ("threshold", "matched")
-    assert _decoders(["sequence", "all"]) == tuple(DECODERS)
-    assert _decoders(["sequence", "matched", "sequence"]) == ("sequence", "matched")
+    assert decoders_of(["both"]) == ("threshold", "matched")
+    assert decoders_of(["sequence", "all"]) == tuple(DECODERS)
+    assert decoders_of(["sequence", "matched", "sequence"]) == ("sequence", "matched")

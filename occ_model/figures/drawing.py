@@ -28,7 +28,7 @@ FORMATS = ("png", "svg", "pdf")  # the file formats of a figure
 
 ENDINGS = (*(f".{name}" for name in FORMATS), ".csv")  # of a drawing's file
 
-_STYLE: dict[Any, Any] = {
+STYLE: dict[Any, Any] = {
     "font.size": 9,
     "axes.spines.top": False,
     "axes.spines.right": False,
@@ -41,7 +41,7 @@ _STYLE: dict[Any, Any] = {
 
 def house_style() -> AbstractContextManager[None]:
     """Return a context in which all figures have one style, whatever the user's settings."""
-    look = dict[Any, Any](rcParamsDefault) | _STYLE
+    look = dict[Any, Any](rcParamsDefault) | STYLE
     # The backend only concerns windows, and these figures become files.
     del look["backend"]
     return rc_context(look)

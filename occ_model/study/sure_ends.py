@@ -154,7 +154,7 @@ def _outside(taken: _Pictures, end: float, fails: Trial, rate: float) -> Trial:
         value = _between(low, high, 0.5)
         if high / low <= END_RATIO * END_RATIO or value in (low, high):
             return fails
-        refuting = _until_refuted(islice(taken.at(value), OUTSIDE), taken.bits, rate / 100.0)
+        refuting = until_refuted(islice(taken.at(value), OUTSIDE), taken.bits, rate / 100.0)
         trial = refuting and trial_of(value, refuting, taken.bits)
         if not trial or trial.high >= rate:
             return fails
@@ -176,7 +176,7 @@ def _between(first: float, last: float, part: float) -> float:
     return float(f"{first * (last / first) ** part:.5g}")
 
 
-def _until_refuted(counts: Iterable[int], bits: int, least: float) -> list[int] | None:
+def until_refuted(counts: Iterable[int], bits: int, least: float) -> list[int] | None:
     """Count right bits until they refute that a fraction of them is read; None if they do not.
 
     Whoever stakes on each image that less is read, at odds that are fair if the fraction is

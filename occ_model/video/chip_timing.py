@@ -113,7 +113,7 @@ def _described(
         middle=timing.middle + before,
         middle_error=float(np.sqrt(covariance[0, 0])),
         step_error=float(np.sqrt(covariance[1, 1])),
-        ratios=_ratios(lattice, swing, residual),
+        ratios=chip_ratios(lattice, swing, residual),
         unexplained=float(residual @ residual) / max(float(light.var()) * columns, 1e-300),
     )
 
@@ -134,7 +134,7 @@ def noise_of(swing: FloatArray, residual: FloatArray, step: float) -> float:
     return max(float(residual @ residual) / free, least) * correlated_columns(residual)
 
 
-def _ratios(lattice: ChipLattice, swing: FloatArray, residual: FloatArray) -> FloatArray:
+def chip_ratios(lattice: ChipLattice, swing: FloatArray, residual: FloatArray) -> FloatArray:
     """Return how much likelier each chip is lit than not, the others being as they are.
 
     With w(i) the light of a chip in column i and r(i) the residual, the opposite value changes the

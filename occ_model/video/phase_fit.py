@@ -112,7 +112,7 @@ def fit_parabola(phases: Phases, counted: FloatArray) -> ClockFit:
     jumps: list[int] = []
     solution = _solve(phases, counted, kept, jumps)
     for _ in range(_MAX_JUMPS + 3):
-        spread = _local_spread(solution.residuals[kept], phases.errors[kept])
+        spread = local_spread(solution.residuals[kept], phases.errors[kept])
         jump = _largest_jump(solution.residuals, kept, spread, jumps)
         off = np.abs(solution.residuals)
         typical = _SIGMA_OF_MEDIAN * float(np.median(off))
@@ -206,7 +206,7 @@ def _correlated_count(residuals: FloatArray) -> float:
     )
 
 
-def _local_spread(residuals: FloatArray, errors: FloatArray) -> float:
+def local_spread(residuals: FloatArray, errors: FloatArray) -> float:
     """Return the deviation of phases from that of the frame before, free of slow changes."""
     least = float(np.median(errors))
     if len(residuals) < 3:

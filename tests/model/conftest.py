@@ -1,7 +1,11 @@
 """What the tests of the model share."""
 
+from collections.abc import Callable, Iterator
+from functools import partial
+
 import pytest
 from amount import amount
+from model.plugins.installed_package import forget_plugins, offer
 
 
 @pytest.fixture
@@ -14,4 +18,12 @@ def plain_figures(monkeypatch: pytest.MonkeyPatch) -> None:
 
     plain = {"figure.constrained_layout.use": False, "figure.dpi": 60, "pdf.fonttype": 3}
     for name, value in amount(plain, {}).items():
-        monkeypatch.setitem(drawing._STYLE, name, value)
+        monkeypatch.setitem(drawing.STYLE, name, value)
+
+
+@pytest.fixture
+def offered(monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[..., None]]:
+    """Give a function that offers decoders as plug-ins, until the test ends."""
+    yield partial(offer, monkeypatch)
+    monkeypatch.undo()
+    forget_plugins()

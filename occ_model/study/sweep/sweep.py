@@ -28,7 +28,7 @@ from occ_model.study.sweep.results_file import Point, ResultsFile, TableText
 from occ_model.study.sweep.workers import Work, measure_anywhere
 
 Progress: TypeAlias = Callable[[int, int, float], object]  # points done, of all, seconds left
-_BEAT = 0.2  # seconds between two calls of the progress while a point takes long
+BEAT = 0.2  # seconds between two calls of the progress while a point takes long
 
 
 def sweep(  # noqa: PLR0913 - a study's settings, most of them optional
@@ -201,7 +201,7 @@ class Clock:
 
     def show_life(self) -> None:
         """Report the progress again where the last report was long ago."""
-        if perf_counter() - self._told >= _BEAT:
+        if perf_counter() - self._told >= BEAT:
             self._tell()
 
     def _tell(self) -> None:

@@ -83,8 +83,8 @@ class Bench(PaneBench):
 @pytest.fixture
 def bench(qtbot: QtBot, small_scene: Scene, monkeypatch: pytest.MonkeyPatch) -> Bench:
     # A tenth of the pixels, and a quarter of the time; how texts fit the page is tested elsewhere.
-    monkeypatch.setitem(drawing._STYLE, "figure.dpi", 60)
-    monkeypatch.setitem(drawing._STYLE, "figure.constrained_layout.use", False)
+    monkeypatch.setitem(drawing.STYLE, "figure.dpi", 60)
+    monkeypatch.setitem(drawing.STYLE, "figure.constrained_layout.use", False)
     return Bench(qtbot, small_scene)
 
 

@@ -214,7 +214,7 @@ def test_the_end_shows_the_answers_and_saves_them_as_a_report(
     guide.end.report.click()
     bench.wait_until_idle()
     assert list(tmp_path.iterdir()) == [], "it is not wanted"
-    monkeypatch.setitem(drawing._STYLE, "figure.constrained_layout.use", False)  # it is slow
+    monkeypatch.setitem(drawing.STYLE, "figure.constrained_layout.use", False)  # it is slow
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(path), ""))
     guide.end.report.click()
     bench.wait_until_idle()

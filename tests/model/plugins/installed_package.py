@@ -1,10 +1,18 @@
 """Packages with entry points, installed into a folder as an installer would."""
 
-from collections.abc import Mapping
+import importlib.metadata
+import sys
+from collections.abc import Callable, Mapping
+from importlib.metadata import EntryPoint
 from pathlib import Path
+from types import ModuleType
+
+import pytest
 
 from occ_model import plugins
 from occ_model.receiver import decoders
+from occ_model.receiver.decoder import Decoder
+from occ_model.results.decoding import DecodeResult
 from occ_model.transmitter import packet, scheme
 from occ_model.transmitter.registry import Registry
 
@@ -51,3 +59,15 @@ def install(
         for group, objects in entry_points.items()
     )
     (description / "entry_points.txt").write_text("\n".join(groups), encoding="utf-8")
+
+
+def offer(monkeypatch: pytest.MonkeyPatch, **decoders: Callable[..., DecodeResult]) -> None:
+    """Let an installed package seem to offer decoders, by name the function that reads."""
+    module = ModuleType("offered")
+    vars(module).update({name: Decoder(name, name, read) for name, read in decoders.items()})
+    monkeypatch.setitem(sys.modules, "offered", module)
+    entries = [EntryPoint(name, f"offered:{name}", plugins.DECODERS) for name in decoders]
+    monkeypatch.setattr(
+        importlib.metadata, "entry_points", lambda group: [e for e in entries if e.group == group]
+    )
+    forget_plugins()

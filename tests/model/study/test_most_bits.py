@@ -1,5 +1,8 @@
 """The scheme that carries most is read, and what carries more is not."""
 
+from collections.abc import Callable
+from functools import partial
+
 import numpy as np
 import pytest
 
@@ -7,7 +10,6 @@ import occ_model as occ
 from occ_model.cli import main
 from occ_model.results.decoding import DecodeResult
 from occ_model.scene.scene import Scene
-from occ_model.study import success_rate
 from occ_model.study.most_bits import VARIED, _candidates, example_of, unvaried
 
 FAR = occ.load_preset("phone-136us").replace(rows=60, enhancement="none", distance=3.0)
@@ -36,16 +38,14 @@ def test_the_scene_found_is_read_and_its_bits_are_counted() -> None:
 
 
 def test_bits_that_the_decoder_does_not_accept_carry_nothing(
-    monkeypatch: pytest.MonkeyPatch,
+    offered: Callable[..., None],
 ) -> None:
-    (found,) = occ.most_bits(FAR, ("threshold",), pictures=1)
-
-    def refused(scene: Scene, *_: object) -> list[DecodeResult]:
+    def read(failure: str | None, _: object, scene: Scene) -> DecodeResult:
         bits = np.array(scene.transmitter.payload_bits, dtype=np.uint8)
-        return [DecodeResult("threshold", bits=bits, failure="The chips are not certain enough.")]
+        return DecodeResult("any", bits=bits, code=0, failure=failure)
 
-    monkeypatch.setattr(success_rate, "_read", refused)
-    (nothing,) = occ.most_bits(FAR, ("threshold",), pictures=1)
+    offered(sure=partial(read, None), unsure=partial(read, "The chips are not certain enough."))
+    found, nothing = occ.most_bits(FAR, ("sure", "unsure"), pictures=1)
     assert found.scene is not None
     assert nothing.scene is None
     assert nothing.bits_a_second == 0.0

@@ -2,6 +2,7 @@
 
 import itertools
 import math
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -32,23 +33,23 @@ def test_same_seed_same_rate_other_seed_other_images() -> None:
 
 
 def test_rate_is_the_fraction_of_right_bits_and_only_accepted_payloads_are_whole(
-    scene: Scene, monkeypatch: pytest.MonkeyPatch
+    scene: Scene, offered: Callable[..., None]
 ) -> None:
     sent = np.array([1, 0, 1, 1, 0, 0, 1, 1, 1, 0], dtype=np.uint8)
     three_wrong = sent.copy()
     three_wrong[:3] ^= 1
     results = [
         DecodeResult("x", bits=sent, code=718),
-        DecodeResult("x", bits=three_wrong, code=1),
+        DecodeResult("x", bits=three_wrong, code=int("".join(map(str, three_wrong)), 2)),
         DecodeResult("x", failure="Nothing."),
-        DecodeResult("x", bits=sent[:4]),
+        DecodeResult("x", bits=sent[:4], failure="It is cut."),
         DecodeResult("x", bits=sent, failure="The chips are not certain enough."),
     ]
     given = itertools.cycle(results)
-    monkeypatch.setattr(module, "_read", lambda *_: [next(given)])
+    offered(x=lambda *_: next(given))
     asked = scene.replace(code=718)
     assert module.right_and_whole(asked, RateSettings(5, ("x",))) == ((17,), (1,))
-    assert occ.success_rate(asked, images=5) == pytest.approx(100 * 17 / 50)
+    assert occ.success_rate(asked, 5, "x") == pytest.approx(100 * 17 / 50)
 
 
 @pytest.mark.parametrize("decoder", ["threshold", "matched"])

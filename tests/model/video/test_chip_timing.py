@@ -12,7 +12,7 @@ from occ_model.photo.fit.least_squares import StripeModel
 from occ_model.photo.fit.timing import Timing
 from occ_model.results.decoding import DecodeResult
 from occ_model.scene.scene import Scene
-from occ_model.video.chip_timing import ChipLattice, ChipTiming, _ratios, fit_timing, noise_of
+from occ_model.video.chip_timing import ChipLattice, ChipTiming, chip_ratios, fit_timing, noise_of
 from occ_model.video.read_frame import first_lattice
 
 CHIPS = np.array([1, 0, 1, 1, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0, 1, 0, 1, 0], dtype=np.uint8)
@@ -129,7 +129,7 @@ def test_every_ratio_is_the_change_of_the_squared_distance_by_that_chip_alone() 
     light = _light(lattice, 400, 0.8, 14)
     here, timing = _lit(lattice, 400), Timing(lattice.step, 1.6, lattice.middle(400), 1.0)
     _, swing, profile = StripeModel(light, lattice.values, None, lattice.step).levels(timing)
-    found = _ratios(lattice, swing, light - profile)
+    found = chip_ratios(lattice, swing, light - profile)
     noise = noise_of(swing, light - profile, lattice.step)
     for chip, ratio in enumerate(found.tolist()):
         squares = []

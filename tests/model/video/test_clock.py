@@ -10,7 +10,7 @@ from amount import amount
 
 from occ_model.video.clock import fit_clock
 from occ_model.video.frame_times import frame_times
-from occ_model.video.phase_fit import ClockFit, PhaseJump, Phases, _local_spread, mean_step
+from occ_model.video.phase_fit import ClockFit, PhaseJump, Phases, local_spread, mean_step
 
 _NOISE = 0.01
 
@@ -213,11 +213,11 @@ def test_phases_scatter_by_the_median_of_their_steps_and_no_less_than_they_state
     random = np.random.default_rng(3)
     noise = random.normal(size=4000)
     # Slow changes do not count.
-    spread = _local_spread(0.2 * noise + np.linspace(0.0, 40.0, 4000), np.full(4000, 0.01))
+    spread = local_spread(0.2 * noise + np.linspace(0.0, 40.0, 4000), np.full(4000, 0.01))
     assert spread == pytest.approx(0.2, rel=0.06)
-    assert _local_spread(0.001 * noise, np.full(4000, 0.3)) == 0.3
-    assert _local_spread(np.array([0.0, 5.0]), np.array([0.1, 0.2])) == pytest.approx(0.15)
-    assert _local_spread(np.zeros(2), np.zeros(2)) > 0.0
+    assert local_spread(0.001 * noise, np.full(4000, 0.3)) == 0.3
+    assert local_spread(np.array([0.0, 5.0]), np.array([0.1, 0.2])) == pytest.approx(0.15)
+    assert local_spread(np.zeros(2), np.zeros(2)) > 0.0
 
 
 def test_thousand_frames_are_followed_from_the_first_ones() -> None:

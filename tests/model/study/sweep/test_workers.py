@@ -1,6 +1,7 @@
 """Laws of a sweep's workers: whoever measures, dies or cannot be started, the table is the same."""
 
 import errno
+import gc
 import math
 import multiprocessing
 import multiprocessing.synchronize
@@ -9,6 +10,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import weakref
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
@@ -206,7 +208,7 @@ def test_a_slow_point_gives_signs_of_life_from_image_to_image(
 ) -> None:
     from occ_model.study.sweep import sweep as module
 
-    monkeypatch.setattr(module, "_BEAT", 0.0)
+    monkeypatch.setattr(module, "BEAT", 0.0)
     told: list[int] = []
     occ.sweep(scene, {"distance": [1.0, 2.0]}, 4, progress=lambda done, *_: told.append(done))
     assert told == [0] * 4 + [1] * 5 + [2]
@@ -235,5 +237,6 @@ def test_without_processes_the_sweep_runs_here_and_says_so(
 def test_what_a_given_executor_has_done_is_not_kept() -> None:
     with ThreadPoolExecutor(1) as executor:
         given = GivenExecutor(executor)
-        given.submit(Job(len, ("",)), 0, 1)
-    assert not given._futures
+        done = weakref.ref(given.submit(Job(len, ("",)), 0, 1))
+    gc.collect()
+    assert done() is None

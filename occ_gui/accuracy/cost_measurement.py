@@ -120,6 +120,6 @@ class _CancellableTimer(StageTimer):
         super().__init__()
         self._report = report
 
-    def stage_ended(self, stage: str) -> None:
-        super().stage_ended(stage)
+    def end_stage(self, stage: str) -> None:
+        super().end_stage(stage)
         self._report(None)

@@ -161,7 +161,7 @@ class PictureRows:
         self._plain: tuple[list[tuple[_Panel, slice]], Pixels] = ([], self._surroundings)
 
     def of(self, place: range, stage_ended: Callable[[str], object] = lambda _stage: None) -> Rows:
-        """Compute some rows; ``stage_ended`` is called with the name of each stage at its end."""
+        """Compute some rows; ``end_stage`` is called with the name of each stage at its end."""
         lit = [
             _LitColumns(
                 panel, part.columns, None if isinstance(part.fraction, float) else part.fraction

@@ -51,7 +51,7 @@ def paper_view_of(
 ) -> PaperView:
     """Compute the paper's view of a scene: one projection and one exposure.
 
-    ``stage_ended`` is called with the name of each stage at its end.
+    ``end_stage`` is called with the name of each stage at its end.
     """
     corners = panel_corners(scene)
     corner_bytes = corners.tobytes()

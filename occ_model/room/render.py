@@ -113,10 +113,10 @@ def render_room(
     check_size(room.scene.camera)
     timer = StageTimer()
     seen = lamps_in_view(room)
-    timer.stage_ended("projection")
+    timer.end_stage("projection")
     views = [one.view for one in seen] or [_dark_view(room.scene)]
     chosen = plan_of_any(_extreme(views), settings)
-    timer.stage_ended("plan")
+    timer.end_stage("plan")
     if len(views) == 1:
         frame = render_plan(views[0], chosen, seed=seed, noise=noise, timer=timer)
         profiles, image = [expose_columns(views[0], chosen).profile], frame.camera_image
@@ -177,7 +177,7 @@ def _composed(
         LitPanel(_optics_of(view, chosen), own.panel)
         for view, own in zip(views, columns, strict=True)
     ]
-    timer.stage_ended("optics")
+    timer.end_stage("optics")
     bands = split_into_blocks(range(camera.rows))
     if all(panel.optics.is_plain for panel in panels) and camera.jpeg_quality == 0:
         level = [view.region for view in views if view.sides]

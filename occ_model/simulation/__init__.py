@@ -1,1 +1,1 @@
-"""Simulation of a picture: columns, then pixels, each stage timed."""
+"""Simulation of a picture: first columns, then pixels, with the time of each stage."""

@@ -1,7 +1,7 @@
-"""The band model, the state of the art that the paper compares with.
+"""The band model, the state of the art with which the paper compares its simulation.
 
-A chip shows as h_c = (t_LED - t) / t_r columns of one state, a change of state as h_t = t / t_r
-columns of transition. It is undefined when the exposure is longer than the switching period.
+A chip has h_c = (t_LED - t) / t_r columns of one state, and a change of state h_t = t / t_r columns
+of transition. The model is undefined if the exposure is longer than the switching period.
 """
 
 import numpy as np
@@ -17,7 +17,7 @@ from occ_model.transmitter.packet import sent_chips
 
 
 def band_lengths(scene: Scene) -> tuple[float, float]:
-    """Return h_c and h_t, the columns of a complete band and of a transition, not rounded.
+    """Return h_c and h_t, the columns of a complete band and of a transition, without rounding.
 
     Raises
     ------
@@ -38,11 +38,11 @@ def band_lengths(scene: Scene) -> tuple[float, float]:
 def band_profile(scene: Scene) -> FloatArray:
     """Return the column profile that the band model predicts.
 
-    With ``band_reading = "aligned"`` a run of n equal chips has (n t_LED - t) / t_r columns, not
-    rounded, so that every packet's bands begin where they are sent, and width and levels of bands
-    can be compared. With ``"literal"`` h_c columns stand for every chip and h_t for every change of
-    state, both rounded to whole columns, so that the profile drifts along the picture.
-    Both start at the scene's start time.
+    With ``band_reading = "aligned"`` a run of n equal chips has (n t_LED - t) / t_r columns,
+    without rounding, so that bands begin where they are sent and can be compared in width and
+    level. With ``"literal"`` every chip has h_c and every change of state h_t columns, both rounded
+    to whole columns, so that the profile drifts along the picture. Both start at the scene's start
+    time.
 
     Returns
     -------
@@ -52,8 +52,8 @@ def band_profile(scene: Scene) -> FloatArray:
     Raises
     ------
     BandModelUndefined
-        The exposure time is longer than the switching period, or (literal reading) a whole packet
-        rounds to no columns at all.
+        The exposure time is longer than the switching period, or (if literal) a whole packet rounds
+        to no columns at all.
     """
     complete, transition = band_lengths(scene)
     chips = sent_chips(scene.transmitter)
@@ -77,11 +77,11 @@ def band_profile(scene: Scene) -> FloatArray:
 
 
 def band_drift(scene: Scene) -> float:
-    """Return by how many columns the band model is ahead of what is sent after each packet.
+    """Return how many columns the band model is ahead of the sent packets after each packet.
 
-    The literal reading rounds every band, and between two equal chips it has no columns for the
-    exposure: a run of n of them lasts n t_LED, but n h_c + h_t are (n - 1) t less. It is below zero
-    where the model's packet is longer; 0 for the aligned reading.
+    The literal model rounds every band, and has no columns of transition between equal chips: a run
+    of n of them lasts n t_LED, but n h_c + h_t is (n - 1) t less. The result is negative if the
+    model's packet is longer than the sent one, and 0 for the aligned model.
     """
     complete, transition = band_lengths(scene)
     if scene.model.band_reading == "aligned":
@@ -92,17 +92,17 @@ def band_drift(scene: Scene) -> float:
 
 
 def enhanced_band_profile(scene: Scene, profile: FloatArray) -> FloatArray:
-    """Return the band model's profile as the receiver would enhance it, by its own histogram."""
+    """Enhance the band model's profile as the receiver would, by the profile's own histogram."""
     return enhance(profile, scene.model.enhancement).astype(np.float64)
 
 
 def _knots(
     chips: ByteArray, complete: float, transition: float, *, between_equal: float
 ) -> tuple[FloatArray, FloatArray]:
-    """Return the corners of one packet's polyline: positions, from 0 to its length, and states.
+    """Return the corners of one packet's polyline: positions from 0 to its length, and states.
 
     Each chip has its state for ``complete`` columns and then changes to the next chip's, within
-    ``transition`` columns where that differs and ``between_equal`` where it is the same.
+    ``transition`` columns if that differs, or ``between_equal`` columns if it is the same.
     """
     following = np.roll(chips, -1)
     moves = np.where(chips != following, transition, between_equal)
@@ -116,7 +116,7 @@ def _knots(
 def _literal_knots(
     chips: ByteArray, complete: float, transition: float
 ) -> tuple[FloatArray, FloatArray]:
-    """Return the polyline of the literal reading: whole columns, and none between equal chips."""
+    """Return the polyline of the literal model: whole columns, and none between equal chips."""
     return _knots(chips, round(complete), round(transition), between_equal=0.0)
 
 

@@ -1,7 +1,7 @@
-"""The columns' pixel values, as far as all rows are equal: light, exposure, the pixel's limits.
+"""The columns' pixel values, as far as all rows are equal: light, exposure and full pixels.
 
-Where nothing in the plan makes rows differ, this is the whole simulation: the profile path. Of a
-picture whose rows differ, the columns' means are added up some rows at a time.
+If no planned effect makes rows differ, this is the whole simulation, the profile path. Otherwise
+the columns' means are added up some rows at a time.
 """
 
 from dataclasses import dataclass
@@ -21,11 +21,11 @@ from occ_model.simulation.stage_timer import StageTimer
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Columns:
-    # Shape (columns,): pixel values of the panel and beside it before saturation, which a lens may
-    # still darken
+    # Shape (columns,): pixel values on the panel and beside it, before dimming by a lens and
+    # saturation
     panel: FloatArray
     surroundings: FloatArray
-    # Shape (columns,): the same after saturation: the column values PV_sim, and those beside them
+    # Shape (columns,): the same after saturation; ``profile`` is PV_sim
     profile: FloatArray
     around: FloatArray
 
@@ -35,15 +35,15 @@ def expose_columns(view: PaperView, chosen: Plan, timer: StageTimer | None = Non
     scene, light, panel = view.scene, view.light, view.values
     for effect in effects_planned(chosen, LightEffect):
         light = effect.apply(scene, light)
-        timer.stage_ended(effect.name)
+        timer.end_stage(effect.name)
     if light is not view.light:
         panel = panel_values(scene, light)
     surroundings = np.broadcast_to(surroundings_values(scene, light), panel.shape)
     profile, around = panel, surroundings
-    timer.stage_ended("exposure")
+    timer.end_stage("exposure")
     for limit in effects_planned(chosen, PixelEffect):
         profile, around = limit.apply(scene, profile), limit.apply(scene, around)
-        timer.stage_ended(limit.name)
+        timer.end_stage(limit.name)
     return Columns(panel, surroundings, saturate(profile), saturate(around))
 
 
@@ -53,7 +53,7 @@ class ColumnMeans:
         self._counts = np.zeros(columns, dtype=np.int64)
 
     def add(self, rows: Rows, values: Pixels | ByteArray) -> None:
-        """Add the panel's pixels of some rows, in grey levels."""
+        """Add the panel's pixels in some rows, in grey levels."""
         for columns in rows.inside:
             self._sums[columns] += _column_sums(values[:, columns])
             self._counts[columns] += len(values)
@@ -72,7 +72,7 @@ class ColumnMeans:
 
 
 def _column_sums(values: Pixels | ByteArray) -> FloatArray:
-    # Bytes are summed as integers, many times faster; a picture has too few rows to exceed 32 bits.
+    # Summing bytes as integers is many times faster; a picture has too few rows to exceed 32 bits.
     exact = cv2.CV_32S if values.dtype == np.uint8 else cv2.CV_64F
     sums = cv2.reduce(values, 0, cv2.REDUCE_SUM, dtype=exact)
     return np.asarray(sums[0], dtype=np.float64)

@@ -1,10 +1,10 @@
-"""How far a draft's column means may lie from those of the whole picture.
+"""How far a draft's column means may be from those of the whole picture.
 
 A draft is a systematic sample of the picture's rows. Its error is estimated from the sample itself,
-by the differences between successive parts of it (W. G. Cochran, *Sampling Techniques*, 1977,
-chapter 8): whatever makes rows differ, noise, a file's rounding or a slow change of the light,
-shows in them. The panel's rim, which such differences do not show, is added. Columns with fewer
-rows than two such parts are compared with all of their rows in the picture, exposed for it.
+by the differences between successive parts (W. G. Cochran, *Sampling Techniques*, 1977, chapter 8),
+in which anything appears that makes rows differ: noise, a file's rounding, or a slow change of the
+light. Only the error at the panel's rim is added separately. Columns with fewer rows than two parts
+are compared with all of their rows, which are exposed for this purpose.
 """
 
 import math
@@ -20,69 +20,68 @@ from occ_model.arrays import ByteArray, FloatArray, IndexArray
 from occ_model.camera.coverage import column_spans
 from occ_model.camera.photometry import WHITE
 
-_BLOCK = 8  # rows of a part: those of a block of a JPEG file, whose errors depend on each other
-_FEWEST_PARTS = 2  # whose difference tells how much they differ by chance
-_BLUR_REACH = 4.0  # standard deviations of the lens's blur that a rim reaches into the panel
-_DEVIATIONS_ADDED = 5.0  # standard deviations of an estimate by which the stated error is larger
+_BLOCK = 8  # rows of a part, those of a block of a JPEG file, whose errors are correlated
+_FEWEST_PARTS = 2  # fewest parts whose differences tell how much they vary
+_BLUR_REACH = 4.0  # reach of a blurred rim into the panel, in standard deviations
+_DEVIATIONS_ADDED = 5.0  # standard deviations that are added to the estimate of an error
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class DraftedPanel:
     rows: range  # The rows of the picture that the draft shows
-    # The columns of the panel's bounding rectangle, over which the error is averaged
+    # Columns of the panel's bounding rectangle, over which the error is averaged
     columns: slice
-    # Shape (corners, 2): the panel's outline in the picture, (column, row) of each corner
+    # Shape (corners, 2): (column, row) of each corner of the panel's outline in the picture
     outline: FloatArray
     size: tuple[int, int]  # Rows and columns of the picture
     blur: float  # Standard deviation of the lens's blur in pixels
-    # Standard deviation of a column's mean over one block of the picture's file by the file's
-    # rounding, in grey levels; 0 for no file
+    # Standard deviation, in grey levels, that a file's rounding adds to a column's mean over one
+    # block; 0 without a file
     rounding: float
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class DraftedMeans:
-    # Shape (rows of the draft, columns): the draft: the camera's for the profile, the receiver's
-    # for the signal
+    # Shape (rows of the draft, columns): the camera's draft for the profile, or the receiver's for
+    # the signal
     image: ByteArray
     means: FloatArray  # Shape (columns,): its column means over the panel
-    # The values that pixels of the scene can have without noise, the least and the greatest among
-    # them
+    # Values that pixels of the scene can have without noise, with the smallest and the largest
     levels: FloatArray | ByteArray
-    stretch: float  # How many levels of the image one level of the camera's is, in the mean
+    stretch: float  # Mean number of the image's levels for each level of the camera's picture
 
 
 ExposeRows: TypeAlias = Callable[[NDArray[np.bool_]], Mapping[str, FloatArray]]
-"""Exposes some rows of the whole picture, shape (rows,), a few times with other noise: column means
-by name, each of shape (times, columns)."""
+"""Exposes the marked rows, shape (rows,), of the whole picture a few times with other noise, and
+returns column means by name, each of shape (times, columns)."""
 
 
 def draft_errors(
     panel: DraftedPanel, means: Mapping[str, DraftedMeans], expose: ExposeRows
 ) -> dict[str, float]:
-    """Return RMS sampling errors of a draft's columns on the panel, in grey levels, by name."""
+    """Return the RMS sampling errors of a draft's columns on the panel, in grey levels, by name."""
     whole = [ends[panel.columns] for ends in column_spans(panel.outline, *panel.size)]
-    first, last = (_rows_before(ends, panel.rows) for ends in whole)
+    first, last = (_count_rows_before(ends, panel.rows) for ends in whole)
     seen = whole[1] > whole[0]
     guard = math.ceil(_BLUR_REACH * panel.blur / panel.rows.step)
     short = seen & ((last - guard) // _BLOCK + -(first + guard) // _BLOCK < _FEWEST_PARTS)
-    shown = _within(whole[0][short], whole[1][short], panel.size[0])
+    shown = _mark_rows(whole[0][short], whole[1][short], panel.size[0])
     exposed = expose(shown) if short.any() else {}
     return {
-        name: _error(panel, own, (first, last, guard), seen, short, exposed.get(name))
+        name: _estimate_error(panel, own, (first, last, guard), seen, short, exposed.get(name))
         for name, own in means.items()
     }
 
 
-def _within(first: IndexArray, last: IndexArray, rows: int) -> NDArray[np.bool_]:
-    """Return which rows lie from a first to before a last one."""
+def _mark_rows(first: IndexArray, last: IndexArray, rows: int) -> NDArray[np.bool_]:
+    """Mark the rows that are in any of the ranges from a first row to before a last one."""
     steps = np.zeros(rows + 1, dtype=np.int64)
     np.add.at(steps, first, 1)
     np.add.at(steps, last, -1)
     return np.asarray(np.cumsum(steps)[:-1] > 0)
 
 
-def _error(
+def _estimate_error(
     panel: DraftedPanel,
     drafted: DraftedMeans,
     rows: tuple[IndexArray, IndexArray, int],
@@ -96,40 +95,42 @@ def _error(
     swing = float(np.ptp(np.concatenate([drafted.levels, means])))
     top, bottom = int(first.min()) // _BLOCK * _BLOCK, int(last.max())
     crop = np.ascontiguousarray(drafted.image[top:bottom, panel.columns])
-    variance, rim = _of_parts(crop, means, first - top, last - top, guard)
-    # Steps that no two parts of the draft happen to be on either side of.
+    variance, rim = _compare_parts(crop, means, first - top, last - top, guard)
+    # Rounding steps that happen to be in no pair of parts of the draft.
     rounding = panel.rounding * drafted.stretch
     variance += rounding**2 / np.maximum((last - first) / _BLOCK, 1.0)
-    # Rows of the blurred rim that the draft does not show at all.
+    # Rows of the blurred rim that are not in the draft at all.
     rim += swing * np.minimum(4.0 * panel.blur / np.maximum(step * (last - first), 1), 1.0)
     if exposed is not None:
-        variance[short], rim[short] = _of_all_rows(exposed[:, panel.columns], means, short)
+        variance[short], rim[short] = _compare_with_all_rows(
+            exposed[:, panel.columns], means, short
+        )
     count = max(len(means) / _BLOCK, 1.0)
     margin = 1.0 + _DEVIATIONS_ADDED / math.sqrt(2.0 * count)
     random = margin * math.sqrt((1.0 + 1.0 / step) * float(variance[seen].sum()) / len(means))
     return min(random + math.sqrt(float((rim[seen] ** 2).sum()) / len(means)), WHITE)
 
 
-def _of_all_rows(
+def _compare_with_all_rows(
     exposed: FloatArray, means: FloatArray, short: NDArray[np.bool_]
 ) -> tuple[FloatArray, FloatArray]:
-    """Return the variance of short columns' means in the picture, and how far the draft is off."""
+    """Return the variance of short columns' means in the picture, and the draft's difference."""
     own = exposed[:, short]
     times = len(own)
     noise = own.var(axis=0, ddof=1) * (1.0 + 1.0 / times) if times > 1 else np.zeros(own.shape[1])
     return noise, np.abs(means[short] - own.mean(axis=0))
 
 
-def _rows_before(places: IndexArray, rows: range) -> IndexArray:
+def _count_rows_before(places: IndexArray, rows: range) -> IndexArray:
     return np.clip(-(-(places - rows.start) // rows.step), 0, len(rows))
 
 
-def _of_parts(
+def _compare_parts(
     image: ByteArray, means: FloatArray, first: IndexArray, last: IndexArray, guard: int
 ) -> tuple[FloatArray, FloatArray]:
-    """Estimate the variance of each column's mean by successive parts, and what its rim adds.
+    """Estimate the variance of each column's mean from successive parts, and the rim's error.
 
-    Not a number and 0 where a column has fewer than two whole parts within the panel.
+    They are NaN and 0 for a column with fewer than two whole parts inside the panel.
     """
     count = len(image) // _BLOCK
     sums = [

@@ -1,4 +1,4 @@
-"""The pixels of a picture whose rows differ: exposed, saturated and stored some rows at a time."""
+"""The pixels of a picture whose rows differ, which are exposed and stored some rows at a time."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -29,29 +29,29 @@ _BLOCK = 8  # columns and rows of a block of a JPEG file
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ExposedRows:
-    """Some rows of pixels, before they are rounded."""
+    """Some rows of pixels before rounding."""
 
-    place: slice  # The rows of the picture that is made: those exposed, one below the other
+    place: slice  # Their place in the picture, in which the exposed rows are one below the other
     values: Pixels  # Shape (rows, columns): pixel values from 0 to 255
-    mean: Rows  # The same without noise, and where the panel is
+    mean: Rows  # The same without noise, and the place of the panel
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Pictures:
     """The camera's picture and the receiver's, with their column means."""
 
-    # Shape (rows, columns): the camera's, and enhanced within the panel
+    # Shape (rows, columns): the camera's, and the same enhanced on the panel
     camera_image: ByteArray
     image: ByteArray
-    # Shape (columns,): mean of the panel's pixels in each column, before enhancement and after it;
-    # the column's value where the picture does not show the panel
+    # Shape (columns,): mean of the panel's pixels in each column before and after enhancement, or
+    # the column's value if it has no pixel of the panel
     profile: FloatArray
     signal: FloatArray
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Band:
-    """Rows to expose: their place in the picture that is made, their own, and their noise."""
+    """Rows to expose, their place in the picture that is made, and their noise."""
 
     place: slice
     rows: range
@@ -62,9 +62,10 @@ class _Band:
 class PixelExposure:
     """The pixels of a picture.
 
-    ``bands``: the rows exposed, in order and whole blocks of a JPEG file but the last; None for
-    all. ``panel_only``: whether the file has only the blocks that show the panel, which do not
-    depend on others. ``mean``: the mean pixel values, where they are not those of one panel.
+    ``bands`` are the rows to expose, in order, all but the last of them whole blocks of a JPEG
+    file; None exposes all. With ``panel_only`` the file has only the blocks that show the panel,
+    which do not depend on others. ``mean`` are the mean pixel values, if they are not those of a
+    single panel.
     """
 
     def __init__(
@@ -94,15 +95,15 @@ class PixelExposure:
         self._optics = Optics(view.corners)
         for effect in effects_planned(plan, OpticsEffect):
             self._optics = effect.apply(scene, self._optics)
-            timer.stage_ended(effect.name)
+            timer.end_stage(effect.name)
         if self._optics.is_plain and not self._files and view.sides:
-            # All rows of a band are equal then.
+            # Then all rows of a band are equal.
             ends = self._region.first_row, self._region.last_row
             self._bands = [part for band in self._bands for part in split_at(band, ends)]
         self._mean = mean or PictureRows(
             scene.camera, [LitPanel(self._optics, columns.panel)], columns.surroundings
         )
-        timer.stage_ended(self._optics.cover_stage)
+        timer.end_stage(self._optics.cover_stage)
 
     def drafted_panel(self, rows: range) -> DraftedPanel:
         columns = slice(self._region.first_column, self._region.last_column)
@@ -113,10 +114,10 @@ class PixelExposure:
 
     def rows(self, seed: int, source: NoiseSource | NoiseMaker) -> Iterator[ExposedRows]:
         spreads: dict[Sequence[NoiseEffect], NoiseSpread] = {}
-        for band in self._drawn(seed, source):
-            yield self._exposed(band, spreads)
+        for band in self._draw_bands(seed, source):
+            yield self._expose(band, spreads)
 
-    def _drawn(
+    def _draw_bands(
         self,
         seed: int,
         source: NoiseSource | NoiseMaker,
@@ -131,16 +132,16 @@ class PixelExposure:
             drawn = None
             if noise is not None:
                 drawn = noise.draw(len(rows))
-                timer.stage_ended(self._noises[-1].name)
+                timer.end_stage(self._noises[-1].name)
             yield _Band(slice(place, place + len(rows)), rows, drawn, timer)
             place += len(rows)
 
-    def _exposed(
+    def _expose(
         self, band: _Band, spreads: dict[Sequence[NoiseEffect], NoiseSpread]
     ) -> ExposedRows:
         timer = band.timer
         timer.begin()
-        mean = self._mean.of(band.rows, timer.stage_ended)
+        mean = self._mean.of(band.rows, timer.end_stage)
         each_row = mean.expand_rows()
         values: Pixels | None = None
         for effects, normal in band.drawn() if band.drawn else ():
@@ -148,19 +149,19 @@ class PixelExposure:
                 spreads[effects] = NoiseSpread(effects, self._scene)
             spreads[effects].scale(normal, mean, each_row)
             values = normal if values is None else np.add(values, normal, out=values)
-            timer.stage_ended(effects[-1].name)
-        held = self._held(each_row, timer)
+            timer.end_stage(effects[-1].name)
+        held = self._limit_values(each_row, timer)
         if values is None:
             return ExposedRows(band.place, held.values, mean)
         held.combine(np.add, values, held.nodes, [rim.values for rim in held.rims])
         np.clip(values, np.float32(0.0), np.float32(WHITE), out=values)
         return ExposedRows(band.place, values, mean)
 
-    def _held(self, mean: Rows, timer: StageTimer) -> Rows:
-        """Limit mean values to those that a pixel can hold."""
+    def _limit_values(self, mean: Rows, timer: StageTimer) -> Rows:
+        """Limit mean values to what a pixel can hold."""
         for limit in self._limits:
             mean = mean.change_values(partial(limit.apply, self._scene))
-            timer.stage_ended(limit.name)
+            timer.end_stage(limit.name)
         return mean.change_values(lambda values: np.minimum(values, np.float32(WHITE)))
 
     def pictures(
@@ -170,42 +171,42 @@ class PixelExposure:
         source: NoiseSource | NoiseMaker,
         heartbeat: Heartbeat = lambda: None,
     ) -> Pictures:
-        """Make the camera's picture and the receiver's, of the exposed rows."""
+        """Make the camera's and the receiver's picture of the exposed rows."""
         camera_image = np.empty(self._shape, dtype=np.uint8)
         image = np.empty_like(camera_image)
         spreads: dict[Sequence[NoiseEffect], NoiseSpread] = {}
 
         def make(band: _Band) -> tuple[ColumnMeans, ColumnMeans, StageTimer]:
-            exposed, timer = self._exposed(band, spreads), band.timer
+            exposed, timer = self._expose(band, spreads), band.timer
             before, after = ColumnMeans(self._shape[1]), ColumnMeans(self._shape[1])
             camera, receiver = camera_image[band.place], image[band.place]
             cv2.convertScaleAbs(exposed.values, dst=camera)
-            timer.stage_ended("image")
+            timer.end_stage("image")
             stored = self._stored_columns(exposed.mean)
             for file in self._files if stored else ():
                 camera[:, stored] = file.apply(self._scene, camera[:, stored])
-                timer.stage_ended(file.name)
+                timer.end_stage(file.name)
             before.add(exposed.mean, camera if self._files else exposed.values)
             _enhance(camera, enhancement, exposed.mean, out=receiver)
             after.add(exposed.mean, receiver)
-            timer.stage_ended("image")
+            timer.end_stage("image")
             return before, after, timer
 
         before, after = ColumnMeans(self._shape[1]), ColumnMeans(self._shape[1])
         timers = []
         for of_camera, of_receiver, timer in each_in_threads(
-            make, self._drawn(seed, source, heartbeat)
+            make, self._draw_bands(seed, source, heartbeat)
         ):
             before.include(of_camera)
             after.include(of_receiver)
             timers.append(timer)
-        self._timer.parallel_stages_ended(timers)
+        self._timer.end_parallel_stages(timers)
         profile = self._columns.profile
         enhanced = enhancement(profile).astype(np.float64)
         return Pictures(camera_image, image, before.means(profile), after.means(enhanced))
 
     def _stored_columns(self, rows: Rows) -> slice | None:
-        """Return the columns that the file is made of, None for none of these rows."""
+        """Return the columns that are stored in the file; None if it has none of these rows."""
         if not self._panel_only:
             return slice(0, self._shape[1])
         shown = [*rows.inside, *(rim.columns for rim in rows.rims)]
@@ -214,10 +215,11 @@ class PixelExposure:
         first, last = min(part.start for part in shown), max(part.stop for part in shown)
         return slice(first // _BLOCK * _BLOCK, min(-(-last // _BLOCK) * _BLOCK, self._shape[1]))
 
-    def observed(self, observable: Observable, seed: int, source: NoiseSource) -> Pixels:
-        """Return pixel values before enhancement and rounding, of all bands or the panel's.
+    def observe(self, observable: Observable, seed: int, source: NoiseSource) -> Pixels:
+        """Simulate an observable before enhancement and rounding.
 
-        ``"image"``: of the panel's bounding rectangle; ``"profile"``: the means of its columns.
+        ``"image"`` gives the pixels of the panel's bounding rectangle, ``"profile"`` the means of
+        its columns.
         """
         image = np.empty(self._shape, dtype=np.float32)
         for exposed in self.rows(seed, source):
@@ -235,7 +237,7 @@ class PixelExposure:
 
 
 def _enhance(camera_image: ByteArray, enhancement: Enhancement, rows: Rows, out: ByteArray) -> None:
-    """Enhance grey levels within the panel, and copy them beside it."""
+    """Enhance grey levels on the panel, and copy those beside it."""
     out[:] = camera_image
     for columns in rows.inside:
         enhancement.enhance_bytes(camera_image[:, columns], out[:, columns])

@@ -1,4 +1,4 @@
-"""Render a scene: simulate the picture, stage by stage as light travels, each stage timed."""
+"""Render a scene: simulate its picture stage by stage, in the order that light travels."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -32,7 +32,7 @@ from occ_model.simulation.draft_error import DraftedMeans, draft_errors
 from occ_model.simulation.pixels import Pictures, PixelExposure
 from occ_model.simulation.stage_timer import StageTimer
 
-_EXPOSURES_OF_FEW_ROWS = 16  # of the rows of a draft's error, which differ by their noise
+_EXPOSURES_OF_FEW_ROWS = 16  # for a draft's error, with different noise
 
 
 def render(
@@ -50,28 +50,29 @@ def render(
     Parameters
     ----------
     tolerance
-        Most change by the effects left out, in levels of the stretched profile. 0: every effect of
-        the scene is simulated; infinity: none, the bare paper model.
+        Largest change by the omitted effects, in levels of the stretched profile. 0 simulates every
+        effect of the scene; infinity simulates none, which is the bare paper model.
     seed
         Seed of all random numbers.
     observable, force
-        The quantity that the tolerance refers to, and effects switched on or off by hand: as for
+        The quantity to which the tolerance refers, and effects that are switched on or off; see
         :func:`occ_model.plan`.
     noise
-        ``"exact"``: drawn for every pixel; ``"reused"``: from a plane of noise at random places,
-        many times faster. All noise then uses the same numbers: the fixed pattern is not fixed.
+        ``"exact"`` draws random numbers for every pixel; ``"reused"`` takes them at random places
+        from one stored plane, which is many times faster. All noise then has the same numbers, so
+        that the fixed pattern is not fixed.
     rows_step
-        From 2 on a draft: every ``rows_step``-th row of the picture and no other, each as it is in
-        the picture but for its random numbers. A file is made of the draft's rows, as if they were
-        a picture, and only where they show the panel. Its column means lie near those of the
-        picture: see :attr:`occ_model.Frame.draft_error`.
+        From 2 on, the frame is a draft: it has only every ``rows_step``-th row of the picture,
+        equal to that row except for its random numbers. A file is made of the draft's rows as if
+        they were a picture, and only where they show the panel. How far its column means may be
+        from those of the picture is :attr:`occ_model.Frame.draft_error`.
 
     Raises
     ------
     ParameterError
         The tolerance or the seed is negative or not a number; there is no such observable, effect
-        or source of noise; the step of a draft is less than 1 row or more than the picture has; or
-        the picture is too large for the JPEG file that the scene asks for.
+        or source of noise; ``rows_step`` is less than 1 or more than the picture's rows; or the
+        picture is too large for a JPEG file, which the scene has.
     ProjectionError
         Part of the panel is behind the camera, the lens folds the picture, or the image would be
         too large.
@@ -83,7 +84,7 @@ def render(
 
 @dataclass(frozen=True, eq=False, slots=True)
 class PlannedScene:
-    """A scene with its effects chosen: the common start of its draft and its whole picture."""
+    """A scene with its planned effects, from which its draft and its whole picture start."""
 
     view: PaperView  # The paper's view of the scene
     plan: Plan
@@ -91,13 +92,13 @@ class PlannedScene:
 
 
 def plan_scene(scene: Scene, settings: SimulationSettings) -> PlannedScene:
-    """Choose the effects of a scene with some settings, whatever their seed and noise."""
+    """Plan the effects of a scene; seed and source of noise in the settings do not matter."""
     settings = settings.check(NAMES)
     check_size(scene.camera)
     timer = StageTimer()
-    view = paper_view_of(scene, timer.stage_ended)
+    view = paper_view_of(scene, timer.end_stage)
     chosen = plan_of(view, settings)
-    timer.stage_ended("plan")
+    timer.end_stage("plan")
     return PlannedScene(view, chosen, timer.timings)
 
 
@@ -108,9 +109,9 @@ def render_with(
     heartbeat: Heartbeat = lambda: None,
     planned: PlannedScene | None = None,
 ) -> Frame:
-    """Simulate the picture that the scene's camera takes with some settings: see :func:`render`.
+    """Simulate the picture of a scene with some settings, as :func:`render` does.
 
-    The heartbeat is called before each band of rows; ``planned`` spares :func:`plan_scene`.
+    The heartbeat is called before each band of rows; ``planned`` saves a :func:`plan_scene`.
     """
     check_count("rows_step", rows_step, 1, scene.camera.rows)
     settings = settings.check(NAMES)
@@ -138,21 +139,21 @@ def render_plan(
     timer: StageTimer | None = None,
     heartbeat: Heartbeat = lambda: None,
 ) -> Frame:
-    """Simulate a picture whose effects are chosen."""
+    """Simulate a picture with planned effects."""
     scene = view.scene
     check_size(scene.camera)
     timer = timer or StageTimer()
     columns = expose_columns(view, chosen, timer)
     enhancement = Enhancement(columns.profile, scene.model.enhancement)
     enhanced = enhancement(columns.profile)
-    timer.stage_ended("enhancement")
+    timer.end_stage("enhancement")
     around, corners = to_bytes(columns.around), view.corners
-    rows = every_row(scene.camera.rows, rows_step)
-    errors: Callable[[], Mapping[str, float]] | None = None  # none where all rows are equal
+    rows = draft_rows(scene.camera.rows, rows_step)
+    errors: Callable[[], Mapping[str, float]] | None = None  # None if all rows are equal
     if chosen.kinds <= {"column"}:
         profile, signal = columns.profile, enhanced.astype(np.float64)
         image = paint(enhanced, corners, rows, around)
-        timer.stage_ended("image")
+        timer.end_stage("image")
         camera_image = partial(paint, to_bytes(profile), corners, rows, around)
     else:
         exposure = PixelExposure(
@@ -162,7 +163,7 @@ def render_plan(
         image, profile, signal = made.image, made.profile, made.signal
         camera_image = partial(np.asarray, made.camera_image)
         if rows_step > 1:
-            means = _drafted(made, columns, enhancement)
+            means = _describe_draft(made, columns, enhancement)
             expose = partial(_expose_rows, view, chosen, columns, enhancement, seed)
             errors = partial(draft_errors, exposure.drafted_panel(rows), means, expose)
     return Frame(
@@ -179,8 +180,10 @@ def render_plan(
     )
 
 
-def _drafted(made: Pictures, columns: Columns, enhancement: Enhancement) -> dict[str, DraftedMeans]:
-    """Return the column means of a draft, with the values that its pixels can have."""
+def _describe_draft(
+    made: Pictures, columns: Columns, enhancement: Enhancement
+) -> dict[str, DraftedMeans]:
+    """Return a draft's column means, with the values that its pixels can have."""
     levels = np.concatenate([columns.profile, columns.around, made.profile])
     seen = enhancement(levels)
     stretch = max(float(np.ptp(seen)) / max(float(np.ptp(levels)), FLAT_SPAN), 1.0)
@@ -198,19 +201,19 @@ def _expose_rows(
     seed: int,
     shown: NDArray[np.bool_],
 ) -> dict[str, FloatArray]:
-    """Return column means over some rows of the whole picture, exposed with other noise."""
+    """Expose some rows of the whole picture a few times with other noise; return column means."""
     blocks = split_into_blocks(range(view.scene.camera.rows))
     bands = [rows for rows in blocks if shown[rows.start : rows.stop].any()]
     exposure = PixelExposure(view, chosen, columns, StageTimer(), bands, panel_only=True)
     times = _EXPOSURES_OF_FEW_ROWS if effects_planned(chosen, NoiseEffect) else 1
     made = (exposure.pictures(enhancement, seed + 1 + k, "reused") for k in range(times))
-    # One picture at a time is kept.
+    # Only one picture at a time is in memory.
     profiles, signals = zip(*((one.profile, one.signal) for one in made), strict=True)
     return {"profile": np.array(profiles), "signal": np.array(signals)}
 
 
-def every_row(rows: int, step: int) -> range:
-    """Return every ``step``-th of a picture's rows, each near the middle of those around it."""
+def draft_rows(rows: int, step: int) -> range:
+    """Return every ``step``-th row of a picture, each near the middle of those it stands for."""
     return range(min(step // 2, (rows - 1) % step), rows, step)
 
 
@@ -222,10 +225,10 @@ def observe(
     noise: NoiseSource = "exact",
     timer: StageTimer | None = None,
 ) -> Pixels:
-    """Simulate the observable that a plan's tolerance refers to, in grey levels.
+    """Simulate the observable of a plan, in grey levels.
 
     ``"image"``: the camera's pixels of the panel's bounding rectangle before rounding;
-    ``"profile"``, ``"signal"``: the means of its columns, and those of the receiver's picture.
+    ``"profile"``: the means of its columns; ``"signal"``: those of the receiver's picture.
     """
     check_size(scene.camera)
     view, timer = paper_view_of(scene), timer or StageTimer()
@@ -237,4 +240,4 @@ def observe(
     blocks = split_into_blocks(range(scene.camera.rows))
     bands = [rows for rows in blocks if rows[0] < seen.stop and rows[-1] >= seen.start]
     exposure = PixelExposure(view, chosen, columns, timer, bands)
-    return exposure.observed(chosen.observable, seed, noise)
+    return exposure.observe(chosen.observable, seed, noise)

@@ -1,4 +1,4 @@
-"""Time the stages of a simulation."""
+"""Timing of a simulation's stages."""
 
 from collections.abc import Mapping, Sequence
 from math import fsum
@@ -7,24 +7,24 @@ from typing import Self
 
 
 class StageTimer:
-    """Adds up seconds by stage, without gaps; ``before``: stages that ended earlier."""
+    """Adds up seconds by stage, without gaps; ``before`` are the times of earlier stages."""
 
     def __init__(self, before: Mapping[str, float] | None = None) -> None:
         self.timings: dict[str, float] = dict(before or {})
         self._last = perf_counter()
 
-    def stage_ended(self, stage: str) -> None:
-        """Add the time since the last stage ended to that of this stage, or part of it."""
+    def end_stage(self, stage: str) -> None:
+        """Add the time since the last stage ended to that of this stage."""
         now = perf_counter()
         self._add(stage, now - self._last)
         self._last = now
 
     def begin(self) -> None:
-        """Skip the time since the last stage ended: what follows is done in another thread."""
+        """Skip the time since the last stage ended, as another thread takes over."""
         self._last = perf_counter()
 
-    def parallel_stages_ended(self, timers: Sequence[Self]) -> None:
-        """Divide the time since the last stage among parallel ones, by their time in threads."""
+    def end_parallel_stages(self, timers: Sequence[Self]) -> None:
+        """Divide the time since the last stage ended among parallel ones, by their thread time."""
         now = perf_counter()
         passed, self._last = now - self._last, now
         taken: dict[str, float] = {}

@@ -1,6 +1,6 @@
-"""Work on the bands of a picture in several threads, its results in order.
+"""Work on the bands of a picture in several threads, with results in order.
 
-numpy and OpenCV release the interpreter's lock while they compute.
+This is faster because NumPy and OpenCV release the interpreter's lock while they compute.
 """
 
 import os
@@ -13,21 +13,21 @@ from typing import TypeVar
 _Item = TypeVar("_Item")
 _Result = TypeVar("_Result")
 
-_ITEMS_AHEAD = 2  # items for each thread that are prepared before their turn
+_ITEMS_AHEAD = 2  # items that are prepared in advance for each thread
 
 
 def threads() -> int:
-    """Return how many threads compute: one a core, or fewer by OMP_NUM_THREADS."""
+    """Return the number of threads: one for each core, or fewer if OMP_NUM_THREADS says so."""
     cores = os.cpu_count() or 1
     wanted = os.environ.get("OMP_NUM_THREADS", "")
     return max(1, min(cores, int(wanted))) if wanted.isdecimal() else cores
 
 
 def each_in_threads(work: Callable[[_Item], _Result], items: Iterable[_Item]) -> Iterator[_Result]:
-    """Do the work for each item in threads; yield the results in the order of the items.
+    """Do some work for each item in threads; yield the results in the order of the items.
 
-    Items are taken in the calling thread, a few ahead of the work, so that random numbers drawn
-    there do not depend on the threads.
+    Items are taken in the calling thread, a few in advance, so that random numbers drawn there do
+    not depend on the threads.
     """
     count, left = threads(), iter(items)
     begun = list(islice(left, 2 if count > 1 else 0))

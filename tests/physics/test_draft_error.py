@@ -15,10 +15,10 @@ from occ_model.scene.scene import Scene
 from occ_model.simulation.draft_error import (
     DraftedMeans,
     DraftedPanel,
-    _of_parts,
+    _compare_parts,
     draft_errors,
 )
-from occ_model.simulation.render import _drafted
+from occ_model.simulation.render import _describe_draft
 
 OBSERVED = ("profile", "signal")
 
@@ -173,7 +173,7 @@ def test_rows_of_the_blurred_rim_are_not_taken_for_noise() -> None:
     first, last = np.zeros(3, dtype=int), np.full(3, 40)
     means = np.full(3, 90.0)
     for guard, inner in ((1, [100, 104, 100]), (8, [100, 104, 100]), (9, [104])):
-        variance, rim = _of_parts(image, means, first, last, guard)
+        variance, rim = _compare_parts(image, means, first, last, guard)
         if len(inner) == 1:
             assert np.isnan(variance).all()
             assert not rim.any()
@@ -182,14 +182,14 @@ def test_rows_of_the_blurred_rim_are_not_taken_for_noise() -> None:
         expected = (steps @ steps) / 2.0 / (len(inner) - 1) / len(inner)
         assert variance == pytest.approx(expected)
         assert rim == pytest.approx(abs(90.0 - np.mean(inner)))
-    whole, _ = _of_parts(image, means, first, last, 0)
+    whole, _ = _compare_parts(image, means, first, last, 0)
     assert (whole > 100.0).all()
 
 
 def test_only_whole_parts_within_the_panel_count() -> None:
     image = blocks(0, 100, 100, 0)
     first, last = np.array([8, 7, 9]), np.array([24, 25, 23])
-    variance, _ = _of_parts(image, np.full(3, 100.0), first, last, 0)
+    variance, _ = _compare_parts(image, np.full(3, 100.0), first, last, 0)
     assert variance[:2].tolist() == [0.0, 0.0]
     assert np.isnan(variance[2])
 
@@ -260,7 +260,7 @@ def test_an_enhancement_makes_a_files_rounding_larger_and_never_smaller(
     made = SimpleNamespace(
         profile=np.array([21.0, 79.0]), signal=np.zeros(2), camera_image=None, image=None
     )
-    means = _drafted(made, columns, lambda levels: factor * levels)  # type: ignore[arg-type]
+    means = _describe_draft(made, columns, lambda levels: factor * levels)  # type: ignore[arg-type]
     assert means["profile"].stretch == 1.0
     assert means["signal"].stretch == pytest.approx(stretch)
     assert np.ptp(means["profile"].levels) == 70.0

@@ -1,4 +1,4 @@
-"""A draft: every k-th row of the picture, its columns' means within the error that it states."""
+"""A draft has every k-th row of the picture, and column means within the stated error."""
 
 import math
 
@@ -16,7 +16,7 @@ NOISELESS = {"sensor-noise": False, "fixed-pattern": False, "jpeg": False}
 
 @pytest.fixture(scope="module")
 def scene() -> Scene:
-    """A real camera's picture, a twelfth of its size each way."""
+    """A real camera's picture, a twelfth of its size in each direction."""
     scene = occ.load_preset("phone-136us-real")
     return scene.replace(rows=385, columns=288, readout_time=12 * scene.camera.readout_time)
 
@@ -33,7 +33,7 @@ def test_the_rows_of_a_draft_are_rows_of_the_picture(
     )
     assert len(draft.image) == len(draft.rows) == math.ceil(385 / step)
     assert draft.rows_step == step
-    # A value is interpolated from other rows, and may round to the next level.
+    # Values are interpolated from other rows, and may round to the next level.
     off = np.abs(draft.camera_image.astype(int) - whole.camera_image[draft.rows])
     assert off.max() <= 1
     assert np.count_nonzero(off) <= 2e-4 * off.size
@@ -74,7 +74,7 @@ def test_each_row_stands_for_rows_around_it(scene: Scene, rows: int, step: int) 
 
 
 @pytest.mark.parametrize("preset", ["phone-136us", "phone-136us-real"])
-def test_a_draft_is_read_as_its_picture_is(preset: str) -> None:
+def test_a_draft_is_decoded_as_its_picture_is(preset: str) -> None:
     scene = occ.load_preset(preset).replace(rows=1152, columns=1728)
     scene = scene.replace(readout_time=2 * scene.camera.readout_time)
     for step in (1, 3):
@@ -82,11 +82,11 @@ def test_a_draft_is_read_as_its_picture_is(preset: str) -> None:
         assert occ.decode(frame.image, scene).code == scene.transmitter.code
 
 
-def test_what_the_heartbeat_raises_ends_a_picture() -> None:
+def test_an_error_of_the_heartbeat_ends_a_picture() -> None:
     scene = occ.load_preset("phone-68us").replace(rows=640, columns=500)
     beats: list[int] = []
     render_with(scene, SimulationSettings(), heartbeat=lambda: beats.append(1))
-    # One a band of at most 64 rows: the panel begins a band, and so do the rows below it.
+    # Once for each band of up to 64 rows; bands also begin at the panel and below it.
     bands = len(beats)
     assert bands == 12
 

@@ -1,4 +1,4 @@
-"""Rendering: what a frame holds, what it repeats, what it refuses."""
+"""Rendering: the content of a frame, the work that is done only once, and refusals."""
 
 import sys
 from collections import Counter
@@ -20,8 +20,8 @@ COSTLY = {work.__code__: work.__name__ for work in (lit_fraction, panel_corners)
 
 
 @contextmanager
-def counted() -> Iterator[Counter[str]]:
-    """Count the calls of the exposure and of the projection, wherever they come from."""
+def count_calls() -> Iterator[Counter[str]]:
+    """Count all calls of the exposure and of the projection."""
     calls: Counter[str] = Counter()
 
     def count(frame: FrameType, event: str, _argument: object) -> None:
@@ -41,7 +41,7 @@ def scene() -> Scene:
     return occ.load_preset("phone-136us").replace(rows=60)
 
 
-def test_a_frame_holds_what_its_image_is_made_of(scene: Scene) -> None:
+def test_a_frame_has_everything_its_image_is_made_of(scene: Scene) -> None:
     frame = occ.render(scene, tolerance=np.inf)
     assert frame.scene == scene
     assert frame.image.shape == (60, scene.camera.columns)
@@ -72,7 +72,7 @@ def test_the_receivers_picture_is_the_cameras_enhanced(
     assert len(np.unique(pairs[0])) == pairs.shape[1]  # one enhanced level for each level
     assert (np.diff(pairs[1].astype(int)) >= 0).all()
     assert np.array_equal(camera[inside], image[inside]) == (method == "none")
-    # The profile is that of the camera's picture, to its rounding.
+    # The profile is that of the camera's picture, up to rounding.
     means = camera[inside].mean(axis=0)
     assert np.abs(means - frame.profile[inside[1]]).max() <= 0.75
 
@@ -81,13 +81,13 @@ def test_the_receivers_picture_is_the_cameras_enhanced(
 @pytest.mark.parametrize("tolerance", [0.0, 0.5, np.inf])
 def test_a_picture_takes_one_exposure_and_one_projection(preset: str, tolerance: float) -> None:
     scene = occ.load_preset(preset).replace(rows=60, code=5)
-    with counted() as calls:
+    with count_calls() as calls:
         occ.render(scene, tolerance=tolerance)
     assert calls == {"lit_fraction": 1, "panel_corners": 1}
 
 
 def test_a_plan_takes_one_exposure_and_one_projection(scene: Scene) -> None:
-    with counted() as calls:
+    with count_calls() as calls:
         occ.plan(scene.replace(jpeg_quality=90, radial_k1=0.1), 0.5, "profile")
     assert calls == {"lit_fraction": 1, "panel_corners": 1}
 
@@ -96,10 +96,10 @@ def test_a_plan_takes_one_exposure_and_one_projection(scene: Scene) -> None:
 def test_five_images_take_five_exposures(
     scene: Scene, path: str, planned: int, projections: int
 ) -> None:
-    with counted() as calls:
+    with count_calls() as calls:
         occ.success_rate(scene, images=5, path=path)  # type: ignore[arg-type]
-    # One more for the plan of all, which needs none where columns alone are studied; the profile
-    # path looks once whether the panel is level.
+    # One more for the common plan, which is not needed if only columns are studied; the profile
+    # path checks once whether the panel is upright.
     assert calls == {"lit_fraction": planned + 5, "panel_corners": projections + 5}
 
 
@@ -114,7 +114,7 @@ def test_settings_as_one_value_give_the_same_picture(scene: Scene) -> None:
     np.testing.assert_array_equal(as_a_value.image, one_by_one.image)
 
 
-def test_what_is_planned_already_is_not_planned_again(scene: Scene) -> None:
+def test_a_planned_scene_is_not_planned_again(scene: Scene) -> None:
     settings = SimulationSettings()
     planned = plan_scene(scene, settings)
     frame = render_with(scene, settings, planned=planned)
@@ -124,6 +124,6 @@ def test_what_is_planned_already_is_not_planned_again(scene: Scene) -> None:
 
 
 @pytest.mark.parametrize("seed", [0, 7])
-def test_the_papers_model_alone_leaves_nothing_to_chance(scene: Scene, seed: int) -> None:
+def test_the_bare_paper_model_does_not_depend_on_the_seed(scene: Scene, seed: int) -> None:
     frame = occ.render(scene, tolerance=np.inf, seed=seed)
     np.testing.assert_array_equal(frame.image, occ.render(scene, tolerance=np.inf).image)

@@ -1,4 +1,4 @@
-"""Pictures do not depend on threads; all time counts to a stage; memory has its limit."""
+"""Pictures do not depend on threads; all time counts for a stage; memory is limited."""
 
 import threading
 import tracemalloc
@@ -58,7 +58,7 @@ def test_results_come_in_order_and_items_are_taken_by_the_caller(
 
     for place, result in enumerate(each_in_threads(lambda number: number**2, items())):  # type: ignore[arg-type]
         assert result == place**2
-        assert len(ahead) - place <= 8  # few are prepared, whatever they hold
+        assert len(ahead) - place <= 8  # only few are prepared in advance
     assert takers == {threading.current_thread()}
 
 
@@ -72,7 +72,7 @@ def test_a_single_item_starts_no_thread(monkeypatch: pytest.MonkeyPatch) -> None
     )
 
 
-def test_an_error_in_a_thread_is_the_callers(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_error_in_a_thread_is_raised_to_the_caller(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("occ_model.simulation.threads.threads", lambda: 2)
     with pytest.raises(ZeroDivisionError):
         list(each_in_threads(lambda number: 1 / number, [1, 0, 2]))
@@ -88,13 +88,13 @@ def test_the_times_of_all_stages_add_up_to_that_of_the_frame(
     first = next(ticks)
     timings = occ.render(scene, tolerance=0.0).timings
     spent = next(ticks) - first
-    # A tick before the first stage begins, one where the plan is handed over, and one at the end.
+    # One tick before the first stage begins, one between plan and picture, and one at the end.
     assert sum(timings.values()) == pytest.approx(spent - 3)
-    # In each thread the picture is rounded before it is stored, and enhanced after that.
+    # In each thread the picture is rounded, then stored, then enhanced.
     assert timings["image"] == pytest.approx(2.0 * timings["jpeg"])
 
 
-def test_the_time_that_rows_wait_for_their_thread_counts_to_no_stage(
+def test_the_time_that_rows_wait_for_a_thread_counts_for_no_stage(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     ticks = iter(range(10**6))
@@ -120,11 +120,11 @@ def test_stages_of_threads_share_the_time_that_passed(monkeypatch: pytest.Monkey
     threads = [timer_at(monkeypatch, 0.0, 1.0, 4.0) for _ in range(2)]
     for thread in threads:
         monkeypatch.setattr(stage_timer, "perf_counter", lambda: 1.0)
-        thread.stage_ended("light")
+        thread.end_stage("light")
         monkeypatch.setattr(stage_timer, "perf_counter", lambda: 4.0)
-        thread.stage_ended("noise")
+        thread.end_stage("noise")
     monkeypatch.setattr(stage_timer, "perf_counter", lambda: 6.0)
-    timer.parallel_stages_ended(threads)
+    timer.end_parallel_stages(threads)
     assert timer.timings == pytest.approx({"light": 1.5, "noise": 4.5})
     assert sum(timer.timings.values()) == pytest.approx(6.0)
 
@@ -134,9 +134,9 @@ def test_stages_that_took_no_time_share_what_has_passed_alike(
 ) -> None:
     timer, thread = timer_at(monkeypatch, 0.0), timer_at(monkeypatch, 0.0)
     for stage in ("light", "noise"):
-        thread.stage_ended(stage)
+        thread.end_stage(stage)
     monkeypatch.setattr(stage_timer, "perf_counter", lambda: 6.0)
-    timer.parallel_stages_ended([thread])
+    timer.end_parallel_stages([thread])
     assert timer.timings == {"light": 3.0, "noise": 3.0}
 
 
@@ -144,7 +144,7 @@ def test_stages_that_took_no_time_share_what_has_passed_alike(
 def scene() -> Scene:
     """A picture with all ten effects, of five million pixels."""
     scene = occ.load_preset("phone-136us-real").replace(columns=1152)
-    occ.render(scene.replace(rows=200), tolerance=0.0)  # what is loaded once is loaded now
+    occ.render(scene.replace(rows=200), tolerance=0.0)  # load everything that is loaded once
     occ.render(scene.replace(rows=200), tolerance=0.0, noise="reused")
     return scene
 

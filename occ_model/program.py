@@ -61,7 +61,7 @@ def _prepare_and_run(
 ) -> int:
     try:
         if is_process:
-            _open_streams(needs_output=not is_window)
+            open_streams(needs_output=not is_window)
             interrupts = Interrupts(name, always_at_once=is_window)
         _show_any_letter()
         _check_output(needed=not is_window)
@@ -141,7 +141,7 @@ def _is_importing(frame: FrameType | None) -> bool:
     return False
 
 
-def _open_streams(needs_output: bool) -> None:
+def open_streams(needs_output: bool) -> None:
     """Open the null device for closed standard streams: the next file would be taken for one."""
     for descriptor in range(3):
         try:

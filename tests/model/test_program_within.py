@@ -3,7 +3,7 @@
 import os
 import signal
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, NoReturn
@@ -12,7 +12,7 @@ import pytest
 
 from occ_model import plugins
 from occ_model.errors import OccError
-from occ_model.program import Interrupts, _open_streams, run_program
+from occ_model.program import Interrupts, open_streams, run_program
 
 
 class ProcessEnded(BaseException):
@@ -145,13 +145,10 @@ def test_a_window_needs_no_output(monkeypatch: pytest.MonkeyPatch) -> None:
     assert run_program("own", lambda: lambda: 0, is_process=False) == 2
 
 
-def test_a_plug_in_of_no_package_has_a_name_all_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
-    entries = {"own": SimpleNamespace(dist=None), "other": SimpleNamespace(
-        dist=SimpleNamespace(name="pack")
-    )}  # fmt: skip
-    monkeypatch.setattr(plugins, "_found", lambda group: entries)
-    said = [plugins.described("group", name) for name in ("own", "other", "missing")]
-    assert [one.partition(" of the package ")[2] for one in said] == ["'?'", "'pack'", "'?'"]
+def test_a_plug_in_of_no_package_has_a_name_all_the_same(offered: Callable[..., None]) -> None:
+    offered(own=len)
+    said = [plugins.described(plugins.DECODERS, name) for name in ("own", "missing")]
+    assert [one.partition(" of the package ")[2] for one in said] == ["'?'", "'?'"]
 
 
 @pytest.mark.parametrize("closed", [0, 1, 2])
@@ -168,7 +165,7 @@ def test_a_stream_that_is_closed_is_opened_to_the_null_device(
     with monkeypatch.context() as closing:
         closing.setattr(os, "fstat", fstat)
         closing.setattr(os, "open", lambda path, _flags: opened.append(path))
-        _open_streams(needs_output=True)
+        open_streams(needs_output=True)
     assert opened == [os.devnull]
 
 

@@ -153,16 +153,16 @@ def test_noise_of_independent_rows_stays_in_sums_and_what_is_alike_adds_up() -> 
     assert alike.unexplained() > 0.6
 
 
-@pytest.mark.parametrize(("rows", "is_refused"), [(90, True), (300, False)])
+@pytest.mark.parametrize(("columns", "is_refused"), [(90, True), (300, False)])
 def test_less_than_a_packet_is_refused_where_a_packet_has_one_length(
-    rows: int, is_refused: bool
+    columns: int, is_refused: bool
 ) -> None:
-    timing = Timing(1.0, 0.2, 0.0)
-    said = decoder._why_not(timing, rows, Scene())
-    assert (said is not None) is is_refused
-    if said is not None:
-        assert said.startswith(f"Less than one packet: {rows // 5} of 24 chips")
-    assert decoder._why_not(timing, rows, Scene().replace(pattern="0110")) is None
+    scene = occ.load_preset("phone-68us").replace(switching_frequency=25e3)  # five columns a chip
+    signal = occ.column_profile(scene)[:columns]
+    said = occ.decode(signal, scene, "sequence").failure or ""
+    assert said.startswith(f"Less than one packet: {columns // 5} of 24 chips") is is_refused
+    raw = scene.replace(pattern="0110")
+    assert "Less than" not in occ.decode(signal, raw, "sequence").failure
 
 
 @pytest.mark.parametrize("line_code", ["nrz", "differential-manchester", "8b10b"])

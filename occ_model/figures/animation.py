@@ -90,13 +90,13 @@ def _frames(
     """Yield the frames, shape (rows, columns, 3), one after the other."""
     with house_style():
         brightest = max(float(level_values(scene)[1]) for scene in scenes)
-        drawing = _Drawing(parameter, min(_HEADROOM * brightest, _HIGHEST))
+        drawing = Drawing(parameter, min(_HEADROOM * brightest, _HIGHEST))
         for number, scene in enumerate(scenes, 1):
             yield drawing.draw(render_with(scene, settings), decoder)
             progress(number)
 
 
-class _Drawing:
+class Drawing:
     """A figure whose curves and picture change from frame to frame."""
 
     def __init__(self, parameter: Quantity, highest: float) -> None:
@@ -116,7 +116,7 @@ class _Drawing:
         lower.set_xlabel("column")
         lower.set_ylabel("grey level")
         legend = lower.legend(loc="upper right", fontsize=8, ncols=2, frameon=False)
-        _, self._band_name = legend.get_texts()
+        _, self.band_name = legend.get_texts()
 
     def draw(self, frame: Frame, decoder: str) -> ByteArray:
         result = decode(frame.image, frame.scene, decoder=decoder)
@@ -134,7 +134,7 @@ class _Drawing:
         columns = np.arange(first, last)
         self._simulation.set_data(columns, frame.profile[first:last])
         is_defined = _show_band(self._band, frame.scene, first, last)
-        self._band_name.set_text(_BAND_MODEL if is_defined else f"{_BAND_MODEL} (undefined here)")
+        self.band_name.set_text(_BAND_MODEL if is_defined else f"{_BAND_MODEL} (undefined here)")
         self._lower.set_xlim(first, last)
         value = self._parameter.format(frame.scene.value(self._parameter.name), 4)  # type: ignore[arg-type]
         read = result.failure or f"code {result.code} read"

@@ -63,10 +63,10 @@ def figure_format(path: Path) -> str:
 
 def figure_bytes(figure: Figure, format_name: str, provenance: Provenance) -> bytes:
     fit_texts(figure)
-    return _fitted_bytes(figure, format_name, provenance)
+    return fitted_bytes(figure, format_name, provenance)
 
 
-def _fitted_bytes(figure: Figure, format_name: str, provenance: Provenance) -> bytes:
+def fitted_bytes(figure: Figure, format_name: str, provenance: Provenance) -> bytes:
     title, text = provenance.title, provenance.text()
     metadata: dict[str, dict[str, str | None]] = {
         "pdf": {"Title": title, "Subject": text, "CreationDate": None},
@@ -82,7 +82,7 @@ def save_figure(figure: Figure, folder: Path, name: str, provenance: Provenance)
     """Write a figure drawn in this :func:`house_style` as PDF and PNG."""
     fit_texts(figure)
     for ending in ("pdf", "png"):
-        write_whole(folder / f"{name}.{ending}", _fitted_bytes(figure, ending, provenance))
+        write_whole(folder / f"{name}.{ending}", fitted_bytes(figure, ending, provenance))
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -129,7 +129,7 @@ def write_all(
                     content = (
                         table_text(drawing.header, drawing.rows(), origin).encode("utf-8")
                         if path.suffix == ".csv"
-                        else _fitted_bytes(figure, figure_format(path), origin)
+                        else fitted_bytes(figure, figure_format(path), origin)
                     )
                     stack.enter_context(written_whole(path)).write_bytes(content)
                     written.append(path)

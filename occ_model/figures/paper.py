@@ -89,13 +89,13 @@ def write_profile_figure(folder: Path, number: int, preset: str, photo: Photo | 
         band = band_profile(scene.replace(band_reading="literal"))
     except BandModelUndefined as reason:
         undefined = str(reason)
-    first, last = _shown_columns(scene, frame)
+    first, last = shown_columns(scene, frame)
     column = np.arange(first, last)
     shown: dict[str, FloatArray | None] = {
         "band model": None if band is None else band[first:last],
         "simulation": frame.profile[first:last],
         "simulation, enhanced": frame.signal[first:last],
-        "photo": None if photo is None else _padded(photo.profile, last - first),
+        "photo": None if photo is None else padded(photo.profile, last - first),
     }
     figure = Figure(figsize=(7.2, 2.8))
     ax = figure.subplots()
@@ -122,13 +122,13 @@ def write_profile_figure(folder: Path, number: int, preset: str, photo: Photo | 
     write_table(folder / f"figure-{number}.csv", header, table.tolist(), provenance)
 
 
-def _shown_columns(scene: Scene, frame: Frame) -> tuple[int, int]:
+def shown_columns(scene: Scene, frame: Frame) -> tuple[int, int]:
     first = max(0, int(np.ceil(frame.corners[:, 0].min())))
     period = len(packet(scene)) * scene.transmitter.switching_period / scene.camera.readout_time
     return first, min(len(frame.profile), first + round(_PACKETS_SHOWN * period))
 
 
-def _padded(values: FloatArray, length: int) -> FloatArray:
+def padded(values: FloatArray, length: int) -> FloatArray:
     return np.pad(values[:length], (0, max(0, length - len(values))), constant_values=np.nan)
 
 
@@ -140,7 +140,7 @@ def write_rate_figure(
     title = f"Figure {number}: success rate, {device}, {counted(settings.images, 'image')} a point"
     scenes = {preset: table.request.scene for preset, table in tables.items()}
     provenance = Provenance(title, scenes, settings.seed)
-    save_figure(_rate_maps(tables), folder, f"figure-{number}", provenance)
+    save_figure(rate_maps(tables), folder, f"figure-{number}", provenance)
     header = (
         "preset", "decoder", "switching frequency (Hz)", "distance (m)", "images", "seed",
         "success rate (%)", "95 % from (%)", "95 % to (%)",
@@ -156,7 +156,7 @@ def write_rate_figure(
     write_table(folder / f"figure-{number}.csv", header, rows, provenance)
 
 
-def _rate_maps(tables: Mapping[str, SweepTable]) -> Figure:
+def rate_maps(tables: Mapping[str, SweepTable]) -> Figure:
     decoders = next(iter(tables.values())).decoders
     figure = Figure(figsize=(7.2, 2.6 * len(decoders) + 0.6))
     axes = figure.subplots(len(decoders), len(tables), squeeze=False, sharex=True, sharey=True)

@@ -12,7 +12,7 @@ from occ_model.results.match import Comparison
 
 _LEAST_DEVIATION = 1e-9  # standard deviation below which a profile is constant but for rounding
 
-_RIM = 6
+RIM = 6
 """Columns at either end of a photo's stripes where blur mixes the lamp with what is beside it: in
 the two sample photos residuals of up to 140 grey levels end within five."""
 
@@ -67,7 +67,7 @@ def compare(
         if np.ndim(profile) != 1:
             shape = np.shape(profile)
             raise ParameterError(f"{name} has the shape {shape}; allowed: a value for each column.")
-    rim = min(_RIM, len(flattened) // 4)
+    rim = min(RIM, len(flattened) // 4)
     # As numbers of Python: far beside the picture they are infinite without a warning.
     begin, step = float(first_column), float(scale)
     low, high = begin + rim * step, begin + (len(flattened) - 1 - rim) * step

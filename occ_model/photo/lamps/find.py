@@ -119,7 +119,7 @@ def _blinking(
         if len(spans) >= LEAST_STRIPS and _is_seen(timing, spans, segments, bounds):
             shown = np.searchsorted(bounds, spans[:, 0]).tolist()
             one = _described(timing, spans, [strips[strip] for strip in shown])
-            if _counts_some(one, means[shown[0] : shown[-1] + 1]):
+            if counts_some(one, means[shown[0] : shown[-1] + 1]):
                 one = replace(one, lamp=replace(one.lamp, is_blurred=True))
             found.append(one)
     return found
@@ -174,7 +174,7 @@ def _described(timing: LampTiming, spans: IndexArray, strips: Sequence[Edges]) -
     return Blinking(lamp, timing, light - dark, dark)
 
 
-def _counts_some(one: Blinking, means: FloatArray) -> bool:
+def counts_some(one: Blinking, means: FloatArray) -> bool:
     """Whether a count of edges may have missed some: faint stripes that do not repeat as counted.
 
     Light that an exposure longer than a chip has gathered never falls to that of the surroundings.

@@ -18,7 +18,7 @@ from occ_model.photo.lamps.edges import Edges, equal_within, matches
 
 _TOLERANCE = 0.04  # maximum distance of an edge from its place, in periods and, besides, in columns
 _COLUMN_TOLERANCE = 0.8  # columns by which an edge may lie off its place: pixels and noise
-_LEAST_EDGES = 4  # minimum number of edges of a lamp: two rising and two falling ones
+LEAST_EDGES = 4  # minimum number of edges of a lamp: two rising and two falling ones
 _LEAST_MORE_EDGES = 4  # edges by which a code must exceed a progression: a rim has two
 _MOST_GAP_RATIO = 5.0  # ratio to the median distance of edges of a gap between lamps
 
@@ -66,7 +66,7 @@ def segments_of(
 ) -> list[Segment]:
     """Split the edges of a strip into those of single lamps."""
     found: list[Segment] = []
-    waiting = [(0, len(edges), _progressions(edges.place, tolerance))]
+    waiting = [(0, len(edges), progressions_of(edges.place, tolerance))]
     while waiting:
         first, last, progressions = waiting.pop()
         longest = max(progressions, key=lambda one: one[1] - one[0], default=(first, first, 0.0))
@@ -86,8 +86,8 @@ def segments_of(
         else:
             continue
         for left, right in ((first, begin), (end, last)):
-            if right - left >= _LEAST_EDGES:
-                waiting.append((left, right, _clipped(progressions, left, right)))
+            if right - left >= LEAST_EDGES:
+                waiting.append((left, right, clipped_to(progressions, left, right)))
     return found
 
 
@@ -100,19 +100,19 @@ def _repeated(edges: Edges, chip: float) -> float | None:
 
 def _are_pulses(progressions: list[tuple[int, int, float]], first: int, last: int) -> bool:
     """Whether a few long progressions explain edges as well: lamps of about the same period."""
-    inside = _clipped(progressions, first, last)
+    inside = clipped_to(progressions, first, last)
     long = sum(end - begin for begin, end, _ in inside if end - begin >= _LONG_PROGRESSION)
     return long >= _LEAST_EXPLAINED_FRACTION * (last - first)
 
 
-def _clipped(
+def clipped_to(
     progressions: list[tuple[int, int, float]], first: int, last: int
 ) -> list[tuple[int, int, float]]:
     parts = [(max(a, first), min(b, last), period) for a, b, period in progressions]
-    return [part for part in parts if part[1] - part[0] >= _LEAST_EDGES]
+    return [part for part in parts if part[1] - part[0] >= LEAST_EDGES]
 
 
-def _progressions(place: FloatArray, tolerance: float) -> list[tuple[int, int, float]]:
+def progressions_of(place: FloatArray, tolerance: float) -> list[tuple[int, int, float]]:
     """Find neighbouring edges of which every second one is a period farther."""
     apart = (place[2:] - place[:-2]).tolist()
     found = []
@@ -155,9 +155,9 @@ def _without_strangers(edges: Edges, first: int, last: int, chip: float) -> tupl
     gaps = np.diff(edges.place[first:last])
     wrong = off > 2.0 * np.pi * _MOST_OFF
     begin, end = 0, last - first
-    while end - begin > _LEAST_EDGES and (wrong[begin] or gaps[begin] > _LONGEST_RUN * chip):
+    while end - begin > LEAST_EDGES and (wrong[begin] or gaps[begin] > _LONGEST_RUN * chip):
         begin += 1
-    while end - begin > _LEAST_EDGES and (wrong[end - 1] or gaps[end - 2] > _LONGEST_RUN * chip):
+    while end - begin > LEAST_EDGES and (wrong[end - 1] or gaps[end - 2] > _LONGEST_RUN * chip):
         end -= 1
     return first + begin, first + end
 

@@ -47,10 +47,10 @@ def spans_of(
         ):
             spans[strip] = span
             strip += outward
-    return _rectangles(spans, bounds, columns)
+    return rectangles(spans, bounds, columns)
 
 
-def _rectangles(
+def rectangles(
     spans: dict[int, tuple[float, float]], bounds: IndexArray, columns: int
 ) -> IndexArray:
     """Smooth the columns over neighbouring strips, and write them as rectangles."""

@@ -93,7 +93,7 @@ class DecodedPicture:
         if self._palette is not None:
             return np.asarray(self._palette[np.asarray(part)])
         if self._lower is not None:
-            return _deep_colours(part, self._lower.crop(box))
+            return deep_colours(part, self._lower.crop(box))
         if part.mode == "F":
             return round_to_16_bits(np.asarray(part), self._white)
         if part.mode.startswith("I"):
@@ -157,7 +157,7 @@ def _whole_numbers(part: "PillowImage", raw_modes: set[str]) -> Samples:
     return samples
 
 
-def _deep_colours(upper: "PillowImage", lower: "PillowImage") -> Samples:
+def deep_colours(upper: "PillowImage", lower: "PillowImage") -> Samples:
     """Combine colours of 16 bits from their upper and their lower bytes."""
     pixels = np.asarray(upper).astype(np.uint16)
     pixels <<= 8

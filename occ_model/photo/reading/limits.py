@@ -37,7 +37,7 @@ _MOST_PIXELS_OF_SCANS = 3_000_000_000
 _MOST_SEGMENTS = 10_000
 """Segments of a JPEG in several scans; 3,000 of full length are as large as a file may be."""
 
-_MOST_BYTES = {
+MOST_BYTES = {
     "JPEG": 170_000_000,
     "PNG": 150_000_000,
     "JPEG2000": 18_000_000,
@@ -48,8 +48,8 @@ _MOST_BYTES = {
 }
 """Largest file in bytes, for formats whose decoders take some seconds for it."""
 
-_MOST_BYTES_OF_TIFF = 150_000_000  # largest file in bytes, for a compressed TIFF
-_MOST_BYTES_IN_PYTHON = 3_500_000  # for what Pillow decodes in Python: QOI, some BMP and PPM
+MOST_BYTES_OF_TIFF = 150_000_000  # largest file in bytes, for a compressed TIFF
+MOST_BYTES_IN_PYTHON = 3_500_000  # for what Pillow decodes in Python: QOI, some BMP and PPM
 _DEEP_COLOURS = 2  # pictures of 16-bit colours in memory at once: the upper and the lower bytes
 
 _MOST_DEEP_AND_TRANSPARENT = 50_000_000
@@ -116,7 +116,7 @@ def count_scans(content: bytes | bytearray, most: int, most_segments: int) -> in
 
 def check_file_size(path: Path, file_format: str, size: int) -> None:
     """Refuse a file that would take its decoder too long, before it is opened."""
-    _refuse_above(_MOST_BYTES.get(file_format, size), path, file_format, size)
+    _refuse_above(MOST_BYTES.get(file_format, size), path, file_format, size)
 
 
 def check_decoder(path: Path, picture: "ImageFile", size: int) -> None:
@@ -126,9 +126,9 @@ def check_decoder(path: Path, picture: "ImageFile", size: int) -> None:
     decoders = {tile[0] for tile in picture.tile}
     kind = picture.format or ""
     if "libtiff" in decoders:
-        _refuse_above(_MOST_BYTES_OF_TIFF, path, "compressed TIFF", size)
+        _refuse_above(MOST_BYTES_OF_TIFF, path, "compressed TIFF", size)
     if not decoders.isdisjoint(Image.DECODERS):
-        _refuse_above(_MOST_BYTES_IN_PYTHON, path, kind, size)
+        _refuse_above(MOST_BYTES_IN_PYTHON, path, kind, size)
 
 
 def _refuse_above(largest: int, path: Path, kind: str, size: int) -> None:
@@ -200,7 +200,7 @@ def _bytes_a_pixel(picture: "ImageFile", scan_header: int) -> float:
     kept = 2 if deep_colours or picture.mode.startswith(("I", "F")) else 1
     # Finally the channel is transposed, and there is a copy in whole grey levels.
     turning = 5 if kept == 2 else 2
-    return max(decoded + _decoder_bytes_a_pixel(picture, scan_header), decoded + kept, turning)
+    return max(decoded + decoder_bytes_a_pixel(picture, scan_header), decoded + kept, turning)
 
 
 def _bytes_decoded(mode: str) -> int:
@@ -209,7 +209,7 @@ def _bytes_decoded(mode: str) -> int:
     return 2 if mode.startswith("I;16") else 4
 
 
-def _decoder_bytes_a_pixel(picture: "ImageFile", scan_header: int) -> float:
+def decoder_bytes_a_pixel(picture: "ImageFile", scan_header: int) -> float:
     """Return the bytes that a format's decoder allocates for each pixel beyond its own."""
     bands = len(picture.getbands())
     kind = picture.format

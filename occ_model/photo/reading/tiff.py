@@ -16,7 +16,7 @@ _MOST_NAMED = 16  # directories; RAW files have up to five
 _OFFSETS = {4: "L", 13: "L", 16: "Q", 18: "Q"}  # kinds of values that are offsets: their layouts
 
 _KEPT_AS_BYTES = (1, 2, 6, 7)  # kinds of values of which no number is made
-_MOST_NUMBERS = 4_000_000
+MOST_NUMBERS = 4_000_000
 """Numbers by a tag: the places of strips of one line in four planes, of the longest picture."""
 
 
@@ -71,7 +71,7 @@ def directories(file: IO[bytes]) -> Iterator[list[Entry]]:
 def are_short(file: IO[bytes]) -> bool:
     """Whether no tag has more numbers than a decoder makes objects of within seconds."""
     return all(
-        entry.number <= _MOST_NUMBERS or entry.kind in _KEPT_AS_BYTES
+        entry.number <= MOST_NUMBERS or entry.kind in _KEPT_AS_BYTES
         for entries in directories(file)
         for entry in entries
     )

@@ -17,7 +17,7 @@ import occ_model as occ
 from occ_gui.app.application import Application
 from occ_gui.values.photo_choice import Placement
 from occ_model.errors import MatchError
-from occ_model.photo.comparison import _RIM as RIM
+from occ_model.photo.comparison import RIM
 from occ_model.scene.scene import Scene
 
 SENT = {"readout_time": 11e-6, "exposure_time": 90e-6, "switching_frequency": 4e3}

@@ -94,9 +94,9 @@ def test_the_command_runs_there_and_back(monkeypatch: pytest.MonkeyPatch) -> Non
 
 
 def test_the_legend_says_where_the_band_model_is_undefined(scene: Scene) -> None:
-    drawing = animation._Drawing(quantity("switching_frequency"), 200.0)
+    drawing = animation.Drawing(quantity("switching_frequency"), 200.0)
     names = []
     for frequency in (8e3, 4e3):
         drawing.draw(occ.render(scene.replace(switching_frequency=frequency)), "threshold")
-        names.append(drawing._band_name.get_text())
+        names.append(drawing.band_name.get_text())
     assert names == ["band model (undefined here)", "band model"]

@@ -161,7 +161,7 @@ def test_the_rates_of_a_sweep(count: int, shown: Shown, is_as_stored: Compare) -
 def test_the_papers_maps_of_rates(is_as_stored: Compare, monkeypatch: pytest.MonkeyPatch) -> None:
     axes = {"switching_frequency": PAPERS_FREQUENCIES, "distance": PAPERS_DISTANCES}
     with house_style():
-        figure = paper._rate_maps({"one": table_of(axes), "two": table_of(axes)})
+        figure = paper.rate_maps({"one": table_of(axes), "two": table_of(axes)})
     is_as_stored("paper-rates", figure)
 
 

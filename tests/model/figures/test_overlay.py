@@ -89,6 +89,6 @@ def test_what_is_known_of_the_photo_stands_under_it_and_in_the_table() -> None:
         profile_drawing(FRAME, None, comparison=profile, about=about),
     )
     for drawing in drawings:
-        written = drawing.draw()._supxlabel.get_text()  # type: ignore[attr-defined]
+        written = drawing.draw().get_supxlabel()
         assert about in " ".join(written.split())
         assert about in drawing.title

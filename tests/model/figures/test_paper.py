@@ -20,10 +20,10 @@ def write_all_figures(folder: Path, patch: pytest.MonkeyPatch) -> None:
     for module in (paper, paper_grid):
         patch.setattr(module, "FREQUENCIES", paper_grid.FREQUENCIES[::5])
         patch.setattr(module, "DISTANCES", paper_grid.DISTANCES[::5])
-    written = drawing._fitted_bytes
+    written = drawing.fitted_bytes
     if not amount(0, 1):  # every day without PDFs
         patch.setattr(
-            drawing, "_fitted_bytes", lambda *each: b"" if each[1] == "pdf" else written(*each)
+            drawing, "fitted_bytes", lambda *each: b"" if each[1] == "pdf" else written(*each)
         )
     assert main(["figures", "--out", str(folder), "--images", "1", "--seed", "3"]) == 0
 

@@ -15,7 +15,7 @@ from occ_model.figures.accuracy import accuracy_drawing
 from occ_model.figures.decoding import decode_drawing
 from occ_model.figures.drawing import house_style
 from occ_model.figures.page import fit_texts
-from occ_model.figures.paper import _padded, _shown_columns
+from occ_model.figures.paper import padded, shown_columns
 from occ_model.figures.room import room_drawing
 from occ_model.figures.sweep import sweep_drawing
 from occ_model.results.decoding import Region
@@ -29,17 +29,17 @@ def test_a_profile_begins_with_the_first_column_whose_middle_shows_the_panel(
     left: float, first: int
 ) -> None:
     frame = SimpleNamespace(corners=np.array([[left, 2.0], [300.0, 2.0]]), profile=np.zeros(4000))
-    shown, end = _shown_columns(Scene(), frame)  # type: ignore[arg-type]
+    shown, end = shown_columns(Scene(), frame)  # type: ignore[arg-type]
     assert shown == first
     assert first < end <= 4000
 
 
 @pytest.mark.parametrize("length", [2, 4, 9])
 def test_a_photos_profile_has_the_columns_of_the_simulated_one(length: int) -> None:
-    padded = _padded(np.array([1.0, 2.0, 3.0, 4.0]), length)
-    assert len(padded) == length
-    assert padded[:4].tolist() == [1.0, 2.0, 3.0, 4.0][:length]
-    assert np.isnan(padded[4:]).all()
+    found = padded(np.array([1.0, 2.0, 3.0, 4.0]), length)
+    assert len(found) == length
+    assert found[:4].tolist() == [1.0, 2.0, 3.0, 4.0][:length]
+    assert np.isnan(found[4:]).all()
 
 
 FREQUENCIES = np.geomspace(0.97e3, 31e3, 13).tolist()

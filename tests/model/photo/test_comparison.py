@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import occ_model as occ
-from occ_model.photo.comparison import _RIM as RIM
+from occ_model.photo.comparison import RIM
 
 SIMULATED = 100.0 + 60.0 * np.sin(np.arange(300) / 9.0)
 

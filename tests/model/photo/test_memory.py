@@ -17,7 +17,7 @@ from photo_files import png, saved
 from PIL import Image
 
 from occ_model.errors import PhotoError
-from occ_model.photo.reading.limits import _decoder_bytes_a_pixel
+from occ_model.photo.reading.limits import decoder_bytes_a_pixel
 from occ_model.photo.reading.load import load_photo
 
 MOST_MEMORY_MB = 1200
@@ -81,7 +81,7 @@ def small(file_format: str, mode: str = "RGB", **how: object) -> bytearray:
 def test_a_tiff_that_pillow_rotates_is_in_memory_twice(orientation: int, more: float) -> None:
     content = small("TIFF", tiffinfo={274: orientation})
     with Image.open(io.BytesIO(content)) as picture:
-        assert _decoder_bytes_a_pixel(picture, 0) == more
+        assert decoder_bytes_a_pixel(picture, 0) == more
 
 
 @cache

@@ -56,7 +56,7 @@ def test_a_file_in_too_many_parts_is_refused(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
 ) -> None:
     path = tmp_path / name
-    monkeypatch.setattr(reading, "_MOST_READS", 1000)
+    monkeypatch.setattr(reading, "MOST_READS", 1000)
     monkeypatch.setattr(reading, "_MOST_BYTES_ONE_BY_ONE", 0)
     path.write_bytes(PARTS[name](20))
     assert load_photo(path).image.size == 64
@@ -70,7 +70,7 @@ def test_a_small_file_may_be_read_byte_by_byte(
 ) -> None:
     content = b"qoif" + struct.pack(">IIBB", 60, 60, 3, 0) + b"\x6a" * 3600 + bytes(7) + b"\1"
     (tmp_path / "x.qoi").write_bytes(content)
-    monkeypatch.setattr(reading, "_MOST_READS", 1000)
+    monkeypatch.setattr(reading, "MOST_READS", 1000)
     assert load_photo(tmp_path / "x.qoi").image.size == 3600
     monkeypatch.setattr(reading, "_MOST_BYTES_ONE_BY_ONE", len(content) - 1)
     with pytest.raises(PhotoError, match="in more than 1,000 parts"):
@@ -86,7 +86,7 @@ def test_a_film_or_its_note_in_too_many_parts_is_none(
     how = {"comment": "said"} if file_format == "GIF" else {"pnginfo": noted("said")}
     frames[0].save(path, save_all=True, append_images=frames[1:], **how)
     assert (is_film(path), note_in(path)) == (True, "said")
-    monkeypatch.setattr(reading, "_MOST_READS", 3)
+    monkeypatch.setattr(reading, "MOST_READS", 3)
     monkeypatch.setattr(reading, "_MOST_BYTES_ONE_BY_ONE", 0)
     assert (is_film(path), note_in(path)) == (False, "")
 
@@ -174,6 +174,6 @@ def test_notes_of_more_numbers_than_any_camera_writes_are_none(
     path = saved(tmp_path, PICTURE, "x.png", exif=exif.tobytes())
     photo = load_photo(path, "columns")
     assert (photo.iso, photo.image.shape) == (100.0, PICTURE.size)
-    monkeypatch.setattr(tiff, "_MOST_NUMBERS", 19)
+    monkeypatch.setattr(tiff, "MOST_NUMBERS", 19)
     photo = load_photo(path, "columns")
     assert (photo.iso, photo.image.shape) == (None, PICTURE.size[::-1])

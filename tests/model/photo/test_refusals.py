@@ -20,9 +20,9 @@ from PIL import Image, PngImagePlugin
 import occ_model as occ
 from occ_model.errors import PhotoError, one_line
 from occ_model.photo.reading.limits import (
-    _MOST_BYTES,
-    _MOST_BYTES_IN_PYTHON,
-    _MOST_BYTES_OF_TIFF,
+    MOST_BYTES,
+    MOST_BYTES_IN_PYTHON,
+    MOST_BYTES_OF_TIFF,
     check_decoder,
     check_file_size,
 )
@@ -237,7 +237,7 @@ def test_a_tiff_without_its_last_rows_is_refused(tmp_path: Path) -> None:
 PATH = Path("a-photo")
 
 
-@pytest.mark.parametrize(("kind", "most"), _MOST_BYTES.items())
+@pytest.mark.parametrize(("kind", "most"), MOST_BYTES.items())
 def test_a_file_may_have_as_many_bytes_as_are_read_within_seconds(kind: str, most: int) -> None:
     check_file_size(PATH, kind, most)
     with pytest.raises(occ.PhotoError, match=f"has {most + 1:,} bytes; .*up to {most:,}"):
@@ -254,7 +254,7 @@ def picture_of(decoder: str, kind: str) -> Any:
 
 @pytest.mark.parametrize(
     ("decoder", "kind", "most"),
-    [("libtiff", "TIFF", _MOST_BYTES_OF_TIFF), ("qoi", "QOI", _MOST_BYTES_IN_PYTHON)],
+    [("libtiff", "TIFF", MOST_BYTES_OF_TIFF), ("qoi", "QOI", MOST_BYTES_IN_PYTHON)],
 )
 def test_a_slow_decoder_has_a_limit_of_its_own(decoder: str, kind: str, most: int) -> None:
     Image.init()  # Pillow knows its decoders in Python once they are imported

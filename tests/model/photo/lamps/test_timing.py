@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from occ_model.photo.lamps.edges import Edges, edges_of
-from occ_model.photo.lamps.segments import _LEAST_EDGES, _clipped, _progressions
-from occ_model.photo.lamps.shape import _rectangles
+from occ_model.photo.lamps.segments import LEAST_EDGES, clipped_to, progressions_of
+from occ_model.photo.lamps.shape import rectangles
 from occ_model.photo.lamps.timing import LampTiming, timings_of
 
 PERIOD = 24.0
@@ -108,17 +108,17 @@ def test_a_part_of_a_code_that_alternates_is_that_codes() -> None:
 
 
 def test_parts_of_progressions_are_kept_that_have_edges_enough() -> None:
-    least = _LEAST_EDGES
+    least = LEAST_EDGES
     parts = [(0, 10, 20.0), (8, 30, 25.0)]
-    assert _clipped(parts, 10 - least, 40) == [(10 - least, 10, 20.0), (8, 30, 25.0)]
-    assert _clipped(parts, 11 - least, 40) == [(8, 30, 25.0)]
-    assert _clipped(parts, 0, 8 + least) == [(0, 10, 20.0), (8, 8 + least, 25.0)]
+    assert clipped_to(parts, 10 - least, 40) == [(10 - least, 10, 20.0), (8, 30, 25.0)]
+    assert clipped_to(parts, 11 - least, 40) == [(8, 30, 25.0)]
+    assert clipped_to(parts, 0, 8 + least) == [(0, 10, 20.0), (8, 8 + least, 25.0)]
 
 
 def test_edges_of_which_every_second_is_a_period_farther_progress() -> None:
     one = [0.0, 8.0, 20.0, 28.0, 40.0, 48.0, 60.0]
     other = [75.0, 85.0, 105.0, 115.0, 135.0, 145.0]
-    found = _progressions(np.array([*one, *other]), 1.0)
+    found = progressions_of(np.array([*one, *other]), 1.0)
     assert found[0] == (0, 7, pytest.approx(20.0))
     assert (7, 13, pytest.approx(30.0)) in found
 
@@ -127,13 +127,13 @@ def test_a_lamps_rectangle_has_every_column_that_its_edges_touch() -> None:
     """In each strip, smoothed over those beside it, and never beyond the photo."""
     bounds = np.array([0, 10, 20, 30, 40])
     sides = (3.2, 9.4)
-    found = _rectangles({1: sides, 2: sides}, bounds, 50)
+    found = rectangles({1: sides, 2: sides}, bounds, 50)
     assert found[:, :2].tolist() == [[10, 20], [20, 30]]
     for left, right in found[:, 2:].tolist():
         assert (left, right - 1) == (3, 10)
-    (rim,) = _rectangles({0: (-2.5, 60.0)}, bounds, 50)
+    (rim,) = rectangles({0: (-2.5, 60.0)}, bounds, 50)
     assert rim.tolist() == [0, 10, 0, 50]
-    assert _rectangles({}, bounds, 50).shape == (0, 4)
+    assert rectangles({}, bounds, 50).shape == (0, 4)
     # A strip in which it is not seen is as wide as those to either side.
-    gap = _rectangles({0: sides, 2: sides}, bounds, 50)
+    gap = rectangles({0: sides, 2: sides}, bounds, 50)
     assert gap[1].tolist() == [10, 20, 3, 11]

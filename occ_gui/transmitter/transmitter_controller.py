@@ -41,9 +41,9 @@ class Saved:
 
 
 def draw_wiring(sent: Transmission) -> Drawn:
-    from occ_model.figures.transmitter_files import notes, wiring_bytes
+    from occ_model.figures.transmitter_files import circuit_notes, wiring_bytes
 
-    return Drawn(sent, wiring_bytes(sent, "png"), "\n".join(notes(sent)))
+    return Drawn(sent, wiring_bytes(sent, "png"), "\n".join(circuit_notes(sent)))
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -40,7 +40,7 @@ class Written:
 
 def _check_table_path(path: Path) -> None:
     if path.suffix.lower() != ".csv":
-        raise OutputError(f"{one_line(str(path))} has no ending of a table; use .csv.")
+        raise OutputError(f"{one_line(str(path))} does not have the ending of a table; use .csv.")
 
 
 SCENE_FILE = Written(check_scene_path)

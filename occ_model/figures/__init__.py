@@ -1,6 +1,6 @@
-"""Figures and tables for print; the only package that imports matplotlib."""
+"""Figures and tables for print. No other package imports matplotlib."""
 
 from occ_model.figures.matplotlib_import import import_matplotlib
 
-# Before any module of this package imports matplotlib.
+# This comes before any module of this package imports matplotlib.
 import_matplotlib()

@@ -1,4 +1,4 @@
-"""Draw the accuracy study: error over time, both on a logarithmic scale."""
+"""Draw the accuracy study: error against time, both on a logarithmic scale."""
 
 from collections.abc import Iterable, Sequence
 from math import isclose
@@ -29,7 +29,7 @@ _COLOURS = dict(
 )
 
 _NAME_PLACES = [(side, height) for height in (4, -9, 11, -16) for side in (6, -6)]
-"""Offsets in points at which a name beside its point is tried."""
+"""Offsets in points, from a name's point, that are tried in turn."""
 
 
 def write_accuracy_figure(
@@ -81,8 +81,8 @@ def _draw(points: Sequence[AccuracyPoint]) -> Figure:
 
 
 def _place_names(figure: Figure, ax: Axes, names: Sequence[Annotation]) -> None:
-    """Place each name where it covers no other one and ends within the axes, if it can be."""
-    figure.draw_without_rendering()  # which gives the axes their size
+    """Place each name where it covers no other and ends inside the axes, if possible."""
+    figure.draw_without_rendering()  # this gives the axes their size
     placed: list[Bbox] = []
     for name in names:
         for place in _NAME_PLACES:
@@ -103,7 +103,7 @@ def _draw_part(ax: Axes, part: str, points: Sequence[AccuracyPoint]) -> list[Ann
     ax.plot(times[-1:], errors[-1:], linestyle="", label=ACCURACY_PARTS[part], **style)
     names: list[Annotation] = []
     for number, (point, x, y) in enumerate(zip(points, times, errors, strict=True)):
-        is_last = number == len(points) - 1  # the closed form, of the integrations
+        is_last = number == len(points) - 1  # the closed form is the last of the integrations
         if part != "integration" or number % 4 == 0 or is_last or point.current:
             name = point.name if part != "effects" else str(number)
             place = _NAME_PLACES[0]

@@ -1,4 +1,4 @@
-"""Animations: a parameter runs through its values, and picture, profile and code follow."""
+"""Animations: a parameter changes, and picture, profile and code change with it."""
 
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
@@ -15,7 +15,7 @@ from occ_model.arrays import ByteArray
 from occ_model.camera.photometry import level_values
 from occ_model.errors import BandModelUndefined, OutputError, ParameterError, one_line, shown
 from occ_model.figures.drawing import BAND, SIMULATION, house_style
-from occ_model.figures.page import lines_within
+from occ_model.figures.page import break_lines
 from occ_model.files.writing import check_replaceable
 from occ_model.receiver.decode import decode
 from occ_model.results.decoding import PAPER_DECODER
@@ -29,21 +29,24 @@ from occ_model.simulation.band_model import band_profile
 from occ_model.simulation.render import render_with
 from occ_model.video.file.write import check_film_path, write_frames
 
-ENDINGS = (".gif", ".mp4", ".png")  # of an animation's file: GIF, MP4 (MPEG-4), animated PNG
+ENDINGS = (".gif", ".mp4", ".png")  # GIF, MP4 (MPEG-4), animated PNG
 MOST_FRAMES = 300
 
-_SIZE, _DOTS = (9.6, 5.4), 100  # inches of a frame, and pixels an inch
+_SIZE, _DOTS = (9.6, 5.4), 100  # size of a frame in inches, and pixels an inch
 
 _ROWS, _SHOWN_COLUMNS = 120, 900
 _DEFAULT_RATE = 15.0
-_MAX_GIF_RATE = 50.0  # frames a second; players of GIF files show none faster
+_MAX_GIF_RATE = 50.0  # frames a second; players show no GIF file faster
 
-_HEADROOM, _HIGHEST = 1.2, 260.0  # end of the level axis: a factor of the brightest level, at most
-_TITLE_WIDTH, _TITLE_LINES = 8.2, 2  # inches; what does not fit ends in an ellipsis
+_HEADROOM, _HIGHEST = (
+    1.2,
+    260.0,
+)  # end of the level axis: factor on the brightest level; most
+_TITLE_WIDTH, _TITLE_LINES = 8.2, 2  # in inches, and lines; a longer title ends in an ellipsis
 _BAND_MODEL = "band model"
 
 
-def write_animation(  # noqa: PLR0913 - a film's settings, most of them optional
+def write_animation(  # noqa: PLR0913 - settings, most of them optional
     path: Path,
     scene: Scene,
     name: str,
@@ -52,18 +55,19 @@ def write_animation(  # noqa: PLR0913 - a film's settings, most of them optional
     settings: SimulationSettings | None = None,
     rate: float = _DEFAULT_RATE,
     decoder: str = PAPER_DECODER,
-    progress: Callable[[int], object] = lambda _frames: None,
+    progress: Callable[[int], object] = lambda _draw_frames: None,
 ) -> None:
-    """Write an animation of a scene, a quantity of which runs through some values in SI units.
+    """Write an animation of a scene in which a quantity takes some values, in SI units, in turn.
 
-    Each frame shows the panel's picture, the profile with the band model's, and what the decoder
-    reads. The file (.gif, .mp4, .png) holds the scene. Raises ParameterError: the parameter is not
-    a quantity, a value is out of range, there are no values or more than :data:`MOST_FRAMES`, or
-    the rate is not above 0 and up to 50 a second.
+    Each frame shows the panel's picture, the profile with that of the band model, and the code that
+    the decoder reads. The file (.gif, .mp4, .png) contains the scene. It is a ParameterError if the
+    parameter is not a quantity, a value is out of range, there are no values or more than
+    :data:`MOST_FRAMES`, or the rate is not above 0 and at most 50 a second.
     """
     if path.suffix.lower() not in ENDINGS:
         raise OutputError(
-            f"{one_line(path.name)} has no ending of an animation; use {', '.join(ENDINGS)}."
+            f"{one_line(path.name)} does not have the ending of an animation; "
+            f"use {', '.join(ENDINGS)}."
         )
     parameter = parameter_named(name)
     if not isinstance(parameter, Quantity):
@@ -75,29 +79,29 @@ def write_animation(  # noqa: PLR0913 - a film's settings, most of them optional
     check_film_path(path, rate)
     check_replaceable(path)
     scenes = [scene.replace(**{name: parameter.check(value)}) for value in values]
-    frames = _frames(scenes, parameter, settings or SimulationSettings(), decoder, progress)
+    frames = _draw_frames(scenes, parameter, settings or SimulationSettings(), decoder, progress)
     note = Provenance(f"Animation over {name}", {"at hand": scene}).text()
     write_frames(path, frames, rate, note)
 
 
-def _frames(
+def _draw_frames(
     scenes: Sequence[Scene],
     parameter: Quantity,
     settings: SimulationSettings,
     decoder: str,
     progress: Callable[[int], object],
 ) -> Iterator[ByteArray]:
-    """Yield the frames, shape (rows, columns, 3), one after the other."""
+    """Draw and yield the frames, shape (rows, columns, 3)."""
     with house_style():
         brightest = max(float(level_values(scene)[1]) for scene in scenes)
-        drawing = Drawing(parameter, min(_HEADROOM * brightest, _HIGHEST))
+        drawing = AnimatedFigure(parameter, min(_HEADROOM * brightest, _HIGHEST))
         for number, scene in enumerate(scenes, 1):
             yield drawing.draw(render_with(scene, settings), decoder)
             progress(number)
 
 
-class Drawing:
-    """A figure whose curves and picture change from frame to frame."""
+class AnimatedFigure:
+    """A figure of which only curves, picture and texts change from frame to frame."""
 
     def __init__(self, parameter: Quantity, highest: float) -> None:
         self._parameter = parameter
@@ -139,14 +143,14 @@ class Drawing:
         value = self._parameter.format(frame.scene.value(self._parameter.name), 4)  # type: ignore[arg-type]
         read = result.failure or f"code {result.code} read"
         title, font = f"{self._parameter.label} {value}: {read}", self._title.get_fontproperties()
-        self._title.set_text("\n".join(lines_within(title, _TITLE_WIDTH, font, _TITLE_LINES)))
+        self._title.set_text("\n".join(break_lines(title, _TITLE_WIDTH, font, _TITLE_LINES)))
         self._canvas.draw()  # type: ignore[no-untyped-call]
         pixels = np.asarray(self._canvas.buffer_rgba())  # type: ignore[no-untyped-call]
         return pixels[:, :, :3].copy()
 
 
 def _show_band(line: Line2D, scene: Scene, first: int, last: int) -> bool:
-    """Show the band model's profile, and return whether there is one."""
+    """Show the band model's profile; return whether it is defined."""
     try:
         line.set_data(np.arange(first, last), band_profile(scene)[first:last])
     except BandModelUndefined:

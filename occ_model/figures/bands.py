@@ -17,9 +17,9 @@ from occ_model.scene.units import HERTZ, SECOND, Unit
 from occ_model.study.bands.eye import eye_flicker, risk_limits, risk_lines
 from occ_model.study.bands.least_depth import depth_map
 
-_MAX_VALLEY_LINES = 8  # lines that are drawn: those above lie closer than the cells
-_DEPTHS = (0.1, 100.0)  # percent at the ends of the colours
-_MIN_MODULATION = 0.01  # percent at the lower end of the chart
+_MAX_VALLEY_LINES = 8  # lines that are drawn; further ones are closer together than the cells
+_DEPTHS = (0.1, 100.0)  # percent, at the ends of the colour scale
+_MIN_MODULATION = 0.01  # percent, at the lower end of the chart
 
 
 def bands_drawing(scene: Scene) -> Drawing:
@@ -83,14 +83,14 @@ def _draw_map(scene: Scene, found: DepthMap) -> Figure:
         (ax.xaxis, "switching_frequency", HERTZ), (ax.yaxis, "exposure_time", SECOND)
     ):  # fmt: skip
         axis.set_label_text(quantity(name).label)
-        axis.set_major_formatter(_in(unit))
+        axis.set_major_formatter(_format_in(unit))
     ax.legend(loc="upper right", fontsize=7, facecolor="0.75")
     figure.colorbar(mesh, ax=ax, label="least depth (%), peak to peak", extend="both")
     write_caption(figure, scene)
     return figure
 
 
-def _in(unit: Unit) -> FuncFormatter:
+def _format_in(unit: Unit) -> FuncFormatter:
     return FuncFormatter(lambda value, _: unit.format(value))
 
 

@@ -1,4 +1,4 @@
-"""Draw the bench: bit error rates and bits a second, over the exposure and over the noise."""
+"""Draw the bench: bit error rates and bits a second against exposure and against noise."""
 
 from collections.abc import Sequence
 from functools import partial
@@ -24,7 +24,7 @@ _MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 # As in the window
 _COLOURS = (colours.SIMULATION, colours.BAND, colours.PHOTO, colours.REGION, colours.NOISE)
 
-_ARROW = 0.5  # length of the arrow down from an upper end, as a fraction of it
+_ARROW = 0.5  # length of the arrow down from an upper bound, as a fraction of that
 
 _AXES = ("exposure", "noise")
 _BOUND: dict[str, Any] = {"color": "0.35", "linestyle": "--", "linewidth": 1.0}
@@ -48,7 +48,7 @@ def bench_provenance(request: BenchRequest, frames_a_second: float, date: str = 
 def bench_drawing(
     request: BenchRequest, points: Sequence[BenchPoint], frames_a_second: float
 ) -> Drawing:
-    """Draw the measured points of a request with the theoretical bounds."""
+    """Draw the measured points of a request and the theoretical bounds."""
     check_frame_rate(bench_scene(request, request.schemes[0]), frames_a_second)
     bounds = bench_bounds(request)
     return Drawing(
@@ -84,13 +84,13 @@ def _draw(
     for place, axis in enumerate(_AXES):
         some = [point for point in points if point.axis == axis]
         rates, bits = panels[0][place], panels[1][place]
-        for number, (label, curve) in enumerate(_curves(some).items()):
+        for number, (label, curve) in enumerate(_group_curves(some).items()):
             _draw_rates(rates, number, label, curve)
             _draw_bits(bits, number, curve, frames_a_second)
         at, most = bounds.most_bits[axis]
         bits.plot(at, [frames_a_second * one for one in most], **_BOUND)
         rates.set_yscale("log")
-        # Nothing at all is drawn too, below a bit a picture.
+        # The scale is linear below a bit a picture, to include 0.
         bits.set_yscale("symlog", linthresh=frames_a_second)
         bits.set_ylim(bottom=0.0)
         for ax in (rates, bits):
@@ -124,7 +124,7 @@ def _name_axes(figure: Figure, panels: Sequence[Sequence[Axes]], request: BenchR
     )
 
 
-def _curves(points: Sequence[BenchPoint]) -> dict[str, list[BenchPoint]]:
+def _group_curves(points: Sequence[BenchPoint]) -> dict[str, list[BenchPoint]]:
     curves: dict[str, list[BenchPoint]] = {}
     for point in points:
         curves.setdefault(f"{point.scheme}, {point.errors.decoder}", []).append(point)
@@ -138,13 +138,13 @@ def _draw_rates(ax: Axes, number: int, label: str, points: Sequence[BenchPoint])
     at = [point.place for point in points]
     errors = [point.errors for point in points]
     rates = [one.rate or nan for one in errors]
-    # An axis of powers of ten has no place for an end at 0.
+    # A logarithmic axis has no place for an interval that ends at 0.
     low = [rate * (1.0 - _ARROW) if one.low == 0.0 else rate - one.low
            for rate, one in zip(rates, errors, strict=True)]  # fmt: skip
     high = [one.high - rate for rate, one in zip(rates, errors, strict=True)]
-    look = _look(number)
+    look = _curve_style(number)
     ax.errorbar(at, rates, [low, high], label=label, linewidth=1.0, **look)
-    # Without an error only the upper end is known, which no line joins with a rate.
+    # Without any error there is only an upper bound, drawn without a line to the rates.
     most = [nan if one.errors else one.high for one in errors]
     down = [_ARROW * one.high for one in errors]
     ax.errorbar(at, most, [down, down], uplims=True, linestyle="", **look, markerfacecolor="none")
@@ -158,10 +158,10 @@ def _draw_bits(ax: Axes, number: int, points: Sequence[BenchPoint], frames_a_sec
         [max(high - found, 0.0) for found, (_, high) in zip(bits, ends, strict=True)],
     ]
     at = [point.place for point in points]
-    ax.errorbar(at, bits, error, linewidth=1.0, clip_on=False, **_look(number))
+    ax.errorbar(at, bits, error, linewidth=1.0, clip_on=False, **_curve_style(number))
 
 
-def _look(number: int) -> dict[str, Any]:
+def _curve_style(number: int) -> dict[str, Any]:
     marker = _MARKERS[number % len(_MARKERS)]
     colour = _COLOURS[number % len(_COLOURS)]
     return {"color": colour, "marker": marker, "markersize": 4, "capsize": 2}

@@ -1,4 +1,4 @@
-"""Draw the steps of decoding for print: signal, threshold and chips, run lengths or templates."""
+"""Draw the steps of decoding for print: signal, threshold, chips, and run lengths or templates."""
 
 from collections.abc import Iterable, Sequence
 from itertools import zip_longest
@@ -16,7 +16,7 @@ from occ_model.figures.window_panes import caption, write_caption
 from occ_model.results.decoding import DecodeResult
 from occ_model.scene.scene import Scene
 
-_LONGEST_PAYLOAD = 40  # characters of a payload in the title
+_LONGEST_PAYLOAD = 40  # characters of a payload that the title shows
 
 _SIGNAL: dict[str, Any] = {"color": colours.SIMULATION, "linestyle": "-"}
 _MODEL: dict[str, Any] = {"color": colours.PHOTO, "linestyle": ":"}
@@ -24,12 +24,14 @@ _MODEL: dict[str, Any] = {"color": colours.PHOTO, "linestyle": ":"}
 _SPLITS: tuple[dict[str, Any], ...] = (
     {"color": "0.4", "linestyle": "--"},
     {"color": colours.SIMULATION, "linestyle": "-."},
-)  # of the dark runs and of the lit ones, in the colours of their bars
+)  # for dark and for lit runs, in the colours of their bars
 
 
 def decode_drawing(scene: Scene, result: DecodeResult) -> Drawing:
-    """Draw the steps of decoding, up to the code or to the step that failed."""
-    message = printable(result.failure or f"{_read(result)} read by the {result.decoder} decoder")
+    """Draw the steps of decoding up to the code, or up to the step that failed."""
+    message = printable(
+        result.failure or f"{_describe_read(result)} read by the {result.decoder} decoder"
+    )
 
     def draw() -> Figure:
         figure = Figure(figsize=(7.2, 4.2))
@@ -64,7 +66,7 @@ def decode_drawing(scene: Scene, result: DecodeResult) -> Drawing:
     return Drawing(f"decoding-{result.decoder}", title, draw, header, rows)
 
 
-def _read(result: DecodeResult) -> str:
+def _describe_read(result: DecodeResult) -> str:
     if result.payload:
         return f"“{one_line(result.payload, _LONGEST_PAYLOAD)}”"
     return f"code {result.code}"
@@ -96,7 +98,7 @@ def _legend(ax: Axes, columns: int) -> None:
 
 def _draw_folded(ax: Axes, folded: FloatArray, model: FloatArray) -> None:
     ax.plot(folded, linewidth=1.0, label="signal, folded over one packet", **_SIGNAL)
-    # Its dots are wider than the signal's line, which lies on it where the code is read.
+    # Its dots are wider than the signal's line, which covers it if the code is right.
     ax.plot(model, linewidth=2.5, label="the code's forward model", **_MODEL)
     ax.set_xlabel("eighth of a chip")
     ax.set_ylabel("lit fraction")

@@ -1,4 +1,4 @@
-"""Drawings, figures with the numbers in them: their style and tables, and writing them to files."""
+"""Drawings, which are figures with tables of their numbers: style, tables, and files."""
 
 import csv
 from collections.abc import Callable, Iterable, Sequence
@@ -18,7 +18,7 @@ from occ_model.files.writing import make_folder, write_whole, written_whole
 from occ_model.scene.provenance import Provenance
 from occ_model.scene.simulation_settings import SimulationSettings, unit_of
 
-# The line styles differ, so that grey print distinguishes the lines too.
+# The line styles differ too, so that the lines can be told apart in grey.
 SIMULATION = {"color": colours.SIMULATION, "linestyle": "-"}
 BAND = {"color": colours.BAND, "linestyle": "--"}
 PHOTO = {"color": colours.PHOTO, "linestyle": ":"}
@@ -35,20 +35,20 @@ STYLE: dict[Any, Any] = {
     "figure.constrained_layout.use": True,
     "figure.dpi": 200,
     "pdf.fonttype": 42,
-    "svg.hashsalt": "occ_model",  # the same figure is the same file
+    "svg.hashsalt": "occ_model",  # the same figure gives the same file
 }
 
 
 def house_style() -> AbstractContextManager[None]:
-    """Return a context in which all figures have one style, whatever the user's settings."""
+    """Return a context in which all figures have one style, regardless of the user's settings."""
     look = dict[Any, Any](rcParamsDefault) | STYLE
-    # The backend only concerns windows, and these figures become files.
+    # The backend matters only for windows, and these figures become files.
     del look["backend"]
     return rc_context(look)
 
 
 def write_figure(path: Path, figure: Figure, provenance: Provenance) -> None:
-    """Write a figure drawn in this :func:`house_style`, in the format of the file's ending."""
+    """Write a figure that was drawn in :func:`house_style`, in the format of the file's ending."""
     write_whole(path, figure_bytes(figure, figure_format(path), provenance))
 
 
@@ -56,17 +56,17 @@ def figure_format(path: Path) -> str:
     ending = path.suffix.lower().removeprefix(".")
     if ending not in FORMATS:
         raise OutputError(
-            f"{one_line(path.name)} has no ending of a figure; use .png, .svg or .pdf."
+            f"{one_line(path.name)} does not have the ending of a figure; use .png, .svg or .pdf."
         )
     return ending
 
 
 def figure_bytes(figure: Figure, format_name: str, provenance: Provenance) -> bytes:
     fit_texts(figure)
-    return fitted_bytes(figure, format_name, provenance)
+    return encode_figure(figure, format_name, provenance)
 
 
-def fitted_bytes(figure: Figure, format_name: str, provenance: Provenance) -> bytes:
+def encode_figure(figure: Figure, format_name: str, provenance: Provenance) -> bytes:
     title, text = provenance.title, provenance.text()
     metadata: dict[str, dict[str, str | None]] = {
         "pdf": {"Title": title, "Subject": text, "CreationDate": None},
@@ -79,28 +79,28 @@ def fitted_bytes(figure: Figure, format_name: str, provenance: Provenance) -> by
 
 
 def save_figure(figure: Figure, folder: Path, name: str, provenance: Provenance) -> None:
-    """Write a figure drawn in this :func:`house_style` as PDF and PNG."""
+    """Write a figure that was drawn in :func:`house_style` as PDF and PNG."""
     fit_texts(figure)
     for ending in ("pdf", "png"):
-        write_whole(folder / f"{name}.{ending}", fitted_bytes(figure, ending, provenance))
+        write_whole(folder / f"{name}.{ending}", encode_figure(figure, ending, provenance))
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Drawing:
     name: str  # The file's name without ending
     title: str
-    draw: Callable[[], Figure]  # Function that draws the figure, to be called within house_style
+    draw: Callable[[], Figure]  # Draws the figure; to be called in house_style
     header: Sequence[str]
     rows: Callable[[], Iterable[Sequence[object]]]
-    # Function that says at a date where the numbers come from, of a figure that is not of one scene
+    # Returns the provenance for a date, for a figure that is not of a single scene
     provenance: Callable[[str], Provenance] | None = None
 
     def write(self, path: Path, provenance: Provenance) -> None:
-        """Write the figure, or its table as CSV, in the format of the file's ending."""
+        """Write the figure, or its table as CSV, by the file's ending."""
         ending = path.suffix.lower()
         if ending not in ENDINGS:
             raise OutputError(
-                f"{one_line(path.name)} has no ending of a figure or table; "
+                f"{one_line(path.name)} does not have the ending of a figure or table; "
                 f"use {', '.join(ENDINGS)}."
             )
         if ending == ".csv":
@@ -117,7 +117,7 @@ def files_of(drawing: Drawing, folder: Path) -> list[Path]:
 def write_all(
     folder: Path, drawings: Iterable[Drawing], provenance: Callable[[Drawing], Provenance]
 ) -> list[Path]:
-    """Write figures and their tables into a folder: all of them, or none."""
+    """Write figures and their tables into a folder, either all of them or none."""
     make_folder(folder)
     written: list[Path] = []
     with ExitStack() as stack:
@@ -129,7 +129,7 @@ def write_all(
                     content = (
                         table_text(drawing.header, drawing.rows(), origin).encode("utf-8")
                         if path.suffix == ".csv"
-                        else fitted_bytes(figure, figure_format(path), origin)
+                        else encode_figure(figure, figure_format(path), origin)
                     )
                     stack.enter_context(written_whole(path)).write_bytes(content)
                     written.append(path)
@@ -137,7 +137,7 @@ def write_all(
 
 
 def settings_notes(settings: SimulationSettings) -> tuple[str, ...]:
-    """Format a simulation's settings, except the seed, as lines of a provenance."""
+    """Format a simulation's settings, without the seed, as lines of a provenance."""
     forced = ", ".join(f"{name} {'on' if on else 'off'}" for name, on in settings.force.items())
     observable = settings.observable
     return (
@@ -150,14 +150,14 @@ def settings_notes(settings: SimulationSettings) -> tuple[str, ...]:
 def write_table(
     path: Path, header: Sequence[str], rows: Iterable[Sequence[object]], provenance: Provenance
 ) -> None:
-    """Write a table; None becomes an empty cell."""
+    """Write a table as CSV; None becomes an empty cell."""
     write_whole(path, table_text(header, rows, provenance).encode("utf-8"))
 
 
 def table_text(
     header: Sequence[str], rows: Iterable[Sequence[object]], provenance: Provenance
 ) -> str:
-    """Format a table as text; the arguments are those of :func:`write_table`."""
+    """Format a table as CSV text; the arguments are those of :func:`write_table`."""
     text = StringIO()
     for line in provenance.lines():
         text.write(f"# {line}".rstrip() + "\n")

@@ -1,4 +1,4 @@
-"""Draw a study of films: packets received and bits a second over the gap."""
+"""Draw a study of films: packets received and bits a second against the gap."""
 
 from collections.abc import Iterable, Sequence
 from pathlib import Path
@@ -70,15 +70,15 @@ def _draw(points: Sequence[FilmPoint]) -> Figure:
         rates = [point.bits_per_second for point in line]
         carried.plot(gaps, rates, linewidth=0.8, markersize=4, **style)
     received.plot([], [], color="black", linewidth=0.8, label="by exact counting")
-    _label(received, "packets received (%)")
-    _label(carried, "bits a second, repeats included")
+    _label_axes(received, "packets received (%)")
+    _label_axes(carried, "bits a second, repeats included")
     received.set_ylim(-4.0, 104.0)
     carried.set_ylim(bottom=0.0)
     figure.legend(loc="outside lower center", ncols=3, frameon=False, fontsize=7)
     return figure
 
 
-def _label(ax: Axes, what: str) -> None:
+def _label_axes(ax: Axes, what: str) -> None:
     ax.set_xlabel("gap (% of a frame period)")
     ax.set_ylabel(what)
     ax.grid(linewidth=0.3)

@@ -1,4 +1,4 @@
-"""Report of a lesson: a student's answers and what they saw, as pages for print or as Markdown."""
+"""Reports of lessons: a student's answers and results, as pages for print or as Markdown."""
 
 from collections.abc import Iterator, Sequence
 from io import BytesIO
@@ -13,7 +13,7 @@ from matplotlib.font_manager import FontProperties
 from occ_model.camera.photometry import column_profile
 from occ_model.errors import OutputError, one_line, printable
 from occ_model.figures.drawing import PHOTO, SIMULATION, figure_bytes, house_style, write_figure
-from occ_model.figures.page import lines_within, with_letters
+from occ_model.figures.page import break_lines, replace_missing_letters
 from occ_model.figures.window_panes import caption
 from occ_model.files.writing import make_folder, write_whole
 from occ_model.results.match import Match
@@ -24,7 +24,7 @@ from occ_model.scene.scene import Scene
 from occ_model.teaching.answers import explanation
 from occ_model.version import __version__
 
-_FIGURE = (7.0, 2.6)  # inches of a figure in Markdown
+_FIGURE = (7.0, 2.6)  # size in inches of a figure in Markdown
 
 _MATCHED_FIGURE = (7.0, 4.2)
 
@@ -32,9 +32,10 @@ _MATCHED_FIGURE = (7.0, 4.2)
 def write_lesson_report(
     path: Path, lesson: Lesson, steps: Sequence[AnsweredStep], *, author: str = "", date: str = ""
 ) -> None:
-    """Write the report of a lesson: .pdf, .md with a folder of figures, or one page as picture.
+    """Write a lesson's report as .pdf, as .md with a folder of figures, or one page as a picture.
 
-    Raises OutputError: no step, another ending, a second page of a picture, or a failing disk.
+    It is an OutputError if there are no steps, the ending is another one, a picture would need a
+    second page, or the disk fails.
     """
     if not steps:
         raise OutputError(f"The lesson {one_line(lesson.title)} has no answers to report.")
@@ -45,28 +46,28 @@ def write_lesson_report(
         if path.suffix.lower() == ".md":
             _write_markdown(path, lesson, steps, about)
             return
-        parts = tuple(steps_of_pages(steps))
+        parts = tuple(split_into_pages(steps))
         if len(parts) > 1 and path.suffix.lower() != ".pdf":
             raise OutputError(
                 f"{one_line(path.name)}: the report has {len(parts)} pages; "
                 "allowed endings: .pdf and .md."
             )
         pages = [
-            draw_page(lesson.title, about, _foot(place, len(parts)), part, first)
+            draw_page(lesson.title, about, _footer(place, len(parts)), part, first)
             for place, (first, part) in enumerate(parts, 1)
         ]
         if len(pages) == 1:
             write_figure(path, pages[0], provenance)
         else:
-            write_whole(path, _pdf(pages, provenance))
+            write_whole(path, _write_pdf(pages, provenance))
 
 
-def _foot(page: int, pages: int) -> str:
+def _footer(page: int, pages: int) -> str:
     number = f", page {page} of {pages}" if pages > 1 else ""
     return f"occ-explorer {__version__}{number}"
 
 
-def _pdf(pages: Sequence[Figure], provenance: Provenance) -> bytes:
+def _write_pdf(pages: Sequence[Figure], provenance: Provenance) -> bytes:
     content = BytesIO()
     about = {"Title": provenance.title, "Subject": provenance.text(), "CreationDate": None}
     with PdfPages(content, metadata=about) as pdf:
@@ -78,24 +79,27 @@ def _pdf(pages: Sequence[Figure], provenance: Provenance) -> bytes:
 def _write_markdown(path: Path, lesson: Lesson, steps: Sequence[AnsweredStep], about: str) -> None:
     folder = path.with_name(f"{path.stem}-figures")
     make_folder(folder)
-    lines = [f"# {_plain(lesson.title)}", "", _plain(about), ""]
+    lines = [f"# {_escape_markdown(lesson.title)}", "", _escape_markdown(about), ""]
     for place, each in enumerate(steps, 1):
         figure = folder / f"step-{place}.png"
         _write_step_figure(figure, each)
-        lines += [f"## {place}. {_plain(each.step.question)}", ""]
+        lines += [f"## {place}. {_escape_markdown(each.step.question)}", ""]
         if each.answer is None:
             lines += ["*(no answer)*", ""]
         else:
             lines += [
-                f"**Answer:** {_plain(each.step.with_unit(each.answer.text))}",
+                f"**Answer:** {_escape_markdown(each.step.with_unit(each.answer.text))}",
                 "",
-                _plain(each.answer.sentence),
+                _escape_markdown(each.answer.sentence),
                 "",
             ]
         if each.match is not None:
-            lines += [*(f"* {_plain(line)}" for line in match_lines(each.match, each.photo)), ""]
+            lines += [
+                *(f"* {_escape_markdown(line)}" for line in match_lines(each.match, each.photo)),
+                "",
+            ]
         lines += [f"![What was seen]({quote(folder.name)}/{figure.name})", ""]
-        lines += [f"> {_plain(explanation(each.step, each.scene))}", ""]
+        lines += [f"> {_escape_markdown(explanation(each.step, each.scene))}", ""]
     scene = steps[-1].scene.to_toml()
     lines += [f"Scene of the last step, occ-explorer {__version__}:", "", "```toml", scene, "```"]
     write_whole(path, ("\n".join(lines) + "\n").encode())
@@ -111,53 +115,53 @@ def _write_step_figure(path: Path, each: AnsweredStep) -> None:
     write_whole(path, figure_bytes(figure, "png", Provenance(title, {"step": each.scene})))
 
 
-def _plain(text: str) -> str:
+def _escape_markdown(text: str) -> str:
     text = printable(text)
     for sign in "\\`*_[]<>#|&":
         text = text.replace(sign, f"\\{sign}")
     return text
 
 
-_PAGE = (8.27, 11.69)  # inches of a page of A4
-_LEFT, _RIGHT = 0.08, 0.92  # where lines begin and end, as fractions of the page's width
-_MAX_STEPS_A_PAGE = 5  # steps of a page that can still be read
-_STEPS_OF_A_MATCH = 2  # steps whose room one with a match takes
+_PAGE = (8.27, 11.69)  # inches of an A4 page
+_LEFT, _RIGHT = 0.08, 0.92  # margins of the lines, as fractions of the page's width
+_MAX_STEPS_A_PAGE = 5  # most steps on a page, for legibility
+_STEPS_OF_A_MATCH = 2  # places that a step with a match takes
 
 _SHOWN_COLUMNS = 700
 _NO_ANSWER = "." * 60
 _TOP, _BOTTOM = 0.915, 0.025
 
 
-def steps_of_pages(
+def split_into_pages(
     steps: Sequence[AnsweredStep],
 ) -> Iterator[tuple[int, tuple[AnsweredStep, ...]]]:
-    """Yield the number of the first step of each page, from 1, and the page's steps."""
+    """Yield, for each page, the number of its first step, from 1, and its steps."""
     page: list[AnsweredStep] = []
     for place, each in enumerate(steps):
-        if page and sum(map(_room, page)) + _room(each) > _MAX_STEPS_A_PAGE:
+        if page and sum(map(_count_places, page)) + _count_places(each) > _MAX_STEPS_A_PAGE:
             yield place - len(page) + 1, tuple(page)
             page = []
         page.append(each)
     yield len(steps) - len(page) + 1, tuple(page)
 
 
-def _room(each: AnsweredStep) -> int:
+def _count_places(each: AnsweredStep) -> int:
     return 1 if each.match is None else _STEPS_OF_A_MATCH
 
 
 def draw_page(
     title: str, about: str, foot: str, steps: Sequence[AnsweredStep], first: int
 ) -> Figure:
-    """Draw a page of A4; ``first``: the number of its first step."""
+    """Draw an A4 page; ``first`` is the number of its first step."""
     figure = Figure(figsize=_PAGE)
     figure.set_layout_engine("none")
-    _write(figure, 0.97, title, FontProperties(size=16, weight="bold"), "0.0", most=1)
-    _write(figure, 0.945, about, FontProperties(size=9), "0.3", most=1)
+    _write_lines(figure, 0.97, title, FontProperties(size=16, weight="bold"), "0.0", most=1)
+    _write_lines(figure, 0.945, about, FontProperties(size=9), "0.3", most=1)
     figure.text(_RIGHT, 0.015, foot, fontsize=7, color="0.3", horizontalalignment="right")
-    unit = (_TOP - _BOTTOM) / sum(map(_room, steps))
+    unit = (_TOP - _BOTTOM) / sum(map(_count_places, steps))
     top = _TOP
     for place, each in enumerate(steps, first):
-        height = unit * _room(each)
+        height = unit * _count_places(each)
         _draw_step(figure, place, each, top, top - height)
         top -= height
     return figure
@@ -167,7 +171,7 @@ def _draw_step(figure: Figure, number: int, each: AnsweredStep, top: float, bott
     answer = each.answer
     given = _NO_ANSWER if answer is None else each.step.with_unit(answer.text)
     outcome = "" if answer is None else answer.sentence
-    matched = "" if each.match is None else _in_sentences(each.match, each.photo)
+    matched = "" if each.match is None else _describe_match(each.match, each.photo)
     texts = (
         (f"{number}. {each.step.question}", 10, "bold", "0.0"),
         (f"Answer: {given}", 10, "normal", "0.0"),
@@ -177,19 +181,19 @@ def _draw_step(figure: Figure, number: int, each: AnsweredStep, top: float, bott
     )
     line = 0.0145
     for text, size, weight, colour in texts:
-        lines = _write(figure, top, text, FontProperties(size=size, weight=weight), colour)
+        lines = _write_lines(figure, top, text, FontProperties(size=size, weight=weight), colour)
         top -= line * lines + 0.004 * (lines > 0)
-    _draw_seen(figure, each, top - line * 0.5, bottom + 0.045)
+    _draw_result(figure, each, top - line * 0.5, bottom + 0.045)
 
 
-def _write(
+def _write_lines(
     figure: Figure, top: float, text: str, font: FontProperties, colour: str, most: int = 5
 ) -> int:
-    """Write a text below a height of the page, in at most so many lines; return their number."""
-    # No line ends between a value and its error.
+    """Write a text below a height of the page, in up to ``most`` lines; return their number."""
+    # Do not break lines between a value and its error.
     unbroken = printable(text).replace(" ± ", "\xa0±\xa0")
-    text, font = with_letters(unbroken, font)
-    lines = lines_within(text, (_RIGHT - _LEFT) * _PAGE[0], font, most) if text else []
+    text, font = replace_missing_letters(unbroken, font)
+    lines = break_lines(text, (_RIGHT - _LEFT) * _PAGE[0], font, most) if text else []
     figure.text(
         _LEFT, top, "\n".join(lines), fontproperties=font, color=colour,
         verticalalignment="top", linespacing=1.25, parse_math=False,
@@ -197,8 +201,8 @@ def _write(
     return len(lines)
 
 
-def _draw_seen(figure: Figure, each: AnsweredStep, top: float, bottom: float) -> None:
-    room = min(top - bottom, 0.2 * _room(each))
+def _draw_result(figure: Figure, each: AnsweredStep, top: float, bottom: float) -> None:
+    room = min(top - bottom, 0.2 * _count_places(each))
     if room <= 0.03:
         return
     if each.match is None:
@@ -209,14 +213,14 @@ def _draw_seen(figure: Figure, each: AnsweredStep, top: float, bottom: float) ->
     draw_match((above, below), each.match)
 
 
-def _in_sentences(match: Match, photo: str) -> str:
+def _describe_match(match: Match, photo: str) -> str:
     lines, reasons = match_lines(match, photo), match.all_reasons
     found = "; ".join(lines[: len(lines) - len(reasons)])
     return " ".join((f"{found}.", *reasons))
 
 
 def match_lines(match: Match, photo: str) -> list[str]:
-    """Describe a match: values with standard deviations, the verdict, its reasons."""
+    """Describe a match: values with standard deviations, the verdict, and its reasons."""
     lines = [f"photo {one_line(photo)}: {match.verdict}" if photo else match.verdict]
     for name in ("readout_time", "exposure_time"):
         declared = quantity(name)
@@ -240,12 +244,12 @@ def draw_profile(ax: Axes, scene: Scene) -> None:
 
 
 def draw_match(axes: Sequence[Axes], match: Match) -> None:
-    """Draw a photo's profile with the one fitted to it, and the residual below."""
+    """Draw a photo's profile and the fitted one, with the residual below."""
     above, below = axes
     shown = min(_SHOWN_COLUMNS, len(match.profile))
     above.plot(match.stripes.profile[:shown], linewidth=0.9, label="photo", **PHOTO)  # type: ignore[arg-type]
     above.plot(match.profile[:shown], linewidth=0.9, label="fit", **SIMULATION)  # type: ignore[arg-type]
-    # Above the axes, where it covers no curve.
+    # Above the axes it covers no curve.
     above.legend(
         loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, frameon=False, fontsize=7,
         borderaxespad=0.0,

@@ -1,4 +1,4 @@
-"""Keep every text of a figure inside its page, whatever its length and its language."""
+"""Keep every text of a figure inside its page, whatever its length and language."""
 
 import textwrap
 from collections.abc import Iterator
@@ -15,18 +15,18 @@ from matplotlib.textpath import text_to_path
 
 _Kind = TypeVar("_Kind", Text, Legend)
 
-_MARGIN = 0.05  # inches between a text and the edge of the page
+_MARGIN = 0.05  # inches between a text and the page's edge
 
-_HINTED_WIDTH_FACTOR = 1.08  # width of a line of small letters on whole pixels against its outlines
+_HINTED_WIDTH_FACTOR = 1.08  # width of small letters on whole pixels, over that of outlines
 _MAX_LINES = 12
-_MAX_ROUNDS = 3  # of making a page higher, after which its axes are placed anew
+_MAX_ROUNDS = 3  # of making a page higher and placing its axes anew
 
 _UNKNOWN_LETTER = "□"
-_POINTS = 72.0  # points to an inch
+_POINTS = 72.0  # points per inch
 
 
-def lines_within(text: str, inches: float, font: FontProperties, most: int) -> list[str]:
-    """Break a text into at most ``most`` lines of a width; an ellipsis replaces the rest."""
+def break_lines(text: str, inches: float, font: FontProperties, most: int) -> list[str]:
+    """Break a text into up to ``most`` lines of a width; an ellipsis replaces the rest."""
     letters = max(len(text), 1)
     lines = [text]
     while letters > 1 and max((_inches(line, font) for line in lines), default=0.0) > inches:
@@ -43,26 +43,26 @@ def _inches(line: str, font: FontProperties) -> float:
 
 
 def fit_texts(figure: Figure) -> None:
-    """Break the lines of texts too wide for their room, narrow legends, and enlarge the page."""
-    for text in _all(figure, Text):
-        drawn, font = with_letters(text.get_text(), text.get_fontproperties())
+    """Break lines that are too wide, narrow the legends, and make the page higher if needed."""
+    for text in _find_all(figure, Text):
+        drawn, font = replace_missing_letters(text.get_text(), text.get_fontproperties())
         text.set_text(drawn)
         text.set_fontfamily(font.get_family())
     if figure.get_layout_engine() is None:
         return
-    for room in _rooms(figure):
+    for room in _list_text_spaces(figure):
         figure.set_figheight(figure.get_figheight() + room.fit())
-    for legend in _all(figure, Legend):
-        _narrow(legend, figure)
+    for legend in _find_all(figure, Legend):
+        _narrow_legend(legend, figure)
     for _ in range(_MAX_ROUNDS):
         _place_axes(figure)
-        above, below = _over_the_edge(figure)
+        above, below = _measure_overflow(figure)
         if not above + below:
             break
         figure.set_figheight(figure.get_figheight() + above + below)
     else:
         _place_axes(figure)
-    # The places that were found hold for the files of all formats.
+    # Keep these places for the files of all formats.
     figure.set_layout_engine("none")
 
 
@@ -72,66 +72,66 @@ def _place_axes(figure: Figure) -> None:
         layout.execute(figure)
 
 
-def _over_the_edge(figure: Figure) -> tuple[float, float]:
-    """Return the inches by which what is drawn reaches over the upper and the lower edge."""
+def _measure_overflow(figure: Figure) -> tuple[float, float]:
+    """Return how many inches the figure extends beyond the page's upper and lower edge."""
     drawn = figure.get_tightbbox()
     return max(drawn.y1 - figure.get_figheight(), 0.0), max(-drawn.y0, 0.0)
 
 
-def _all(figure: Figure, kind: type[_Kind]) -> list[_Kind]:
+def _find_all(figure: Figure, kind: type[_Kind]) -> list[_Kind]:
     return [artist for artist in figure.findobj(kind) if isinstance(artist, kind)]
 
 
 @dataclass(frozen=True, slots=True)
-class _Room:
+class _TextSpace:
     """A text and its available width, in inches."""
 
     text: Text
     inches: float
 
     def fit(self) -> float:
-        """Break the text's lines; return the height of those that this adds."""
+        """Break the text's lines; return the height in inches of the added ones."""
         before = self.text.get_text().split("\n")
         font = self.text.get_fontproperties()
         lines = [
-            line for each in before for line in lines_within(each, self.inches, font, _MAX_LINES)
+            line for each in before for line in break_lines(each, self.inches, font, _MAX_LINES)
         ]
         self.text.set_text("\n".join(lines))
         spacing = 1.2 * float(self.text.get_fontsize()) / _POINTS
         return max(len(lines) - len(before), 0) * spacing
 
 
-def _rooms(figure: Figure) -> Iterator[_Room]:
+def _list_text_spaces(figure: Figure) -> Iterator[_TextSpace]:
     page = figure.get_figwidth() - 2 * _MARGIN
     for line in (figure._supxlabel, figure._suptitle):  # type: ignore[attr-defined]
         if line is not None:
-            yield _Room(line, page)
-    headings = [(text, _across(ax)) for ax in figure.axes for text in _headings(ax)]
-    # One that is far too wide would leave the axes no width.
+            yield _TextSpace(line, page)
+    headings = [(text, _count_across(ax)) for ax in figure.axes for text in _headings(ax)]
+    # While hidden, a heading that is far too wide cannot squeeze the axes.
     for is_shown in (False, True):
         for text, _ in headings:
             text.set_visible(is_shown)
         if not is_shown:
             _place_axes(figure)
     for text, across in headings:
-        yield _Room(text, min(_to_the_edge(text, figure), page / across))
+        yield _TextSpace(text, min(_width_to_edge(text, figure), page / across))
 
 
 def _headings(ax: Axes) -> Iterator[Text]:
     titles = [child for child in ax.get_children() if isinstance(child, Text)]
     for text in (*titles, ax.xaxis.label):
-        # Others stand at places of the data.
+        # Other texts are at places of the data.
         if text.get_text() and text not in ax.texts:
             yield text
 
 
-def _across(ax: Axes) -> int:
+def _count_across(ax: Axes) -> int:
     place = ax.get_subplotspec()
     return 1 if place is None else place.get_gridspec().ncols // len(place.colspan)
 
 
-def _to_the_edge(text: Text, figure: Figure) -> float:
-    """Return the width available to a text at its place."""
+def _width_to_edge(text: Text, figure: Figure) -> float:
+    """Return the width in inches that is available to a text at its place."""
     box, width = text.get_window_extent(), float(figure.get_figwidth())
     left, right = float(box.x0 / figure.dpi), float(box.x1 / figure.dpi)
     match text.get_horizontalalignment():
@@ -144,19 +144,19 @@ def _to_the_edge(text: Text, figure: Figure) -> float:
             return 2 * (min(centre, width - centre) - _MARGIN)
 
 
-def _narrow(legend: Legend, figure: Figure) -> None:
+def _narrow_legend(legend: Legend, figure: Figure) -> None:
     columns = int(legend._ncols)  # type: ignore[attr-defined]
     while columns > 1 and legend.get_window_extent().width > figure.bbox.width:
         columns -= 1
         legend.set_ncols(columns)
 
 
-def with_letters(text: str, font: FontProperties) -> tuple[str, FontProperties]:
-    """Take letters that a font lacks from the computer's others, or replace them by a square."""
+def replace_missing_letters(text: str, font: FontProperties) -> tuple[str, FontProperties]:
+    """Take letters that a font lacks from other fonts, or replace them by a square."""
     missing = set(text) - {"\n"} - _letters_of(fontManager.findfont(font))
     families = list(font.get_family())
     for entry in fontManager.ttflist if missing else ():
-        # A file of several fonts, or of another kind, cannot be part of a PDF.
+        # A file with several fonts, or of another kind, cannot be put into a PDF.
         if entry.fname.endswith(".ttf") and not entry.name.startswith("Last Resort"):
             found = missing & _letters_of(entry.fname)
             families += [entry.name] if found else []

@@ -26,13 +26,13 @@ from occ_model.simulation.render import render
 from occ_model.study.paper_grid import DISTANCES, FREQUENCIES
 from occ_model.transmitter.packet import packet
 
-_PICTURE_STEP = 8  # side in pixels of the cells whose means are printed: print resolves no more
+_PICTURE_STEP = 8  # side in pixels of the averaged cells of a picture, as print resolves no more
 
 _PACKETS_SHOWN = 2.5
 
 
 def write_process_figure(folder: Path) -> None:
-    """Write figure 2: corners, mask, calculated values, simulated picture."""
+    """Write figure 2: corners, mask, calculated values and simulated picture."""
     scene = load_preset("phone-68us")
     frame = render(scene, tolerance=math.inf)
     figure = Figure(figsize=(7.2, 2.5))
@@ -58,7 +58,7 @@ def write_process_figure(folder: Path) -> None:
     header = (
         "column", "calculated value (grey level)", "first row of the mask", "rows of the mask",
     )  # fmt: skip
-    calculated = frame.signal.astype(np.int64)  # whole numbers, without image effects
+    calculated = frame.signal.astype(np.int64)  # whole numbers, as there are no image effects
     table = np.stack([np.arange(columns), calculated, lit.argmax(axis=0), lit.sum(axis=0)], axis=1)
     write_table(folder / "figure-2.csv", header, table.tolist(), provenance)
 
@@ -74,7 +74,7 @@ def _show_picture(ax: Axes, picture: np.ndarray | None, rows: int, columns: int)
     if picture is not None:
         step = _PICTURE_STEP
         whole = picture[: rows // step * step, : columns // step * step]
-        # The mean of each cell: taking one pixel of it would show stripes that are not there.
+        # Average each cell, since taking one pixel of it would show false stripes.
         cells = whole.reshape(rows // step, step, columns // step, step).mean(axis=(1, 3))
         ax.imshow(cells, cmap="gray", vmin=0, vmax=255, extent=(0, columns, rows, 0))
 
@@ -85,17 +85,17 @@ def write_profile_figure(folder: Path, number: int, preset: str, photo: Photo | 
     frame = render(scene, tolerance=math.inf)
     band, undefined = None, ""
     try:
-        # As the paper counts bands; aligned, they would lie on the simulation's.
+        # As the paper counts bands; aligned ones would coincide with the simulation.
         band = band_profile(scene.replace(band_reading="literal"))
     except BandModelUndefined as reason:
         undefined = str(reason)
-    first, last = shown_columns(scene, frame)
+    first, last = choose_columns(scene, frame)
     column = np.arange(first, last)
     shown: dict[str, FloatArray | None] = {
         "band model": None if band is None else band[first:last],
         "simulation": frame.profile[first:last],
         "simulation, enhanced": frame.signal[first:last],
-        "photo": None if photo is None else padded(photo.profile, last - first),
+        "photo": None if photo is None else pad_profile(photo.profile, last - first),
     }
     figure = Figure(figsize=(7.2, 2.8))
     ax = figure.subplots()
@@ -122,20 +122,20 @@ def write_profile_figure(folder: Path, number: int, preset: str, photo: Photo | 
     write_table(folder / f"figure-{number}.csv", header, table.tolist(), provenance)
 
 
-def shown_columns(scene: Scene, frame: Frame) -> tuple[int, int]:
+def choose_columns(scene: Scene, frame: Frame) -> tuple[int, int]:
     first = max(0, int(np.ceil(frame.corners[:, 0].min())))
     period = len(packet(scene)) * scene.transmitter.switching_period / scene.camera.readout_time
     return first, min(len(frame.profile), first + round(_PACKETS_SHOWN * period))
 
 
-def padded(values: FloatArray, length: int) -> FloatArray:
+def pad_profile(values: FloatArray, length: int) -> FloatArray:
     return np.pad(values[:length], (0, max(0, length - len(values))), constant_values=np.nan)
 
 
 def write_rate_figure(
     folder: Path, number: int, device: str, tables: Mapping[str, SweepTable]
 ) -> None:
-    """Write figure 5 or 6: success rate over frequency and distance, at both exposure times."""
+    """Write figure 5 or 6: success rate against frequency and distance, for both exposures."""
     settings = next(iter(tables.values())).request.settings
     title = f"Figure {number}: success rate, {device}, {counted(settings.images, 'image')} a point"
     scenes = {preset: table.request.scene for preset, table in tables.items()}

@@ -1,4 +1,4 @@
-"""Draw a room for print: its plan, and the camera's picture with the names of its lamps."""
+"""Draw a room for print: its plan, and the camera's picture with the lamps' names."""
 
 from collections.abc import Iterable, Sequence
 
@@ -16,16 +16,16 @@ from occ_model.room.view import room_outline, seen_outline
 from occ_model.scene.provenance import Provenance
 
 _TITLE = "Room, its picture and the place found"
-_EDGE = 0.07  # fraction of a picture's side that half a name takes
-_PADDING = 5  # points from a name's letters to the edge of its box and of the picture
-_MAX_SPACED_LAMPS = 40  # lamps of a plan up to which their names have room beside them
+_EDGE = 0.07  # half the size of a name, as a fraction of the picture's side
+_PADDING = 5  # points between a name and the edge of its box, and of the picture
+_MAX_SPACED_LAMPS = 40  # most lamps of a plan whose names are in the usual size
 _NUMBERS = tuple(Place.__dataclass_fields__)
 
 
 def room_drawing(
     room: Room, image: ByteArray, reading: RoomReading, *, is_photo: bool = False
 ) -> Drawing:
-    """Draw a room and what was read of its picture, or of a photo of an unknown place."""
+    """Draw a room and what was read from its picture, or from a photo of an unknown place."""
 
     def rows() -> Iterable[tuple[object, ...]]:
         found = reading.located
@@ -67,10 +67,10 @@ def _draw(room: Room, image: ByteArray, reading: RoomReading, is_photo: bool) ->
 def _write_name(
     ax: Axes, name: str, middle: Sequence[float], shape: tuple[int, ...], colour: str
 ) -> None:
-    """Write a lamp's name at its middle, or beside the picture's edge where that is near."""
+    """Write a lamp's name at its middle, or beside the picture's edge if that is near."""
     rows, columns = shape
     (column, across), (row, down) = (
-        _from_the_edge(middle[0], columns - 1), _from_the_edge(middle[1], rows - 1)
+        _place_from_edge(middle[0], columns - 1), _place_from_edge(middle[1], rows - 1)
     )  # fmt: skip
     ax.annotate(
         name, (column, row), (_PADDING * across, -_PADDING * down), textcoords="offset points",
@@ -79,8 +79,8 @@ def _write_name(
     )  # fmt: skip
 
 
-def _from_the_edge(place: float, last: int) -> tuple[float, int]:
-    """Return where a name stands, and whether it goes on from the first (1) or last (-1) edge."""
+def _place_from_edge(place: float, last: int) -> tuple[float, int]:
+    """Return a name's place, and 1 if it starts at the first edge, -1 if it ends at the last."""
     if place < _EDGE * last:
         return 0.0, 1
     if place > (1.0 - _EDGE) * last:
@@ -119,7 +119,7 @@ def _draw_plan(ax: Axes, room: Room, reading: RoomReading, is_photo: bool) -> No
             [found.x], [found.y], [2.0 * errors[1]], [2.0 * errors[0]], fmt="x",
             color=colours.BAND, label="found, two standard deviations",
         )  # fmt: skip
-    # A corridor's plan gets wider than its lamps: its numbers need the room.
+    # A corridor's plan becomes wider than its lamps, as the axis's numbers need the space.
     ax.set_aspect("equal", adjustable="datalim")
     ax.set_xlabel("x (m)")
     ax.set_ylabel("y (m)")

@@ -1,4 +1,4 @@
-"""Draw a sweep's success rates: over one parameter as curves, over two as maps."""
+"""Draw a sweep's success rates as curves against one parameter, or as maps of two."""
 
 from collections.abc import Iterable
 from dataclasses import replace
@@ -30,36 +30,37 @@ _STYLES: tuple[dict[str, Any], ...] = (
     {"color": colours.PHOTO, "marker": "^", "markersize": 3, "linestyle": ":"},
     {"color": colours.NOISE, "marker": "D", "markersize": 3, "linestyle": "-."},
 )
-"""Distinct for colour-blind readers, in grey print, and where curves lie on each other."""
+"""Distinct for colour-blind readers, in grey, and where curves coincide."""
 
 _TITLES = {"rate": "Success rate", "bits": "Bits a second"}
 _LABELS = {"rate": "success rate (%)", "bits": "bits a second"}
 
-_REFUSED_COLOUR = "0.75"  # grey, which is not one of the map's colours
-_TICKS = 10  # largest number of labels at an axis
+_REFUSED_COLOUR = "0.75"  # grey is not among the map's colours
+_TICKS = 10  # most labels at an axis
 _FAILED = "a plug-in failed: see the notes in the table"
 
-_CELLS_WITH_NUMBERS = 14  # largest number of cells on a side at which each holds its number
+_CELLS_WITH_NUMBERS = 14  # most cells on a side for which each cell shows its number
 
 
 def write_sweep_figure(path: Path, table: SweepTable, shown: Shown = "rate") -> None:
     """Draw a table's success rates, or bits a second, in the format of the file's ending.
 
-    One axis: a curve for each decoder with its 95 % intervals. Two axes: a map for each decoder,
-    the first axis from left to right; points that the model refuses are grey.
+    With one axis there is a curve for each decoder, with 95 % intervals. With two axes there is a
+    map for each decoder, with the first axis from left to right; points that the model refuses are
+    grey.
     """
-    figure_format(path)  # before anything is drawn
+    figure_format(path)  # refuse an unknown ending before drawing
     names = list(table.axes)
     if len(names) > 2:
         raise ParameterError(
-            f"The sweep varies {', '.join(names)}; allowed to be drawn: one parameter or two."
+            f"The sweep varies {', '.join(names)}; allowed in a figure: one or two parameters."
         )
     with house_style():
         write_figure(path, sweep_drawing(table, shown).draw(), _provenance(table, shown))
 
 
 def sweep_drawing(table: SweepTable, shown: Shown = "rate") -> Drawing:
-    """Draw a table's success rates, or bits a second, over one axis or two."""
+    """Draw a table's success rates, or bits a second, against one axis or two."""
     names = list(table.axes)
 
     def rows() -> Iterable[tuple[object, ...]]:
@@ -78,7 +79,7 @@ def sweep_drawing(table: SweepTable, shown: Shown = "rate") -> Drawing:
         f"{_TITLES[shown]} over {' and '.join(names)}, "
         f"{counted(table.request.settings.images, 'image')}"
     )
-    draw = _curves if len(names) == 1 else _maps
+    draw = _draw_curves if len(names) == 1 else _draw_maps
     return Drawing("map", title, lambda: draw(table, shown), header, rows)
 
 
@@ -102,7 +103,7 @@ def _intervals(table: SweepTable, decoder: str, shown: Shown) -> tuple[FloatArra
         return table.intervals(decoder)
     bits, images = table.bits_a_second(decoder), table.request.settings.images
     whole = table.whole[..., table.decoders.index(decoder)]
-    # What all images would carry: that of one, which no interval can exceed.
+    # The rate if all images were read, which no interval can exceed.
     most = np.array([_most_bits(table, point) for point in table.each_point()])
     ends = np.array([wilson_interval(int(count), images) for count in whole.ravel()])
     ends = ends.reshape(*bits.shape, 2) * most.reshape(bits.shape)[..., None]
@@ -110,43 +111,43 @@ def _intervals(table: SweepTable, decoder: str, shown: Shown) -> tuple[FloatArra
 
 
 def _most_bits(table: SweepTable, point: SweepPoint) -> float:
-    """Return the bits a second of a point if every image were read whole."""
+    """Return the bits a second of a point if every image were read completely."""
     whole = (table.request.settings.images,) * len(table.decoders)
     found = table.request.bits_a_second(replace(point, whole=whole), 0)
     return np.nan if found is None else found
 
 
-def _most(table: SweepTable, shown: Shown) -> float:
-    """Return the upper end of the axis or the colours."""
+def _highest_value(table: SweepTable, shown: Shown) -> float:
+    """Return the upper end of the axis or of the colour scale."""
     if shown == "rate":
         return 100.0
     bits = [_most_bits(table, point) for point in table.each_point()]
     return float(np.nanmax(bits)) if np.isfinite(bits).any() else 1.0
 
 
-def _curves(table: SweepTable, shown: Shown) -> Figure:
+def _draw_curves(table: SweepTable, shown: Shown) -> Figure:
     ((name, values),) = table.axes.items()
     figure = Figure(figsize=(6.4, 3.6))
     ax = figure.subplots()
-    unit, factor = _shown_unit(name, values)
-    at, labels = _places(name, values, factor)
+    unit, factor = _choose_unit(name, values)
+    at, labels = _axis_positions(name, values, factor)
     for decoder, look in zip(table.decoders, _STYLES * len(table.decoders), strict=False):
-        style = look if labels is None else {**look, "linestyle": ""}  # nothing is between words
+        style = look if labels is None else {**look, "linestyle": ""}
         rates = _values(table, decoder, shown)
         low, high = _intervals(table, decoder, shown)
-        error = np.maximum([rates - low, high - rates], 0.0)  # rounding can leave less than nothing
+        error = np.maximum([rates - low, high - rates], 0.0)  # rounding can make it negative
         ax.errorbar(
             at, rates, error, label=f"{decoder} decoder", capsize=2, linewidth=1.0,
             elinewidth=0.7, markerfacecolor="none", clip_on=False, **style,
         )  # fmt: skip
     if labels is not None:
-        ax.set_xticks(at[:: _step(len(at))], labels[:: _step(len(at))])
+        ax.set_xticks(at[:: _label_step(len(at))], labels[:: _label_step(len(at))])
     elif _is_log(name, at):
         ax.set_xscale("log")
         ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
         ax.xaxis.set_major_formatter(lambda value, _: f"{value:g}")
         ax.xaxis.set_minor_formatter(NullFormatter())
-    most = _most(table, shown)
+    most = _highest_value(table, shown)
     ax.set_ylim(-0.03 * most, 1.03 * most)
     ax.set_yticks(np.linspace(0.0, most, 6))
     ax.grid(linewidth=0.3)
@@ -157,21 +158,21 @@ def _curves(table: SweepTable, shown: Shown) -> Figure:
     return figure
 
 
-def _maps(table: SweepTable, shown: Shown) -> Figure:
+def _draw_maps(table: SweepTable, shown: Shown) -> Figure:
     (across, columns), (upwards, rows) = table.axes.items()
     width = min(3.2 * len(table.decoders) + 1.6, 12.0)
     figure = Figure(figsize=(width, 3.6))
     axes = figure.subplots(1, len(table.decoders), squeeze=False, sharex=True, sharey=True)[0]
     for ax, decoder in zip(axes, table.decoders, strict=True):
-        # Even cells whatever the values: the axes need not be even, nor numbers.
-        _draw_map(ax, _values(table, decoder, shown).T, _most(table, shown))
+        # All cells have the same size, as the values need be neither evenly spaced nor numbers.
+        _draw_map(ax, _values(table, decoder, shown).T, _highest_value(table, shown))
         _label_cells(ax.xaxis, across, columns)
         _label_cells(ax.yaxis, upwards, rows)
         ax.set_title(f"{decoder} decoder", fontsize=9)
         ax.label_outer(remove_inner_ticks=True)
-    figure.supxlabel(_axis_label(across, _shown_unit(across, columns)[0]), fontsize=9)
-    figure.supylabel(_axis_label(upwards, _shown_unit(upwards, rows)[0]), fontsize=9)
-    colour = ScalarMappable(Normalize(0, _most(table, shown)), "cividis")
+    figure.supxlabel(_axis_label(across, _choose_unit(across, columns)[0]), fontsize=9)
+    figure.supylabel(_axis_label(upwards, _choose_unit(upwards, rows)[0]), fontsize=9)
+    colour = ScalarMappable(Normalize(0, _highest_value(table, shown)), "cividis")
     figure.colorbar(colour, ax=list(axes), label=_LABELS[shown])
     remarks = []
     if (table.sent == 0).any():
@@ -199,33 +200,33 @@ def _draw_map(ax: Axes, grid: FloatArray, most: float) -> None:
 
 
 def _label_cells(axis: Any, name: str, values: tuple[ParameterValue, ...]) -> None:
-    _, factor = _shown_unit(name, values)
+    _, factor = _choose_unit(name, values)
     axis.set_tick_params(labelsize=7)
-    at, words = _places(name, values, factor)
+    at, words = _axis_positions(name, values, factor)
     if words is None and len(at) > _TICKS and bool(np.all(np.diff(at) > 0)):
-        axis.set_ticks(*_round_ticks(at, _is_log(name, at)))
+        axis.set_ticks(*_choose_round_ticks(at, _is_log(name, at)))
         return
-    step = _step(len(values))
-    labels = [_number(value, factor) for value in values]
+    step = _label_step(len(values))
+    labels = [_format_number(value, factor) for value in values]
     axis.set_ticks(range(0, len(values), step), labels[::step])
 
 
-def _round_ticks(at: FloatArray, is_log: bool) -> tuple[FloatArray, list[str]]:
-    """Return the positions of round values among cells of increasing values, and their labels."""
+def _choose_round_ticks(at: FloatArray, is_log: bool) -> tuple[FloatArray, list[str]]:
+    """Choose round values among the cells' increasing ones; return their positions and labels."""
     locator = LogLocator(subs=(1, 2, 5)) if is_log else MaxNLocator(_TICKS - 1, steps=[1, 2, 5, 10])
     marks = [mark for mark in locator.tick_values(at[0], at[-1]) if at[0] <= mark <= at[-1]]
     scale = np.log if is_log else np.asarray
     return np.interp(scale(marks), scale(at), np.arange(len(at))), [f"{mark:g}" for mark in marks]
 
 
-def _step(count: int) -> int:
+def _label_step(count: int) -> int:
     return -(-count // _TICKS)
 
 
-def _places(
+def _axis_positions(
     name: str, values: tuple[ParameterValue, ...], factor: float
 ) -> tuple[FloatArray, list[str] | None]:
-    """Return the positions of values on an axis, and their labels where they are words."""
+    """Return the positions of values on an axis, and their labels if they are words."""
     if isinstance(PARAMETERS[name], Choice):
         return np.arange(len(values), dtype=np.float64), [str(value) for value in values]
     return np.array([float(value) / factor for value in values]), None
@@ -241,8 +242,8 @@ def _is_log(name: str, at: FloatArray) -> bool:
     return bool(np.std(ratios) / abs(np.mean(ratios)) < np.std(steps) / abs(np.mean(steps)))
 
 
-def _shown_unit(name: str, values: tuple[ParameterValue, ...]) -> tuple[str, float]:
-    """Choose the unit that suits the median of some values; return it with its SI value."""
+def _choose_unit(name: str, values: tuple[ParameterValue, ...]) -> tuple[str, float]:
+    """Choose the unit that suits the median of some values; return it and its SI value."""
     parameter = PARAMETERS[name]
     if not isinstance(parameter, Quantity):
         return "", 1.0
@@ -255,5 +256,5 @@ def _axis_label(name: str, unit: str) -> str:
     return f"{label} ({unit})" if unit else label
 
 
-def _number(value: ParameterValue, factor: float) -> str:
+def _format_number(value: ParameterValue, factor: float) -> str:
     return value if isinstance(value, str) else f"{float(value) / factor:.3g}"

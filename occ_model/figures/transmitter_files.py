@@ -1,4 +1,4 @@
-"""Write all that is needed to blink a scene: sketch, waveform, scene, a drawing of the wiring."""
+"""Write everything needed to blink a scene: sketch, waveform, scene, and wiring diagram."""
 
 import textwrap
 from collections.abc import Iterator
@@ -28,9 +28,9 @@ from occ_model.scene.units import SECOND
 
 
 def write_transmitter_files(folder: Path, sent: Transmission) -> tuple[list[Path], str]:
-    """Write the files into a folder, all or none; the scene has the frequency that is really sent.
+    """Write the files into a folder; the scene has the frequency that is actually sent.
 
-    Returns their paths, and a sentence on why there is no WAV file, or an empty one.
+    Return their paths, and a sentence why there is no WAV file, or an empty text.
     """
     contents, missing = _contents(folder, sent)
     make_folder(folder)
@@ -68,11 +68,11 @@ def provenance(sent: Transmission) -> Provenance:
 
 _SIZE = (7.6, 6.0)  # in inches
 _TEXT = 8  # size of the circuits' texts, in points
-_LINE_LENGTH = 116  # characters of a line of text below the drawing
+_LINE_LENGTH = 116  # characters of a line of the text below the diagram
 
 
 def wiring_figure(sent: Transmission) -> Figure:
-    """Draw the circuit; call it within :func:`occ_model.figures.drawing.house_style`."""
+    """Draw the circuit; to be called in :func:`occ_model.figures.drawing.house_style`."""
     figure = Figure(figsize=_SIZE)
     figure.suptitle(f"{sent.board.title}: wiring", fontweight="bold")
     places = figure.subplot_mosaic("AAB;TTT", height_ratios=(3.4, 2.6))
@@ -85,26 +85,26 @@ def wiring_figure(sent: Transmission) -> Figure:
     _draw_led(places["B"], sent.board)
     written.set_xlim(0, 1)
     written.set_ylim(0, 1)
-    text = "\n".join(textwrap.fill(line, _LINE_LENGTH) for line in notes(sent))
+    text = "\n".join(textwrap.fill(line, _LINE_LENGTH) for line in circuit_notes(sent))
     written.text(0, 1, text, va="top", ha="left", linespacing=1.35)
     return figure
 
 
-def notes(sent: Transmission) -> list[str]:
-    """Describe what the circuit's values are based on, and what to beware of."""
+def circuit_notes(sent: Transmission) -> list[str]:
+    """Explain the values of the circuit, and warn of flicker and bright light."""
     board = sent.board
     edge = SECOND.format(board.rise_time, 2)
     fraction = 100 * board.rise_time / float(sent.timing.period)
     return [
-        f"A: {board.gate_resistor} Ω limit the current of the pin ({board.volts:g} V) into the "
+        f"A: {board.gate_resistor} Ω limit the current from the pin ({board.volts:g} V) into the "
         f"gate to {1e3 * board.volts / board.gate_resistor:.2g} mA; it may give "
-        f"{1e3 * board.pin_current:g} mA. With the {1e9 * GATE_CAPACITANCE:g} nF that are assumed "
-        f"of the gate its voltage rises within {edge}, {fraction:.2g} % of a chip. "
+        f"{1e3 * board.pin_current:g} mA. With the assumed {1e9 * GATE_CAPACITANCE:g} nF of the "
+        f"gate, its voltage rises within {edge}, {fraction:.2g} % of a chip. "
         f"{PULL_DOWN // 1000} kΩ keep the panel dark while the board starts.",
         f"MOSFET: n-channel, fully on at {board.volts:g} V. Panel: LEDs with resistors for a "
         "constant voltage. One with a driver or a capacitor inside does not follow the chips.",
         f"B, without a panel: {board.led_resistor} Ω give {1e3 * board.led_current:.2g} mA in an "
-        f"LED of {LED_VOLTS:g} V (red, assumed; {1e3 * LED_CURRENT:g} mA aimed at).",
+        f"LED of {LED_VOLTS:g} V (assumed, red); the target is {1e3 * LED_CURRENT:g} mA.",
         "",
         f"Caution. {flicker_sentence(sent)} {EYES}",
     ]
@@ -134,7 +134,7 @@ def _draw_panel(axes: Axes, board: TransmitterBoard) -> None:
         drawing.add(panel.at(mosfet.drain))
         drawing.add(elements.Line().at(panel.top).right(3.4))
         drawing.add(elements.Battery().toy(pull_down.end).reverse().label("12 V", "bottom"))
-        # The board's ground, the MOSFET's source and the supply's minus are one wire.
+        # The board's ground, the MOSFET's source and the supply's minus are connected.
         drawing.add(elements.Line().tox(mosfet.source))
         drawing.add(elements.Dot())
         drawing.add(elements.Line().tox(pull_down.end))

@@ -20,21 +20,21 @@ from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
 from occ_model.teaching.packet_fields import threshold_levels
 
-MOST_CELLS = 900  # maximum cells on each side of a printed picture: print resolves no more
+MOST_CELLS = 900  # most cells on each side of a printed picture, as print resolves no more
 
-_PHOTO = "photo, fitted levels"  # its profile has the mean and the contrast of the simulation's
-_CAPTION_SIZE = 7  # points of a caption's letters
-_MIN_HEIGHT = 1.3  # inches of a figure of a flat picture, with the texts above and below it
+_PHOTO = "photo, fitted levels"  # with the mean and the contrast of the simulation's profile
+_CAPTION_SIZE = 7  # points, of a caption's letters
+_MIN_HEIGHT = 1.3  # inches, of the figure of a flat picture with the texts above and below it
 
-_AXIS_OF_RESIDUAL = 2.0  # axis of a residual as a multiple of what most columns stay within
+_AXIS_OF_RESIDUAL = 2.0  # axis of a residual, as a multiple of the limit for most columns
 _CAPTION_PARAMETERS = ("exposure_time", "switching_frequency", "readout_time", "distance")
 
 
 def caption(scene: Scene) -> str:
-    return ", ".join(_named_values(scene))
+    return ", ".join(_caption_values(scene))
 
 
-def _named_values(scene: Scene) -> list[str]:
+def _caption_values(scene: Scene) -> list[str]:
     values = []
     for name in _CAPTION_PARAMETERS:
         declared = PARAMETERS[name]
@@ -45,14 +45,14 @@ def _named_values(scene: Scene) -> list[str]:
 
 def write_caption(figure: Figure, scene: Scene, about: str = "") -> None:
     """Write the caption of a figure: its scene, and a sentence ``about`` its photo."""
-    # Spaces that may not break: lines end after a comma only.
-    values = [value.replace(" ", "\xa0") for value in _named_values(scene)]
+    # With non-breaking spaces, lines end only after a comma.
+    values = [value.replace(" ", "\xa0") for value in _caption_values(scene)]
     text = "\n".join(filter(None, (", ".join(values), about)))
-    # A file's name may hold what would be read as a formula.
+    # A file's name may contain characters of a formula.
     figure.supxlabel(text, fontsize=_CAPTION_SIZE, parse_math=False)
 
 
-def _told(scene: Scene, about: str) -> str:
+def _caption_with(scene: Scene, about: str) -> str:
     return f"{caption(scene)}; {about}" if about else caption(scene)
 
 
@@ -60,16 +60,16 @@ def picture_drawing(
     frame: Frame,
     region: Region | None = None,
     photo: ByteArray | None = None,
-    whose: str = PICTURES[0],
+    picture_kind: str = PICTURES[0],
     layer: PhotoLayer | Difference | None = None,
     about: str = "",
 ) -> Drawing:
-    """Draw a simulated picture, with the decoder's region and a photo beside it or in a ``layer``.
+    """Draw a simulated picture with the decoder's region, and a photo beside it or in a ``layer``.
 
-    The table holds the means of cells of pixels, as small as print can resolve.
+    The table has the means of cells of pixels as small as print can resolve.
     """
-    image, name = frame.picture(whose), frame.picture_title(whose)
-    cells, size = _cells(image)
+    image, name = frame.picture(picture_kind), frame.picture_title(picture_kind)
+    cells, size = _average_cells(image)
     laid = "" if photo is None or layer is None else f"; {layer.words}"
     title_of_picture = f"{name}{laid}"
     difference = layer if isinstance(layer, Difference) else None
@@ -85,12 +85,12 @@ def picture_drawing(
                 show_picture(ax, picture)
             else:
                 difference.draw(ax)
-                _label(ax)
+                _label_axes(ax)
             ax.set_title("Photo" if picture is photo else title_of_picture, fontsize=9)
         if photo is not None and isinstance(layer, PhotoLayer):
             seen = photo[layer.first_row(len(photo)) :]
             if len(seen):
-                lay_over(axes[0], _cells(seen)[0], layer, photo.shape)
+                lay_over(axes[0], _average_cells(seen)[0], layer, photo.shape)
         if region is not None:
             corner = (region.first_column - 0.5, region.first_row - 0.5)
             style: dict[str, Any] = {"fill": False, "linewidth": 1.0, "color": colours.REGION}
@@ -99,20 +99,22 @@ def picture_drawing(
         return figure
 
     if difference is not None:
-        title = f"{name}; its difference from the photo in levels: {_told(frame.scene, about)}"
-        return _of_cells(title, draw, difference.levels, *difference.centres())
+        title = (
+            f"{name}; its difference from the photo in levels: {_caption_with(frame.scene, about)}"
+        )
+        return _cells_drawing(title, draw, difference.levels, *difference.centres())
     down, across = (size * (np.arange(float(count)) + 0.5) - 0.5 for count in cells.shape)
-    return _of_cells(f"{name}: {_told(frame.scene, about)}", draw, cells, down, across)
+    return _cells_drawing(f"{name}: {_caption_with(frame.scene, about)}", draw, cells, down, across)
 
 
-def _of_cells(
+def _cells_drawing(
     title: str,
     draw: Callable[[], Figure],
     cells: FloatArray,
     down: FloatArray,
     across: FloatArray,
 ) -> Drawing:
-    """Draw a picture; its table holds the cells, by the cells' centres."""
+    """Make the drawing of a picture, whose table has the cells by their centres."""
 
     def rows() -> Iterable[tuple[object, ...]]:
         for row, values in zip(down.tolist(), cells.tolist(), strict=True):
@@ -122,8 +124,8 @@ def _of_cells(
     return Drawing("picture", title, draw, ("row", *columns), rows)
 
 
-def _cells(image: ByteArray) -> tuple[FloatArray, int]:
-    """Average a picture over square cells as large as print needs; return their side, too."""
+def _average_cells(image: ByteArray) -> tuple[FloatArray, int]:
+    """Average a picture over square cells as small as print resolves; return also their side."""
     size = -(-max(image.shape) // MOST_CELLS)
     rows, columns = image.shape[0] // size, image.shape[1] // size
     whole = image[: rows * size, : columns * size]
@@ -133,20 +135,20 @@ def _cells(image: ByteArray) -> tuple[FloatArray, int]:
 
 
 def show_picture(ax: Axes, picture: ByteArray) -> None:
-    """Draw a picture in as many cells as print resolves, its first pixel's centre at (0, 0)."""
+    """Draw a picture in cells as small as print resolves, its first pixel's centre at (0, 0)."""
     rows, columns = picture.shape
     extent = (-0.5, columns - 0.5, rows - 0.5, -0.5)
-    ax.imshow(_cells(picture)[0], cmap="gray", vmin=0, vmax=255, extent=extent)
-    _label(ax)
+    ax.imshow(_average_cells(picture)[0], cmap="gray", vmin=0, vmax=255, extent=extent)
+    _label_axes(ax)
 
 
-def _label(ax: Axes) -> None:
+def _label_axes(ax: Axes) -> None:
     ax.set_xlabel("column")
     ax.set_ylabel("row")
     ax.tick_params(labelsize=7)
 
 
-def profile_drawing(  # noqa: PLR0913 - all but the first two have defaults
+def profile_drawing(  # noqa: PLR0913 - all but two have defaults
     frame: Frame,
     band: FloatArray | None,
     undefined: str = "",
@@ -157,19 +159,19 @@ def profile_drawing(  # noqa: PLR0913 - all but the first two have defaults
     decoded: DecodeResult | None = None,
     about: str = "",
 ) -> Drawing:
-    """Draw the column profiles, and the photo's residual under them; the table holds all columns.
+    """Draw the column profiles, and the photo's residual below them; the table has all columns.
 
-    ``undefined``: why there is no ``band``. ``enhanced``: whether the profiles are those after the
-    receiver's enhancement; ``band`` and ``comparison`` are so already.
+    ``undefined`` is the reason why there is no ``band``. With ``enhanced`` the profiles are those
+    after the receiver's enhancement, to which ``band`` and ``comparison`` must already belong.
     """
     simulated = frame.signal if enhanced else frame.profile
     lines: dict[str, FloatArray | None] = {
         "simulation": simulated,
         "band model": band,
-        _PHOTO: None if comparison is None else _placed(comparison, len(frame.profile)),
+        _PHOTO: None if comparison is None else _place_profile(comparison, len(frame.profile)),
     }
     shown = {name: values for name, values in lines.items() if values is not None}
-    threshold = None if decoded is None else _threshold_among(simulated, decoded, enhanced)
+    threshold = None if decoded is None else _place_threshold(simulated, decoded, enhanced)
 
     def draw() -> Figure:
         figure = _profile_figure(shown, undefined, comparison, columns, enhanced, threshold)
@@ -182,10 +184,10 @@ def profile_drawing(  # noqa: PLR0913 - all but the first two have defaults
 
     header = ("column", *(f"{name} (grey level)" for name in shown))
     what = "Column profile after the receiver's enhancement" if enhanced else "Column profile"
-    return Drawing("profile", f"{what}: {_told(frame.scene, about)}", draw, header, rows)
+    return Drawing("profile", f"{what}: {_caption_with(frame.scene, about)}", draw, header, rows)
 
 
-def _threshold_among(simulated: FloatArray, decoded: DecodeResult, enhanced: bool) -> float | None:
+def _place_threshold(simulated: FloatArray, decoded: DecodeResult, enhanced: bool) -> float | None:
     between = threshold_levels(simulated, decoded)
     if between is None or decoded.threshold is None:
         return None
@@ -200,7 +202,7 @@ def _profile_figure(
     enhanced: bool,
     threshold: float | None,
 ) -> Figure:
-    """Draw some columns of profiles, and the residual of the photo's under them."""
+    """Draw some columns of profiles, and the photo's residual below them."""
     styles = {"simulation": SIMULATION, "band model": BAND, _PHOTO: PHOTO}
     figure = Figure(figsize=(7.2, 2.9 if comparison is None else 4.0))
     ratios = (1,) if comparison is None else (3, 1)
@@ -220,7 +222,7 @@ def _profile_figure(
         residual = lines[_PHOTO] - lines["simulation"]
         axes[1].axhline(0.0, color="grey", linewidth=0.5)
         axes[1].plot(column, residual[part], linewidth=0.9, color=colours.PHOTO)
-        axes[1].set_ylabel("photo less\nsimulation")
+        axes[1].set_ylabel("photo minus\nsimulation")
         message = f"correlation {comparison.correlation:.4f}, RMSE {comparison.rmse:.2f} levels"
         shown = max(_AXIS_OF_RESIDUAL * comparison.usual_residual, 1.0)
         if comparison.largest_residual > shown:
@@ -232,8 +234,8 @@ def _profile_figure(
     return figure
 
 
-def _placed(comparison: Comparison, columns: int) -> FloatArray:
-    """Return a photo's profile over all columns of the simulation, NaN outside it."""
+def _place_profile(comparison: Comparison, columns: int) -> FloatArray:
+    """Place a photo's profile among all columns of the simulation, with NaN outside it."""
     placed = np.full(columns, np.nan)
     first = comparison.first_column
     placed[first : first + len(comparison.photo)] = comparison.photo

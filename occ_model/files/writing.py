@@ -62,7 +62,7 @@ def _format_of(path: Path) -> str:
     if format_name is None:
         *endings, last = PICTURE_ENDINGS
         raise OutputError(
-            f"{one_line(path.name)} has no ending of an image format; "
+            f"{one_line(path.name)} does not have the ending of an image format; "
             f"use {', '.join(endings)} or {last}."
         )
     return format_name

@@ -78,7 +78,7 @@ class Frame:
         """
         return self.estimate_errors() if self.estimate_errors else {"profile": 0.0, "signal": 0.0}
 
-    def picture(self, whose: str) -> ByteArray:
+    def picture(self, picture_kind: str) -> ByteArray:
         """Return the picture of the ``"camera"`` or the ``"receiver"``.
 
         Raises
@@ -86,12 +86,12 @@ class Frame:
         ParameterError
             It is neither.
         """
-        check_choice("picture", whose, PICTURES)
-        return self.camera_image if whose == "camera" else self.image
+        check_choice("picture", picture_kind, PICTURES)
+        return self.camera_image if picture_kind == "camera" else self.image
 
-    def picture_title(self, whose: str) -> str:
+    def picture_title(self, picture_kind: str) -> str:
         """Return the title of a picture, with the receiver's enhancement."""
-        if whose == "camera":
+        if picture_kind == "camera":
             return "Camera's picture"
         enhancement = self.scene.model.enhancement
         is_enhanced = enhancement != "none"

@@ -31,7 +31,7 @@ def check_scene_path(path: Path) -> None:
     """Refuse to save a scene in a file that does not have the ending of scene files."""
     if path.suffix.lower() != SCENE_ENDING:
         raise OutputError(
-            f"{one_line(str(path))} does not end as a scene file does; use {SCENE_ENDING}."
+            f"{one_line(str(path))} does not have the ending of a scene file; use {SCENE_ENDING}."
         )
 
 

@@ -79,7 +79,8 @@ def check_film_path(path: Path, rate: float, size: tuple[int, int] | None = None
     ending = path.suffix.lower()
     if ending not in FILM_ENDINGS:
         raise OutputError(
-            f"{one_line(path.name)} has no ending of a film; use {', '.join(FILM_ENDINGS)}."
+            f"{one_line(path.name)} does not have the ending of a film; "
+            f"use {', '.join(FILM_ENDINGS)}."
         )
     least, most = _RATES[ending]
     allowed = f"allowed in {'an' if ending.startswith('.m') else 'a'} {ending[1:].upper()} file"

@@ -14,7 +14,7 @@ from occ_model.boards.board import (
 from occ_model.boards.pico import PICO
 from occ_model.boards.sketch import BOARDS, board_named
 from occ_model.boards.transmission import SEIZURES, flicker_sentence, prepare_transmission
-from occ_model.figures.transmitter_files import notes, wiring_bytes
+from occ_model.figures.transmitter_files import circuit_notes, wiring_bytes
 
 PAPER = occ.load_preset("phone-68us")
 
@@ -68,6 +68,6 @@ def test_the_figure_says_pin_resistors_and_caution() -> None:
     drawn = {line.strip(" <!->") for line in svg.splitlines() if line.strip().startswith("<!--")}
     assert {board.pin, board.ground, board.transistor} <= drawn
     assert {f"{board.gate_resistor} Ω", f"{board.led_resistor} Ω"} <= drawn
-    text = " ".join(notes(sent))
+    text = " ".join(circuit_notes(sent))
     assert flicker_sentence(sent) in text
     assert "Do not look into a bright LED" in text

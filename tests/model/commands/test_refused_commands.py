@@ -72,14 +72,14 @@ READING = {
     "match 0.png p.png --known 0.png=2kHz --known 0.png=3kHz": "0.png is given again, as 3kHz; ",
 }
 
-NO_SCENE = "does not end as a scene file does; use .toml."
-NO_TABLE = "has no ending of a table; use .csv."
+NO_SCENE = "does not have the ending of a scene file; use .toml."
+NO_TABLE = "does not have the ending of a table; use .csv."
 
 WRITING = {
     "render -o missing/out.png": "missing/out.png cannot be written: name a file in a folder ",
     "render -o folder.png": "folder.png is a folder; name a file to write to.",
-    "render -o out.xyz": "out.xyz has no ending of an image format; use .png, ",
-    "film -o film.avi": "film.avi has no ending of a film",
+    "render -o out.xyz": "out.xyz does not have the ending of an image format; use .png, ",
+    "film -o film.avi": "film.avi does not have the ending of a film",
     "match 0.png p.png --out nowhere/x.csv": "name a file in a folder that is there",
     "match 0.png p.png --out folder.csv": "name a file to write to",
     "figures --out p.png/new": "cannot be made",
@@ -104,7 +104,7 @@ SAME_FILE = {
     "match p.png w.csv --out w.csv": "the same file as one of the photos; ",
     "match p.png w.csv --out w.png": NO_TABLE,
     "match p.png --scene s.toml --out s.toml": "the same file as the file of --scene; ",
-    "match p.png --out t.csv": "t.csv does not end as a scene file does; use .toml.",
+    "match p.png --out t.csv": "t.csv does not have the ending of a scene file; use .toml.",
     "render -o q.png --save-scene q.png": "--out and --save-scene are the same file, ",
     "render -o q.png --save-scene dangling.toml": "--out and --save-scene are the same file, ",
     "render -o p.png --save-scene hard.toml": "--out and --save-scene are the same file, ",

@@ -233,9 +233,9 @@ def test_what_the_model_refuses_is_grey_in_a_map(tmp_path: Path) -> None:
 
 
 def test_what_cannot_be_drawn_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(ParameterError, match="varies iso, bits, rows; allowed to be drawn: one"):
+    with pytest.raises(ParameterError, match="varies iso, bits, rows; allowed in a figure: one"):
         write_sweep_figure(tmp_path / "f.png", table_of(iso=[100.0], bits=[10], rows=[100]))
-    with pytest.raises(OutputError, match=r"no ending of a figure; use \.png, "):
+    with pytest.raises(OutputError, match=r"not have the ending of a figure; use \.png, "):
         write_sweep_figure(tmp_path / "f.gif", table_of(iso=[100.0]))
     assert list(tmp_path.iterdir()) == []
 

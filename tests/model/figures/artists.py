@@ -1,4 +1,4 @@
-"""Describe a figure in lines of text: what is drawn, where, how large and in which colours."""
+"""Describe a figure in lines of text: what is drawn, where, how large, in which colours."""
 
 from collections.abc import Iterator
 from itertools import combinations
@@ -22,8 +22,8 @@ from occ_model.arrays import FloatArray
 from occ_model.figures.page import fit_texts
 
 
-def cut_off(figure: Figure) -> list[str]:
-    """Name what of a figure, fitted as for a file, is not inside its page or over another title."""
+def find_cut_texts(figure: Figure) -> list[str]:
+    """Name the texts of a figure, fitted for a file, that leave the page or cover a title."""
     fit_texts(figure)
     figure.draw_without_rendering()
     page, ticks = figure.bbox.padded(1.0), _tick_labels(figure)
@@ -32,11 +32,11 @@ def cut_off(figure: Figure) -> list[str]:
         for text in figure.findobj(Text)
         if isinstance(text, Text) and text.get_text() and text.get_visible() and text not in ticks
     }
-    inside = {text: _holds(page, box) for text, box in boxes.items()}
+    inside = {text: _contains_box(page, box) for text, box in boxes.items()}
     said = [text.get_text() for text, is_inside in inside.items() if not is_inside]
-    # Tick labels of values that are not in view are not drawn, and count for nothing here.
+    # Tick labels of values outside the axes are not drawn, and do not count here.
     drawn = figure.get_tightbbox().transformed(figure.dpi_scale_trans)
-    said += [] if _holds(page, drawn) else [f"drawn to {drawn}"]
+    said += [] if _contains_box(page, drawn) else [f"drawn to {drawn}"]
     titles = [ax.title for ax in figure.axes if ax.title.get_text()]
     for one, other in combinations(titles, 2):
         said += [one.get_text()] if boxes[one].overlaps(boxes[other]) else []
@@ -48,34 +48,34 @@ def _tick_labels(figure: Figure) -> set[Text]:
     return {label for axis in axes for label in axis.get_ticklabels(which="both")}
 
 
-def _holds(page: BboxBase, box: BboxBase) -> bool:
+def _contains_box(page: BboxBase, box: BboxBase) -> bool:
     return page.x0 <= box.x0 and page.y0 <= box.y0 and box.x1 <= page.x1 and box.y1 <= page.y1
 
 
-def described(figure: Figure) -> list[str]:
-    """Describe every artist of a figure, but for what matplotlib adds by itself."""
+def describe_figure(figure: Figure) -> list[str]:
+    """Describe every artist of a figure, except those that matplotlib adds by itself."""
     lines = [f"figure {_numbers(figure.get_size_inches())}"]
-    lines += [line for text in figure.texts for line in _of(text)]
+    lines += [line for text in figure.texts for line in _describe_artist(text)]
     for name in ("_supxlabel", "_supylabel", "_suptitle"):
-        lines += _of(getattr(figure, name)) if getattr(figure, name) else []
+        lines += _describe_artist(getattr(figure, name)) if getattr(figure, name) else []
     for legend in figure.legends:
-        lines += _of(legend)
+        lines += _describe_artist(legend)
     for number, ax in enumerate(figure.axes):
-        lines += [f"axes {number} {line}" for line in _of_axes(ax)]
+        lines += [f"axes {number} {line}" for line in _describe_axes(ax)]
     return lines
 
 
-def _of_axes(ax: Axes) -> Iterator[str]:
+def _describe_axes(ax: Axes) -> Iterator[str]:
     shown = " ".join(name for name, spine in ax.spines.items() if spine.get_visible())
     yield f"{'on' if ax.axison else 'off'} {ax.get_aspect()} spines {shown}"
     for name, axis in (("x", ax.xaxis), ("y", ax.yaxis)):
-        yield from (f"{name} {line}" for line in _of_axis(axis))
+        yield from (f"{name} {line}" for line in _describe_axis(axis))
     for artist in ax.get_children():
         if not isinstance(artist, Axis) and artist is not ax.patch:
-            yield from _of(artist)
+            yield from _describe_artist(artist)
 
 
-def _of_axis(axis: Axis) -> Iterator[str]:
+def _describe_axis(axis: Axis) -> Iterator[str]:
     low, high = axis.get_view_interval()
     label = axis.get_label()
     yield f"{axis.get_scale()} from {_numbers([low, high])} label {label.get_text()!r} "
@@ -84,25 +84,25 @@ def _of_axis(axis: Axis) -> Iterator[str]:
 
 def _ticks(axis: Axis) -> str:
     how = axis.get_tick_params()
-    # Of places that were set, not found by a locator.
+    # Only ticks whose places were set, and not found by a locator.
     fixed = type(axis.get_major_locator()).__name__ == "FixedLocator"
     texts = [label.get_text() for label in axis.get_ticklabels()] if fixed else []
     places = _numbers(axis.get_ticklocs()) if fixed else ""
     return f"{how.get('labelsize')} {how.get('length')} {places} {texts}"
 
 
-def _of(artist: Artist) -> list[str]:
+def _describe_artist(artist: Artist) -> list[str]:
     if not artist.get_visible():
         return []
     if isinstance(artist, Legend):
-        texts = [line for text in artist.get_texts() for line in _of(text)]
-        handles = [line for handle in artist.legend_handles for line in _of(handle)]
+        texts = [line for text in artist.get_texts() for line in _describe_artist(text)]
+        handles = [line for handle in artist.legend_handles for line in _describe_artist(handle)]
         columns, place = (getattr(artist, name) for name in ("_ncols", "_loc"))
         return [f"legend {columns} frame {artist.get_frame_on()} {place}", *texts, *handles]
     if isinstance(artist, Text):
-        return _of_text(artist)
+        return _describe_text(artist)
     if isinstance(artist, Line2D):
-        return [_of_line(artist)]
+        return [_describe_line(artist)]
     if isinstance(artist, AxesImage):
         data: FloatArray = np.ma.filled(np.ma.asarray(artist.get_array(), dtype=float), np.nan)
         return [
@@ -125,10 +125,10 @@ def _of(artist: Artist) -> list[str]:
             f"{type(artist).__name__} {len(artist.get_paths())} {corners} {colours} "
             f"{_numbers(artist.get_linewidth())} {_numbers(_summary(artist.get_offsets()))}"
         ]
-    return [line for child in artist.get_children() for line in _of(child)]
+    return [line for child in artist.get_children() for line in _describe_artist(child)]
 
 
-def _of_text(text: Text) -> list[str]:
+def _describe_text(text: Text) -> list[str]:
     if not text.get_text():
         return []
     return [
@@ -138,7 +138,7 @@ def _of_text(text: Text) -> list[str]:
     ]
 
 
-def _of_line(line: Line2D) -> str:
+def _describe_line(line: Line2D) -> str:
     x, y = (np.asarray(part, dtype=float) for part in line.get_data())
     return (
         f"line {len(x)} {_numbers(_summary(x))} {_numbers(_summary(y))} "
@@ -150,7 +150,7 @@ def _of_line(line: Line2D) -> str:
 
 
 def _summary(values: Any) -> list[float]:
-    """Return all values where they are few, else what changes when one of them does."""
+    """Return all values if they are few, else numbers that change when any of them does."""
     flat: FloatArray = np.ma.filled(np.ma.asarray(values, dtype=float), np.nan).ravel()
     if flat.size <= 12:
         return flat.tolist()
@@ -170,7 +170,7 @@ def _colour(colour: Any) -> str:
 
 
 def is_alike(found: list[str], stored: list[str]) -> bool:
-    """Compare two descriptions, numbers by their values: their last digits differ by rounding."""
+    """Compare two descriptions, with numbers by value, since last digits differ by rounding."""
     return len(found) == len(stored) and all(map(_is_line_alike, found, stored))
 
 

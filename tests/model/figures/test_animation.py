@@ -1,4 +1,4 @@
-"""An animation has a frame for each value, opens in other programs, and is written whole."""
+"""An animation has a frame for each value, opens in other programs, and is written completely."""
 
 from pathlib import Path
 
@@ -38,7 +38,7 @@ def test_there_is_a_frame_for_each_value(tmp_path: Path, scene: Scene, ending: s
         assert [read for read, _ in frames] == [True, True, False]
         image = frames[0][1]
         assert np.ptp(image) > 200
-        dark_rows = np.mean(image[:, 200:800] < 128, axis=(1, 2)) > 0.9  # those of the picture
+        dark_rows = np.mean(image[:, 200:800] < 128, axis=(1, 2)) > 0.9  # the picture's columns
         assert 100 < np.count_nonzero(dark_rows) < 200
     else:
         with Image.open(path) as pictures:
@@ -61,7 +61,7 @@ def test_there_is_a_frame_for_each_value(tmp_path: Path, scene: Scene, ending: s
         ({"path": Path("/none/a.gif")}, "/none"),
     ],
 )
-def test_what_cannot_be_animated_is_refused(
+def test_animations_that_are_impossible_are_refused(
     tmp_path: Path, scene: Scene, changes: dict[str, object], words: str
 ) -> None:
     wanted = {"name": "switching_frequency", "values": VALUES, "path": tmp_path / "a.gif"} | changes
@@ -69,7 +69,7 @@ def test_what_cannot_be_animated_is_refused(
     done: list[int] = []
     with pytest.raises(occ.OccError, match=words):
         write_animation(path, scene, name, values, progress=done.append, **wanted)  # type: ignore[arg-type]
-    assert done == []  # told before the work, not after it
+    assert done == []  # refused before the work, not after it
     assert list(tmp_path.iterdir()) == []
 
 
@@ -94,7 +94,7 @@ def test_the_command_runs_there_and_back(monkeypatch: pytest.MonkeyPatch) -> Non
 
 
 def test_the_legend_says_where_the_band_model_is_undefined(scene: Scene) -> None:
-    drawing = animation.Drawing(quantity("switching_frequency"), 200.0)
+    drawing = animation.AnimatedFigure(quantity("switching_frequency"), 200.0)
     names = []
     for frequency in (8e3, 4e3):
         drawing.draw(occ.render(scene.replace(switching_frequency=frequency)), "threshold")

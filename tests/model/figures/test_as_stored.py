@@ -1,7 +1,7 @@
-"""Figures are drawn as their stored descriptions say: each text, line and patch, where and how.
+"""Figures match their stored descriptions of each text, line and patch.
 
-`pytest tests/model/figures/test_as_stored.py --renew-snapshots` stores them anew, after the figures
-were looked at. A description is text, so that a commit shows what has changed.
+`pytest tests/model/figures/test_as_stored.py --renew-snapshots` stores new descriptions; look at
+the figures first. Descriptions are texts, so that a commit shows what has changed.
 """
 
 from collections.abc import Callable
@@ -13,7 +13,7 @@ import pytest
 from accuracy_points import EACH_WAY
 from matches import match_with
 from matplotlib.figure import Figure
-from model.figures.artists import cut_off, described, is_alike
+from model.figures.artists import describe_figure, find_cut_texts, is_alike
 
 import occ_model as occ
 from occ_model.boards.arduino import UNO
@@ -51,14 +51,14 @@ Compare = Callable[..., None]
 
 @pytest.fixture
 def is_as_stored(request: pytest.FixtureRequest) -> Callable[..., None]:
-    """Compare a figure with its stored description, or store it anew under --renew-snapshots.
+    """Compare a figure with its stored description, or store a new one with --renew-snapshots.
 
-    Placing all texts takes far longer: every day only `test_page.py` does so.
+    Placing all texts takes much longer, which only `test_page.py` does.
     """
 
     def compare(name: str, figure: Figure, *more: object) -> None:
-        lines = [*described(figure), *map(str, more)]
-        assert not (request.config.getoption("--whole") and cut_off(figure))
+        lines = [*describe_figure(figure), *map(str, more)]
+        assert not (request.config.getoption("--whole") and find_cut_texts(figure))
         path = STORED / f"{name}.txt"
         if request.config.getoption("--renew-snapshots"):
             path.write_text("\n".join(lines) + "\n", encoding="utf-8")
@@ -71,7 +71,7 @@ def is_as_stored(request: pytest.FixtureRequest) -> Callable[..., None]:
     return compare
 
 
-def drawn(drawing: Drawing) -> Figure:
+def draw_in_style(drawing: Drawing) -> Figure:
     with house_style():
         return drawing.draw()
 
@@ -90,7 +90,7 @@ def test_the_circuit_of_a_board(board: TransmitterBoard, is_as_stored: Compare) 
 
 def test_the_errors_over_the_time(is_as_stored: Compare) -> None:
     drawing = accuracy_drawing(EACH_WAY)
-    is_as_stored("accuracy", drawn(drawing), *drawing.header, *drawing.rows())
+    is_as_stored("accuracy", draw_in_style(drawing), *drawing.header, *drawing.rows())
 
 
 def test_the_bit_errors_of_a_bench(is_as_stored: Compare) -> None:
@@ -110,7 +110,7 @@ def test_the_bit_errors_of_a_bench(is_as_stored: Compare) -> None:
         for decoder, wrong in (("threshold", 250 * step + 20), ("sequence", 30 * step))
     ]  # fmt: skip
     drawing = bench_drawing(request, points, 30.0)
-    is_as_stored("bench", drawn(drawing), *drawing.header, *drawing.rows())
+    is_as_stored("bench", draw_in_style(drawing), *drawing.header, *drawing.rows())
 
 
 def test_what_films_carry(is_as_stored: Compare) -> None:
@@ -123,11 +123,11 @@ def test_what_films_carry(is_as_stored: Compare) -> None:
     ]  # fmt: skip
     points.append(FilmPoint(9e3, 0.2, 10, 54, 0, 0, 0, 0.0, 0.0, None, False, "It is too fast."))
     drawing = films_drawing(points)
-    is_as_stored("films", drawn(drawing), *drawing.header, *drawing.rows())
+    is_as_stored("films", draw_in_style(drawing), *drawing.header, *drawing.rows())
 
 
 def table_of(axes: dict[str, tuple[float, ...]]) -> SweepTable:
-    """Return rates of two decoders that fall along the axes; the last point is refused."""
+    """Return rates of two decoders that decrease along the axes; the last point is refused."""
     decoders = ("threshold", "matched")
     shape = tuple(map(len, axes.values()))
     sent = np.full(shape, 100)
@@ -155,7 +155,7 @@ DISTANCES = (0.5, 1.0, 1.5, 2.0)
 def test_the_rates_of_a_sweep(count: int, shown: Shown, is_as_stored: Compare) -> None:
     axes = {"switching_frequency": FREQUENCIES, "distance": DISTANCES}
     drawing = sweep_drawing(table_of(dict(list(axes.items())[:count])), shown)
-    is_as_stored(f"sweep-{count}-{shown}", drawn(drawing), *drawing.header, *drawing.rows())
+    is_as_stored(f"sweep-{count}-{shown}", draw_in_style(drawing), *drawing.header, *drawing.rows())
 
 
 def test_the_papers_maps_of_rates(is_as_stored: Compare, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -165,8 +165,8 @@ def test_the_papers_maps_of_rates(is_as_stored: Compare, monkeypatch: pytest.Mon
     is_as_stored("paper-rates", figure)
 
 
-class Written:
-    """Takes what is written in place of files."""
+class KeptFigures:
+    """Keeps figures and tables that would be written to files."""
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.figures: list[Figure] = []
@@ -187,7 +187,7 @@ class Written:
 def test_the_papers_process_and_profile(
     is_as_stored: Compare, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    written = Written(monkeypatch)
+    written = KeptFigures(monkeypatch)
     with house_style():
         paper.write_process_figure(tmp_path)
         paper.write_profile_figure(tmp_path, 3, "phone-68us", None)
@@ -203,25 +203,25 @@ def test_the_papers_process_and_profile(
 def test_the_steps_of_a_decoder(decoder: str, frame: Frame, is_as_stored: Compare) -> None:
     drawing = decode_drawing(SCENE, occ.decode(frame.image, SCENE, decoder))
     rows = [row for place, row in enumerate(drawing.rows()) if place % 97 == 0]
-    is_as_stored(f"decoding-{decoder}", drawn(drawing), *drawing.header, *rows)
+    is_as_stored(f"decoding-{decoder}", draw_in_style(drawing), *drawing.header, *rows)
 
 
-def test_a_decoding_that_came_nowhere(is_as_stored: Compare) -> None:
+def test_a_decoding_that_failed_at_once(is_as_stored: Compare) -> None:
     result = occ.DecodeResult("threshold", failure="The panel is not in the picture.")
     drawing = decode_drawing(SCENE, result)
-    is_as_stored("decoding-failed", drawn(drawing), *drawing.header, *drawing.rows())
+    is_as_stored("decoding-failed", draw_in_style(drawing), *drawing.header, *drawing.rows())
 
 
 def test_the_picture_and_its_profile(frame: Frame, is_as_stored: Compare) -> None:
     region = occ.decode(frame.image, SCENE).region
     picture = picture_drawing(frame, region, frame.image, about="the same again")
-    is_as_stored("picture", drawn(picture), *list(picture.rows())[:2])
+    is_as_stored("picture", draw_in_style(picture), *list(picture.rows())[:2])
     photo = occ.compare(frame.profile[800:2000] * 0.7 + 3.0, frame.profile, 800.0)
     profile = profile_drawing(frame, occ.band_profile(SCENE), comparison=photo)
     rows = [row for place, row in enumerate(profile.rows()) if place % 97 == 0]
-    is_as_stored("profile", drawn(profile), *profile.header, *rows)
+    is_as_stored("profile", draw_in_style(profile), *profile.header, *rows)
     plain = profile_drawing(frame, None, "It is undefined.", columns=slice(400, 900))
-    is_as_stored("profile-alone", drawn(plain))
+    is_as_stored("profile-alone", draw_in_style(plain))
 
 
 def test_a_page_of_a_report(is_as_stored: Compare) -> None:
@@ -239,5 +239,5 @@ def test_a_page_of_a_report(is_as_stored: Compare) -> None:
 def test_the_bars_and_the_flicker(is_as_stored: Compare) -> None:
     lamp = SCENE.replace(pattern="1110", switching_frequency=800.0, exposure_time=2e-3)
     bars, flicker = bands_drawing(lamp), flicker_drawing(lamp)
-    is_as_stored("bands", drawn(bars), *bars.header, *islice(bars.rows(), 3))
-    is_as_stored("flicker", drawn(flicker), *flicker.header, *flicker.rows())
+    is_as_stored("bands", draw_in_style(bars), *bars.header, *islice(bars.rows(), 3))
+    is_as_stored("flicker", draw_in_style(flicker), *flicker.header, *flicker.rows())

@@ -1,4 +1,4 @@
-"""What a user has set for figures of their own does not reach the figures of this package."""
+"""A user's settings for their own figures do not affect the figures of this package."""
 
 import os
 import shutil
@@ -36,8 +36,8 @@ if __name__ == "__main__":
 TASTE = "text.usetex: true\nlines.linewidth: 9\nfigure.facecolor: red\nfont.family: nowhere\n"
 
 
-def drawn(folder: Path, program: str = DRAW, **environment: str) -> list[str]:
-    """Draw a figure in a process of its own; return the hash of its file, and the backend."""
+def run_drawing(folder: Path, program: str = DRAW, **environment: str) -> list[str]:
+    """Draw a figure in a new process; return the hash of its file, and the backend."""
     done = subprocess.run(
         [sys.executable, "-W", "error", "-c", program],
         cwd=folder,
@@ -58,7 +58,7 @@ def draw() -> Callable[[], str]:
     return program["draw"]
 
 
-def taste(path: Path) -> Path:
+def user_settings(path: Path) -> Path:
     path.write_text(TASTE, encoding="utf-8")
     return path
 
@@ -69,28 +69,30 @@ def taste(path: Path) -> Path:
 def test_no_settings_file_reaches_a_figure_and_the_backend_stays_that_of_the_environment(
     tmp_path: Path, draw: Callable[[], str], variable: str
 ) -> None:
-    """One lies in the working folder, another is named; the backend is for the user's figures."""
+    """One file is in the working folder, one is named; the backend is for the user's figures."""
     work, settings = tmp_path / "work", tmp_path / "settings"
     work.mkdir()
-    taste(work / "matplotlibrc")
+    user_settings(work / "matplotlibrc")
     settings.write_bytes(b"lines.linewidth: 2 # \xff\xfe\n")
-    place = settings if variable == "MATPLOTLIBRC" else taste(tmp_path / "matplotlibrc").parent
+    place = (
+        settings if variable == "MATPLOTLIBRC" else user_settings(tmp_path / "matplotlibrc").parent
+    )
     for fonts in Path(mpl.get_cachedir()).glob("fontlist*.json"):
-        shutil.copy(fonts, tmp_path)  # to look for all fonts again takes seconds
-    found = drawn(work, MPLBACKEND="svg", **{variable: str(place)})
+        shutil.copy(fonts, tmp_path)  # searching for all fonts again takes seconds
+    found = run_drawing(work, MPLBACKEND="svg", **{variable: str(place)})
     assert found == [draw(), "svg", "svg\n"]
 
 
-def test_where_matplotlib_can_write_nowhere_a_sentence_says_so(tmp_path: Path) -> None:
-    nowhere = str(taste(tmp_path / "file") / "folder")
+def test_a_sentence_says_that_matplotlib_can_write_nowhere(tmp_path: Path) -> None:
+    nowhere = str(user_settings(tmp_path / "file") / "folder")
     program = (
         "import tempfile\n"
         f"tempfile.tempdir = {nowhere!r}\n"
         "from occ_model.errors import OutputError\n"
         "try:\n    import occ_model.figures\nexcept OutputError as error:\n    print(error)\n"
     )
-    said = " ".join(drawn(tmp_path, program, MPLCONFIGDIR=nowhere))
-    assert said.startswith("Figures cannot be drawn: matplotlib does not start: ")
+    said = " ".join(run_drawing(tmp_path, program, MPLCONFIGDIR=nowhere))
+    assert said.startswith("Figures cannot be drawn, as matplotlib does not start: ")
     assert said.count("\n") == 1
 
 

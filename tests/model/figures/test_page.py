@@ -1,4 +1,4 @@
-"""Every text of a figure is inside its page, however long it is and whatever its language."""
+"""Every text of a figure is inside its page, whatever its length and language."""
 
 from collections.abc import Callable
 
@@ -7,15 +7,15 @@ import pytest
 from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties
 from matplotlib.text import Text
-from model.figures.artists import cut_off
-from model.figures.test_text_from_files import lesson_saying
+from model.figures.artists import find_cut_texts
+from model.figures.test_text_from_files import make_lesson
 
 import occ_model as occ
 from occ_model.figures.decoding import decode_drawing
 from occ_model.figures.drawing import figure_bytes, house_style
 from occ_model.figures.lesson_report import draw_page
 from occ_model.figures.overlay import Difference, PhotoLayer
-from occ_model.figures.page import lines_within
+from occ_model.figures.page import break_lines
 from occ_model.figures.window_panes import picture_drawing, profile_drawing
 from occ_model.results.frame import Frame
 from occ_model.scene.provenance import Provenance
@@ -36,16 +36,16 @@ TEXTS = {
 
 @pytest.fixture(scope="module")
 def frames() -> tuple[Frame, ...]:
-    """Return a flat picture and a high one."""
+    """Return a wide picture and a high one."""
     return tuple(occ.render(SCENE.replace(rows=rows), tolerance=np.inf) for rows in (60, 1600))
 
 
 def pages(text: str, frames: tuple[Frame, ...]) -> list[Callable[[], Figure]]:
-    """Return functions that draw a text of a user in each figure that can have one."""
+    """Return functions that put a user's text into each figure that can have one."""
     flat, high = frames
     difference = Difference(np.zeros((10, 20)), (0.0, 20.0, 10.0, 0.0), 4)
     layer = PhotoLayer(from_row=20.0)
-    lesson, steps = lesson_saying(text)
+    lesson, steps = make_lesson(text)
     return [
         picture_drawing(flat, None, high.image, "camera", difference, text).draw,
         profile_drawing(flat, None, text, about=text).draw,
@@ -62,14 +62,14 @@ EACH = [(name, number) for name in TEXTS for number in range(6)]
 @pytest.mark.parametrize(
     ("name", "number"),
     [
-        # Every day five of the texts, in five of the figures.
+        # Without --whole, five of the texts in five of the figures.
         pytest.param(*each, marks=() if place % 11 == 0 else pytest.mark.whole)
         for place, each in enumerate(EACH)
     ],
 )
 def test_no_text_of_a_user_is_cut_off(name: str, number: int, frames: tuple[Frame, ...]) -> None:
     with house_style():
-        assert not cut_off(pages(TEXTS[name], frames)[number]())
+        assert not find_cut_texts(pages(TEXTS[name], frames)[number]())
 
 
 def test_a_file_has_the_texts_that_were_fitted_to_its_page() -> None:
@@ -81,8 +81,8 @@ def test_a_file_has_the_texts_that_were_fitted_to_its_page() -> None:
     assert added > 3
     line = 1.2 * float(title.get_fontsize()) / 72.0
     assert figure.get_figheight() == pytest.approx(2.0 + added * line)
-    assert not cut_off(figure)
-    # The axes have the places that the layout gives them on the page as it became.
+    assert not find_cut_texts(figure)
+    # The axes are where the layout puts them on the final page.
     placed = figure.axes[0].get_position().bounds
     figure.set_layout_engine("constrained")
     figure.draw_without_rendering()
@@ -90,7 +90,7 @@ def test_a_file_has_the_texts_that_were_fitted_to_its_page() -> None:
 
 
 def test_a_room_narrower_than_a_letter_ends_the_search_for_lines() -> None:
-    assert lines_within("two words", 1e-3, FontProperties(), 3) == ["t", "w", "…"]
+    assert break_lines("two words", 1e-3, FontProperties(), 3) == ["t", "w", "…"]
 
 
 def test_letters_come_from_any_font_that_has_them() -> None:
@@ -102,8 +102,8 @@ def test_letters_come_from_any_font_that_has_them() -> None:
     assert nowhere.get_text() == "a□"
 
 
-def test_a_page_of_a_report_ends_what_has_no_room_in_an_ellipsis() -> None:
-    lesson, steps = lesson_saying(TEXTS["long"])
+def test_a_text_without_space_on_a_report_s_page_ends_in_an_ellipsis() -> None:
+    lesson, steps = make_lesson(TEXTS["long"])
     with house_style():
         page = draw_page(lesson.title, "about", "the foot", steps, 1)
     heading = page.texts[0].get_text()

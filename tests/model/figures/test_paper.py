@@ -20,10 +20,10 @@ def write_all_figures(folder: Path, patch: pytest.MonkeyPatch) -> None:
     for module in (paper, paper_grid):
         patch.setattr(module, "FREQUENCIES", paper_grid.FREQUENCIES[::5])
         patch.setattr(module, "DISTANCES", paper_grid.DISTANCES[::5])
-    written = drawing.fitted_bytes
-    if not amount(0, 1):  # every day without PDFs
+    written = drawing.encode_figure
+    if not amount(0, 1):  # without PDFs unless --whole
         patch.setattr(
-            drawing, "fitted_bytes", lambda *each: b"" if each[1] == "pdf" else written(*each)
+            drawing, "encode_figure", lambda *each: b"" if each[1] == "pdf" else written(*each)
         )
     assert main(["figures", "--out", str(folder), "--images", "1", "--seed", "3"]) == 0
 
@@ -42,7 +42,7 @@ def rows(path: Path) -> list[dict[str, str]]:
 def test_the_figures_carry_their_scene_and_the_numbers_that_are_drawn(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """One test: writing the figures takes most of its time."""
+    """A single test, since writing the figures takes most of its time."""
     folder = tmp_path / "deep" / "folder"
     write_all_figures(folder, monkeypatch)
     for number in range(2, 7):

@@ -1,4 +1,4 @@
-"""Parts of figures: ends of intervals, symbols, and what a report has room for."""
+"""Parts of figures: ticks, ends of axes, legends, and names."""
 
 from dataclasses import replace
 from types import SimpleNamespace
@@ -15,7 +15,7 @@ from occ_model.figures.accuracy import accuracy_drawing
 from occ_model.figures.decoding import decode_drawing
 from occ_model.figures.drawing import house_style
 from occ_model.figures.page import fit_texts
-from occ_model.figures.paper import padded, shown_columns
+from occ_model.figures.paper import choose_columns, pad_profile
 from occ_model.figures.room import room_drawing
 from occ_model.figures.sweep import sweep_drawing
 from occ_model.results.decoding import Region
@@ -29,14 +29,14 @@ def test_a_profile_begins_with_the_first_column_whose_middle_shows_the_panel(
     left: float, first: int
 ) -> None:
     frame = SimpleNamespace(corners=np.array([[left, 2.0], [300.0, 2.0]]), profile=np.zeros(4000))
-    shown, end = shown_columns(Scene(), frame)  # type: ignore[arg-type]
+    shown, end = choose_columns(Scene(), frame)  # type: ignore[arg-type]
     assert shown == first
     assert first < end <= 4000
 
 
 @pytest.mark.parametrize("length", [2, 4, 9])
 def test_a_photos_profile_has_the_columns_of_the_simulated_one(length: int) -> None:
-    found = padded(np.array([1.0, 2.0, 3.0, 4.0]), length)
+    found = pad_profile(np.array([1.0, 2.0, 3.0, 4.0]), length)
     assert len(found) == length
     assert found[:4].tolist() == [1.0, 2.0, 3.0, 4.0][:length]
     assert np.isnan(found[4:]).all()
@@ -47,7 +47,7 @@ EXPOSURES = np.linspace(33e-6, 97e-6, 11).tolist()
 
 
 def values_at(axis: Axis, cells: list[float]) -> dict[float, float]:
-    """Return for every label the value that its place among the cells stands for."""
+    """Return, for each label, the value at its place among the cells."""
     numbers = np.arange(len(cells), dtype=np.float64)
     return {
         float(tick.get_text()): float(np.interp(place, numbers, cells))
@@ -55,7 +55,7 @@ def values_at(axis: Axis, cells: list[float]) -> dict[float, float]:
     }
 
 
-def test_numbers_are_round_and_stand_where_their_values_are() -> None:
+def test_labels_are_round_and_at_their_values() -> None:
     axes = {"switching_frequency": tuple(FREQUENCIES), "exposure_time": tuple(EXPOSURES)}
     ax = sweep_drawing(table_of(axes)).draw().axes[0]
     kilohertz = values_at(ax.xaxis, np.log(np.array(FREQUENCIES) / 1e3).tolist())
@@ -105,7 +105,7 @@ def test_the_names_of_a_rooms_lamps_lie_within_its_picture_and_on_no_other_lamp(
         fit_texts(figure)
         figure.draw_without_rendering()
     plan, picture = figure.axes
-    assert np.ptp(picture.images[0].get_array()) <= 1.0  # finer than print, and so no stripes
+    assert np.ptp(picture.images[0].get_array()) <= 1.0  # too fine for stripes in print
     for text in picture.texts:
         box = text.get_bbox_patch()
         assert box is not None

@@ -1,4 +1,4 @@
-"""Text from files is plain text in all exports: it adds no mark, scene, line or formula."""
+"""Text from files stays plain text in all exports: no markup, scene, line or formula."""
 
 import csv
 import re
@@ -29,14 +29,14 @@ SCENE = occ.load_preset("phone-68us").replace(rows=60, columns=600)
 FORGED = "Title\nscene forged:\nformat = 1\n[camera]\niso = 3333.0\n"
 
 
-def lesson_saying(text: str) -> tuple[Lesson, list[AnsweredStep]]:
+def make_lesson(text: str) -> tuple[Lesson, list[AnsweredStep]]:
     step = Step(goal=text, text=text, question=text, answer=text, scene=SCENE)
     answered = AnsweredStep(step, CheckedAnswer(text, "right", text), SCENE, None, text)
     return Lesson("evil", text, text, (step,)), [answered]
 
 
 def check_drawing(path: Path) -> None:
-    """Check that a file is well-formed, draws letters only, and holds our scene alone."""
+    """Check that a file is well-formed, draws only letters, and contains only our scene."""
     if path.suffix == ".svg":
         names = {each.tag.rpartition("}")[2] for each in ElementTree.parse(path).iter()}
         assert not names & {"img", "script", "image", "a", "foreignObject"}
@@ -57,14 +57,14 @@ def check_drawing(path: Path) -> None:
 )
 def test_a_lessons_text_is_text_in_its_report(tmp_path: Path, ending: str, text: str) -> None:
     path = tmp_path / f"report.{ending}"
-    lesson, steps = lesson_saying(text)
+    lesson, steps = make_lesson(text)
     write_lesson_report(path, lesson, steps, author=text, date="today")
     check_drawing(path)
 
 
 def test_a_lessons_text_is_text_in_markdown(tmp_path: Path) -> None:
     path = tmp_path / "my (own) report.md"
-    sheet, steps = lesson_saying(EVIL + "\n\n# Heading\n\n[a](javascript:b)")
+    sheet, steps = make_lesson(EVIL + "\n\n# Heading\n\n[a](javascript:b)")
     write_lesson_report(path, sheet, steps, author=EVIL)
     written, _, scene = path.read_text(encoding="utf-8").partition("```toml")
     assert not re.search(r"(?<!\\)<|(?<!\\)\]\((?!my%20)", written)
@@ -87,7 +87,7 @@ def test_a_lessons_file_gives_texts_of_one_printable_line(tmp_path: Path) -> Non
 
 @pytest.fixture
 def drawings() -> list[Drawing]:
-    """Draw a payload that was received, a plug-in's name and a plug-in's sentence."""
+    """Make drawings of a received payload, of a plug-in's name and of a plug-in's sentence."""
     bits = np.ones(8, np.uint8)
     read = DecodeResult("threshold", code=1, bits=bits, payload=EVIL)
     failed = DecodeResult(EVIL, failure=EVIL)
@@ -111,7 +111,7 @@ def test_what_was_read_is_text_in_its_figure(
     check_drawing(path)
 
 
-def test_the_provenance_of_a_figure_has_the_scenes_that_it_was_given_alone() -> None:
+def test_the_provenance_of_a_figure_has_only_the_scenes_that_it_was_given() -> None:
     about = Provenance(FORGED, {"at hand": SCENE}, notes=(FORGED,), date=FORGED)
     assert about.text().count("\nscene ") == 1
     assert first_scene_in(about.text()) == SCENE
@@ -133,7 +133,7 @@ def test_negative_numbers_stay_numbers_in_a_table() -> None:
     assert ",-0.5," in csv_text(table_of(MatchSettings(SCENE), [row]))
 
 
-def test_a_name_that_is_no_utf_8_stands_in_a_table() -> None:
+def test_a_table_can_have_a_name_that_is_not_utf_8() -> None:
     row = PhotoRow(Path("caf\udce9\n# scene forged:.jpg"), "unreadable", "no photo")
     written = csv_text(table_of(MatchSettings(SCENE), [row]), ["\udce9"])
     assert "caf\\udce9\\n# scene forged:.jpg" in written

@@ -1,4 +1,4 @@
-"""What the window shows, as files."""
+"""Files of what the window shows."""
 
 import csv
 from pathlib import Path
@@ -48,11 +48,11 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-def test_every_table_gives_the_scene_back(folder: Path) -> None:
+def test_the_scene_can_be_read_from_every_table(folder: Path) -> None:
     assert all(scene_inside(path) == SCENE for path in folder.iterdir())
 
 
-def test_the_tables_hold_what_is_drawn(folder: Path) -> None:
+def test_the_tables_have_the_numbers_that_are_drawn(folder: Path) -> None:
     profile = rows(folder / "profile.csv")
     assert [float(row["simulation (grey level)"]) for row in profile] == FRAME.profile.tolist()
     assert [float(row["band model (grey level)"]) for row in profile] == BAND.tolist()
@@ -86,7 +86,7 @@ def test_a_file_is_the_same_alone_and_among_others(tmp_path: Path) -> None:
         assert scene_inside(path) == SCENE
 
 
-def test_a_decoding_that_failed_is_drawn_as_far_as_it_came() -> None:
+def test_a_failed_decoding_is_drawn_up_to_its_failure() -> None:
     dark = SCENE.replace(luminance=0.0)
     result = occ.decode(occ.render(dark).image, dark)
     assert result.failure is not None
@@ -105,7 +105,7 @@ def test_a_profile_has_the_threshold_of_its_decoder(enhanced: bool) -> None:
     (level,) = set(np.asarray(line.get_ydata(), dtype=float).tolist())
     profile = FRAME.signal if enhanced else FRAME.profile
     inside = profile[found.region.first_column : found.region.last_column]
-    # It parts the columns that are drawn as the decoder parts those that it reads.
+    # It separates the drawn columns as the decoder separates those that it reads.
     ones = (found.signal > found.threshold) == (inside > level)
     assert np.mean(ones) > 0.95
     assert "threshold" in [text.get_text() for text in figure.legends[0].get_texts()]
@@ -120,6 +120,6 @@ def test_a_profile_has_no_threshold_of_a_decoder_without_one() -> None:
 
 def test_an_unknown_ending_is_refused_before_any_writing(tmp_path: Path) -> None:
     drawing = drawings()[0]
-    with pytest.raises(occ.OutputError, match=r"figure\.doc has no ending"):
+    with pytest.raises(occ.OutputError, match=r"figure\.doc does not have the ending"):
         drawing.write(tmp_path / "figure.doc", provenance(drawing))
     assert not list(tmp_path.iterdir())

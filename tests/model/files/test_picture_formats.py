@@ -60,7 +60,7 @@ def test_an_ending_of_no_image_format_is_refused(tmp_path: Path, name: str) -> N
     with pytest.raises(OutputError) as refused:
         write_image(tmp_path / name, IMAGE)
     assert str(refused.value) == (
-        f"{name} has no ending of an image format; "
+        f"{name} does not have the ending of an image format; "
         "use .png, .jpg, .jpeg, .tif, .tiff, .webp or .bmp."
     )
     assert list(tmp_path.iterdir()) == []

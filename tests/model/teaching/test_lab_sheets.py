@@ -13,7 +13,7 @@ from occ_model.figures.drawing import house_style
 from occ_model.figures.lesson_report import (
     draw_page,
     match_lines,
-    steps_of_pages,
+    split_into_pages,
     write_lesson_report,
 )
 from occ_model.results.match import Match
@@ -74,7 +74,7 @@ def answered(sheet: Lesson, match: Match) -> list[AnsweredStep]:
 def test_every_step_stands_on_one_page(match: Match) -> None:
     for sheet in SHEETS:
         steps = answered(sheet, match)
-        pages = list(steps_of_pages(steps))
+        pages = list(split_into_pages(steps))
         assert [each for _, page in pages for each in page] == steps
         assert [first for first, _ in pages] == [
             1 + sum(len(page) for _, page in pages[:place]) for place in range(len(pages))
@@ -88,7 +88,7 @@ def test_a_report_of_several_pages_is_a_document(match: Match, tmp_path: Path) -
     write_lesson_report(path, SHEETS[1], steps, author="A. Student", date="2026-11-22")
     content = path.read_bytes()
     assert content.startswith(b"%PDF")
-    assert content.count(b"/Type /Page ") == len(list(steps_of_pages(steps))) > 1
+    assert content.count(b"/Type /Page ") == len(list(split_into_pages(steps))) > 1
     with pytest.raises(OutputError, match=r"has 2 pages; allowed endings: \.pdf and \.md"):
         write_lesson_report(tmp_path / "report.png", SHEETS[1], steps)
     assert not (tmp_path / "report.png").exists()
@@ -138,7 +138,7 @@ def test_a_match_is_told_with_verdict_errors_and_reasons(match: Match) -> None:
 
 
 def test_every_axis_of_a_report_says_what_it_counts_in_and_covers_no_text(match: Match) -> None:
-    for number, page in steps_of_pages(answered(SHEETS[1], match)):
+    for number, page in split_into_pages(answered(SHEETS[1], match)):
         with house_style():
             figure = draw_page("A sheet", "A. Student", "", page, number)
         axes = figure.axes

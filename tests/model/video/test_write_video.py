@@ -143,7 +143,7 @@ def test_a_film_that_is_ended_leaves_the_older_file(tmp_path: Path, film: occ.Vi
 @pytest.mark.parametrize(
     ("name", "frames", "rate", "words"),
     [
-        ("a.avi", 2, 30.0, "a.avi has no ending of a film; use .mp4, .mkv"),
+        ("a.avi", 2, 30.0, "a.avi does not have the ending of a film; use .mp4, .mkv"),
         ("none/a.mp4", 2, 30.0, "none"),
         ("a.gif", 2, 60.0, r"60 frames a second; allowed in a GIF file: 0\.002 to 50\."),
         ("a.gif", None, 60.0, "60 frames a second"),

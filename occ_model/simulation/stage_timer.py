@@ -1,6 +1,6 @@
 """Timing of a simulation's stages."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from math import fsum
 from time import perf_counter
 from typing import Self
@@ -9,23 +9,26 @@ from typing import Self
 class StageTimer:
     """Adds up seconds by stage, without gaps; ``before`` are the times of earlier stages."""
 
-    def __init__(self, before: Mapping[str, float] | None = None) -> None:
+    def __init__(
+        self, before: Mapping[str, float] | None = None, clock: Callable[[], float] | None = None
+    ) -> None:
         self.timings: dict[str, float] = dict(before or {})
-        self._last = perf_counter()
+        self._now = clock or perf_counter
+        self._last = self._now()
 
     def end_stage(self, stage: str) -> None:
         """Add the time since the last stage ended to that of this stage."""
-        now = perf_counter()
+        now = self._now()
         self._add(stage, now - self._last)
         self._last = now
 
     def begin(self) -> None:
         """Skip the time since the last stage ended, as another thread takes over."""
-        self._last = perf_counter()
+        self._last = self._now()
 
     def end_parallel_stages(self, timers: Sequence[Self]) -> None:
         """Divide the time since the last stage ended among parallel ones, by their thread time."""
-        now = perf_counter()
+        now = self._now()
         passed, self._last = now - self._last, now
         taken: dict[str, float] = {}
         for timer in timers:

@@ -3,7 +3,6 @@
 import threading
 import tracemalloc
 from collections.abc import Iterator
-from itertools import chain, repeat
 
 import numpy as np
 import pytest
@@ -15,6 +14,11 @@ from occ_model.simulation.stage_timer import StageTimer
 from occ_model.simulation.threads import each_in_threads, threads
 
 
+def use_threads(monkeypatch: pytest.MonkeyPatch, count: int) -> None:
+    monkeypatch.setenv("OMP_NUM_THREADS", str(count))
+    monkeypatch.setattr("os.cpu_count", lambda: 8)
+
+
 @pytest.mark.parametrize("noise", ["exact", "reused"])
 @pytest.mark.parametrize("rows_step", [1, 3])
 def test_a_picture_is_the_same_in_any_number_of_threads(
@@ -22,10 +26,9 @@ def test_a_picture_is_the_same_in_any_number_of_threads(
 ) -> None:
     scene = occ.load_preset("phone-136us-real").replace(rows=900, columns=300)
     frames = []
-    for count in ("1", "2", "7"):
-        monkeypatch.setenv("OMP_NUM_THREADS", count)
-        monkeypatch.setattr("os.cpu_count", lambda: 8)
-        assert threads() == int(count)
+    for count in (1, 2, 7):
+        use_threads(monkeypatch, count)
+        assert threads() == count
         frames.append(occ.render(scene, tolerance=0.0, noise=noise, rows_step=rows_step))  # type: ignore[arg-type]
     for frame in frames[1:]:
         np.testing.assert_array_equal(frame.image, frames[0].image)
@@ -47,7 +50,7 @@ def test_threads_are_as_many_as_cores_or_fewer(
 def test_results_come_in_order_and_items_are_taken_by_the_caller(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("occ_model.simulation.threads.threads", lambda: 3)
+    use_threads(monkeypatch, 3)
     takers, ahead = set(), []
 
     def items() -> object:
@@ -63,7 +66,7 @@ def test_results_come_in_order_and_items_are_taken_by_the_caller(
 
 
 def test_a_single_item_starts_no_thread(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("occ_model.simulation.threads.threads", lambda: 2)
+    use_threads(monkeypatch, 2)
     workers = list(each_in_threads(lambda _: threading.current_thread(), [0]))
     assert workers == [threading.current_thread()]
     assert list(each_in_threads(lambda number: number, [])) == []
@@ -73,7 +76,7 @@ def test_a_single_item_starts_no_thread(monkeypatch: pytest.MonkeyPatch) -> None
 
 
 def test_an_error_in_a_thread_is_raised_to_the_caller(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("occ_model.simulation.threads.threads", lambda: 2)
+    use_threads(monkeypatch, 2)
     with pytest.raises(ZeroDivisionError):
         list(each_in_threads(lambda number: 1 / number, [1, 0, 2]))
 
@@ -109,33 +112,33 @@ def test_the_time_that_rows_wait_for_a_thread_counts_for_no_stage(
     assert timings[0] == pytest.approx(timings[1])
 
 
-def timer_at(monkeypatch: pytest.MonkeyPatch, *moments: float) -> StageTimer:
-    clock = chain(moments, repeat(moments[-1]))
-    monkeypatch.setattr(stage_timer, "perf_counter", lambda: next(clock))
-    return StageTimer()
+class Clock:
+    """A clock that is set by hand."""
+
+    now = 0.0
+
+    def __call__(self) -> float:
+        return self.now
 
 
-def test_stages_of_threads_share_the_time_that_passed(monkeypatch: pytest.MonkeyPatch) -> None:
-    timer = timer_at(monkeypatch, 0.0)
-    threads = [timer_at(monkeypatch, 0.0, 1.0, 4.0) for _ in range(2)]
-    for thread in threads:
-        monkeypatch.setattr(stage_timer, "perf_counter", lambda: 1.0)
-        thread.end_stage("light")
-        monkeypatch.setattr(stage_timer, "perf_counter", lambda: 4.0)
-        thread.end_stage("noise")
-    monkeypatch.setattr(stage_timer, "perf_counter", lambda: 6.0)
+def test_stages_of_threads_share_the_time_that_passed() -> None:
+    clock = Clock()
+    timer, *threads = (StageTimer(clock=clock) for _ in range(3))
+    for clock.now, stage in ((1.0, "light"), (4.0, "noise")):
+        for thread in threads:
+            thread.end_stage(stage)
+    clock.now = 6.0
     timer.end_parallel_stages(threads)
     assert timer.timings == pytest.approx({"light": 1.5, "noise": 4.5})
     assert sum(timer.timings.values()) == pytest.approx(6.0)
 
 
-def test_stages_that_took_no_time_share_what_has_passed_alike(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    timer, thread = timer_at(monkeypatch, 0.0), timer_at(monkeypatch, 0.0)
+def test_stages_that_took_no_time_share_what_has_passed_alike() -> None:
+    clock = Clock()
+    timer, thread = StageTimer(clock=clock), StageTimer(clock=clock)
     for stage in ("light", "noise"):
         thread.end_stage(stage)
-    monkeypatch.setattr(stage_timer, "perf_counter", lambda: 6.0)
+    clock.now = 6.0
     timer.end_parallel_stages([thread])
     assert timer.timings == {"light": 3.0, "noise": 3.0}
 

@@ -15,7 +15,7 @@ PATIENCE_MS = 2000  # how long the ends of all threads together wait for plug-in
 
 _LOOK_MS = 50
 
-_left: list[QThread] = []
+left_behind: list[QThread] = []
 """Threads with a plug-in that hangs: Qt would abort the process if one were deleted."""
 
 
@@ -41,7 +41,7 @@ class WorkerThread:
         while not self._thread.wait(_LOOK_MS):
             WorkerThread._waited_ms += _LOOK_MS if plugins.all_at_work() else 0
             if WorkerThread._waited_ms >= PATIENCE_MS and plugins.all_at_work():
-                _left.append(self._thread)
+                left_behind.append(self._thread)
                 return
 
 

@@ -40,7 +40,7 @@ class SliderStrip(QWidget):
 
     def __init__(self, slider: QSlider, label: str) -> None:
         super().__init__()
-        self._slider = slider
+        self.slider = slider
         self.fractions: tuple[float | None, ...] = ()
         self.present: OwnRate | None = None  # the success rate at the scene's own value
         slider.valueChanged.connect(self.update)
@@ -114,13 +114,13 @@ class SliderStrip(QWidget):
 
     def span(self) -> tuple[float, float]:
         """Return the x of the handle's centre at both ends of the slider, in the strip's pixels."""
-        first, last = slider_travel(self._slider)
-        away = self._slider.x() - self.x()
+        first, last = slider_travel(self.slider)
+        away = self.slider.x() - self.x()
         return first + away, last + away
 
     def _at_handle(self) -> QRectF:
-        left, right = slider_handle(self._slider)
-        away = self._slider.x() - self.x()
+        left, right = slider_handle(self.slider)
+        away = self.slider.x() - self.x()
         return QRectF(left + away, 0, right - left, self.height()).adjusted(
             -_AT_HANDLE, 0, _AT_HANDLE, 0
         )

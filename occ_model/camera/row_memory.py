@@ -24,9 +24,9 @@ class RowMemory:
     """Arrays by key, up to ``limit`` bytes; the least recently used are dropped first."""
 
     def __init__(self, limit: int, entries: int = MOST_ENTRIES) -> None:
-        self._limit, self._entries = limit, entries
+        self.limit, self._entries = limit, entries
         self._lock = Lock()
-        self._known: OrderedDict[Hashable, tuple[Any, int]] = OrderedDict()
+        self.known: OrderedDict[Hashable, tuple[Any, int]] = OrderedDict()
         self.size = 0
 
     def recall(
@@ -37,9 +37,9 @@ class RowMemory:
     ) -> _Made:
         """Return a cached object, or make it; its ``arrays`` become read-only."""
         with self._lock:
-            if key in self._known:
-                self._known.move_to_end(key)
-                found: _Made = self._known[key][0]
+            if key in self.known:
+                self.known.move_to_end(key)
+                found: _Made = self.known[key][0]
                 return found
         made = make()
         size = 0
@@ -47,11 +47,11 @@ class RowMemory:
             array.flags.writeable = False
             size += array.nbytes
         with self._lock:
-            if key not in self._known and size <= self._limit:
-                self._known[key] = made, size
+            if key not in self.known and size <= self.limit:
+                self.known[key] = made, size
                 self.size += size
-            while self.size > self._limit or len(self._known) > self._entries:
-                self.size -= self._known.popitem(last=False)[1][1]
+            while self.size > self.limit or len(self.known) > self._entries:
+                self.size -= self.known.popitem(last=False)[1][1]
         return made
 
 

@@ -21,7 +21,7 @@ from occ_model.parallel.job import (
     do_job_apart,
 )
 
-_EXIT_SECONDS = 0.2  # seconds that processes get to end by themselves
+EXIT_SECONDS = 0.2  # seconds that processes get to end by themselves
 
 
 class ProcessPool:
@@ -41,9 +41,9 @@ class ProcessPool:
         # Without locks: a process that dies while it holds one would stop the others.
         self._first_runs = self._context.RawArray("q", CHANNELS)
         self._counts = self._context.RawArray("q", CHANNELS)
-        self._executor = self._start()
+        self._executor = self.start()
 
-    def _start(self) -> ProcessPoolExecutor:
+    def start(self) -> ProcessPoolExecutor:
         self._context.processes.clear()
         shared = (self._first_runs, self._counts, self._niceness)
         context: Any = self._context
@@ -52,9 +52,9 @@ class ProcessPool:
 
     @property
     def processes(self) -> list[int]:
-        return [process.pid for process in self._started()]
+        return [process.pid for process in self.started()]
 
-    def _started(self) -> list[Any]:
+    def started(self) -> list[Any]:
         return [process for process in self._context.processes if process.pid is not None]
 
     def submit(self, job: Job, channel: int, run: int) -> "Future[JobResult]":
@@ -70,7 +70,7 @@ class ProcessPool:
 
     def renew(self) -> None:
         self.close()
-        self._executor = self._start()
+        self._executor = self.start()
 
     def close(self) -> None:
         with interrupts_held():
@@ -78,9 +78,9 @@ class ProcessPool:
             # waits for them alone: of two that wait for a process one misses its exit code.
             shutdown = Thread(target=self._executor.shutdown, kwargs={"cancel_futures": True})
             shutdown.start()
-            shutdown.join(_EXIT_SECONDS)
+            shutdown.join(EXIT_SECONDS)
             if shutdown.is_alive():
-                for process in self._started():
+                for process in self.started():
                     process.kill()
             shutdown.join()
 

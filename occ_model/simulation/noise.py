@@ -65,11 +65,11 @@ class ReusedNoise:
     def __init__(self, effects: Sequence[NoiseEffect], scene: Scene, seed: int) -> None:
         self._effects = effects
         self._random = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(0,)))
-        self._places = _plane(scene.camera.columns)
+        self.places = _plane(scene.camera.columns)
 
     def draw(self, rows: int) -> Drawn:
-        chosen = self._random.integers(0, len(self._places), rows)
-        return lambda: [(self._effects, self._places[chosen])]
+        chosen = self._random.integers(0, len(self.places), rows)
+        return lambda: [(self._effects, self.places[chosen])]
 
 
 @lru_cache(maxsize=2)

@@ -73,13 +73,15 @@ def end(application: Application, before: Sequence[QWidget]) -> None:
     application.window.deleteLater()
     QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
     QApplication.processEvents()
+    if _leaked(before):
+        gc.collect()  # other tests may have left some since, which Python forgets late
+    assert not _leaked(before), "top-level widgets outlive the window"
+
+
+def _leaked(before: Sequence[QWidget]) -> list[QWidget]:
     # pyqtgraph's menus have no parent: they go when Python forgets the plot, as another test sees.
-    leaked = [
-        widget
-        for widget in QApplication.topLevelWidgets()
-        if widget not in before and not isinstance(widget, QMenu)
-    ]
-    assert not leaked, f"top-level widgets outlive the window: {leaked}"
+    widgets = QApplication.topLevelWidgets()
+    return [each for each in widgets if each not in before and not isinstance(each, QMenu)]
 
 
 def forget_lessons(application: Application) -> None:

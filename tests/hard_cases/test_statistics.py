@@ -183,7 +183,7 @@ def test_noise_that_is_used_again_has_no_mean_of_its_own() -> None:
     # Two million numbers in single precision, whose own sum would be off in the fifth digit.
     scene = Scene().replace(columns=1, rows=4)
     noise = ReusedNoise([SensorNoise()], scene, 1)
-    numbers = noise._places[:, 0]
+    numbers = noise.places[:, 0]
     mean = math.fsum(numbers.tolist()) / len(numbers)
     square = math.fsum((numbers.astype(np.float64) ** 2).tolist()) / len(numbers)
     record("mean of the noise's plane, standard deviations", "2e6 numbers", abs(mean))

@@ -38,7 +38,7 @@ from occ_model.study import working_range as module
 from occ_model.study.success_rate import right_and_whole, right_bits_of_images
 from occ_model.study.sweep.points import measure_points
 from occ_model.study.theory import null_frequency
-from occ_model.study.working_range import _Search
+from occ_model.study.working_range import working_range
 
 
 @cache
@@ -140,8 +140,9 @@ def test_six_doors_give_the_same_number(
     there = ((0, own_place | {"distance": scene.pose.distance}),)
     of_map = measure_points(asked.scene, asked.settings, there, lambda: None).points[0]
     counts = RateSettings(images, (decoder,), SEED)
-    limits = _Search(scene, "switching_frequency", 99.0, counts, lambda: None)
-    own = limits._whole(frequency, counts)
+    monkeypatch.setattr(module, "STEP", 1e9)  # no values between the scene's own and the ends
+    monkeypatch.setattr(module, "END_RATIO", 1e9)
+    own = working_range(scene, "switching_frequency", 99.0, counts).own
     scene_file, table = tmp_path / "scene.toml", tmp_path / "rates.csv"
     scene_file.write_text(elsewhere.to_toml(), encoding="utf-8")
     assert main([
@@ -157,8 +158,6 @@ def test_six_doors_give_the_same_number(
     assert own.rate == wanted
     assert (float(line["95 % from (%)"]), float(line["95 % to (%)"])) == (own.low, own.high)
     assert (100.0 * rate.low, 100.0 * rate.high) == pytest.approx((own.low, own.high))
-    monkeypatch.setattr(module, "STEP", 1e9)  # no values between the scene's own and the ends
-    monkeypatch.setattr(module, "END_RATIO", 1e9)
     scene_file.write_text(scene.to_toml(), encoding="utf-8")
     capsys.readouterr()
     main([
@@ -217,7 +216,7 @@ def test_strip_and_banner_state_the_rate_of_the_study(
     assert f"{rate:.3g} % of the bits of 20 pictures" in strip.toolTip()
     strip.show_fractions((0.0,) * 9)
     wanted = to_colours(np.array([[rate]]), 0.0, 100.0, RATES)[0, 0, :3].tolist()
-    seen = strip.grab().toImage().pixelColor(round(handle_middle(strip._slider) - strip.x() + 9), 3)
+    seen = strip.grab().toImage().pixelColor(round(handle_middle(strip.slider) - strip.x() + 9), 3)
     assert [seen.red(), seen.green(), seen.blue()] == wanted
     application.store.change(switching_frequency=14e3)
     assert {s.present for s in strips.values()} == {None}

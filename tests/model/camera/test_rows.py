@@ -115,13 +115,13 @@ def test_an_object_larger_than_the_cache_is_not_cached() -> None:
 
 def test_no_number_of_moves_fills_more_than_the_limit(monkeypatch: pytest.MonkeyPatch) -> None:
     limit = CAPACITY // amount(4, 1)  # a smaller one is full sooner
-    monkeypatch.setattr(MEMORY, "_limit", limit)
+    monkeypatch.setattr(MEMORY, "limit", limit)
     scene = occ.load_preset("phone-136us-real").replace(rows=1152, jpeg_quality=0)
     for move in range(amount(8, 60)):
         moved = scene.replace(distance=1.0 + 0.01 * move)
         occ.render(moved, tolerance=0.0, noise="reused", rows_step=1 + 8 * (move % 5 > 0))
         assert MEMORY.size <= limit
-    held = sum(size for _, size in MEMORY._known.values())
+    held = sum(size for _, size in MEMORY.known.values())
     assert held == MEMORY.size > limit / 2
 
 

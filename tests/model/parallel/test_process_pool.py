@@ -141,7 +141,7 @@ def test_a_thread_takes_over_where_processes_cannot_be_replaced(
     def no_processes() -> NoReturn:
         raise OSError(errno.EROFS, os.strerror(errno.EROFS))
 
-    monkeypatch.setattr(pool, "_start", no_processes)
+    monkeypatch.setattr(pool, "start", no_processes)
     bench = Bench(pool, fallback=WorkerThread)
     bench.ask(0, 1, 12 * (Job(process_id, ()),))
     run_until(bench, lambda: bool(bench.results))

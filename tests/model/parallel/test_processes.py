@@ -48,11 +48,11 @@ def test_another_thread_holds_nothing() -> None:
 
 def test_idle_workers_end_by_themselves_and_are_not_killed(monkeypatch: pytest.MonkeyPatch) -> None:
     # As long as it takes on a machine that is busy.
-    monkeypatch.setattr("occ_model.parallel.process_pool._EXIT_SECONDS", 60.0)
+    monkeypatch.setattr("occ_model.parallel.process_pool.EXIT_SECONDS", 60.0)
     pool = ProcessPool(2, "worker_calls")
     try:
         assert pool.submit(Job(echo, ("done",)), 0, 1).result(20.0).value == "done"
-        started = pool._started()
+        started = pool.started()
     finally:
         pool.close()
     assert started

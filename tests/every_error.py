@@ -15,7 +15,7 @@ from occ_model.errors import DecodeInputError, OccError
 from occ_model.parallel.job import Abandoned
 from occ_model.scene.parameter_kinds import Choice, Count, OpenChoice, Parameter, Payload, Quantity
 from occ_model.scene.parameters import PARAMETERS
-from occ_model.teaching.lessons import _MistakeError
+from occ_model.teaching.lessons import MistakeError
 from occ_model.video.file.decoder_process import DecoderStoppedError
 
 ErrorClass = type[BaseException]
@@ -24,7 +24,7 @@ NOT_IN_THE_WINDOW: dict[ErrorClass, str] = {
     OccError: "the base: the model raises only its subclasses",
     Abandoned: "ends a job whose result is no longer wanted; do_job catches it",
     DecoderStoppedError: "ends a sentence that load_video begins, as a VideoError",
-    _MistakeError: "holds the key at fault until the lesson's reader names the line instead",
+    MistakeError: "holds the key at fault until the lesson's reader names the line instead",
     DecodeInputError: "tells a caller in Python that an array is no picture; what the programs "
     "decode is their own picture, or a photo that was checked when it was read",
     ClusterError: "the window measures on this computer alone",

@@ -175,7 +175,7 @@ class SliderStripController(RestingController):
             known = self._known.get(result.name)
             if known is None or known[0] != wanted:
                 known = self._known[result.name] = (wanted, {})
-            known[1].update({point.index: _fraction(point) for point in result.points})
+            known[1].update({point.index: fraction_of(point) for point in result.points})
         for name in {result.name for result in results}:
             wanted, fractions = self._known[name]
             strip = self._pane.strips[name]
@@ -183,7 +183,7 @@ class SliderStripController(RestingController):
             strip.show_fractions(tuple(_nearest(fractions, place) for place in range(POSITIONS)))
 
 
-def _fraction(point: SweepPoint) -> float | None:
+def fraction_of(point: SweepPoint) -> float | None:
     """Return the fraction of bits read; None where the model refuses, or a plug-in has failed."""
     return None if point.note else point.right[0] / point.sent
 

@@ -14,7 +14,7 @@ if sys.platform == "win32":
     _FAR = 2**40
     """A byte beyond any file's end: the bytes of the file itself stay readable by others."""
 
-    def _lock(file: BinaryIO) -> None:
+    def take_lock(file: BinaryIO) -> None:
         place = file.tell()
         file.seek(_FAR)
         try:
@@ -25,14 +25,14 @@ if sys.platform == "win32":
 else:
     import fcntl
 
-    def _lock(file: BinaryIO) -> None:
+    def take_lock(file: BinaryIO) -> None:
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
 
 
 def locked(file: BinaryIO) -> bool | None:
     """Lock a file until closed; False if another has locked it, None where there are no locks."""
     try:
-        _lock(file)
+        take_lock(file)
     except OSError as error:
         return False if error.errno in (EACCES, EAGAIN) else None
     _open_here.add(file)

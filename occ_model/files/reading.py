@@ -11,7 +11,7 @@ from occ_model.errors import SceneFileError, one_line
 LARGEST_TEXT = 1_000_000  # bytes allowed in a scene, preset or lesson; ours have a few thousand
 
 MOST_READS = 1_000_000  # of a file by its decoder; one in Python takes some seconds for them
-_MOST_BYTES_ONE_BY_ONE = 4_000_000  # of a file that a decoder may read byte by byte, as that of QOI
+MOST_BYTES_ONE_BY_ONE = 4_000_000  # of a file that a decoder may read byte by byte, as that of QOI
 
 _NO_FILE = "it is a device, pipe or socket"
 
@@ -77,7 +77,7 @@ class BoundedFile(io.BufferedReader):
         super().__init__(path.open("rb", buffering=0))
         self._path, self._reads = path, 0
         size = os.fstat(self.fileno()).st_size
-        self._most = max(size if size <= _MOST_BYTES_ONE_BY_ONE else 0, MOST_READS)
+        self._most = max(size if size <= MOST_BYTES_ONE_BY_ONE else 0, MOST_READS)
 
     def read(self, size: int | None = -1, /) -> bytes:
         self._reads += 1

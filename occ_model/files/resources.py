@@ -12,21 +12,21 @@ if TYPE_CHECKING:  # slow to import, and only needed where the package is in an 
 
 def resource_names(folder: str, ending: str) -> tuple[str, ...]:
     """List the names of a folder's files with an ending, without it, sorted."""
-    names = (entry.name for entry in _resource(folder).iterdir())
+    names = (entry.name for entry in find_resource(folder).iterdir())
     return tuple(sorted(name.removesuffix(ending) for name in names if name.endswith(ending)))
 
 
 def resource_text(*parts: str) -> str:
-    return _resource(*parts).read_text(encoding="utf-8")
+    return find_resource(*parts).read_text(encoding="utf-8")
 
 
 def resource_path(*parts: str) -> Path:
     """Return the path of a resource; a package in an archive has a copy until the program ends."""
-    resource = _resource(*parts)
+    resource = find_resource(*parts)
     return resource if isinstance(resource, Path) else _copy_of(parts)
 
 
-def _resource(*parts: str) -> "Path | Traversable":
+def find_resource(*parts: str) -> "Path | Traversable":
     """Find a file: inside an installed package, beside the packages in a checkout."""
     package = Path(__file__).parents[1]
     for root in (package / "resources", package.parent / "resources"):
@@ -40,7 +40,7 @@ def _resource(*parts: str) -> "Path | Traversable":
 @lru_cache
 def _copy_of(parts: tuple[str, ...]) -> Path:
     target = Path(_folder_of_copies(), *parts)
-    _copy(_resource(*parts), target)
+    _copy(find_resource(*parts), target)
     return target
 
 

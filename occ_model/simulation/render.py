@@ -163,7 +163,7 @@ def render_plan(
         image, profile, signal = made.image, made.profile, made.signal
         camera_image = partial(np.asarray, made.camera_image)
         if rows_step > 1:
-            means = _describe_draft(made, columns, enhancement)
+            means = describe_draft(made, columns, enhancement)
             expose = partial(_expose_rows, view, chosen, columns, enhancement, seed)
             errors = partial(draft_errors, exposure.drafted_panel(rows), means, expose)
     return Frame(
@@ -180,7 +180,7 @@ def render_plan(
     )
 
 
-def _describe_draft(
+def describe_draft(
     made: Pictures, columns: Columns, enhancement: Enhancement
 ) -> dict[str, DraftedMeans]:
     """Return a draft's column means, with the values that its pixels can have."""

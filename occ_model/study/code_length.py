@@ -82,7 +82,7 @@ def code_lengths(
         sent = _codes(length, lamps, request.seed)
         own = _sending(room, length, sent)
         asked = replace(request, room=own)
-        reported = progress and partial(_scaled_progress, progress, number, len(lengths))
+        reported = progress and partial(scaled_progress, progress, number, len(lengths))
         points = room_map(asked, executor=executor, jobs=jobs, progress=reported)
         whole, named, misread = (
             sum(getattr(point, count) for point in points)
@@ -98,7 +98,7 @@ def code_lengths(
     return tuple(found)
 
 
-def _scaled_progress(
+def scaled_progress(
     progress: Progress, number: int, lengths: int, done: int, points: int, left: float
 ) -> None:
     there, total = number * points + done, lengths * points

@@ -90,7 +90,7 @@ def most_bits(
     check_frame_rate(scene, frames_a_second)
     for name in decoders:
         decoder_named(name)
-    candidates = _candidates(scene)
+    candidates = candidate_codes(scene)
     found = []
     for name in decoders:
         settings = RateSettings(1, (name,), seed)
@@ -128,7 +128,7 @@ def _why(candidates: Sequence[_Candidate]) -> str:
     return f"None of {len(candidates)} combinations of line code, frequency and bits was read."
 
 
-def _candidates(scene: Scene) -> list[_Candidate]:
+def candidate_codes(scene: Scene) -> list[_Candidate]:
     """Return what is tried, what carries most first; of equals the slowest first."""
     seen = panel_readout_time(scene)
     found = {

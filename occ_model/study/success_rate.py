@@ -138,7 +138,9 @@ def right_bits_of_images(
     pictures = _Pictures(scene, settings.seed, settings.tolerance, force, settings.path)
     for image in range(settings.images):
         heartbeat()
-        observed = _kept(pictures, image) if chosen is None else _observe(pictures, chosen, image)
+        observed = (
+            _kept(pictures, image) if chosen is None else observe_picture(pictures, chosen, image)
+        )
         read = _read(scene, observed, settings.decoders)
         yield tuple(_right_bits(seen, sent) for seen in read)
 
@@ -166,7 +168,7 @@ def _plan(pictures: _Pictures) -> Plan:
 
 @lru_cache(maxsize=_KEPT_PICTURES)
 def _kept(pictures: _Pictures, image: int) -> Observation | None:
-    return _observe(pictures, _plan(pictures), image)
+    return observe_picture(pictures, _plan(pictures), image)
 
 
 def _right_bits(seen: DecodeResult, sent: ByteArray) -> int:
@@ -190,7 +192,7 @@ def _read(
     return [observed.read(scene, decoder) for decoder in decoders]
 
 
-def _observe(pictures: _Pictures, chosen: Plan, image: int) -> Observation | None:
+def observe_picture(pictures: _Pictures, chosen: Plan, image: int) -> Observation | None:
     """Simulate what a decoder reads of one picture; None where no panel is found in it."""
     scene, path = pictures.scene, pictures.path
     stream = np.random.default_rng(_seed_of(pictures.seed, image))

@@ -40,7 +40,7 @@ _CHECK_KEYS = ("quantity", "tolerance", "set")
 _MAX_TOLERANCE = 50.0  # percent
 
 
-class _MistakeError(SceneFileError):
+class MistakeError(SceneFileError):
     """A mistake in a lesson: its sentence, and the key that it is about."""
 
     def __init__(self, sentence: str, key: str = "") -> None:
@@ -100,13 +100,13 @@ def _lesson(name: str, text: str) -> Lesson:
         summary = _paragraph(content, "summary", "")
         listed = content.get("step")
         if not isinstance(listed, list) or not listed:
-            raise _MistakeError("it has no steps; begin each with [[step]].", "step")
+            raise MistakeError("it has no steps; begin each with [[step]].", "step")
         steps = []
         for place, item in enumerate(listed):  # noqa: B007 - its last value says where
             steps.append(_step(item))
         return Lesson(name, title, summary, tuple(steps), _switch(content, "sheet"))
     except OccError as error:
-        key = error.key if isinstance(error, _MistakeError) else "set"
+        key = error.key if isinstance(error, MistakeError) else "set"
         line = _line(text, place, key)
         raise SceneFileError(f"{where} is not a lesson: line {line}: {error}") from None
 
@@ -129,13 +129,13 @@ def _line(text: str, step: int | None, key: str) -> int:
 
 def _step(content: object) -> Step:
     if not isinstance(content, Mapping):
-        raise _MistakeError(f"a step is {shown(content)}; begin each with [[step]].", "step")
+        raise MistakeError(f"a step is {shown(content)}; begin each with [[step]].", "step")
     _check_keys(content, _STEP_KEYS, "step")
     preset = _text(content, "preset")
     try:
         scene = load_preset(preset)
     except OccError as error:
-        raise _MistakeError(str(error), "preset") from None
+        raise MistakeError(str(error), "preset") from None
     scene = _changed(scene, content)
     return Step(
         goal=_paragraph(content, "goal", ""),
@@ -160,27 +160,27 @@ def _check(content: Mapping[str, Any], scene: Scene) -> Check | None:
         return None
     try:
         if not isinstance(asked, Mapping):
-            raise _MistakeError(f"check is {shown(asked)}, not a table with a quantity.")
+            raise MistakeError(f"check is {shown(asked)}, not a table with a quantity.")
         _check_keys(asked, _CHECK_KEYS, "check")
         quantity = _one_of(asked, "quantity", tuple(QUANTITIES))
         if not quantity:
-            raise _MistakeError(f"check has no quantity; known are {', '.join(QUANTITIES)}.")
+            raise MistakeError(f"check has no quantity; known are {', '.join(QUANTITIES)}.")
         percent = asked.get("tolerance", 2)
         number = isinstance(percent, int | float) and not isinstance(percent, bool)
         if not number or not 0.0 <= percent <= _MAX_TOLERANCE:
-            raise _MistakeError(
+            raise MistakeError(
                 f"tolerance is {shown(percent)}; allowed: 0 to {_MAX_TOLERANCE:g}, in percent."
             )
         unit, about = QUANTITIES[quantity].asked_in, _changed(scene, asked)
         return Check(quantity, unit, percent / 100.0, about, tuple(asked.get("set", ())))
     except OccError as error:
-        raise _MistakeError(str(error), "check") from None
+        raise MistakeError(str(error), "check") from None
 
 
 def _changed(scene: Scene, content: Mapping[str, Any]) -> Scene:
     values = content.get("set", {})
     if not isinstance(values, Mapping):
-        raise _MistakeError(f"set is {shown(values)}, not a table of parameters.", "set")
+        raise MistakeError(f"set is {shown(values)}, not a table of parameters.", "set")
     settings = [f"{name}={_written(value)}" for name, value in values.items()]
     return change_scene(scene, settings)
 
@@ -193,7 +193,7 @@ def _written(value: object) -> str:
 def _check_keys(content: Mapping[str, Any], known: tuple[str, ...], kind: str) -> None:
     for key in content:
         if key not in known:
-            raise _MistakeError(
+            raise MistakeError(
                 f"a {kind} has no key {shown(key)}; known are {', '.join(known)}.", one_line(key)
             )
 
@@ -201,11 +201,11 @@ def _check_keys(content: Mapping[str, Any], known: tuple[str, ...], kind: str) -
 def _text(content: Mapping[str, Any], key: str, default: str | None = None) -> str:
     value = content.get(key, default)
     if value is None:
-        raise _MistakeError(f"{key} is missing.")
+        raise MistakeError(f"{key} is missing.")
     if not isinstance(value, str):
-        raise _MistakeError(f"{key} is {shown(value)} in place of a text.", key)
+        raise MistakeError(f"{key} is {shown(value)} in place of a text.", key)
     if default is None and not value.strip():
-        raise _MistakeError(f"{key} is empty; allowed: a text.", key)
+        raise MistakeError(f"{key} is empty; allowed: a text.", key)
     return value
 
 
@@ -216,12 +216,12 @@ def _paragraph(content: Mapping[str, Any], key: str, default: str | None = None)
 def _one_of(content: Mapping[str, Any], key: str, known: tuple[str, ...]) -> str:
     value = _text(content, key, "")
     if value and value not in known:
-        raise _MistakeError(f"{key} is {shown(value)}; known are {', '.join(known)}.", key)
+        raise MistakeError(f"{key} is {shown(value)}; known are {', '.join(known)}.", key)
     return value
 
 
 def _switch(content: Mapping[str, Any], key: str) -> bool:
     value = content.get(key, False)
     if not isinstance(value, bool):
-        raise _MistakeError(f"{key} is {shown(value)}; allowed: true and false.", key)
+        raise MistakeError(f"{key} is {shown(value)}; allowed: true and false.", key)
     return value

@@ -83,13 +83,13 @@ class FrameReader:
     """
 
     def __init__(self, scene: Scene, decoder: str) -> None:
-        self._enhanced, self._scene = scene, scene.replace(enhancement="none")
-        self._decoder = decoder
+        self.enhanced, self._scene = scene, scene.replace(enhancement="none")
+        self.decoder = decoder
         self._spans: deque[tuple[int, int]] = deque(maxlen=_REMEMBERED_REGIONS)
 
     def read(self, frame: VideoFrame) -> TimedFrame:
         scene = self._of(self._scene, frame)
-        result = decode(frame.image, scene, self._decoder)
+        result = decode(frame.image, scene, self.decoder)
         reading = FrameReading(frame.index, frame.time, result.region)
         if result.region is None:
             return TimedFrame(replace(reading, failure=result.failure))
@@ -97,7 +97,7 @@ class FrameReader:
         light = in_light(column_means(frame.image, region), scene).values
         before = result.region.first_column - region.first_column
         tried = [_timing(result, column_means(frame.image, region), light, before, scene)]
-        if result.failure is not None and self._enhanced.model.enhancement != "none":
+        if result.failure is not None and self.enhanced.model.enhancement != "none":
             tried.append(self._of_enhanced(frame, result.region, region, light))
         timing, problem = min(tried, key=lambda one: 1.0 if one[0] is None else one[0].unexplained)
         if timing is None:
@@ -110,11 +110,11 @@ class FrameReader:
         self, frame: VideoFrame, found: Region, region: Region, light: FloatArray
     ) -> tuple[ChipTiming | None, str | None]:
         """Read the chips of the enhanced picture, and fit their timing to the camera's light."""
-        scene = self._of(self._enhanced, frame)
+        scene = self._of(self.enhanced, frame)
         signal = enhanced_picture(frame.image, region, scene.model.enhancement).mean(axis=0)
         before = found.first_column - region.first_column
         part = signal[before : before + found.columns]
-        result = read_with(self._decoder, part, scene)
+        result = read_with(self.decoder, part, scene)
         return _timing(result, signal, light, before, scene)
 
     @staticmethod

@@ -18,7 +18,7 @@ from occ_model.simulation.draft_error import (
     _compare_parts,
     draft_errors,
 )
-from occ_model.simulation.render import _describe_draft
+from occ_model.simulation.render import describe_draft
 
 OBSERVED = ("profile", "signal")
 
@@ -260,7 +260,7 @@ def test_an_enhancement_makes_a_files_rounding_larger_and_never_smaller(
     made = SimpleNamespace(
         profile=np.array([21.0, 79.0]), signal=np.zeros(2), camera_image=None, image=None
     )
-    means = _describe_draft(made, columns, lambda levels: factor * levels)  # type: ignore[arg-type]
+    means = describe_draft(made, columns, lambda levels: factor * levels)  # type: ignore[arg-type]
     assert means["profile"].stretch == 1.0
     assert means["signal"].stretch == pytest.approx(stretch)
     assert np.ptp(means["profile"].levels) == 70.0

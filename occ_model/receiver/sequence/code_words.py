@@ -49,7 +49,7 @@ def code_words(transmitter: Transmitter, memory: int) -> CodeWords:
     )
     if most_states(whole.words, memory) <= MOST_STATES:
         return whole
-    limited = CodeWords(_of_runs(_longest_run(whole.words)), whole.header)
+    limited = CodeWords(words_of_runs(_longest_run(whole.words)), whole.header)
     return limited if most_states(limited.words, memory) <= MOST_STATES else whole
 
 
@@ -147,7 +147,7 @@ def _longest_run(words: tuple[Word, ...]) -> int | None:
 
 
 @lru_cache(maxsize=16)
-def _of_runs(longest: int | None) -> tuple[Word, ...]:
+def words_of_runs(longest: int | None) -> tuple[Word, ...]:
     """Return the chips of all sequences with no run above the longest."""
     if longest is None:
         return FREE_CHIPS

@@ -5,7 +5,7 @@ import threading
 from collections.abc import Iterator
 from dataclasses import replace
 from itertools import pairwise
-from types import SimpleNamespace
+from threading import Event
 from typing import Any
 
 import pytest
@@ -165,17 +165,14 @@ def test_hiding_cancels_the_study_and_showing_begins_it_anew(bench: Bench, qtbot
 
 
 def test_the_study_waits_while_a_picture_is_simulated(
-    bench: Bench, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+    bench: Bench, qtbot: QtBot, held: Event
 ) -> None:
-    qtbot.waitUntil(lambda: bench.simulation.runner.is_idle)
-    runner = bench.simulation.runner
-    with monkeypatch.context() as busy:
-        simulating = SimpleNamespace(runner=SimpleNamespace(is_idle=False))
-        busy.setattr(bench.controller, "_simulation", simulating)
-        bench.controller.set_seen(True)
-        qtbot.waitUntil(lambda: bench.controller.is_idle)
-        assert bench.measured == []
-    runner.idle.emit()
+    bench.scenes.change(iso=123.0)
+    assert not bench.simulation.runner.is_idle
+    bench.controller.set_seen(True)
+    qtbot.waitUntil(lambda: bench.controller.is_idle)
+    assert bench.measured == []
+    held.set()
     bench.allow(TOTAL)
     bench.wait_for("finished")
 

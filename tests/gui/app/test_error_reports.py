@@ -11,7 +11,7 @@ import pytest
 from gui.kinds import add_widget
 from gui.pane_bench import PaneBench
 from PySide6.QtCore import qCritical, qDebug, qInstallMessageHandler, qWarning
-from PySide6.QtGui import QGuiApplication
+from PySide6.QtGui import QGuiApplication, QPainter
 from PySide6.QtWidgets import QApplication, QDialog, QLabel, QPlainTextEdit, QPushButton, QWidget
 from pytestqt.exceptions import capture_exceptions
 from pytestqt.qtbot import QtBot
@@ -20,7 +20,6 @@ import occ_model as occ
 from occ_gui.app.error_reports import HARMLESS_MESSAGE, ErrorReports, log_qt_messages
 from occ_gui.app.panes import picture
 from occ_gui.app.report import report_text, show_report
-from occ_gui.picture.averaged_image import AveragedImage
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 
@@ -90,7 +89,7 @@ def test_an_exception_while_something_is_painted_is_a_sentence_and_it_is_painted
     bench = PaneBench(qtbot, small_scene)
     image = bench.add(picture(bench.store, str)).view
     with monkeypatch.context() as patched:
-        patched.setattr(AveragedImage, "_averaged", broken)
+        patched.setattr(QPainter, "drawImage", broken)
         bench.simulate()
         QApplication.processEvents()
         image.simulation.fit()

@@ -116,7 +116,7 @@ def test_where_a_plug_in_fails_no_rate_is_known() -> None:
     failed, read = (SweepPoint(0, 20, (0,), note, (0,)) for note in ("A plug-in failed.", ""))
     assert module.own_rate(MeasuredPoints((failed,), 2, 0.0)) is None
     assert not_none(module.own_rate(MeasuredPoints((read,), 2, 0.0))).fraction == 0.0
-    assert (module._fraction(failed), module._fraction(read)) == (None, 0.0)
+    assert (module.fraction_of(failed), module.fraction_of(read)) == (None, 0.0)
 
 
 def test_moving_a_slider_leaves_its_own_strip_as_it_is(bench: Bench) -> None:

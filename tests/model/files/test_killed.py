@@ -164,7 +164,7 @@ def test_without_locks_files_are_written_and_none_is_taken_for_left_over(
     def no_locks(_file: object) -> None:
         raise OSError(errno.ENOTSUP, os.strerror(errno.ENOTSUP))
 
-    monkeypatch.setattr(locking, "_lock", no_locks)
+    monkeypatch.setattr(locking, "take_lock", no_locks)
     with written_whole(tmp_path / "slow.txt") as temporary:
         write_whole(tmp_path / "quick.txt", b"quick")
         temporary.write_bytes(b"slow")

@@ -57,7 +57,7 @@ def test_a_file_in_too_many_parts_is_refused(
 ) -> None:
     path = tmp_path / name
     monkeypatch.setattr(reading, "MOST_READS", 1000)
-    monkeypatch.setattr(reading, "_MOST_BYTES_ONE_BY_ONE", 0)
+    monkeypatch.setattr(reading, "MOST_BYTES_ONE_BY_ONE", 0)
     path.write_bytes(PARTS[name](20))
     assert load_photo(path).image.size == 64
     path.write_bytes(PARTS[name](1000))
@@ -72,7 +72,7 @@ def test_a_small_file_may_be_read_byte_by_byte(
     (tmp_path / "x.qoi").write_bytes(content)
     monkeypatch.setattr(reading, "MOST_READS", 1000)
     assert load_photo(tmp_path / "x.qoi").image.size == 3600
-    monkeypatch.setattr(reading, "_MOST_BYTES_ONE_BY_ONE", len(content) - 1)
+    monkeypatch.setattr(reading, "MOST_BYTES_ONE_BY_ONE", len(content) - 1)
     with pytest.raises(PhotoError, match="in more than 1,000 parts"):
         load_photo(tmp_path / "x.qoi")
 
@@ -87,7 +87,7 @@ def test_a_film_or_its_note_in_too_many_parts_is_none(
     frames[0].save(path, save_all=True, append_images=frames[1:], **how)
     assert (is_film(path), note_in(path)) == (True, "said")
     monkeypatch.setattr(reading, "MOST_READS", 3)
-    monkeypatch.setattr(reading, "_MOST_BYTES_ONE_BY_ONE", 0)
+    monkeypatch.setattr(reading, "MOST_BYTES_ONE_BY_ONE", 0)
     assert (is_film(path), note_in(path)) == (False, "")
 
 

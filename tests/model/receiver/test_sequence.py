@@ -11,7 +11,7 @@ from physics.exposed_chips import noise_of, seen_by_rows
 import occ_model as occ
 from occ_model.receiver.light import PER_CHIP, expected_light, light_of_chips
 from occ_model.receiver.sequence import decoder
-from occ_model.receiver.sequence.code_words import _of_runs, code_words
+from occ_model.receiver.sequence.code_words import code_words, words_of_runs
 from occ_model.receiver.sequence.exposures import Timing, gather
 from occ_model.receiver.sequence.fit import Brightness, Fit, first_guess
 from occ_model.receiver.sequence.search import Chips, beam_chips, best_chips
@@ -181,7 +181,7 @@ def test_headers_lead_between_the_states_of_the_encoder_only(line_code: str) -> 
 
 @pytest.mark.parametrize("longest", [1, 2, 3])
 def test_chips_with_limited_runs_are_all_those_without_a_longer_run(longest: int) -> None:
-    steps = places_of(_of_runs(longest))
+    steps = places_of(words_of_runs(longest))
 
     def can_be_sent(chips: tuple[int, ...]) -> bool:
         places = set(range(len(steps)))

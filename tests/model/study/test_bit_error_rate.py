@@ -52,13 +52,13 @@ def test_same_seed_same_errors() -> None:
 def plans_of(scene: Scene, bits: int, monkeypatch: pytest.MonkeyPatch) -> list[Plan]:
     """Return the plans that each picture of a measurement is simulated with."""
     used: list[Plan] = []
-    whole = success_rate._observe
+    whole = success_rate.observe_picture
 
     def reading(*arguments: Any) -> Any:
         used.append(arguments[1])
         return whole(*arguments)
 
-    monkeypatch.setattr(success_rate, "_observe", reading)
+    monkeypatch.setattr(success_rate, "observe_picture", reading)
     occ.bit_error_rate(scene, bits=bits, seed=2)
     return used
 

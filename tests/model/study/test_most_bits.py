@@ -10,13 +10,13 @@ import occ_model as occ
 from occ_model.cli import main
 from occ_model.results.decoding import DecodeResult
 from occ_model.scene.scene import Scene
-from occ_model.study.most_bits import VARIED, _candidates, example_of, unvaried
+from occ_model.study.most_bits import VARIED, candidate_codes, example_of, unvaried
 
 FAR = occ.load_preset("phone-136us").replace(rows=60, enhancement="none", distance=3.0)
 
 
 def test_what_carries_most_is_tried_first() -> None:
-    bits = [one.bits for one in _candidates(FAR)]
+    bits = [one.bits for one in candidate_codes(FAR)]
     assert bits == sorted(bits, reverse=True)
     assert len(bits) > 50
 

@@ -16,9 +16,9 @@ from occ_model.room.room import Place
 from occ_model.study import room_map as study
 from occ_model.study.code_length import (
     CodeLength,
-    _scaled_progress,
     code_lengths,
     least_distance,
+    scaled_progress,
 )
 from occ_model.study.room_map import RoomMapRequest, RoomMapText, RoomPoint, floor_under, room_map
 from occ_model.transmitter.packet import sent_chips
@@ -228,5 +228,5 @@ def test_the_command_says_which_length_serves_best(
 
 def test_progress_is_that_of_all_lengths() -> None:
     said: list[tuple[int, int, float]] = []
-    _scaled_progress(lambda *one: said.append(one), 1, 3, 2, 4, 5.0)
+    scaled_progress(lambda *one: said.append(one), 1, 3, 2, 4, 5.0)
     assert said == [(6, 12, 15.0)]

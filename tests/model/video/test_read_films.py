@@ -63,7 +63,7 @@ def chips_are_read_once(monkeypatch: pytest.MonkeyPatch) -> None:
     usual = FrameReader.read
 
     def remembered(reader: FrameReader, frame: VideoFrame) -> TimedFrame:
-        key = (id(frame.image), frame.exposure_time, reader._enhanced, reader._decoder)
+        key = (id(frame.image), frame.exposure_time, reader.enhanced, reader.decoder)
         if key not in _READ:
             _READ[key] = frame, usual(reader, frame)
         _, timed = _READ[key]

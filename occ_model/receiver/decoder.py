@@ -85,6 +85,26 @@ def then_short_chips(failure: str, scene: Scene) -> str:
     return f"{failure} {_sentence(scene)}" if has_short_chips(scene) else failure
 
 
+def whole_chips(chips: float) -> int:
+    """Count the whole chips of a number of them that may be off by its rounding."""
+    return int(chips * (1.0 + 1e-12))
+
+
+def short_view(columns: int, needed: int, scene: Scene, longest_exposure: float = math.inf) -> str:
+    """Say how many of the chips that are needed so many columns show, and what would show more.
+
+    ``longest_exposure``: in chips, up to which a decoder reads.
+    """
+    shown = whole_chips(columns / columns_of_chip(scene))
+    ways = ["come closer"] if columns < scene.camera.columns else []
+    # At the frequency at which the chips fit.
+    exposure = scene.camera.exposure_time / scene.camera.readout_time * needed / columns
+    if columns >= needed and exposure < longest_exposure:
+        ways.append("raise the frequency")
+    advice = f"; {' or '.join(ways)}" if ways else ""
+    return f"{shown} of {needed} chips fit the panel's image{advice}."
+
+
 def _sentence(scene: Scene) -> str:
     chip, column = scene.transmitter.switching_period, scene.camera.readout_time
     return (

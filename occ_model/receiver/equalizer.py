@@ -30,8 +30,8 @@ from occ_model.transmitter.framings.paper import HEADER
 from occ_model.transmitter.scheme import scheme_of
 
 _CURVE_UNKNOWN = (
-    "The picture is enhanced by {enhancement}, which hides how bright each column was, so that the "
-    "exposure cannot be undone exactly; without the enhancement it can."
+    "The picture is enhanced by {enhancement}, which hides how bright each column was: the light "
+    "whose exposure is undone is estimated."
 )
 
 _MAX_VOTES = 15  # packets that are compared; more take time and change nothing

@@ -32,6 +32,22 @@ def column_means(image: ByteArray, region: Region) -> FloatArray:
     return sums / region.rows
 
 
+_WHITE_PIXELS = 0.9  # of a white column's: a region can hold some rows beside the panel
+
+
+def white_fraction(image: ByteArray, region: Region, *, is_enhanced: bool) -> float | None:
+    """Return the fraction of a region's columns that are white, but for a margin of their pixels.
+
+    None where that may be an enhancement's doing: it makes the brightest columns of a picture
+    without noise white.
+    """
+    part = region.crop(image)
+    whites = np.mean(part == np.iinfo(image.dtype).max, axis=0) >= _WHITE_PIXELS
+    if is_enhanced and not np.any(np.ptp(part[:, ~whites], axis=0)):
+        return None
+    return float(whites.mean())
+
+
 def why_flat(signal: FloatArray) -> str | None:
     """Return a sentence if a signal is too flat to show stripes, else None."""
     swing = float(signal.max() - signal.min())

@@ -10,6 +10,7 @@ from occ_model.receiver.decoder import (
     columns_of_chip,
     has_short_chips,
     read_payload,
+    short_view,
     with_short_chips,
 )
 from occ_model.receiver.signal import otsu_split, otsu_threshold, why_flat
@@ -61,9 +62,17 @@ def read_stripes(signal: FloatArray, scene: Scene) -> DecodeResult:
     of a chip is known too. The result holds every step that was reached, without the region.
     """
     result = _read(signal, scene)
-    if result.failure is None or _knows_length(scene):
+    failure = result.failure
+    if failure is None:
         return result
-    return replace(result, failure=with_short_chips(result.failure, scene))
+    if not _knows_length(scene):
+        failure = with_short_chips(failure, scene)
+    if not scene.transmitter.pattern:
+        scheme = scheme_of(scene.transmitter)
+        needed = (2 if scheme.ends_by_header else 1) * scheme.length
+        if len(signal) < needed * columns_of_chip(scene):
+            failure += " " + short_view(len(signal), needed, scene, _LONGEST_EXPOSURE)
+    return replace(result, failure=failure)
 
 
 def _knows_length(scene: Scene) -> bool:
@@ -82,8 +91,7 @@ def _read(signal: FloatArray, scene: Scene) -> DecodeResult:
     if len(whole.lengths) < _MIN_RUNS:
         return replace(
             result,
-            failure=f"Too few stripes: {len(whole.lengths)} whole ones fit the panel's image; "
-            "come closer or raise the frequency.",
+            failure=f"Too few stripes: {len(whole.lengths)} whole ones were found.",
         )
     if _knows_length(scene) and has_short_chips(scene):
         return replace(

@@ -10,6 +10,7 @@ from occ_model.arrays import ByteArray
 from occ_model.scene.scene import Transmitter
 from occ_model.transmitter import error_correction
 from occ_model.transmitter.framings.framing import Framed, FrameFormat, Framing
+from occ_model.transmitter.framings.paper import is_header_unique
 from occ_model.transmitter.line_codes.line_code import LineCode
 from occ_model.transmitter.registry import FRAMINGS, LINE_CODES
 
@@ -46,6 +47,11 @@ class Scheme:
         """Whether any chips after the header 1 1 1 0 are a payload, as no rule refuses them."""
         paper = self.framing.name == _PAPER_SCHEME[1]
         return paper and self.line_code.longest_run is None
+
+    @property
+    def ends_by_header(self) -> bool:
+        """Whether a packet is read from a header to the next one, which no data contain."""
+        return self.framing.name == _PAPER_SCHEME[1] and is_header_unique(self.line_code)
 
     @property
     def finds_wrong_chip(self) -> bool:

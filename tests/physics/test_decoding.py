@@ -92,6 +92,45 @@ def test_too_few_chips_say_how_many_fit_and_what_helps() -> None:
     assert "come closer" in failure
 
 
+def failure_of(scene: Scene, columns: int, decoder: str = "threshold") -> str:
+    """Read a part of a bright signal, whose stripes no longer show a header."""
+    signal = np.where(np.arange(columns) % 40 < 2, 100.0, 255.0)
+    return occ.decode(signal, scene, decoder).failure or ""
+
+
+def test_chips_are_called_too_few_only_where_they_are_and_only_what_helps_is_advised() -> None:
+    scene = occ.load_preset("phone-136us")  # 12.5 columns a chip, 48 chips take 600
+    assert "chips fit" not in failure_of(scene, 700)
+    both = "47 of 48 chips fit the panel's image; come closer or raise the frequency."
+    assert failure_of(scene, 590).endswith(both)
+    # A panel that fills the picture comes no closer.
+    full = scene.replace(columns=590)
+    assert failure_of(full, 590).endswith("chips fit the panel's image; raise the frequency.")
+    # Where 48 chips fit, an exposure would be longer than two of them.
+    small = scene.replace(columns=250)
+    assert failure_of(small, 250).endswith("20 of 48 chips fit the panel's image.")
+    # And where chips would be narrower than a column, no decoder reads them.
+    narrow = scene.replace(columns=20)
+    assert failure_of(narrow, 20, "matched").endswith("1 of 24 chips fit the panel's image.")
+
+
+def test_of_an_overexposed_picture_no_failure_names_another_cause() -> None:
+    """The code, its timing and the scene are right, and without clipping it is read."""
+    scene = occ.load_preset("phone-136us").replace(rows=300, iso=6400.0)
+    for enhancement, decoder in (
+        ("none", "equalizer"),
+        ("none", "sequence"),
+        ("stretch", "sequence"),
+    ):
+        white = scene.replace(enhancement=enhancement)
+        failure = occ.decode(occ.render(white).image, white, decoder).failure
+        assert failure is not None
+        for said in ("without the enhancement it can", "No such code is sent", "come closer"):
+            assert said not in failure
+        dark = white.replace(iso=400.0)
+        assert occ.decode(occ.render(dark).image, dark, decoder).code == 718
+
+
 @pytest.mark.parametrize("pattern", ["01", "0011", "0101100", "010100010110001001000"])
 @pytest.mark.parametrize("frequency", [2e3, 5e3, 10e3])
 def test_the_chips_of_a_raw_pattern_are_read(

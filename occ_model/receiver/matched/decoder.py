@@ -13,7 +13,13 @@ import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray
 from occ_model.camera.exposure import column_phases
-from occ_model.receiver.decoder import Decoder, then_short_chips, with_bits, with_short_chips
+from occ_model.receiver.decoder import (
+    Decoder,
+    short_view,
+    then_short_chips,
+    with_bits,
+    with_short_chips,
+)
 from occ_model.receiver.matched.templates import (
     BINS_PER_CHIP,
     MOST_BITS,
@@ -78,8 +84,7 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
     if chips_seen < scheme.length:
         return replace(
             result,
-            failure=f"Less than one packet: {int(chips_seen)} of {scheme.length} chips fit "
-            "the panel's image; come closer or raise the frequency.",
+            failure=f"Less than one packet: {short_view(len(signal), scheme.length, scene)}",
         )
     exposure = Fraction(scene.camera.exposure_time) * Fraction(frequency)
     templates: CodeTemplates | PayloadTemplates

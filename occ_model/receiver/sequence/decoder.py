@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.receiver.decoder import has_short_chips, with_bits, with_short_chips
+from occ_model.receiver.decoder import has_short_chips, short_view, with_bits, with_short_chips
 from occ_model.receiver.light import PER_CHIP, Light, by_rank, expected_light, in_light
 from occ_model.receiver.sequence.code_words import code_words
 from occ_model.receiver.sequence.exposures import Timing
@@ -84,12 +84,9 @@ def _why_not(timing: Timing, rows: int, scene: Scene) -> str | None:
         )
     if scene.transmitter.pattern or not scheme_of(scene.transmitter).is_papers:
         return None
-    seen, length = int(rows * timing.step), scheme_of(scene.transmitter).length
-    if seen < length:
-        return (
-            f"Less than one packet: {seen} of {length} chips fit the panel's image; come closer or "
-            "raise the frequency."
-        )
+    length = scheme_of(scene.transmitter).length
+    if rows * timing.step < length:
+        return f"Less than one packet: {short_view(rows, length, scene)}"
     return None
 
 
@@ -164,8 +161,9 @@ def _framed(result: DecodeResult, fit: Fit, scene: Scene, header: tuple[int, ...
     if unexplained > (_MAX_UNEXPLAINED_OF_ANY_CHIPS if scheme.takes_any_chips else MAX_UNEXPLAINED):
         failure = (
             "The chips found do not explain the signal: "
-            f"{100.0 * unexplained:.2g} % of its variance is neither theirs nor noise. No such "
-            "code is sent, or exposure time, switching frequency or readout time is another one."
+            f"{100.0 * unexplained:.2g} % of its variance is neither theirs nor noise. Check that "
+            "exposure time, switching frequency, readout time and scheme are the picture's, and "
+            "that it is not overexposed."
         )
     elif failure is None and frame.certainty < _MIN_CERTAINTY and not scheme.framing.checks:
         failure = (

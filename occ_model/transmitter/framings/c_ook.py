@@ -125,7 +125,10 @@ def _decode(chips: ByteArray, form: FrameFormat) -> Framed:
         problem = read.failure or problem
         part = read.bits[division.asynchronous : division.asynchronous + division.part_bits]
         if problem is None and not np.array_equal(parts.setdefault(number, part), part):
-            problem = f"Two sub-packets {number + 1} differ: some chips were misread."
+            problem = (
+                f"Two sub-packets {number + 1} differ: some chips were misread, or another payload "
+                "follows."
+            )
         failure = failure or problem
     missing = [place for place in range(division.parts) if place not in parts]
     if missing:
@@ -138,7 +141,10 @@ def _decode(chips: ByteArray, form: FrameFormat) -> Framed:
         return Framed.nothing(reason, headers)
     bits = np.concatenate([parts[place] for place in range(division.parts)])
     if failure is None and bits[form.bits :].any():
-        failure = "The bits that fill the last sub-packet are not 0: some chips were misread."
+        failure = (
+            "The bits that fill the last sub-packet are not 0: some chips were misread, or another "
+            "number of bits is sent."
+        )
     return Framed(headers, bits[: form.bits], failure)
 
 
@@ -172,10 +178,7 @@ def _check_number(bits: ByteArray, division: _SubPacketLayout) -> tuple[int, str
 
 def _too_few_chips(headers: int, chips: int, sub_packet: int) -> str:
     found = f"{headers} preambles" if headers != 1 else "One preamble"
-    return (
-        f"{found} and no whole sub-packet, which has {sub_packet} chips, among {chips} chips; come "
-        "closer or raise the frequency."
-    )
+    return f"{found} and no whole sub-packet, which has {sub_packet} chips, among {chips} chips."
 
 
 FRAMING = Framing(

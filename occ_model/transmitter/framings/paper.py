@@ -6,6 +6,7 @@ from occ_model.arrays import ByteArray
 from occ_model.errors import counted
 from occ_model.transmitter.framings.framing import Framed, FrameFormat, Framing
 from occ_model.transmitter.framings.preamble import read_after, read_repeated
+from occ_model.transmitter.line_codes.line_code import LineCode
 
 HEADER = (1, 1, 1, 0)
 """The header: three ones, which never occur in data with runs of at most two, and a zero.
@@ -22,6 +23,11 @@ def _encode(bits: ByteArray, form: FrameFormat) -> ByteArray:
     return np.concatenate([np.array(HEADER, dtype=np.uint8), data])
 
 
+def is_header_unique(line_code: LineCode) -> bool:
+    """Return whether no data hold a header's ones, so that two headers bound a packet."""
+    return line_code.longest_run is not None and line_code.longest_run < HEADER_ONES
+
+
 def find_headers(chips: ByteArray) -> tuple[int, ...]:
     """Find where headers start: at the last three ones of every run of three or more."""
     edges = np.diff(np.concatenate([[0], chips.astype(np.int8), [0]]))
@@ -32,33 +38,23 @@ def find_headers(chips: ByteArray) -> tuple[int, ...]:
 def _decode(chips: ByteArray, form: FrameFormat) -> Framed:
     """Read the packet between the first two headers; try all headers if data can contain one."""
     length = len(HEADER) + form.line_code.chips_for(form.bits)
-    if form.line_code.longest_run is None or form.line_code.longest_run >= HEADER_ONES:
+    if not is_header_unique(form.line_code):
         return read_repeated(chips, np.array(HEADER, dtype=np.uint8), form.bits, form, read_after)
     headers = find_headers(chips)
     if len(headers) < 2:
-        return Framed.nothing(_too_few_headers(len(headers), len(chips), length), headers)
+        found = "One header" if headers else "No header"
+        among = counted(len(chips), "chip")
+        return Framed.nothing(f"{found} found among {among}, two needed.", headers)
     first, second = headers[:2]
     if second - first != length:
         return Framed.nothing(
             f"The first two headers are {counted(second - first, 'chip')} apart, a packet of "
-            f"{counted(form.bits, 'bit')} has {length}: some chips were misread.",
+            f"{counted(form.bits, 'bit')} has {length}: some chips were misread, or packets of "
+            "another length are sent.",
             headers,
         )
     read = read_after(chips[first + len(HEADER) : second], HEADER[-1], form)
     return Framed(headers, read.bits, read.failure)
-
-
-def _too_few_headers(headers: int, chips: int, packet: int) -> str:
-    found = "One header" if headers else "No header"
-    if chips < 2 * packet:
-        return (
-            f"{found} found, two needed: {chips} of {2 * packet} chips fit the panel's image; "
-            "come closer or raise the frequency."
-        )
-    return (
-        f"{found} found among {counted(chips, 'chip')}, two needed: "
-        "the stripes show no runs as long as a header's."
-    )
 
 
 FRAMING = Framing(

@@ -31,7 +31,10 @@ def read_after(data: ByteArray, level: int, form: FrameFormat) -> Framed:
     bits, padding = read.bits[: form.bits], read.bits[form.bits :]
     failure = read.failure
     if failure is None and padding.any():
-        failure = "The bits that fill the last block are not 0: some chips were misread."
+        failure = (
+            "The bits that fill the last block are not 0: some chips were misread, or another "
+            "number of bits is sent."
+        )
     return Framed((), bits, failure)
 
 
@@ -65,7 +68,9 @@ def read_repeated(
     headers = find_preambles(chips, preamble)
     unique = is_unique(preamble, form.line_code)
     if len(chips) < length:
-        return Framed.nothing(too_few_chips(len(chips), length), headers)
+        return Framed.nothing(
+            f"Less than one packet: {counted(len(chips), 'chip')} of its {length}.", headers
+        )
     failed: list[Framed] = []
     found: dict[bytes, Framed] = {}
     for wrapped, data in _list_candidates(chips, preamble, length, form):
@@ -135,14 +140,6 @@ def _join_frame_ends(chips: ByteArray, preamble: ByteArray, length: int) -> Iter
     twice = np.concatenate([period, period])
     for header in find_preambles(twice[: length + len(preamble) - 1], preamble):
         yield twice[header + len(preamble) : header + length]
-
-
-def too_few_chips(chips: int, length: int) -> str:
-    """Word the failure that the chips are less than one period."""
-    return (
-        f"Less than one packet: {chips} of {length} chips fit the panel's image; come closer, "
-        "raise the frequency or send fewer bits."
-    )
 
 
 def _ambiguous_payloads(payloads: int) -> str:

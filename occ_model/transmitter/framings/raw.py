@@ -76,7 +76,7 @@ def _read_frame(data: ByteArray, level: int, form: FrameFormat) -> Framed:
     if code.chips_for(whole) > len(data):
         return Framed.nothing(
             f"The frame states a length of {counted(count, 'bit')}, for which {len(data)} chips "
-            "are too few: some chips were misread."
+            "are too few: some chips were misread, or a longer frame is sent."
         )
     read = code.decode(data[: code.chips_for(whole)], level).bits
     body, check = read[: start + count], read[start + count : whole]

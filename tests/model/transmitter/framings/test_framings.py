@@ -210,7 +210,8 @@ def test_padding_that_is_not_0_is_found() -> None:
     other = scheme_named("4b6b", "preamble", "", "none", 4).encode([1, 0, 1, 1])
     assert one.decode(np.tile(sent, 3)).bits.tolist() == [1, 0, 1]
     assert one.decode(np.tile(other, 3)).failure == (
-        "The bits that fill the last block are not 0: some chips were misread."
+        "The bits that fill the last block are not 0: some chips were misread, or another number "
+        "of bits is sent."
     )
 
 
@@ -225,15 +226,28 @@ def test_the_first_and_last_chip_may_be_cut_off() -> None:
     assert (read.failure, read.bits.tolist()) == (None, payload)
 
 
-def test_the_papers_framing_tells_too_few_chips_from_chips_without_headers() -> None:
+def test_the_papers_framing_says_how_many_headers_it_found_among_how_many_chips() -> None:
     one = scheme_named("manchester", "paper", "", "none", 10)
-    few, many = (np.tile(chips_of("10"), number) for number in (12, 60))
-    assert "24 of 48 chips fit the panel's image" in (one.decode(few).failure or "")
-    assert "No header found among 120 chips" in (one.decode(many).failure or "")
+    chips = np.tile(chips_of("10"), 60)
+    assert one.decode(chips).failure == "No header found among 120 chips, two needed."
+    # The stripes do show a run as long as a header's.
+    one_header = np.concatenate([chips, chips_of("1110"), chips])
+    assert one.decode(one_header).failure == "One header found among 244 chips, two needed."
+
+
+def test_packets_of_another_length_are_not_called_misread_chips_alone() -> None:
+    """Every chip is right, of 8 bits where 10 are awaited."""
+    sent = scheme_named("differential-manchester", "paper", "", "none", 8)
+    chips = np.tile(sent.encode([1, 0, 1, 1, 0, 0, 1, 0]), 3)
+    failure = scheme_named("differential-manchester", "paper", "", "none", 10).decode(chips).failure
+    assert failure == (
+        "The first two headers are 20 chips apart, a packet of 10 bits has 24: some chips were "
+        "misread, or packets of another length are sent."
+    )
 
 
 @pytest.mark.parametrize("framing", ["preamble", "raw"])
 def test_too_few_chips_are_counted_in_the_failure(framing: str) -> None:
     one = scheme_named("manchester", framing, "", "none", 10)
     read = one.decode(one.encode(np.zeros(10, dtype=int))[:9])
-    assert f"9 of {one.length} chips fit" in read.failure
+    assert read.failure == f"Less than one packet: 9 chips of its {one.length}."

@@ -18,15 +18,18 @@ from occ_model.camera.enhancement import Enhancement, fraction_above, to_bytes
 from occ_model.camera.projection import check_size, panel_corners, row_spans
 from occ_model.effects.paper_view import PaperView, paper_view_of
 from occ_model.effects.plan import signal_plan
+from occ_model.errors import ParameterError
 from occ_model.receiver.decode import decode
 from occ_model.receiver.decoders import QUICK_DECODERS
 from occ_model.receiver.signal import bright_level, column_means, locate
 from occ_model.results.decoding import DecodeResult, Region
 from occ_model.results.plan import Plan
+from occ_model.results.sweep_request import SignalPath
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.simulation.columns import Columns, expose_columns
-from occ_model.simulation.row_sample import SampledPicture
+from occ_model.simulation.render import render_plan
+from occ_model.simulation.row_sample import SampledPicture, sample_picture
 from occ_model.study.drawn_region import BrightFractions
 from occ_model.study.noisy_columns import NoisyColumns
 
@@ -51,6 +54,8 @@ def _span_of(corners: bytes, rows: int, columns: int) -> Region | None:
 _LENS_SHIFT_PART = 50  # a lens may move the panel by one in so many of the larger side
 
 
+_SEEDS = 2**32
+
 _MAX_EXPECTED_BRIGHT = 0.01  # pixels outside the panel as bright as its brightest: negligible
 
 
@@ -66,6 +71,34 @@ class Observation:
     def read(self, scene: Scene, decoder: str) -> DecodeResult:
         result = decode(self.signal, scene, decoder)
         return result if self.region is None else replace(result, region=self.region)
+
+
+def observe(
+    view: PaperView,
+    span: Region | None,
+    plan: Plan,
+    random: np.random.Generator,
+    path: SignalPath = "auto",
+) -> Observation | None:
+    """Simulate what a decoder reads of a picture; None where no panel is found in it.
+
+    ``span``: that of :func:`panel_span`, None where pixels are simulated in any case.
+    """
+    if span is not None and "image" not in plan.kinds:
+        return observe_profile(view, span, plan, random)
+    if path == "profile":
+        raise ParameterError(
+            "path is 'profile'; a panel that is not level, or an image effect, needs 'image'."
+        )
+    scene, seed = view.scene, int(random.integers(_SEEDS))
+    sample = None if path == "image" else sample_picture(view, plan, seed)
+    if sample is not None and shows_region(sample, view):
+        return observe_sample(sample, scene, plan, random)
+    picture = render_plan(view, plan, seed=seed).image
+    found = locate(picture, scene.receiver.bright_fraction)
+    if found is None:
+        return None
+    return Observation(column_means(picture, found.region), found.region)
 
 
 def observe_profile(

@@ -15,25 +15,14 @@ from occ_model.errors import ParameterError, PluginError
 from occ_model.parallel.job import Heartbeat
 from occ_model.plugins import Faults
 from occ_model.receiver.decoders import decoder_named
-from occ_model.receiver.signal import column_means, locate
 from occ_model.results.decoding import PAPER_DECODER, DecodeResult, Region
 from occ_model.results.plan import Plan
 from occ_model.results.sweep_request import MOST_IMAGES, SIGNAL_PATHS, RateSettings, SignalPath
 from occ_model.scene.argument_checks import check_choice, check_count, check_seed, check_switches
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import TOLERANCE, SimulationSettings
-from occ_model.simulation.render import render_plan
-from occ_model.simulation.row_sample import sample_picture
-from occ_model.study.observation import (
-    Observation,
-    observe_profile,
-    observe_sample,
-    panel_span,
-    shows_region,
-)
+from occ_model.study.observation import Observation, observe, panel_span
 from occ_model.transmitter.packet import sent_chips
-
-_SEEDS = 2**32
 
 _KEPT_PICTURES = 512
 """Pictures whose decoder inputs are kept: those of a search, for the next decoder."""
@@ -201,22 +190,8 @@ def observe_picture(pictures: _Pictures, chosen: Plan, image: int) -> Observatio
     changes = {"start_time": float(stream.uniform(0.0, duration))}
     if scene.surroundings.flicker_depth:  # the mains keep no time with the packets
         changes["flicker_phase"] = float(stream.uniform(-math.pi, math.pi))
-    view, span = paper_view_of(scene.replace(**changes)), _span(scene, path)
-    if span is not None and "image" not in chosen.kinds:
-        return observe_profile(view, span, chosen, stream)
-    if path == "profile":
-        raise ParameterError(
-            "path is 'profile'; a panel that is not level, or an image effect, needs 'image'."
-        )
-    seed = int(stream.integers(_SEEDS))
-    sample = None if path == "image" else sample_picture(view, chosen, seed)
-    if sample is not None and shows_region(sample, view):
-        return observe_sample(sample, scene, chosen, stream)
-    picture = render_plan(view, chosen, seed=seed).image
-    found = locate(picture, scene.receiver.bright_fraction)
-    if found is None:
-        return None
-    return Observation(column_means(picture, found.region), found.region)
+    view = paper_view_of(scene.replace(**changes))
+    return observe(view, _span(scene, path), chosen, stream, path)
 
 
 def check_rate(scene: Scene, settings: RateSettings) -> None:

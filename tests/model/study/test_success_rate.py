@@ -143,11 +143,11 @@ def test_another_decoder_reads_the_same_pictures_without_simulating_them_again(
 
     simulated: list[object] = []
 
-    def simulate(*arguments: Any) -> observation.Observation:
+    def simulate(*arguments: Any) -> observation.Observation | None:
         simulated.append(arguments)
-        return observation.observe_profile(*arguments)
+        return observation.observe(*arguments)
 
-    monkeypatch.setattr(module, "observe_profile", simulate)
+    monkeypatch.setattr(module, "observe", simulate)
     at = scene.replace(distance=1.0371)
     rates = [occ.success_rate(at, 3, decoder, seed=81) for decoder in ("threshold", "matched")]
     assert len(simulated) == 3

@@ -9,6 +9,7 @@ from occ_gui.core.store import Store
 from occ_gui.shell.feature import Draw, Figure, NothingToDraw, later
 from occ_gui.shell.results import Board
 from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.simulation.verdict import cause_in
 from occ_gui.values.photo_choice import MODES, Placement
 from occ_model.receiver.decoders import QUICK_DECODERS
 
@@ -122,7 +123,8 @@ def _steps(decoder: str, _pane: object, shown: Snapshot) -> Draw:
     result = shown.results.get(decoder)
     if result is None:
         raise NothingToDraw(f"The {decoder} decoder has not read the picture.")
-    return later("occ_model.figures.decoding:decode_drawing", shown.frame.scene, result)
+    cause = cause_in(shown, result)
+    return later("occ_model.figures.decoding:decode_drawing", shown.frame.scene, result, cause)
 
 
 def accuracy_figure() -> Figure:

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QFormLayout, QLabel, QSizePolicy, QTabBar, QVBoxLa
 from occ_gui.decoding.bit_strip import BitStrip, PayloadText
 from occ_gui.decoding.decode_steps import RunLengthPlot, SignalPlot
 from occ_gui.simulation.snapshot import Reading
-from occ_gui.simulation.verdict import is_right, left_out_in_words, result_of, verdict_on
+from occ_gui.simulation.verdict import is_right, left_out_in_words, reason_in, result_of, verdict_on
 from occ_gui.widgets.building import filled, named, paragraph
 from occ_gui.widgets.state_look import State
 from occ_gui.widgets.text_scale import emboldened
@@ -151,8 +151,8 @@ class DecodeView(QWidget):
         self.strip.show_bits(reading.sent, bits)
         self.verdict.setText(self._verdict(decoded))
         self.origin.setText(self._origin(reading))
-        self.reason.setText(decoded.failure or "")
-        self.reason.setVisible(decoded.failure is not None)
+        self.reason.setText(reason_in(reading, decoded))
+        self.reason.setVisible(bool(self.reason.text()))
         for name, text in self._measured(decoded).items():
             step = self._steps[name]
             if step.text() != text:

@@ -32,6 +32,8 @@ class AdviceLine:
 
 def advice_lines(advice: Advice, frames_a_second: float = FRAMES_A_SECOND) -> list[AdviceLine]:
     lines = [AdviceLine(_title(advice.limits), is_title=True)]
+    if advice.cause:
+        lines.append(AdviceLine(f"It does not read the scene as it is. {advice.cause}"))
     for found, theory, low, high in (
         (advice.limits.frequency, advice.frequency, "lowest frequency", _HIGHEST),
         (advice.limits.exposure, advice.exposure, "shortest exposure", "longest exposure"),

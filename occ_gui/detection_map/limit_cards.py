@@ -76,10 +76,10 @@ class LimitCards(QWidget):
             found = advice.limits.frequency
             bits = own_text(advice.limits, self.frames_a_second)
             to = "" if found.most_chips is None else searched_to(found)
-            texts = (line.text, found.faults, gaps_text(found), to, bits)
+            texts = (advice.cause, line.text, found.faults, gaps_text(found), to, bits)
             tip = "\n".join(text for text in texts if text)
             card.show_limit(found.highest, tip, advice.limits.rate)
-            card.show_range(found)
+            card.show_range(found, "" if found.intervals else advice.cause)
 
     def show_ended(self, why_not: str = "") -> None:
         self._is_running, self._is_complete = False, not why_not
@@ -185,8 +185,9 @@ class LimitCard(QFrame):
         limit = f"at least {value}" if end.fails is None else f"{value} ({rate:g} %)"
         self._show(limit, text, None if inside is None else inside.value)
 
-    def show_range(self, found: WorkingRange) -> None:
-        texts = ["a plug-in failed"] if found.faults else []
+    def show_range(self, found: WorkingRange, cause: str = "") -> None:
+        """Show the frequencies read; ``cause``: why none is, where that is known."""
+        texts = [text for text in (cause, "a plug-in failed" if found.faults else "") if text]
         if found.gaps:
             end, after = found.gaps[0]
             more = len(found.gaps) - 1

@@ -11,8 +11,9 @@ from occ_gui.background.task import Report, Task
 from occ_gui.scene.forced_effects import forced_text
 from occ_gui.scene.parameter_rows import explain
 from occ_gui.scene.scene_store import SceneStore, new_gesture
-from occ_gui.simulation.jobs import snapshot_of
+from occ_gui.simulation.jobs import explained, snapshot_of
 from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.simulation.verdict import cause_in, is_right, reason_in
 from occ_gui.values.simulated import PinnedScene, Pins, SimulationRequest
 from occ_model.arrays import FloatArray
 from occ_model.errors import OccError, one_line
@@ -282,9 +283,11 @@ class PinController(QObject):
 
     def _reading(self, result: DecodeResult, snapshot: Snapshot) -> str:
         if result.code is None:
-            return result.failure or "no code read"
-        right = tuple(result.bits.tolist()) == snapshot.sent
-        verdict = "right" if right else "wrong"
+            return reason_in(snapshot, result) or "no code read"
+        cause = cause_in(snapshot, result)
+        verdict = "right" if is_right(result, snapshot.sent) else "wrong"
+        if cause is not None:
+            verdict += f": {cause.what}"
         if result.payload:
             payload = one_line(result.payload, _LONGEST_PAYLOAD)
             return f"“{payload}”, {verdict}"
@@ -295,4 +298,4 @@ def _simulate_all(pins: dict[str, SimulationRequest], report: Report) -> None:
     """Simulate the pictures of pins, leaving out those that have none."""
     for name, pin in pins.items():
         with suppress(OccError):
-            report((name, snapshot_of(pin, render_with(pin.scene, pin.settings))))
+            report((name, explained(snapshot_of(pin, render_with(pin.scene, pin.settings)))))

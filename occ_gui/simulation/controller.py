@@ -11,7 +11,8 @@ The results of a change arrive in this order, each by a signal:
 3. ``picture_ready`` with the exact Picture, before it is decoded. Where there is no draft, the
    Reading comes with it; or before it, where the picture is small but not there at once.
 4. ``snapshot_ready``, ``reading_shown`` and ``snapshot_shown`` with the Snapshot, which was read
-   from that picture. It is a Reading, too, and has the last word.
+   from that picture. It is a Reading, too, and has the last word. Where a decoder has not read it,
+   the same come again once it is known why.
 
 A reading is never replaced by one of an earlier scene. ``failed`` says why a scene has no picture.
 """
@@ -29,12 +30,14 @@ from occ_gui.scene.scene_store import SceneStore
 from occ_gui.simulation.jobs import (
     DraftRows,
     draft_of,
+    explained,
     is_soon,
     reading_by_profile,
     reading_of_draft,
     snapshot_of,
 )
 from occ_gui.simulation.snapshot import SOURCES, Picture, Reading, Snapshot
+from occ_gui.simulation.verdict import unread_by
 from occ_gui.values.simulated import LEAST_DRAFT_STEP, SimulationRequest
 from occ_model.receiver.decoders import QUICK_DECODERS
 from occ_model.scene.scene import Scene
@@ -55,7 +58,8 @@ def _go_on() -> None:
 
 def simulate(scene: Scene, settings: SimulationSettings = FIRST_SETTINGS) -> Snapshot:
     """Simulate a scene and decode its picture; raises ParameterError or ProjectionError."""
-    return snapshot_of(SimulationRequest(scene, settings), render_with(scene, settings))
+    request = SimulationRequest(scene, settings)
+    return explained(snapshot_of(request, render_with(scene, settings)))
 
 
 class SimulationController(QObject):
@@ -152,7 +156,10 @@ class SimulationController(QObject):
         report.wait_for_paint(_LONGEST_PAINT)
         if reading is not None:
             report.give_way()  # the scene's verdict is there: a later scene comes first
-        return snapshot_of(request, frame)
+        snapshot = snapshot_of(request, frame)
+        if unread_by(snapshot):
+            report(snapshot)
+        return explained(snapshot, report.give_way)
 
     def _wait_for_others(self, report: Reporter) -> None:
         """Leave both cores to short work for a while, unless a newer request comes."""
@@ -162,6 +169,9 @@ class SimulationController(QObject):
             report.give_way(CHECK_SECONDS)
 
     def _show_early(self, part: Picture | Reading) -> None:
+        if isinstance(part, Snapshot):
+            self._show(part)
+            return
         reading = part.reading if isinstance(part, Picture) else part
         if reading is not None and self._is_news(reading):
             self._show_reading(reading)

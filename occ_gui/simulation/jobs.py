@@ -8,15 +8,19 @@ from typing import Any
 
 import occ_model as occ
 from occ_gui.simulation.snapshot import Reading, Snapshot
+from occ_gui.simulation.verdict import unread_by
 from occ_gui.values.simulated import LEAST_DRAFT_STEP, SimulationRequest
 from occ_model.effects.plan import name_effects_for_signal
 from occ_model.errors import PluginError
+from occ_model.parallel.job import Heartbeat
 from occ_model.receiver.decoders import QUICK_DECODERS, decoder_named, read_with
 from occ_model.results.decoding import DecodeResult
 from occ_model.results.frame import Frame
 from occ_model.scene.scene import Scene
 from occ_model.simulation.band_model import band_drift, enhanced_band_profile
+from occ_model.simulation.overexposure import overexposed_fraction
 from occ_model.simulation.render import PlannedScene, render_with
+from occ_model.study.cause.cause import cause_of
 from occ_model.study.observation import ProfileReading, read_profile
 
 LONGEST_DRAFT = 0.016
@@ -132,6 +136,15 @@ def snapshot_of(request: SimulationRequest, frame: Frame) -> Snapshot:
     )
 
 
+def explained(snapshot: Snapshot, heartbeat: Heartbeat = lambda: None) -> Snapshot:
+    """Find out why decoders have not read a picture; it can take as long as several pictures."""
+    request = snapshot.request
+    scene, settings = request.scene, request.settings
+    found = {name: cause_of(scene, name, settings, heartbeat) for name in unread_by(snapshot)}
+    causes = {name: cause for name, cause in found.items() if cause is not None}
+    return replace(snapshot, causes=causes)
+
+
 def _seen(
     request: SimulationRequest,
     scene: Scene,
@@ -157,6 +170,7 @@ def _seen(
         "corners": found.corners,
         "results": results,
         "has_edges": "led-edges" in found.plan,
+        "overexposed": overexposed_fraction(scene, found.plan, found.profile, found.corners),
         "sent": () if transmitter.pattern else transmitter.payload_bits,
         "packet_columns": chip_columns * len(occ.packet(scene)),
         "band": band,

@@ -13,6 +13,7 @@ from occ_model.results.decoding import DecodeResult, Region
 from occ_model.results.frame import Frame
 from occ_model.results.plan import Plan
 from occ_model.scene.scene import Scene
+from occ_model.study.cause.cause import Cause
 
 Source: TypeAlias = Literal["profile", "draft", "picture"]
 
@@ -83,6 +84,9 @@ class Reading(ColumnView):
     # Effects that were left out and the studies of the same scene include, by label
     called_for: tuple[str, ...] = ()
     has_picture: bool = False
+    overexposed: float = 0.0  # fraction of the panel's columns
+    # Why decoders have not read the scene, by their names; None before that is searched
+    causes: Mapping[str, Cause] | None = None
 
 
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)

@@ -8,11 +8,13 @@ from occ_gui.simulation.snapshot import ColumnView, Reading
 from occ_gui.widgets.state_look import State
 from occ_model.errors import one_line
 from occ_model.results.decoding import DecodeResult
+from occ_model.study.cause.cause import Cause
 
 _LONGEST_PAYLOAD = 24  # characters of a payload that a title shows
 
 _AWAITED = "This decoder takes longer: it reads the picture now."
 
+_SYMPTOM_END = re.compile(r"[:;.](?= |$)")
 _CLAUSE_END = re.compile(r"[:;,.](?= |$)")
 
 
@@ -57,12 +59,38 @@ def is_right(decoded: DecodeResult, sent: Sequence[int]) -> bool:
     return decoded.code is not None and tuple(decoded.bits.tolist()) == tuple(sent)
 
 
+def unread_by(reading: ColumnView) -> tuple[str, ...]:
+    """Name the decoders that have not read the code that is sent; none where none is sent."""
+    sent, results = reading.sent, reading.results.items()
+    return tuple(name for name, result in results if sent and not is_right(result, sent))
+
+
 def received_in_words(sent: str, received: str, wrong: int) -> str:
     return f"sent {sent or 'no code'}, received {received or 'nothing'}, {wrong} wrong"
 
 
 def left_out_in_words(reading: Reading) -> str:
     return f"This picture leaves out what map and strips include: {', '.join(reading.called_for)}."
+
+
+def cause_in(reading: ColumnView, decoded: DecodeResult) -> Cause | None:
+    """Return why a decoder has not read the scene; None where that is not known, or not so."""
+    causes = reading.causes if isinstance(reading, Reading) else None
+    return (causes or {}).get(decoded.decoder)
+
+
+def reason_in(reading: ColumnView, decoded: DecodeResult) -> str:
+    """Return why a decoder has not read the scene, the cause first; empty without a reason."""
+    cause, failure = cause_in(reading, decoded), decoded.failure or ""
+    if cause is None:
+        return failure
+    return f"{cause} {symptom(failure)}".rstrip()
+
+
+def symptom(failure: str) -> str:
+    """Return the start of a failure, without what it might come from and what might help."""
+    first = _SYMPTOM_END.split(failure, maxsplit=1)[0]
+    return f"{first}." if first else ""
 
 
 def what_was_read(decoded: DecodeResult) -> str:

@@ -1,10 +1,10 @@
-"""Results of the model for the story: light, packets, threshold, readers, why none reads.
+"""Results of the model for the story: light, packets, threshold, readers, what helps to read.
 
 The rows draw it; they compute nothing themselves.
 """
 
 from occ_model.receiver.decoders import QUICK_DECODERS as READ_BY_ALL
-from occ_model.study.cause import Step, cause_of
+from occ_model.study.cause.suspect import Step
 from occ_model.teaching.light_over_columns import chips_in_exposure, light_over_columns
 from occ_model.teaching.packet_fields import (
     PacketField,
@@ -18,7 +18,6 @@ __all__ = [
     "READ_BY_ALL",
     "PacketField",
     "Step",
-    "cause_of",
     "chips_in_exposure",
     "light_over_columns",
     "packet_fields",

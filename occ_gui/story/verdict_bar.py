@@ -7,13 +7,22 @@ from PySide6.QtCore import Signal
 from occ_gui.detection_map.slider_strip import OwnRate
 from occ_gui.scene.forced_effects import switch_text
 from occ_gui.simulation.snapshot import Reading
-from occ_gui.simulation.verdict import Verdict, is_right, left_out_in_words, result_of, verdict_on
-from occ_gui.story.column_facts import READ_BY_ALL, Step, cause_of, chips_in_exposure
+from occ_gui.simulation.verdict import (
+    Verdict,
+    cause_in,
+    is_right,
+    left_out_in_words,
+    result_of,
+    symptom,
+    verdict_on,
+)
+from occ_gui.story.column_facts import READ_BY_ALL, Step, chips_in_exposure
 from occ_gui.widgets.chip_row import Chip
 from occ_gui.widgets.state_bar import StateBar
 from occ_gui.widgets.state_look import State
 from occ_model.results.decoding import PAPER_DECODER
 from occ_model.scene.units import SECOND
+from occ_model.simulation.overexposure import overexposed_text
 
 _COMPUTING = "computing"  # the chip of results that are still to come
 _READS = 0.99  # fraction of the bits from which a decoder counts as reading
@@ -25,6 +34,9 @@ def chips_of(reading: Reading, decoder: str) -> Iterator[Chip]:
     if not reading.has_picture:  # which has the last word
         meaning = "Read from the column profile or a draft; the exact picture is computed."
         yield Chip(_COMPUTING, "picture follows", meaning, State.WAITING)
+    if reading.overexposed:
+        text = f"overexposed: {100.0 * reading.overexposed:.2g} %"
+        yield Chip("overexposed", text, overexposed_text(reading.overexposed), State.DOUBTFUL)
     scene = reading.scene
     ratio = scene.camera.exposure_time / scene.transmitter.switching_period
     meaning = (
@@ -180,15 +192,17 @@ class VerdictBar(StateBar):
             state, chips = State.WAITING, (computing(), *chips)
         elif self._rate is not None:
             chips = (of_pictures(self._rate), *chips)
-        is_unread = verdict.state is State.BAD and verdict.reason
-        cause = cause_of(reading.scene, result.decoder, result.region) if is_unread else None
+        cause = cause_in(reading, result)
         if cause is None:
-            heading, why = self._heading(verdict.heading), self._why(verdict, reading)
+            # What follows from a failure is no title while its cause is searched for.
+            title = verdict.title if reading.causes is None else verdict.heading
+            heading, why = self._heading(title), self._why(verdict, reading)
             if _is_averaged(verdict, reading) and not (self._is_outdated or self._run):
                 self._offer_lesson(AVERAGES_LESSON)
         else:
-            heading = self._heading(f"No code: {cause.what}")
-            why = [f"{cause.why} {verdict.reason}".strip(), cause.why]
+            unread = "No code" if result.code is None else verdict.title
+            heading = self._heading(f"{unread}: {cause.what}")
+            why = [f"{cause.why} {symptom(verdict.reason)}".strip(), cause.why]
             self._offer(None if self._is_outdated else cause.step)
         self.show_state(state, heading, *why, chips=chips)
 
@@ -220,8 +234,11 @@ class VerdictBar(StateBar):
     def _why(self, verdict: Verdict, reading: Reading) -> list[str]:
         if verdict.explanation:
             # What follows a semicolon is left out where it does not fit.
-            first, more, _ = verdict.explanation.partition(";")
-            return [verdict.explanation, f"{first}."] if more else [verdict.explanation]
+            reason = verdict.reason if reading.causes is None else verdict.explanation
+            first, more, _ = reason.partition(";")
+            return [reason, f"{first}."] if more else [reason]
+        if verdict.state in (State.BAD, State.DOUBTFUL):  # what follows would seem to be why
+            return ["" if verdict.reason else "The decoder itself does not notice that."]
         scene = reading.scene
         exposure = SECOND.format(scene.camera.exposure_time, 4)
         period = SECOND.format(scene.transmitter.switching_period, 4)

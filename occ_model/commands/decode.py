@@ -5,6 +5,7 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
+from occ_model.arrays import ByteArray
 from occ_model.commands.options import (
     Commands,
     add_option,
@@ -20,11 +21,14 @@ from occ_model.photo.reading.load import load_photo
 from occ_model.program import EXIT_FAILURE
 from occ_model.receiver.decode import decode
 from occ_model.receiver.decoders import DECODERS
+from occ_model.receiver.signal import white_fraction
 from occ_model.results.decoding import PAPER_DECODER, DecodeResult
 from occ_model.results.video import Video
 from occ_model.results.video_reading import FilmProgress, VideoReading
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import SECOND
+from occ_model.simulation.overexposure import overexposed_text
+from occ_model.study.cause.cause import cause_of
 from occ_model.study.reading_facts import clock_facts, error_rate, packet_facts
 from occ_model.video.clock import MOST_READOUT_TOLERANCE, READOUT_TOLERANCE
 from occ_model.video.file.source import CHANNELS as FILM_CHANNELS
@@ -74,16 +78,30 @@ def _run(options: argparse.Namespace) -> int:
         )
     if options.follow or is_film(options.file):
         return read_film(options, scene)
-    result = _decoded(scene, options, options.scan_axis)
+    result, image = _decoded(scene, options, options.scan_axis)
     for line in _report(result):
         print(line)
-    if result.failure is not None:
-        print(result.failure, file=sys.stderr)
-        return EXIT_FAILURE
-    return 0
+    for sentence in _remarks(result, image, scene):
+        print(sentence, file=sys.stderr)
+    return 0 if result.failure is None else EXIT_FAILURE
 
 
-def _decoded(scene: Scene, options: argparse.Namespace, scan_axis: str) -> DecodeResult:
+def _remarks(result: DecodeResult, image: ByteArray, scene: Scene) -> list[str]:
+    """State why nothing was read, and that the picture is overexposed: first if that is why."""
+    failure = [] if result.failure is None else [result.failure]
+    if result.region is None:
+        return failure
+    white = white_fraction(image, result.region, is_enhanced=scene.model.enhancement != "none")
+    # Of a picture that is not the scene's own nothing is known but what it shows.
+    cause = cause_of(scene, result.decoder) if failure and white != 0.0 else None
+    if cause is not None and cause.is_overexposed:
+        return [str(cause), *failure]
+    return [*failure, overexposed_text(white)] if white else failure
+
+
+def _decoded(
+    scene: Scene, options: argparse.Namespace, scan_axis: str
+) -> tuple[DecodeResult, ByteArray]:
     """Read a picture; one of the scene's size that holds no code turned is taken as it lies."""
     image = load_photo(options.file, scan_axis, channel=options.channel).image
     result = decode(image, scene, options.decoder)
@@ -91,7 +109,7 @@ def _decoded(scene: Scene, options: argparse.Namespace, scan_axis: str) -> Decod
     is_turned = scan_axis == "auto" and rows != columns and image.shape == (columns, rows)
     if result.failure is not None and is_turned:
         return _decoded(scene, options, "columns")
-    return result
+    return result, image
 
 
 def _report(result: DecodeResult) -> list[str]:

@@ -134,17 +134,21 @@ def _end_text(found: WorkingRange, end: RangeEnd) -> str:
 def sentences(answers: Sequence[Limits], frames_a_second: float = FRAMES_A_SECOND) -> list[str]:
     """State the images that confirmed the ends, and the theoretical limits."""
     lines: list[str] = []
-    for found in answers:
+    advices = [advice_of(found) for found in answers]
+    for found, advice in zip(answers, advices, strict=True):
+        if advice.cause:
+            lines.append(
+                f"The {found.decoder} decoder does not read the scene as it is. {advice.cause}"
+            )
         for each in (found.frequency, found.exposure):
             lines += _on_range(found.decoder, each)
-        two_packets = advice_of(found).frequency.two_packets
+        two_packets = advice.frequency.two_packets
         if two_packets is not None:
             lines.append(f"  {two_packets_text(two_packets)}")
         lines.append(f"  {own_text(found, frames_a_second)}")
     lines += dict.fromkeys(line for found in answers for line in how_tried(found))
-    advice = advice_of(answers[0])
-    lines.append(theory_text("switching_frequency", advice.frequency))
-    lines.append(theory_text("exposure_time", advice.exposure))
+    lines.append(theory_text("switching_frequency", advices[0].frequency))
+    lines.append(theory_text("exposure_time", advices[0].exposure))
     return lines
 
 

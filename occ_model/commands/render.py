@@ -16,6 +16,7 @@ from occ_model.errors import counted, one_line
 from occ_model.files.writing import check_image_path, write_image
 from occ_model.results.frame import PICTURES
 from occ_model.scene.from_text import write_scene_file
+from occ_model.simulation.overexposure import overexposed_fraction, overexposed_text
 from occ_model.simulation.render import render_with
 
 
@@ -60,4 +61,7 @@ def _run(options: argparse.Namespace) -> int:
         lines = f"{rows} of {counted(scene.camera.rows, 'row')}"
     size = f"{counted(columns, 'column')}, {lines}"
     print(f"{name}: {size}, simulated in {milliseconds:.1f} ms, {what}")
+    lost = overexposed_fraction(scene, frame.plan, frame.profile, frame.corners)
+    if lost:
+        print(overexposed_text(lost))
     return 0

@@ -18,15 +18,16 @@ from occ_model.figures.drawing import BAND, SIMULATION, house_style
 from occ_model.figures.page import break_lines
 from occ_model.files.writing import check_replaceable
 from occ_model.receiver.decode import decode
-from occ_model.results.decoding import PAPER_DECODER
+from occ_model.results.decoding import PAPER_DECODER, DecodeResult
 from occ_model.results.frame import Frame
-from occ_model.scene.parameter_kinds import Quantity
+from occ_model.scene.parameter_kinds import Quantity, in_sentence
 from occ_model.scene.parameters import parameter_named
 from occ_model.scene.provenance import Provenance
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.simulation.band_model import band_profile
 from occ_model.simulation.render import render_with
+from occ_model.study.cause.cause import cause_of
 from occ_model.video.file.write import check_film_path, write_frames
 
 ENDINGS = (".gif", ".mp4", ".png")  # GIF, MP4 (MPEG-4), animated PNG
@@ -96,8 +97,19 @@ def _draw_frames(
         brightest = max(float(level_values(scene)[1]) for scene in scenes)
         drawing = AnimatedFigure(parameter, min(_HEADROOM * brightest, _HIGHEST))
         for number, scene in enumerate(scenes, 1):
-            yield drawing.draw(render_with(scene, settings), decoder)
+            frame = render_with(scene, settings)
+            result = decode(frame.image, scene, decoder=decoder)
+            yield drawing.draw(frame, _describe_read(result, scene, settings))
             progress(number)
+
+
+def _describe_read(result: DecodeResult, scene: Scene, settings: SimulationSettings) -> str:
+    """Return what was read, behind the cause where that is not what was sent."""
+    read = result.failure or f"code {result.code} read"
+    if scene.transmitter.pattern or tuple(result.bits.tolist()) == scene.transmitter.payload_bits:
+        return read
+    cause = cause_of(scene, result.decoder, settings)
+    return read if cause is None else f"{cause.what}: {in_sentence(read)}"
 
 
 class AnimatedFigure:
@@ -122,8 +134,7 @@ class AnimatedFigure:
         legend = lower.legend(loc="upper right", fontsize=8, ncols=2, frameon=False)
         _, self.band_name = legend.get_texts()
 
-    def draw(self, frame: Frame, decoder: str) -> ByteArray:
-        result = decode(frame.image, frame.scene, decoder=decoder)
+    def draw(self, frame: Frame, read: str) -> ByteArray:
         first = max(0, int(frame.corners[:, 0].min()))
         last = min(frame.scene.camera.columns, first + _SHOWN_COLUMNS)
         top, bottom = frame.corners[:, 1].min(), frame.corners[:, 1].max()
@@ -141,7 +152,6 @@ class AnimatedFigure:
         self.band_name.set_text(_BAND_MODEL if is_defined else f"{_BAND_MODEL} (undefined here)")
         self._lower.set_xlim(first, last)
         value = self._parameter.format(frame.scene.value(self._parameter.name), 4)  # type: ignore[arg-type]
-        read = result.failure or f"code {result.code} read"
         title, font = f"{self._parameter.label} {value}: {read}", self._title.get_fontproperties()
         self._title.set_text("\n".join(break_lines(title, _TITLE_WIDTH, font, _TITLE_LINES)))
         self._canvas.draw()  # type: ignore[no-untyped-call]

@@ -14,7 +14,9 @@ from occ_model.errors import one_line, printable
 from occ_model.figures.drawing import THRESHOLD, Drawing
 from occ_model.figures.window_panes import caption, write_caption
 from occ_model.results.decoding import DecodeResult
+from occ_model.scene.parameter_kinds import in_sentence
 from occ_model.scene.scene import Scene
+from occ_model.study.cause.cause import Cause
 
 _LONGEST_PAYLOAD = 40  # characters of a payload that the title shows
 
@@ -27,11 +29,10 @@ _SPLITS: tuple[dict[str, Any], ...] = (
 )  # for dark and for lit runs, in the colours of their bars
 
 
-def decode_drawing(scene: Scene, result: DecodeResult) -> Drawing:
-    """Draw the steps of decoding up to the code, or up to the step that failed."""
-    message = printable(
-        result.failure or f"{_describe_read(result)} read by the {result.decoder} decoder"
-    )
+def decode_drawing(scene: Scene, result: DecodeResult, cause: Cause | None = None) -> Drawing:
+    """Draw the steps of decoding, up to the code or to the step that failed; the cause is named."""
+    message = result.failure or f"{_describe_read(result)} read by the {result.decoder} decoder"
+    message = printable(message if cause is None else f"{cause.what}: {in_sentence(message)}")
 
     def draw() -> Figure:
         figure = Figure(figsize=(7.2, 4.2))

@@ -33,6 +33,7 @@ class Advice:
     # What theory says of each
     frequency: TheoryLimits
     exposure: TheoryLimits
+    cause: str = ""  # Why the scene itself is not read, in sentences; empty where it is, or unknown
 
 
 _DIGITS = 4  # significant digits: the ends of a range are found to a few thousandths

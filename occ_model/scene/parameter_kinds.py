@@ -18,6 +18,11 @@ ParameterValue: TypeAlias = float | int | str
 MAX_PATTERN_CHIPS = 4096
 
 
+def in_sentence(label: str) -> str:
+    """Return a label within a sentence, where ISO, LED and JPEG stay in capitals."""
+    return label if label[:2].isupper() else label[:1].lower() + label[1:]
+
+
 @dataclass(frozen=True, slots=True)
 class Declaration:
     name: str  # The identifier, as in a scene file
@@ -27,8 +32,8 @@ class Declaration:
 
     @property
     def in_sentence(self) -> str:
-        """The label inside a sentence: in lower case, except ISO, LED and JPEG."""
-        return self.label if self.label[:2].isupper() else self.label[:1].lower() + self.label[1:]
+        """The label inside a sentence."""
+        return in_sentence(self.label)
 
     def refuse(self, problem: str, allowed: str) -> ParameterError:
         """Return the error for a ``problem``, a verb and the value such as "is 3 m"."""

@@ -22,9 +22,10 @@ from occ_model.results.sweep_request import RateSettings, SignalPath
 from occ_model.scene.argument_checks import check_count, is_number
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import TOLERANCE
+from occ_model.scene.simulation_settings import TOLERANCE, SimulationSettings
 from occ_model.study import theory
-from occ_model.study.cause import TWO_HEADERS
+from occ_model.study.cause.cause import cause_of
+from occ_model.study.cause.timing import reads_two_headers
 from occ_model.study.success_rate import check_rate
 from occ_model.study.sure_ends import images_about_an_end, pairs_of, sure_end, with_ends
 from occ_model.study.working_range import READ_RATE, expected_images, working_range
@@ -204,9 +205,9 @@ def _checked(rate: object) -> float:
 
 
 def advice_of(limits: Limits) -> Advice:
-    """Return the limits found by trial together with those of theory."""
+    """Return the limits found by trial, those of theory, and why the scene itself is not read."""
     scene, period = limits.scene, limits.scene.transmitter.switching_period
-    reads_two = limits.decoder in TWO_HEADERS
+    reads_two = reads_two_headers(scene, limits.decoder)
     frequencies = TheoryLimits(
         band_model=theory.band_model_frequency(scene),
         null=theory.null_frequency(scene),
@@ -215,4 +216,7 @@ def advice_of(limits: Limits) -> Advice:
     exposures = TheoryLimits(
         band_model=period, null=2.0 * period, saturation=theory.saturation_exposure(scene)
     )
-    return Advice(limits, frequencies, exposures)
+    cause = None
+    if limits.frequency.own.rate < limits.rate:
+        cause = cause_of(scene, limits.decoder, SimulationSettings(seed=limits.seed))
+    return Advice(limits, frequencies, exposures, "" if cause is None else str(cause))

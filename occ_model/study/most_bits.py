@@ -19,9 +19,11 @@ from occ_model.scene.argument_checks import check_count, check_seed
 from occ_model.scene.parameters import quantity
 from occ_model.scene.payload import MAX_PAYLOAD_BITS
 from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.study.bit_error_rate import check_frame_rate, with_payload
+from occ_model.study.cause.cause import cause_of
 from occ_model.study.success_rate import right_bits_of_images
-from occ_model.study.theory import panel_readout_time
+from occ_model.study.theory import is_panel_in_picture, panel_readout_time
 from occ_model.transmitter.registry import LINE_CODES
 from occ_model.transmitter.scheme import scheme_of
 
@@ -97,7 +99,7 @@ def most_bits(
         with Faults().counting() as faults:
             place, sent = _first_read(scene, candidates, settings, pictures, (heartbeat, progress))
         bits = 0 if sent is None else candidates[place].bits
-        failure = None if sent is not None else _why(candidates)
+        failure = None if sent is not None else _why(scene, candidates, settings)
         found.append(
             MostBits(
                 name, sent, pictures, bits * frames_a_second, frames_a_second, place, failure,
@@ -122,10 +124,20 @@ def example_of(found: MostBits, seed: int = 1) -> Scene | None:
     return with_payload(found.scene, bits.tolist())
 
 
-def _why(candidates: Sequence[_Candidate]) -> str:
+def _why(scene: Scene, candidates: Sequence[_Candidate], settings: RateSettings) -> str:
+    if not panel_readout_time(scene) and not is_panel_in_picture(scene):
+        return "No column of the picture shows the panel."
     if not candidates:
         return "The picture shows too few chips of the panel for any payload; come closer."
-    return f"None of {len(candidates)} combinations of line code, frequency and bits was read."
+    least = candidates[-1]  # that is read most easily
+    (decoder,) = settings.decoders
+    cause = cause_of(
+        _sending(scene, least.line_code, least.bits, least.frequency),
+        decoder,
+        SimulationSettings(seed=settings.seed),
+    )
+    failure = f"None of {len(candidates)} combinations of line code, frequency and bits was read."
+    return f"{cause} {failure}" if cause is not None and cause.is_overexposed else failure
 
 
 def candidate_codes(scene: Scene) -> list[_Candidate]:

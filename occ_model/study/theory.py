@@ -35,11 +35,28 @@ def null_frequency(scene: Scene) -> float:
     return 2.0 / scene.camera.exposure_time
 
 
+def alternating_swing(scene: Scene) -> float:
+    """Return the fraction of their full swing that alternating chips keep in the columns.
+
+    1 up to an exposure of one chip; beyond, the light of whole pairs is the same wherever they
+    start, and only the rest t mod 2 t_LED swings: min(c mod 2, 2 - c mod 2) / c with c = t / t_LED.
+    """
+    chips = scene.camera.exposure_time * scene.transmitter.switching_frequency
+    rest = math.fmod(chips, 2.0)
+    return min(rest, 2.0 - rest) / chips
+
+
 def panel_readout_time(scene: Scene) -> float:
     """Return the readout time of the columns that show the panel, in seconds; 0 without any."""
     camera = scene.camera
     region = region_of(panel_corners(scene), camera.rows, camera.columns)
     return 0.0 if region is None else region.columns * camera.readout_time
+
+
+def is_panel_in_picture(scene: Scene) -> bool:
+    """Return whether the middle of the panel lies within the picture, however small it is."""
+    middle, size = panel_corners(scene).mean(axis=0), (scene.camera.columns, scene.camera.rows)
+    return bool(np.all((middle >= 0.0) & (middle < size)))
 
 
 def two_packets_frequency(scene: Scene) -> float | None:

@@ -1,7 +1,5 @@
 """Write the paper's equations with the numbers of a scene in them."""
 
-import numpy as np
-
 from occ_model.camera.photometry import WHITE, level_values, luminance_levels
 from occ_model.errors import BandModelUndefined
 from occ_model.results.teaching import Equation, Term
@@ -9,6 +7,7 @@ from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import HERTZ, NIT, SECOND
 from occ_model.simulation.band_model import band_lengths
+from occ_model.study.theory import alternating_swing
 from occ_model.teaching.quantities import COLUMN, result_text
 
 _LIGHT = ("luminance", "illuminance", "reflectance")
@@ -150,7 +149,7 @@ def _frame_time(scene: Scene) -> Equation:
 def _null(scene: Scene) -> Equation:
     exposure = scene.camera.exposure_time
     in_chips = exposure * scene.transmitter.switching_frequency
-    contrast = abs(float(np.sinc(0.5 * in_chips)))
+    contrast = alternating_swing(scene)
     return Equation(
         "null",
         "exposure",

@@ -6,6 +6,7 @@ import pytest
 import occ_model as occ
 from occ_model.camera.exposure import forget_exposures, lit_fraction
 from occ_model.scene.scene import Scene
+from occ_model.study.theory import alternating_swing
 
 
 @pytest.mark.parametrize(
@@ -59,6 +60,15 @@ def test_exposure_damps_a_frequency_by_its_sinc(
     # A square wave's fundamental has the amplitude 2/pi; the exposure leaves |sinc(F t)| of it.
     fundamental = abs(np.fft.rfft(lit_fraction(scene))[1]) / (samples / 2)
     assert fundamental / (2 / np.pi) == pytest.approx(response, abs=6e-5)
+
+
+@pytest.mark.parametrize("chips", [0.3, 0.68, 1.0, 1.36, 1.94, 2.0, 2.6, 3.0, 3.7, 4.0, 5.25])
+def test_alternating_chips_keep_the_swing_that_theory_states(chips: float) -> None:
+    scene = Scene().replace(
+        pattern="01", switching_frequency=1e4, exposure_time=chips * 1e-4, readout_time=1e-6,
+        columns=400,
+    )  # fmt: skip
+    assert np.ptp(lit_fraction(scene)) == pytest.approx(alternating_swing(scene), abs=1e-9)
 
 
 def test_every_run_shows_beyond_the_period_at_10_khz() -> None:

@@ -1,43 +1,26 @@
-"""Why a picture is not read: the cause in the scene, not the symptom in a decoder."""
+"""Why a picture is not read: that in the scene without which it would be read.
 
-import math
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+Each suspect is taken out of the scene by itself, all else left as it is, and the picture is read
+again by the same decoder. One that is enough by itself is the cause; where none is, those are that
+are needed together. Where nothing that is taken out makes it readable, no cause is stated.
+"""
 
-from occ_model.camera.photometry import FLAT_SPAN, WHITE, deviation, level_values
-from occ_model.camera.projection import panel_corners
-from occ_model.effects.paper_view import region_of
-from occ_model.receiver.decoder import columns_of_chip
-from occ_model.receiver.matched.templates import MOST_BITS
-from occ_model.results.decoding import Region
-from occ_model.scene.parameter_kinds import ParameterValue
-from occ_model.scene.parameters import quantity
-from occ_model.scene.parameters.light import MAX_BITS
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from occ_model.effects.paper_view import paper_view_of
+from occ_model.effects.plan import signal_plan
+from occ_model.errors import OccError
+from occ_model.parallel.job import Heartbeat
+from occ_model.receiver.decoders import DECODERS
+from occ_model.results.sweep_request import SignalPath
 from occ_model.scene.scene import Scene
-from occ_model.scene.units import HERTZ
-from occ_model.study import theory
-from occ_model.transmitter.packet import sent_chips
-from occ_model.transmitter.scheme import scheme_of
-
-TWO_HEADERS = ("threshold", "equalizer")  # need two headers; others read a single packet
-_NEAR_NULL = 0.96  # fraction of the null frequency from which single chips are lost in rounding
-_TARGET_LEVEL = 200.0  # grey level of the lit panel that a suggested step aims at
-_LOST_AREA_RATIO = 4.0  # times the panel's area from which a rectangle is not the panel's
-_STEP_MARGIN = 1.15  # factor by which a suggested step exceeds the theoretical limit
-
-
-_MIN_SWING_TO_NOISE = {"threshold": 10.0, "equalizer": 2.0}
-"""Minimum ratio of the stripes' swing to a column's noise, found on random scenes: a single wrong
-column splits a run. The equalizer smooths."""
-
-
-@dataclass(frozen=True, slots=True)
-class Step:
-    """A remedy: parameters to change, in SI units, or another decoder."""
-
-    label: str
-    changes: Mapping[str, ParameterValue] = field(default_factory=dict)
-    decoder: str = ""
+from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.study.cause.suspect import Attempt, Step, Suspect
+from occ_model.study.cause.suspects import refusal_of, suspected
+from occ_model.study.observation import observe, panel_span
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,156 +30,107 @@ class Cause:
     what: str
     why: str
     step: Step | None = None
+    is_overexposed: bool = False
+
+    def __str__(self) -> str:
+        return f"{self.what[:1].upper()}{self.what[1:]}. {self.why}"
 
 
-def cause_of(scene: Scene, decoder: str, region: Region | None = None) -> Cause | None:
-    """Find why a decoder cannot read a scene from a region; None without a reason."""
-    if scene.transmitter.pattern:
+def cause_of(
+    scene: Scene,
+    decoder: str,
+    settings: SimulationSettings | None = None,
+    heartbeat: Heartbeat = lambda: None,
+) -> Cause | None:
+    """Find why a decoder does not read a scene's picture; None where it reads it, or none is found.
+
+    ``heartbeat``: called before each reading. Raises ProjectionError: the scene has no picture.
+    """
+    if scene.transmitter.pattern or decoder not in DECODERS:
         return None
-    found = (
-        _light(scene), _lost_panel(scene, region), _short_chips(scene),
-        _few_chips(scene, decoder), _bits(scene, decoder),
-        _null(scene, decoder), _noise(scene, decoder),
-    )  # fmt: skip
-    return next((one for one in found if one is not None), None)
+    search = _Search(Attempt(scene, decoder, settings or SimulationSettings()), heartbeat)
+    return search.cause()
 
 
-def _light(scene: Scene) -> Cause | None:
-    dark, lit = level_values(scene).tolist()
-    if dark >= WHITE:
-        return Cause(
-            "all is white", "The dark chips are as white as the lit ones.", _to_level(scene, lit)
-        )
-    if lit - dark < FLAT_SPAN:
-        return Cause(
-            "too dark",
-            f"The lit panel differs from the dark one by {lit - dark:.2g} grey levels: the "
-            "exposure is too short for the light.",
-            _to_level(scene, lit) if lit > dark else None,
-        )
-    return None
+_DRAWS = 3  # of the noise, one of which must leave the picture unread
 
 
-def _to_level(scene: Scene, lit: float) -> Step:
-    """Return the ISO speed that brings the lit panel to a level, within its range."""
-    iso = quantity("iso")
-    low, high = iso.slider
-    wanted = scene.camera.iso * (_TARGET_LEVEL / max(lit, 1e-3)) ** scene.camera.gamma
-    value = float(f"{min(max(wanted, low), high):.3g}")
-    return Step(f"Set ISO {iso.format(value)}", {"iso": value})
+class _Search:
+    def __init__(self, attempt: Attempt, heartbeat: Heartbeat) -> None:
+        self._attempt, self._heartbeat = attempt, heartbeat
+        self._path: SignalPath = "auto"
 
+    def cause(self) -> Cause | None:
+        refusal = refusal_of(self._attempt)
+        if refusal is not None:
+            return self._cause([refusal])
+        if not self._is_unread():
+            return None
+        suspects = suspected(self._attempt)
+        alone = next((one for one in suspects if self._reads_without([one])), None)
+        if alone is not None:
+            return self._cause([alone])
+        return self._cause(self._needed(suspects)) if self._reads_without(suspects) else None
 
-def _lost_panel(scene: Scene, region: Region | None) -> Cause | None:
-    """Compare the region that the receiver found with the panel, where that is small."""
-    camera = scene.camera
-    panel = region_of(panel_corners(scene), camera.rows, camera.columns)
-    if region is None or panel is None or _area(region) < _LOST_AREA_RATIO * _area(panel):
-        return None
-    fraction, wanted = _area(panel) / (camera.rows * camera.columns), scene.receiver.bright_fraction
-    if fraction >= wanted:
-        return None
-    value = max(float(f"{0.5 * fraction:.2g}"), quantity("bright_fraction").low)
-    return Cause(
-        "the panel is not found",
-        f"The brightest {100.0 * wanted:.3g} % of the pixels mark it, but it covers "
-        f"{100.0 * fraction:.2g} % of the picture: noise beside it is marked as well.",
-        Step(f"Mark the brightest {100.0 * value:.2g} %", {"bright_fraction": value}),
-    )
+    def _is_unread(self) -> bool:
+        """Look for noise with which the picture is not read; in doubt whole pictures tell."""
+        settings = self._attempt.settings
+        for self._path in ("auto", "image"):
+            for seed in range(settings.seed, settings.seed + _DRAWS):
+                self._attempt = replace(self._attempt, settings=replace(settings, seed=seed))
+                if not self._reads(self._attempt):
+                    return True
+        return False
 
+    def _needed(self, suspects: Sequence[Suspect]) -> list[Suspect]:
+        """Return those of several suspects that are all needed, the last left out first."""
+        needed = list(suspects)
+        for one in reversed(suspects):
+            rest = [other for other in needed if other is not one]
+            if rest and self._reads_without(rest):
+                needed = rest
+        return needed
 
-def _area(region: Region) -> int:
-    return region.rows * region.columns
+    def _cause(self, needed: Sequence[Suspect]) -> Cause:
+        first, *others = needed
+        why = first.why
+        if others:
+            why += f" Beside that: {', '.join(one.what for one in others)}."
+        rest = self._without(others)
+        step = next((s for s in first.steps if rest and self._reads(s.taken(rest))), None)
+        return Cause(first.what, why, step, first.is_overexposed)
 
+    def _reads_without(self, suspects: Sequence[Suspect]) -> bool:
+        attempt = self._without(suspects)
+        return attempt is not None and self._reads(attempt)
 
-def _short_chips(scene: Scene) -> Cause | None:
-    columns = columns_of_chip(scene)
-    if columns >= 1.0:
-        return None
-    value = float(f"{theory.row_rate_frequency(scene):.3g}")
-    return Cause(
-        "chips are narrower than a column",
-        f"A chip lasts {columns:.2g} columns: not every chip has a column of its own.",
-        _frequency(value),
-    )
+    def _without(self, suspects: Sequence[Suspect]) -> Attempt | None:
+        """Take some suspects out of the scene; None where a parameter's range does not allow it."""
+        attempt = self._attempt
+        try:
+            for suspect in suspects:
+                attempt = suspect.take_out(attempt)
+        except OccError:
+            return None
+        return attempt
 
-
-def _few_chips(scene: Scene, decoder: str) -> Cause | None:
-    length = len(sent_chips(scene.transmitter))
-    packets = 2 if decoder in TWO_HEADERS else 1
-    shown = theory.panel_readout_time(scene) * scene.transmitter.switching_frequency
-    if shown >= packets * length:
-        return None
-    if not shown:
-        return Cause("the panel is out of the picture", "No column shows it.")
-    needed = packets * length / shown * _STEP_MARGIN
-    frequency = float(f"{scene.transmitter.switching_frequency * needed:.3g}")
-    exposed = frequency * scene.camera.exposure_time
-    nearer = float(f"{scene.pose.distance / needed:.2g}")
-    if exposed < 2.0 * _NEAR_NULL or decoder != "threshold":
-        step = _frequency(frequency)
-    else:
-        step = Step(f"Come to {quantity('distance').format(nearer)}", {"distance": nearer})
-    why = f"{int(shown)} of the {packets * length} chips of "
-    why += (
-        "two packets are in view, and so both headers not in every picture"
-        if packets == 2
-        else "a packet are in view"
-    )
-    return Cause("too few chips in view", f"{why}: come closer, or raise the frequency.", step)
-
-
-def _frequency(value: float) -> Step:
-    return Step(f"Set {HERTZ.format(value)}", {"switching_frequency": value})
-
-
-def _bits(scene: Scene, decoder: str) -> Cause | None:
-    bits, compared = scheme_of(scene.transmitter).bits, _compared_bits(scene)
-    if decoder != "matched" or bits <= compared:
-        return None
-    return Cause(
-        "too many bits to compare",
-        f"The matched decoder compares all payloads, of up to {compared} bits; this has {bits}.",
-        Step("Try the sequence decoder", decoder="sequence"),
-    )
-
-
-def _compared_bits(scene: Scene) -> int:
-    return MAX_BITS if scheme_of(scene.transmitter).is_papers else MOST_BITS
-
-
-def _null(scene: Scene, decoder: str) -> Cause | None:
-    null = theory.null_frequency(scene)
-    ratio = scene.transmitter.switching_frequency / null
-    if decoder not in TWO_HEADERS or ratio < _NEAR_NULL:
-        return None
-    side = "beyond" if ratio > 1.0 else "at"
-    why = f"An exposure covers {2.0 * ratio:.3g} chips: single chips average out"
-    if decoder == "equalizer":
-        why += ", and undoing that amplifies rounding and noise"
-    return Cause(f"{side} the null at {HERTZ.format(null, 3)}", f"{why}.", _whole_packets(scene))
-
-
-def _noise(scene: Scene, decoder: str) -> Cause | None:
-    """Compare a column's noise with the stripes of chips that alternate."""
-    chips = scene.camera.exposure_time * scene.transmitter.switching_frequency
-    region = region_of(panel_corners(scene), scene.camera.rows, scene.camera.columns)
-    if decoder not in _MIN_SWING_TO_NOISE or region is None or chips >= 2.0:
-        return None
-    values = level_values(scene)
-    of_pixel = deviation(values, scene, lambda electrons: electrons + scene.sensor.read_noise**2)
-    of_column = float(of_pixel.max()) / math.sqrt(region.rows)
-    swing = float(values[1] - values[0]) * min(1.0, 2.0 / chips - 1.0)
-    if swing >= _MIN_SWING_TO_NOISE[decoder] * of_column:
-        return None
-    return Cause(
-        "too much noise",
-        f"A column's noise is {of_column:.2g} grey levels, where stripes of single chips swing by "
-        f"{swing:.2g}.",
-        _whole_packets(scene),
-    )
-
-
-def _whole_packets(scene: Scene) -> Step:
-    """Return the remedy of a decoder that compares whole packets in place of single chips."""
-    other = "matched" if scheme_of(scene.transmitter).bits <= _compared_bits(scene) else "sequence"
-    return Step(f"Try the {other} decoder", decoder=other)
+    def _reads(self, attempt: Attempt | None) -> bool:
+        """Return whether the decoder reads all bits of the picture."""
+        if attempt is None:
+            return False
+        self._heartbeat()
+        scene, settings = attempt.scene, attempt.settings
+        try:
+            span = panel_span(scene)
+            plan = signal_plan([scene], settings, needs_pixels=span is None)
+            random = np.random.default_rng(settings.seed)
+            if self._path == "image":
+                span = None
+            seen = observe(paper_view_of(scene), span, plan, random, self._path)
+        except OccError:
+            return False
+        if seen is None:
+            return False
+        result = seen.read(scene, attempt.decoder)
+        sent = np.array(scene.transmitter.payload_bits, dtype=np.uint8)
+        return result.failure is None and bool(np.array_equal(result.bits, sent))

@@ -31,6 +31,7 @@ INSIDE = Trial(14.55e3, 3810, 3810, 99.0, 100.0, 381, 381)
 CERTAIN, BRIEF = (14.66e3, 14.72e3), (194.5e-6, 196.6e-6)
 BAD = Trial(14.73e3, 0, 200, 0.0, 16.1, 20, 0)
 SHORT = Trial(10e-6, 200, 200, 83.9, 100.0, 20, 20)
+UNREAD = Trial(10e3, 0, 200, 0.0, 16.1, 20, 0)
 LONG = Trial(196e-6, 200, 200, 83.9, 100.0, 20, 20)
 LONG_INSIDE = Trial(194e-6, 200, 200, 83.9, 100.0, 20, 20)
 TOO_LONG = Trial(197e-6, 180, 200, 85.1, 93.4, 20, 18)
@@ -133,6 +134,19 @@ def test_where_nothing_is_read_the_models_sentence_is_shown(small_scene: Scene) 
     )
     assert any("at no exposure time from 1 s to 3 s" in line.text for line in lines)
     assert all(line.destination is None for line in lines)
+
+
+def test_why_the_scene_itself_is_not_read_comes_first_in_window_and_shell(
+    small_scene: Scene,
+) -> None:
+    white = small_scene.replace(exposure_time=136e-6, iso=12800.0)
+    limits = replace(found(white), frequency=replace(found(white).frequency, own=UNREAD))
+    advice = advice_of(limits)
+    assert advice.cause.startswith("Overexposed. The lit panel would have the level 860.6")
+    said = f"does not read the scene as it is. {advice.cause}"
+    assert advice_lines(advice)[1].text == f"It {said}"
+    assert sentences([limits])[0] == f"The threshold decoder {said}"
+    assert advice_of(found(small_scene)).cause == ""
 
 
 def test_window_and_shell_state_the_same_numbers(small_scene: Scene) -> None:

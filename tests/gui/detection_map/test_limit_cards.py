@@ -51,6 +51,13 @@ def test_a_card_states_what_the_page_of_advice_states(qtbot: QtBot, small_scene:
     assert card.range.toolTip() == "from 14.7 kHz; a plug-in failed"
 
 
+def test_where_nothing_is_read_the_card_says_why(cards: LimitCards, small_scene: Scene) -> None:
+    cards.show_advice(replace(with_end(small_scene, None), cause="Overexposed. All is white."))
+    card = cards.cards["threshold"]
+    assert (card.value.text(), card.range.toolTip()) == ("none", "Overexposed. All is white.")
+    assert card.value.toolTip().startswith("Overexposed. All is white.\n")
+
+
 def test_go_leads_to_where_every_bit_was_read(cards: LimitCards, small_scene: Scene) -> None:
     told: list[tuple[str, float, str]] = []
     cards.destination_chosen.connect(lambda *to: told.append(to))

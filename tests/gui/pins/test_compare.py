@@ -15,6 +15,7 @@ from occ_gui.pins.compare_view import CompareView
 from occ_gui.pins.pin_controller import PinController, Pinned
 from occ_gui.simulation.jobs import snapshot_of as snapshot_of_frame
 from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.simulation.verdict import symptom
 from occ_gui.widgets.columns import PACKETS_IN_VIEW
 from occ_model.scene.scene import Scene
 
@@ -71,7 +72,10 @@ def test_the_outputs_are_those_of_the_two_states(
     assert found["Contrast"] == swings
     assert found["Columns a chip"] == ("12.50 columns", "7.81 columns")
     assert found["Exposure"] == ("0.680 chips", "2.176 chips")
-    assert found["Decoder “threshold”"] == ("code 718, right", b.results["threshold"].failure)
+    right, why = found["Decoder “threshold”"]
+    assert right == "code 718, right"
+    assert why.startswith("1.3 kHz above the null at 14.7 kHz. ")
+    assert why.endswith(f" {symptom(b.results["threshold"].failure or '')}")
     assert "Effects simulated" not in found  # none in both
     assert all(row.meaning for row in pins.pinned.outputs)
 

@@ -15,7 +15,6 @@ from occ_gui.simulation.verdict import Verdict
 from occ_gui.story.verdict_bar import VerdictBar
 from occ_gui.widgets.chip_row import ChipLabel
 from occ_gui.widgets.state_look import State
-from occ_model.results.decoding import Region
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.teaching.lessons import lessons
@@ -63,7 +62,7 @@ def test_a_code_read_is_good_and_names_the_code_and_one_with_wrong_bits_doubtful
         ),
         ("No stripes: the signal spans 0.5 levels.", "no stripes", "The signal spans 0.5 levels."),
         ("A chip lasts 0.5 columns: too few.", "a chip lasts 0.5 columns", "Too few."),
-        ("No panel found.", "no panel found", "1 or 2 chips."),
+        ("No panel found.", "no panel found", "no panel found."),
     ],
 )
 def test_no_code_is_bad_and_says_why(
@@ -77,19 +76,11 @@ def test_no_code_is_bad_and_says_why(
 
 
 def test_a_panel_that_the_receiver_does_not_find_is_not_said_to_have_no_stripes(
-    bar: VerdictBar, snapshot_of: SnapshotOf
+    bar: VerdictBar,
 ) -> None:
-    snapshot = snapshot_of(panel_height=0.002)
-    camera = snapshot.scene.camera
-    bar.show_reading(
-        sent_to(
-            snapshot,
-            code=None,
-            bits=np.empty(0, dtype=np.uint8),
-            failure="No stripes: the signal spans only 0.8 grey levels.",
-            region=Region(0, camera.rows, 0, camera.columns),
-        )
-    )
+    snapshot = simulate(occ.load_preset("phone-68us").replace(panel_height=0.002))
+    assert (snapshot.results["threshold"].failure or "").startswith("No stripes")
+    bar.show_reading(snapshot)
     assert bar.title.text() == "No code: the panel is not found"
     assert bar.step.text().startswith("Mark the brightest 0.")
 
@@ -252,12 +243,46 @@ def test_the_cause_comes_first_and_its_step_is_a_button(
     chosen = collect(bar.step_chosen)
     bar.show_reading(snapshot_of(exposure_time=136e-6, switching_frequency=20e3))
     assert bar.title.text() == "No code: beyond the null at 14.7 kHz"
-    assert "single chips average out" in bar.accessibleDescription()
+    assert "leaves 26 % of the swing of chips that alternate." in bar.accessibleDescription()
     assert bar.step.text() == "Try the matched decoder"
     bar.step.click()
     assert [step.decoder for step in chosen] == ["matched"]
     bar.show_reading(snapshot_of())
     assert bar.step.isHidden()
+
+
+def test_overexposure_is_said_first_where_it_is_why_and_is_noted_where_it_is_not(
+    bar: VerdictBar, snapshot_of: SnapshotOf
+) -> None:
+    read = snapshot_of(exposure_time=136e-6, iso=6400.0)
+    bar.show_reading(read)
+    assert bar.heading == "Code 718 read, all bits right"
+    assert texts(bar)["overexposed"].startswith("overexposed: 7")
+    white = snapshot_of(exposure_time=136e-6, iso=12800.0)
+    bar.show_reading(white)
+    assert bar.heading == "No code: overexposed"
+    assert bar.step.text() == "Set ISO 501"
+    bits = np.array(white.sent, dtype=np.uint8)
+    bits[[2, 5]] ^= 1
+    bar.show_reading(sent_to(white, code=1, bits=bits, failure=None))
+    assert bar.heading == "Code 1 read, 2 of 10 bits wrong: overexposed"
+    assert "each column sees" not in bar.accessibleDescription()
+    bar.show_reading(snapshot_of(exposure_time=136e-6, iso=6400.0, switching_frequency=20e3))
+    assert bar.heading == "No code: beyond the null at 14.7 kHz"
+    bar.show_reading(snapshot_of())
+    assert "overexposed" not in texts(bar)
+
+
+def test_before_the_cause_is_known_no_consequence_is_the_title(
+    bar: VerdictBar, snapshot_of: SnapshotOf
+) -> None:
+    unread = snapshot_of(exposure_time=136e-6, switching_frequency=20e3)
+    bar.show_reading(replace(unread, causes=None))
+    assert bar.heading == "No code read"
+    assert bar.accessibleDescription() == f"No code read. {unread.results["threshold"].failure}"
+    wrong = sent_to(unread, code=1, bits=1 - np.array(unread.sent, dtype=np.uint8), failure=None)
+    bar.show_reading(replace(wrong, causes={}))
+    assert bar.accessibleDescription().endswith("The decoder itself does not notice that.")
 
 
 def test_a_code_read_beyond_a_period_leads_to_its_lesson(

@@ -44,6 +44,39 @@ def report(outcome: Outcome) -> dict[str, str]:
     return {name: value.strip() for name, value in pairs}
 
 
+def test_overexposure_is_said_first_where_it_is_why(command: Command, tmp_path: Path) -> None:
+    path = tmp_path / "white.png"
+    scene = (*SMALL, "--preset", "phone-136us", "--set", "iso=12800")
+    rendered = command("render", *scene, "-o", path)
+    assert "\nOverexposed: 8" in rendered.out
+    for decoder in ("threshold", "matched", "sequence"):
+        failed = command("decode", path, *scene, "--decoder", decoder)
+        assert failed.code == 1
+        cause, symptom = failed.err.splitlines()
+        assert cause.startswith("Overexposed. The lit panel would have the level 860.6")
+        assert not symptom.startswith("Overexposed")
+    # It is no cause where the picture is read, or would be read no better without it.
+    other = (*SMALL, "--preset", "phone-136us", "--set", "iso=6400")
+    command("render", *other, "-o", path)
+    read = command("decode", path, *other)
+    assert read.code == 0
+    assert read.err.startswith("Overexposed: 7")
+    fast = (*other, "--set", "switching_frequency=20kHz")
+    command("render", *fast, "-o", path)
+    symptom, fact = command("decode", path, *fast).err.splitlines()
+    assert symptom.startswith("The first two headers")
+    assert fact.startswith("Overexposed: ")
+
+
+def test_what_an_enhancement_makes_white_is_not_called_overexposed(
+    command: Command, tmp_path: Path
+) -> None:
+    path = tmp_path / "even.png"
+    rendered = command("render", *SMALL, "--tolerance", "inf", "-o", path)
+    assert "Overexposed" not in rendered.out
+    assert command("decode", path).err == ""
+
+
 @pytest.mark.parametrize(
     ("name", "code"), [("picture.png", 0), ("picture.JPG", 718), ("picture.png", 1023)]
 )

@@ -65,6 +65,16 @@ def test_a_panel_too_far_away_carries_nothing() -> None:
     assert "come closer" in (found.failure or "")
 
 
+def test_a_panel_out_of_the_picture_does_not_come_into_it_by_coming_closer() -> None:
+    (found,) = occ.most_bits(FAR.replace(offset_x=50.0), ("threshold",), pictures=1)
+    assert found.failure == "No column of the picture shows the panel."
+
+
+def test_of_an_overexposed_scene_that_is_said_first() -> None:
+    (found,) = occ.most_bits(FAR.replace(iso=6400.0, illuminance=30e3), ("threshold",), pictures=1)
+    assert (found.failure or "").startswith("Overexposed. Even the dark panel would have the level")
+
+
 def test_the_command_says_what_carries_most(capsys: pytest.CaptureFixture[str]) -> None:
     words = ["--set", "rows=60", "--set", "distance=3", "--set", "enhancement=none"]
     assert main(["most-bits", *words, "--decoder", "threshold", "--pictures", "2"]) == 0

@@ -6,7 +6,7 @@ from pathlib import Path
 from PySide6.QtCore import QObject, Signal
 
 from occ_gui.core.store import Store
-from occ_gui.core.workspace import FIRST_SETTINGS, Workspace
+from occ_gui.core.workspace import Workspace
 from occ_gui.files.file_controller import sample_photos
 from occ_gui.lessons.answers import LessonAnswers, MatchedPhoto
 from occ_gui.lessons.lesson_view import LessonView
@@ -30,8 +30,8 @@ from occ_model.teaching.quantities import QUANTITIES
 class LessonController(QObject):
     """Goes from step to step, and keeps the steps reached while the window is open.
 
-    A lesson begins with the window's first settings and no forced effects; when it ends,
-    the user's own scene, settings and photo are restored.
+    A step sets all that it asks about as in a new window: the scene, how it is simulated, the
+    decoder, and whose picture is shown how. When the lesson ends, the user's own is restored.
     """
 
     status_message = Signal(str)  # the reason why a step is incomplete
@@ -58,6 +58,7 @@ class LessonController(QObject):
         self._done: dict[str, int] = {}
         self._places: dict[str, int] = {}
         self._user: Workspace | None = None
+        self._has_set_room = False
         self._first: Path | None = None
         """The photo that was open before the lesson, hidden in a step without one."""
         self._last: Lesson | None = None
@@ -153,12 +154,16 @@ class LessonController(QObject):
             return None
         # A photo that was opened or matched meanwhile stays, and so does all that no step sets.
         photo = present.photo if is_own(present.photo) else user.photo
-        own = replace(present, scene=user.scene, settings=user.settings, preset=user.preset)
-        return replace(own, photo=photo)
+        return replace(
+            present, scene=user.scene, settings=user.settings, preset=user.preset, photo=photo,
+            decoder=user.decoder, whose=user.whose, is_enhanced=user.is_enhanced,
+            overlay=user.overlay, frame_rate=user.frame_rate,
+            room=user.room if self._has_set_room else present.room,
+        )  # fmt: skip
 
     def restore_user(self) -> None:
         """Restore the user's own work; the scene in one step to undo."""
-        user, self._user = self.user_workspace(), None
+        user, self._user, self._has_set_room = self.user_workspace(), None, False
         self.columns_held.emit(None)
         if user is not None:
             self._store.put(user, "end of the lesson", new_gesture())
@@ -188,8 +193,14 @@ class LessonController(QObject):
         self._user = user
         title = f"step {place + 1} of “{lesson.title}”"
         photo = self._photo_of(step, user.photo)
-        # With the first settings: not with the tolerance of the step before.
-        workspace = replace(user, scene=step.scene, settings=FIRST_SETTINGS, photo=photo, preset="")
+        self._has_set_room |= step.pane == "room"
+        first = Workspace(step.scene)
+        workspace = replace(
+            user, scene=first.scene, settings=first.settings, preset=first.preset, photo=photo,
+            decoder=step.decoder or first.decoder, whose=first.whose,
+            is_enhanced=first.is_enhanced, overlay=first.overlay, frame_rate=first.frame_rate,
+            room=first.room if step.pane == "room" else user.room,
+        )  # fmt: skip
         self._store.put(workspace, title, new_gesture())
         packet = QUANTITIES["packet-columns"].compute(step.scene)
         self.columns_held.emit(PACKETS_IN_VIEW * packet)

@@ -142,6 +142,7 @@ class Step:
     answer: str
     scene: Scene
     pane: str = ""  # The pane to show; empty for the current one
+    decoder: str = ""  # Whose verdict and steps are shown at first; empty for the paper's
     photo: str = ""  # Name of the sample photo to open
     control: str = ""  # The parameter to change; empty for several or none
     # None where the answer is in words

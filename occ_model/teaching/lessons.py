@@ -10,6 +10,7 @@ from occ_model.errors import OccError, SceneFileError, one_line, printable, show
 from occ_model.files.reading import read_text
 from occ_model.files.resources import files_in, resource_names, resource_text, user_folder
 from occ_model.files.writing import make_folder, write_whole
+from occ_model.receiver.decoders import DECODERS
 from occ_model.results.teaching import Check, Lesson, LessonList, Step
 from occ_model.scene.from_text import change_scene
 from occ_model.scene.parameters import PARAMETERS
@@ -34,7 +35,7 @@ _TEMPLATE = f"my-first-lesson{_ENDING}"  # the lesson that a teacher begins with
 _LESSON_KEYS = ("title", "summary", "sheet", "step")
 _STEP_KEYS = (
     "goal", "text", "question", "answer", "preset", "set", "pane", "photo", "control", "check",
-    "equation", "animation", "action", "own_photo",
+    "equation", "animation", "action", "own_photo", "decoder",
 )  # fmt: skip
 _CHECK_KEYS = ("quantity", "tolerance", "set")
 _MAX_TOLERANCE = 50.0  # percent
@@ -151,6 +152,7 @@ def _step(content: object) -> Step:
         animation=_switch(content, "animation"),
         action=_one_of(content, "action", ACTIONS),
         own_photo=_switch(content, "own_photo"),
+        decoder=_one_of(content, "decoder", tuple(DECODERS)),
     )
 
 

@@ -1,7 +1,7 @@
 """Lessons in the window: their panes, the story, the photo's pane and the session beside them."""
 
 import json
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 
 import pytest
@@ -96,6 +96,8 @@ def test_a_crash_during_a_lesson_leaves_the_users_own_state(
     session = application.session
     session.begin(SessionFile(tmp_path), is_scene_asked=True)
     application.settings.set_tolerance(7.0)
+    store = application.store.store
+    store.put(replace(store.workspace, decoder="matched", whose="receiver", is_enhanced=True))
     application.files.open_photo(photo_file)
     user.wait_until_idle()
     before = application.store.store.workspace
@@ -108,6 +110,9 @@ def test_a_crash_during_a_lesson_leaves_the_users_own_state(
     assert record["in_use"]
     assert Scene.from_toml(record["scene"]) == before.scene
     assert record["settings"] == asdict(before.settings)
+    assert application.store.store.workspace.decoder == "threshold"
+    shown = record["view"]
+    assert (shown["decoder"], shown["whose"], shown["is_enhanced"]) == ("matched", "receiver", True)
     assert record["photo"]["path"] == str(photo_file)
     guide.step.all.click()
     user.wait_until_idle()
@@ -125,14 +130,17 @@ def test_a_window_closed_during_a_lesson_keeps_the_users_scene(
     small_scene: Scene,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    written: list[Scene] = []
-    session = application.session
-    monkeypatch.setattr(session, "end", lambda: written.append(application.store.scene))
+    written: list[tuple[Scene, str]] = []
+    session, store = application.session, application.store.store
+    monkeypatch.setattr(
+        session, "end", lambda: written.append((store.workspace.scene, store.workspace.decoder))
+    )
+    store.put(replace(store.workspace, decoder="matched"))
     guide.list.choices[0].click()
     user.wait_until_idle()
     assert application.store.scene != small_scene
     application.window.close()
-    assert written == [small_scene]
+    assert written == [(small_scene, "matched")]
 
 
 def test_a_lesson_keeps_as_many_columns_in_view_while_the_scene_is_changed(

@@ -50,7 +50,7 @@ def test_a_failure_is_shown_with_its_reason_and_the_bits_read_beside_it(
     assert view.verdict.text() == "✗ No code read"
     assert view.reason.isVisible()
     assert view.reason.text().startswith("Too few chips in view. The panel's image has room for 1 ")
-    assert view.reason.text().endswith(f" {symptom(snapshot.results["threshold"].failure or "")}")
+    assert view.reason.text().endswith(f" {symptom(snapshot.results['threshold'].failure or '')}")
     decoded = DecodeResult(
         "threshold", failure="The chips break the line code.", bits=np.array([0, 0], dtype=np.uint8)
     )
@@ -122,12 +122,14 @@ def test_a_chosen_decoder_stays_chosen_and_shows_its_result(
     view.decoders.setCurrentIndex(0)
     assert view.verdict.text() == "✗ No code read"
     assert view.reason.text().startswith("Beyond the null at 14.7 kHz. An exposure covers 2.72 ")
-    assert view.reason.text().endswith(f" {symptom(snapshot.results["threshold"].failure or '')}")
+    assert view.reason.text().endswith(f" {symptom(snapshot.results['threshold'].failure or '')}")
 
 
 def test_why_bits_are_wrong_is_said_too(view: DecodeView, snapshot_of: SnapshotOf) -> None:
     snapshot = snapshot_of(exposure_time=136e-6, iso=12800.0)
-    wrong = replace(snapshot.results["threshold"], code=1, bits=1 - np.array(snapshot.sent), failure=None)
+    wrong = replace(
+        snapshot.results["threshold"], code=1, bits=1 - np.array(snapshot.sent), failure=None
+    )
     view.show_reading(with_result(snapshot, wrong))
     assert view.verdict.text().endswith("bits wrong")
     assert view.reason.text() == str(not_none(snapshot.causes)["threshold"])

@@ -1,17 +1,20 @@
 """Lessons: a list, steps that set their scene, and questions answered on demand."""
 
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from gui.lessons.conftest import Lessons
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
+from small_rooms import small_room
 
-from occ_gui.core.workspace import FIRST_SETTINGS
+from occ_gui.core.workspace import FIRST_SETTINGS, Workspace
 from occ_gui.files.file_controller import sample_photos
 from occ_gui.lessons import lesson_controller
 from occ_gui.lessons.lesson_view import LessonView
+from occ_gui.values.room_choice import RoomChoice
 from occ_gui.window.theme import ThemeController
 from occ_model.errors import SceneFileError
 from occ_model.scene.scene import Scene
@@ -178,6 +181,63 @@ def test_the_list_follows_the_theme(guide: LessonView) -> None:
         picture = guide.list.choices[0].grab().toImage()
         back = picture.pixelColor(picture.width() - 12, picture.height() // 2)
         assert (back.lightness() > 128) == is_light, theme
+
+
+def shown(workspace: Workspace) -> tuple[object, ...]:
+    """What a step's question may be about, beside the scene and the photo."""
+    return (
+        workspace.settings, workspace.decoder, workspace.whose, workspace.is_enhanced,
+        workspace.overlay, workspace.frame_rate,
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("number", range(12))
+def test_each_step_sets_what_it_asks_about_and_its_end_gives_it_back(
+    bench: Lessons, guide: LessonView, small_scene: Scene, number: int
+) -> None:
+    first, store = Workspace(small_scene), bench.store
+    room = RoomChoice("mine.toml", small_room(), None, 0.03)
+    mine = replace(
+        store.workspace, settings=replace(FIRST_SETTINGS, tolerance=7.0), decoder="matched",
+        whose="receiver", is_enhanced=True, overlay="split", frame_rate=24.0, room=room,
+    )  # fmt: skip
+    store.put(mine)
+    guide.list.choices[number].click()
+    for step in lessons().lessons[number].steps:
+        bench.wait_until_idle()
+        assert shown(store.workspace) == shown(first)
+        assert store.workspace.scene == step.scene
+        assert store.workspace.room == (first.room if step.pane == "room" else room)
+        # What is tried meanwhile is the lesson's, and not the user's.
+        store.put(
+            replace(store.workspace, decoder="sequence", whose="receiver", overlay="difference")
+        )
+        guide.step.next.click()
+    bench.wait_until_idle()
+    assert guide.end.isVisible()
+    assert store.workspace == mine
+    guide.end.all.click()
+    guide.list.choices[number].click()
+    bench.wait_until_idle()
+    assert shown(store.workspace) == shown(first)
+    guide.step.all.click()
+    bench.wait_until_idle()
+    assert store.workspace == mine
+
+
+def test_undo_within_a_step_loses_nothing_of_the_users(
+    bench: Lessons, guide: LessonView, small_scene: Scene
+) -> None:
+    mine = replace(bench.store.workspace, decoder="matched", whose="receiver", is_enhanced=True)
+    bench.store.put(mine)
+    guide.list.choices[1].click()
+    bench.wait_until_idle()
+    bench.scenes.undo_stack.undo()
+    assert bench.scenes.scene == small_scene
+    guide.step.next.click()
+    guide.step.all.click()
+    bench.wait_until_idle()
+    assert bench.store.workspace == mine
 
 
 def test_a_lesson_has_a_state_of_its_own_and_returns_the_users(

@@ -75,7 +75,7 @@ def test_the_outputs_are_those_of_the_two_states(
     right, why = found["Decoder “threshold”"]
     assert right == "code 718, right"
     assert why.startswith("1.3 kHz above the null at 14.7 kHz. ")
-    assert why.endswith(f" {symptom(b.results["threshold"].failure or '')}")
+    assert why.endswith(f" {symptom(b.results['threshold'].failure or '')}")
     assert "Effects simulated" not in found  # none in both
     assert all(row.meaning for row in pins.pinned.outputs)
 

@@ -279,7 +279,7 @@ def test_before_the_cause_is_known_no_consequence_is_the_title(
     unread = snapshot_of(exposure_time=136e-6, switching_frequency=20e3)
     bar.show_reading(replace(unread, causes=None))
     assert bar.heading == "No code read"
-    assert bar.accessibleDescription() == f"No code read. {unread.results["threshold"].failure}"
+    assert bar.accessibleDescription() == f"No code read. {unread.results['threshold'].failure}"
     wrong = sent_to(unread, code=1, bits=1 - np.array(unread.sent, dtype=np.uint8), failure=None)
     bar.show_reading(replace(wrong, causes={}))
     assert bar.accessibleDescription().endswith("The decoder itself does not notice that.")

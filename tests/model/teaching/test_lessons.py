@@ -100,6 +100,7 @@ LINES = f"""{HEAD}
         ('qestion = "?"', 8, "no key 'qestion'"),
         ('pane = "none"', 8, "pane is 'none'; known are profile"),
         ('control = "speed"', 8, "control is 'speed'"),
+        ('decoder = "none"', 8, "decoder is 'none'; known are threshold"),
         ("set = { iso = -1 }", 8, "iso is -1"),
         ('check = { quantity = "x" }', 8, "quantity is 'x'; known are chip-columns"),
         (

@@ -36,7 +36,7 @@ from occ_model.scene.simulation_settings import OBSERVABLES
 from occ_model.study import theory
 from occ_model.study.bands.advice import cure_of
 from occ_model.study.bands.least_depth import depth_map
-from occ_model.study.cause import cause_of
+from occ_model.study.cause.cause import cause_of
 from occ_model.study.spectrum import profile_spectrum
 from occ_model.teaching.equations import equations
 from occ_model.teaching.light_over_columns import (

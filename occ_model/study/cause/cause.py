@@ -44,14 +44,18 @@ def cause_of(
 ) -> Cause | None:
     """Find why a decoder does not read a scene's picture; None where it reads it, or none is found.
 
+    A raw pattern has none, and for plug-ins and pictures of very many columns it is not searched.
     ``heartbeat``: called before each reading. Raises ProjectionError: the scene has no picture.
     """
-    if scene.transmitter.pattern or decoder not in DECODERS:
+    is_searched = decoder in DECODERS and scene.camera.columns <= _MOST_COLUMNS
+    if scene.transmitter.pattern or not is_searched:
         return None
     search = _Search(Attempt(scene, decoder, settings or SimulationSettings()), heartbeat)
     return search.cause()
 
 
+_MOST_COLUMNS = 100_000  # of a picture: one of more takes seconds to read, many times
+_MOST_PIXELS = 40_000_000  # of a picture that is simulated as a whole
 _DRAWS = 3  # of the noise, one of which must leave the picture unread
 
 
@@ -75,7 +79,10 @@ class _Search:
     def _is_unread(self) -> bool:
         """Look for noise with which the picture is not read; in doubt whole pictures tell."""
         settings = self._attempt.settings
-        for self._path in ("auto", "image"):
+        camera = self._attempt.scene.camera
+        is_small = camera.rows * camera.columns <= _MOST_PIXELS
+        paths: tuple[SignalPath, ...] = ("auto", "image") if is_small else ("auto",)
+        for self._path in paths:
             for seed in range(settings.seed, settings.seed + _DRAWS):
                 self._attempt = replace(self._attempt, settings=replace(settings, seed=seed))
                 if not self._reads(self._attempt):

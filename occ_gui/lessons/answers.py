@@ -49,7 +49,7 @@ class LessonAnswers(QObject):
         """Check an answer to a step, given while ``scene`` was shown and ``photo`` open."""
         if not lesson.steps[place].own_photo:
             photo = MatchedPhoto()
-        scene = lesson.steps[place].judged_at(scene)
+        scene = lesson.steps[place].scene_to_judge(scene)
         pending = CheckedAnswer(text, None, "The model computes…")
         self._given[lesson.name, place] = (pending, scene, photo)  # the one before is outdated
         self._waiting.append(_Asked(lesson, place, text, scene, photo))
@@ -68,7 +68,7 @@ class LessonAnswers(QObject):
         given, step = self._given.get((lesson.name, place)), lesson.steps[place]
         if given is None or step.check is None or step.own_photo:
             return True
-        return given[1] == step.judged_at(scene)
+        return given[1] == step.scene_to_judge(scene)
 
     def all_of(self, lesson: Lesson) -> tuple[AnsweredStep, ...]:
         found = []

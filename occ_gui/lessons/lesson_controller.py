@@ -17,7 +17,7 @@ from occ_gui.values.photo_choice import PhotoChoice
 from occ_gui.widgets.columns import PACKETS_IN_VIEW
 from occ_gui.widgets.plain_text import LONGEST_TEXT
 from occ_model.errors import OccError, one_line
-from occ_model.results.teaching import Lesson, LessonList, Step
+from occ_model.results.teaching import Lesson, LessonStep, LoadedLessons
 from occ_model.scene.parameter_kinds import format_distinctly
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import GROUPS, Scene
@@ -53,7 +53,7 @@ class LessonController(QObject):
         super().__init__()
         self._store, self._board = store, board
         self._pane, self._answers = pane, answers
-        self._all = LessonList(())
+        self._all = LoadedLessons(())
         self.current: Lesson | None = None
         self._done: dict[str, int] = {}
         self._places: dict[str, int] = {}
@@ -208,7 +208,7 @@ class LessonController(QObject):
             self.status_message.emit(f"The photo {step.photo} is missing.")
         self.pane_wanted.emit(step.pane)
 
-    def _photo_of(self, step: Step, users: PhotoChoice) -> PhotoChoice:
+    def _photo_of(self, step: LessonStep, users: PhotoChoice) -> PhotoChoice:
         """Return the photo of a step: the sample that it names, the user's own, or none."""
         present = self._store.workspace.photo
         samples = {path.stem: path for path in sample_photos()}
@@ -223,7 +223,7 @@ class LessonController(QObject):
         sample = present if present.path == wanted else users.opened(wanted)
         return sample.with_known_frequency(step.scene.transmitter.switching_frequency)
 
-    def _step(self) -> Step | None:
+    def _step(self) -> LessonStep | None:
         lesson = self.current
         return None if lesson is None else lesson.steps[self._places[lesson.name]]
 
@@ -287,7 +287,7 @@ def is_own(photo: PhotoChoice) -> bool:
 _MOST_NAMED = 2
 
 
-def changed_sentence(step: Step, scene: Scene) -> str:
+def changed_sentence(step: LessonStep, scene: Scene) -> str:
     """State how the scene differs from the step's, and which text is about which.
 
     Empty where the scene is that of the step or of its check, and where the step is about a photo,

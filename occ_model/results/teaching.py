@@ -135,7 +135,7 @@ class Check:
 
 
 @dataclass(frozen=True, slots=True)
-class Step:
+class LessonStep:
     goal: str
     text: str
     question: str
@@ -159,7 +159,7 @@ class Step:
     def asked(self) -> Scene:
         return self.scene if self.check is None else self.check.scene
 
-    def judged_at(self, shown: Scene) -> Scene:
+    def scene_to_judge(self, shown: Scene) -> Scene:
         """Return the scene of a check: the question's as long as the step's own is shown."""
         return self.asked if shown == self.scene else shown
 
@@ -175,7 +175,7 @@ class Lesson:
     name: str
     title: str
     summary: str  # Learning objective, in one sentence
-    steps: tuple[Step, ...]
+    steps: tuple[LessonStep, ...]
     # Whether it is a lab sheet, which ends with the student's own measurement
     is_sheet: bool = False
 
@@ -189,7 +189,7 @@ class CheckedAnswer:
 
 
 @dataclass(frozen=True, slots=True)
-class LessonList:
+class LoadedLessons:
     # Built-in lessons, then those of the user's folder
     lessons: tuple[Lesson, ...]
     # Why files of the user's folder are not lessons, by file name
@@ -198,7 +198,7 @@ class LessonList:
 
 @dataclass(frozen=True, slots=True)
 class AnsweredStep:
-    step: Step
+    step: LessonStep
     answer: CheckedAnswer | None
     # The scene at which the answer was checked and which the report draws; the question's without
     # an answer

@@ -1,1 +1,1 @@
-"""Teaching material on a scene: its equations, a column's exposure, guided lessons."""
+"""Teaching material about a scene: equations, the exposure of columns, guided lessons."""

@@ -1,28 +1,28 @@
-"""Check a student's answer to a step of a lesson against the model, and explain the right one."""
+"""Check students' answers in lessons against the model, and explain the right ones."""
 
 import math
 
 from occ_model.errors import OccError, one_line
 from occ_model.results.match import Match
-from occ_model.results.teaching import Check, CheckedAnswer, Step
+from occ_model.results.teaching import Check, CheckedAnswer, LessonStep
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import GROUPS, Scene
 from occ_model.teaching.quantities import QUANTITIES, result_text
 
-_NEAR_TOLERANCES = 3.0  # an answer within this many tolerances is near
-_MIN_NEAR_DIFFERENCE = 0.02  # relative difference that is near however small the tolerance is
-_SAME_DIFFERENCE = 1e-9  # relative difference of two values that are the same
+_NEAR_TOLERANCES = 3.0  # tolerances within which an answer is near
+_MIN_NEAR_DIFFERENCE = 0.02  # relative difference that is near for any tolerance
+_SAME_DIFFERENCE = 1e-9  # largest relative difference of two values that count as equal
 
 
 def check_answer(
-    step: Step, text: str, match: Match | None = None, scene: Scene | None = None
+    step: LessonStep, text: str, match: Match | None = None, scene: Scene | None = None
 ) -> CheckedAnswer:
-    """Check what a student typed against the model's value.
+    """Check an answer that a student typed against the model's value.
 
-    That is of the scene which the student sees, of the question's scene while nothing has been
-    changed (a prediction), or of the ``match`` where the step is about a photo of the student's.
-    Where the question names values and the student has set others, nothing is judged: they are to
-    be set first. A wrong answer does not reveal the value.
+    The value is that of the scene shown, of the question's scene while nothing has been changed (a
+    prediction), or of the ``match`` if the step is about the student's own photo. If the question
+    names values and the student has set others, the answer is not judged before these are set. A
+    wrong answer does not reveal the value.
     """
     text = text.strip()
     check = step.check
@@ -30,10 +30,12 @@ def check_answer(
         return CheckedAnswer(text, None, "Compare your answer with the explanation.")
     quantity = QUANTITIES[check.quantity]
     if step.own_photo and match is None:
-        return CheckedAnswer(text, None, "Match the photo first: your answer is compared with it.")
+        return CheckedAnswer(
+            text, None, "Match the photo first: your answer is compared with the match."
+        )
     own = match if step.own_photo else None
-    scene = check.scene if scene is None else step.judged_at(scene)
-    first = "" if own else _to_set_first(check, scene)
+    scene = check.scene if scene is None else step.scene_to_judge(scene)
+    first = "" if own else _name_unset_values(check, scene)
     if first:
         return CheckedAnswer(text, None, first)
     try:
@@ -56,12 +58,12 @@ def check_answer(
         )
     side = "high" if given > expected else "low"
     if difference <= max(_NEAR_TOLERANCES * check.tolerance, _MIN_NEAR_DIFFERENCE):
-        return CheckedAnswer(text, "near", f"Close, but a little too {side}. Look once more.")
+        return CheckedAnswer(text, "near", f"Close, but a little too {side}. Look again.")
     return CheckedAnswer(text, "wrong", f"Not yet: that is too {side}. Try again.")
 
 
-def _to_set_first(check: Check, scene: Scene) -> str:
-    """List the values that the question names and a scene lacks; empty where it has all."""
+def _name_unset_values(check: Check, scene: Scene) -> str:
+    """Name the values of the question that a scene does not have; empty if it has all."""
     differing = []
     for name in check.named:
         now, asked = scene.value(name), check.scene.value(name)
@@ -75,14 +77,14 @@ def _to_set_first(check: Check, scene: Scene) -> str:
             differing.append(f"{declared.label} to {declared.format(asked)}")  # type: ignore[arg-type]
     if not differing:
         return ""
-    return f"First set {' and '.join(differing)}: the question is about that."
+    return f"First set {' and '.join(differing)}, as in the question."
 
 
 _MAX_NAMED = 2
 
 
-def explanation(step: Step, scene: Scene) -> str:
-    """Return a step's explanation, which begins with the scene of its numbers if not this one."""
+def explanation(step: LessonStep, scene: Scene) -> str:
+    """Return a step's explanation; it names the scene of its numbers if that is another one."""
     if step.own_photo or scene == step.asked:
         return step.answer
     names = (name for names in GROUPS.values() for name in names)

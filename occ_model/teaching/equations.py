@@ -1,4 +1,4 @@
-"""Write the paper's equations with the numbers of a scene in them."""
+"""The paper's equations with the numbers of a scene."""
 
 from occ_model.camera.photometry import WHITE, level_values, luminance_levels
 from occ_model.errors import BandModelUndefined
@@ -12,7 +12,7 @@ from occ_model.teaching.quantities import COLUMN, result_text
 
 _LIGHT = ("luminance", "illuminance", "reflectance")
 
-_ON_TIME_PARAMETERS = (  # they determine how long the LED is on while a column is exposed
+_ON_TIME_PARAMETERS = (  # they determine how long the LED is on during a column's exposure
     "code", "bits", "payload", "line_code", "framing", "preamble", "error_correction", "pattern",
     "switching_frequency", "readout_time", "exposure_time", "start_time",
 )  # fmt: skip
@@ -25,10 +25,10 @@ _READOUT = Term("t<sub>r</sub>", ("readout_time",))
 
 
 def equations(scene: Scene) -> tuple[Equation, ...]:
-    """Return the equations that determine a scene's stripes, with its numbers in them.
+    """Return the equations that determine a scene's stripes, with its numbers.
 
-    They are the paper's equations (1) to (3), the band model's lengths, the columns of a chip, the
-    readout time of a picture, and the frequency of an alternating pattern's null.
+    They are the paper's equations (1) to (3), the band lengths of the band model, the columns of a
+    chip, the readout time of a picture, and the frequency at which an alternating pattern vanishes.
     """
     return (
         *_pixel_values(scene),
@@ -41,7 +41,7 @@ def equations(scene: Scene) -> tuple[Equation, ...]:
 
 
 def _terms(*parts: Term | str | tuple[str, str]) -> tuple[Term, ...]:
-    """Make terms of signs, and of texts with the parameter that each depends on."""
+    """Make terms from signs, and from texts with the parameter on which each depends."""
     return tuple(
         part if isinstance(part, Term)
         else Term(part) if isinstance(part, str)
@@ -50,11 +50,11 @@ def _terms(*parts: Term | str | tuple[str, str]) -> tuple[Term, ...]:
     )  # fmt: skip
 
 
-def _period(scene: Scene) -> Term:
+def _period_term(scene: Scene) -> Term:
     return Term(SECOND.format(scene.transmitter.switching_period), ("switching_frequency",))
 
 
-def _shown(scene: Scene, name: str) -> Term:
+def _value(scene: Scene, name: str) -> Term:
     return Term(PARAMETERS[name].format(scene.value(name)), (name,))  # type: ignore[arg-type]
 
 
@@ -74,14 +74,14 @@ def _pixel_values(scene: Scene) -> tuple[Equation, Equation]:
             (")<sup>1/γ</sup>", "gamma"),  # noqa: RUF001 - the equation's own letter
         )  # fmt: skip
         numbers = _terms(
-            "118 (", _shown(scene, "iso"), _TIMES, _shown(scene, "exposure_time"), _TIMES,
-            Term(NIT.format(light, 4), depends), "/ (", _shown(scene, "meter_constant"), _TIMES,
+            "118 (", _value(scene, "iso"), _TIMES, _value(scene, "exposure_time"), _TIMES,
+            Term(NIT.format(light, 4), depends), "/ (", _value(scene, "meter_constant"), _TIMES,
             (f"{scene.camera.f_number:g}<sup>2</sup>", "f_number"), ")",
             (f")<sup>1/{scene.camera.gamma:g}</sup>", "gamma"),
         )  # fmt: skip
         message = f"{value:.1f} grey levels"
         if value > WHITE:
-            message += ": more than white"
+            message += ", brighter than white"
         found.append(Equation(name, source, meaning, symbols, numbers, message))
     return found[0], found[1]
 
@@ -94,7 +94,7 @@ def _column_value(scene: Scene) -> Equation:
         _terms("(", Term(lit, light), on, "+", Term(dark, light), off, ") /", exposure)
         for lit, dark, exposure in (
             ("PV<sub>max</sub>", "PV<sub>min</sub>", _EXPOSURE),
-            (f"{high:.1f}", f"{low:.1f}", _shown(scene, "exposure_time")),
+            (f"{high:.1f}", f"{low:.1f}", _value(scene, "exposure_time")),
         )
     )
     message = f"{min(low, WHITE):.1f} to {min(high, WHITE):.1f} grey levels, column by column"
@@ -105,9 +105,12 @@ def _column_value(scene: Scene) -> Equation:
 
 
 def _band_lengths(scene: Scene) -> tuple[Equation, Equation]:
-    period = _period(scene)
-    exposure, readout = _shown(scene, "exposure_time"), _shown(scene, "readout_time")
-    # Of the two only the length of one state becomes undefined: an exposure always has a length.
+    period = _period_term(scene)
+    exposure, readout = (
+        _value(scene, "exposure_time"),
+        _value(scene, "readout_time"),
+    )
+    # Only the length of one state can be undefined; a transition always has a length.
     transition = result_text(COLUMN, scene.camera.exposure_time / scene.camera.readout_time)
     try:
         complete = result_text(COLUMN, band_lengths(scene)[0])
@@ -131,7 +134,7 @@ def _band_lengths(scene: Scene) -> tuple[Equation, Equation]:
 def _chip_columns(scene: Scene) -> Equation:
     return Equation(
         "chip-columns", "readout", "Columns of a chip", _terms(_PERIOD, "/", _READOUT),
-        _terms(_period(scene), "/", _shown(scene, "readout_time")),
+        _terms(_period_term(scene), "/", _value(scene, "readout_time")),
         result_text(COLUMN, scene.transmitter.switching_period / scene.camera.readout_time),
     )  # fmt: skip
 
@@ -141,7 +144,7 @@ def _frame_time(scene: Scene) -> Equation:
     return Equation(
         "frame-time", "readout", "Time to read out a whole picture",
         _terms(("columns", "columns"), _TIMES, _READOUT),
-        _terms((f"{camera.columns} columns", "columns"), _TIMES, _shown(scene, "readout_time")),
+        _terms((f"{camera.columns} columns", "columns"), _TIMES, _value(scene, "readout_time")),
         result_text(SECOND, camera.columns * camera.readout_time),
     )  # fmt: skip
 
@@ -155,7 +158,7 @@ def _null(scene: Scene) -> Equation:
         "exposure",
         "Frequency at which an alternating pattern has no stripes",
         _terms("2 /", _EXPOSURE),
-        _terms("2 /", _shown(scene, "exposure_time")),
+        _terms("2 /", _value(scene, "exposure_time")),
         f"{result_text(HERTZ, 2.0 / exposure)}; here, at {in_chips:.3g} chips an exposure, "
         f"{100.0 * contrast:.0f} % of its contrast is left",
     )

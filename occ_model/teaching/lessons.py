@@ -1,4 +1,4 @@
-"""Load lessons from TOML files: those of the package, and those of a teacher's own folder."""
+"""Load lessons from TOML files, of the package and of a teacher's own folder."""
 
 import re
 from collections.abc import Mapping
@@ -11,7 +11,7 @@ from occ_model.files.reading import read_text
 from occ_model.files.resources import files_in, resource_names, resource_text, user_folder
 from occ_model.files.writing import make_folder, write_whole
 from occ_model.receiver.decoders import DECODERS
-from occ_model.results.teaching import Check, Lesson, LessonList, Step
+from occ_model.results.teaching import Check, Lesson, LessonStep, LoadedLessons
 from occ_model.scene.from_text import change_scene
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.presets import load_preset
@@ -19,7 +19,7 @@ from occ_model.scene.scene import Scene
 from occ_model.scene.toml_format import parse_toml
 from occ_model.teaching.quantities import QUANTITIES
 
-USER_FOLDER = "OCC_LESSONS"  # environment variable of another folder for a teacher's lessons
+USER_FOLDER = "OCC_LESSONS"  # environment variable: another folder for a teacher's lessons
 PANES = ("profile", "decode", "accuracy", "photo", "equations", "exposure", "map", "room")
 """The panes that a step can show."""
 
@@ -28,9 +28,13 @@ EQUATIONS = (  # the equations that a step can show
     "frame-time", "null",
 )  # fmt: skip
 
-ACTIONS = ("transmitter", "photo", "match")  # of a step's button: write, open or match
+ACTIONS = (
+    "transmitter",
+    "photo",
+    "match",
+)  # of a step's button: write files, open or match a photo
 _FOLDER, _ENDING = "lessons", ".toml"
-_TEMPLATE = f"my-first-lesson{_ENDING}"  # the lesson that a teacher begins with
+_TEMPLATE = f"my-first-lesson{_ENDING}"  # the lesson from which a teacher starts
 
 _LESSON_KEYS = ("title", "summary", "sheet", "step")
 _STEP_KEYS = (
@@ -42,15 +46,15 @@ _MAX_TOLERANCE = 50.0  # percent
 
 
 class MistakeError(SceneFileError):
-    """A mistake in a lesson: its sentence, and the key that it is about."""
+    """A mistake in a lesson: a sentence, and the key at which it is."""
 
     def __init__(self, sentence: str, key: str = "") -> None:
         super().__init__(sentence)
         self.key = key
 
 
-def lessons() -> LessonList:
-    """Load the lessons of the package, in their order, then those of the user's own folder."""
+def lessons() -> LoadedLessons:
+    """Load the lessons of the package in order, then those of the user's own folder."""
     own: list[Lesson] = []
     problems: dict[str, str] = {}
     for path in files_in(lessons_folder(), _ENDING):
@@ -58,13 +62,13 @@ def lessons() -> LessonList:
             own.append(read_lesson(path))
         except OccError as error:
             problems[one_line(path.name)] = str(error)
-    return LessonList((*_package_lessons(), *own), problems)
+    return LoadedLessons((*_package_lessons(), *own), problems)
 
 
 @lru_cache(maxsize=1)
 def _package_lessons() -> tuple[Lesson, ...]:
     return tuple(
-        _lesson(name, resource_text(_FOLDER, f"{name}{_ENDING}"))
+        _parse_lesson(name, resource_text(_FOLDER, f"{name}{_ENDING}"))
         for name in resource_names(_FOLDER, _ENDING)
     )
 
@@ -75,7 +79,7 @@ def lessons_folder() -> Path:
 
 
 def begin_lessons_folder() -> Path:
-    """Make the folder of the user's own lessons; one without lessons gets one to begin with."""
+    """Make the folder of the user's own lessons; an empty one gets a lesson to start from."""
     folder = lessons_folder()
     make_folder(folder)
     if not files_in(folder, _ENDING):
@@ -85,10 +89,10 @@ def begin_lessons_folder() -> Path:
 
 
 def read_lesson(path: Path) -> Lesson:
-    return _lesson(path.stem, read_text(path))
+    return _parse_lesson(path.stem, read_text(path))
 
 
-def _lesson(name: str, text: str) -> Lesson:
+def _parse_lesson(name: str, text: str) -> Lesson:
     where = one_line(name)
     try:
         content = parse_toml(text)
@@ -97,23 +101,23 @@ def _lesson(name: str, text: str) -> Lesson:
     place: int | None = None
     try:
         _check_keys(content, _LESSON_KEYS, "lesson")
-        title = one_line(_paragraph(content, "title"))
-        summary = _paragraph(content, "summary", "")
+        title = one_line(_get_paragraph(content, "title"))
+        summary = _get_paragraph(content, "summary", "")
         listed = content.get("step")
         if not isinstance(listed, list) or not listed:
             raise MistakeError("it has no steps; begin each with [[step]].", "step")
         steps = []
-        for place, item in enumerate(listed):  # noqa: B007 - its last value says where
-            steps.append(_step(item))
-        return Lesson(name, title, summary, tuple(steps), _switch(content, "sheet"))
+        for place, item in enumerate(listed):  # noqa: B007 - its last value places an error
+            steps.append(_parse_step(item))
+        return Lesson(name, title, summary, tuple(steps), _get_switch(content, "sheet"))
     except OccError as error:
         key = error.key if isinstance(error, MistakeError) else "set"
-        line = _line(text, place, key)
+        line = _find_line(text, place, key)
         raise SceneFileError(f"{where} is not a lesson: line {line}: {error}") from None
 
 
-def _line(text: str, step: int | None, key: str) -> int:
-    """Find the line, from 1, of a key: at the head, or in a step; else that of the step itself."""
+def _find_line(text: str, step: int | None, key: str) -> int:
+    """Find the line, from 1, of a key at the head or in a step, else that of the step itself."""
     lines = text.splitlines() or [""]
     heads = [i for i, line in enumerate(lines) if re.match(r"\s*\[\[\s*step\s*\]\]", line)]
     if step is None:
@@ -121,42 +125,42 @@ def _line(text: str, step: int | None, key: str) -> int:
     elif step < len(heads):
         begin = heads[step]
         end = heads[step + 1] if step + 1 < len(heads) else len(lines)
-    else:  # steps that are not written as tables of their own
+    else:  # steps that are not separate tables
         begin, end = 0, len(lines)
     wanted = re.compile(rf"\s*(?:\[+\s*(?:step\s*\.\s*)?)?{re.escape(key)}\s*(?:=|\.|\])")
     found = (i for i in range(begin, end) if key and wanted.match(lines[i]))
     return next(found, begin) + 1
 
 
-def _step(content: object) -> Step:
+def _parse_step(content: object) -> LessonStep:
     if not isinstance(content, Mapping):
         raise MistakeError(f"a step is {shown(content)}; begin each with [[step]].", "step")
     _check_keys(content, _STEP_KEYS, "step")
-    preset = _text(content, "preset")
+    preset = _get_text(content, "preset")
     try:
         scene = load_preset(preset)
     except OccError as error:
         raise MistakeError(str(error), "preset") from None
-    scene = _changed(scene, content)
-    return Step(
-        goal=_paragraph(content, "goal", ""),
-        text=_paragraph(content, "text"),
-        question=_paragraph(content, "question"),
-        answer=_paragraph(content, "answer"),
+    scene = _apply_settings(scene, content)
+    return LessonStep(
+        goal=_get_paragraph(content, "goal", ""),
+        text=_get_paragraph(content, "text"),
+        question=_get_paragraph(content, "question"),
+        answer=_get_paragraph(content, "answer"),
         scene=scene,
-        pane=_one_of(content, "pane", PANES),
-        photo=_text(content, "photo", ""),
-        control=_one_of(content, "control", tuple(PARAMETERS)),
-        check=_check(content, scene),
-        equation=_one_of(content, "equation", EQUATIONS),
-        animation=_switch(content, "animation"),
-        action=_one_of(content, "action", ACTIONS),
-        own_photo=_switch(content, "own_photo"),
-        decoder=_one_of(content, "decoder", tuple(DECODERS)),
+        pane=_get_choice(content, "pane", PANES),
+        photo=_get_text(content, "photo", ""),
+        control=_get_choice(content, "control", tuple(PARAMETERS)),
+        check=_parse_check(content, scene),
+        equation=_get_choice(content, "equation", EQUATIONS),
+        animation=_get_switch(content, "animation"),
+        action=_get_choice(content, "action", ACTIONS),
+        own_photo=_get_switch(content, "own_photo"),
+        decoder=_get_choice(content, "decoder", tuple(DECODERS)),
     )
 
 
-def _check(content: Mapping[str, Any], scene: Scene) -> Check | None:
+def _parse_check(content: Mapping[str, Any], scene: Scene) -> Check | None:
     asked = content.get("check")
     if asked is None:
         return None
@@ -164,7 +168,7 @@ def _check(content: Mapping[str, Any], scene: Scene) -> Check | None:
         if not isinstance(asked, Mapping):
             raise MistakeError(f"check is {shown(asked)}, not a table with a quantity.")
         _check_keys(asked, _CHECK_KEYS, "check")
-        quantity = _one_of(asked, "quantity", tuple(QUANTITIES))
+        quantity = _get_choice(asked, "quantity", tuple(QUANTITIES))
         if not quantity:
             raise MistakeError(f"check has no quantity; known are {', '.join(QUANTITIES)}.")
         percent = asked.get("tolerance", 2)
@@ -173,22 +177,22 @@ def _check(content: Mapping[str, Any], scene: Scene) -> Check | None:
             raise MistakeError(
                 f"tolerance is {shown(percent)}; allowed: 0 to {_MAX_TOLERANCE:g}, in percent."
             )
-        unit, about = QUANTITIES[quantity].asked_in, _changed(scene, asked)
+        unit, about = QUANTITIES[quantity].asked_in, _apply_settings(scene, asked)
         return Check(quantity, unit, percent / 100.0, about, tuple(asked.get("set", ())))
     except OccError as error:
         raise MistakeError(str(error), "check") from None
 
 
-def _changed(scene: Scene, content: Mapping[str, Any]) -> Scene:
+def _apply_settings(scene: Scene, content: Mapping[str, Any]) -> Scene:
     values = content.get("set", {})
     if not isinstance(values, Mapping):
         raise MistakeError(f"set is {shown(values)}, not a table of parameters.", "set")
-    settings = [f"{name}={_written(value)}" for name, value in values.items()]
+    settings = [f"{name}={_format_setting(value)}" for name, value in values.items()]
     return change_scene(scene, settings)
 
 
-def _written(value: object) -> str:
-    """Format a value as in an option of the command line."""
+def _format_setting(value: object) -> str:
+    """Format a value as for an option of the command line."""
     return value if isinstance(value, str) else shown(value)
 
 
@@ -200,7 +204,7 @@ def _check_keys(content: Mapping[str, Any], known: tuple[str, ...], kind: str) -
             )
 
 
-def _text(content: Mapping[str, Any], key: str, default: str | None = None) -> str:
+def _get_text(content: Mapping[str, Any], key: str, default: str | None = None) -> str:
     value = content.get(key, default)
     if value is None:
         raise MistakeError(f"{key} is missing.")
@@ -211,18 +215,18 @@ def _text(content: Mapping[str, Any], key: str, default: str | None = None) -> s
     return value
 
 
-def _paragraph(content: Mapping[str, Any], key: str, default: str | None = None) -> str:
-    return printable(_text(content, key, default))
+def _get_paragraph(content: Mapping[str, Any], key: str, default: str | None = None) -> str:
+    return printable(_get_text(content, key, default))
 
 
-def _one_of(content: Mapping[str, Any], key: str, known: tuple[str, ...]) -> str:
-    value = _text(content, key, "")
+def _get_choice(content: Mapping[str, Any], key: str, known: tuple[str, ...]) -> str:
+    value = _get_text(content, key, "")
     if value and value not in known:
         raise MistakeError(f"{key} is {shown(value)}; known are {', '.join(known)}.", key)
     return value
 
 
-def _switch(content: Mapping[str, Any], key: str) -> bool:
+def _get_switch(content: Mapping[str, Any], key: str) -> bool:
     value = content.get(key, False)
     if not isinstance(value, bool):
         raise MistakeError(f"{key} is {shown(value)}; allowed: true and false.", key)

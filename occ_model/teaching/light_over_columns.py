@@ -1,4 +1,4 @@
-"""The light of the LED, over the columns of the picture and in the exposures of some of them."""
+"""The light of the LED, along the columns of the picture and during some exposures."""
 
 import math
 from fractions import Fraction
@@ -13,25 +13,23 @@ from occ_model.scene.argument_checks import check_count
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.packet import sent_chips
 
-_RELATIVE_ERROR = 1e-12  # relative error of a whole ratio, by how its parts are written
+_RELATIVE_ERROR = 1e-12  # relative error of a ratio from writing its parts as decimals
 
 
 def light_over_columns(
     scene: Scene, first: float, last: float, most: int, edged: bool = False
 ) -> LightCurve | None:
-    """Return the light while some columns begin their exposures; None for more than ``most`` chips.
+    """Return the light along an axis of columns; None for more than ``most`` chips.
 
-    Column ``i`` begins at ``t_0 + i t_r``, and so does every point ``i`` of this axis, also between
-    columns. ``edged``: whether the light rises and falls linearly within the scene's edge time,
-    from the start of a chip on.
+    The point ``i`` of the axis, which may be between columns, is the time ``t_0 + i t_r`` at which
+    column ``i`` begins its exposure. With ``edged``, the light rises and falls linearly during the
+    scene's edge time, from the start of a chip.
     """
     if not first < last:
-        raise ParameterError.of(
-            "last", shown(last), f"above {shown(first)}, where the columns begin"
-        )
+        raise ParameterError.of("last", shown(last), f"above {shown(first)}, the first column")
     frequency = Fraction(scene.transmitter.switching_frequency)
     step = Fraction(scene.camera.readout_time) * frequency
-    # Exact: time zero may be any number of chips away.
+    # Exact, since time zero may be any number of chips away.
     begin = Fraction(scene.model.start_time) * frequency + Fraction(first) * step
     end = begin + (Fraction(last) - Fraction(first)) * step
     edge = Fraction(scene.transmitter.edge_time) * frequency if edged else Fraction(0)
@@ -40,13 +38,13 @@ def light_over_columns(
     if stop - start + before > most:
         return None
     chips = sent_chips(scene.transmitter)
-    # In Python's integers: the first chip's number can exceed an array's.
+    # The first chip's number is a Python integer, as it can be too large for an array.
     numbers = (start - before) % len(chips) + np.arange(stop - start + before)
     lit = chips[numbers % len(chips)]
     edges: FloatArray = first + (
         np.arange(stop - start + 1, dtype=np.float64) - float(begin - start)
     ) / float(step)
-    columns, light = _curve(lit.astype(np.float64), before, float(edge))
+    columns, light = _light_knots(lit.astype(np.float64), before, float(edge))
     return LightCurve(
         columns=first + (columns - float(begin - start)) / float(step),
         light=light,
@@ -56,7 +54,7 @@ def light_over_columns(
     )
 
 
-def _curve(lit: FloatArray, before: int, edge: float) -> tuple[FloatArray, FloatArray]:
+def _light_knots(lit: FloatArray, before: int, edge: float) -> tuple[FloatArray, FloatArray]:
     """Return the knots of the light, in chips after the first ``before``, and its values there."""
     count = len(lit) - before
     if edge == 0.0:
@@ -72,18 +70,18 @@ def _curve(lit: FloatArray, before: int, edge: float) -> tuple[FloatArray, Float
 
 
 def chips_in_exposure(scene: Scene) -> int:
-    """Return n where an exposure sees parts of n chips or of n + 1, by where it begins."""
+    """Return n if an exposure, depending on its start, includes parts of n or of n + 1 chips."""
     ratio = Fraction(scene.camera.exposure_time) * Fraction(scene.transmitter.switching_frequency)
-    # 100 us at 10 kHz are one chip, though no binary fraction is 100 us.
+    # 100 us at 10 kHz is one chip, although no binary fraction equals 100 us.
     nearest = round(ratio)
     return nearest if math.isclose(ratio, nearest, rel_tol=_RELATIVE_ERROR) else math.ceil(ratio)
 
 
-_MAX_CHIPS = 400  # largest number of chips that a drawing resolves
+_MAX_CHIPS = 400  # most chips that a drawing resolves
 
 
 def exposure_window(scene: Scene, column: int) -> ExposureWindow:
-    """Return the chips that a column's exposure covers, and one before and one after it."""
+    """Return the chips during a column's exposure, with one before and one after."""
     check_count("column", column, 0)
     if column >= scene.camera.columns:
         raise ParameterError.of(
@@ -91,7 +89,7 @@ def exposure_window(scene: Scene, column: int) -> ExposureWindow:
         )
     chips = sent_chips(scene.transmitter)
     period = scene.transmitter.switching_period
-    # Exact: a column's exposure may begin any number of chips before or after time zero.
+    # Exact, since an exposure may begin any number of chips before or after time zero.
     begins = Fraction(scene.model.start_time) + column * Fraction(scene.camera.readout_time)
     begins *= Fraction(scene.transmitter.switching_frequency)
     first = math.floor(begins)
@@ -99,7 +97,7 @@ def exposure_window(scene: Scene, column: int) -> ExposureWindow:
     needed = math.ceil(within + scene.camera.exposure_time / period) + 2
     count = min(needed, _MAX_CHIPS)
     start = (1.0 + within) * period
-    # In Python's integers: the first chip's number can exceed an array's.
+    # The first chip's number is a Python integer, as it can be too large for an array.
     places = (first - 1) % len(chips) + np.arange(count)
     return ExposureWindow(
         column=column,
@@ -112,11 +110,11 @@ def exposure_window(scene: Scene, column: int) -> ExposureWindow:
     )
 
 
-_CHIPS = 4  # chips that the shown columns begin in
+_CHIPS = 4  # chips during which the shown columns begin their exposures
 
 
 def rolling_shutter(scene: Scene, shown: int = 25) -> RollingShutter:
-    """Return the exposures of up to ``shown`` first columns, which begin within four chips."""
+    """Return the exposures of up to ``shown`` columns that begin within the first four chips."""
     camera, period = scene.camera, scene.transmitter.switching_period
     last = min(camera.columns - 1, max(int(_CHIPS * period / camera.readout_time), 1))
     columns = np.unique(np.linspace(0, last, min(shown, last + 1)).round().astype(np.intp))

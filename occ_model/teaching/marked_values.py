@@ -1,4 +1,4 @@
-"""Values of a parameter at which the picture changes in kind, to mark on its slider."""
+"""Values of a parameter at which the picture changes qualitatively, to mark on its slider."""
 
 from occ_model.camera.photometry import luminance_levels
 from occ_model.errors import OccError
@@ -10,16 +10,16 @@ from occ_model.transmitter.registry import FRAMINGS, LINE_CODES
 
 
 def marked_values(scene: Scene, parameter: str) -> tuple[MarkedValue, ...]:
-    """Return the values to mark on a parameter's slider; of frequency and exposure time only.
+    """Return the values to mark on the slider of the frequency or of the exposure time.
 
-    Where t = t_LED, where t = 2 t_LED (of codes, the first null of alternating chips), and where
-    the exposure is a whole period of what is sent, so that the panel leaves no bars.
+    These are where t = t_LED, where t = 2 t_LED (for codes, the first null of alternating chips),
+    and where the exposure is a whole period of the chips sent, so that the panel causes no bars.
     """
     exposure, transmitter = scene.camera.exposure_time, scene.transmitter
     if exposure <= 0.0 or parameter not in ("switching_frequency", "exposure_time"):
         return ()
     is_raw = bool(transmitter.pattern)
-    period = _period(scene)
+    period = _sent_period(scene)
     ends = {
         "switching_frequency": (
             band_model_frequency(scene), null_frequency(scene), period / exposure
@@ -40,20 +40,20 @@ def marked_values(scene: Scene, parameter: str) -> tuple[MarkedValue, ...]:
     return tuple(marks)
 
 
-def _period(scene: Scene) -> float:
-    """Return the chips after which the light repeats; 0 for a steady one, or no packet at once."""
+def _sent_period(scene: Scene) -> float:
+    """Return the chips after which the light repeats; 0 for a steady light or an unknown packet."""
     if not scene.transmitter.luminance:
         return 0.0
-    if scene.transmitter.pattern:  # which can hold shorter ones; a packet's header comes once
-        # Imported only for it: no packet needs it.
+    if scene.transmitter.pattern:  # a pattern can repeat inside; a packet has only one header
+        # Imported only here, as packets do not need it.
         from occ_model.study.bands.least_depth import DepthOver
 
         over = DepthOver.of(scene)
         return float(over.period) if over.most else 0.0
     sent = scene.transmitter
     if not (LINE_CODES.is_built_in(sent.line_code) and FRAMINGS.is_built_in(sent.framing)):
-        return 0.0  # marks are drawn while a slider moves: a plug-in may take any time
+        return 0.0  # marks are drawn while a slider moves, and a plug-in may be slow
     try:
         return float(len(sent_chips(sent)))
-    except OccError:  # which the picture's failure names
+    except OccError:  # the picture's own failure says why
         return 0.0

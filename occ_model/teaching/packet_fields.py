@@ -1,4 +1,4 @@
-"""Places of header and bits among the chips sent, and among the chips received."""
+"""Places of the header and the bits among the chips that are sent or received."""
 
 from dataclasses import dataclass
 
@@ -12,25 +12,25 @@ from occ_model.transmitter.packet import sent_chips
 from occ_model.transmitter.registry import LINE_CODES
 from occ_model.transmitter.scheme import scheme_of
 
-_MAX_EXCEPTIONS = 0.05  # fraction of columns that a level may put on the other side
+_MAX_EXCEPTIONS = 0.05  # largest fraction of columns that a level may put on the wrong side
 
 
 @dataclass(frozen=True, slots=True)
 class PacketField:
-    # Its first chip, and the one after its last
+    # Its first chip, and the chip after its last
     first: int
     last: int
-    bit: int | None  # The number of its bit, the first sent is 0; None for the header
+    bit: int | None  # The number of its bit, from 0; None for the header
 
 
 def packet_fields(scene: Scene) -> tuple[PacketField, ...]:
-    """Return header and bits of the packet that a scene sends, in chips from the packet's first.
+    """Return the header and the bits of the packet that a scene sends, as fields of its chips.
 
-    Empty where it is not a header and the bits sent, or a bit has no chips of its own.
+    Empty if the packet is anything but a header and the bits, or a bit has no chips of its own.
     """
     sent = scene.transmitter
     code = scheme_of(sent).line_code
-    # A plug-in's may take any time, and the fields are needed while the window is drawn.
+    # A plug-in's code may be slow, and the fields are needed to draw the window.
     is_known = LINE_CODES.is_built_in(code.name) and code.block_bits == 1
     if sent.pattern or sent.error_correction != "none" or not is_known:
         return ()
@@ -44,9 +44,9 @@ def packet_fields(scene: Scene) -> tuple[PacketField, ...]:
 
 
 def received_fields(result: DecodeResult, scene: Scene) -> tuple[PacketField, ...]:
-    """Return header and bits of the packet that a decoder read, in places of ``result.chips``.
+    """Return the header and the bits of the packet that a decoder read, in ``result.chips``.
 
-    Empty where no packet was read from chips, or where all packets together were.
+    Empty if no packet was read from its chips, or if all packets were read together.
     """
     fields = packet_fields(scene) if scene.transmitter.framing == FRAMING.name else ()
     if not fields or not result.chips.size or not result.bits.size or len(result.headers) < 2:
@@ -61,11 +61,11 @@ def received_fields(result: DecodeResult, scene: Scene) -> tuple[PacketField, ..
 
 
 def received_edges(result: DecodeResult) -> FloatArray | None:
-    """Return where each received chip begins in the picture, and where the last one ends, or None.
+    """Return the columns at which received chips begin, and at which the last one ends, or None.
 
-    Column ``i`` of the picture reaches from ``i - 0.5`` to ``i + 0.5``, and a chip found by its
-    columns begins and ends with them. A decoder that finds the chips by their light gives the time
-    at which each is sent; the exposure of column ``i`` begins at the time that lies at ``i``.
+    Column ``i`` of the picture extends from ``i - 0.5`` to ``i + 0.5``, and a chip that was found
+    by its columns begins and ends with them. A decoder that finds chips by their light gives the
+    times at which they are sent, on an axis on which the exposure of column ``i`` begins at ``i``.
     """
     if result.chip_starts is None or result.region is None or not result.chips.size:
         return None
@@ -76,23 +76,23 @@ def received_edges(result: DecodeResult) -> FloatArray | None:
 
 
 def threshold_levels(profile: FloatArray, result: DecodeResult) -> tuple[float, float] | None:
-    """Return the neighbouring levels of another profile between which a decoder's threshold lies.
+    """Return the neighbouring levels of a profile between which a decoder's threshold is.
 
-    The decoder compares its enhanced signal with the threshold. Any level between those returned
-    parts the columns before the enhancement as the decoder does, with the fewest exceptions:
-    columns at the panel's sides. None without a threshold of the signal, or with more than 5 %.
+    The decoder compares its enhanced signal with the threshold. Any level between the two divides
+    the columns of the profile as the decoder does, with the fewest exceptions, which are columns at
+    the panel's sides. None if the signal has no threshold, or with more than 5 % exceptions.
     """
     region, signal = result.region, result.signal
     if result.threshold is None or region is None or signal is None:
         return None
-    if result.equalized is not None:  # the threshold is one of light, not of the signal
+    if result.equalized is not None:  # the threshold is for light, not for the signal
         return None
     levels = profile[region.first_column : region.last_column]
     if len(levels) != len(signal) or len(levels) < 2:
         return None
     order = np.argsort(levels, kind="stable")
     ones = (signal > result.threshold)[order]
-    # With the lowest k levels taken for zeros: ones among them, and zeros among the others.
+    # With the lowest k levels as zeros, count ones among them and zeros among the others.
     exceptions = np.cumsum(ones)[:-1] + np.cumsum(~ones[::-1])[-2::-1]
     best = int(exceptions.argmin())
     if exceptions[best] > _MAX_EXCEPTIONS * len(levels):

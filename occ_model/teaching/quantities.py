@@ -1,4 +1,4 @@
-"""Quantities that a lesson can ask for: each computed by the model from the step's scene."""
+"""Quantities for which a lesson can ask; the model computes them from the step's scene."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -17,7 +17,7 @@ from occ_model.study.bands.depth import band_depth
 from occ_model.study.theory import band_model_frequency, null_frequency, panel_readout_time
 from occ_model.transmitter.packet import sent_chips
 
-FRAME_RATE = 30.0  # frames a second of the film that a question about films means
+FRAME_RATE = 30.0  # frames a second of the film in questions about films
 
 _BITS_A_SECOND = Unit("bit/s", ("", "k", "M"), spellings=(("bits/s", 1.0), ("bps", 1.0)))
 _PERCENT = Unit("%", shown=("%", 0.01))
@@ -28,28 +28,28 @@ _CHIP = Unit("chips", spellings=(("chip", 1.0),))
 
 @dataclass(frozen=True, slots=True)
 class LessonQuantity:
-    """Something that can be read off the window and computed by the model."""
+    """A quantity that can be read from the window and computed by the model."""
 
     meaning: str
     unit: Unit
-    asked_in: str  # The unit of an answer that is a number alone
+    asked_in: str  # The unit of an answer without a unit
     of_scene: Callable[[Scene], float]  # Returns the value in SI units
-    of_photo: bool = False  # Whether the scene is the one that is matched to a photo
-    # What a number is called that is a name, as a code is: no other one is near it. Empty for a
-    # quantity.
+    of_photo: bool = False  # Whether it is of the scene that is matched to a photo
+    # The noun for a number that is only a name, such as "code", to which no other number is near;
+    # empty for a quantity
     called: str = ""
 
     def compute(self, scene: Scene, photo: str | Match = "") -> float:
-        """Return the value; ``photo``: the name of the step's photo, or a match of another one."""
-        return self.of_scene(_matched(scene, photo) if self.of_photo else scene)
+        """Return the value; ``photo`` is the name of the step's photo, or a match of another."""
+        return self.of_scene(_match_photo(scene, photo) if self.of_photo else scene)
 
 
 def _threshold_limit(scene: Scene) -> float:
-    # Some tenths of a second to import, and needed by few steps.
+    # These take some tenths of a second to import, and few steps need them.
     from occ_model.study.success_rate import check_rate
     from occ_model.study.working_range import READ_RATE, working_range
 
-    # Not `limits`: exposure times and the confidence of each end take ten times as long.
+    # `limits` would take ten times as long, for exposure times and the confidence of each end.
     settings = RateSettings(5, ("threshold",))
     check_rate(scene, settings)
     highest = working_range(scene, "switching_frequency", READ_RATE, settings).highest
@@ -58,10 +58,10 @@ def _threshold_limit(scene: Scene) -> float:
     return highest.value
 
 
-def _matched(scene: Scene, photo: str | Match) -> Scene:
+def _match_photo(scene: Scene, photo: str | Match) -> Scene:
     if isinstance(photo, Match):
         return photo.scene
-    # Slow to import, and needed by few steps.
+    # These are slow to import, and few steps need them.
     from occ_model.photo.match import match_photo
     from occ_model.photo.reading.load import load_photo
 
@@ -85,7 +85,7 @@ def _exposure_chips(scene: Scene) -> float:
 def _bit_rate(scene: Scene) -> float:
     sent = scene.transmitter
     if sent.pattern:
-        raise OccError("A raw pattern holds no bits.")
+        raise OccError("A raw pattern has no bits.")
     return sent.payload_length * sent.switching_frequency / len(sent_chips(sent))
 
 
@@ -93,7 +93,7 @@ def _fraction_seen(scene: Scene) -> float:
     return min(1.0, FRAME_RATE * panel_readout_time(scene))
 
 
-QUANTITIES = {  # by the name that a lesson's file uses
+QUANTITIES = {  # by the name in a lesson's file
     "chip-columns": LessonQuantity(
         "columns that are read out while a chip lasts, t_LED / t_r", COLUMN, "columns",
         _chip_columns,
@@ -126,7 +126,7 @@ QUANTITIES = {  # by the name that a lesson's file uses
         lambda scene: 2.0 * null_frequency(scene),
     ),
     "band-depth": LessonQuantity(
-        "depth of the bars, largest less smallest light of a column over the mean", _PERCENT, "%",
+        "depth of the bars, largest minus smallest light of a column over the mean", _PERCENT, "%",
         lambda scene: band_depth(scene).peak_to_peak,
     ),
     "barless-exposure": LessonQuantity(
@@ -179,7 +179,7 @@ QUANTITIES = {  # by the name that a lesson's file uses
 }  # fmt: skip
 
 
-_DIGITS = 3  # significant digits that a student can read off; integer parts are written in full
+_DIGITS = 3  # significant digits that a student can read; integer parts are written in full
 
 
 def result_text(unit: Unit, value: float) -> str:

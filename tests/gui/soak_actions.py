@@ -29,7 +29,7 @@ from occ_gui.video.wiring import VideoWiring
 from occ_gui.window.theme import THEMES
 from occ_model.effects.registry import NAMES
 from occ_model.results.decoding import Region
-from occ_model.results.teaching import LessonList
+from occ_model.results.teaching import LoadedLessons
 from occ_model.results.video import VideoFrame
 from occ_model.scene.parameter_kinds import Choice, Quantity
 from occ_model.scene.parameters import PARAMETERS
@@ -59,9 +59,9 @@ def smaller(scene: Scene) -> Scene:
     return scene.replace(rows=150, columns=1200)
 
 
-def smaller_lessons() -> LessonList:
+def smaller_lessons() -> LoadedLessons:
     """Return the lessons with pictures that take a few milliseconds."""
-    return LessonList(
+    return LoadedLessons(
         tuple(
             replace(each, steps=tuple(replace(s, scene=smaller(s.scene)) for s in each.steps))
             for each in lessons().lessons

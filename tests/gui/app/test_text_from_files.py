@@ -22,7 +22,7 @@ from occ_gui.lessons.lesson_controller import LessonController
 from occ_gui.lessons.lesson_view import LessonView
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.plain_text import in_tool_tip, plain
-from occ_model.results.teaching import LessonList
+from occ_model.results.teaching import LoadedLessons
 from occ_model.scene.presets import USER_FOLDER, delete_preset, save_preset
 from occ_model.scene.scene import Scene
 from occ_model.teaching.lessons import lessons
@@ -118,7 +118,7 @@ def test_a_lessons_title_is_text(
     application: Application, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     hostile = tuple(replace(each, title=f"{TAG} & co") for each in lessons().lessons)
-    monkeypatch.setattr("occ_gui.lessons.lesson_controller.lessons", lambda: LessonList(hostile))
+    monkeypatch.setattr("occ_gui.lessons.lesson_controller.lessons", lambda: LoadedLessons(hostile))
     view, answers = LessonView(), LessonAnswers()
     qtbot.addWidget(view)
     controller = LessonController(application.store.store, application.board, view, answers)

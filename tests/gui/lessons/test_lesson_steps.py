@@ -28,7 +28,7 @@ def test_a_number_is_checked_against_the_model_and_kept(bench: Lessons, guide: L
     guide.list.choices[0].click()
     assert guide.step.answer_field.unit.text() == "columns"
     assert bench.answer("40") == "✗  Not yet: that is too low. Try again."
-    assert bench.answer("65") == "≈  Close, but a little too high. Look once more."
+    assert bench.answer("65") == "≈  Close, but a little too high. Look again."
     assert bench.answer("many").startswith("?  ")
     assert bench.answer("62.5") == "✓  Right. The model gives 62.5 columns."
     guide.step.next.click()
@@ -60,7 +60,7 @@ def test_an_answer_that_is_still_being_checked_at_the_end_is_recorded_when_it_is
     guide.step.next.click()
     assert guide.end.isVisible()
     assert guide.end.answers.text().count("The model computes…") == 3
-    assert "Look once more" not in guide.end.answers.text()
+    assert "Look again" not in guide.end.answers.text()
     assert not guide.end.report.isEnabled()
     go_on.set()
     bench.wait_until_idle()
@@ -100,7 +100,7 @@ def test_what_a_question_names_is_to_be_set_before_an_answer_is_judged(
     bench.scenes.change(readout_time=19e-6)
     assert "has changed" in sentence.text()
     said = bench.answer("25")
-    assert said == "→  First set Readout time to 20 µs: the question is about that."
+    assert said == "→  First set Readout time to 20 µs, as in the question."
     bench.scenes.change(readout_time=20e-6)
     assert "Right" in bench.answer("25")
     assert "own scene" not in guide.step.answer.text()

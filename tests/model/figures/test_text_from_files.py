@@ -17,7 +17,7 @@ from occ_model.photo.many.row import MatchSettings
 from occ_model.photo.many.table import table_of
 from occ_model.results.decoding import DecodeResult
 from occ_model.results.photo_table import PhotoRow, csv_text
-from occ_model.results.teaching import AnsweredStep, CheckedAnswer, Lesson, Step
+from occ_model.results.teaching import AnsweredStep, CheckedAnswer, Lesson, LessonStep
 from occ_model.scene.provenance import Provenance, first_scene_in, scene_inside
 from occ_model.scene.scene import Scene
 from occ_model.teaching.lessons import read_lesson
@@ -30,7 +30,7 @@ FORGED = "Title\nscene forged:\nformat = 1\n[camera]\niso = 3333.0\n"
 
 
 def make_lesson(text: str) -> tuple[Lesson, list[AnsweredStep]]:
-    step = Step(goal=text, text=text, question=text, answer=text, scene=SCENE)
+    step = LessonStep(goal=text, text=text, question=text, answer=text, scene=SCENE)
     answered = AnsweredStep(step, CheckedAnswer(text, "right", text), SCENE, None, text)
     return Lesson("evil", text, text, (step,)), [answered]
 

@@ -1,4 +1,4 @@
-"""Lab sheets can be done with the sample photos, and their reports show what was measured."""
+"""Lab sheets can be completed with the sample photos, and their reports show the measurements."""
 
 import re
 from dataclasses import replace
@@ -27,7 +27,7 @@ SHEETS = [lesson for lesson in lessons().lessons if lesson.is_sheet]
 
 @pytest.fixture(scope="module")
 def match() -> Match:
-    """Return what a match of the sample photo of the sheet on the readout time finds."""
+    """Match the sample photo of the sheet on the readout time."""
     scene = SHEETS[1].steps[3].scene.replace(readout_time=12.8e-6)
     return match_with(scene=scene, readout_time=12.8e-6, pattern="10", pattern_was_read=False)
 
@@ -45,7 +45,7 @@ def test_an_answer_about_a_photo_needs_its_match(match: Match) -> None:
     step = SHEETS[1].steps[3]
     assert "Match the photo first" in check_answer(step, "12.8").sentence
     assert check_answer(step, "12.8", match).outcome == "right"
-    # That of the student's photo, not of the sample.
+    # The match of the student's photo, not of the sample.
     other = replace(match, scene=match.scene.replace(readout_time=20e-6))
     assert check_answer(step, "12.8", other).outcome == "wrong"
     assert check_answer(step, "20", other).outcome == "right"
@@ -57,11 +57,11 @@ def test_a_pattern_has_no_code(match: Match) -> None:
 
 
 def few_rows(sheet: Lesson, place: int) -> Scene:
-    """Of each step others."""
+    """Different rows for each step."""
     return sheet.steps[place].scene.replace(rows=200 + place)
 
 
-def answered(sheet: Lesson, match: Match) -> list[AnsweredStep]:
+def answer_step(sheet: Lesson, match: Match) -> list[AnsweredStep]:
     given = CheckedAnswer("about 12.8 µs *exactly*", "right", "That is what it shows.")
     return [
         AnsweredStep(
@@ -71,9 +71,9 @@ def answered(sheet: Lesson, match: Match) -> list[AnsweredStep]:
     ]
 
 
-def test_every_step_stands_on_one_page(match: Match) -> None:
+def test_every_step_is_on_one_page(match: Match) -> None:
     for sheet in SHEETS:
-        steps = answered(sheet, match)
+        steps = answer_step(sheet, match)
         pages = list(split_into_pages(steps))
         assert [each for _, page in pages for each in page] == steps
         assert [first for first, _ in pages] == [
@@ -83,7 +83,7 @@ def test_every_step_stands_on_one_page(match: Match) -> None:
 
 @pytest.mark.usefixtures("plain_figures")
 def test_a_report_of_several_pages_is_a_document(match: Match, tmp_path: Path) -> None:
-    steps = answered(SHEETS[1], match)
+    steps = answer_step(SHEETS[1], match)
     path = tmp_path / "report.pdf"
     write_lesson_report(path, SHEETS[1], steps, author="A. Student", date="2026-11-22")
     content = path.read_bytes()
@@ -97,7 +97,7 @@ def test_a_report_of_several_pages_is_a_document(match: Match, tmp_path: Path) -
 @pytest.mark.usefixtures("plain_figures")
 def test_a_report_as_text_has_the_measurement_and_its_figures(match: Match, tmp_path: Path) -> None:
     path = tmp_path / "report.md"
-    steps = answered(SHEETS[1], match)[3:]  # from the photo on
+    steps = answer_step(SHEETS[1], match)[3:]  # from the photo on
     write_lesson_report(path, SHEETS[1], steps, author="A. Student")
     text = path.read_text(encoding="utf-8")
     assert "A. Student" in text
@@ -118,7 +118,7 @@ def test_a_report_as_text_has_the_measurement_and_its_figures(match: Match, tmp_
 def test_a_report_has_author_and_date_apart_and_a_match_in_sentences_with_whole_values(
     match: Match, tmp_path: Path
 ) -> None:
-    steps = answered(SHEETS[1], match)[3:]
+    steps = answer_step(SHEETS[1], match)[3:]
     path = tmp_path / "report.md"
     write_lesson_report(path, SHEETS[1], steps, author="A. Student", date="2026-11-22")
     assert "\nA. Student, 2026-11-22\n" in path.read_text(encoding="utf-8")
@@ -130,15 +130,15 @@ def test_a_report_has_author_and_date_apart_and_a_match_in_sentences_with_whole_
     assert re.search(r"readout time 12\.8\d*\xa0±\xa00\.0", found.replace("\n", " "))
 
 
-def test_a_match_is_told_with_verdict_errors_and_reasons(match: Match) -> None:
+def test_a_match_is_described_with_verdict_errors_and_reasons(match: Match) -> None:
     doubtful = replace(match, reasons=("Only 2 periods are in view.",))
     assert match_lines(match, "")[0] == "sure"
     assert match_lines(doubtful, "a.jpg")[0] == "photo a.jpg: doubtful"
     assert match_lines(doubtful, "a.jpg")[-1] == "Only 2 periods are in view."
 
 
-def test_every_axis_of_a_report_says_what_it_counts_in_and_covers_no_text(match: Match) -> None:
-    for number, page in split_into_pages(answered(SHEETS[1], match)):
+def test_every_axis_of_a_report_names_its_unit_and_covers_no_text(match: Match) -> None:
+    for number, page in split_into_pages(answer_step(SHEETS[1], match)):
         with house_style():
             figure = draw_page("A sheet", "A. Student", "", page, number)
         axes = figure.axes

@@ -1,4 +1,4 @@
-"""Every answer of the lessons is true: its numbers are held against the model."""
+"""Every answer of the lessons is true: its numbers are compared with the model."""
 
 import math
 import re
@@ -11,7 +11,7 @@ from each_case import each_case
 
 import occ_model as occ
 from occ_model.files.resources import resource_path
-from occ_model.results.teaching import Step
+from occ_model.results.teaching import LessonStep
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
 from occ_model.teaching.answers import check_answer, explanation
@@ -20,7 +20,7 @@ from occ_model.teaching.lessons import lessons
 from occ_model.teaching.quantities import QUANTITIES
 
 
-def step(lesson: int, number: int) -> Step:
+def step(lesson: int, number: int) -> LessonStep:
     return lessons().lessons[lesson - 1].steps[number - 1]
 
 
@@ -48,7 +48,7 @@ def test_the_papers_decoder_stops_above_14_khz_the_other_goes_on() -> None:
 
 
 @pytest.mark.parametrize(("number", "null"), [(1, 14.7e3), (2, 29.4e3)])
-def test_the_stripes_vanish_where_the_answers_say(number: int, null: float) -> None:
+def test_the_stripes_vanish_as_the_answers_say(number: int, null: float) -> None:
     asked = step(3, number)
     assert f"{null / 1e3:g} kHz" in asked.answer
     at_null = swing(asked.scene.replace(switching_frequency=null))
@@ -151,14 +151,14 @@ def test_the_photos_give_what_the_answers_say(
     asked = step(6, number)
     photo = occ.load_photo(resource_path("photos", f"{asked.photo}.jpg"))
     found = occ.match_photo(photo, asked.scene)
-    # The check matches the same photo once more.
+    # The check matches the same photo again.
     monkeypatch.setattr("occ_model.photo.match.match_photo", lambda *_: found)
     assert check_answer(asked, text).outcome == "right"
     assert f"{readout * 1e6:g} µs a column" in asked.answer
     assert found.readout_time == pytest.approx(readout, abs=0.01e-6)
     assert found.uncertainties["readout_time"] < 0.02e-6
-    # Not nearer: exposures of 5 and 15 columns are partly alike to the blur of a lens, which the
-    # match does not know. What it states holds that, and it must stay within it.
+    # No closer, since the match cannot fully tell an exposure of 5 or 15 columns from a lens's
+    # blur. Its stated error includes that, and must hold.
     off = abs(found.exposure_time - photo.exposure_time)
     assert off < 3.0 * found.uncertainties["exposure_time"]
     assert found.correlation > 0.98
@@ -188,13 +188,13 @@ def test_the_photos_give_what_the_answers_say(
         (step(3, 2), "29400 Hz"),
         (step(4, 1), "923"),
         (step(7, 1), "1667"),
-        # At another frequency of the same scene, whose limit that is.
+        # At another frequency, which does not change the limit.
         pytest.param(step(7, 2), "14.2", marks=pytest.mark.whole),
         (step(7, 3), "42 %"),
     ],
     ids=lambda case: case if isinstance(case, str) else case.question[:40],
 )
-def test_what_the_explanation_states_is_a_right_answer(asked: Step, text: str) -> None:
+def test_the_value_in_the_explanation_is_a_right_answer(asked: LessonStep, text: str) -> None:
     assert check_answer(asked, text).outcome == "right"
 
 
@@ -207,7 +207,7 @@ CHECKED = [
 
 
 @each_case(CHECKED)
-def test_a_value_that_a_question_names_is_named_in_its_check(asked: Step) -> None:
+def test_a_value_that_a_question_names_is_named_in_its_check(asked: LessonStep) -> None:
     scene = asked.check.scene
     named = {PARAMETERS[name].format(scene.value(name)) for name in asked.check.named}  # type: ignore[arg-type]
     assert set(re.findall(r"\d[\d.]* (?:µs|ms|kHz|Hz|m)\b", asked.question)) <= named
@@ -260,7 +260,7 @@ def test_a_wrong_code_is_neither_near_nor_too_high(
     assert check_answer(asked, code).outcome == "right"
 
 
-def test_an_explanation_says_of_which_scene_it_is_where_that_is_not_shown() -> None:
+def test_an_explanation_names_its_scene_if_another_is_shown() -> None:
     asked = step(1, 1)
     assert explanation(asked, asked.scene) == asked.answer
     changed = asked.scene.replace(readout_time=27.54e-6)
@@ -277,7 +277,7 @@ def test_an_explanation_says_of_which_scene_it_is_where_that_is_not_shown() -> N
 @pytest.mark.parametrize(
     ("asked", "name"), [(step(1, 1), "chip-columns"), (step(1, 3), "frame-time")], ids=str
 )
-def test_the_check_and_the_formula_give_the_same_digits(asked: Step, name: str) -> None:
+def test_the_check_and_the_formula_give_the_same_digits(asked: LessonStep, name: str) -> None:
     (formula,) = (each.result for each in equations(asked.scene) if each.name == name)
     assert asked.check is not None
     value = QUANTITIES[name].compute(asked.scene)
@@ -287,7 +287,7 @@ def test_the_check_and_the_formula_give_the_same_digits(asked: Step, name: str) 
     assert formula in asked.answer
 
 
-def test_a_wrong_answer_tells_no_number() -> None:
+def test_a_wrong_answer_reveals_no_number() -> None:
     asked = step(3, 1)
     near, wrong = check_answer(asked, "15"), check_answer(asked, "7")
     assert (near.outcome, wrong.outcome) == ("near", "wrong")
@@ -305,7 +305,7 @@ def test_an_answer_is_near_within_three_tolerances_and_within_2_percent() -> Non
 
 
 @pytest.mark.parametrize("text", ["", "many", "14.7 volts", "nan", "1e999", "9" * 500, "1,2,3"])
-def test_an_answer_that_is_no_number_is_said_to_be_none(text: str) -> None:
+def test_an_answer_that_is_no_number_is_called_unreadable(text: str) -> None:
     checked = check_answer(step(3, 1), text)
     assert checked.outcome == "unreadable"
     assert "is not a number in kHz" in checked.sentence

@@ -1,4 +1,4 @@
-"""Lessons are read from files of anybody's, and a mistake in one is named with its line."""
+"""Lessons are read from anybody's files, and a mistake in one is named with its line."""
 
 import re
 from pathlib import Path
@@ -40,7 +40,7 @@ def test_every_lesson_names_a_pane_and_photo_that_exist() -> None:
 STEP = 'preset = "phone-68us", text = "one", question = "two?", answer = "three."'
 
 
-def test_a_file_of_one_s_own_is_read_as_an_lesson(tmp_path: Path) -> None:
+def test_a_user_s_own_file_is_read_as_a_lesson(tmp_path: Path) -> None:
     path = tmp_path / "mine.toml"
     path.write_text(f'title = "x"\nstep = [{{{STEP}, set = {{iso = 200}}}}]', encoding="utf-8")
     lesson = read_lesson(path)
@@ -137,7 +137,7 @@ def test_the_title_of_a_lesson_is_one_line(tmp_path: Path) -> None:
         read_lesson(path)
 
 
-def test_a_teachers_lessons_follow_the_programs_and_bad_ones_are_told(
+def test_a_teachers_lessons_follow_the_programs_and_bad_ones_are_named(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     count = len(lessons().lessons)
@@ -152,7 +152,7 @@ def test_a_teachers_lessons_follow_the_programs_and_bad_ones_are_told(
     assert "line 8: pane is 1 in place of a text." in found.problems["bad.toml"]
 
 
-def test_the_lesson_of_the_manual_is_one_and_its_tables_are_complete(tmp_path: Path) -> None:
+def test_the_lesson_in_the_manual_is_valid_and_its_tables_are_complete(tmp_path: Path) -> None:
     page = resource_path("docs", "guide.md").read_text(encoding="utf-8")
     path = tmp_path / "mine.toml"
     path.write_text(page.split("```toml\n")[1].split("```")[0], encoding="utf-8")
@@ -165,7 +165,7 @@ def test_the_lesson_of_the_manual_is_one_and_its_tables_are_complete(tmp_path: P
         assert f"`{word}`" in page
 
 
-def test_an_empty_folder_gets_a_lesson_to_begin_with_that_is_right(
+def test_an_empty_folder_gets_a_valid_lesson_to_start_from(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv(USER_FOLDER, str(tmp_path / "own"))

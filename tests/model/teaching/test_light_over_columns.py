@@ -1,4 +1,4 @@
-"""The light over the columns is what the exposure sees; marks stand where the picture changes."""
+"""The light along the columns agrees with the exposure; marks are where the picture changes."""
 
 from typing import Any
 
@@ -24,7 +24,7 @@ def scene_with(**changes: Any) -> Scene:
 
 
 @pytest.mark.parametrize("changes", CHANGES)
-def test_its_mean_over_an_exposure_is_the_time_on(changes: dict[str, Any]) -> None:
+def test_the_mean_of_the_light_over_an_exposure_is_the_on_time(changes: dict[str, Any]) -> None:
     scene = scene_with(**changes)
     width = scene.camera.exposure_time / scene.camera.readout_time
     curve = light_over_columns(scene, -1.0, 400.0 + width, 10_000)
@@ -34,7 +34,7 @@ def test_its_mean_over_an_exposure_is_the_time_on(changes: dict[str, Any]) -> No
 
 
 @pytest.mark.parametrize("edge", [5e-6, 60e-6, 250e-6])
-def test_with_edges_it_is_the_mean_over_the_last_edge_time(edge: float) -> None:
+def test_with_edges_the_light_is_the_mean_over_the_last_edge_time(edge: float) -> None:
     scene = scene_with(edge_time=edge)
     width = scene.camera.exposure_time / scene.camera.readout_time
     curve = light_over_columns(scene, -1.0, 400.0 + width, 10_000, edged=True)
@@ -56,13 +56,13 @@ def test_each_chip_is_the_one_sent_at_its_place() -> None:
     assert [curve.light_at(x) for x in curve.edges[:-1].tolist()] == curve.lit.tolist()
 
 
-def test_too_many_chips_are_not_given() -> None:
+def test_too_many_chips_give_none() -> None:
     scene = scene_with(switching_frequency=1e9)
     assert light_over_columns(scene, 0.0, 399.0, 2000) is None
 
 
 @pytest.mark.parametrize("chips", [0.3, 1.0, 1.36, 2.0, 4.5])
-def test_an_exposure_sees_parts_of_so_many_chips(chips: float) -> None:
+def test_an_exposure_includes_parts_of_as_many_chips(chips: float) -> None:
     scene = scene_with(exposure_time=chips * 2**-13, switching_frequency=2.0**13)
     fewest = chips_in_exposure(scene)
     seen = set()
@@ -95,7 +95,7 @@ def test_bars_vanish_at_their_mark_and_not_before(pattern: str, parameter: str) 
         assert occ.band_depth(scene.replace(**{parameter: part * mark.value})).peak_to_peak > 0.005
 
 
-def test_no_mark_promises_no_bars_where_nothing_blinks_or_the_surroundings_flicker() -> None:
+def test_no_mark_says_no_bars_if_nothing_blinks_or_the_surroundings_flicker() -> None:
     scene = occ.load_preset("phone-136us").replace(pattern="10")
     for changes in ({"pattern": "11"}, {"luminance": 0.0}):
         marks = marked_values(scene.replace(**changes), "exposure_time")

@@ -1,4 +1,4 @@
-"""Header and bits lie where the decoder read them, and the threshold where it parts columns."""
+"""Header and bits are where the decoder read them, and the threshold divides the columns."""
 
 import numpy as np
 import pytest
@@ -87,10 +87,10 @@ def test_a_result_without_chips_has_no_places() -> None:
 @pytest.mark.parametrize(
     ("decoder", "fraction"), [("threshold", 0.5), ("equalizer", 0.5), ("sequence", 0.0)]
 )
-def test_a_chip_received_lies_where_it_was_sent(
+def test_a_received_chip_is_where_it_was_sent(
     exposure: float, decoder: str, fraction: float
 ) -> None:
-    """Or earlier by half an exposure: the columns with that chip in their middle show it."""
+    """Or half an exposure earlier, where the chip is in the middle of a column's exposure."""
     frame, _ = read(exposure_time=exposure)
     result = occ.decode(frame.image, frame.scene, decoder=decoder)
     edges = received_edges(result)
@@ -102,14 +102,14 @@ def test_a_chip_received_lies_where_it_was_sent(
     np.testing.assert_array_equal(sent, result.chips[1:-1])
 
 
-def test_a_threshold_of_light_is_none_of_the_profile() -> None:
+def test_a_threshold_for_light_is_not_one_for_the_profile() -> None:
     frame, _ = read(exposure_time=136e-6)
     result = occ.decode(frame.image, frame.scene, decoder="equalizer")
     assert result.threshold is not None
     assert threshold_levels(frame.profile, result) is None
 
 
-def test_the_threshold_parts_the_profile_as_the_decoder_does() -> None:
+def test_the_threshold_divides_the_profile_as_the_decoder_does() -> None:
     frame, result = read()
     levels = threshold_levels(frame.profile, result)
     part = frame.profile[result.region.first_column : result.region.last_column]

@@ -1,4 +1,4 @@
-"""The explanations say what the model does: equations and exposure windows."""
+"""Equations and exposure windows agree with the model."""
 
 import re
 
@@ -34,7 +34,7 @@ scenes = st.builds(
 
 
 _ROUNDED = 5.1e-3
-"""Largest relative error of a result that is written with three digits."""
+"""Largest relative error of a result with three digits."""
 
 
 def numbers_in(text: str) -> list[float]:
@@ -64,7 +64,7 @@ def test_the_results_of_the_equations_are_those_of_the_model(scene: Scene) -> No
     low, high = level_values(scene).tolist()
     assert numbers_in(found["lit panel"].result)[0] == pytest.approx(high, abs=0.051)
     assert numbers_in(found["dark panel"].result)[0] == pytest.approx(low, abs=0.051)
-    assert ("more than white" in found["lit panel"].result) == (high > WHITE)
+    assert ("brighter than white" in found["lit panel"].result) == (high > WHITE)
     averages_light = scene.model.averaging == "light"
     assert ("light is averaged, not pixel" in found["a column"].result) == averages_light
     span = numbers_in(found["a column"].result)[:2]
@@ -115,7 +115,7 @@ def test_every_parameter_of_a_term_changes_its_equation() -> None:
                 assert name in after.parameters, after.meaning
 
 
-def test_the_time_lit_depends_on_the_parameters_that_its_term_names_and_no_other() -> None:
+def test_the_on_time_depends_on_exactly_the_parameters_that_its_term_names() -> None:
     scene = occ.Scene().replace(framing="preamble", columns=500)
     other: dict[str, ParameterValue] = {
         "code": 700, "bits": 12, "payload": "a", "pattern": "10", "line_code": "4b6b",
@@ -170,7 +170,7 @@ def test_a_window_is_exact_however_far_from_time_zero(start_time: float) -> None
     st.floats(500.0, 3e4), st.floats(1e-5, 1e-3), st.floats(1e-6, 5e-5), st.floats(-2.0, 2.0),
     st.sampled_from(["", "10", "1101000"]),
 )  # fmt: skip
-def test_the_light_within_each_exposure_is_its_lit_fraction(
+def test_the_light_during_each_exposure_is_its_lit_fraction(
     frequency: float, exposure: float, readout: float, start: float, pattern: str
 ) -> None:
     scene = Scene().replace(
@@ -190,7 +190,7 @@ def test_the_light_within_each_exposure_is_its_lit_fraction(
 
 
 @pytest.mark.parametrize("shown", [2, 7, 25])
-def test_as_many_columns_are_shown_as_asked_for_where_there_are_more(shown: int) -> None:
+def test_of_many_columns_as_many_are_shown_as_requested(shown: int) -> None:
     scene = occ.load_preset("phone-68us").replace(switching_frequency=1e3)
     columns = rolling_shutter(scene, shown).columns
     assert len(columns) == shown

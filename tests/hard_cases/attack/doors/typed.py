@@ -11,7 +11,7 @@ from hard_cases.attack import chance as made
 from hard_cases.attack.promise import Door
 from occ_model.commands.vary import axes_of
 from occ_model.results.sweep_request import MOST_POINTS
-from occ_model.results.teaching import Step
+from occ_model.results.teaching import LessonStep
 from occ_model.scene import units
 from occ_model.scene.from_text import change_scene
 from occ_model.scene.parameter_kinds import Choice, Quantity
@@ -110,7 +110,7 @@ def _values(chance: Random, _folder: Path) -> list[str]:
 
 
 @cache
-def _steps() -> tuple[Step, ...]:
+def _steps() -> tuple[LessonStep, ...]:
     """The steps of the lessons whose answers are checked soon."""
     return tuple(
         step

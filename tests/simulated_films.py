@@ -7,7 +7,7 @@ from fractions import Fraction
 import numpy as np
 
 import occ_model as occ
-from occ_model.results.video_reading import Measured
+from occ_model.results.video_reading import MeasuredValue
 from occ_model.scene.payload import bits_of_payload
 from occ_model.scene.recording import Recording, Waypoint
 from occ_model.study.observation import panel_span
@@ -67,7 +67,7 @@ class Judged:
     def error(self, name: str) -> tuple[float, float]:
         """Return a value of the clock less the truth, and the error that was stated."""
         assert self.reading.clock is not None, self.reading.failure
-        measured: Measured = getattr(self.reading.clock, name)
+        measured: MeasuredValue = getattr(self.reading.clock, name)
         return measured.value - self.film.truth[name], measured.error
 
 

@@ -135,7 +135,7 @@ class AccuracyPlot(QWidget):
 
     def show_ways(self, expected: Forecast) -> None:
         """Draw expected time and error limit of each set of effects that a plan may choose."""
-        timed = zip(expected.effect_sets, expected.ways_seconds, strict=True)
+        timed = zip(expected.effect_sets, expected.effect_set_seconds, strict=True)
         shown = [(way, s) for way, s in timed if s is not None and way.error < math.inf]
         shown.sort(key=lambda pair: pair[1])
         forced = {d.effect for d in expected.plan.decisions if d.forced and d.included}

@@ -5,14 +5,14 @@ from dataclasses import dataclass
 from occ_model.results.advice import (
     Advice,
     end_text,
+    format_value,
     gaps_text,
-    how_tried,
     own_text,
-    searched_to,
+    search_end_text,
+    search_sentences,
     sent_text,
     theory_text,
     two_packets_text,
-    written,
 )
 from occ_model.results.bit_errors import FRAMES_A_SECOND
 from occ_model.results.limits import Limits, RangeEnd, WorkingRange
@@ -46,14 +46,14 @@ def advice_lines(advice: Advice, frames_a_second: float = FRAMES_A_SECOND) -> li
         if found.gaps:
             lines.append(AdviceLine(gaps_text(found)))
         if found.most_chips is not None:
-            lines.append(AdviceLine(searched_to(found)))
+            lines.append(AdviceLine(search_end_text(found)))
         if found.faults:
             lines.append(AdviceLine(found.faults))
         if theory.two_packets is not None:
             lines.append(AdviceLine(two_packets_text(theory.two_packets)))
         lines.append(AdviceLine(theory_text(parameter, theory), is_common=True))
     lines.append(AdviceLine(own_text(advice.limits, frames_a_second)))
-    lines += [AdviceLine(text, is_common=True) for text in how_tried(advice.limits)]
+    lines += [AdviceLine(text, is_common=True) for text in search_sentences(advice.limits)]
     return lines
 
 
@@ -77,7 +77,7 @@ def _nowhere(limits: Limits, found: WorkingRange) -> str:
     if found.best is None:
         return found.failure or ""
     low, high, place = (
-        written(found.parameter, value) for value in (*found.searched, found.best.value)
+        format_value(found.parameter, value) for value in (*found.searched, found.best.value)
     )
     name, best = quantity(found.parameter).in_sentence, found.best
     return (
@@ -89,7 +89,7 @@ def _nowhere(limits: Limits, found: WorkingRange) -> str:
 def _title(found: Limits) -> str:
     scene = found.scene
     values = (
-        written(name, float(scene.value(name)))
+        format_value(name, float(scene.value(name)))
         for name in ("switching_frequency", "exposure_time", "distance")
     )
     return (
@@ -99,9 +99,9 @@ def _title(found: Limits) -> str:
 
 
 def _line(parameter: str, what: str, end: RangeEnd) -> AdviceLine:
-    sentence = f"The {what} that it reads is {written(parameter, end.value)}: "
+    sentence = f"The {what} that it reads is {format_value(parameter, end.value)}: "
     sentence += end_text(parameter, end)
     if end.inside is None:
         return AdviceLine(f"{sentence} No value inside is surely read.")
-    place = written(parameter, end.inside.value)
+    place = format_value(parameter, end.inside.value)
     return AdviceLine(sentence, (parameter, end.inside.value, place))

@@ -11,7 +11,7 @@ from occ_gui.widgets.building import filled, named, paragraph, push_button
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.text_scale import heading_font
 from occ_model.errors import counted
-from occ_model.results.advice import Advice, gaps_text, own_text, searched_to, written
+from occ_model.results.advice import Advice, format_value, gaps_text, own_text, search_end_text
 from occ_model.results.bit_errors import FRAMES_A_SECOND, MostBits
 from occ_model.results.limits import RangeEnd, WorkingRange
 from occ_model.scene.units import HERTZ
@@ -23,7 +23,7 @@ REST_MS = 800  # milliseconds that a scene must be at rest before its limits are
 
 
 def _written(frequency: float) -> str:
-    return written(_PARAMETER, frequency)
+    return format_value(_PARAMETER, frequency)
 
 
 class LimitCards(QWidget):
@@ -75,7 +75,7 @@ class LimitCards(QWidget):
             line = line_on_highest_frequency(advice)
             found = advice.limits.frequency
             bits = own_text(advice.limits, self.frames_a_second)
-            to = "" if found.most_chips is None else searched_to(found)
+            to = "" if found.most_chips is None else search_end_text(found)
             texts = (advice.cause, line.text, found.faults, gaps_text(found), to, bits)
             tip = "\n".join(text for text in texts if text)
             card.show_limit(found.highest, tip, advice.limits.rate)

@@ -16,14 +16,14 @@ from occ_model.program import EXIT_FAILURE
 from occ_model.receiver.decoders import DECODERS
 from occ_model.results.advice import (
     end_text,
-    gaps,
-    how_tried,
+    format_gaps,
+    format_value,
     own_text,
-    searched_to,
+    search_end_text,
+    search_sentences,
     sent_text,
     theory_text,
     two_packets_text,
-    written,
 )
 from occ_model.results.bit_errors import FRAMES_A_SECOND
 from occ_model.results.limits import Limits, RangeEnd, WorkingRange
@@ -121,13 +121,13 @@ def range_cells(found: WorkingRange) -> tuple[str, str, str]:
     """Format the lowest and the highest value of a range, and its first gap."""
     if found.lowest is None or found.highest is None:
         return "none", "none", ""
-    first, *others = gaps(found) or ["no"]
+    first, *others = format_gaps(found) or ["no"]
     more = f", {len(others)} more" if others else ""
     return _end_text(found, found.lowest), _end_text(found, found.highest), first + more
 
 
 def _end_text(found: WorkingRange, end: RangeEnd) -> str:
-    value = written(found.parameter, end.value)
+    value = format_value(found.parameter, end.value)
     return f"{value} (searched to)" if end.fails is None else value
 
 
@@ -146,7 +146,7 @@ def sentences(answers: Sequence[Limits], frames_a_second: float = FRAMES_A_SECON
         if two_packets is not None:
             lines.append(f"  {two_packets_text(two_packets)}")
         lines.append(f"  {own_text(found, frames_a_second)}")
-    lines += dict.fromkeys(line for found in answers for line in how_tried(found))
+    lines += dict.fromkeys(line for found in answers for line in search_sentences(found))
     lines.append(theory_text("switching_frequency", advices[0].frequency))
     lines.append(theory_text("exposure_time", advices[0].exposure))
     return lines
@@ -160,7 +160,7 @@ def _on_range(decoder: str, found: WorkingRange) -> list[str]:
     lines = [f"The {decoder} decoder, {quantity(name).in_sentence}:"]
     for interval in found.intervals:
         ends = (interval.lowest, interval.highest)
-        lines += [f"  {written(name, end.value)}: {end_text(name, end)}" for end in ends]
+        lines += [f"  {format_value(name, end.value)}: {end_text(name, end)}" for end in ends]
     if found.most_chips is not None:
-        lines.append(f"  {searched_to(found)}")
+        lines.append(f"  {search_end_text(found)}")
     return lines + faults

@@ -17,7 +17,7 @@ from occ_model import colours
 from occ_model.arrays import FloatArray
 from occ_model.errors import ParameterError, counted
 from occ_model.figures.drawing import Drawing, figure_format, house_style, write_figure
-from occ_model.results.sweep import SweepTable, column_title, written
+from occ_model.results.sweep import SweepTable, column_title, format_value
 from occ_model.results.sweep_request import Shown, SweepPoint
 from occ_model.scene.parameter_kinds import Choice, ParameterValue, Quantity
 from occ_model.scene.parameters import PARAMETERS
@@ -89,7 +89,7 @@ def _provenance(table: SweepTable, shown: Shown) -> Provenance:
     notes = (
         f"{counted(settings.images, 'image')} a point",
         f"{counted(settings.frames_a_second, 'image')} a second, or as many as can be read out",
-        *(f"{name}: {', '.join(map(written, values))}" for name, values in table.axes.items()),
+        *(f"{name}: {', '.join(map(format_value, values))}" for name, values in table.axes.items()),
     )
     return Provenance(title, {"at hand": table.request.scene}, settings.seed, notes)
 

@@ -1,1 +1,1 @@
-"""Result types of the model: pictures, plans, decodings, matches, studies."""
+"""Types of the model's results: pictures, plans, decodings, matches, studies."""

@@ -1,4 +1,4 @@
-"""Time and error of each simulation method, and of each effect that is computed or left out."""
+"""Time and error of each way to simulate, and of each effect that is included or omitted."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -18,40 +18,43 @@ ACCURACY_PARTS = {  # titles of the parts of an accuracy study, by name
     "noise": "noise drawn, noise used again",
 }
 
-CHAINED_PARTS = ("integration", "effects")  # points form a curve, but for the present settings'
-CLOSED_FORM = "closed form"  # name of the exposure that is integrated exactly
+CHAINED_PARTS = (
+    "integration",
+    "effects",
+)  # points form curves, except the present one
+CLOSED_FORM = "closed form"  # name of the point whose exposure is integrated exactly
 
 LEAST_ERROR = 1e-3
-"""Smallest error drawn, in levels of the stretched profile; smaller ones are drawn there."""
+"""Smallest error in a plot, in levels of the stretched profile; smaller ones are drawn at it."""
 
 
 @dataclass(frozen=True, slots=True)
 class AccuracyPoint:
-    part: str  # The part of the study: a name from ``ACCURACY_PARTS``
+    part: str  # The part of the study, a name of ``ACCURACY_PARTS``
     name: str
     seconds: float
-    error: float  # Root mean square difference from the most exact way
-    current: bool = False  # Whether the present settings simulate in this way: one point of a study
+    error: float  # Root mean square difference from the most exact simulation
+    current: bool = False  # Whether it belongs to the present settings
     effects: tuple[str, ...] = ()
-    unit: str = LEVEL.symbol  # Of the error: of the stretched profile, or of a decision
+    unit: str = LEVEL.symbol  # Unit of the error: levels of the stretched profile, or margins
 
 
 @dataclass(frozen=True, slots=True)
 class TimeFractions:
-    """Computing time of one picture, divided among its effects and other stages."""
+    """Computing time of one picture, divided among effects and other stages."""
 
-    effects: Mapping[str, float]  # Seconds of each effect computed separately
+    effects: Mapping[str, float]  # Seconds of each effect that is computed by itself
     stages: Mapping[str, float]  # Seconds of each other stage of the simulation
-    # Effects computed in one step with another, and the effect whose time includes theirs
+    # The effect whose time includes that of another, computed in the same step
     together: Mapping[str, str]
-    # Whether rows differ: not with column effects only
+    # Whether rows differ; with column effects only they do not
     rows_differ: bool
-    # Seconds by which each effect's median run was slower than its fastest
+    # Seconds by which the median run of each effect was slower than its fastest
     scatter: Mapping[str, float] = field(default_factory=dict)
 
     @classmethod
     def of(cls, frame: Frame) -> Self:
-        """Return the times measured while a picture was simulated."""
+        """Return the times that were measured during a picture's simulation."""
         included = frame.plan.included
         noises = [d.effect for d in frame.plan.decisions if d.included and d.kind == "noise"]
         timed = {name: frame.timings[name] for name in included if name in frame.timings}
@@ -64,7 +67,7 @@ class TimeFractions:
 
     @classmethod
     def of_runs(cls, runs: Sequence[Self]) -> Self:
-        """Return the fastest run of each effect and stage: other load only adds time."""
+        """Take the fastest run of each effect and stage, since other load only adds time."""
         first = runs[0]
         effects = {name: sorted(run.effects[name] for run in runs) for name in first.effects}
         return cls(
@@ -72,7 +75,7 @@ class TimeFractions:
             stages={name: min(run.stages[name] for run in runs) for name in first.stages},
             together=first.together,
             rows_differ=first.rows_differ,
-            # The median: a single slow run has no influence.
+            # By the median, a single slow run has no influence.
             scatter={name: times[len(times) // 2] - times[0] for name, times in effects.items()},
         )
 
@@ -91,30 +94,28 @@ class TimeFractions:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class EffectCrop:
-    """The part of the panel that shows an effect best, with and without it on the paper's model."""
+    """The part of the panel that shows an effect best, by the paper's model with and without it."""
 
-    # Shape (rows, columns): camera's pixels, both with the same contrast stretch
+    # Shape (rows, columns): the camera's pixels, with the same contrast stretch in both
     with_effect: ByteArray
     without: ByteArray
-    # Shape (rows, columns): the first minus the second in grey levels, times ``amplification``,
-    # around 128
+    # Shape (rows, columns): the difference in grey levels times ``amplification``, plus 128
     difference: ByteArray
     amplification: int
-    # Whether it is the area-averaged whole panel; otherwise real pixels
+    # Whether it is the whole panel, averaged; otherwise it has real pixels
     is_averaged: bool
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class EffectDifference:
-    """Change caused by omitting one effect from the complete simulation."""
+    """The change when one effect is omitted from the complete simulation."""
 
     effect: str
-    # Root mean square of the change of the observable, in levels of the stretched profile
+    # Root mean square change of the observable, in levels of the stretched profile
     error: float
-    # Shape (samples,): the change at sample places, the same for all effects of a scene, with this
-    # RMS
+    # Shape (samples,): the change at some places, which are the same for all effects of a scene
     change: FloatArray
-    # The effect alone: at viewing size, and at the size of a line of text
+    # The effect alone, for display and at the size of a line of text
     crop: EffectCrop
     icon: EffectCrop
 
@@ -122,20 +123,20 @@ class EffectDifference:
 @dataclass(frozen=True, slots=True)
 class MeasuredCosts:
     picture: TimeFractions
-    # Of pictures simulated alternately, among them one with all effects, which times those omitted,
-    # and one with none, which times everything else where all rows are equal
+    # Of pictures simulated in turn. One has all effects, which gives times for the omitted ones;
+    # one has none, which gives the time of everything else if all rows are equal
     others: tuple[TimeFractions, ...] = ()
     differences: Mapping[str, EffectDifference] = field(default_factory=dict)
-    # Measured total errors, by set of included effects
+    # Measured total error, by set of included effects
     errors: Mapping[frozenset[str], float] = field(default_factory=dict)
 
     @property
     def is_comparable(self) -> bool:
-        """Whether the picture was timed in turn with the others: a first one takes longer."""
+        """Whether the picture was timed in turn with the others; a first picture takes longer."""
         return any(fractions is self.picture for fractions in self.others)
 
     def seconds_of(self, effect: str) -> float | None:
-        """Return an effect's time in the last picture, otherwise in another."""
+        """Return an effect's time in the last picture, or else in another one."""
         for fractions in (self.picture, *self.others):
             if effect in fractions.effects or effect in fractions.together:
                 return fractions.effects[fractions.together.get(effect, effect)]
@@ -162,13 +163,11 @@ class Forecast:
     """Expected time and error of a simulation with other settings."""
 
     plan: Plan
-    seconds: float | None  # None where a time is not yet known
-    # RMS in levels of the stretched profile, of the sum of the changes of all omitted effects as if
-    # they were independent; None where a change is not yet known
+    seconds: float | None  # None if a time is not yet known
+    # RMS in levels of the stretched profile of all omitted changes, as if these were independent;
+    # None if one is not yet known
     error: float | None
     is_measured: bool
-    effect_sets: tuple[
-        EffectSet, ...
-    ] = ()  # Alternatives of the plan, fastest first: see `ways_of`
-    # Expected time of each, None where not yet known
-    ways_seconds: tuple[float | None, ...] = ()
+    effect_sets: tuple[EffectSet, ...] = ()  # Alternatives of the plan, fastest first
+    # Expected time of each, None if not yet known
+    effect_set_seconds: tuple[float | None, ...] = ()

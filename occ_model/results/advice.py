@@ -1,4 +1,4 @@
-"""An advice on a scene, limits found by trial and limits of theory, and its sentences."""
+"""Advice on a scene, with limits by trial and by theory, and its sentences."""
 
 import math
 from dataclasses import dataclass
@@ -14,36 +14,36 @@ from occ_model.scene.units import HERTZ, SECOND
 
 @dataclass(frozen=True, slots=True)
 class TheoryLimits:
-    """Values of one parameter at which theory places a limit, with the others unchanged."""
+    """Theoretical limits of one parameter, with the others unchanged."""
 
     band_model: float  # Where the band model ends: t = t_LED
     null: float  # Where an alternating pattern has no stripes: t = 2 t_LED
-    # Frequency below which two packets do not fit the panel's image; None for an exposure time or
-    # without a panel in view
+    # Frequency below which two packets do not fit into the panel's image; None for an exposure time
+    # or without a panel in view
     two_packets: float | None = None
-    # Exposure time from which the lit panel is white, infinite without light; None for a frequency
+    # Exposure time above which the lit panel is white, infinite without light; None for a frequency
     saturation: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class Advice:
-    """How fast a scene can go with one decoder, and how long it can be exposed."""
+    """How fast a scene can send to one decoder, and how long it can be exposed."""
 
     limits: Limits
-    # What theory says of each
+    # Theoretical limits of each
     frequency: TheoryLimits
     exposure: TheoryLimits
     cause: str = ""  # Why the scene itself is not read, in sentences; empty where it is, or unknown
 
 
-_DIGITS = 4  # significant digits: the ends of a range are found to a few thousandths
+_DIGITS = 4  # significant digits, as the ends of a range are found to a few thousandths
 
 
-_LONGEST_PAYLOAD = 24  # characters of a payload that are named
+_LONGEST_PAYLOAD = 24  # characters of a payload in a sentence
 
 
 def sent_text(scene: Scene) -> str:
-    """Describe what the pictures of a study show: the scene's own code or payload."""
+    """Describe what the pictures of a study show, the scene's own code or payload."""
     sent = scene.transmitter
     if sent.payload:
         return f"“{one_line(typed_form(sent.payload), _LONGEST_PAYLOAD)}”"
@@ -51,63 +51,67 @@ def sent_text(scene: Scene) -> str:
 
 
 def own_text(found: Limits, frames_a_second: float = FRAMES_A_SECOND) -> str:
-    """State what was read at the scene's own values, with its bits a second."""
+    """State what was read at the scene's own values, and the bits a second."""
     own, bits = found.frequency.own, found.bits_a_second(frames_a_second)
     return (
-        f"At {written(found.frequency.parameter, own.value)} it read {own.whole} of {own.images} "
-        f"pictures of {sent_text(found.scene)}, {own.rate:.3g} % of the bits ({own.low:.1f} to "
-        f"{own.high:.1f} %): {bits:.4g} bits a second, if others are read as well."
+        f"At {format_value(found.frequency.parameter, own.value)} it read {own.whole} of "
+        f"{own.images} pictures of {sent_text(found.scene)}, {own.rate:.3g} % of the bits "
+        f"({own.low:.1f} to {own.high:.1f} %): {bits:.4g} bits a second, if others are read "
+        "as well."
     )
 
 
-def written(parameter: str, value: float) -> str:
-    """Format a frequency or an exposure time with the digits of an advice."""
+def format_value(parameter: str, value: float) -> str:
+    """Format a frequency or an exposure time with the digits of the advice."""
     return quantity(parameter).format(value, _DIGITS)
 
 
 def end_text(parameter: str, end: RangeEnd) -> str:
-    """Return the sentence on how an end was confirmed and on its 95 % interval."""
+    """State how an end of a range was confirmed, and its 95 % interval."""
     works = end.works.value
-    place = "there" if end.value == works else f"at {written(parameter, works)}"
-    text = f"{place} it read {_counted(end.works)}"
+    place = "there" if end.value == works else f"at {format_value(parameter, works)}"
+    text = f"{place} it read {_rate_text(end.works)}"
     if end.fails is None:
-        text += ", beyond it was not tried."
+        text += "; values beyond were not tried."
     else:
-        text += f", at {written(parameter, end.fails.value)} {_counted(end.fails)}."
+        text += f", at {format_value(parameter, end.fails.value)} {_rate_text(end.fails)}."
     if end.inside is not None and end.interval is not None:
-        low, high = (written(parameter, value) for value in end.interval)
+        low, high = (format_value(parameter, value) for value in end.interval)
         text += (
-            f" At {written(parameter, end.inside.value)} it read every bit of {end.inside.images} "
-            f"images: the end lies between {low} and {high} (95 %)."
+            f" At {format_value(parameter, end.inside.value)} it read every bit of "
+            f"{end.inside.images} images: the end is between {low} and {high} (95 %)."
         )
     return text
 
 
-def gaps(found: WorkingRange) -> list[str]:
-    """Format the gaps in which a decoder does not read."""
+def format_gaps(found: WorkingRange) -> list[str]:
+    """Format the gaps in a range, in which a decoder does not read."""
+    name = found.parameter
     return [
-        f"{written(found.parameter, end.value)} to {written(found.parameter, after.value)}"
+        f"{format_value(name, end.value)} to {format_value(name, after.value)}"
         for end, after in found.gaps
     ]
 
 
 def gaps_text(found: WorkingRange) -> str:
-    """Return the sentence on the gaps; empty without any."""
+    """State the gaps; empty without any."""
     if not found.gaps:
         return ""
-    return f"It does not read everywhere between: gaps lie from {'; '.join(gaps(found))}."
-
-
-def searched_to(found: WorkingRange) -> str:
-    """Return the sentence on where the search ended because the decoder takes too long."""
     return (
-        f"Searched only up to {written(found.parameter, found.searched[1])}, where an exposure "
-        f"covers {found.most_chips:.3g} chips: beyond that this decoder takes much longer."
+        f"It does not read everywhere between: there are gaps from {'; '.join(format_gaps(found))}."
     )
 
 
-def how_tried(found: Limits) -> list[str]:
-    """Return sentences on the confidence of the ends found and on what the search can miss."""
+def search_end_text(found: WorkingRange) -> str:
+    """State where the search ended because the decoder would take too long."""
+    return (
+        f"Searched only up to {format_value(found.parameter, found.searched[1])}, where an "
+        f"exposure covers {found.most_chips:.3g} chips; beyond it this decoder takes much longer."
+    )
+
+
+def search_sentences(found: Limits) -> list[str]:
+    """State the confidence of the ends, and what the search can miss."""
     step = 100.0 * (found.frequency.step - 1.0)
     missed = (
         f"Values were tried in steps of {step:.0f} %: a narrower gap or interval can be missed."
@@ -122,27 +126,27 @@ def how_tried(found: Limits) -> list[str]:
 
 
 def theory_text(parameter: str, theory: TheoryLimits) -> str:
-    """Return the sentence on the limits that theory places on a frequency or an exposure time."""
+    """State the theoretical limits of a frequency or an exposure time."""
     text = (
-        f"By theory the band model ends at {written(parameter, theory.band_model)} and an "
-        f"alternating pattern at {written(parameter, theory.null)}"
+        f"By theory the band model ends at {format_value(parameter, theory.band_model)} and an "
+        f"alternating pattern at {format_value(parameter, theory.null)}"
     )
     if theory.saturation is None:
         return f"{text}."
     if math.isinf(theory.saturation):
         return f"{text}; without light nothing saturates."
     white = SECOND.format(theory.saturation, _DIGITS)
-    return f"{text}; from {white} on, columns lit throughout are white."
+    return f"{text}; above {white}, columns that are lit throughout are white."
 
 
 def two_packets_text(frequency: float) -> str:
-    """Return the sentence on the frequency below which a decoder lacks headers in some pictures."""
+    """State the frequency below which some pictures do not have the two headers of a decoder."""
     limit = HERTZ.format(frequency, _DIGITS)
     return (
-        f"Below {limit} the picture does not hold two packets, and not always the two headers that "
+        f"Below {limit} a picture does not contain two packets, nor always the two headers that "
         "this decoder needs."
     )
 
 
-def _counted(trial: Trial) -> str:
+def _rate_text(trial: Trial) -> str:
     return f"{trial.rate:.3g} % in {trial.images} images ({trial.low:.1f} to {trial.high:.1f} %)"

@@ -1,4 +1,4 @@
-"""Request and results of the bench: bit errors over exposure and over noise."""
+"""Request and results of the bench: bit errors against exposure and against noise."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -11,31 +11,37 @@ _CAMERA = Scene().camera
 
 EXPOSURES = (0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0)  # default exposures, in symbols
 
-DECIBELS = (10.0, 15.0, 20.0, 25.0, 30.0)  # default ratios: variance of chips to that of row noise
+DECIBELS = (
+    10.0,
+    15.0,
+    20.0,
+    25.0,
+    30.0,
+)  # default ratios of the chips' variance to the noise's
 BenchPlace: TypeAlias = tuple[str, str, float, float]  # scheme, varied axis, exposure, ratio in dB
 
 
 @dataclass(frozen=True, slots=True)
 class BenchRequest:
-    # Each a line code, or a line code and a framing separated by a slash
+    # Each is a line code, or a line code and a framing separated by a slash
     schemes: tuple[str, ...] = ("manchester",)
     decoders: tuple[str, ...] = ()
-    # Exposures in symbols, tried at ``at_decibels``, and signal-to-noise ratios, tried at
-    # ``at_exposure``
+    # Exposures in symbols, at the ratio ``at_decibels``, and signal-to-noise ratios, at the
+    # exposure ``at_exposure``
     exposures: tuple[float, ...] = EXPOSURES
     decibels: tuple[float, ...] = DECIBELS
-    # Exposure of the curve over noise, and ratio of the curve over exposure
+    # Exposure of the curve against noise, and ratio of the curve against exposure
     at_exposure: float = 4.0
     at_decibels: float = 30.0
     rows_a_symbol: float = 5.0  # Rows read out during a symbol
-    payload_bits: int = 256  # Each picture shows another payload
+    payload_bits: int = 256  # Each picture has another payload
     bits: int = 10_240
     seed: int = 1
     # As in a scene's parameters
     preamble: str = ""
     error_correction: str = "none"
-    rows: int = _CAMERA.columns  # Of a picture; all see the light
-    # In seconds; affects bits a second only
+    rows: int = _CAMERA.columns  # Of a picture; all receive the light
+    # In seconds; affects only bits a second
     readout_time: float = _CAMERA.readout_time
 
     @property
@@ -59,7 +65,7 @@ class BenchPoint:
     exposure: float
     decibels: float
     errors: BitErrors
-    # How often a plug-in has failed, or why the first unread payload failed
+    # How often a plug-in has failed, or why the first unread payload was not read
     note: str = ""
 
     @property
@@ -68,7 +74,7 @@ class BenchPoint:
 
     @property
     def explanation(self) -> str:
-        """The note and, where the bit error rate exceeds 0.5, the reason."""
+        """The note, and the reason for a bit error rate above 0.5."""
         return f"{self.note} {self.errors.why_above_half}".strip()
 
 
@@ -76,19 +82,19 @@ class BenchPoint:
 class BenchBounds:
     # Exposures in symbols at which alternating chips leave no stripes
     nulls: tuple[float, ...]
-    # By axis: the exposures or ratios, and the bits a picture that light of Gaussian levels can
-    # carry there
+    # By axis, the exposures or ratios, and the bits a picture that light of Gaussian levels can
+    # carry at each
     most_bits: Mapping[str, tuple[tuple[float, ...], tuple[float, ...]]]
 
 
-HEADER = (  # the columns of the table
+HEADER = (  # the titles of the table's columns
     "scheme", "decoder", "varied", "exposure (symbols)", "signal to noise (dB)", "bits",
     "wrong bits", "bit error rate", "low", "high", "payloads right", "payloads",
     "bits a second", "bits from", "bits to", "note",
 )  # fmt: skip
 
 
-def written(points: Sequence[BenchPoint], frames_a_second: float) -> list[tuple[object, ...]]:
+def table_rows(points: Sequence[BenchPoint], frames_a_second: float) -> list[tuple[object, ...]]:
     """Return the rows of the table under :data:`HEADER`."""
     return [
         (

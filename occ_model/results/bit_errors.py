@@ -1,4 +1,4 @@
-"""Bit errors of a decoder, the net bits a second that result, and the scheme with most of them."""
+"""Bit errors of a decoder, the resulting net bits a second, and the scheme with the most."""
 
 from dataclasses import dataclass
 
@@ -13,7 +13,7 @@ _WHY_ABOVE_HALF = "Above 0.5: a payload that is not read counts with all its bit
 
 @dataclass(frozen=True, slots=True)
 class BitErrors:
-    """Bit errors of a decoder over pictures that each show a random payload.
+    """Bit errors of a decoder over pictures with a random payload each.
 
     Parameters
     ----------
@@ -22,19 +22,18 @@ class BitErrors:
     errors
         Number of wrong bits, including all bits of an unread payload.
     low, high
-        The 95 % interval of the rate. The bits of a payload fail together, so it rests on the
-        scatter between pictures; where all or no bits are wrong, on the number of pictures.
+        The 95 % interval of the rate. As the bits of a payload fail together, it is based on the
+        scatter between pictures, or on their number if all or no bits are wrong.
     pictures
         Number of pictures, with one payload each.
     pictures_right
-        Number of pictures whose bits were all right and accepted by the decoder.
+        Number of pictures whose bits were all right, and accepted by the decoder.
     right_low, right_high
         The 95 % interval of the fraction of such pictures.
     picture_time, readout_time
-        Time in seconds in which the panel's columns, and all columns, are read out.
+        Seconds in which the panel's columns, and all columns, are read out.
     faults
-        A sentence on how often a plug-in has failed, whose bits count as wrong; empty where none
-        has.
+        A sentence on how often a plug-in has failed, whose bits count as wrong; empty if none has.
     """
 
     decoder: str
@@ -57,12 +56,12 @@ class BitErrors:
 
     @property
     def why_above_half(self) -> str:
-        """Why the rate exceeds that of a guess; empty where it does not."""
+        """Why the rate exceeds that of a guess; empty if it does not."""
         return _WHY_ABOVE_HALF if self.rate > 0.5 else ""
 
     @property
     def bits_a_picture(self) -> float:
-        """Net bits of a picture: those of a payload times the fraction of right payloads."""
+        """Net bits a picture: those of a payload times the fraction of right payloads."""
         return self.bits / self.pictures * (self.pictures_right / self.pictures)
 
     @property
@@ -71,9 +70,9 @@ class BitErrors:
         return self.bits_a_picture / self.picture_time if self.picture_time else 0.0
 
     def bits_a_second(self, frames_a_second: float = FRAMES_A_SECOND) -> float:
-        """Return the net bits a second of a video in which each picture shows a new payload.
+        """Return the net bits a second of a video with a new payload in each picture.
 
-        What is sent between two pictures is lost: see :meth:`gap`.
+        Whatever is sent between two pictures is lost; see :meth:`gap`.
         """
         return self.bits_a_picture * frames_a_second
 
@@ -85,9 +84,9 @@ class BitErrors:
         return most * self.right_low, most * self.right_high
 
     def gap(self, frames_a_second: float = FRAMES_A_SECOND) -> float:
-        """Return the time between the last column of a picture and the first of the next, in s.
+        """Return the seconds between the last column of a picture and the first of the next.
 
-        It is negative where the camera cannot take so many pictures.
+        It is negative if the camera cannot take so many pictures.
         """
         return 1.0 / frames_a_second - self.readout_time
 
@@ -95,9 +94,9 @@ class BitErrors:
 def bits_a_second(
     right_fraction: float, bits: int, frames_a_second: float, readout_time: float
 ) -> float:
-    """Return the net bits a second of a video in which each picture shows a new payload.
+    """Return the net bits a second of a video with a new payload in each picture.
 
-    The readout time in seconds limits the frame rate: pictures do not overlap.
+    The readout time in seconds limits the frame rate, as pictures cannot overlap.
     """
     return right_fraction * bits * min(frames_a_second, 1.0 / readout_time)
 
@@ -109,17 +108,17 @@ class MostBits:
     Parameters
     ----------
     scene
-        The best scene, None where every trial failed.
+        The best scene, None if every trial failed.
     pictures
-        Number of pictures tried, with a payload and a start each; all bits were right.
+        Number of pictures tried, each with its own payload and start; all bits were right.
     bits_a_second
         Net bits a second of a video with one payload a picture.
     tried
-        Number of faster combinations that were tried and not read.
+        Number of faster combinations that were tried but not read.
     failure
         None, or a sentence on why there is no scene.
     faults
-        A sentence on how often a plug-in has failed, whose pictures count as not read; empty where
+        A sentence on how often a plug-in has failed, whose pictures count as not read; empty if
         none has.
     """
 

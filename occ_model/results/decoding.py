@@ -8,16 +8,16 @@ from numpy.typing import NDArray
 
 from occ_model.arrays import ByteArray, FloatArray, IndexArray
 
-PAPER_DECODER = "threshold"  # the name of the paper's decoder, which is the default
+PAPER_DECODER = "threshold"  # name of the paper's decoder, the default
 
 
-def _nothing() -> ByteArray:
+def _no_bits() -> ByteArray:
     return np.empty(0, dtype=np.uint8)
 
 
 @dataclass(frozen=True, slots=True)
 class Region:
-    """A rectangle of an image: rows and columns from the first to before the last."""
+    """A rectangle of an image, from the first rows and columns to before the last."""
 
     first_row: int
     last_row: int
@@ -48,9 +48,9 @@ class Region:
 @dataclass(frozen=True, slots=True)
 class Location:
     region: Region
-    bright_level: int  # Grey level from which a pixel counts as bright
+    bright_level: int  # Lowest grey level of a pixel that counts as bright
     contours: int
-    growth: int  # Pixels by which the contours grew until one was left
+    growth: int  # Pixels by which the contours were grown until only one was left
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -66,7 +66,7 @@ class RunHistogram:
     """Histogram of the lengths of complete runs of one value."""
 
     counts: IndexArray  # Shape (longest + 1,): runs of each length in columns
-    # The longest of the short runs by Otsu's threshold, None where all lengths are equal
+    # Length of the longest short run by Otsu's threshold, None if all lengths are equal
     split: int | None
 
 
@@ -79,10 +79,10 @@ class DecodeResult:
     failure
         None, or a sentence on why no code was read.
     code
-        The code, None where ``failure`` says why.
+        The code, None if there is a failure.
     bits : ndarray of uint8
-        The bits read, in the order sent; present with a failure where the chips violate the line
-        code.
+        The bits read, in the order sent; with a failure there are bits if the chips violate the
+        line code.
     payload
         The bits in the notation of the scene's payload: text, hex digits or bits; empty for a code.
     region
@@ -129,7 +129,7 @@ class DecodeResult:
     decoder: str
     failure: str | None = None
     code: int | None = None
-    bits: ByteArray = field(default_factory=_nothing)
+    bits: ByteArray = field(default_factory=_no_bits)
     payload: str = ""
     region: Region | None = None
     location: Location | None = None
@@ -138,7 +138,7 @@ class DecodeResult:
     runs: Runs | None = None
     histograms: tuple[RunHistogram, RunHistogram] | None = None
     chip_length: float | None = None
-    chips: ByteArray = field(default_factory=_nothing)
+    chips: ByteArray = field(default_factory=_no_bits)
     chip_starts: FloatArray | None = None
     headers: tuple[int, ...] = ()
     correlation: float | None = None

@@ -1,4 +1,4 @@
-"""Facts: results as rows, in the same words in window, command line and files."""
+"""Facts: results as rows with the same words in the window, on the command line and in files."""
 
 from dataclasses import dataclass
 
@@ -7,11 +7,11 @@ from dataclasses import dataclass
 class Fact:
     """One row of a result."""
 
-    key: str  # Identifier; for a parameter of a scene its name
+    key: str  # Identifier, for a parameter of a scene its name
     label: str  # Its name in words
     text: str  # Value with unit and error, preceded by its condition
     note: str = ""  # Qualification such as "assumed" or "doubtful"
-    meaning: str = ""  # Explanatory sentence where the label is not enough
+    meaning: str = ""  # An explanation, if the label is not enough
 
     def __str__(self) -> str:
         return f"{self.text} ({self.note})" if self.note else self.text

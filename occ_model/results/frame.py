@@ -9,43 +9,44 @@ from occ_model.results.plan import Plan
 from occ_model.scene.argument_checks import check_choice
 from occ_model.scene.scene import Scene
 
-PICTURES = ("camera", "receiver")  # as taken, and as enhanced by the receiver
+PICTURES = ("camera", "receiver")  # as taken by the camera, and as enhanced by the receiver
 
 ENHANCED = "Receiver's picture, enhanced by "
-"""Before the enhancement's name in the title of an enhanced picture, which its file states."""
+"""The title of an enhanced picture, which is also in its file, before the enhancement's name."""
 
 
 @dataclass(frozen=True, eq=False)
 class Frame:
     """A simulated picture with its scene, plan and profile.
 
-    The camera's picture and the receiver's are two: the receiver enhances the contrast within the
-    panel and decodes the result.
+    There are two pictures: the receiver enhances the contrast on the panel in the camera's picture,
+    and decodes the result.
 
     Parameters
     ----------
     plan
         The effects simulated, with reasons.
     image : ndarray of uint8, shape (number of ``rows``, columns)
-        The receiver's picture with the scene's enhancement: the one that is decoded.
+        The receiver's picture with the scene's enhancement, which is decoded.
     rows
-        The rows of the picture that ``image`` shows: all, or in a draft every k-th. A view draws
-        each of them k rows high.
+        The rows of the picture that are in ``image``: all, or in a draft every k-th. A view draws
+        each row of a draft k rows high.
     profile : ndarray of float64, shape (columns,)
-        Mean of the panel's pixels in each column, in grey levels, before enhancement and rounding;
-        with a simulated file format, after decoding the file. With column effects only it is the
-        column's value PV_sim, also outside the panel.
+        Mean of the panel's pixels in each column, in grey levels, before enhancement and rounding,
+        but after the file if one is simulated. With column effects only, it is the column's value
+        PV_sim, also outside the panel.
     signal : ndarray of float64, shape (columns,)
-        Mean of the panel's pixels in each column of the receiver's picture, in grey levels: the
-        decoder's input. With column effects only it is the enhanced value, also outside the panel.
+        Mean of the panel's pixels in each column of the receiver's picture, in grey levels; this is
+        the decoder's input. With column effects only, it is the enhanced value, also outside the
+        panel.
     corners : ndarray of float64, shape (4, 2)
         The panel's corners in order, each as (column, row).
     timings
-        Seconds of each stage in order of computation; an effect under its name.
+        Seconds of each stage in the order of computation; effects are stages with their names.
     make_camera_image
         Returns the camera's picture.
     estimate_errors
-        Returns the errors of a draft's profile and signal, by name; None where there are none.
+        Returns the errors of a draft's profile and signal, by name; None if there are none.
     """
 
     scene: Scene
@@ -61,7 +62,7 @@ class Frame:
 
     @property
     def rows_step(self) -> int:
-        """Rows of the picture for each row of ``image``: 1, or more in a draft."""
+        """Rows of the picture for each row of ``image``; more than 1 in a draft."""
         return self.rows.step
 
     @cached_property
@@ -74,7 +75,7 @@ class Frame:
         """Error of a draft's ``profile`` and ``signal`` against the whole picture's, by name.
 
         RMS over the columns of the panel's bounding rectangle, in grey levels, from the sampling
-        errors of both pictures. 0 where the picture is not a draft, or all its rows are alike.
+        errors of both pictures. 0 if the picture is not a draft, or all its rows are alike.
         """
         return self.estimate_errors() if self.estimate_errors else {"profile": 0.0, "signal": 0.0}
 
@@ -84,7 +85,7 @@ class Frame:
         Raises
         ------
         ParameterError
-            It is neither.
+            There is no such picture.
         """
         check_choice("picture", picture_kind, PICTURES)
         return self.camera_image if picture_kind == "camera" else self.image

@@ -1,4 +1,4 @@
-"""Result of searching a photo for lamps."""
+"""A lamp found in a photo."""
 
 from dataclasses import dataclass
 
@@ -7,8 +7,8 @@ import numpy as np
 from occ_model.arrays import FloatArray, IndexArray
 from occ_model.results.decoding import Region
 
-_LEAST_PERIODS = 2.5  # minimum periods in view: two bright things side by side look like fewer
-_MOST_UNSURE = 0.01 / 3.0  # relative standard deviation of a frequency: three of them are a percent
+_LEAST_PERIODS = 2.5  # fewest periods in view; two bright objects can look like fewer
+_MOST_UNSURE = 0.01 / 3.0  # relative standard deviation of a frequency; three are a percent
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -20,14 +20,14 @@ class Lamp:
     region
         The smallest rectangle around it.
     spans : ndarray of int64, shape (strips, 4)
-        Its shape as rectangles one below another: first row, end row, first column and end column
+        Its shape as rectangles one below the other: first row, end row, first column and end column
         of each.
     level
-        Grey level where it is lit.
+        Its grey level when lit.
     modulated
         Whether stripes were found in it.
     period
-        Period of its stripes in columns; None without stripes, and where they do not repeat.
+        Period of its stripes in columns; None without stripes, or if they do not repeat.
     period_uncertainty
         Its standard deviation in columns.
     switching_frequency_times_readout
@@ -41,7 +41,7 @@ class Lamp:
         Whether it may be a reflection, as it is faint compared with the brightest lamp with
         stripes.
     is_blurred
-        Whether its stripes have little contrast, as with an exposure longer than a chip: edges may
+        Whether its stripes have little contrast, as with an exposure longer than a chip; edges may
         be missing and the frequency wrong.
     reflections
         Fainter regions that blink in phase with the lamp.
@@ -62,17 +62,17 @@ class Lamp:
 
     @property
     def doubts(self) -> tuple[str, ...]:
-        """Why it may not be a lamp, or may blink otherwise, each without a full stop."""
+        """Reasons why it may not be a lamp, or may blink differently, each without a full stop."""
         found = []
         if self.modulated and self.periods is not None and self.periods < _LEAST_PERIODS:
             found.append(f"only {self.periods:.1f} periods are in view, which can be a coincidence")
         if self.is_faint:
-            found.append("so faint beside the brightest lamp, it may be a reflection")
+            found.append("it is so faint beside the brightest lamp that it may be a reflection")
         if self.is_blurred:
-            found.append("its stripes are faint beside its light, so some may not be seen")
+            found.append("its stripes are so faint in its light that some may be missing")
         product, error = self.switching_frequency_times_readout, self.product_uncertainty
         if product is not None and error is not None and error > _MOST_UNSURE * product:
-            found.append(f"its frequency is known to {100.0 * error / product:.2g} % only")
+            found.append(f"its frequency is known only to {100.0 * error / product:.2g} %")
         return tuple(found)
 
     @property

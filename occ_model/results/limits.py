@@ -14,10 +14,10 @@ class Trial:
     value: float  # Of the parameter, in SI units
     right: int
     sent: int
-    # The 95 % interval of the success rate in percent, counted by images
+    # The 95 % interval of the success rate in percent, by the number of images
     low: float
     high: float
-    # Images tried: fewer than requested where the rate was out of reach
+    # Images tried; fewer than requested if the rate was out of reach
     images: int
     whole: int  # Images without a wrong bit
 
@@ -28,17 +28,17 @@ class Trial:
 
 @dataclass(frozen=True, slots=True)
 class RangeEnd:
-    """One end of an interval in which a decoder reads, confirmed by other images than found it."""
+    """One end of an interval in which a decoder reads, confirmed by new images."""
 
     works: Trial
-    # A value beyond, with a 95 % interval below the required rate; None at the end of the search.
+    # A value beyond, whose 95 % interval is below the required rate; None at the end of the search
     fails: Trial | None
-    # A value inside without a wrong bit and with a 95 % interval above the required rate; at the
-    # end of the search `works`, if no bit was wrong. None where not found, or not searched for.
+    # A value inside without a wrong bit, whose 95 % interval is above the required rate; at the end
+    # of the search it is ``works``, if no bit was wrong. None if not found, or not searched for
     inside: Trial | None = None
-    # Whether the end was bisected; otherwise it is known to a step of the search
+    # Whether the end was bisected; otherwise it is known only to a step of the search
     is_bisected: bool = False
-    # The 95 % interval of the true end; None where unknown
+    # The 95 % interval of the true end; None if unknown
     interval: tuple[float, float] | None = None
 
     @property
@@ -65,29 +65,29 @@ class WorkingRange:
     # Ratio of neighbouring values of the search: narrower gaps and intervals can be missed
     step: float
     own: Trial
-    # Where the decoder reads, rising, with gaps between them
+    # The intervals in which the decoder reads, in increasing order, with gaps between them
     intervals: tuple[ReadInterval, ...]
-    failure: str | None = None  # A sentence where it reads nowhere
-    # The value with most bits read, where it reads nowhere; otherwise None
+    failure: str | None = None  # A sentence if it reads nowhere
+    # The value with the most bits read, if it reads nowhere; otherwise None
     best: Trial | None = None
-    # Chips of an exposure at which the search ended because the decoder takes too long beyond
+    # Chips an exposure at which the search ended because the decoder would take too long
     most_chips: float | None = None
-    # How often a plug-in has failed in the search, whose bits count as wrong; empty where none has
+    # How often a plug-in has failed in the search, whose bits count as wrong; empty if none has
     faults: str = ""
 
     @property
     def lowest(self) -> RangeEnd | None:
-        """The lowest end; None where it reads nowhere."""
+        """The lowest end; None if it reads nowhere."""
         return self.intervals[0].lowest if self.intervals else None
 
     @property
     def highest(self) -> RangeEnd | None:
-        """The highest end, beyond any gaps; None where it reads nowhere."""
+        """The highest end, beyond any gaps; None if it reads nowhere."""
         return self.intervals[-1].highest if self.intervals else None
 
     @property
     def gaps(self) -> tuple[tuple[RangeEnd, RangeEnd], ...]:
-        """For each gap the end before it and the end after it."""
+        """For each gap, the end before it and the end after it."""
         return tuple((one.highest, other.lowest) for one, other in pairwise(self.intervals))
 
 
@@ -98,9 +98,9 @@ class Limits:
     Parameters
     ----------
     rate
-        Success rate in percent from which the scene counts as read.
+        Success rate in percent that counts as read.
     images, seed
-        Images at each value tried, and their seed.
+        Images at each value that is tried, and their seed.
     frequency, exposure
         The switching frequencies and the exposure times at which it reads.
     """
@@ -116,8 +116,8 @@ class Limits:
     def bits_a_second(self, frames_a_second: float = FRAMES_A_SECOND) -> float:
         """Return the net bits a second at the scene's own frequency and exposure.
 
-        Counted as if each picture showed a new payload, read as often as the scene's own: it counts
-        once, and only without a wrong bit.
+        It counts as if each picture had a new payload that is read as often as the scene's own; a
+        payload counts once, and only without a wrong bit.
         """
         own, camera = self.frequency.own, self.scene.camera
         bits, readout_time = own.sent // own.images, camera.columns * camera.readout_time
@@ -125,15 +125,15 @@ class Limits:
 
     @property
     def highest_frequency(self) -> float | None:
-        """The highest switching frequency in Hz, None where none is read."""
+        """The highest switching frequency in Hz that is read, None if none is."""
         return self.frequency.highest.value if self.frequency.highest else None
 
     @property
     def shortest_exposure(self) -> float | None:
-        """The shortest exposure time in seconds, None where none is read."""
+        """The shortest exposure time in seconds that is read, None if none is."""
         return self.exposure.lowest.value if self.exposure.lowest else None
 
     @property
     def longest_exposure(self) -> float | None:
-        """The longest exposure time in seconds, None where none is read."""
+        """The longest exposure time in seconds that is read, None if none is."""
         return self.exposure.highest.value if self.exposure.highest else None

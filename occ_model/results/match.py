@@ -11,7 +11,7 @@ from occ_model.results.decoding import Region
 from occ_model.scene.scene import Scene
 
 ESTIMATES = ("readout_time", "switching_frequency")
-"""Parameters of which one is estimated and the other is known: stripes show the product of both."""
+"""Two parameters, one of which is estimated from the other, as stripes show only their product."""
 
 
 def counterpart(name: str) -> str:
@@ -19,8 +19,8 @@ def counterpart(name: str) -> str:
     return ESTIMATES[1 - ESTIMATES.index(name)]
 
 
-PLAIN_STRIPES = (  # advice for a refused pulse that repeats
-    "These look like plain stripes of one lamp: if so, state that it sends a square wave."
+PLAIN_STRIPES = (  # advice for a repeating pulse that is refused
+    "These look like the plain stripes of a lamp; if so, state that it sends a square wave."
 )
 
 
@@ -31,13 +31,13 @@ class Stripes:
     Parameters
     ----------
     region
-        The rectangle of the photo that they fill.
+        The rectangle of the photo that has them.
     profile : ndarray of float64, shape (columns of the region,)
         Mean of each column of the region, in grey levels.
     low, high : ndarray of float64, shape as ``profile``
         Slowly varying dark and bright levels of the stripes.
     period
-        Period of the stripes in columns; None where they do not repeat in the region.
+        Period of the stripes in columns; None if they do not repeat in the region.
     period_uncertainty
         Its standard deviation in columns.
     saturated
@@ -54,7 +54,7 @@ class Stripes:
 
     @property
     def flattened(self) -> FloatArray:
-        """The profile without the uneven light, from 0 (dark) to 1 (bright), shape (columns,)."""
+        """The profile corrected for uneven light, from 0 (dark) to 1 (bright), shape (columns,)."""
         return (self.profile - self.low) / (self.high - self.low)
 
 
@@ -67,12 +67,12 @@ class Alternative:
     sent
         What is sent, in words.
     pattern
-        The chips sent, from the start of a period; empty for no code.
+        The chips sent, from the start of a period; empty if there is no code.
     correlation
         Correlation of its profile with the photo's, both corrected for uneven light.
     evidence
-        Natural logarithm of its likelihood ratio to the match, with a penalty on free parameters:
-        negative where it is less likely.
+        Natural logarithm of its likelihood ratio to the match, with a penalty for free parameters;
+        negative if it is less likely.
     readout_time, switching_frequency, exposure_time
         In SI units, or None.
     """
@@ -117,10 +117,10 @@ class ChipReading:
 
 
 _EXPOSURE_DEPENDENT = ("exposure_time", "start_time", "gamma")
-"""Estimates that depend on the exposure: a column starts half an exposure before its middle."""
+"""Estimates that depend on the exposure, as a column starts half an exposure before its middle."""
 
-_DISPLAY_TOLERANCE = 5e-7  # relative difference of two values that agree in the six digits shown
-_ERROR_TOLERANCE = 1e-3  # difference of two equal values, as a fraction of the standard deviation
+_DISPLAY_TOLERANCE = 5e-7  # relative difference of values that agree in the six displayed digits
+_ERROR_TOLERANCE = 1e-3  # difference of equal values, as a fraction of the standard deviation
 
 _ONLY_EXPOSURE = "Only the exposure time, and with it the start time, is doubtful."
 
@@ -134,9 +134,9 @@ class Match:
     scene
         The given scene with the parameters estimated from the photo.
     stripes
-        The matched stripes, with the levels of the fit.
+        The matched stripes, with the fitted levels.
     readout_time, switching_frequency, exposure_time, start_time, gamma
-        The scene's, in SI units; ``start_time`` is that of the photo's first column.
+        Those of the scene, in SI units; ``start_time`` is that of the photo's first column.
     uncertainties
         Standard deviations of the estimated ones, in SI units, by name.
     pattern
@@ -144,15 +144,15 @@ class Match:
     pattern_was_read
         Whether it was read from the photo.
     profile : ndarray of float64, shape (columns of the region,)
-        Aligned profile of the fitted scene under the photo's light, in grey levels.
+        Profile of the fitted scene, aligned and under the photo's light, in grey levels.
     correlation
         Correlation of that profile with the photo's, both corrected for uneven light.
     other_exposures
-        Other exposure times in seconds that explain the stripes equally well, the shortest first.
+        Other exposure times in seconds that explain the stripes equally well, shortest first.
     reasons
-        Sentences on why the match is doubtful; empty where it is sure.
+        Sentences on why the match is doubtful; empty if it is sure.
     alternatives
-        Other explanations of the stripes, the most likely first.
+        Other explanations of the stripes, most likely first.
     exposure_reasons
         Sentences on why the exposure time is doubtful; the chips and the readout time or frequency
         do not depend on it.
@@ -187,17 +187,17 @@ class Match:
 
     @property
     def verdict(self) -> str:
-        """``"sure"``, or ``"doubtful"`` where there is a reason to doubt the match."""
+        """``"sure"``, or ``"doubtful"`` if there is a reason to doubt the match."""
         return "doubtful" if self.reasons else "sure"
 
     @property
     def exposure_verdict(self) -> str:
-        """``"sure"``, or ``"doubtful"`` where the match or its exposure time is."""
+        """``"sure"``, or ``"doubtful"`` if the match or its exposure time is doubtful."""
         return "doubtful" if self.reasons or self.exposure_reasons else "sure"
 
     @property
     def only_exposure_is_doubtful(self) -> bool:
-        """Whether all but the exposure time is sure."""
+        """Whether everything except the exposure time is sure."""
         return bool(self.exposure_reasons) and not self.reasons
 
     @property
@@ -214,9 +214,9 @@ class Match:
         return (f"{_ONLY_EXPOSURE} {first}", *more)
 
     def is_applied_to(self, scene: Scene) -> bool:
-        """Whether a scene has the estimates of the match.
+        """Return whether a scene has the estimates of the match.
 
-        Repeating a match from its own scene ends there again, except for rounding.
+        Repeating a match from its own scene gives that scene again, up to rounding.
         """
         if scene == self.scene:
             return True
@@ -268,26 +268,26 @@ class Match:
         return float(np.sqrt(np.mean(self.residual**2)))
 
 
-_TYPICAL_QUANTILE = 0.95  # of the residual's magnitude; scales an axis, so that no single edge does
+_TYPICAL_QUANTILE = 0.95  # of the residual's magnitude, to scale an axis regardless of single edges
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Comparison:
-    """A photo's profile beside a simulated one, column by column of the simulation.
+    """A photo's profile beside a simulated one, by columns of the simulation.
 
     Parameters
     ----------
     first_column
-        First column of the simulation covered by the photo.
+        First column of the simulation that the photo covers.
     photo : ndarray of float64, shape (columns,)
         The photo's profile corrected for uneven light, in the simulation's grey levels.
     simulated : ndarray of float64, shape (columns,)
         The simulation's profile in these columns.
     correlation
-        Correlation of the two; 0 where one of them is flat.
+        Correlation of the two; 0 if one of them is flat.
     height : ndarray of float64, shape (columns,), or None
-        Height of the photo's stripes relative to its RMS, by which columns are weighted; None for
-        equal weights.
+        Height of the photo's stripes, relative to its RMS, as a weight of columns; None for equal
+        weights.
     """
 
     first_column: int
@@ -312,7 +312,7 @@ class Comparison:
 
     @property
     def usual_residual(self) -> float:
-        """Magnitude of the residual that 95 % of the columns stay within, in grey levels."""
+        """Magnitude of the residual, in grey levels, that 95 % of the columns do not exceed."""
         return float(np.quantile(np.abs(self.residual), _TYPICAL_QUANTILE))
 
     @property

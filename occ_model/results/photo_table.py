@@ -1,4 +1,4 @@
-"""Table of several matched photos, their combined estimates, and both as CSV."""
+"""A table of several matched photos with their combined estimates, and its CSV."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -15,7 +15,7 @@ from occ_model.scene.units import HERTZ
 from occ_model.version import __version__
 
 SURE, DOUBTFUL, REFUSED, UNREADABLE = "sure", "doubtful", "refused", "unreadable"
-"""Verdicts on a photo: those of a match, no match, and a file that cannot be read."""
+"""Verdicts on a photo: the two of a match, no match, and a file that cannot be read."""
 
 VERDICTS = (SURE, DOUBTFUL, REFUSED, UNREADABLE)
 
@@ -26,8 +26,8 @@ class PhotoRow:
     verdict: str  # One of VERDICTS
     # Sentences on why the match, or only its exposure time, is not sure
     note: str = ""
-    match: Match | None = field(default=None, compare=False, repr=False)  # None where there is none
-    # Exposure time in seconds from the file's metadata
+    match: Match | None = field(default=None, compare=False, repr=False)  # None without a match
+    # Exposure time in seconds in the file's metadata
     noted_exposure: float | None = None
     # Lines read out for a picture, the photo's columns; 0 for an unreadable file
     lines: int = 0
@@ -36,7 +36,7 @@ class PhotoRow:
     # ``"lines"`` or ``"columns"`` of the upright picture; empty for an unreadable file
     scanned_along: str = ""
     camera: str | None = None  # Maker and model
-    # Value of the known parameter given for this photo, in SI units; None for the scene's
+    # Value of the known parameter that was given for this photo, in SI units; None for the scene's
     given: float | None = None
 
     @property
@@ -60,12 +60,12 @@ class PhotoRow:
         return "" if self.match is None else self.match.pattern
 
     def uncertainty(self, name: str) -> float | None:
-        """Return the standard deviation of an estimate, None where it was not estimated."""
+        """Return the standard deviation of an estimate, None if it was not estimated."""
         return None if self.match is None else self.match.uncertainties.get(name)
 
     @property
     def exposure_verdict(self) -> str:
-        """The verdict on the exposure time; empty where there is none."""
+        """The verdict on the exposure time; empty without a match."""
         return "" if self.match is None else self.match.exposure_verdict
 
 
@@ -79,12 +79,12 @@ class CombinedEstimate:
     count: int
     # Sum of the squared differences from the mean, in standard deviations
     chi_square: float
-    # Of a chi-square at least as large, if the standard deviations are right
+    # Of at least such a chi-square, if the standard deviations are right
     probability: float
-    # At least 1, see `weighted_mean`: above 1 where the estimates scatter by more than their
-    # standard deviations, or by so little that they may have an error in common
+    # At least 1, see `weighted_mean`; above 1 if the estimates scatter more than their standard
+    # deviations, or so little that they may share an error
     scale: float
-    # Indices of the estimates excluded as too far from the others
+    # Indices of the estimates that were excluded as too far from the others
     outliers: tuple[int, ...] = ()
 
     @property
@@ -112,9 +112,9 @@ class PhotoTable:
         One for each photo, in the given order.
     estimated, exposure_time
         Means over the sure photos, and over those with a sure exposure time; None without any, or
-        where the photos differ in exposure time. ``outliers`` are indices of ``rows``.
+        if the photos differ in exposure time. ``outliers`` are indices of ``rows``.
     notes
-        Sentences about the photos together.
+        Sentences about all photos together.
     """
 
     scene: Scene
@@ -126,7 +126,7 @@ class PhotoTable:
 
     @property
     def known(self) -> str:
-        """The parameter that was taken as known: the other one of the two."""
+        """The parameter that was taken as known, the other one of the two."""
         return counterpart(self.estimate)
 
     def count(self, verdict: str) -> int:
@@ -134,7 +134,7 @@ class PhotoTable:
         return sum(row.verdict == verdict for row in self.rows)
 
     def is_outlier(self, place: int) -> bool:
-        """Whether a photo was excluded from the mean as too far from the others."""
+        """Return whether a photo was excluded from the mean as too far from the others."""
         return self.estimated is not None and place in self.estimated.outliers
 
     @property
@@ -143,12 +143,12 @@ class PhotoTable:
         return any(row.given is None for row in self.rows)
 
     def is_counted(self, place: int) -> bool:
-        """Whether a photo contributes to the mean."""
+        """Return whether a photo contributes to the mean."""
         sure = self.rows[place].verdict == SURE
         return self.estimated is not None and sure and not self.is_outlier(place)
 
 
-_MAX_TEXT_LENGTH = 10_000  # maximum characters of a text; a path has fewer
+_MAX_TEXT_LENGTH = 10_000  # most characters of a text; a path has fewer
 
 _COLUMNS = (
     "file", "verdict", "in the mean", "readout time (s)", "its error (s)",
@@ -159,7 +159,7 @@ _COLUMNS = (
 
 
 def csv_text(table: PhotoTable, more: Sequence[str] = (), condition: str = "") -> str:
-    """Write a table; ``condition``: that of estimates, as ``"if f = 10 kHz: "``, or empty."""
+    """Write a table; ``condition`` is empty, or that of estimates, as ``"if f = 10 kHz: "``."""
     counts = ", ".join(
         f"{table.count(v)} {v}" for v in dict.fromkeys(r.verdict for r in table.rows)
     )
@@ -167,8 +167,8 @@ def csv_text(table: PhotoTable, more: Sequence[str] = (), condition: str = "") -
         f"# Match of {counted(len(table.rows), 'photo')}: {counts}",
         f"# occ_model {__version__}",
         f"# measured: {table.estimate}",
-        *_mean(table.estimate, table.estimated, condition),
-        *_mean("exposure_time", table.exposure_time, condition),
+        *_mean_lines(table.estimate, table.estimated, condition),
+        *_mean_lines("exposure_time", table.exposure_time, condition),
         *(f"# {printable(note)}" for note in (*table.notes, *more)),
         "#",
         "# scene at hand:",
@@ -180,36 +180,36 @@ def csv_text(table: PhotoTable, more: Sequence[str] = (), condition: str = "") -
 def _photo_rows(table: PhotoTable, condition: str) -> list[str]:
     texts = []
     known = quantity(table.known)
-    of_scene = _given(known, float(table.scene.value(table.known)))
+    of_scene = _given_text(known, float(table.scene.value(table.known)))
     rests_on = condition.removesuffix(": ") or of_scene
     for place, row in enumerate(table.rows):
         kept = "outlier" if table.is_outlier(place) else "yes" if table.is_counted(place) else "no"
         estimates: list[object] = []
         for name in ("readout_time", "switching_frequency", "exposure_time"):
-            estimates += [getattr(row, name), _error(row.uncertainty(name))]
-        own = rests_on if row.given is None else _given(known, row.given)
+            estimates += [getattr(row, name), _format_error(row.uncertainty(name))]
+        own = rests_on if row.given is None else _given_text(known, row.given)
         estimates += [row.exposure_verdict, None if row.match is None else own]
         texts.append(
             csv_row(
-                [_text(str(row.path)), row.verdict, kept, *estimates, row.noted_exposure,
-                 row.correlation, row.pattern, row.lines or None, _text(row.camera or ""),
-                 _text(row.note)]
+                [_quote_text(str(row.path)), row.verdict, kept, *estimates, row.noted_exposure,
+                 row.correlation, row.pattern, row.lines or None, _quote_text(row.camera or ""),
+                 _quote_text(row.note)]
             )
         )  # fmt: skip
     return texts
 
 
-def _given(known: Quantity, value: float) -> str:
+def _given_text(known: Quantity, value: float) -> str:
     return f"{known.symbol} = {known.format(value)}, given"
 
 
-def _mean(name: str, found: CombinedEstimate | None, condition: str) -> list[str]:
+def _mean_lines(name: str, found: CombinedEstimate | None, condition: str) -> list[str]:
     if found is None:
         return [f"# no mean of {name}"]
     value = quantity(name).unit.round_estimate(found.value, found.uncertainty)
     photos, left_out = counted(found.count, f"{SURE} photo"), len(found.outliers)
     lines = [
-        f"# mean of {name}: {condition}{value!r} +- {_error(found.uncertainty)}, from "
+        f"# mean of {name}: {condition}{value!r} +- {_format_error(found.uncertainty)}, from "
         f"{photos}, {counted(left_out, 'outlier')}"
     ]
     if found.count > 1:
@@ -221,16 +221,16 @@ def _mean(name: str, found: CombinedEstimate | None, condition: str) -> list[str
     return lines
 
 
-def _error(deviation: float | None) -> str | None:
+def _format_error(deviation: float | None) -> str | None:
     """Format a standard deviation to two digits, as in the window."""
     return None if deviation is None else f"{deviation:.1e}"
 
 
-_FORMULA = "=+-@\uff1d\uff0b\uff0d\uff20"  # first of a spreadsheet's formula, also full-width
+_FORMULA = "=+-@\uff1d\uff0b\uff0d\uff20"  # start of a spreadsheet's formula, also full-width
 
 
-def _text(text: str) -> str:
-    """Quote a text from a file so that no spreadsheet evaluates it."""
+def _quote_text(text: str) -> str:
+    """Quote a text from a file, so that no spreadsheet evaluates it."""
     text = one_line(text, _MAX_TEXT_LENGTH)
     return f"'{text}" if text.startswith(tuple(_FORMULA)) else text
 
@@ -239,9 +239,9 @@ _FREQUENCY = "switching_frequency"
 
 
 def assumption(name: str, value: float, pattern: str) -> str:
-    """Return the condition under which estimated times hold, as ``"if f = 10 kHz: "``.
+    """Return the condition of estimated times, such as ``"if f = 10 kHz: "``.
 
-    An LED that only blinks, by the ``pattern`` of its chips, is known by its cycles.
+    For an LED that only blinks, by its ``pattern`` of chips, it names the cycles.
     """
     known = quantity(name)
     if name == _FREQUENCY and (chips := chips_of_cycle(pattern)):

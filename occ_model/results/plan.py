@@ -1,11 +1,13 @@
-"""Result of planning: which effects are simulated, and why."""
+"""A plan: which effects are simulated, and why."""
 
 from dataclasses import dataclass, field
 from typing import Literal, TypeAlias
 
 from occ_model.scene.simulation_settings import Observable, unit_of
 
-Stage: TypeAlias = Literal["light", "optics", "sensor", "processing"]  # in the order of the light
+Stage: TypeAlias = Literal[
+    "light", "optics", "sensor", "processing"
+]  # in the order of the path of light
 
 
 @dataclass(frozen=True, slots=True)
@@ -15,19 +17,19 @@ class Decision:
     Parameters
     ----------
     label
-        The effect's term in the field.
+        The effect's usual name in the field.
     kind
-        ``"column"``: all rows of the panel remain alike; ``"noise"``: alike except for independent
+        ``"column"``: all rows of the panel stay alike; ``"noise"``: alike except for independent
         noise; ``"image"``: they differ.
     estimate
         Estimated change of the observable without the effect, RMS in levels of the stretched
-        profile, with an allowance; 0 where the scene does not have it. For the observable
-        ``"decision"`` in decision margins: at 1 a chip could be misread.
+        profile, with an allowance; 0 if the scene does not have it. For the observable
+        ``"decision"`` it is in decision margins: at 1 a chip could be misread.
     limit
-        Upper bound of the change, as far as a sample shows: it is compared with the tolerance.
-        Infinite where no change is known, whatever the estimate.
+        Upper bound of the change, as far as a sample shows it, which is compared with the
+        tolerance. Infinite if no bound is known.
     forced
-        Whether the user decided.
+        Whether the user has decided.
     why
         The reason in a few words.
     reason
@@ -50,9 +52,9 @@ class Decision:
 class EffectSet:
     """A set of simulated effects, with its time and error."""
 
-    effects: frozenset[str]  # Those simulated, of those that the scene has
+    effects: frozenset[str]  # The simulated ones among the scene's effects
     seconds: float  # Of a picture, as measured on one computer
-    error: float  # What the others change together, as in Plan
+    error: float  # Combined change by the others, as in Plan
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,13 +68,13 @@ class Plan:
     decisions
         One for each effect, in the order of the light path.
     left_out
-        Combined change of the effects omitted by the plan, not by the user: at most the tolerance.
+        Combined change of the effects that the plan (not the user) omits, at most the tolerance.
     stretch
         Levels of the stretched profile per grey level.
     saved
-        Seconds saved for each picture by omitting effects, as measured on one computer.
-    ways
-        Pareto-optimal sets of effects in time and error, fastest first.
+        Seconds saved for each picture by the omitted effects, as measured on one computer.
+    effect_sets
+        The Pareto front of sets of effects in time and error, fastest first.
     """
 
     tolerance: float

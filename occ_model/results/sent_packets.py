@@ -1,4 +1,4 @@
-"""The packets that were sent while a film ran: counted, and listed only where frames show them."""
+"""The packets that were sent during a film; only those that frames show are stored."""
 
 import math
 from bisect import bisect_left, bisect_right
@@ -15,25 +15,25 @@ from occ_model.arrays import ByteArray, FloatArray, IndexArray
 
 @dataclass(frozen=True, eq=False, slots=True)
 class PacketReading:
-    """One packet, or sub-packet, among those that were sent while the film ran.
+    """One packet, or sub-packet, that was sent during the film.
 
     Parameters
     ----------
     number
-        Its number among those sent, from 0 for the first one.
+        Its number among those sent, from 0.
     part
-        Which part of the payload it carries, from 0: its sub-packet; 0 where a packet is the whole.
+        The number of its sub-packet, from 0; 0 if packets have no parts.
     time
-        When it began, in seconds by the film's clock.
+        Its start in seconds by the film's clock.
     frame
-        The frame that shows it whole; None where none does.
+        The frame that shows all of it; None if none does.
     seen
-        Fraction of its chips that lie whole in any frame, from 0 to 1.
+        Fraction of its chips, from 0 to 1, that are completely in any frame.
     bits : ndarray of uint8 or None
-        The bits read of this packet alone; None where it was not read.
+        The bits read from this packet alone; None if it was not read.
     wrong_bits
-        Bits that differ from those of the payload joined from all packets; None where either was
-        not read.
+        Number of bits that differ from the payload joined from all packets; None if either was not
+        read.
     """
 
     number: int
@@ -46,48 +46,48 @@ class PacketReading:
 
     @property
     def is_read(self) -> bool:
-        """Whether one frame shows it whole, and it could be read."""
+        """Whether one frame shows all of it, and it could be read."""
         return self.bits is not None
 
     @property
     def correct(self) -> bool | None:
-        """Whether it is as the joined payload has it; None where either was not read."""
+        """Whether it agrees with the joined payload; None if either was not read."""
         return None if self.wrong_bits is None else self.wrong_bits == 0
 
     @property
     def is_right(self) -> bool:
-        """Whether it is read, and right as far as that is known."""
+        """Whether it was read, and is right as far as that is known."""
         return self.is_read and self.correct is not False
 
 
 @dataclass(frozen=True, slots=True)
 class FilmPart:
-    """A part of a film in which frame follows frame, and the packets that were sent meanwhile."""
+    """A part of a film without gaps in time, and the packets that were sent meanwhile."""
 
-    # When its first frame began by the film's clock, and how long it is, in seconds
+    # Its start by the film's clock, and its length, in seconds
     start: float
     duration: float
     count: int = 0
-    # When the first of them began after ``start``, and the time from one to the next, in seconds
+    # Seconds from ``start`` to the first packet, and from one packet to the next
     begin: float = 0.0
     step: float = 0.0
-    first_part: int = 0  # The number of the sub-packet that the first of them is
+    first_part: int = 0  # The number of the first packet's sub-packet
 
 
 @dataclass(frozen=True, eq=False)
 class SentPackets(Sequence[PacketReading]):
-    """The packets that were sent while a film ran, in the order of their numbers.
+    """The packets that were sent during a film, in the order of their numbers.
 
-    One that no frame shows is made on demand: a film of hours has millions of them.
+    Those that no frame shows are made on demand, since a film of hours has millions.
     """
 
     parts: tuple[FilmPart, ...] = ()
-    in_view: tuple[PacketReading, ...] = ()  # The packets of which frames show chips, in order
+    in_view: tuple[PacketReading, ...] = ()  # The packets with chips in frames, in order
     sub_packets: int = 1
 
     @cached_property
     def _firsts(self) -> list[int]:
-        """Number of each part's first packet, and of all packets."""
+        """Number of each part's first packet, and the number of all packets."""
         return list(accumulate((part.count for part in self.parts), initial=0))
 
     @cached_property
@@ -128,12 +128,12 @@ class SentPackets(Sequence[PacketReading]):
         )
 
     def cut(self, edges: FloatArray) -> tuple[tuple[int, tuple[PacketReading, ...]], ...]:
-        """Divide the packets by the running time of the film at which each began.
+        """Divide the packets into windows by the film's running time at their start.
 
-        ``edges``: rising times in seconds without the gaps between the film's parts; all packets
-        lie between the outermost two. Returns the number sent, and those in view, in each window.
+        ``edges`` are increasing times in seconds, without the gaps between the film's parts, and
+        enclose all packets. Return the number sent, and the packets in view, for each window.
         """
-        bounds = [0, *(self._before(edge) for edge in edges[1:-1].tolist()), len(self)]
+        bounds = [0, *(self._count_before(edge) for edge in edges[1:-1].tolist()), len(self)]
         found = []
         for first, end in pairwise(bounds):
             here = slice(bisect_left(self._numbers, first), bisect_left(self._numbers, end))
@@ -141,16 +141,16 @@ class SentPackets(Sequence[PacketReading]):
         return tuple(found)
 
     def time_at(self, elapsed: float, is_end: bool = False) -> float:
-        """Return the film's time when it had run for so many seconds, without gaps.
+        """Return the film's time after a running time in seconds, which leaves out gaps.
 
-        At a cut it is where the next part begins, or with ``is_end`` where the part before ends.
+        At a cut it is the start of the next part, or with ``is_end`` the end of the part before.
         """
         search = bisect_left if is_end else bisect_right
         place = min(max(search(self._elapsed, elapsed) - 1, 0), len(self.parts) - 1)
         return self.parts[place].start + elapsed - self._elapsed[place]
 
-    def _before(self, elapsed: float) -> int:
-        """Return the number of packets that began before the film had run for so long."""
+    def _count_before(self, elapsed: float) -> int:
+        """Count the packets that began before a running time of the film."""
         before = 0
         for part, at in zip(self.parts, self._elapsed, strict=False):
             if part.step > 0.0:

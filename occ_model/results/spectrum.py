@@ -1,4 +1,4 @@
-"""Results of measuring a picture: the spectrum of its profile, the histogram of its levels."""
+"""Measurements on a picture: the spectrum of its profile, the histogram of its levels."""
 
 from dataclasses import dataclass
 
@@ -7,19 +7,18 @@ from occ_model.arrays import FloatArray
 _WHITE = 255
 
 LEVELS = _WHITE + 1  # grey levels of a picture
-SATURATED_FROM = 0.01  # fraction of white pixels from which light is said to be lost
+SATURATED_FROM = 0.01  # fraction of white pixels above which a picture counts as saturated
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Spectrum:
-    # Shape (n,): in Hz, from 0 to half the rate of the columns, 1 / (2 t_r)
+    # Shape (n,): in Hz, from 0 to half the column rate, 1 / (2 t_r)
     frequencies: FloatArray
-    amplitudes: FloatArray  # Shape (n,): of a sine of each frequency, in grey levels
-    # Shape (n,): what the exposure leaves of a sine's amplitude, 0 to 1: |sinc(F t)|, with F the
-    # frequency of the light. The null of an alternating pattern, f = 2 / t, is its first zero, F =
-    # 1 / t.
+    amplitudes: FloatArray  # Shape (n,): of the sine of each frequency, in grey levels
+    # Shape (n,): the fraction of a sine's amplitude after the exposure, |sinc(F t)| for light of
+    # the frequency F. Its first zero, F = 1 / t, is the null of an alternating pattern, f = 2 / t.
     response: FloatArray
-    # Frequencies in Hz of which the exposure leaves nothing, k / t, up to the last one
+    # Frequencies in Hz at which the response is 0, k / t, up to the last one
     zeros: tuple[float, ...]
 
 
@@ -39,5 +38,5 @@ class LevelHistogram:
 
     @property
     def is_saturated(self) -> bool:
-        """Whether so many pixels are white that light is lost."""
+        """Whether many pixels are white, so that light is lost."""
         return self.white >= SATURATED_FROM

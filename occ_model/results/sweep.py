@@ -1,6 +1,7 @@
-"""The table of a sweep, a success rate for each point and decoder, and its CSV.
+"""The table of a sweep, with a success rate for each point and decoder, and its CSV.
 
-Comment lines say all that determines the numbers; a row a point and decoder follows.
+The CSV has comment lines with everything that determines the numbers, and then a row for each point
+and decoder.
 """
 
 import csv
@@ -27,13 +28,13 @@ class SweepRow:
     decoder: str
     right: int
     sent: int
-    rate: float | None  # Percent; None where the model refuses the scene
-    # The ends of the rate's 95 % interval, percent; None where the model refuses the scene
+    rate: float | None  # Percent; None if the model refuses the scene
+    # The ends of the rate's 95 % interval, percent; None if the model refuses the scene
     low: float | None
     high: float | None
     note: str  # Why the model refuses the scene, or how often a plug-in has failed; else empty
-    # Net bits a second of a video whose every image shows another payload; None where the model
-    # refuses the scene
+    # Net bits a second of a video with another payload in every image; None if the model refuses
+    # the scene
     bits_a_second: float | None
 
 
@@ -41,24 +42,24 @@ class SweepRow:
 class SweepTable:
     """Success rates over all combinations of some parameters' values.
 
-    Two tables are equal when their requests, numbers and notes are.
+    Two tables are equal if their requests, numbers and notes are.
 
     Parameters
     ----------
     request
-        The sweep that was measured.
+        The request that was measured.
     sent : ndarray of int64, shape (values of the first axis, of the second, ...)
-        Bits sent at each point; 0 where the model refuses the scene.
+        Bits sent at each point; 0 if the model refuses the scene.
     right : ndarray of int64, shape (..., decoders)
-        Bits of them that were read correctly.
+        Number of these bits that were read correctly.
     low, high : ndarray of float64, shape (..., decoders)
-        The 95 % interval, percent, which counts images, as bits of one image fail together; not a
-        number where the model refuses the scene.
+        The 95 % interval in percent, by the number of images, as the bits of an image fail
+        together; NaN if the model refuses the scene.
     notes
-        Why the model refuses a scene, or how often a plug-in has failed, by the point's index, the
-        last axis running fastest.
+        Why the model refuses a scene, or how often a plug-in has failed, by the point's index (the
+        last axis runs fastest).
     whole : ndarray of int64, shape (..., decoders)
-        Images of which every bit was read correctly.
+        Number of images in which every bit was read correctly.
     """
 
     request: SweepRequest
@@ -81,11 +82,11 @@ class SweepTable:
 
     @property
     def rows(self) -> tuple[SweepRow, ...]:
-        """All rates, one a point and decoder, in the order of the axes."""
+        """All rates, one for each point and decoder, in the order of the axes."""
         return tuple(self.each_row())
 
     def each_row(self) -> Iterator[SweepRow]:
-        """Yield the rows one by one: those of a large table need not fit in memory."""
+        """Yield the rows one by one, as those of a large table may not fit into memory."""
         for point in self.each_point():
             values = self.request.values(point.index)
             place = np.unravel_index(point.index, self.request.shape)
@@ -114,7 +115,7 @@ class SweepTable:
         Parameters
         ----------
         decoder
-            The decoder's name, by default that of the first.
+            The decoder's name, by default the first one's.
 
         Returns
         -------
@@ -124,7 +125,7 @@ class SweepTable:
         Raises
         ------
         ParameterError
-            The sweep has not used that decoder.
+            The sweep did not use that decoder.
         """
         rates = np.full(self.sent.shape, np.nan)
         right = 100.0 * self.right[..., self._place(decoder)]
@@ -142,13 +143,13 @@ class SweepTable:
         return np.array(numbers).reshape(self.sent.shape)
 
     def intervals(self, decoder: str | None = None) -> tuple[FloatArray, FloatArray]:
-        """Return the ends of the 95 % intervals of :meth:`rates`, percent, in the same shape."""
+        """Return the ends of the 95 % intervals of :meth:`rates`, in percent, shape alike."""
         place = self._place(decoder)
         return self.low[..., place], self.high[..., place]
 
     @property
     def faults(self) -> str:
-        """A sentence on the points at which a plug-in has failed; empty where none has."""
+        """A sentence on the points at which a plug-in has failed; empty if none has."""
         sent = self.sent.ravel()
         found = [note for index, note in self.notes.items() if sent[index]]
         return f"At {counted(len(found), 'point')}: {found[0]}" if found else ""
@@ -163,7 +164,7 @@ class SweepTable:
         return self.decoders.index(decoder)
 
     def csv(self) -> Iterator[str]:
-        """Yield the table as CSV, in parts: its provenance in comment lines, then a row a rate."""
+        """Yield the table as CSV in parts: comment lines of its provenance, then rows of rates."""
         yield header_text(self.request)
         low = self.low.reshape(-1, len(self.decoders)).tolist()
         high = self.high.reshape(-1, len(self.decoders)).tolist()
@@ -196,11 +197,11 @@ class SweepTable:
 
 _FORMAT = 3
 
-TITLE = "# Success rate over "  # the beginning of every sweep's table
+TITLE = "# Success rate over "  # at the start of every sweep's table
 
 
 def header_text(request: SweepRequest) -> str:
-    """Write all that determines a table's numbers, and the names of its columns."""
+    """Write everything that determines a table's numbers, and the titles of its columns."""
     settings = request.settings
     forced = ", ".join(f"{name} {'on' if on else 'off'}" for name, on in settings.force.items())
     lines = [
@@ -216,7 +217,7 @@ def header_text(request: SweepRequest) -> str:
         f"# by hand: {forced or 'nothing'}",
     ]
     for name, values in request.axes.items():
-        lines.append(f"# axis {column_title(name)}: {', '.join(map(written, values))}")
+        lines.append(f"# axis {column_title(name)}: {', '.join(map(format_value, values))}")
     lines += ["#", "# scene at hand:"]
     lines += [f"# {line}".rstrip() for line in request.scene.to_toml().splitlines()]
     return "\n".join(lines) + "\n" + csv_row(_columns(request))
@@ -239,9 +240,9 @@ def column_title(name: str) -> str:
 def point_text(
     request: SweepRequest, point: SweepPoint, intervals: Sequence[tuple[float, float]]
 ) -> str:
-    """Write the rows of a point with each decoder's interval, percent; nan where refused."""
+    """Write the rows of a point, with each decoder's interval in percent (NaN if refused)."""
     settings = request.settings
-    values = [written(value) for value in request.values(point.index).values()]
+    values = [format_value(value) for value in request.values(point.index).values()]
     text = ""
     for place, (decoder, ends) in enumerate(zip(settings.decoders, intervals, strict=True)):
         found: list[object] = [None] * 7
@@ -253,20 +254,20 @@ def point_text(
 
 
 class PointReader:
-    """Reads the text that :func:`point_text` writes."""
+    """Reads the texts of :func:`point_text`."""
 
     def __init__(self, request: SweepRequest) -> None:
         self._request = request
         self._axes = [
-            {written(value): place for place, value in enumerate(values)}
+            {format_value(value): place for place, value in enumerate(values)}
             for values in request.axes.values()
         ]
 
     def read(self, lines: Sequence[str], number: int) -> SweepPoint | None:
-        """Parse a point's rows, one a decoder; the caller checks by writing it again.
+        """Parse a point's rows, one for each decoder; the caller checks by writing them again.
 
-        None where they are no rows of this sweep. ``number``: that of the first line. A count that
-        cannot be raises ParameterError.
+        ``number`` is that of the first line. None if they are not rows of this sweep;
+        ParameterError for an impossible count.
         """
         first = len(self._axes) + 3
         try:
@@ -285,14 +286,14 @@ class PointReader:
         for line, (right_bits, sent_bits, read_whole, _) in enumerate(cells, number):
             read_count("sent bits", sent_bits, images * bits, images * bits, line)
             whole.append(read_count("images read whole", read_whole, 0, images, line))
-            least = whole[-1] * bits  # each image that is not read whole has a wrong bit
+            least = whole[-1] * bits  # every other image has a wrong bit
             most = least + (images - whole[-1]) * (bits - 1)
             right.append(read_count("right bits", right_bits, least, most, line))
         return SweepPoint(index, images * bits, tuple(right), note, tuple(whole))
 
 
 def read_count(name: str, text: str, least: int, most: int, line: int) -> int:
-    """Parse a count of a table; ParameterError says in which line it cannot be, and why."""
+    """Parse a count of a table; the ParameterError for a wrong one names the line."""
     is_count = text.isascii() and text.isdigit() and len(text) <= len(str(most))
     if is_count and least <= int(text) <= most:
         return int(text)
@@ -300,17 +301,17 @@ def read_count(name: str, text: str, least: int, most: int, line: int) -> int:
     raise ParameterError.of(name, shown(text), allowed).within(f"line {line}")
 
 
-def joined_lines(sentence: str) -> str:
-    """Write a sentence in one line: tables are read line by line."""
+def join_lines(sentence: str) -> str:
+    """Write a sentence on one line, as tables are read line by line."""
     return " ".join(sentence.split())
 
 
-def written(value: ParameterValue) -> str:
+def format_value(value: ParameterValue) -> str:
     return value if isinstance(value, str) else repr(value)
 
 
 def csv_row(cells: Iterable[object]) -> str:
-    """Return a line of a CSV table; a cell that is None or not a number is empty."""
+    """Write a line of a CSV table; None and NaN become empty cells."""
     text = StringIO()
     csv.writer(text, lineterminator="\n").writerow(
         "" if isinstance(cell, float) and math.isnan(cell) else cell for cell in cells

@@ -1,4 +1,4 @@
-"""The request of a sweep: the scene, the varied parameters, and how each rate is measured."""
+"""The request of a sweep: a scene, varied parameters, and how each rate is measured."""
 
 import math
 from collections.abc import Iterator, Mapping
@@ -12,23 +12,23 @@ from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import TOLERANCE
 
 SignalPath: TypeAlias = Literal["auto", "profile", "rows", "image"]
-"""How a decoder's signal is simulated: as column means, from a sample of the image's rows, from the
-whole image, or by the first of these that the plan allows."""
+"""How a decoder's signal is simulated: "profile" as column means, "rows" from a sample of the
+image's rows, "image" from the whole image, "auto" by the first of these that the plan allows."""
 
 Shown: TypeAlias = Literal["rate", "bits"]  # success rates in percent, or net bits a second
 SHOWN: tuple[Shown, ...] = ("rate", "bits")
 
 SIGNAL_PATHS: tuple[SignalPath, ...] = ("auto", "profile", "rows", "image")
 
-MOST_POINTS = 1_000_000  # of a sweep: counts are kept in memory, and the table is written at once
-MOST_AXES = 31  # parameters of a sweep: numpy's arrays have 32 axes, one is that of the decoders
+MOST_POINTS = 1_000_000  # of a sweep, as counts are kept in memory and the table is written at once
+MOST_AXES = 31  # parameters of a sweep: NumPy's arrays have 32 axes, one is the decoders'
 MOST_IMAGES = 1_000_000  # images at a point
 MOST_JOBS = 1024  # processes of a sweep
 
-JOBS_A_CORE = 4  # maximum processes for each core: more take memory and save no time
+JOBS_A_CORE = 4  # most processes for each core, as more take memory and save no time
 _OUTER_AXES = ("bits", "exposure_time", "switching_frequency")
-"""Parameters that change least often from point to point: for each of their values the matched
-decoder computes the forward model of all codes."""
+"""Parameters that change least often from point to point, since the matched decoder computes the
+forward model of all codes for each of their values."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,16 +39,16 @@ class RateSettings:
     tolerance: float = TOLERANCE.default
     force: Mapping[str, bool] = field(default_factory=dict)
     path: SignalPath = "auto"
-    # Images a second by which bits a second are counted; it changes no rate
+    # Images a second for the bits a second; it does not change any rate
     frames_a_second: float = FRAMES_A_SECOND
 
 
 @dataclass(frozen=True, slots=True)
 class SweepRequest:
-    """A request to measure success rates at all combinations of some parameters' values."""
+    """A request for success rates at all combinations of some parameters' values."""
 
     scene: Scene
-    # The values of each parameter that is varied, in SI units
+    # The values of each varied parameter, in SI units
     axes: Mapping[str, tuple[ParameterValue, ...]]
     settings: RateSettings
 
@@ -62,7 +62,7 @@ class SweepRequest:
         return math.prod(self.shape)
 
     def values(self, index: int) -> dict[str, ParameterValue]:
-        """Return the parameters of a point by its index, the last axis running fastest."""
+        """Return the parameters of a point by its index; the last axis runs fastest."""
         found: list[ParameterValue] = []
         for values in reversed(list(self.axes.values())):
             index, place = divmod(index, len(values))
@@ -70,16 +70,16 @@ class SweepRequest:
         return dict(zip(self.axes, reversed(found), strict=True))
 
     def bits_sent(self, index: int) -> int:
-        """Return the bits that an image of a point shows."""
+        """Return the number of bits in an image of a point."""
         names = ("payload", "bits")
         sent = {name: value for name, value in self.values(index).items() if name in names}
         scene = self.scene.replace(**sent) if sent else self.scene
         return scene.transmitter.payload_length
 
     def bits_a_second(self, point: "SweepPoint", decoder: int) -> float | None:
-        """Return the net bits a second of a point; None where the model refuses the scene.
+        """Return the net bits a second of a point; None if the model refuses the scene.
 
-        Counted as if each image showed another payload, read as often as the scene's own.
+        It counts as if each image had another payload that is read as often as the scene's own.
         """
         if not point.sent or not point.whole:
             return None
@@ -92,7 +92,7 @@ class SweepRequest:
         return bits_a_second(fraction, bits, self.settings.frames_a_second, readout_time)
 
     def in_order_of_work(self) -> Iterator[int]:
-        """Yield the indices of the points in the order in which they take the least time."""
+        """Yield the indices of the points in the order that takes the least time."""
         names = list(self.axes)
         slow = sorted((name for name in names if name in _OUTER_AXES), key=_OUTER_AXES.index)
         order = [*slow, *(name for name in names if name not in _OUTER_AXES)]
@@ -103,8 +103,8 @@ class SweepRequest:
 
 @dataclass(frozen=True, slots=True)
 class SweepPoint:
-    index: int  # The point's index, the last axis running fastest
-    sent: int  # Bits sent in all images, 0 where the model refuses the scene
+    index: int  # The point's index; the last axis runs fastest
+    sent: int  # Bits sent in all images, 0 if the model refuses the scene
     right: tuple[int, ...]  # Number of these bits that each decoder read correctly
     # Why the model refuses the scene, or how often a plug-in has failed; else empty
     note: str = ""

@@ -1,4 +1,4 @@
-"""Results for teaching: equations with numbers, a column's exposure, lessons and their answers."""
+"""Results for teaching: equations with numbers, exposures of columns, lessons and answers."""
 
 import re
 from collections.abc import Mapping
@@ -15,16 +15,16 @@ from occ_model.scene.scene import Scene
 
 @dataclass(frozen=True, slots=True)
 class Term:
-    text: str  # As HTML with ``sub`` and ``sup`` only
+    text: str  # HTML with only ``sub`` and ``sup``
     parameters: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
 class Equation:
     name: str  # The name by which a lesson refers to it
-    source: str  # Its number in the paper, or where else it is from
+    source: str  # Its number in the paper, or another source
     meaning: str  # A short description of the result, as HTML like a term's
-    # Its right side in symbols and with the scene's numbers
+    # Its right-hand side in symbols, and with the scene's numbers
     symbols: tuple[Term, ...]
     numbers: tuple[Term, ...]
     result: str  # The result with its unit, or why there is none
@@ -36,7 +36,7 @@ class Equation:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ExposureWindow:
-    """One column's exposure on the LED's waveform, in seconds from the first chip drawn."""
+    """One column's exposure on the LED's waveform, in seconds from the drawing's first chip."""
 
     column: int
     start: float
@@ -45,7 +45,7 @@ class ExposureWindow:
     edges: FloatArray
     lit: ByteArray  # Shape (chips,): whether the LED is on in each
     on_time: float
-    # Whether the exposure holds more chips than are drawn; these are its first ones
+    # Whether only the first chips of the exposure are drawn
     shortened: bool
 
     @property
@@ -55,7 +55,7 @@ class ExposureWindow:
 
     @property
     def lit_parts(self) -> FloatArray:
-        """Starts and ends of the lit times within the exposure, shape (parts, 2), a part a chip."""
+        """Start and end of each chip's lit time during the exposure, shape (parts, 2)."""
         begins = np.maximum(self.edges[:-1], self.start)
         ends = np.minimum(self.edges[1:], self.end)
         seen = (self.lit == 1) & (ends > begins)
@@ -64,16 +64,16 @@ class ExposureWindow:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class LightCurve:
-    """The light of the LED over the columns that begin their exposures meanwhile."""
+    """The light of the LED, on an axis of the columns that begin their exposures at each time."""
 
-    # Shape (knots,): the light, 0 to 1, which is linear from each knot to the next; two knots lie
-    # at the same column where it jumps
+    # Shape (knots,): the light, 0 to 1, which is linear between knots; where it jumps, two knots
+    # are at the same column
     columns: FloatArray
     light: FloatArray
     # Shape (chips + 1,): the column at which each chip starts, and at which the last one ends
     edges: FloatArray
     lit: ByteArray  # Shape (chips,): whether the LED is on in each
-    places: IndexArray  # Shape (chips,): the number of each chip within the period sent, from 0
+    places: IndexArray  # Shape (chips,): the number of each chip in the period sent, from 0
 
     def light_at(self, column: float) -> float:
         after = int(np.searchsorted(self.columns, column, side="right"))
@@ -82,7 +82,7 @@ class LightCurve:
         return float(np.interp(column, columns, light))
 
     def mean(self, first: float, last: float) -> float:
-        """Return the mean light between two columns within the curve."""
+        """Return the mean light between two columns on the curve."""
         areas = np.diff(self.columns) * (self.light[1:] + self.light[:-1]) / 2.0
         integral = np.concatenate([[0.0], np.cumsum(areas)])
         at_first, at_last = np.interp([first, last], self.columns, integral)
@@ -91,7 +91,7 @@ class LightCurve:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class RollingShutter:
-    """Exposures of evenly chosen columns, in time from the first column's start."""
+    """Exposures of evenly spaced columns, with times from the first column's start."""
 
     columns: IndexArray  # Shape (shown,): the columns
     starts: FloatArray  # Shape (shown,): when the exposure of each begins, in seconds
@@ -123,14 +123,14 @@ _NUMBER = re.compile(r"[-+−]?[\d.,]+(?:[eE][-+]?\d+)?")  # noqa: RUF001
 
 @dataclass(frozen=True, slots=True)
 class Check:
-    """Rule by which a student's number is checked against the model."""
+    """How a student's number is checked against the model."""
 
     quantity: str  # A name of ``occ_model.teaching.quantities.QUANTITIES``
     asked_in: str  # Unit of an answer without one; empty for a pure number
-    tolerance: float  # Accepted difference, as a fraction of the model's value
+    tolerance: float  # Accepted difference as a fraction of the model's value
     # The scene of the question, which may differ from the step's own
     scene: Scene
-    # Parameters whose values the question names: an answer is checked only at these
+    # Parameters whose values the question names; an answer is checked only at these values
     named: tuple[str, ...] = ()
 
 
@@ -145,14 +145,14 @@ class LessonStep:
     decoder: str = ""  # Whose verdict and steps are shown at first; empty for the paper's
     photo: str = ""  # Name of the sample photo to open
     control: str = ""  # The parameter to change; empty for several or none
-    # None where the answer is in words
+    # None if the answer is in words
     check: Check | None = None
     equation: str = ""  # Name of the equation that explains the answer
     # Whether the step shows the animation of the rolling shutter
     animation: bool = False
     # Action of the step's button, one of ``occ_model.teaching.lessons.ACTIONS``
     action: str = ""
-    # Whether the step is about the student's photo; ``photo`` stands in while none is open
+    # Whether the step is about the student's own photo; ``photo`` replaces it while none is open
     own_photo: bool = False
 
     @property
@@ -160,11 +160,11 @@ class LessonStep:
         return self.scene if self.check is None else self.check.scene
 
     def scene_to_judge(self, shown: Scene) -> Scene:
-        """Return the scene of a check: the question's as long as the step's own is shown."""
+        """Return the scene for a check: the question's while the step's own scene is shown."""
         return self.asked if shown == self.scene else shown
 
     def with_unit(self, given: str) -> str:
-        """Return an answer with the question's unit appended where it has none."""
+        """Append the question's unit to an answer without one."""
         unit = "" if self.check is None else self.check.asked_in
         given = given.strip()
         return f"{given} {unit}" if unit and _NUMBER.fullmatch(given) else given
@@ -174,7 +174,7 @@ class LessonStep:
 class Lesson:
     name: str
     title: str
-    summary: str  # Learning objective, in one sentence
+    summary: str  # Learning objective in one sentence
     steps: tuple[LessonStep, ...]
     # Whether it is a lab sheet, which ends with the student's own measurement
     is_sheet: bool = False
@@ -183,14 +183,14 @@ class Lesson:
 @dataclass(frozen=True, slots=True)
 class CheckedAnswer:
     text: str
-    # None where the answer is in words
+    # None if the answer is in words
     outcome: Outcome | None
     sentence: str
 
 
 @dataclass(frozen=True, slots=True)
 class LoadedLessons:
-    # Built-in lessons, then those of the user's folder
+    # The built-in lessons, then those of the user's folder
     lessons: tuple[Lesson, ...]
     # Why files of the user's folder are not lessons, by file name
     problems: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))
@@ -200,9 +200,8 @@ class LoadedLessons:
 class AnsweredStep:
     step: LessonStep
     answer: CheckedAnswer | None
-    # The scene at which the answer was checked and which the report draws; the question's without
-    # an answer
+    # The scene at which the answer was checked, for the report; the question's without an answer
     scene: Scene
-    # Match of the photo that the step is about; the report draws it
+    # Match of the photo that the step is about, for the report
     match: Match | None = None
     photo: str = ""

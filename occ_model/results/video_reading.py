@@ -1,4 +1,4 @@
-"""Results of reading a film: its frames, its packets, and its clock."""
+"""Results of reading a film: frames, packets and clock."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -12,7 +12,7 @@ from occ_model.results.sent_packets import PacketReading, SentPackets
 
 
 @dataclass(frozen=True, slots=True)
-class Measured:
+class MeasuredValue:
     """A number with its standard deviation."""
 
     value: float
@@ -21,27 +21,27 @@ class Measured:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class FrameReading:
-    """What one frame of a film shows.
+    """What was read from one frame of a film.
 
     Parameters
     ----------
     index, time
         Those of the frame; the time in seconds.
     region
-        The rectangle of the image that was read, None where no panel was found.
+        The rectangle of the image that was read, None if no panel was found.
     chips : ndarray of uint8, shape (chips,)
-        The chips in view, the first sent first; those at both ends may be cut off.
+        The chips in view, in the order sent; those at both ends may be incomplete.
     ratios : ndarray of float64, shape (chips,)
-        How much likelier each chip is lit than not: the logarithm of the ratio of both likelihoods.
+        For each chip, the logarithm of the likelihood ratio of lit to dark.
     whole : (int, int)
-        The first chip, and the one after the last, that are not cut off.
+        The first complete chip, and the chip after the last complete one.
     chip_length
-        Columns of a chip; None where no chips were read.
+        Columns of a chip; None if no chips were read.
     place
-        The place of the first chip in what is sent repeatedly, in chips; None where the frame does
-        not show it, or not yet.
+        The place of the first chip in the repeated period, in chips; None if the frame does not
+        show it, or not yet.
     failure
-        None, or a sentence that says why the frame was not read, or where it was not placed.
+        None, or a sentence that says why the frame was not read or placed.
     """
 
     index: int
@@ -57,38 +57,38 @@ class FrameReading:
 
 @dataclass(frozen=True, slots=True)
 class Clock:
-    """The clock of a film: what the phases of the stripes say by the frames' times.
+    """The clock of a film, from the phases of the stripes and the frames' times.
 
-    Every time is by the clock that stamps the frames. Errors are standard deviations.
+    All times are by the clock that stamps the frames. Errors are standard deviations.
 
     Parameters
     ----------
     switching_frequency
-        In Hz, in the middle of the film.
+        In Hz, at the middle of the film.
     drift
-        Its change, in Hz a second; None where too few frames show it.
+        Its change in Hz a second; None if too few frames show it.
     readout_time
-        From one column to the next, in seconds: chips a column over chips a second.
+        From one column to the next in seconds, which is chips a column over chips a second.
     frame_period
         From one frame to the next, in seconds.
     gap
         The part of the frame period in which no column starts its exposure, in seconds.
     timing_noise
-        Root mean square by which frames start earlier or later than they are stamped, in seconds.
+        Root mean square difference of the frames' starts from their stamps, in seconds.
     frames
-        Frames whose phase was used.
+        Number of frames whose phase was used.
     alternatives
-        Other switching frequencies that fit as well, in Hz, and the readout time of each: aliases
-        that the rough readout time does not exclude.
+        Other switching frequencies in Hz that fit equally well, each with its readout time: aliases
+        that the approximate readout time does not exclude.
     problems
-        Sentences: what the frame times or the phases contradict, and what is not certain.
+        Sentences on contradictions in the frames' times or phases, and on what is not certain.
     """
 
-    switching_frequency: Measured
-    drift: Measured | None
-    readout_time: Measured
-    frame_period: Measured
-    gap: Measured
+    switching_frequency: MeasuredValue
+    drift: MeasuredValue | None
+    readout_time: MeasuredValue
+    frame_period: MeasuredValue
+    gap: MeasuredValue
     timing_noise: float
     frames: int
     alternatives: tuple[tuple[float, float], ...] = ()
@@ -96,12 +96,12 @@ class Clock:
 
     @property
     def is_sure(self) -> bool:
-        """Whether no other frequency fits as well."""
+        """Whether no other frequency fits equally well."""
         return not self.alternatives
 
     @property
     def gap_ratio(self) -> float:
-        """The gap's fraction of the frame period."""
+        """The gap as a fraction of the frame period."""
         return self.gap.value / self.frame_period.value
 
 
@@ -112,30 +112,30 @@ class RateWindow:
     # In seconds
     start: float
     end: float
-    # Packets that were sent, and those of them that were not read right
+    # Packets that were sent, and those that were not read correctly
     packets: int
     packets_lost: int
-    # Bits that were read and could be compared, and those of them that were wrong
+    # Bits that were read and could be compared, and the wrong ones among them
     bits: int
     bits_wrong: int
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class FilmProgress:
-    """What is known of a film after some of its frames.
+    """What is known about a film after some of its frames.
 
     Parameters
     ----------
     frames, placed
-        Frames so far, and those of them whose place in the packet is known.
+        Number of frames so far, and of those whose place in the packet is known.
     payload
-        The payload as far as it is known, as the scene writes it; unknown letters are dots.
+        The payload as far as it is known, in the scene's notation; unknown letters are dots.
     known
         Fraction of the payload's chips that were seen.
     complete
-        Whether the whole payload is read.
+        Whether the whole payload has been read.
     clock
-        The clock as of the last time that it was fitted; None before.
+        The clock of the last fit; None before the first.
     """
 
     frame: FrameReading
@@ -154,32 +154,32 @@ class VideoReading:
     Parameters
     ----------
     packets
-        The packets that were sent from the first frame's start to the last one's end; empty where
-        the frames' times do not show how many were sent between frames. Where those jump, so that
-        what lies between cannot be counted, it is left out of this and of all rates.
+        The packets that were sent from the first frame's start to the last one's end; empty if the
+        frames' times do not show how many were sent between frames. Time at which these jump cannot
+        be counted, and is left out of this and of all rates.
     clock
-        What the film says of the clock; None where too few frames show it.
+        The film's clock; None if too few frames show it.
     bits : ndarray of uint8
-        The payload's bits, joined from all frames; empty where it was not read.
+        The payload's bits, joined from all frames; empty if it was not read.
     known : ndarray of bool
-        Which chips of one period of what is sent were seen.
+        Which chips of the repeated period were seen.
     payload
-        The bits as the scene writes its payload; a number's digits where it sends a code.
+        The bits in the notation of the scene's payload, or the digits of a code.
     certainty
-        The probability that all bits are right, by the chips' votes.
+        The probability that all bits are right, from the chips' votes.
     complete_at
-        The time of the frame after which the payload was complete, in seconds; None before.
+        The time in seconds of the frame that completed the payload; None if it is not complete.
     duration
-        How long the film ran, in seconds: to the end of the last frame's period.
+        Length of the film in seconds, to the end of the last frame's period.
     failure
         None, or a sentence that says why no payload was read.
     problems
-        Sentences: what is not regular in the frames' times, and what the clock is not sure of.
+        Sentences on irregular frame times, and on what is uncertain about the clock.
     complete_after
-        How long the film had run by the end of that frame's period, in seconds; None where it is
+        Length of the film, in seconds, to the end of that frame's period; None if the payload is
         not complete, or there is no clock.
     faults
-        A sentence on how often a plug-in has failed; empty where none has.
+        A sentence on how often a plug-in has failed; empty if none has.
     """
 
     frames: tuple[FrameReading, ...]
@@ -198,38 +198,38 @@ class VideoReading:
 
     @property
     def read(self) -> int:
-        """Packets that one frame shows whole, and that are right as far as that is known."""
+        """Number of packets that one frame shows completely, and that are right as far as known."""
         return sum(packet.is_right for packet in self.packets.in_view)
 
     @property
     def lost(self) -> int:
-        """Packets that were sent and not read, or not read right."""
+        """Number of packets that were sent but not read, or not read correctly."""
         return len(self.packets) - self.read
 
     @property
     def cut_off(self) -> int:
-        """Packets that no frame shows whole: those in a gap, or across the edge of a frame."""
+        """Number of packets that no frame shows completely: in a gap, or across a frame's edge."""
         shown = sum(packet.frame is not None for packet in self.packets.in_view)
         return len(self.packets) - shown
 
     @property
     def doubled(self) -> int:
-        """Packets that were read although their part of the payload had been read before."""
+        """Number of packets that were read after their part of the payload had been read before."""
         parts = {packet.part for packet in self.packets.in_view if packet.is_right}
         return self.read - len(parts)
 
     @property
     def bits_per_second(self) -> float:
-        """Bits of the payload in the packets read, repetitions included, for each second."""
+        """Payload bits a second in all packets that were read, with repetitions."""
         right = (one.bits for one in self.packets.in_view if one.is_right)
         bits = sum(len(one) for one in right if one is not None)
         return bits / self.duration if self.duration > 0.0 else 0.0
 
     @property
     def net_bits_per_second(self) -> float:
-        """Bits for each second if every frame showed another payload: repeats within it count once.
+        """Bits a second as if every frame had another payload: repeats in a frame count once.
 
-        It is the same kind of number as that of a study of single pictures.
+        It can be compared with that of studies of single pictures.
         """
         right = (one for one in self.packets.in_view if one.is_right)
         once = {(one.frame, one.part): len(one.bits) for one in right if one.bits is not None}
@@ -237,29 +237,29 @@ class VideoReading:
 
     @property
     def reception_rate(self) -> float | None:
-        """Fraction of the packets sent that were read right; None where none were counted."""
+        """Fraction of the sent packets that were read correctly; None if none were counted."""
         return self.read / len(self.packets) if self.packets else None
 
     @property
     def packet_error_rate(self) -> float | None:
-        """Fraction of the packets sent that were lost; None where none were counted."""
+        """Fraction of the sent packets that were lost; None if none were counted."""
         return self.lost / len(self.packets) if self.packets else None
 
     @property
     def bit_error_rate(self) -> float | None:
-        """Fraction of wrong bits in the packets that were read; None where none was compared."""
-        bits, wrong = _compared(self.packets.in_view)
+        """Fraction of wrong bits in the packets that were read; None if none could be compared."""
+        bits, wrong = _count_compared(self.packets.in_view)
         return wrong / bits if bits else None
 
     def rates(self, windows: int) -> tuple[RateWindow, ...]:
-        """Divide the film in parts of equal length, and count the errors in each.
+        """Divide the film into parts of equal length, and count the errors in each.
 
-        Where nothing was sent that can be counted, there are none.
+        There are none if the packets could not be counted.
 
         Parameters
         ----------
         windows
-            How many parts.
+            Number of parts.
         """
         if not self.packets:
             return ()
@@ -269,13 +269,15 @@ class VideoReading:
             for start, end in pairwise(edges.tolist())
         ]
         return tuple(
-            RateWindow(*between, sent, sent - sum(one.is_right for one in shown), *_compared(shown))
+            RateWindow(
+                *between, sent, sent - sum(one.is_right for one in shown), *_count_compared(shown)
+            )
             for between, (sent, shown) in zip(times, self.packets.cut(edges), strict=True)
         )
 
 
-def _compared(packets: Sequence[PacketReading]) -> tuple[int, int]:
-    """Return the number of bits compared, and of those that were wrong."""
+def _count_compared(packets: Sequence[PacketReading]) -> tuple[int, int]:
+    """Count the bits that could be compared, and the wrong ones among them."""
     compared = [one for one in packets if one.bits is not None and one.wrong_bits is not None]
     bits = sum(len(one.bits) for one in compared if one.bits is not None)
     return bits, sum(one.wrong_bits or 0 for one in compared)

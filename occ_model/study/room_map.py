@@ -13,7 +13,7 @@ import numpy as np
 from occ_model.errors import OccError, ParameterError, shown
 from occ_model.parallel.job import Heartbeat
 from occ_model.results.decoding import Region
-from occ_model.results.sweep import csv_row, joined_lines, read_count
+from occ_model.results.sweep import csv_row, join_lines, read_count
 from occ_model.room.locate import RoomReading, read_room
 from occ_model.room.reading import ReadLamp, code_sent
 from occ_model.room.render import RoomFrame, render_room
@@ -111,14 +111,14 @@ def measure_place(request: RoomMapRequest, index: int, heartbeat: Heartbeat) -> 
             frame = render_room(room, tolerance=request.tolerance, seed=int(random.integers(2**31)))
             reading = read_room(frame.camera_image, room)
         except OccError as refusal:
-            return RoomPoint(index, 0, 0, 0, 0, 0, math.nan, math.nan, joined_lines(str(refusal)))
+            return RoomPoint(index, 0, 0, 0, 0, 0, math.nan, math.nan, join_lines(str(refusal)))
         counts += _counts(frame, reading)
         if reading.is_sure and reading.located is not None:
             found, camera = reading.located.place, room.camera
             apart = (found.x - camera.x, found.y - camera.y, found.z - camera.z)
             errors.append((math.hypot(*apart), float(np.hypot.reduce(reading.located.errors[:3]))))
         elif reading.reasons:
-            note = note or joined_lines(reading.reasons[0])
+            note = note or join_lines(reading.reasons[0])
     error, stated = (
         np.sqrt(np.mean(np.square(errors), axis=0)).tolist() if errors else (math.nan, math.nan)
     )

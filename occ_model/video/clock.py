@@ -11,7 +11,7 @@ import math
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.results.video_reading import Clock, Measured
+from occ_model.results.video_reading import Clock, MeasuredValue
 from occ_model.scene.units import HERTZ, SECOND
 from occ_model.video.frame_times import FrameTimes, Part
 from occ_model.video.phase_fit import ClockFit, Phases, fit_parabola, mean_step
@@ -151,11 +151,11 @@ def state(
     has_drift = best.drift_error > 0.0
     only = [f"The clock is that of frames {part.first} to {part.end - 1}."]
     return Clock(
-        switching_frequency=Measured(best.frequency, best.frequency_error),
-        drift=Measured(best.drift, best.drift_error) if has_drift else None,
-        readout_time=Measured(readout, readout_error),
+        switching_frequency=MeasuredValue(best.frequency, best.frequency_error),
+        drift=MeasuredValue(best.drift, best.drift_error) if has_drift else None,
+        readout_time=MeasuredValue(readout, readout_error),
         frame_period=times.period,
-        gap=Measured(gap, float(np.hypot(times.period.error, columns * readout_error))),
+        gap=MeasuredValue(gap, float(np.hypot(times.period.error, columns * readout_error))),
         timing_noise=best.noise / best.frequency,
         frames=int(best.kept.sum()),
         alternatives=tuple((fit.frequency, fit.step / fit.frequency) for fit in fits[1:]),

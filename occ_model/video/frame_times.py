@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from occ_model.arrays import BoolArray, FloatArray, IndexArray
-from occ_model.results.video_reading import Measured
+from occ_model.results.video_reading import MeasuredValue
 from occ_model.scene.units import SECOND
 
 _MAX_INTERVAL_DEVIATION = 0.25  # of a period, by which an interval may differ from whole ones
@@ -32,7 +32,7 @@ class Part:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class FrameTimes:
-    period: Measured  # The frame period in seconds; its error is that of the times' scatter
+    period: MeasuredValue  # The frame period in seconds; its error is that of the times' scatter
     # Shape (frames,): how many periods each frame lies after the first one of its part
     numbers: IndexArray
     parts: tuple[Part, ...]  # The parts of the film, between which the times jump
@@ -80,13 +80,13 @@ def frame_times(times: FloatArray, rounded_to: float = 0.0) -> FrameTimes | None
         for values in (numbers.astype(np.float64), times)
     )
     power, free = float(steps @ steps), len(times) - len(firsts) - 1
-    period = Measured(float(steps @ later) / power, rounded_to)
+    period = MeasuredValue(float(steps @ later) / power, rounded_to)
     problems = _problems(np.where(jumps, 1.0, intervals / usual), counts + jumps, usual)
     if free > 0:
         residuals = later - steps * period.value
         scatter = float(residuals @ residuals) / free
         error = np.sqrt(max(scatter, rounded_to**2 / 12.0) / power)
-        period = Measured(period.value, float(error))
+        period = MeasuredValue(period.value, float(error))
         if np.sqrt(scatter) > max(_MAX_TIME_DEVIATION * usual, rounded_to):
             problems.append(
                 f"The frame times are uneven: they deviate by {SECOND.format(np.sqrt(scatter))} "

@@ -12,7 +12,7 @@ from occ_model.photo.stripes.envelope import without_trend
 from occ_model.photo.stripes.period import correlated_columns, repeat_period, unrepeated_fraction
 from occ_model.receiver.signal import column_means
 from occ_model.results.decoding import Region
-from occ_model.results.video_reading import Clock, Measured
+from occ_model.results.video_reading import Clock, MeasuredValue
 from occ_model.scene.square_wave import CHIPS_OF_A_CYCLE
 from occ_model.scene.units import HERTZ, SECOND, Unit
 from occ_model.video.clock import fits_of, state
@@ -85,8 +85,8 @@ class WithoutPackets:
         gap_error = math.hypot(clock.gap.error, columns * shared * readout.value)
         return replace(
             clock,
-            readout_time=Measured(readout.value, error),
-            gap=Measured(clock.gap.value, gap_error),
+            readout_time=MeasuredValue(readout.value, error),
+            gap=MeasuredValue(clock.gap.value, gap_error),
         )
 
     @staticmethod

@@ -10,7 +10,7 @@ from occ_model.photo.reading.choices import CHANNELS, SCAN_AXES
 from occ_model.photo.reading.load import Photo, load_photo
 from occ_model.results.match import Match, counterpart
 from occ_model.results.photo_table import REFUSED, UNREADABLE, PhotoRow
-from occ_model.results.sweep import joined_lines
+from occ_model.results.sweep import join_lines
 from occ_model.scene.argument_checks import check_choice
 from occ_model.scene.scene import Scene
 
@@ -58,7 +58,7 @@ def row_of(
         try:
             photo = load_photo(source, own.scan_axis, channel=own.channel, progress=report)
         except PhotoError as error:
-            note = joined_lines(str(error))
+            note = join_lines(str(error))
             return place, PhotoRow(source, UNREADABLE, note, given=given)
     try:
         match = match_photo(
@@ -82,7 +82,7 @@ def _row(photo: Photo, verdict: str, note: str, match: Match | None = None) -> P
     return PhotoRow(
         photo.path,
         verdict,
-        joined_lines(note),
+        join_lines(note),
         match,
         noted_exposure=photo.exposure_time,
         lines=columns,

@@ -10,7 +10,7 @@ import numpy as np
 from occ_model.errors import OccError
 from occ_model.parallel.job import Heartbeat
 from occ_model.plugins import Faults
-from occ_model.results.sweep import SweepTable, joined_lines
+from occ_model.results.sweep import SweepTable, join_lines
 from occ_model.results.sweep_request import RateSettings, SweepPoint, SweepRequest
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.scene import Scene
@@ -42,9 +42,9 @@ def measure_point(
             right, whole = right_and_whole(at, settings, heartbeat)
     except OccError as refusal:
         none = (0,) * len(settings.decoders)
-        return SweepPoint(index, 0, none, joined_lines(str(refusal)), none)
+        return SweepPoint(index, 0, none, join_lines(str(refusal)), none)
     sent = settings.images * at.transmitter.payload_length
-    return SweepPoint(index, sent, right, joined_lines(str(faults)), whole)
+    return SweepPoint(index, sent, right, join_lines(str(faults)), whole)
 
 
 def measure_points(

@@ -10,7 +10,7 @@ from pytestqt.qtbot import QtBot
 from occ_gui.detection_map import limit_cards
 from occ_gui.detection_map.advice_view import AdviceView
 from occ_gui.detection_map.limit_cards import LimitCards
-from occ_model.results.advice import Advice, written
+from occ_model.results.advice import Advice, format_value
 from occ_model.results.limits import RangeEnd
 from occ_model.scene.scene import Scene
 from occ_model.study.limits import advice_of
@@ -63,7 +63,7 @@ def test_go_leads_to_where_every_bit_was_read(cards: LimitCards, small_scene: Sc
     cards.destination_chosen.connect(lambda *to: told.append(to))
     cards.show_advice(advice_on(small_scene))
     button = cards.cards["threshold"].go
-    assert written("switching_frequency", INSIDE.value) in button.text()
+    assert format_value("switching_frequency", INSIDE.value) in button.text()
     button.click()
     assert told == [("switching_frequency", INSIDE.value, "threshold")]
 

@@ -232,4 +232,4 @@ def test_a_frequency_that_may_be_off_by_a_percent_is_doubtful(error: float, doub
     product = lamp.switching_frequency_times_readout
     unsure = replace(lamp, product_uncertainty=error * product)
     assert unsure.is_doubtful == doubtful
-    assert any("0.34 % only" in why for why in unsure.doubts) == doubtful
+    assert any("only to 0.34 %" in why for why in unsure.doubts) == doubtful

@@ -1,4 +1,4 @@
-"""Numbers that a result works out of what it holds: rates, verdicts, means, packets."""
+"""Numbers that results compute from their fields: rates, verdicts, means, packets."""
 
 import math
 from pathlib import Path
@@ -35,7 +35,7 @@ def test_an_exposure_that_was_not_estimated_has_no_verdict() -> None:
 
 
 @pytest.mark.parametrize(("effect", "differ"), [("flicker", False), ("vignetting", True)])
-def test_rows_differ_where_an_effect_is_on_more_than_columns(effect: str, differ: bool) -> None:
+def test_rows_differ_if_an_effect_acts_on_more_than_columns(effect: str, differ: bool) -> None:
     scene = Scene().replace(rows=40, columns=200, flicker_depth=0.5, vignetting_exponent=4.0)
     off = {d.effect: False for d in occ.plan(scene).decisions}
     frame = occ.render(scene, tolerance=math.inf, force=off | {effect: True})
@@ -54,17 +54,17 @@ def of(estimated: CombinedEstimate | None) -> list[tuple[bool, bool]]:
     return [(table.is_outlier(place), table.is_counted(place)) for place in range(len(ROWS))]
 
 
-def test_a_sure_photo_is_in_the_mean_or_an_outlier_and_no_other_is_either() -> None:
+def test_only_a_sure_photo_is_in_the_mean_or_an_outlier() -> None:
     mean = CombinedEstimate(1e-5, 1e-7, 1, 0.0, 1.0, 1.0, outliers=(2,))
     assert of(mean) == [(False, True), (False, False), (True, False)]
 
 
-def test_without_a_mean_no_photo_is_in_it_or_left_out_of_it() -> None:
+def test_without_a_mean_no_photo_is_in_it_or_an_outlier() -> None:
     assert of(None) == [(False, False)] * 3
 
 
 @pytest.mark.parametrize(("duration", "rate"), [(0.0, 0.0), (0.25, 160.0), (4.0, 10.0)])
-def test_bits_a_second_are_those_that_were_read_over_the_films_length(
+def test_bits_a_second_are_the_bits_read_over_the_films_length(
     duration: float, rate: float
 ) -> None:
     kinds = [(20, 0), (20, None), (9, 1), (None, None)]
@@ -75,7 +75,7 @@ def test_bits_a_second_are_those_that_were_read_over_the_films_length(
     sent = SentPackets((FilmPart(0.0, duration, len(packets)),), tuple(packets))
     film = SimpleNamespace(duration=duration, packets=sent)
     assert VideoReading.bits_per_second.fget(film) == rate  # type: ignore[attr-defined]
-    # The two that are right are repeats in one frame.
+    # The two right ones are repeats in one frame.
     net: float = VideoReading.net_bits_per_second.fget(film)  # type: ignore[attr-defined]
     assert net == rate / 2.0
 
@@ -90,7 +90,7 @@ def shown(number: int, time: float, frame: int | None = 0) -> PacketReading:
 
 @pytest.fixture
 def packets() -> SentPackets:
-    """Fifteen million packets in two parts, between which the times jump by a day."""
+    """Make fifteen million packets in two parts, between which the times jump by a day."""
     parts = (
         FilmPart(100.0, 10_000.0, _MANY - 5, begin=1e-3, step=5e-4),
         FilmPart(90_000.0, 1.0, 5, begin=0.0, step=0.2, first_part=(_MANY - 5) % 3),
@@ -99,7 +99,7 @@ def packets() -> SentPackets:
     return SentPackets(parts, in_view, 3)
 
 
-def test_all_are_counted_and_each_can_be_asked_for(packets: SentPackets) -> None:
+def test_all_packets_are_counted_and_each_can_be_requested(packets: SentPackets) -> None:
     assert len(packets) == _MANY
     assert packets[7_000].is_right
     between = packets[1_000_000]
@@ -122,7 +122,7 @@ def test_a_cut_counts_each_packet_once(packets: SentPackets) -> None:
     assert counts == [1998, _MANY - 5 - 1998, 2, 3]
 
 
-def test_the_time_of_a_cut_is_that_of_the_part_it_lies_in(packets: SentPackets) -> None:
+def test_the_time_of_a_cut_is_that_of_the_part_it_is_in(packets: SentPackets) -> None:
     assert packets.time_at(0.0) == 100.0
     assert packets.time_at(10_000.0) == 90_000.0
     assert packets.time_at(10_000.0, is_end=True) == 10_100.0

@@ -7,7 +7,7 @@ import pytest
 
 import occ_model as occ
 from occ_model.errors import ParameterError
-from occ_model.results.bench import BenchPoint, written
+from occ_model.results.bench import BenchPoint, table_rows
 from occ_model.results.plan import Plan
 from occ_model.scene.scene import Scene
 from occ_model.study import success_rate
@@ -38,7 +38,7 @@ def test_a_rate_above_a_half_is_explained(luminance: float) -> None:
     point = BenchPoint("manchester", "exposure", 1.0, 20.0, found, "Its note.")
     assert bool(found.why_above_half) == (found.rate > 0.5) == (luminance == 0.0)
     assert point.explanation == f"Its note. {found.why_above_half}".strip()
-    assert written([point], 30.0)[0][-1] == point.explanation
+    assert table_rows([point], 30.0)[0][-1] == point.explanation
 
 
 def test_same_seed_same_errors() -> None:

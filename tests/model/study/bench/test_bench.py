@@ -10,7 +10,7 @@ from occ_model.arrays import FloatArray
 from occ_model.errors import ParameterError
 from occ_model.figures.bench import bench_drawing
 from occ_model.receiver.decode import decode
-from occ_model.results.bench import HEADER, BenchRequest, written
+from occ_model.results.bench import HEADER, BenchRequest, table_rows
 from occ_model.results.decoding import DecodeResult
 from occ_model.scene.scene import Scene
 from occ_model.study.bench.bench import bench, bench_bounds, bench_scene, bench_signal
@@ -64,7 +64,7 @@ def test_both_axes_meet_in_one_measurement() -> None:
 
 
 def test_a_row_of_the_table_has_every_column() -> None:
-    rows = written(bench(SMALL), 30.0)
+    rows = table_rows(bench(SMALL), 30.0)
     assert len(rows) == 3 * 3
     assert {len(row) for row in rows} == {len(HEADER)}
     assert all(0.0 <= row[8] <= row[7] <= row[9] <= 1.0 for row in rows)  # type: ignore[operator]

@@ -66,7 +66,7 @@ class Application(Parts):
         self.controls.player.run_changed.connect(self.outdated.follow_run)
         self.pins.both_pinned.connect(self._show_comparison)
         story.verdict.lesson_wanted.connect(self._show_lesson)
-        self.measuring.rate_changed.connect(story.verdict.show_rate)
+        self.background_rates.rate_changed.connect(story.verdict.show_rate)
         self._connect_strips()
         entries = window.actions_by_name
         entries["undo"].triggered.connect(self._say_undone)
@@ -85,7 +85,9 @@ class Application(Parts):
         photos.opened.connect(self.document.show_photo)
         self.files.pane_wanted.connect(window.bring_to_front)
         menus.scan_axes.triggered.connect(lambda action: photos.scan_along(action.data()))
-        scan_axis = self.store.store.select(lambda workspace: workspace.photo.reading.scan_axis)
+        scan_axis = self.store.store.select(
+            lambda workspace: workspace.photo.load_options.scan_axis
+        )
         scan_axis.changed.connect(lambda axis: menus.show_choice(menus.scan_axes, axis))
 
     def _make_photo_pane(self) -> None:
@@ -115,7 +117,7 @@ class Application(Parts):
 
     @property
     def is_measured(self) -> bool:
-        return self.measuring.is_idle and self.shell.is_measured
+        return self.background_rates.is_idle and self.shell.is_measured
 
     def resume(self, workspace: Workspace) -> None:
         """Restore what an earlier window left, without a step to undo."""
@@ -152,6 +154,6 @@ class Application(Parts):
         self.lessons.end()
 
     def stop(self) -> None:
-        for part in (self.simulation, self.pins.runner, self.shell, self.measuring):
+        for part in (self.simulation, self.pins.runner, self.shell, self.background_rates):
             part.stop()
         self.error_reports.remove()

@@ -286,7 +286,7 @@ def wait_until_shown(application: "Application", measured: bool = False) -> None
     from PySide6.QtWidgets import QApplication
 
     failures: list[str] = []
-    photo = application.shell.made_pane("photo")
+    photo = application.shell.find_pane("photo")
     matching = () if photo is None else (photo.matching,)
     for controller in (application.simulation, application.photos, *matching):
         controller.failed.connect(failures.append)

@@ -32,7 +32,7 @@ def features(parts: Parts) -> tuple[Feature[Any], ...]:
         panes.profile(store, parts.board, parts.about_photo),
         panes.photos(lambda: shell.pane("photo")),
         panes.accuracy(scenes, parts.simulation),
-        panes.detection_map(scenes, parts.measuring),
+        panes.detection_map(scenes, parts.background_rates),
         panes.bands(scenes),
         panes.equations(scenes, lambda: shell.pane("profile").view.plot),
         panes.spectrum(),
@@ -40,7 +40,7 @@ def features(parts: Parts) -> tuple[Feature[Any], ...]:
         panes.lessons(scenes, parts.board, parts.controls, preferences),
         panes.video(scenes, parts.board),
         panes.room(store),
-        panes.bench(scenes, parts.measuring),
+        panes.bench(scenes, parts.background_rates),
         panes.export(window, shell, parts.present, preferences, current_pane, store),
         panes.animation(window, scenes, preferences, window.filming),
         panes.transmitter(window, scenes, preferences),
@@ -100,7 +100,7 @@ def _entries(parts: Parts) -> Feature[None]:
 
 def _fit(parts: Parts) -> None:
     parts.story.rows.fit()
-    if (pane := parts.shell.made_pane("picture")) is not None:
+    if (pane := parts.shell.find_pane("picture")) is not None:
         pane.view.fit()
 
 

@@ -55,7 +55,7 @@ def picture_figures(store: Store, about_photo: Callable[[], str]) -> tuple[Figur
     title = "Overlay of photo and picture"
     return (
         Figure(name="picture", title="Picture", draw=picture),
-        Figure(name="overlay", title=title, draw=overlay, is_another=is_beside),
+        Figure(name="overlay", title=title, draw=overlay, is_different=is_beside),
     )
 
 

@@ -50,12 +50,12 @@ class LessonsInWindow(QObject):
         self.photo_explained.emit(name == "photo")
 
     def user_workspace(self) -> Workspace | None:
-        pane = self._shell.made_pane("lessons")
+        pane = self._shell.find_pane("lessons")
         own: Workspace | None = None if pane is None else pane.controller.user_workspace()
         return own
 
     def end(self) -> None:
         """Restore the user's own work, if a lesson is under way."""
-        pane = self._shell.made_pane("lessons")
+        pane = self._shell.find_pane("lessons")
         if pane is not None:
             pane.end()

@@ -17,7 +17,7 @@ from occ_gui.app.figures import (
 )
 from occ_gui.core.store import Store
 from occ_gui.core.workspace import Workspace
-from occ_gui.detection_map.wiring import Measuring
+from occ_gui.detection_map.wiring import BackgroundRates
 from occ_gui.files.file_controller import FileController
 from occ_gui.files.preferences import Preferences
 from occ_gui.photo.photo_controller import PhotoController
@@ -53,7 +53,7 @@ def picture(store: Store, about_photo: Callable[[], str]) -> Feature[Any]:
         help="guide.md#look-at-the-picture",
         make=later("occ_gui.picture.image_view:PicturesPane", store),
         part=part,
-        goes_on_hidden=True,
+        updates_hidden=True,
         figures=picture_figures(store, about_photo),
     )
 
@@ -66,7 +66,7 @@ def decoding(store: Store) -> Feature[Any]:
         help="decoding.md",
         make=later("occ_gui.decoding.pane:DecodePane", store),
         part=lambda workspace, results: (results.reading, workspace.decoder),
-        goes_on_hidden=True,
+        updates_hidden=True,
         figures=decoding_figures(),
     )
 
@@ -95,9 +95,9 @@ def photo(
     def enabled(workspace: Workspace, results: Results) -> dict[str, bool]:
         has_photo = has_match = results.document is not None
         if has_photo:
-            from occ_gui.photo.photo_part import found_in
+            from occ_gui.photo.shown_photo import find_match
 
-            found = found_in(results)
+            found = find_match(results)
             has_match = found is not None and found.match is not None
         return {
             **dict.fromkeys(_WITH_PHOTO, has_photo),
@@ -112,8 +112,8 @@ def photo(
         elsewhere="right",
         help="photos.md",
         make=make,
-        part=later("occ_gui.photo.photo_part:PhotoPart.of"),
-        goes_on_hidden=True,
+        part=later("occ_gui.photo.shown_photo:ShownPhoto.of"),
+        updates_hidden=True,
         enabled=enabled,
         commands={
             "match_all": lambda pane: pane.match_all(),
@@ -122,7 +122,7 @@ def photo(
             "whole_photo": lambda pane: pane.parts.match_whole(),
             "apply_match": lambda pane: pane.matching.apply(),
             "save_match": lambda pane: window.save_match(pane.matching),
-            "use_settings": lambda pane: pane.matching.use_notes(),
+            "use_settings": lambda pane: pane.matching.apply_camera_settings(),
         },
     )
 
@@ -151,7 +151,7 @@ def profile(store: Store, board: Board, about_photo: Callable[[], str]) -> Featu
         help="guide.md#compare-column-profiles",
         make=later("occ_gui.profile.pane:ProfilePane", store),
         part=part,
-        goes_on_hidden=True,
+        updates_hidden=True,
         figures=(profile_figure(store, board, about_photo),),
     )
 
@@ -165,18 +165,18 @@ def accuracy(scenes: SceneStore, simulation: SimulationController) -> Feature[An
         help="model.md#accuracy-against-time",
         make=later("occ_gui.accuracy.pane:AccuracyPane", scenes, simulation),
         part=lambda workspace, results: (workspace.settings, results.switched, results.snapshot),
-        goes_on_hidden=True,
+        updates_hidden=True,
         figures=(accuracy_figure(),),
     )
 
 
-def detection_map(scenes: SceneStore, measuring: Measuring) -> Feature[Any]:
+def detection_map(scenes: SceneStore, background_rates: BackgroundRates) -> Feature[Any]:
     return Feature(
         name="map",
         title="Detection map",
         places={"limits": Place("right", is_main=True)},
         help="limits.md#the-detection-map",
-        make=later("occ_gui.detection_map.pane:MapPane", scenes, measuring),
+        make=later("occ_gui.detection_map.pane:MapPane", scenes, background_rates),
         figures=(map_figure(scenes.store),),
     )
 
@@ -266,18 +266,20 @@ def room(store: Store) -> Feature[Any]:
         help="rooms.md",
         make=later("occ_gui.room.pane:RoomPane", store),
         part=lambda workspace, _: workspace.room,
-        goes_on_hidden=True,  # its figure can be exported, and undo does not ask what is seen
+        updates_hidden=True,  # its figure can be exported, and undo does not ask what is seen
         figures=(room_figure(),),
     )
 
 
-def bench(scenes: SceneStore, measuring: Measuring) -> Feature[Any]:
+def bench(scenes: SceneStore, background_rates: BackgroundRates) -> Feature[Any]:
     return Feature(
         name="bench",
         title="Bench",
         places={"limits": Place("right")},
         help="limits.md#the-bench",
-        make=lambda: later("occ_gui.bench.pane:BenchPane")(scenes, measuring.channel("bench")),
+        make=lambda: later("occ_gui.bench.pane:BenchPane")(
+            scenes, background_rates.channel("bench")
+        ),
         figures=(bench_figure(scenes.store),),
     )
 

@@ -14,7 +14,7 @@ from occ_gui.app.view_options import ViewOptions
 from occ_gui.core.store import Store
 from occ_gui.core.workspace import Workspace
 from occ_gui.detection_map.slider_strip import SliderStrips
-from occ_gui.detection_map.wiring import Measuring
+from occ_gui.detection_map.wiring import BackgroundRates
 from occ_gui.files.document import Document
 from occ_gui.files.file_controller import FileController
 from occ_gui.files.preferences import Preferences
@@ -67,7 +67,7 @@ class Parts(QObject):
             self.window, self.store, self.photos, self.preferences, self.present.ask
         )
         self.document = Document(self.window, self.store, self.files)
-        self.measuring = Measuring(self.store, self.slider_strips, self._has_picture)
+        self.background_rates = BackgroundRates(self.store, self.slider_strips, self._has_picture)
         self.pins = PinController(self.store, self.present.is_present)
         self.lessons = LessonsInWindow(self.window, self.shell)
         self.video = VideoPane(self.window, self.shell, store, self.files)
@@ -87,7 +87,7 @@ class Parts(QObject):
 
     def about_photo(self) -> str:
         """Return the photo's name and what its match is worth; empty if none is open."""
-        pane = self.shell.made_pane("photo")
+        pane = self.shell.find_pane("photo")
         return "" if pane is None else str(pane.verdict.about())
 
     def _has_picture(self) -> bool:

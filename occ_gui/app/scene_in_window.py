@@ -60,7 +60,7 @@ class SceneInWindow(QObject):
         simulation.defer_while(self._is_map_awaited)
 
     def _is_map_awaited(self) -> bool:
-        pane = self._parts.shell.made_pane("map")
+        pane = self._parts.shell.find_pane("map")
         return pane is not None and pane.map.is_first_answer_awaited
 
     def _report_switched(self, switched: tuple[Decision, ...]) -> None:

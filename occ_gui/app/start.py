@@ -51,7 +51,7 @@ class Start:
     def first(self) -> Workspace:
         """The workspace that a window is made with; the rest follows once it is connected."""
         begin = Workspace(self.workspace.scene, self.workspace.settings)
-        return self.workspace.step.laid_over(begin)
+        return self.workspace.undo_state.put_into(begin)
 
     def restore(self, application: "Application", with_photo: bool) -> None:
         """Restore the session in a window before it is shown, and store it from now on."""
@@ -72,11 +72,11 @@ def start_of(options: Namespace, scene: Scene, settings: SimulationSettings, own
     first = Workspace(scene, settings)
     if options.screenshot:  # it does not depend on the last session
         return Start(first, asked, fresh=True)
-    from occ_gui.files.session import SessionFile, restored, state_folder
+    from occ_gui.files.session import SessionFile, restore_workspace, state_folder
 
     file = SessionFile(state_folder())
     if not options.fresh:
-        first = restored(file, first, is_scene_asked=asked, are_settings_asked=not own)
+        first = restore_workspace(file, first, is_scene_asked=asked, are_settings_asked=not own)
     return Start(first, asked, kept_settings(), file, options.fresh)
 
 

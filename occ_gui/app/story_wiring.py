@@ -141,6 +141,6 @@ class _WholePictureWhileAsked(QObject):
 
 def _rows_per_pixel(story: StoryView, shell: Shell) -> float:
     """Return how many rows of the picture fall on a pixel of the screen."""
-    pane = shell.made_pane("picture") if story.shows_whole_picture else None
+    pane = shell.find_pane("picture") if story.shows_whole_picture else None
     stripes = story.rows.stripes
     return stripes.rows_per_pixel() if pane is None else float(pane.view.rows_per_pixel())

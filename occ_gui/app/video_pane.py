@@ -38,7 +38,7 @@ class VideoPane(QObject):
         return pane
 
     def open(self, path: Path) -> None:
-        if self._shell.made_pane("video") is None:
+        if self._shell.find_pane("video") is None:
             self._choose(path)
         else:
             self.wiring.open(path)
@@ -48,11 +48,11 @@ class VideoPane(QObject):
         self.wiring.save(path)
 
     def close(self) -> None:
-        if self._shell.made_pane("video") is None:
+        if self._shell.find_pane("video") is None:
             self._choose(None)
         else:
             self.wiring.close()
 
     def _choose(self, path: Path | None) -> None:
         workspace = self._store.workspace
-        self._store.put(replace(workspace, film=workspace.film.opened(path)))
+        self._store.put(replace(workspace, film=workspace.film.open(path)))

@@ -1,1 +1,1 @@
-"""Work off the window's thread, and its results as signals."""
+"""Work outside the window's thread, with its results as signals."""

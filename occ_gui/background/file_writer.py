@@ -1,4 +1,4 @@
-"""Writing of a large file off the window's thread, with a bar that cancels it."""
+"""Writing of a large file outside the window's thread, with a progress bar that can cancel it."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -12,16 +12,20 @@ from occ_model.errors import one_line
 
 
 class FileWriter(QObject, Generic[Request]):
-    """Writes one file at a time; a new request cancels the running one, which leaves no file."""
+    """Writes one file at a time; a new request cancels the previous one, which leaves no file."""
 
     status_message = Signal(str)
     written = Signal(Path)
 
     def __init__(
-        self, write: Callable[[Request, Report], Path], name: str, bar: WorkBar, given_up: str
+        self,
+        write: Callable[[Request, Report], Path],
+        name: str,
+        bar: WorkBar,
+        cancelled_sentence: str,
     ) -> None:
         super().__init__()
-        self._bar, self._given_up = bar, given_up
+        self._bar, self._cancelled_sentence = bar, cancelled_sentence
         self.runner: Task[Request, Path] = Task(write, name, impatient=True)
         self.runner.reported.connect(bar.show_progress)
         self.runner.finished.connect(self._finish)
@@ -36,7 +40,7 @@ class FileWriter(QObject, Generic[Request]):
         if not self.runner.is_idle:
             self.runner.cancel()
             self._bar.end()
-            self.status_message.emit(self._given_up)
+            self.status_message.emit(self._cancelled_sentence)
 
     def _finish(self, path: Path) -> None:
         self._bar.end()

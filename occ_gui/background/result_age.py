@@ -8,9 +8,9 @@ from typing import Generic, TypeVar
 
 Request = TypeVar("Request")
 
-PAUSE = 0.15  # seconds: changes that follow each other faster are one movement, such as a drag
+PAUSE = 0.15  # seconds; faster changes count as one movement, such as a drag of a slider
 
-_REMEMBERED_REQUESTS = 64  # number of replaced requests whose time is remembered
+_REMEMBERED_REQUESTS = 64  # number of former requests that are remembered
 
 
 class ResultAges(Generic[Request]):
@@ -35,7 +35,7 @@ class ResultAges(Generic[Request]):
     def age(self, request: Request | None) -> float:
         """Return the seconds since a request was replaced.
 
-        Zero for the present request, infinite for none and for one that is not remembered.
+        Zero for the present request; infinite for None, and for a request that is not remembered.
         """
         if request == self.present:
             return 0.0
@@ -44,7 +44,7 @@ class ResultAges(Generic[Request]):
         return self._clock() - end
 
     def rest(self, pause: float = PAUSE) -> float:
-        """Return for how many seconds the movement may go on; zero after a single change.
+        """Return the seconds until the movement counts as ended; zero after a single change.
 
         ``pause``: seconds without a change after which a movement has ended.
         """

@@ -1,4 +1,4 @@
-"""Signals of the work queue: results of the job scheduler, delivered on the window's thread."""
+"""The work queue: results of the job scheduler as signals on the window's thread."""
 
 from collections.abc import Callable, Iterator
 from threading import Thread
@@ -13,22 +13,22 @@ from occ_model.parallel.scheduler import Run, Scheduler
 from occ_model.parallel.worker_thread import WorkerThread
 
 _PAUSE_MS = 50
-"""Milliseconds after a report of a channel's results, so that the window can draw each."""
+"""Milliseconds between reports of a channel's results, so that the window can draw each."""
 
 
 class JobChannel(QObject):
-    """One kind of work, of which only the newest request is processed.
+    """A channel for one kind of work, which processes only the newest request.
 
-    A newer request replaces the running one; uninterruptible jobs are completed first, so that
-    something is shown while requests keep coming.
+    A newer request replaces the running one; uninterruptible jobs are finished first, so that
+    results appear even while requests keep coming.
     """
 
     results_ready = Signal(object, list)
-    """A request and some of its results, no more often than a window can be drawn."""
+    """A request and some of its results, no more often than the window can draw them."""
 
-    finished = Signal(object)  # the request whose results have all been given
+    finished = Signal(object)  # the request, after all of its results
     failed = Signal(str)  # a sentence that says why no more results come
-    status_message = Signal(str)  # a sentence on what happened meanwhile; the work goes on
+    status_message = Signal(str)  # a sentence about an incident after which the work goes on
 
     _results = Signal(int, list)
     _end = Signal(int, str)
@@ -54,7 +54,7 @@ class JobChannel(QObject):
         return not self._requests
 
     def put(self, request: Any, jobs: Iterator[Job]) -> None:
-        """Do the jobs for a request; they are made in the background."""
+        """Do the jobs for a request; the iterator runs in the background."""
         run = Run(self._number, self._next, jobs, self)
         self._requests[self._next] = request
         self._next += 1
@@ -66,22 +66,22 @@ class JobChannel(QObject):
             self._forget_before(self._next)
             self._queue.scheduler().cancel(self._number, self._next)
 
-    stop = cancel  # the processes end with the queue, which others use, too
+    stop = cancel  # the processes stop with the queue, which other channels share
 
     def take_results(self, run: int, results: list[Any]) -> None:
         self._results.emit(run, results)
 
     def take_end(self, run: int, error: Exception | None) -> None:
-        request = self._requests.get(run)  # none where it was replaced
+        request = self._requests.get(run)  # None if it was replaced
         failure = "" if error is None else sentence_of(error, "work in the background", request)
         self._end.emit(run, failure)
 
     def note_lost_workers(self, run: int, missing: Exception | None) -> None:
-        sentence = "A process in the background ended; its work is done again."
+        sentence = "A background process ended unexpectedly; its work is done again."
         if missing is not None:
             sentence = (
-                f"No processes can be started ({one_line(str(missing))}): the window does their "
-                "work itself, and answers more slowly meanwhile."
+                f"No background processes can be started ({one_line(str(missing))}): the window "
+                "does their work itself, and responds more slowly meanwhile."
             )
         self._report.emit(run, sentence)
 
@@ -110,7 +110,10 @@ class JobChannel(QObject):
             self.status_message.emit(sentence)
 
     def _is_wanted(self, run: int) -> bool:
-        """Forget requests before this one, which has replaced them, but show what came of them."""
+        """Return whether results of a request are still needed, and forget the requests before it.
+
+        The results of those requests that have arrived are emitted first.
+        """
         if run in self._requests and run != next(iter(self._requests)):
             self._emit_results()
             self._forget_before(run)
@@ -129,7 +132,7 @@ class JobChannel(QObject):
 
 
 class WorkQueue(QObject):
-    """Channels of work, and the scheduler that divides workers among them."""
+    """Channels of work, and the scheduler that shares the workers among them."""
 
     def __init__(self, channels: int, start: Callable[[], Workers]) -> None:
         super().__init__()
@@ -152,7 +155,7 @@ class WorkQueue(QObject):
     def workers(self) -> Workers | None:
         return None if self._scheduler is None else self._scheduler.workers
 
-    def counted(self, counter: int) -> int:
+    def count_of(self, counter: int) -> int:
         workers = self.workers
         return 0 if workers is None else workers.counted(counter)
 

@@ -1,4 +1,4 @@
-"""Task: one kind of work off the window's thread, done for the newest request."""
+"""Task: one kind of work outside the window's thread, done for the newest request."""
 
 import logging
 from collections.abc import Callable
@@ -11,15 +11,15 @@ from occ_model import plugins
 from occ_model.errors import OccError
 from occ_model.scene.refusal import sentence_with_label
 
-PATIENCE_MS = 2000  # how long the ends of all threads together wait for plug-ins
+PATIENCE_MS = 2000  # how long all threads together wait for plug-ins when they end
 
 _LOOK_MS = 50
 
 left_behind: list[QThread] = []
-"""Threads with a plug-in that hangs: Qt would abort the process if one were deleted."""
+"""Threads with a plug-in that hangs, kept because Qt aborts the process if one is deleted."""
 
 
-class WorkerThread:
+class TaskThread:
     _waited_ms = 0
 
     def __init__(self, worker: QObject, name: str) -> None:
@@ -35,12 +35,12 @@ class WorkerThread:
             self._thread.start()
 
     def end(self) -> None:
-        """Wait for the running work, and end the thread; a plug-in that hangs is left behind."""
+        """Wait for the running work and end the thread; do not wait for a plug-in that hangs."""
         self._may_begin = False
         self._thread.quit()
         while not self._thread.wait(_LOOK_MS):
-            WorkerThread._waited_ms += _LOOK_MS if plugins.all_at_work() else 0
-            if WorkerThread._waited_ms >= PATIENCE_MS and plugins.all_at_work():
+            TaskThread._waited_ms += _LOOK_MS if plugins.all_at_work() else 0
+            if TaskThread._waited_ms >= PATIENCE_MS and plugins.all_at_work():
                 left_behind.append(self._thread)
                 return
 
@@ -49,7 +49,7 @@ _log = logging.getLogger(__name__)
 
 
 def sentence_of(error: Exception, name: str, request: object) -> str:
-    """Explain why work has no result; an unexpected error is logged with its traceback."""
+    """Explain why work has failed; an unexpected error is logged with its traceback."""
     if isinstance(error, OccError):
         return sentence_with_label(error)
     _log.error("%s failed for %r", name, request, exc_info=error)
@@ -66,8 +66,8 @@ Report: TypeAlias = Callable[[Any], None]
 raises an exception in cancelled work."""
 
 
-class Superseded(Exception):  # noqa: N818 - no error: nobody waits for it any more
-    """Ends work whose result is no longer needed; nothing is reported of it."""
+class Superseded(Exception):  # noqa: N818 - not an error: the result is no longer needed
+    """Ends work whose result is no longer needed, without a report."""
 
 
 class _Run:
@@ -84,8 +84,8 @@ class _Run:
         self.painted.set()
 
 
-class Reporter:
-    """Reports of running work, and its questions to its task, on the worker's thread."""
+class TaskReporter:
+    """Lets running work report to its task, and wait for it, on the worker's thread."""
 
     def __init__(self, worker: "_Worker", run: _Run) -> None:
         self._worker, self._run = worker, run
@@ -98,15 +98,15 @@ class Reporter:
             self._worker.reported.emit(self._run, part)
 
     def give_way(self, seconds: float = 0.0) -> None:
-        """End the work if a newer request waits, or comes within some seconds."""
+        """End the work if a newer request is waiting, or comes within some seconds."""
         if self._run.newer.wait(seconds):
             raise Superseded
 
     def wait_for_paint(self, seconds: float) -> None:
-        """Wait until the window has painted what was reported, at most so many seconds.
+        """Wait until the window has painted what was reported, but at most some seconds.
 
-        Painting needs the interpreter, the memory and a core, as the following work does: at once
-        both take twice as long, and the user waits for the picture.
+        Painting and the following work need the same interpreter and memory. At the same time,
+        both would take twice as long, and the user would wait longer for the picture.
         """
         self._run.painted.clear()
         self._worker.paint_awaited.emit(self._run)
@@ -116,30 +116,31 @@ class Reporter:
 class Task(QObject, Generic[Request, Result]):
     """Runs a function on a thread of its own, for one request at a time.
 
-    A request that comes meanwhile waits, and a newer one replaces it. The running one goes on, and
-    its result is shown: ended at every move of a slider, it would show nothing until the slider
-    stops. Only that of an impatient task ends at its next report. The function takes a request and
-    a :class:`Reporter`, and must not touch a widget; the name is for the log.
+    A request that comes meanwhile waits, and a newer one replaces it. The running request goes on,
+    and its result is shown: if every move of a slider ended it, nothing would be shown until the
+    slider stops. In an impatient task, a newer request ends the running one at its next report.
+    The function takes a request and a :class:`TaskReporter`, and must not touch a widget; the name
+    is for the log.
     """
 
     reported = Signal(object)
     finished = Signal(object)
 
-    failed = Signal(str)  # a sentence that says why there is none
-    failed_for = Signal(str, object)  # the same, and the names of the parameters that it is about
-    idle = Signal()  # nothing is at work or waiting any more
+    failed = Signal(str)  # a sentence that says why there is no result
+    failed_for = Signal(str, object)  # the sentence, and the names of the parameters it is about
+    idle = Signal()  # no request is running or waiting any more
 
     _begun = Signal(object)
 
     def __init__(
-        self, work: Callable[[Request, Reporter], Result], name: str, impatient: bool = False
+        self, work: Callable[[Request, TaskReporter], Result], name: str, impatient: bool = False
     ) -> None:
         super().__init__()
         self._is_impatient, self._is_stopped = impatient, False
         self._running: _Run | None = None
         self._waiting: _Run | None = None
         self._worker = _Worker(work, name)
-        self._thread = WorkerThread(self._worker, name)
+        self._thread = TaskThread(self._worker, name)
         queued = Qt.ConnectionType.QueuedConnection
         self._begun.connect(self._worker.run, queued)
         self._worker.reported.connect(self._on_report, queued)
@@ -185,14 +186,14 @@ class Task(QObject, Generic[Request, Result]):
 
     @Slot(object)
     def _on_paint_awaited(self, run: _Run) -> None:
-        # After the paint that the report has requested, and that which panes request in their
-        # next turn.
+        # Two turns of the event loop: the report requests a paint, and panes may request another
+        # one in their next turn.
         QTimer.singleShot(0, self, lambda: QTimer.singleShot(0, self, run.painted.set))
 
     @Slot(object, object, str, object)
     def _on_end(self, run: _Run, result: Any, failure: str, parameters: tuple[str, ...]) -> None:
         self._running = None
-        # The next request goes to work before this result is drawn: both cores are then busy.
+        # The next request starts before this result is drawn, so that both run at the same time.
         if self._waiting is not None:
             self._begin()
         if not run.is_wanted:
@@ -211,7 +212,7 @@ class _Worker(QObject):
     paint_awaited = Signal(object)
     ended = Signal(object, object, str, object)
 
-    def __init__(self, work: Callable[[Any, Reporter], Any], name: str) -> None:
+    def __init__(self, work: Callable[[Any, TaskReporter], Any], name: str) -> None:
         super().__init__()
         self._work, self._name = work, name
 
@@ -221,7 +222,7 @@ class _Worker(QObject):
         parameters: tuple[str, ...] = ()
         try:
             if run.is_wanted:
-                result = self._work(run.request, Reporter(self, run))
+                result = self._work(run.request, TaskReporter(self, run))
         except Superseded as reason:
             result = reason
         except Exception as error:  # noqa: BLE001 - the window must outlive any error

@@ -1,1 +1,1 @@
-"""The bench: bit error rates and bits a second over exposure and noise, detector by detector."""
+"""The bench: bit error rates and bits a second over exposure and noise, for each decoder."""

@@ -1,4 +1,4 @@
-"""What the bench has measured: bit error rates or bits a second, in two plots and in a table."""
+"""Results of the bench: bit error rates or bits a second, in two plots and a table."""
 
 import math
 from collections.abc import Sequence
@@ -24,7 +24,7 @@ AXES = ("exposure", "noise")
 SYMBOLS = ("o", "s", "t1", "d", "star", "p")
 COLOURS: tuple[QColor, ...] = (SIMULATION, BAND, PHOTO, REGION, NOISE)
 
-FLOOR = {RATES: -6, BITS: 0}  # powers of ten at which all that is smaller is drawn
+FLOOR = {RATES: -6, BITS: 0}  # power of ten at which all smaller values are drawn
 _MARGIN = 0.06  # margin beside the points, as a fraction of their range
 _TOP_MARGIN = 0.3  # margin above the points, in powers of ten
 
@@ -45,23 +45,23 @@ class _Curve:
 
 
 @dataclass(frozen=True, slots=True)
-class Drawn:
+class CurvePoint:
     """A point of a plot, in powers of ten."""
 
     at: float
-    value: float  # the rate, or the bits a second; not a number where no error was seen
-    low: float  # the interval's ends
-    high: float
+    value: float  # the rate, or the bits a second; NaN if no error occurred
+    low: float  # lower end of the interval
+    high: float  # upper end of the interval
 
 
-def drawn(point: BenchPoint, what: str, frames_a_second: float) -> Drawn:
+def curve_point(point: BenchPoint, what: str, frames_a_second: float) -> CurvePoint:
     errors, floor = point.errors, FLOOR[what]
     if what == RATES:
         value = _power(errors.rate, floor) if errors.errors else math.nan
-        return Drawn(point.place, value, _power(errors.low, floor), _power(errors.high, floor))
+        return CurvePoint(point.place, value, _power(errors.low, floor), _power(errors.high, floor))
     low, high = errors.bits_a_second_interval(frames_a_second)
     value = _power(errors.bits_a_second(frames_a_second), floor)
-    return Drawn(point.place, value, _power(low, floor), _power(high, floor))
+    return CurvePoint(point.place, value, _power(low, floor), _power(high, floor))
 
 
 def _power(value: float, floor: int) -> float:
@@ -136,7 +136,7 @@ class BenchPlots(QWidget):
         return curve
 
     def show_bounds(self, bounds: BenchBounds, frames_a_second: float) -> None:
-        """Draw the nulls, and in the plots of bits a second the most that light carries."""
+        """Draw the nulls and, in the plots of bits a second, the most that light can carry."""
         plot = self.plots["exposure"]
         for null in self._nulls:
             plot.removeItem(null)
@@ -154,7 +154,7 @@ class BenchPlots(QWidget):
         for axis in AXES:
             for decoder, curve in zip(self._decoders, self.curves[axis], strict=True):
                 some = [
-                    drawn(point, self._what, frames_a_second)
+                    curve_point(point, self._what, frames_a_second)
                     for point in points
                     if (point.axis, point.errors.decoder) == (axis, decoder)
                 ]
@@ -174,17 +174,17 @@ class BenchPlots(QWidget):
                 margin = _MARGIN * (max(at) - min(at)) or 1.0
                 plot.setXRange(min(at) - margin, max(at) + margin, padding=0)
         floor = FLOOR[self._what]
-        # An interval that begins at no error goes on below.
+        # An interval whose lower end is zero is cut off at the bottom.
         shown = values if self._what == BITS else [value for value in values if value > floor]
         for plot in self.plots.values():
             low, high = min(shown, default=floor), max(shown, default=floor + 1.0)
             plot.setYRange(low - _TOP_MARGIN, high + _TOP_MARGIN, padding=0)
 
 
-def _draw(curve: _Curve, points: Sequence[Drawn]) -> None:
+def _draw(curve: _Curve, points: Sequence[CurvePoint]) -> None:
     places = [place for place, point in enumerate(points) if not math.isnan(point.value)]
     x, y = [points[place].at for place in places], [points[place].value for place in places]
-    # No line leads over a point without an error, whose rate is not known.
+    # The line is interrupted at points without an error, because their rate is not known.
     joined = [int(after == place + 1) for place, after in pairwise((*places, -1))]
     curve.line.setData(x, y, connect=np.array(joined, dtype=np.int32))
     curve.seen.setData(x, y)
@@ -195,7 +195,7 @@ def _draw(curve: _Curve, points: Sequence[Drawn]) -> None:
 
 
 class BenchTable(QTableWidget):
-    """Bit error rates or bits a second, with their intervals; why nothing is read as a tooltip."""
+    """Bit error rates or bits a second with their intervals; tooltips say why nothing is read."""
 
     def __init__(self) -> None:
         super().__init__()

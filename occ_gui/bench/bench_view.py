@@ -1,4 +1,4 @@
-"""Pane of the bench: its choices, its plots, its table, and the state of the measurement."""
+"""Pane of the bench: choices, plots, table, and the state of the measurement."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -20,9 +20,9 @@ from occ_model.errors import counted
 from occ_model.results.bench import BenchBounds, BenchPoint, BenchRequest
 from occ_model.scene.recording import FRAME_RATE
 
-_GAP = 8  # pixels between a box with its name and the next
+_GAP = 8  # pixels between check boxes
 
-_LEAST_HEIGHT_WITH_TABLE = 420  # pixels of height from which the table stands below the plots
+_LEAST_HEIGHT_WITH_TABLE = 420  # least height in pixels with the table below the plots
 
 _SAMPLE = QSize(14, 14)
 
@@ -30,12 +30,12 @@ _SAMPLE = QSize(14, 14)
 PUBLISHED, OF_SCENE = "published", "scene"
 """Source of the code and timing: the published benchmark, or the scene."""
 
-_EFFORTS = (2_560, 10_240, 102_400)  # bits at each point that can be chosen
+_EFFORTS = (2_560, 10_240, 102_400)  # choices for the number of bits at each point
 
 
 @dataclass(frozen=True, slots=True)
 class BenchChoice:
-    whose: str = PUBLISHED
+    code_source: str = PUBLISHED
     decoders: tuple[str, ...] = ()
     bits: int = _EFFORTS[1]
 
@@ -74,17 +74,17 @@ class BenchView(QWidget):
     def _make_invitation(self) -> QLabel:
         text = (
             "How often does each decoder misread a bit? Choose the code and the decoders above, "
-            "and press Measure: the error rates appear here, over the exposure and over the noise."
+            "and press Measure. The error rates appear here, over the exposure and over the noise."
         )
         invitation = QLabel(text, wordWrap=True, alignment=Qt.AlignmentFlag.AlignCenter)
         invitation.setContentsMargins(64, 8, 64, 8)
         return invitation
 
     def _make_choices(self, decoders: Sequence[str], chosen: Sequence[str]) -> None:
-        self.whose = KeyedComboBox(
+        self.code_source = KeyedComboBox(
             "Code that is measured",
-            "Manchester, 256 bits, 5 rows a symbol; or the scheme, the number of bits, the "
-            "frequency and the readout time of the scene. Only exposure and noise are as below.",
+            "Manchester, 256 bits, 5 rows per symbol; or the scheme, number of bits, frequency and "
+            "readout time of the scene. Exposure and noise are always those of the plots below.",
             {PUBLISHED: "the published benchmark's code", OF_SCENE: "the scene's code and timing"},
         )
         self.effort = KeyedComboBox(
@@ -95,7 +95,7 @@ class BenchView(QWidget):
         self.effort.show_key(str(BenchChoice().bits))
         self.what = KeyedComboBox(
             "What is shown",
-            "Bit error rates, or what comes through in a second of video.",
+            "Bit error rates, or the bits that arrive in a second of video.",
             {RATES: "bit error rate", BITS: "bits a second"},
         )
         self.decoders = {name: QCheckBox(name) for name in decoders}
@@ -107,12 +107,12 @@ class BenchView(QWidget):
         self.measure = push_button(
             "Measure", "Measure the chosen decoders in the background.", self.asked
         )
-        for choice in (self.whose, self.effort):
+        for choice in (self.code_source, self.effort):
             choice.chosen.connect(self._emit_choice)
         self.what.chosen.connect(self._show_what)
 
     def _lay_out(self) -> None:
-        head = filled(QHBoxLayout(), (self.whose, 3), (self.effort, 2), self.measure)
+        head = filled(QHBoxLayout(), (self.code_source, 3), (self.effort, 2), self.measure)
         boxes = (part for box in self.decoders.values() for part in (box, _GAP))
         second = filled(QHBoxLayout(), *boxes, (None, 1), self.frame_rate, (self.what, 1))
         self._legend_place = filled(QHBoxLayout(), self.legend, (None, 1))
@@ -128,7 +128,7 @@ class BenchView(QWidget):
 
     def choice(self) -> BenchChoice:
         decoders = tuple(name for name, box in self.decoders.items() if box.isChecked())
-        return BenchChoice(self.whose.key(), decoders, int(self.effort.key()))
+        return BenchChoice(self.code_source.key(), decoders, int(self.effort.key()))
 
     def _emit_choice(self) -> None:
         self.choice_changed.emit(self.choice())
@@ -142,7 +142,7 @@ class BenchView(QWidget):
         self._show_state()
 
     def _show_page(self) -> None:
-        """Show plots and table, or their purpose before the first measurement."""
+        """Show plots and table; before the first measurement, say what they are for."""
         there = bool(self._setting)
         self._pages.setCurrentWidget(self.plots[self.what.key()] if there else self.invitation)
         self.table.setVisible(there and self.height() >= _LEAST_HEIGHT_WITH_TABLE)
@@ -171,7 +171,7 @@ class BenchView(QWidget):
             self.legend.add_sample(name, sample, _SAMPLE, name)
         self.legend.add_sample(
             "unseen", marker("t", 8, None), _SAMPLE, "no error: less than",
-            "No bit was wrong: the upper end of the rate's 95 % interval.",
+            "No bit was wrong; the mark is at the upper end of the rate's 95 % interval.",
         )  # fmt: skip
         ink = self.palette().color(QPalette.ColorRole.Text)
         self.legend.add_line(
@@ -223,7 +223,7 @@ class BenchView(QWidget):
         self._show_state()
 
     def show_outdated(self, outdated: bool) -> None:
-        """Mark the points where their code or timing is not the one chosen now."""
+        """Mark the points if their code or timing is not the one that is chosen now."""
         self._is_outdated = outdated
         text = "of another code or timing: measure again"
         self.outdated.show_age(DELAY if outdated else 0.0, text)

@@ -1,4 +1,4 @@
-"""The pane of the bench: what its view requests is measured in the background."""
+"""The pane of the bench, and the controller that measures in the background."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -21,13 +21,13 @@ from occ_model.study.bit_error_rate import check_frame_rate
 
 FIRST_DECODERS = ("threshold", "equalizer", "sequence")
 
-_RANK = -1  # below all others: somebody waits for it
+_RANK = -1  # before all other work, because the user waits for it
 
 
 def request_of(choice: BenchChoice, scene: Scene) -> BenchRequest:
-    """Make the request; for the scene's own code, with the scene's scheme, bits and timing."""
+    """Make a request for the published code, or for the scheme, bits and timing of the scene."""
     request = BenchRequest(decoders=choice.decoders, bits=choice.bits)
-    if choice.whose == PUBLISHED:
+    if choice.code_source == PUBLISHED:
         return request
     sent, camera = scene.transmitter, scene.camera
     if sent.pattern:
@@ -48,7 +48,7 @@ def request_of(choice: BenchChoice, scene: Scene) -> BenchRequest:
 
 
 def setting_of(request: BenchRequest) -> BenchRequest:
-    """Return a request without decoders and effort, which leave each curve as it is."""
+    """Return a request without decoders and effort, which do not make a curve outdated."""
     return replace(request, decoders=(), bits=1)
 
 
@@ -70,7 +70,7 @@ class BenchController(QObject):
 
     @property
     def full(self) -> tuple[BenchRequest, tuple[BenchPoint, ...]] | None:
-        """The request and all its points, None while some are missing."""
+        """The request and all its points; None while points are missing."""
         request = self._request
         wanted = 0 if request is None else len(request.points) * len(request.decoders)
         if request is None or len(self._points) != wanted:
@@ -78,7 +78,7 @@ class BenchController(QObject):
         return request, tuple(self._points)
 
     def choose(self, choice: BenchChoice) -> None:
-        """Set the next measurement; results of another choice are marked."""
+        """Set what is measured next; mark results that belong to another choice."""
         self._choice = choice
         self._mark()
 
@@ -107,7 +107,7 @@ class BenchController(QObject):
             yield Job(measure_bench_point, (request, place), rank=_RANK)
 
     def cancel(self) -> None:
-        """Stop measuring; the points measured so far stay."""
+        """Stop the measurement; the points measured so far stay."""
         if not self.channel.is_idle:
             self.channel.cancel()
             self._pane.show_ended("Cancelled: some points are missing.")
@@ -151,7 +151,7 @@ class BenchController(QObject):
 
 
 class BenchPane(Pane[None]):
-    """The view and its controller, connected; a measurement goes on while the pane is hidden."""
+    """The view with its controller; a measurement goes on while the pane is hidden."""
 
     def __init__(self, scenes: SceneStore, channel: JobChannel) -> None:
         view = BenchView(decoders(), FIRST_DECODERS)

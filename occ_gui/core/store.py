@@ -7,7 +7,7 @@ from typing import Any, Generic, TypeVar
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QUndoCommand, QUndoStack
 
-from occ_gui.core.workspace import Step, Workspace
+from occ_gui.core.workspace import UndoState, Workspace
 from occ_gui.values.room_choice import RoomChoice
 from occ_model.errors import OccError, one_line
 from occ_model.scene.parameter_kinds import ParameterValue
@@ -16,7 +16,7 @@ from occ_model.scene.parameters import PARAMETERS
 
 @dataclass(frozen=True, slots=True)
 class StepChange:
-    """A step: its title, the scene's values that it changes, and the rest of the new state."""
+    """One step: its title, the scene values that it changes, and the rest of the new state."""
 
     title: str
     values: Mapping[str, ParameterValue]
@@ -25,7 +25,7 @@ class StepChange:
     preset: str = ""
 
     @classmethod
-    def between(cls, title: str, before: Step, after: Step) -> "StepChange":
+    def between(cls, title: str, before: UndoState, after: UndoState) -> "StepChange":
         old, new = before.scene, after.scene
         values = {
             name: new.value(name) for name in PARAMETERS if new.value(name) != old.value(name)
@@ -37,17 +37,20 @@ class StepChange:
 class History:
     """The state before the first step, the steps, and how many of them are done."""
 
-    first: Step
+    first: UndoState
     steps: tuple[StepChange, ...] = ()
     done: int = 0
 
-    def states(self) -> Iterator[Step]:
-        """Return the state before each step and that after the last; raises as `Scene.replace`."""
+    def states(self) -> Iterator[UndoState]:
+        """Yield the state before each step and the state after the last one.
+
+        Raises the errors of `Scene.replace`.
+        """
         scene = self.first.scene
         yield self.first
         for step in self.steps:
             scene = scene.replace(**step.values)
-            yield Step(scene, dict(step.force), step.room, step.preset)
+            yield UndoState(scene, dict(step.force), step.room, step.preset)
 
 
 T = TypeVar("T")
@@ -76,13 +79,13 @@ class Store(QObject):
     def __init__(self, workspace: Workspace) -> None:
         super().__init__()
         self.workspace = workspace
-        self._told = workspace
+        self._announced = workspace
         self._left: Workspace | None = None
-        self._is_telling = self._is_resuming = False
+        self._is_announcing = self._is_resuming = False
         self._selections: list[Selection[object]] = []
         self.undo_stack = QUndoStack(self, undoLimit=MOST_STEPS)
         # Announced when the stack has finished: a listener that edits in turn puts its step on top.
-        self.undo_stack.indexChanged.connect(self._on_index)
+        self.undo_stack.indexChanged.connect(self._on_index_changed)
 
     def select(self, of: Callable[[Workspace], T]) -> Selection[T]:
         selection = Selection(of, self.workspace)
@@ -92,24 +95,24 @@ class Store(QObject):
     def put(self, workspace: Workspace, title: str = "", gesture: int = NO_GESTURE) -> None:
         """Replace the workspace, as a step to undo; changes of one gesture are one step."""
         left, self.workspace = self.workspace, workspace
-        if workspace.step != left.step:
+        if workspace.undo_state != left.undo_state:
             self._keep_step(left, title, gesture)
-        if self._is_telling:  # it is announced when the last one has heard of the change before
+        if self._is_announcing:  # the loop below announces it after the change before it
             return
-        self._is_telling = True
+        self._is_announcing = True
         try:
-            while self._told is not self.workspace:
-                self._told = self.workspace
+            while self._announced is not self.workspace:
+                self._announced = self.workspace
                 for selection in self._selections:
-                    value = selection.of(self.workspace)  # the present one, not that of the change
+                    value = selection.of(self.workspace)  # a listener may have changed it since
                     if value != selection.value:
                         selection.value = value
                         selection.changed.emit(value)
         finally:
-            self._is_telling = False
+            self._is_announcing = False
 
     def _keep_step(self, left: Workspace, title: str, gesture: int) -> None:
-        before, after = left.step, self.workspace.step
+        before, after = left.undo_state, self.workspace.undo_state
         last = self._last_step()
         if last is None or gesture == NO_GESTURE or gesture != last.gesture:
             self.undo_stack.push(_Command(self, before, after, title, gesture))
@@ -122,25 +125,25 @@ class Store(QObject):
             self.undo_stack.undo()  # only removes the obsolete step
 
     def _last_step(self) -> "_Command | None":
-        """Return the step that led to this workspace, None without one or after an undo."""
+        """Return the step that led to this workspace; None if there is none, or after an undo."""
         index = self.undo_stack.index()
         if index != self.undo_stack.count():
             return None
         step = self.undo_stack.command(index - 1)
         return step if isinstance(step, _Command) else None
 
-    def _on_index(self) -> None:
+    def _on_index_changed(self) -> None:
         left, self._left = self._left, None
-        if left is not None:  # an undo or a redo, which the stack has finished
+        if left is not None:  # the stack has finished an undo or a redo
             self.step_begun.emit(left)
             self.put(self.workspace)
 
-    def history(self, state: Step) -> History:
-        """Return the steps; for an earlier state, only those that led to it."""
+    def history(self, state: UndoState) -> History:
+        """Return the steps; for an earlier state, only the steps that led to it."""
         stack, present = self.undo_stack, self.undo_stack.index()
         commands = (stack.command(place) for place in range(stack.count()))
         steps = [command for command in commands if isinstance(command, _Command)]
-        first = steps[0].before if steps else self.workspace.step
+        first = steps[0].before if steps else self.workspace.undo_state
         states = [first, *(step.after for step in steps)]
         done = next((place for place in range(present, -1, -1) if states[place] == state), None)
         if done is None:
@@ -154,7 +157,7 @@ class Store(QObject):
             states = [*history.states()]
         except OccError:
             return
-        if states[history.done] != self.workspace.step:
+        if states[history.done] != self.workspace.undo_state:
             return
         self._is_resuming = True
         self.undo_stack.clear()
@@ -163,30 +166,32 @@ class Store(QObject):
         self.undo_stack.setIndex(history.done)
         self._is_resuming = False
 
-    def _lay_over(self, step: Step) -> None:
+    def _put_into_workspace(self, state: UndoState) -> None:
         if self._is_resuming:
             return
-        if step != self.workspace.step:  # equal where a step that was made already is pushed
-            self._left, self.workspace = self.workspace, step.laid_over(self.workspace)
+        if state != self.workspace.undo_state:  # QUndoStack calls redo on a step that is just made
+            self._left, self.workspace = self.workspace, state.put_into(self.workspace)
 
 
 class _Command(QUndoCommand):
-    def __init__(self, store: Store, before: Step, after: Step, title: str, gesture: int) -> None:
+    def __init__(
+        self, store: Store, before: UndoState, after: UndoState, title: str, gesture: int
+    ) -> None:
         super().__init__(one_line(title).replace("&", "&&"))  # in a menu, & marks a shortcut
         self._store, self._title = store, title
         self.before, self.after = before, after
         self.gesture = gesture
-        self._noted: tuple[Step, StepChange] | None = None
+        self._noted: tuple[UndoState, StepChange] | None = None
 
     @property
     def change(self) -> StepChange:
-        """What the step changes, kept since a session is written each second of a drag."""
+        """What the step changes; cached, because a drag saves the session every second."""
         if self._noted is None or self._noted[0] is not self.after:
             self._noted = self.after, StepChange.between(self._title, self.before, self.after)
         return self._noted[1]
 
     def redo(self) -> None:
-        self._store._lay_over(self.after)
+        self._store._put_into_workspace(self.after)
 
     def undo(self) -> None:
-        self._store._lay_over(self.before)
+        self._store._put_into_workspace(self.before)

@@ -21,10 +21,11 @@ FIRST_SETTINGS = SimulationSettings(noise="reused")
 
 
 @dataclass(frozen=True, slots=True)
-class Step:
-    """The part of a workspace that a step of the undo stack changes.
+class UndoState:
+    """The part of a workspace that undo and redo restore.
 
-    The tolerance is not undone: it says how exactly a scene is simulated, not what the scene is.
+    The tolerance is not part of it: it says how exactly a scene is simulated, not what the scene
+    is.
     """
 
     scene: Scene
@@ -32,10 +33,10 @@ class Step:
     room: RoomChoice = field(default_factory=RoomChoice)
     preset: str = field(default="", compare=False)  # it follows from how the scene was changed
 
-    def laid_over(self, workspace: "Workspace") -> "Workspace":
+    def put_into(self, workspace: "Workspace") -> "Workspace":
         """Return a workspace with this part replaced."""
-        laid = replace(workspace, scene=self.scene, room=self.room, preset=self.preset)
-        return laid.with_force(self.force)
+        restored = replace(workspace, scene=self.scene, room=self.room, preset=self.preset)
+        return restored.with_force(self.force)
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,7 +47,7 @@ class Workspace:
     settings: SimulationSettings = FIRST_SETTINGS
     frame_rate: float = FRAME_RATE.default
     shown: Shown = "rate"
-    decoder: str = PAPER_DECODER  # whose result and steps are shown
+    decoder: str = PAPER_DECODER  # the decoder that has its result and steps shown
     whose: str = PICTURES[0]  # whose picture is shown, one of PICTURES
     overlay: str = "beside"
     """How a photo is shown with the picture: beside it, or over it in one of several ways."""
@@ -59,8 +60,8 @@ class Workspace:
     scene_file: Path | None = None
 
     @property
-    def step(self) -> Step:
-        return Step(self.scene, dict(self.settings.force), self.room, self.preset)
+    def undo_state(self) -> UndoState:
+        return UndoState(self.scene, dict(self.settings.force), self.room, self.preset)
 
     def with_force(self, force: Mapping[str, bool]) -> Self:
         return replace(self, settings=replace(self.settings, force=dict(force)))

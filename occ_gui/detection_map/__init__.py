@@ -1,1 +1,1 @@
-"""The detection map, the strips under the sliders, and the advice on the limits of decoding."""
+"""The detection map, the strips under the sliders, and the advice about the limits of decoding."""

@@ -1,4 +1,4 @@
-"""Sentences of the advice: the limits of a decoder, found and theoretical, in words."""
+"""Sentences of the advice: the measured and the theoretical limits of a decoder in words."""
 
 from dataclasses import dataclass
 
@@ -24,10 +24,10 @@ _HIGHEST = "highest frequency"
 @dataclass(frozen=True, slots=True)
 class AdviceLine:
     text: str
-    # The change that its button makes: a parameter, its value in SI units, and as text
+    # What its button changes: a parameter, its new value in SI units, and the value as text
     destination: tuple[str, float, str] | None = None
     is_title: bool = False
-    is_common: bool = False  # whether it is the same for every decoder of a scene
+    is_common: bool = False  # whether the line is the same for every decoder
 
 
 def advice_lines(advice: Advice, frames_a_second: float = FRAMES_A_SECOND) -> list[AdviceLine]:
@@ -40,7 +40,7 @@ def advice_lines(advice: Advice, frames_a_second: float = FRAMES_A_SECOND) -> li
     ):
         parameter, lowest, highest = found.parameter, found.lowest, found.highest
         if lowest is None or highest is None:
-            lines.append(AdviceLine(_nowhere(advice.limits, found)))
+            lines.append(AdviceLine(_say_nothing_read(advice.limits, found)))
         else:
             lines += [_line(parameter, low, lowest), _line(parameter, high, highest)]
         if found.gaps:
@@ -60,20 +60,20 @@ def advice_lines(advice: Advice, frames_a_second: float = FRAMES_A_SECOND) -> li
 def line_on_highest_frequency(advice: Advice) -> AdviceLine:
     found = advice.limits.frequency
     if found.highest is None:
-        return AdviceLine(_nowhere(advice.limits, found))
+        return AdviceLine(_say_nothing_read(advice.limits, found))
     return _line(found.parameter, _HIGHEST, found.highest)
 
 
-def still_holds(parameters: frozenset[str]) -> str:
+def say_what_holds(parameters: frozenset[str]) -> str:
     """State that the advice is for an earlier scene, and which of its limits still hold."""
-    text = "This advice is on the scene before the change."
+    text = "This advice is for the scene before the change."
     if not parameters:
         return text
     names = " and ".join(sorted(quantity(name).in_sentence for name in parameters))
-    return f"{text} Its limits of the {names} still hold."
+    return f"{text} Its limits for the {names} still hold."
 
 
-def _nowhere(limits: Limits, found: WorkingRange) -> str:
+def _say_nothing_read(limits: Limits, found: WorkingRange) -> str:
     if found.best is None:
         return found.failure or ""
     low, high, place = (
@@ -81,7 +81,7 @@ def _nowhere(limits: Limits, found: WorkingRange) -> str:
     )
     name, best = quantity(found.parameter).in_sentence, found.best
     return (
-        f"It reads {limits.rate:g} % of the bits at no {name} from {low} to {high}; the most "
+        f"It reads {limits.rate:g} % of the bits at no {name} from {low} to {high}. The most "
         f"it reads is {best.right} of {best.sent} bits, at {place}."
     )
 
@@ -102,6 +102,6 @@ def _line(parameter: str, what: str, end: RangeEnd) -> AdviceLine:
     sentence = f"The {what} that it reads is {format_value(parameter, end.value)}: "
     sentence += end_text(parameter, end)
     if end.inside is None:
-        return AdviceLine(f"{sentence} No value inside is surely read.")
+        return AdviceLine(f"{sentence} No value within the limits is sure to be read.")
     place = format_value(parameter, end.inside.value)
     return AdviceLine(sentence, (parameter, end.inside.value, place))

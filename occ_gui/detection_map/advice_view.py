@@ -13,7 +13,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from occ_gui.detection_map.advice_sentences import AdviceLine, advice_lines, still_holds
+from occ_gui.detection_map.advice_sentences import AdviceLine, advice_lines, say_what_holds
 from occ_gui.detection_map.limit_cards import LimitCards
 from occ_gui.widgets.building import filled, named, paragraph, push_button
 from occ_gui.widgets.elided_label import ElidedLabel
@@ -25,18 +25,18 @@ _LEAST = QSize(200, 60)
 
 
 class AdviceView(QWidget):
-    asked = Signal()  # the user asks for advice on the current scene
+    asked = Signal()  # the user asks for advice about the present scene
 
     cancelled = Signal()
     back_asked = Signal()
 
     destination_chosen = Signal(str, float, str)
-    """The user goes to a limit: a parameter, its SI value, and the decoder that reads there."""
+    """The user goes to a limit: a parameter, its value in SI units, and the decoder."""
 
     def __init__(self, decoders: Sequence[str] = ()) -> None:
         super().__init__()
         self.cards = LimitCards(decoders)
-        """The highest frequencies in short, placed outside this page."""
+        """The highest frequency of each decoder, shown outside this page."""
         self.cards.destination_chosen.connect(self.destination_chosen)
         self._frames_a_second = FRAMES_A_SECOND
         self.lines: list[QWidget] = []
@@ -74,11 +74,11 @@ class AdviceView(QWidget):
         self.state.setVisible(not running)
 
     def use_frame_rate(self, frames_a_second: float) -> None:
-        """Set the pictures a second for which later advice counts bits a second."""
+        """Set the number of pictures a second from which later advice computes bits a second."""
         self._frames_a_second = self.cards.frames_a_second = frames_a_second
 
     def show_advice_begun(self, left_out: tuple[str, ...]) -> None:
-        """Remove the previous advice, and announce a search and what it leaves out."""
+        """Remove the previous advice, and show that a search is running and what it leaves out."""
         for line in self.lines:
             self._column.removeWidget(line)
             line.deleteLater()
@@ -114,7 +114,7 @@ class AdviceView(QWidget):
         self.cards.show_outdated(outdated and "switching_frequency" not in reachable)
         if not self.lines:
             return
-        text = still_holds(reachable)
+        text = say_what_holds(reachable)
         self.state.set_full_text(text if outdated else self._ended)
         for line in self.lines:
             for label in line.findChildren(QLabel):
@@ -136,7 +136,7 @@ class AdviceView(QWidget):
     def _insert(self, place: int, line: AdviceLine, decoder: str = "") -> None:
         row = QWidget()
         label = paragraph(line.text, is_selectable=True)
-        # Not of a least height, which is that of a narrow label: the page would scroll too far.
+        # Without a minimum height, which is computed for a narrow label and would be too large.
         label.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
         font = label.font()
         font.setBold(line.is_title)

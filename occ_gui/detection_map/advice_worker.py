@@ -1,4 +1,4 @@
-"""Jobs of the advisor, which search for limits; nothing here needs Qt."""
+"""Jobs that search for limits, for worker processes; nothing here needs Qt."""
 
 from occ_model.parallel.job import Heartbeat
 from occ_model.results.advice import Advice
@@ -12,7 +12,7 @@ from occ_model.study.most_bits import most_bits
 def advise(
     scene: Scene, settings: RateSettings, decoder: str, rate: float, heartbeat: Heartbeat
 ) -> Advice:
-    """Find the limits of a decoder's working range, and the theoretical ones."""
+    """Find the limits of a decoder's working range, and the theoretical limits."""
     found = limits(
         scene, decoder, rate=rate, images=settings.images, seed=settings.seed,
         tolerance=settings.tolerance, force=settings.force, path=settings.path, heartbeat=heartbeat,
@@ -20,7 +20,7 @@ def advise(
     return advice_of(found)
 
 
-def carry_most(
+def search_most_bits(
     scene: Scene, decoder: str, frames_a_second: float, heartbeat: Heartbeat
 ) -> MostBits:
     most = 1.0 / (scene.camera.columns * scene.camera.readout_time)

@@ -1,4 +1,4 @@
-"""Colour maps of success rates, which colour-blind eyes can read too, and the colour bar."""
+"""Colour maps for success rates, suitable for colour-blind users, and the colour bar."""
 
 from functools import cache
 from importlib.util import find_spec
@@ -20,7 +20,7 @@ _STEPS = 256
 @cache
 def colour_table(name: str) -> ByteArray:
     """Return the colours of a colour map from its lower end, shape (256, 3)."""
-    # From the file that comes with pyqtgraph, which the first picture need not wait for.
+    # Read from pyqtgraph's file, because importing pyqtgraph would delay the first picture.
     package = find_spec("pyqtgraph")
     folder = Path("" if package is None else package.origin or "").parent
     values = np.loadtxt(folder / "colors" / "maps" / f"{name}.csv", delimiter=",", comments=";")
@@ -62,8 +62,8 @@ class ColourBar(QWidget):
     ) -> None:
         """Show colours and numbers.
 
-        ``colours``: one pixel wide, the upper end first.
-        ``numbers``: positions from 0, at the bottom, to 1, and the text at each.
+        ``colours``: an image one pixel wide, with the upper end first.
+        ``numbers``: positions from 0 at the bottom to 1 at the top, with the text at each.
         """
         self._colours, self.numbers = colours, numbers
         self.setAccessibleName(name)

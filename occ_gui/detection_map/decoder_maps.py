@@ -1,4 +1,4 @@
-"""Maps of the decoders side by side, or of their difference, with colour bar and legend."""
+"""Maps of the decoders side by side, or of their difference, with a colour bar and a legend."""
 
 import math
 from collections.abc import Collection, Sequence
@@ -55,7 +55,7 @@ class MapPlots(QWidget):
         self._name_plots()
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
-        """Put the maps beside each other, or in two rows where that makes them less narrow."""
+        """Put the maps side by side, or in two rows if there is enough height for them."""
         super().resizeEvent(event)
         self._place_plots()
 
@@ -147,9 +147,9 @@ class MapPlots(QWidget):
         rates = self._rates
         if rates is None:
             return
-        owners = rates.owners()
+        owners = rates.find_owners()
         unknown = owners[0] < 0
-        refused = np.where(unknown, 0, rates.refused()[owners])
+        refused = np.where(unknown, 0, rates.find_refused()[owners])
         for plot, name in zip(self.plots, self._names(), strict=False):
             values = np.where(unknown, np.nan, self._values(rates, name)[owners])
             plot.show_picture(image_of(to_colours(values, low, high, scheme)), rates.shape, refused)
@@ -192,7 +192,7 @@ class MapPlots(QWidget):
         if scheme == DIFFERENCES:
             name = "Difference of the fractions of bits that are read correctly, in percent"
         if self._shown == "bits":
-            name = "Net bits a second, of pictures of which every bit is read correctly"
+            name = "Net bits a second, counting only pictures with every bit read correctly"
         self.bar.show_colours(image, numbers, name)
         self._bar_drawn = f"{scheme} {high}"
 
@@ -203,12 +203,12 @@ class MapPlots(QWidget):
 
 
 _LIMITS = {
-    "band": ("t = 1 chip", "The exposure lasts as long as a chip: the band model ends."),
+    "band": ("t = 1 chip", "The exposure lasts as long as a chip: the limit of the band model."),
     "null": ("null, f = 2/t", "The exposure lasts two chips: alternating chips leave no stripes."),
-    "packets": ("two packets", "Below this frequency no two packets fit the panel's image."),
-    "saturation": ("white", "The lit panel reaches the largest value."),
+    "packets": ("two packets", "Below this frequency, two packets do not fit the panel's image."),
+    "saturation": ("white", "The lit panel reaches the largest grey level."),
 }
-"""Name and meaning of each limit's line."""
+"""Name and meaning of the line of each limit."""
 
 _SAMPLE = QSize(28, 12)
 

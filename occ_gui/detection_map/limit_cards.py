@@ -1,4 +1,4 @@
-"""Cards above the map: the frequencies that each decoder reads, and what carries most."""
+"""Cards above the map: the frequencies that each decoder reads, and what carries most bits."""
 
 from collections.abc import Sequence
 
@@ -19,20 +19,20 @@ from occ_model.scene.units import HERTZ
 _PARAMETER = "switching_frequency"
 _LINE_MARGINS = 32  # pixels of margins and gaps in a line of title and button
 
-REST_MS = 800  # milliseconds that a scene must be at rest before its limits are searched
+REST_MS = 800  # milliseconds without a change before the limits of a scene are searched for
 
 
-def _written(frequency: float) -> str:
+def _format_frequency(frequency: float) -> str:
     return format_value(_PARAMETER, frequency)
 
 
 class LimitCards(QWidget):
-    """A card for each decoder; while they are visible, the limits of a new scene are requested."""
+    """A card for each decoder; visible cards request the limits of each new scene."""
 
-    asked = Signal()  # the limits of the present scene are wanted
+    asked = Signal()  # the limits of the present scene are needed
 
     destination_chosen = Signal(str, float, str)
-    """The user goes to a limit: a parameter, its SI value, and the decoder that reads there."""
+    """The user goes to a limit: a parameter, its value in SI units, and the decoder."""
 
     def __init__(self, decoders: Sequence[str]) -> None:
         super().__init__()
@@ -41,7 +41,7 @@ class LimitCards(QWidget):
         for card in self.cards.values():
             row.addWidget(card, 1)
             card.chosen.connect(self._go)
-        self.frames_a_second = FRAMES_A_SECOND  # by which bits a second are counted
+        self.frames_a_second = FRAMES_A_SECOND  # for computing bits a second
         self._is_complete = self._is_running = self._is_outdated = False
         self.waiting = QTimer(self, singleShot=True)
         self.waiting.setInterval(REST_MS)
@@ -108,7 +108,7 @@ class LimitCard(QFrame):
         self._is_beside: bool | None = None
         self.name = paragraph()
         self.value = QLabel()
-        self.range = ElidedLabel()  # not a gap's end
+        self.range = ElidedLabel()
         self.range.setAccessibleName(f"Frequencies read, {decoder}")
         self.value.setFont(heading_font(self.font()))
         self.value.setAccessibleName(f"Highest frequency, {decoder}")
@@ -117,7 +117,7 @@ class LimitCard(QFrame):
         grid.setContentsMargins(12, 6, 8, 6)
         grid.setSpacing(2)
         grid.addWidget(self.name, 0, 0)
-        grid.addWidget(self.value, 1, 0, 1, 2)  # beside the button it would widen the window
+        grid.addWidget(self.value, 1, 0, 1, 2)  # beside the button, it would widen the window
         grid.addWidget(self.range, 2, 0, 1, 2)
         grid.setColumnStretch(0, 1)
         self.show_unknown()
@@ -134,7 +134,7 @@ class LimitCard(QFrame):
         self._place_button()
 
     def _place_button(self) -> None:
-        """Put the button beside the title, or below all else where it would cut the title off."""
+        """Put the button beside the title, or at the bottom if it would cut the title off."""
         title = self.name.fontMetrics().horizontalAdvance(self.name.text())
         is_beside = (
             title + self.go.sizeHint().width() + _LINE_MARGINS <= self.contentsRect().width()
@@ -152,16 +152,16 @@ class LimitCard(QFrame):
         self.range.set_full_text("")
         self.value.setText(text)
         self.value.setToolTip(tip)
-        # Not the limit itself, but a frequency inside of it: the button says which.
-        self.go.setText("Go" if destination is None else f"Go to {_written(destination)}")
+        # The button names the frequency: it lies inside the limit, not on it.
+        self.go.setText("Go" if destination is None else f"Go to {_format_frequency(destination)}")
         self._place_button()
         self._show_way()
 
     def _show_way(self) -> None:
-        """Enable the button where it leads to a limit of this scene; else explain why not."""
+        """Enable the button if the limit is of the present scene; else explain why it is not."""
         self.go.setEnabled(self._destination is not None and not self._is_outdated)
         self.go.setToolTip(
-            "Of an earlier scene: the limit is searched for again while this is seen."
+            "Of an earlier scene; while this card is visible, a new search starts by itself."
             if self._is_outdated
             else self.value.toolTip()
         )
@@ -169,19 +169,22 @@ class LimitCard(QFrame):
     def show_unknown(self, why: str = "") -> None:
         if why:
             self.name.setText(why)
-        self._show("?" if why else "", why or "Not searched yet.", None)
+        self._show("?" if why else "", why or "Not searched for yet.", None)
 
     def show_searching(self) -> None:
         self._show("…", "Searching for the highest frequency that is read.", None)
         self.set_outdated(False)
 
     def show_limit(self, end: RangeEnd | None, text: str, rate: float) -> None:
-        """Show the upper end, None if nothing is read; ``rate``: least success rate in percent."""
+        """Show the upper end of the range, or that nothing is read.
+
+        ``rate``: the least success rate of the range, in percent.
+        """
         if end is None:
             self._show("none", text, None)
             return
         inside = end.inside
-        value = _written(end.value)
+        value = _format_frequency(end.value)
         limit = f"at least {value}" if end.fails is None else f"{value} ({rate:g} %)"
         self._show(limit, text, None if inside is None else inside.value)
 
@@ -191,10 +194,10 @@ class LimitCard(QFrame):
         if found.gaps:
             end, after = found.gaps[0]
             more = len(found.gaps) - 1
-            gap = f"gap {_written(end.value)} to {_written(after.value)}"
+            gap = f"gap {_format_frequency(end.value)} to {_format_frequency(after.value)}"
             texts.insert(0, f"{gap} and {counted(more, 'gap')} more" if more else gap)
         if found.lowest is not None:
-            texts.insert(0, f"from {_written(found.lowest.value)}")
+            texts.insert(0, f"from {_format_frequency(found.lowest.value)}")
         self.range.set_full_text("; ".join(texts))
 
     def set_outdated(self, outdated: bool) -> None:
@@ -214,7 +217,7 @@ _DIGITS = 3
 
 
 class MostBitsCard(QFrame):
-    """One line: the best that was found, a button to search or cancel, and one to go there."""
+    """A line with the best result, a button to search or cancel, and one to go to the result."""
 
     asked = Signal()
     cancelled = Signal()
@@ -232,13 +235,14 @@ class MostBitsCard(QFrame):
         self.search = push_button(
             "Search",
             "Try line codes, frequencies and numbers of bits at the scene's exposure and "
-            "distance, with each decoder: some seconds, a minute for the last decoder.",
+            "distance, with each decoder. This takes some seconds, and a minute for the last "
+            "decoder.",
             self.asked,
         )
         self.cancel = push_button("Cancel", "Stop the search.", self.cancelled)
         self.go = push_button(
             "Go",
-            "Send this code, frequency and number of bits, and read it.",
+            "Change the scene to this code, frequency and number of bits.",
             lambda: self.chosen.emit(self._best),
             name="Go to what carries most",
         )
@@ -280,13 +284,13 @@ class MostBitsCard(QFrame):
         self.text.set_full_text(self._with_state(self._sentence(best)))
 
     def _with_state(self, sentence: str) -> str:
-        """Append the progress of the search, or why it has no result."""
+        """Append the progress of the search, or the reasons why it has no result."""
         parts = (sentence, self._state, *(self._failures if self._best is None else ()))
         return "; ".join(part for part in parts if part)
 
     def _sentence(self, best: MostBits | None) -> str:
         if best is None or best.scene is None:
-            return "Which code, frequency and bits carry most?"
+            return "Which code, frequency and number of bits carry most?"
         sent = best.scene.transmitter
         text = (
             f"{best.bits_a_second:,.0f} bits a second, {sent.payload_length} a picture in "

@@ -1,4 +1,4 @@
-"""Controller of the detection map: it measures success rates while the map is visible."""
+"""Controller of the detection map: measures success rates while the map is visible."""
 
 from functools import partial
 
@@ -10,7 +10,7 @@ from occ_gui.core.store import NO_GESTURE
 from occ_gui.detection_map.map_schedule import MapRequest
 from occ_gui.detection_map.map_view import MapView
 from occ_gui.detection_map.rate_map import PointFacts, RateMap, TheoryFields
-from occ_gui.detection_map.worker import UNSEEN_PARAMETERS, left_out
+from occ_gui.detection_map.worker import UNSEEN_PARAMETERS, find_left_out
 from occ_gui.scene.scene_store import SceneStore
 from occ_model.results.sweep_request import SweepPoint
 from occ_model.scene.parameters import quantity
@@ -39,11 +39,11 @@ class DetectionMapController(QObject):
         channel.failed.connect(self._fail)
         channel.status_message.connect(pane.show_failure)
         for store in (scenes, scenes.settings):
-            store.changed.connect(self._move_on)
+            store.changed.connect(self._follow_change)
 
     @property
     def is_first_answer_awaited(self) -> bool:
-        """Whether the first points of a map are still being measured, and quickly; thread-safe."""
+        """Whether the first points of a map are being measured and are not slow; thread-safe."""
         return self._awaited is not None
 
     @property
@@ -52,7 +52,7 @@ class DetectionMapController(QObject):
 
     @property
     def full(self) -> "tuple[RateMap, MapRequest] | None":
-        """The map and its request, None while points are missing."""
+        """The map and its request; None while points are missing."""
         if self.map is None or self._shown is None or not self.is_current:
             return None
         return (self.map, self._shown) if self.map.least_images else None
@@ -66,25 +66,25 @@ class DetectionMapController(QObject):
     def set_seen(self, seen: bool) -> None:
         self._seen = seen
         if seen:
-            self._move_on()
+            self._follow_change()
         else:
             self._stop()
 
     def choose_axes(self, x: str, y: str) -> None:
-        """Set the axes; a parameter chosen twice is replaced by the other one."""
+        """Set the axes; if the user chooses the parameter of the other axis, the axes swap."""
         before = self._axes
         if x == y:
             x, y = (x, before[0]) if x == before[1] else (before[1], y)
         self._axes = (x, y)
         self._pane.show_axes(x, y)
-        self._move_on()
+        self._follow_change()
 
     def use_image_effects(self, wanted: bool) -> None:
-        """Simulate rows of the picture where the scene needs them, or leave such effects out."""
+        """Set whether image effects are simulated, row by row, or left out."""
         self._with_image_effects = wanted
-        self._move_on()
+        self._follow_change()
 
-    def _move_on(self) -> None:
+    def _follow_change(self) -> None:
         if not self._seen:
             return
         self._pane.show_scene(self._scenes.scene)
@@ -99,20 +99,20 @@ class DetectionMapController(QObject):
         held = self.map if request == self._shown else None
         known = request.empty_map() if held is None else held
         self._awaited = request if held is None else None
-        found_slow = partial(self._wait_no_more, request)
+        found_slow = partial(self._end_wait, request)
         jobs = request.jobs(known.images.copy(), known.theory is None, found_slow)
         self.channel.put(request, jobs)
 
     def _show_left_out(self) -> None:
         scene, settings = self._scenes.scene, self._scenes.settings.settings
-        self._pane.show_left_out(() if self._with_image_effects else left_out(scene, settings))
+        self._pane.show_left_out(() if self._with_image_effects else find_left_out(scene, settings))
 
-    def _wait_no_more(self, request: MapRequest) -> None:
+    def _end_wait(self, request: MapRequest) -> None:
         if self._awaited is request:
             self._awaited = None
 
     def _take(self, request: MapRequest, results: list[MeasuredPoints | TheoryFields]) -> None:
-        self._wait_no_more(request)
+        self._end_wait(request)
         if request != self._shown or self.map is None:
             self.map, self._shown = request.empty_map(), request
         for result in results:
@@ -145,11 +145,11 @@ class DetectionMapController(QObject):
         self._asked = self._awaited = None
 
     def point_at(self, place: tuple[int, int] | None) -> None:
-        """Show the facts of a point, by its indices along both axes."""
+        """Show what is known about a point, given by its indices along both axes."""
         shown = self.map
         x, y = -1, -1
         if place is not None and shown is not None:
-            x, y = (int(owner[place]) for owner in shown.owners())
+            x, y = (int(owner[place]) for owner in shown.find_owners())
         if shown is None or x < 0:
             self._pane.show_facts(None)
             return
@@ -170,7 +170,7 @@ class DetectionMapController(QObject):
         )  # fmt: skip
 
     def go_to(self, place: tuple[int, int]) -> None:
-        """Set the scene to a point, by its indices along both axes, in one step."""
+        """Set the scene to a point, given by its indices along both axes, in one undo step."""
         shown = self.map
         if shown is not None:
             x, y = place

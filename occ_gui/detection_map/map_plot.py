@@ -1,4 +1,4 @@
-"""Map of one decoder over two parameters: rates, axes, theoretical limits, current setting."""
+"""Map of one decoder over two parameters: rates, axes, theoretical limits, present setting."""
 
 import math
 from collections.abc import Sequence
@@ -84,7 +84,7 @@ Point = tuple[float, float]  # positions along both axes, from 0 to 1
 _INK, _PAPER = QColor("black"), QColor("white")
 _CASING = QColor(255, 255, 255, 210)
 _END_TOLERANCE = 1e-6
-"""Distance from an end of an axis, in axis lengths, within which a line is cut off there."""
+"""A line that ends within this distance of an axis's end, in axis lengths, was cut off there."""
 
 _TICK = 4
 _GAP = 3
@@ -99,8 +99,8 @@ _STEPS = {
 class MapPlot(QWidget):
     """Draws one map; unknown points are blank, points that the model refuses are hatched.
 
-    It is painted by hand because two such plots of pyqtgraph take 77 ms to make instead of 0.2 ms,
-    and twice as long to paint, and need their own code for labels, hatching and picking as well.
+    It does not use pyqtgraph: two such plots would take 77 ms to make instead of 0.2 ms and twice
+    as long to paint, and would still need code for labels, hatching and picking.
     """
 
     picked = Signal(int, int)  # the point that the user chose, by its indices along both axes
@@ -153,14 +153,14 @@ class MapPlot(QWidget):
         left = metrics.height() + metrics.horizontalAdvance("0.05") + _TICK + 2 * _GAP
         bottom = 2 * metrics.height() + _TICK + _GAP
         top = metrics.height() + _GAP if self.title else _GAP + metrics.height() / 2
-        right = metrics.horizontalAdvance("100") / 2  # half of the last number lies beyond the map
+        right = metrics.horizontalAdvance("100") / 2  # half of the last number lies outside the map
         return QRectF(self.rect()).adjusted(left, top, -right, -bottom)
 
     def place_of(self, point: Point) -> QPointF:
         """Return the pixel of a point, given in fractions of both axes."""
         area = self.area()
         (x, y), (across, up) = point, self._shape
-        if self._image.isNull():  # no points yet, whose cells the axes begin and end with
+        if self._image.isNull():  # without cells, the ends of the axes are their limits
             return QPointF(area.left() + x * area.width(), area.bottom() - y * area.height())
         return QPointF(
             area.left() + (x * (across - 1) + 0.5) / across * area.width(),
@@ -168,7 +168,7 @@ class MapPlot(QWidget):
         )
 
     def cell_at(self, pixel: QPointF) -> tuple[int, int] | None:
-        """Return the point whose cell contains a pixel, None outside the map."""
+        """Return the point whose cell contains a pixel; None outside the map."""
         area = self.area()
         if self._image.isNull() or not area.contains(pixel):
             return None
@@ -247,7 +247,7 @@ class MapPlot(QWidget):
                 painter.drawPolyline(path)
 
     def _to_edges(self, line: FloatArray) -> list[Point]:
-        """Extend a line that ends at the outermost points' centres to the edge of their cells."""
+        """Extend a line that ends at the centres of the outermost cells to the edge of the map."""
         points: list[Point] = [(float(x), float(y)) for x, y in line]
         if len(points) < 2 or self._image.isNull():
             return points
@@ -257,7 +257,7 @@ class MapPlot(QWidget):
         return [*([ahead] if ahead else []), *points, *([behind] if behind else [])]
 
     def _beyond(self, before: Point, end: Point) -> Point | None:
-        """Return where a line leaves the map, if it ends at an axis's first or last value."""
+        """Return where a line leaves the map; None if it ends inside the range of both axes."""
         steps = []
         for from_, to, count in zip(before, end, self._shape, strict=True):
             way, margin = to - from_, 0.5 / max(count - 1, 1)
@@ -299,7 +299,7 @@ class MapPlot(QWidget):
             self.picked.emit(*cell)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 - Qt's name
-        """Move from point to point by the arrow keys, and choose one by Enter."""
+        """Move from point to point with the arrow keys, and choose one with Enter."""
         key = Qt.Key(event.key())
         if key in _STEPS and not self._image.isNull():
             self._step(*_STEPS[key])

@@ -1,4 +1,4 @@
-"""A detection map as work: its request, its jobs from coarse to precise, and its table."""
+"""A detection map as background work: its request, its jobs from coarse to fine, and its table."""
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
@@ -7,7 +7,7 @@ from itertools import groupby, islice
 import numpy as np
 
 from occ_gui.detection_map.rate_map import STRIDES, RateMap, lattice
-from occ_gui.detection_map.worker import left_out, rate_settings, theory_fields
+from occ_gui.detection_map.worker import find_left_out, rate_settings, theory_fields
 from occ_model.arrays import FloatArray, IndexArray
 from occ_model.parallel.job import Job
 from occ_model.receiver.decoders import QUICK_DECODERS
@@ -19,25 +19,25 @@ from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.study.sweep.points import measure_points, rate_intervals
 
 SHAPE = (25, 13)
-"""Points along both axes: of two processes the first stage takes some 40 ms, all of them under a
-second."""
+"""Points along both axes: with two processes, the first points take some 40 ms, and all points
+less than a second."""
 
-IMAGES = (1, 2, 5)  # images a point, one after the other
+IMAGES = (1, 2, 5)  # images of each point, in successive stages
 
 COARSE, FINE, SURE = 0, 2, 4
-"""Priorities: first points, all points, more images of each. Strips come in between."""
+"""Priorities: first points, all points, more images of each point. Strips come in between."""
 
 _THEORY_SHAPES = ((7, 5), (17, 9))
-"""Points along both axes at which theoretical limits are computed, first and later."""
+"""Points along both axes at which theoretical limits are computed, at first and later."""
 
 
 @dataclass(frozen=True, slots=True)
 class MapRequest:
-    scene: Scene  # the scene, with everything that the map does not depend on at its default
+    scene: Scene  # with every parameter that the map does not depend on at its default
     x: str
     y: str
     settings: SimulationSettings
-    # Whether rows of the picture are simulated where the scene calls for them
+    # Whether rows of the picture are simulated if the scene needs it
     with_image_effects: bool = True
 
     def empty_map(self) -> RateMap:
@@ -59,8 +59,8 @@ class MapRequest:
     def jobs(
         self, images: IndexArray, with_theory: bool, found_slow: Callable[[], object] = lambda: None
     ) -> Iterator[Job]:
-        """Yield the remaining jobs; call ``found_slow`` if even the first points take long."""
-        slow = self.with_image_effects and bool(left_out(self.scene, self.settings))
+        """Yield the remaining jobs; call ``found_slow`` if the first points already take long."""
+        slow = self.with_image_effects and bool(find_left_out(self.scene, self.settings))
         if slow:
             found_slow()
         yield from map_jobs(tuple(map(self.sweep, IMAGES)), images, with_theory, slow)
@@ -69,7 +69,7 @@ class MapRequest:
 def table_of(
     rates: RateMap, asked: MapRequest, frames_a_second: float = FRAMES_A_SECOND
 ) -> SweepTable:
-    """Return a complete map as a table, which later points do not change."""
+    """Return a complete map as a table, a copy that later points do not change."""
     request = asked.sweep(rates.least_images, rates.decoders)
     settings = replace(request.settings, frames_a_second=frames_a_second)
     sent, right = rates.sent.copy(), rates.right.copy()
@@ -90,7 +90,10 @@ def table_of(
 def map_jobs(
     requests: tuple[SweepRequest, ...], images: IndexArray, with_theory: bool, slow: bool
 ) -> Iterator[Job]:
-    """Yield the jobs of a map; ``images``: numbers read so far, shape (along x, along y)."""
+    """Yield the jobs of a map.
+
+    ``images``: the number of images read so far at each point, shape (along x, along y).
+    """
     first, *others = requests
     order = list(first.in_order_of_work())
     done = images.ravel()
@@ -101,9 +104,9 @@ def map_jobs(
         jobs = _jobs(first, new, slow)
         coarse = stride == STRIDES[0]
         if with_theory and stride != STRIDES[-1]:
-            # Last, so that it occupies a process that has no more points to measure.
+            # Last, so that it runs in a process that has no more points to measure.
             jobs = (*jobs, _theory(first, _THEORY_SHAPES[0 if coarse else 1]))
-        # Slow points take too long to be completed for an older request.
+        # Slow points take too long to be finished for an outdated request.
         for job in jobs:
             yield replace(job, rank=COARSE if coarse else FINE, uninterruptible=coarse and not slow)
     for request in others:
@@ -123,7 +126,7 @@ def _on_lattice(shape: tuple[int, ...], stride: int) -> IndexArray:
 
 
 def _jobs(request: SweepRequest, indices: list[int], slow: bool) -> tuple[Job, ...]:
-    """Make a job of each line of points, along which decoders reuse what they have prepared."""
+    """Make a job of each line of points, along which decoders can reuse what they prepare."""
     if slow:
         return tuple(_job(request, (index,)) for index in indices)
     along_y = request.shape[1]

@@ -1,4 +1,4 @@
-"""Pane of the detection map: success rates over two parameters, and the page of advice."""
+"""Pane of the detection map: success rates over two parameters, and a page of advice."""
 
 from collections.abc import Sequence
 
@@ -20,7 +20,7 @@ from occ_model.scene.parameters import quantity
 from occ_model.scene.recording import FRAME_RATE
 from occ_model.scene.scene import Scene
 
-_LEAST_HEIGHT_WITH_CARDS = 480  # pixels from which cards of the limits stand above the map
+_LEAST_HEIGHT_WITH_CARDS = 480  # least height in pixels with the cards above the map
 
 
 class MapView(QWidget):
@@ -41,7 +41,7 @@ class MapView(QWidget):
         self.image_effects = named(
             QCheckBox("image effects"),
             "Image effects",
-            "Simulate lens, tilt and JPEG where the scene has them: some 20 times slower. "
+            "Simulate lens, tilt and JPEG if the scene has them, which is some 20 times slower. "
             "Otherwise the map and the advice leave them out, and say so.",
         )
         self.image_effects.setChecked(True)
@@ -75,13 +75,13 @@ class MapView(QWidget):
 
         self.shown = KeyedComboBox(
             "What is shown",
-            "Success rates, the fractions of bits read; or the net bits a second of a "
-            "video, one payload a picture.",
+            "Success rates, the fractions of the bits that are read; or the net bits a second of "
+            "a video with one payload in each picture.",
             {"rate": "success rate", "bits": "bits a second"},
         )
         tip = (
-            "Pictures a second, or as many as can be read out, each of another payload, if others "
-            "are read as well."
+            "Pictures a second, each with another payload; at most as many are counted as can be "
+            "read out."
         )
         self.frame_rate = named(QuantityEdit(FRAME_RATE), FRAME_RATE.label, tip)
         self.frame_rate.hide()
@@ -109,7 +109,7 @@ class MapView(QWidget):
         with_cards = self.height() >= _LEAST_HEIGHT_WITH_CARDS
         for card in (self.cards, self.most_bits):
             card.setVisible(with_cards)
-        # In a low pane it needs no line of its own.
+        # In a low pane, the button shares the line of the state.
         line = self._searches if with_cards else self._state
         if line.indexOf(self.advise) == -1:
             line.addWidget(self.advise)
@@ -134,7 +134,7 @@ class MapView(QWidget):
         self.show_facts(None)
 
     def show_map(self, rates: RateMap) -> None:
-        self._refusal = rates.refusal()
+        self._refusal = rates.explain_refusal()
         self.plots.show_map(rates)
         self.legend.enable_limits(self.plots.limits())
 
@@ -143,22 +143,22 @@ class MapView(QWidget):
         self.plots.show_setting((x, y))
 
     def show_progress(self, known: int, total: int, images: int) -> None:
-        """Show the number of known points, and the least number of images at each."""
+        """Show the number of known points, and the least number of images of a point."""
         self._progress = f"{known} of {total} points measured"
         if known >= total:
             self._progress = (
-                f"{total} points, each in the middle of its cell; images a point: {images} or "
+                f"{total} points, each in the middle of its cell; images per point: {images} or "
                 "more; colour: {what}"
             )
         self._show_status()
 
     def show_failure(self, sentence: str) -> None:
-        """Show why the map does not belong to the current scene, or a message of its workers."""
+        """Show why the map is not of the present scene, or a message from its workers."""
         self._failure = sentence
         self._show_status()
 
     def show_age(self, age: float) -> None:
-        """Show for how many seconds the map has been outdated; zero if it is not."""
+        """Show that the map has been outdated for some seconds; zero if it is not outdated."""
         self._is_outdated = age > 0.0
         self.outdated.show_age(age, "computing…")
         self._show_status()

@@ -1,4 +1,4 @@
-"""Success rates on a lattice over two parameters, which is filled point by point."""
+"""Success rates on a lattice over two parameters, filled in point by point."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -16,8 +16,8 @@ MAP_PARAMETERS = (
     "flicker_frequency", "read_noise", "quantum_efficiency", "pixel_pitch", "full_well",
     "gain_variation", "bright_fraction",
 )  # fmt: skip
-"""Parameters that an axis can have: those with a slider that affect decoding and leave all rows of
-the panel equal."""
+"""Parameters that an axis can show: those with a slider that affect decoding and do not make rows
+of the panel differ."""
 
 STRIDES = (6, 3, 1)
 """Spacing of the points that are measured, in steps of the lattice, from coarse to fine."""
@@ -33,7 +33,7 @@ def lattice(name: str, count: int) -> tuple[float, ...]:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class TheoryFields:
-    """Sides of the theoretical limits on which the points of a lattice lie."""
+    """On which side of each theoretical limit the points of a lattice lie."""
 
     # The points' positions along both sliders, from 0 to 1
     places: tuple[FloatArray, FloatArray]
@@ -46,7 +46,7 @@ class TheoryFields:
 
         Cells of the lattice with a NaN at a corner have no line.
         """
-        # Imported with the first map, not at start-up.
+        # Imported with the first map, not when the window starts.
         from contourpy import LineType, contour_generator
 
         found = {}
@@ -65,8 +65,8 @@ class TheoryFields:
 class PointFacts:
     x: float  # the parameters' values, in SI units
     y: float
-    # For each decoder its name, the bits read correctly, and both ends of the confidence interval
-    # of its rate, percent
+    # For each decoder: its name, the number of bits read correctly, and both ends of the
+    # confidence interval of its rate in percent
     counts: tuple[tuple[str, int, float, float], ...]
     sent: int  # bits sent; 0 if nothing is known
     images: int
@@ -82,8 +82,8 @@ class RateMap:
     x_values: tuple[float, ...]
     y_values: tuple[float, ...]
     decoders: tuple[str, ...]
-    # Shape (points along x, points along y), or float: time in seconds in which a picture
-    # is read out: no more of them come in a second
+    # Shape (points along x, points along y), or float: seconds in which a picture is read out,
+    # which limits the number of pictures a second
     picture_times: FloatArray | float = 0.0
     sent: IndexArray = field(init=False)
     right: IndexArray = field(init=False)
@@ -122,41 +122,45 @@ class RateMap:
         return int(self.images.min())
 
     def rates(self, decoder: str) -> FloatArray:
-        """Return a decoder's rate at every point in percent; NaN where unknown or refused."""
+        """Return the rate of a decoder at every point in percent; NaN where unknown or refused."""
         rates = np.full(self.shape, np.nan)
         right = 100.0 * self.right[..., self.decoders.index(decoder)]
         np.divide(right, self.sent, out=rates, where=self.sent > 0)
         return rates
 
     def bits_a_second(self, decoder: str, frames_a_second: float) -> FloatArray:
-        """Return the net bits a second of a payload a picture; NaN where unknown or refused."""
+        """Return the net bits a second with a payload in each picture.
+
+        NaN where unknown or refused.
+        """
         fraction = np.full(self.shape, np.nan)
         whole = self.whole[..., self.decoders.index(decoder)]
         np.divide(whole, self.images, out=fraction, where=self.sent > 0)
         return fraction * self.most_bits(frames_a_second)
 
     def most_bits(self, frames_a_second: float) -> FloatArray:
-        """Return the bits a second at every point if all were read, 0 where unknown."""
+        """Return the bits a second at every point if all were read; 0 where unknown."""
         bits = np.zeros(self.shape)
         np.divide(self.sent, self.images, out=bits, where=self.sent > 0)
         with np.errstate(divide="ignore"):
             most = 1.0 / np.broadcast_to(np.asarray(self.picture_times), self.shape)
         return np.asarray(bits * np.minimum(frames_a_second, most))
 
-    def refused(self) -> IndexArray:
+    def find_refused(self) -> IndexArray:
         """Return 1 for points that the model refuses, else 0; shape (points along x, along y)."""
         return np.where((self.images > 0) & (self.sent == 0), 1, 0)
 
-    def refusal(self) -> str:
-        """Return why the model refuses all known points, or that a plug-in fails; else empty."""
+    def explain_refusal(self) -> str:
+        """Return why all known points are refused, or that a plug-in has failed; else empty."""
         sent = self.sent.ravel()
         some = np.any(sent > 0)
         return next((note for at, note in self.notes.items() if sent[at] or not some), "")
 
-    def owners(self) -> tuple[IndexArray, IndexArray]:
-        """Return for every point the known one whose rate it shows: coarse points fill large cells.
+    def find_owners(self) -> tuple[IndexArray, IndexArray]:
+        """Return the indices of the known point whose rate each point shows, along x and y.
 
-        As indices along x and along y; -1 where no point nearby is known.
+        Points that are not measured yet show the rate of a measured point nearby; -1 if there is
+        none.
         """
         x, y = (np.full(self.shape, -1, dtype=np.int64) for _ in range(2))
         for stride in STRIDES:

@@ -1,4 +1,4 @@
-"""Controllers of the searches that the user asks for: limits of a scene, and what carries most."""
+"""Controllers of searches that the user starts: limits of a scene, and what carries most bits."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -9,9 +9,9 @@ from PySide6.QtCore import QObject, QTimer
 from occ_gui.background.signals import JobChannel, WorkQueue
 from occ_gui.core.store import NO_GESTURE
 from occ_gui.detection_map.advice_view import AdviceView
-from occ_gui.detection_map.advice_worker import advise, carry_most
+from occ_gui.detection_map.advice_worker import advise, search_most_bits
 from occ_gui.detection_map.limit_cards import MostBitsCard
-from occ_gui.detection_map.worker import left_out, rate_settings
+from occ_gui.detection_map.worker import find_left_out, rate_settings
 from occ_gui.scene.scene_store import SceneStore
 from occ_model.parallel.job import Job
 from occ_model.receiver.decoders import DECODERS
@@ -30,22 +30,22 @@ _USUAL_IMAGES = len(SEARCHED) * usual_images(IMAGES, READ_RATE)
 """Usual number of images in a decoder's search, from which its progress is estimated."""
 
 _ADVICE_COUNTERS = range(1, len(DECODERS) + 1)
-_MOST_COUNTER = len(DECODERS) + 1  # number of counters of tried pictures, one for each search
+_MOST_COUNTER = len(DECODERS) + 1  # counter of the pictures tried in the search for most bits
 
 LOOK_MS = 100
 
 ASKED, IN_TURN = -1, 3
-"""Priorities: first where the user asks; otherwise after all points of a visible map, before
-further images of them."""
+"""Priorities: before all else if the user asks; otherwise after all points of a visible map, but
+before more images of them."""
 
 
 class SearchController(QObject):
-    """Searches in the background, reports progress, and ends where the scene changes.
+    """Searches in the background, reports progress, and stops when the scene changes.
 
     A subclass returns the present request from :meth:`_request`.
     """
 
-    _cancelled = _changed = ""  # why a search has ended, as the pane says it
+    _cancelled = _changed = ""  # what the pane says when the search was cancelled or has stopped
 
     def __init__(
         self,
@@ -67,15 +67,15 @@ class SearchController(QObject):
         channel.results_ready.connect(self._take)
         channel.finished.connect(self._finish)
         channel.failed.connect(self._end)
-        scenes.changed.connect(self._move_on)
+        scenes.changed.connect(self._follow_change)
 
     def _begin(self, request: Any, jobs: Iterator[Job]) -> None:
         self._asked, self._done, self._counted = request, 0, self._count()
         self.channel.put(request, jobs)
         self._look.start()
 
-    def _take_there(self, decoder: str, changes: Mapping[str, ParameterValue]) -> None:
-        """Set the scene to a result in one step, and show what its decoder reads."""
+    def _show_result(self, decoder: str, changes: Mapping[str, ParameterValue]) -> None:
+        """Set the scene to a result in one undo step, and show what its decoder reads."""
         self._scenes.change(NO_GESTURE, **changes)
         store = self._scenes.store
         store.put(replace(store.workspace, decoder=decoder))
@@ -86,7 +86,7 @@ class SearchController(QObject):
             self.channel.cancel()
             self._end(self._cancelled)
 
-    def _move_on(self) -> None:
+    def _follow_change(self) -> None:
         if self._asked is None:
             return
         outdated = self._request() != self._asked
@@ -99,7 +99,7 @@ class SearchController(QObject):
         self._end("")
 
     def _count(self) -> int:
-        return sum(map(self._queue.counted, self._counters))
+        return sum(map(self._queue.count_of, self._counters))
 
     def _check_progress(self) -> None:
         if self.channel.is_idle:
@@ -128,8 +128,8 @@ class AdviceRequest:
     settings: SimulationSettings
     with_image_effects: bool
 
-    def along(self, name: str) -> "AdviceRequest":
-        """Return the request without a value on which its limits do not depend."""
+    def without(self, name: str) -> "AdviceRequest":
+        """Return the request without the value of a parameter that its limits do not depend on."""
         scene = self.scene.replace(**{name: quantity(name).default})
         return replace(self, scene=scene)
 
@@ -149,37 +149,37 @@ class AdvisorController(SearchController):
         super().__init__(scenes, queue, channel, _ADVICE_COUNTERS, *shown)
         self._pane = pane
         self._with_image_effects = True
-        scenes.settings.changed.connect(self._move_on)
+        scenes.settings.changed.connect(self._follow_change)
 
     def use_image_effects(self, wanted: bool) -> None:
-        """Simulate rows of the picture where the scene needs them, or leave such effects out."""
+        """Set whether image effects are simulated, row by row, or left out."""
         self._with_image_effects = wanted
-        self._move_on()
+        self._follow_change()
 
     def _request(self) -> AdviceRequest:
         settings = self._scenes.settings.settings
         return AdviceRequest(self._scenes.scene, settings, self._with_image_effects)
 
     def start(self, rank: int = ASKED) -> None:
-        """Search for the limits of the current scene at the user's request."""
+        """Search for the limits of the present scene."""
         request = self._request()
-        without = () if self._with_image_effects else left_out(request.scene, request.settings)
+        without = () if self._with_image_effects else find_left_out(request.scene, request.settings)
         self._pane.show_advice_begun(without)
         self._begin(request, request.jobs(rank))
 
     def search_in_turn(self) -> None:
-        """Search for the limits of the current scene, after the points of the map."""
+        """Search for the limits of the present scene, after the points of the map."""
         self.start(IN_TURN)
 
-    def take_there(self, name: str, value: float, decoder: str) -> None:
-        self._take_there(decoder, {name: value})
+    def go_to_limit(self, name: str, value: float, decoder: str) -> None:
+        self._show_result(decoder, {name: value})
 
     def _show_tried(self, pictures: int) -> None:
         self._pane.show_advice_progress(min(pictures / (_USUAL_IMAGES * len(DECODERS)), 0.99))
 
     def _show_outdated(self, outdated: bool) -> None:
         asked, present = self._asked, self._request()
-        reachable = [name for name in SEARCHED if asked.along(name) == present.along(name)]
+        reachable = [name for name in SEARCHED if asked.without(name) == present.without(name)]
         self._pane.show_advice_outdated(outdated, frozenset(reachable))
 
 
@@ -191,11 +191,11 @@ class MostBitsRequest:
     def jobs(self) -> Iterator[Job]:
         for decoder in most_bits.DECODERS:
             arguments = (self.scene, decoder, self.frames_a_second)
-            yield Job(carry_most, arguments, _MOST_COUNTER, ASKED)
+            yield Job(search_most_bits, arguments, _MOST_COUNTER, ASKED)
 
 
 class MostBitsController(SearchController):
-    """Searches for the code, the frequency and the number of bits that carry most."""
+    """Searches for the code, frequency and number of bits that carry most bits a second."""
 
     _cancelled, _changed = "cancelled", "the scene has changed"
 
@@ -206,14 +206,14 @@ class MostBitsController(SearchController):
         super().__init__(scenes, queue, channel, [_MOST_COUNTER], *shown)
         self._pane = pane
         frame_rate = scenes.store.select(lambda workspace: workspace.frame_rate)
-        frame_rate.changed.connect(self._move_on)
+        frame_rate.changed.connect(self._follow_change)
 
     def _request(self) -> MostBitsRequest:
         workspace = self._scenes.store.workspace
         return MostBitsRequest(most_bits.unvaried(workspace.scene), workspace.frame_rate)
 
     def start(self) -> None:
-        """Search at the exposure and the distance of the current scene."""
+        """Search at the exposure and the distance of the present scene."""
         request = self._request()
         self._pane.show_begun()
         self._begin(request, request.jobs())
@@ -223,7 +223,7 @@ class MostBitsController(SearchController):
         scene = most_bits.example_of(found)
         if scene is not None:
             changes = {name: scene.value(name) for name in most_bits.VARIED}
-            self._take_there(found.decoder, changes)
+            self._show_result(found.decoder, changes)
 
     def _show_tried(self, pictures: int) -> None:
         if self._done < len(most_bits.DECODERS):

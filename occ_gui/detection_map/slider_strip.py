@@ -1,4 +1,4 @@
-"""Strips as tracks of the sliders: the fraction of bits that a decoder would read along each."""
+"""Strips along the sliders: the fraction of bits that a decoder would read at each position."""
 
 from dataclasses import dataclass
 
@@ -14,19 +14,23 @@ from occ_gui.widgets.guarded_paint import guarded
 from occ_gui.widgets.outdated_mark import DELAY
 from occ_model.scene.parameters import PARAMETERS
 
-IMAGES = 5  # pictures of a position: as many as a point of the map has in the end
+IMAGES = 5  # pictures of each position, as many as of a point of the complete map
 
 _HEIGHT = 6
-_BAR, _GAP = QSize(56, 6), 6  # of the legend: its bar, and pixels beside it
+_BAR, _GAP = QSize(56, 6), 6  # the bar of the legend, and the pixels beside it
 
 _OUTDATED_OPACITY = 0.35
 
-_AT_HANDLE = 3  # pixels that the present scene's colour is seen on either side of the handle
+_AT_HANDLE = 3  # pixels on each side of the handle with the colour of the present scene
 
 
 @dataclass(frozen=True, slots=True)
 class OwnRate:
-    """The fraction of right bits, 0 to 1, with its 95 % interval and the number of pictures."""
+    """The success rate of the present scene.
+
+    The fraction of the bits that are read correctly, from 0 to 1, with its 95 % interval, the
+    number of pictures, and how many of them are read without an error.
+    """
 
     fraction: float
     low: float
@@ -36,7 +40,7 @@ class OwnRate:
 
 
 class SliderStrip(QWidget):
-    """A thin bar as long as the handle's travel; grey where no rate is known."""
+    """A thin bar as long as the way of the slider's handle; grey where no rate is known."""
 
     def __init__(self, slider: QSlider, label: str) -> None:
         super().__init__()
@@ -55,9 +59,9 @@ class SliderStrip(QWidget):
     def _explain(self) -> None:
         known = [fraction for fraction in self.fractions if fraction is not None]
         text = (
-            "Fraction of the bits that the decoder shown reads correctly along this slider, all "
-            f"else being equal: violet none, yellow all, grey not known. A mean over {IMAGES} "
-            "pictures that begin at any time."
+            "Fraction of the bits that the selected decoder reads correctly along this slider, all "
+            f"else being equal: violet none, yellow all, grey unknown. A mean over {IMAGES} "
+            "pictures with different start times."
         )
         if self.present is not None:
             fraction, low, high = (
@@ -65,13 +69,13 @@ class SliderStrip(QWidget):
                 for value in (self.present.fraction, self.present.low, self.present.high)
             )
             text += (
-                f"\nAt the handle {fraction:.3g} % of the bits of {self.present.images} pictures "
+                f"\nAt the handle: {fraction:.3g} % of the bits of {self.present.images} pictures "
                 f"({low:.1f} to {high:.1f} %)."
             )
         good = sum(fraction > 0.99 for fraction in known)
         read = f"read at {good} of {len(known)} positions"
         if self._is_outdated:
-            text += "\nComputing; what is shown is of an earlier scene."
+            text += "\nComputing; the colours are of an earlier scene."
             read = f"earlier scene: {read}"
         self.setToolTip(text)
         self.setAccessibleDescription(read)
@@ -83,14 +87,14 @@ class SliderStrip(QWidget):
         self.update()
 
     def show_present(self, rate: OwnRate | None) -> None:
-        """Show the rate at the scene's own value, that of the handle; None if unknown."""
+        """Show the rate of the present scene, at the handle; None if unknown."""
         if rate != self.present:
             self.present = rate
             self._explain()
             self.update()
 
     def show_outdated(self, outdated: bool) -> None:
-        """Show whether the fractions are of an earlier scene; they fade if that lasts."""
+        """Show whether the fractions are of an earlier scene; if that lasts, they fade."""
         if outdated == self._is_outdated:
             return
         self._is_outdated = outdated
@@ -151,14 +155,14 @@ class SliderStrip(QWidget):
 
 
 class StripLegend(QWidget):
-    """A bar from "no bit read" to "all bits read", in a line; in a low window it is left out."""
+    """A colour bar from "misread" to "read" in one line; a low window has no room for it."""
 
     def __init__(self) -> None:
         super().__init__()
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Maximum)
         self.setAccessibleName("Colours of the sliders")
         meaning = (
-            "What the decoder shown would read if this slider alone were moved: the colours go "
+            "What the selected decoder would read if only this slider were moved. The colours go "
             "from no bit read correctly to all bits read correctly."
         )
         self.setAccessibleDescription(meaning)
@@ -168,7 +172,7 @@ class StripLegend(QWidget):
         return QSize(120, self.fontMetrics().height() + 2)
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return a height of zero: the sliders come first."""
+        """Return a height of zero, because the sliders are more important."""
         return QSize(120, 0)
 
     @guarded
@@ -197,7 +201,7 @@ class SliderStrips(QObject):
     def __init__(self, rows: dict[str, QuantityRow], parent: QObject | None = None) -> None:
         super().__init__(parent)
         self.rows = rows
-        self.legend = StripLegend()  # what the colours mean, for the place below the sliders
+        self.legend = StripLegend()  # shown below the sliders
         self.strips: dict[str, SliderStrip] = {}
         for name, row in rows.items():
             strip = SliderStrip(row.slider, PARAMETERS[name].in_sentence)

@@ -1,4 +1,4 @@
-"""Success rates along each of the main sliders, and at the scene's own values, once it rests."""
+"""Success rates along each main slider, and of the present scene, once it no longer changes."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
@@ -12,9 +12,9 @@ from occ_gui.detection_map.rate_map import lattice
 from occ_gui.detection_map.slider_strip import IMAGES, OwnRate, SliderStrips
 from occ_gui.detection_map.worker import (
     UNSEEN_PARAMETERS,
-    Along,
-    left_out,
-    measure_along,
+    StripPoints,
+    find_left_out,
+    measure_strip,
     rate_settings,
 )
 from occ_gui.scene.scene_store import SceneStore
@@ -34,17 +34,17 @@ class RateRequest:
     settings: SimulationSettings
     decoder: str
 
-    def along(self, name: str) -> "RateRequest":
-        """Return the request of one slider's strip, without that slider's value."""
+    def without(self, name: str) -> "RateRequest":
+        """Return the request for the strip of a slider, without the value of that slider."""
         given = {**UNSEEN_PARAMETERS, name: quantity(name).default}
         return replace(self, scene=self.scene.replace(**given))
 
 
-class RestingController(QObject):
-    """Measures, while visible, what the present scene, settings and decoder require.
+class RateController(QObject):
+    """Measures success rates for the present scene, settings and decoder while they are visible.
 
-    A subclass determines in :meth:`_move_on` what the present request changes, in :meth:`_measure`
-    what to put into the channel, and in :meth:`_take` what to do with results.
+    A subclass compares the present request with the last one in :meth:`_follow_change`, puts jobs
+    into the channel in :meth:`_measure`, and handles their results in :meth:`_take`.
     """
 
     def __init__(self, scenes: SceneStore, channel: JobChannel) -> None:
@@ -58,9 +58,9 @@ class RestingController(QObject):
         self._resting.timeout.connect(self._measure)
         channel.results_ready.connect(self._take)
         for store in (scenes, scenes.settings):
-            store.changed.connect(self._move_on)
+            store.changed.connect(self._follow_change)
         decoder = scenes.store.select(lambda workspace: workspace.decoder)
-        decoder.changed.connect(self._move_on)
+        decoder.changed.connect(self._follow_change)
 
     @property
     def is_idle(self) -> bool:
@@ -69,7 +69,7 @@ class RestingController(QObject):
     def set_seen(self, seen: bool) -> None:
         self._seen = seen
         if seen:
-            self._move_on()
+            self._follow_change()
         else:
             self._resting.stop()
             self._channel.cancel()
@@ -82,7 +82,7 @@ class RestingController(QObject):
         decoder = self._scenes.store.workspace.decoder
         return RateRequest(self._scenes.scene, self._scenes.settings.settings, decoder)
 
-    def _move_on(self) -> None:
+    def _follow_change(self) -> None:
         raise NotImplementedError
 
     def _measure(self) -> None:
@@ -94,20 +94,20 @@ class RestingController(QObject):
 
 POSITIONS = 29
 
-STRIDES = (4, 1)  # distances between measured positions: a coarse strip first, then all positions
-RANK = 3  # after all points of a map that is seen, before further images of them
+STRIDES = (4, 1)  # distances between measured positions: a coarse strip first, then every position
+RANK = 3  # after all points of a visible map, but before more images of them
 
 
 def strip_jobs(
     missing: Mapping[str, tuple[RateRequest, set[int]]], present: RateRequest
 ) -> Iterator[Job]:
-    """Return the remaining jobs.
+    """Yield the remaining jobs.
 
-    ``present``: the request for the scene itself. Points that take long are jobs of their own,
-    which a newer request ends; whether they do is found when the work begins, without delaying a
-    slider.
+    ``present``: the request for the present scene. A slow point is a job of its own, which a newer
+    request can stop. This generator runs when the work begins, so that finding out whether points
+    are slow does not delay a slider.
     """
-    slow = bool(left_out(present.scene, present.settings))
+    slow = bool(find_left_out(present.scene, present.settings))
     done: set[int] = set()
     for stride in STRIDES:
         now = set(range(0, POSITIONS, stride)) - done
@@ -128,14 +128,14 @@ def _job(request: RateRequest, name: str, places: list[int]) -> Job:
     settings = rate_settings(request.settings, IMAGES, (request.decoder,), True)
     values = lattice(name, POSITIONS)
     points = tuple((place, {name: values[place]}) for place in places)
-    return Job(measure_along, (request.scene, settings, name, points), rank=RANK)
+    return Job(measure_strip, (request.scene, settings, name, points), rank=RANK)
 
 
-class SliderStripController(RestingController):
+class SliderStripController(RateController):
     """Connects the stores, the job channel and the strips.
 
-    The strip under a slider does not change while that slider is moved. The others are measured
-    once it rests: until then the cores are free for the picture that follows the slider.
+    The strip of a slider does not change while that slider is moved. The other strips are measured
+    once it rests; until then, the processor is free for the picture that follows the slider.
     """
 
     def __init__(self, scenes: SceneStore, channel: JobChannel, pane: SliderStrips) -> None:
@@ -144,7 +144,7 @@ class SliderStripController(RestingController):
         self._missing: dict[str, tuple[RateRequest, set[int]]] = {}
         super().__init__(scenes, channel)
 
-    def _move_on(self) -> None:
+    def _follow_change(self) -> None:
         if not self._seen:
             return
         request = self._present()
@@ -152,7 +152,7 @@ class SliderStripController(RestingController):
             return
         is_first, self._asked = self._asked is None, request
         for name in self._pane.strips:
-            wanted = request.along(name)
+            wanted = request.without(name)
             known = self._known.get(name)
             is_present = known is not None and known[0] == wanted
             self._pane.strips[name].show_outdated(known is not None and not is_present)
@@ -169,9 +169,9 @@ class SliderStripController(RestingController):
             missing, self._missing = self._missing, {}
             self._channel.put(request, strip_jobs(missing, request))
 
-    def _take(self, request: RateRequest, results: list[Along]) -> None:
+    def _take(self, request: RateRequest, results: list[StripPoints]) -> None:
         for result in results:
-            wanted = request.along(result.name)
+            wanted = request.without(result.name)
             known = self._known.get(result.name)
             if known is None or known[0] != wanted:
                 known = self._known[result.name] = (wanted, {})
@@ -179,30 +179,30 @@ class SliderStripController(RestingController):
         for name in {result.name for result in results}:
             wanted, fractions = self._known[name]
             strip = self._pane.strips[name]
-            strip.show_outdated(wanted != self._present().along(name))
+            strip.show_outdated(wanted != self._present().without(name))
             strip.show_fractions(tuple(_nearest(fractions, place) for place in range(POSITIONS)))
 
 
 def fraction_of(point: SweepPoint) -> float | None:
-    """Return the fraction of bits read; None where the model refuses, or a plug-in has failed."""
+    """Return the fraction of bits read; None if the point is refused or a plug-in has failed."""
     return None if point.note else point.right[0] / point.sent
 
 
 def _nearest(fractions: Mapping[int, float | None], place: int) -> float | None:
-    """Return a position's fraction, else that of its neighbour on the coarser lattice."""
+    """Return the fraction at a position, or else at its neighbour on the coarser lattice."""
     if place in fractions:
         return fractions[place]
     return fractions.get(round(place / STRIDES[0]) * STRIDES[0])
 
 
-OWN_IMAGES = 20  # pictures of which the rate is: as many as those of the limits
-OWN_RANK = 1  # after a first answer of the map, before all else
+OWN_IMAGES = 20  # pictures from which the rate is computed, as many as for the limits
+OWN_RANK = 1  # after the first points of the map, before all else
 
 
-class OwnRateController(RestingController):
-    """Measures the rate of the present scene once it rests, while it is visible."""
+class OwnRateController(RateController):
+    """Measures the rate of the present scene once it no longer changes, while it is visible."""
 
-    changed = Signal(object)  # the rate, an :class:`OwnRate`; None where unknown
+    changed = Signal(object)  # the rate, an :class:`OwnRate`; None if unknown
 
     def __init__(self, scenes: SceneStore, channel: JobChannel) -> None:
         super().__init__(scenes, channel)
@@ -217,7 +217,7 @@ class OwnRateController(RestingController):
             self.rate = rate
             self.changed.emit(rate)
 
-    def _move_on(self) -> None:
+    def _follow_change(self) -> None:
         present = self._present()
         request = replace(present, scene=present.scene.replace(**UNSEEN_PARAMETERS))
         if not self._seen or request == self._asked:
@@ -242,7 +242,7 @@ def own_rate_job(request: RateRequest) -> Job:
 
 
 def own_rate(measured: MeasuredPoints) -> OwnRate | None:
-    """Return the rate of a single point; None where the model refuses it, or a plug-in fails."""
+    """Return the rate of a single point; None if it is refused or a plug-in has failed."""
     (point,) = measured.points
     if point.note:
         return None

@@ -1,4 +1,4 @@
-"""Measuring: the processes of map, strips, advice and bench, and the strips themselves."""
+"""BackgroundRates: the worker processes of map, strips, advice and bench, and the strips."""
 
 from collections.abc import Callable
 from functools import cached_property
@@ -20,27 +20,31 @@ if TYPE_CHECKING:
 PROCESSES = 2
 
 CHANNELS = ("map", "advice", "bench", "most bits", "strips", "own rate")
-"""Those that measure in the processes, each with a channel of its own."""
+"""Users of the worker processes, each with a channel of its own."""
 
-NICENESS = 10  # how far the processes yield to the window
+NICENESS = 10  # of the worker processes, so that the window comes first
 
 START_MS = 400
-"""Milliseconds that the strips wait at first: the window and its first picture come before them."""
+"""Milliseconds that the strips wait at first, so that the window and its picture come first."""
 
 
 def new_workers() -> "Workers":
-    # Importing what starts processes takes time.
+    # Imported only now, because it takes time.
     from occ_gui.detection_map.worker import PRELOAD
     from occ_model.parallel.process_pool import ProcessPool
 
     return ProcessPool(PROCESSES, PRELOAD, NICENESS)
 
 
-class Measuring(QObject):
-    """Channels of work in processes, made when first needed; the strips use one from the start."""
+class BackgroundRates(QObject):
+    """Measures success rates in worker processes, which are started when first needed.
+
+    The strips of the sliders and the rate of the present scene are measured from the start; map,
+    advice and bench use channels of the same processes.
+    """
 
     rate_changed = Signal(object)
-    """The rate of the present scene, an :class:`OwnRate`; None where unknown."""
+    """The rate of the present scene, an :class:`OwnRate`; None if unknown."""
 
     def __init__(
         self, scenes: SceneStore, strips: SliderStrips, may_begin: Callable[[], bool]
@@ -57,7 +61,7 @@ class Measuring(QObject):
     def queue(self) -> "WorkQueue":
         from occ_gui.background.signals import WorkQueue
 
-        # Looked up when it is called, so that another one can be put in its place.
+        # Looked up when it is called, so that tests can replace it.
         return WorkQueue(len(CHANNELS), lambda: new_workers())
 
     def channel(self, of: str) -> "JobChannel":
@@ -87,7 +91,7 @@ class Measuring(QObject):
         )
 
     def _begin(self) -> None:
-        # Not in the turn in which the picture has come: it is painted first.
+        # Not in the event that delivers the picture, so that it is painted first.
         was_there, self._was_there = self._was_there, self._may_begin()
         if was_there and self._was_there:
             self._set_seen(True)

@@ -23,20 +23,20 @@ from occ_model.study.sweep.points import measure_points
 IMAGE_EFFECTS = tuple(effect.name for effect in EFFECTS if effect.kind == "image")
 """Effects that a profile cannot show: a point with them takes some twenty times as long."""
 
-SEED = 1  # of all rates: that of :func:`occ_model.sweep`, so that its table is the map's
+SEED = 1  # that of :func:`occ_model.sweep`, so that its table agrees with the map
 
 UNSEEN_PARAMETERS: dict[str, ParameterValue] = {
     "start_time": 0.0,
     "flicker_phase": 0.0,
     "band_reading": "aligned",
 }
-"""Parameters without influence on rates, which are means over all start times."""
+"""Parameters that do not affect rates, which are means over all start times."""
 
 PRELOAD = __name__  # the module that a worker process needs
 
 
 @dataclass(frozen=True, slots=True)
-class Along:
+class StripPoints:
     name: str
     points: tuple[SweepPoint, ...]
 
@@ -46,8 +46,8 @@ def rate_settings(
 ) -> RateSettings:
     """Return the settings with which rates are measured for the window.
 
-    ``with_image_effects``: whether rows of the picture are simulated where needed; otherwise image
-    effects are left out, or refused where they cannot be.
+    ``with_image_effects``: whether rows of the picture are simulated if needed; otherwise image
+    effects are left out, or refused if they cannot be left out.
     """
     force: Mapping[str, bool] = settings.force
     path: SignalPath = "auto"
@@ -56,8 +56,8 @@ def rate_settings(
     return RateSettings(images, decoders, SEED, settings.tolerance, force, path)
 
 
-def left_out(scene: Scene, settings: SimulationSettings) -> tuple[str, ...]:
-    """Name the scene's effects that a profile cannot show; none where there is no picture."""
+def find_left_out(scene: Scene, settings: SimulationSettings) -> tuple[str, ...]:
+    """Return the names of the effects that a profile cannot show; none if there is no picture."""
     try:
         decided = plan(scene, settings.tolerance, "signal", settings.force).decisions
         effects = tuple(d.label for d in decided if d.kind == "image" and d.included)
@@ -67,14 +67,14 @@ def left_out(scene: Scene, settings: SimulationSettings) -> tuple[str, ...]:
     return effects if level else ("a panel that is not level", *effects)
 
 
-def measure_along(
+def measure_strip(
     scene: Scene,
     settings: RateSettings,
     name: str,
     points: tuple[tuple[int, dict[str, ParameterValue]], ...],
     heartbeat: Heartbeat,
-) -> Along:
-    return Along(name, measure_points(scene, settings, points, heartbeat).points)
+) -> StripPoints:
+    return StripPoints(name, measure_points(scene, settings, points, heartbeat).points)
 
 
 def theory_fields(
@@ -82,8 +82,8 @@ def theory_fields(
 ) -> TheoryFields:
     """Compute on which side of each limit the points of a coarse lattice lie.
 
-    Values are logarithms of ratios, nearly planes over logarithmic axes, so that lines between few
-    points are exact enough.
+    The values are logarithms of ratios. Over logarithmic axes, they are nearly planes, so that
+    few points give sufficiently exact lines.
     """
     places = (np.linspace(0.0, 1.0, counts[0]), np.linspace(0.0, 1.0, counts[1]))
     sides = {name: np.full(counts, math.nan) for name in LINES}

@@ -1,1 +1,1 @@
-"""Panes as figures and tables in files."""
+"""Export of panes as figures and tables."""

@@ -17,7 +17,7 @@ from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 
 STEPS = 30
-"""Steps of the slider from end to end: back again they make a film of twice as many frames."""
+"""Steps of the slider from end to end; there and back make twice as many frames."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,14 +38,14 @@ class AnimationExport(Service):
         super().__init__()
         self._window, self._scenes, self._preferences = window, scenes, preferences
         self.writer: FileWriter[_Film] = FileWriter(
-            _write, "animation", bar, "The animation was given up."
+            _write, "animation", bar, "The animation was cancelled."
         )
         self.tasks = (self.writer.runner,)
         self.writer.written.connect(preferences.visit_export)
         self.writer.status_message.connect(self.status_message)
 
     def ask(self, name: str) -> None:
-        """Ask for a file, and write the animation of a parameter's slider into it."""
+        """Ask for a file, and write the animation of a slider to it."""
         kinds = ("GIF animation (*.gif)", "MP4 film (*.mp4)", "Animated PNG (*.png)")
         start = Path(self._preferences.export_folder, f"{name}.gif")
         chosen, kind = QFileDialog.getSaveFileName(
@@ -57,12 +57,12 @@ class AnimationExport(Service):
             self.write(path if path.suffix else path.with_suffix(ending), name)
 
     def write(self, path: Path, name: str) -> None:
-        """Write an animation of a parameter's slider from end to end and back."""
+        """Write an animation in which a slider moves from end to end and back."""
         declared = PARAMETERS[name]
         if not isinstance(declared, Quantity):
             return
         out = [declared.at(place / STEPS) for place in range(STEPS + 1)]
-        values = (*out, *out[-2:0:-1])  # the film begins anew with the first value
+        values = (*out, *out[-2:0:-1])  # without the first value, with which the film starts again
         settings = self._scenes.settings.settings
         self.writer.start(_Film(path, self._scenes.scene, settings, name, values))
 

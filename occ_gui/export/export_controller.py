@@ -1,4 +1,4 @@
-"""Export of figures of the window to files, into a folder or to the clipboard."""
+"""Export of figures to a file, to a folder or to the clipboard."""
 
 from collections import deque
 from collections.abc import Callable
@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QFileDialog, QWidget
 
 from occ_gui.background.task import Task
 from occ_gui.core.store import Store
-from occ_gui.export.jobs import Exported, ExportJob, FigureRequest, export
+from occ_gui.export.jobs import ExportJob, ExportResult, FigureRequest, export
 from occ_gui.files.preferences import Preferences
 from occ_gui.shell.feature import NothingToDraw, Service
 from occ_gui.shell.shell import Shell
@@ -22,13 +22,13 @@ from occ_model.errors import counted, one_line
 from occ_model.scene.provenance import ENDINGS
 
 _WITH_FIGURE = ("profile", "accuracy", "map", "bench", "bands", "room")
-"""Panes with a figure of their own, of the same name; for any other the picture is copied."""
+"""Panes with a figure of the same name; for any other pane, the picture is copied."""
 
-_ENDING = "export/ending"  # under this key the ending of the last exported file is stored
+_ENDING = "export/ending"  # key under which the ending of the last exported file is stored
 
 
 class ExportController(Service):
-    """Draws figures of the controls' scene one by one, on a thread, to save or copy them."""
+    """Draws figures of the present scene one by one, on a thread, to save or copy them."""
 
     def __init__(
         self,
@@ -48,8 +48,10 @@ class ExportController(Service):
         self._store = store
         self._waiting: deque[ExportJob] = deque()
         self._left_out = ""
-        # A function that looks export up at each call: tests replace it.
-        self.runner: Task[ExportJob, Exported] = Task(lambda request, _: export(request), "export")
+        # A lambda looks up `export` at each call, so that tests can replace it.
+        self.runner: Task[ExportJob, ExportResult] = Task(
+            lambda request, _: export(request), "export"
+        )
         self.tasks = (self.runner,)
         self.runner.finished.connect(self._report)
         self.runner.failed.connect(self.status_message)
@@ -62,7 +64,7 @@ class ExportController(Service):
     def ask(self, name: str) -> None:
         """Ask for a file, and write a figure to it."""
         shown = self._present.latest
-        if shown is not None and self._request(name, shown) is None:
+        if shown is not None and self._request_or_report(name, shown) is None:
             return
         kinds = {
             ".png": "PNG picture (*.png)",
@@ -104,7 +106,7 @@ class ExportController(Service):
         requests, missing = [], []
         for figure in self._shell.different_figures:
             try:
-                requests.append(self._requested(figure.name, shown))
+                requests.append(self._make_request(figure.name, shown))
             except NothingToDraw as reason:
                 missing.append(f"{figure.title}: {reason}")
         self._left_out = " ".join(missing)
@@ -124,18 +126,18 @@ class ExportController(Service):
         self.copy(pane if pane in _WITH_FIGURE else PICTURE)
 
     def _draw(self, name: str, path: Path | None, shown: Snapshot) -> None:
-        request = self._request(name, shown)
+        request = self._request_or_report(name, shown)
         if request is not None:
             self._put(ExportJob((request,), path=path))
 
-    def _request(self, name: str, shown: Snapshot) -> FigureRequest | None:
+    def _request_or_report(self, name: str, shown: Snapshot) -> FigureRequest | None:
         try:
-            return self._requested(name, shown)
+            return self._make_request(name, shown)
         except NothingToDraw as reason:
             self.status_message.emit(str(reason))
             return None
 
-    def _requested(self, name: str, shown: Snapshot) -> FigureRequest:
+    def _make_request(self, name: str, shown: Snapshot) -> FigureRequest:
         now = datetime.now().astimezone().isoformat(timespec="seconds")
         draw = self._shell.draw(name, shown)
         return FigureRequest(shown.frame.scene, shown.request.settings, now, draw)
@@ -149,7 +151,7 @@ class ExportController(Service):
         if self._waiting and self.runner.is_idle:
             self.runner.ask(self._waiting.popleft())
 
-    def _report(self, done: Exported) -> None:
+    def _report(self, done: ExportResult) -> None:
         job = done.job
         if job.folder is not None:
             self._preferences.visit_export(job.folder / "figure")
@@ -168,7 +170,7 @@ class ExportController(Service):
             self._to_clipboard(done.png)
 
     def _to_clipboard(self, png: bytes) -> None:
-        # As a QImage, which keeps the texts of the file, among them the scene: a QMimeData object
-        # made in Python that is still on the clipboard at the end would crash the program.
+        # A QImage keeps the texts of the file, which include the scene. A QMimeData object made in
+        # Python would crash the program if it were still on the clipboard at the end.
         QGuiApplication.clipboard().setImage(QImage.fromData(png))
         self.status_message.emit("Copied the figure.")

@@ -1,4 +1,4 @@
-"""Figures to files, off the window's thread: all that are asked for, or none."""
+"""Writing of figures to files off the window's thread: all that are requested, or none."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -14,7 +14,7 @@ from occ_model.scene.simulation_settings import SimulationSettings
 if TYPE_CHECKING:
     from occ_model.figures.drawing import Drawing
 
-# matplotlib takes half a second to import: nothing here imports the export before it is used.
+# matplotlib takes half a second to import, so that functions import what needs it when called.
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -37,32 +37,34 @@ class FigureRequest:
 @dataclass(frozen=True, eq=False, slots=True)
 class ExportJob:
     requests: Sequence[FigureRequest]
-    path: Path | None = None  # the file of the only figure; None for the clipboard
+    path: Path | None = None  # the file of a single figure; None for the clipboard
     folder: Path | None = None
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Exported:
+class ExportResult:
     job: ExportJob
     files: Sequence[Path] = ()
     png: bytes = b""
 
 
-def export(job: ExportJob) -> Exported:
+def export(job: ExportJob) -> ExportResult:
     """Write figures, each complete or not at all."""
     if job.folder is not None:
-        return Exported(job, _write_all(job.folder, job.requests))
+        return ExportResult(job, _write_all(job.folder, job.requests))
     (request,) = job.requests
-    if job.path is not None:  # what takes a second to draw is refused before
+    if job.path is not None:  # refused before the figure is drawn, which takes a second
         check_replaceable(job.path)
     drawing = request.draw()
     if job.path is not None:
         drawing.write(job.path, request.provenance(drawing))
-        return Exported(job, (job.path,))
+        return ExportResult(job, (job.path,))
     from occ_model.figures.drawing import figure_bytes, house_style
 
     with house_style():
-        return Exported(job, png=figure_bytes(drawing.draw(), "png", request.provenance(drawing)))
+        return ExportResult(
+            job, png=figure_bytes(drawing.draw(), "png", request.provenance(drawing))
+        )
 
 
 def _write_all(folder: Path, requests: Sequence[FigureRequest]) -> list[Path]:
@@ -72,7 +74,7 @@ def _write_all(folder: Path, requests: Sequence[FigureRequest]) -> list[Path]:
     make_folder(folder)
     try:
         drawn = {request.draw(): request for request in requests}
-        # Refused in a moment what takes seconds to draw.
+        # Refused at once: drawing takes seconds.
         for drawing in drawn:
             for path in files_of(drawing, folder):
                 check_replaceable(path)

@@ -1,4 +1,4 @@
-"""Document: the file of the scene, with its name and a mark for changes in the window's title."""
+"""Document: the file of the scene; the window's title shows its name and a mark for changes."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -31,7 +31,7 @@ class Document(QObject):
         files.scene_opened.connect(self._settle)
         store.changed.connect(self._mark)
         path = store.store.select(lambda workspace: workspace.scene_file)
-        path.changed.connect(self._on_path)
+        path.changed.connect(self._compare_with_file)
         self._show_title()
 
     @property
@@ -39,7 +39,7 @@ class Document(QObject):
         return self._store.store.workspace.scene_file
 
     def save(self) -> None:
-        """Save the scene to its file, which the user chooses where there is none."""
+        """Save the scene to its file; if it has none, ask the user for one."""
         if self.path is None:
             self._files.ask_to_save_scene()
         else:
@@ -55,14 +55,14 @@ class Document(QObject):
         self._saved = self._store.scene
         self._show_title()
 
-    def _on_path(self, path: Path | None) -> None:
-        """Compare with what is in the file: an earlier window may have left it."""
-        self._saved = None if path is None else _saved_in(path)
+    def _compare_with_file(self, path: Path | None) -> None:
+        """Compare the scene with what is in its file, which an earlier window may have saved."""
+        self._saved = None if path is None else _read_saved(path)
         self._show_title()
 
     def _show_title(self) -> None:
         title = "Optical Camera Communication"
-        # A scene without a file is kept in the session: no mark asks for saving it.
+        # A scene without a file is stored in the session, so no mark asks to save it.
         scene = "" if self.path is None else f"{in_title(self.path.name)}[*]"
         names = [name for name in (in_title(self._photo), scene) if name]
         self._window.setWindowTitle(" – ".join((*names, title)))  # noqa: RUF001 - a dash
@@ -74,7 +74,7 @@ class Document(QObject):
             self._window.setWindowModified(changed)
 
 
-def _saved_in(path: Path) -> Scene | None:
+def _read_saved(path: Path) -> Scene | None:
     try:
         return read_scene_file(path)
     except Exception:  # noqa: BLE001 - the window starts whatever the file contains

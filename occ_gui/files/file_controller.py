@@ -1,4 +1,4 @@
-"""File controller: dialogs of the file menu; opens and saves scenes, photos and pictures."""
+"""File controller: the dialogs of the file menu; opens and saves scenes, photos and pictures."""
 
 from collections.abc import Callable, Sequence
 from functools import partial
@@ -57,13 +57,13 @@ def sample_photos() -> list[Path]:
 class FileController(QObject):
     """Carries out the commands of the file menu, and opens files dropped on the window.
 
-    ``when_present``: calls a function with the results of the present scene, once they are there.
+    ``when_present`` calls a function with the results of the present scene once they are computed.
     """
 
     status_message = Signal(str)
     scene_opened = Signal(Path)
 
-    pane_wanted = Signal(str)  # the pane of a photo that was opened, or of several
+    pane_wanted = Signal(str)  # the pane of the photo or photos that were opened
 
     film_asked = Signal(Path)
     film_save_asked = Signal(Path)
@@ -86,7 +86,7 @@ class FileController(QObject):
         photos.opened.connect(self._remember)
 
     def ask_for_photo(self) -> None:
-        """Ask for a photo and open it, or for several as a table."""
+        """Ask for photos; open a single one, and list several as a table."""
         kinds = f"Photos ({_PHOTOS});;All files (*)"
         names, _ = QFileDialog.getOpenFileNames(
             self._window, "Open photos", self._preferences.folder, kinds
@@ -97,7 +97,7 @@ class FileController(QObject):
             self.open_file(Path(names[0]))
 
     def ask_for_film(self) -> None:
-        if path := self._chosen("Open film", f"Films ({_FILMS})"):
+        if path := self._ask_for_file("Open film", f"Films ({_FILMS})"):
             self.open_film(path)
 
     def open_film(self, path: Path) -> None:
@@ -106,13 +106,13 @@ class FileController(QObject):
 
     def ask_to_save_film(self) -> None:
         kinds = "Films (*.mkv *.mp4 *.gif *.png)"
-        if path := self._named("Save the simulated film", "film.mkv", kinds):
+        if path := self._ask_for_name("Save the simulated film", "film.mkv", kinds):
             self._preferences.visit(path)
             self.film_save_asked.emit(path)
 
     def ask_for_scene(self) -> None:
         patterns = " ".join(f"*{ending}" for ending in (SCENE_ENDING, *ENDINGS))
-        if path := self._chosen("Open scene", f"Scenes and figures ({patterns})"):
+        if path := self._ask_for_file("Open scene", f"Scenes and figures ({patterns})"):
             self.open_scene(path)
 
     def open_file(self, path: Path) -> None:
@@ -150,7 +150,7 @@ class FileController(QObject):
         photos = [path for path in files if path not in (*scenes, *films)]
         if not files:
             what = f"{one_line(str(paths[0]))} is not a file" if paths else ""
-            what = what or "What was dropped is not a file of this computer"
+            what = what or "What was dropped is not a file on this computer"
             self.status_message.emit(f"{what}; drop a photo, a film or a scene (.toml).")
             return
         for path in scenes[:1]:
@@ -166,15 +166,14 @@ class FileController(QObject):
         opened = [one_line(path.name) for path in shown]
         if len(paths) > len(scenes[:1]) + len(photos) + len(films[:1]):
             self.status_message.emit(
-                f"Of {len(paths)} things that were dropped, only {' and '.join(opened)} can be "
-                "shown."
+                f"{len(paths)} items were dropped; only {' and '.join(opened)} can be shown."
             )
 
     def open_scene(self, path: Path) -> None:
         if self._put_scene(path):
             self._preferences.add(path)
             is_scene = path.suffix.lower() == SCENE_ENDING
-            if is_scene:  # a scene is not saved to a figure or table
+            if is_scene:  # a figure or table does not become the file of the scene
                 self.scene_opened.emit(path)
             inside = "" if is_scene else "the scene inside "
             self.status_message.emit(f"Opened {inside}{one_line(path.name)}")
@@ -190,7 +189,7 @@ class FileController(QObject):
         return True
 
     def ask_to_save_scene(self) -> None:
-        if path := self._named("Save scene", "scene.occ.toml", "Scenes (*.toml)"):
+        if path := self._ask_for_name("Save scene", "scene.occ.toml", "Scenes (*.toml)"):
             self.save_scene(path)
 
     def save_scene(self, path: Path) -> None:
@@ -202,15 +201,17 @@ class FileController(QObject):
     def ask_to_save_picture(self) -> None:
         whose = self._store.store.workspace.whose
         title, kinds = f"Save the {whose}'s picture", f"Pictures ({_PICTURES})"
-        if path := self._named(title, f"simulation-{whose}.png", kinds):
+        if path := self._ask_for_name(title, f"simulation-{whose}.png", kinds):
             self.save_picture(path)
 
     def ask_to_save_table(self, text: str) -> None:
-        if path := self._named("Save the table of the photos", "readout.csv", "Tables (*.csv)"):
+        if path := self._ask_for_name(
+            "Save the table of the photos", "readout.csv", "Tables (*.csv)"
+        ):
             self._save(path, lambda: write_whole(path, text.encode("utf-8")))
 
     def save_picture(self, path: Path) -> None:
-        """Save the present scene's picture, camera's or receiver's as shown, at full size."""
+        """Save the picture of the present scene at full size, the camera's or the receiver's."""
         self._when_present(partial(self._write_picture, path, self._store.store.workspace.whose))
 
     def _write_picture(self, path: Path, whose: str, shown: Snapshot) -> None:
@@ -229,15 +230,15 @@ class FileController(QObject):
         self.status_message.emit(f"Saved {one_line(path.name)}{f': the {what}' if what else ''}")
         return True
 
-    def _chosen(self, title: str, kinds: str) -> Path | None:
+    def _ask_for_file(self, title: str, kinds: str) -> Path | None:
         folder = self._preferences.folder
         name, _ = QFileDialog.getOpenFileName(
             self._window, title, folder, f"{kinds};;All files (*)"
         )
         return Path(name) if name else None
 
-    def _named(self, title: str, first: str, kinds: str) -> Path | None:
-        """Ask for a file to be written; a name without an ending gets that of ``first``."""
+    def _ask_for_name(self, title: str, first: str, kinds: str) -> Path | None:
+        """Ask for a file name to save to; a name without an ending gets the ending of ``first``."""
         folder = self._preferences.folder
         start = str(Path(folder, first)) if folder else first
         name, _ = QFileDialog.getSaveFileName(self._window, title, start, kinds)
@@ -246,9 +247,10 @@ class FileController(QObject):
         if (path := Path(name)).suffix:
             return path
         path = path.with_suffix(Path(first).suffix)
-        if path.exists():  # the dialog has asked about the name without it
+        if path.exists():  # the dialog asked only about the name without the ending
             self.status_message.emit(
-                f"{one_line(path.name)} exists already: name it with its ending to write over it."
+                f"{one_line(path.name)} exists already: to replace it, type its name with the "
+                "ending."
             )
             return None
         return path

@@ -9,13 +9,13 @@ MOST_RECENT = 8  # most recent files in the list
 _FILES, _FOLDER = "files/recent", "files/folder"
 _EXPORTS = "files/exports"
 _FOLDERS = (_FOLDER, _EXPORTS)
-_MARGINS, _NO = "view/margins", "no"
+_STRIPS, _FORMER_STRIPS, _NO = "view/strips", "view/margins", "no"
 
 _MAX_TEXT_LENGTH = 1_000_000  # maximum characters of a stored text
 
 
 class Preferences(QObject):
-    """Recent files, their last folder, and texts by key; stored in ``settings``, if given."""
+    """Recent files, the last folders, and texts by key; stored in ``settings``, if given."""
 
     changed = Signal()  # the list of recent files has changed
 
@@ -28,12 +28,15 @@ class Preferences(QObject):
 
     @property
     def folder(self) -> str:
-        """First folder of open dialogs, at first that of figures; empty: the system's."""
+        """The folder in which open dialogs start; before the first file, that of figures.
+
+        Empty for the system's folder.
+        """
         return self._there(_FOLDER) or self._there(_EXPORTS)
 
     @property
     def export_folder(self) -> str:
-        """The first folder of dialogs that write figures, at first that of opened files."""
+        """The folder in which figures are saved; before the first figure, that of opened files."""
         return self._there(_EXPORTS) or self._there(_FOLDER)
 
     def _there(self, key: str) -> str:
@@ -46,10 +49,11 @@ class Preferences(QObject):
 
     @property
     def slider_strips(self) -> bool:
-        return self._value(_MARGINS) != _NO
+        stored = self._value(_STRIPS)
+        return (self._value(_FORMER_STRIPS) if stored is None else stored) != _NO
 
     def keep_slider_strips(self, shown: bool) -> None:
-        self._write(_MARGINS, "yes" if shown else _NO)
+        self._write(_STRIPS, "yes" if shown else _NO)
 
     def add(self, path: Path) -> None:
         """Add to the recent files, and store the folder."""
@@ -98,18 +102,18 @@ class Preferences(QObject):
     def _write(self, key: str, value: str | list[str]) -> None:
         if self._settings is None:
             self._unstored[key] = value
-        elif value != self._value(key):  # each writing of one writes the whole file
+        elif value != self._value(key):  # QSettings writes the whole file at each change
             self._settings.setValue(key, value)
 
 
 def text_of(path: Path) -> str:
-    """Return a path as a stored text; empty where it is not valid text, which Qt would change."""
+    """Return a path as text to store; empty if it is not valid Unicode, which Qt would change."""
     text = str(path)
     return text if text == text.encode("utf-8", "replace").decode("utf-8") else ""
 
 
 def _paths(value: object) -> tuple[Path, ...]:
-    """Parse stored paths; what is none is left out."""
+    """Parse stored paths, and leave out what is not an absolute path."""
     texts = value if isinstance(value, list) else [value]
     paths = [Path(text) for text in texts if isinstance(text, str)]
     absolute = [path for path in paths if path.is_absolute()]

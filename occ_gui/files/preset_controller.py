@@ -1,4 +1,4 @@
-"""Preset controller: load, save and delete presets of the program and of the user."""
+"""Preset controller: loads, saves and deletes presets, built-in and the user's own."""
 
 import re
 from dataclasses import replace
@@ -40,7 +40,7 @@ class PresetController(QObject):
 
     @property
     def titles(self) -> list[tuple[str, str]]:
-        """Names and titles of the presets, the program's before the user's."""
+        """Names and titles of the presets, the built-in ones before the user's own."""
         return [(preset.name, preset.title) for preset in self._presets]
 
     @property
@@ -62,7 +62,7 @@ class PresetController(QObject):
             store.put(replace(store.workspace, preset=name))
 
     def load(self, name: str) -> None:
-        """Load the scene of a preset, as one step that can be undone."""
+        """Load the scene of a preset, as one undo step."""
         try:
             scene = preset_named(name).scene
         except OccError as error:  # its file may have changed meanwhile
@@ -75,7 +75,7 @@ class PresetController(QObject):
     def ask_to_save_match(self, matching: "MatchController") -> None:
         photo = matching.photo
         if photo is None or matching.match is None:
-            self.status_message.emit("There is no match yet that could be saved.")
+            self.status_message.emit("There is no match to save yet.")
             return
         name, wanted = QInputDialog.getText(
             self._window,

@@ -1,4 +1,4 @@
-"""Session: what a window is working on, written within a second of every change, and restored."""
+"""Session: the state of a window, saved within a second of every change and restored at a start."""
 
 import json
 import os
@@ -12,20 +12,20 @@ from PySide6.QtCore import QLockFile, QObject, QTimer, Signal
 
 from occ_gui.core.store import Store
 from occ_gui.core.workspace import Workspace
-from occ_gui.files.session_record import Kept, kept_in, record_of
+from occ_gui.files.session_record import KeptSession, make_record, read_session
 from occ_model.errors import OccError, OutputError, SceneFileError, one_line, shown
 from occ_model.files.reading import read_text
 from occ_model.files.writing import make_folder, make_private, write_whole
 
-LARGEST_FILE = 4_000_000  # bytes of a session file that is read; one has thousands
+LARGEST_FILE = 4_000_000  # bytes; a larger session file is refused, and usual ones have thousands
 
 STATE_FOLDER = "OCC_STATE"  # environment variable with another folder for the program's own files
 
 _FORMAT = 1
 
-_MOST_WRITINGS = 2**53  # of sessions, beyond which a count is none: once a second for an age
+_MOST_WRITINGS = 2**53  # a larger count in a session file is not valid: no window writes so often
 
-_MOST_WINDOWS = 8  # Windows that can be open at a time, each with its own session file
+_MOST_WINDOWS = 8  # windows that can be open at the same time, each with its own session file
 
 
 def state_folder() -> Path:
@@ -33,7 +33,7 @@ def state_folder() -> Path:
     folder = os.environ.get(STATE_FOLDER)
     if folder:
         return Path(folder)
-    # Not needed where the folder is named.
+    # Imported only when no folder is given.
     from platformdirs import user_state_path
 
     return user_state_path("occ-explorer", appauthor=False)
@@ -42,16 +42,16 @@ def state_folder() -> Path:
 class SessionFile:
     """The session file of one window, locked while the window is open.
 
-    A file that says it is in use, but is not locked, belongs to a window that crashed.
+    A file that is marked as in use but is not locked belongs to a window that crashed.
     """
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
         self._lock: QLockFile | None = None
         self._path: Path | None = None
-        self.crashed: Kept | None = None
-        self.last: Kept | None = None  # what was written last, whichever window wrote it
-        self.put_aside: str | None = None  # a sentence on a file that is no session
+        self.crashed: KeptSession | None = None
+        self.last: KeptSession | None = None  # the session that was written last, by any window
+        self.put_aside: str | None = None  # a sentence about a file that is not a valid session
         # If the folder cannot be made, the first writing reports it.
         with suppress(OccError, OSError):
             make_folder(folder, is_private=True)
@@ -62,18 +62,18 @@ class SessionFile:
         return [self._folder / f"session-{number}.json" for number in numbers]
 
     def _open(self) -> None:
-        """Lock a file that no other window uses, preferably that of a window that crashed."""
-        for path in self._folder.glob("session-*"):  # earlier versions let others read them
+        """Lock a file that no other window uses, preferably the file of a window that crashed."""
+        for path in self._folder.glob("session-*"):  # earlier versions made them readable by others
             make_private(path)
         paths = self._paths()
-        records = {path: _record_in(path) for path in paths}
+        records = {path: _read_record_if_valid(path) for path in paths}
         readable = [path for path in paths if records[path] is not None]
         if readable:
             newest = max(readable, key=lambda path: (_count_in(records[path]), _time_of(path)))
-            self.last = kept_in(records[newest])
+            self.last = read_session(records[newest])
         for path in sorted(paths, key=lambda path: not _is_in_use(records[path])):
             lock = QLockFile(str(path.with_suffix(".lock")))
-            lock.setStaleLockTime(0)  # never stale by age, only if its process has ended
+            lock.setStaleLockTime(0)  # a lock is stale only if its process has ended, not by age
             if not lock.tryLock(0):
                 continue
             make_private(Path(lock.fileName()))  # it names the machine
@@ -83,17 +83,17 @@ class SessionFile:
             lock.unlock()
 
     def _recover(self, path: Path) -> bool:
-        """Take over a file: restore the session of a crash, and put what is no session aside.
+        """Take over a file: restore the session of a crash, and rename a file that is not valid.
 
-        Returns False where a file stays that is no session: it must not be overwritten.
+        Returns False if an invalid file cannot be renamed: it must not be overwritten.
         """
         if not os.path.lexists(path):
             return True
         try:
-            record = _session_in(path)  # now that no other window can write it
-            kept = kept_in(record)
+            record = _read_record(path)  # read again, now that no other window can write it
+            kept = read_session(record)
             if kept is None:
-                raise SceneFileError(f"{one_line(str(path))} holds no scene that can be read.")
+                raise SceneFileError(f"{one_line(str(path))} contains no valid scene.")
         except OccError as error:
             aside = _free_name(path)
             try:
@@ -107,15 +107,15 @@ class SessionFile:
             self.crashed = kept
         return True
 
-    def write(self, kept: Kept, in_use: bool) -> None:
+    def write(self, kept: KeptSession, in_use: bool) -> None:
         if self._path is None:
             raise OutputError(f"there is no free session file in {self._folder}.")
         record = {
             "format": _FORMAT,
-            # Which session was written last is counted: clocks can be put back.
-            "count": 1 + max(_count_in(_record_in(path)) for path in self._paths()),
+            # Counting tells which session was written last; clocks can be set back.
+            "count": 1 + max(_count_in(_read_record_if_valid(path)) for path in self._paths()),
             "in_use": in_use,
-            **record_of(kept),
+            **make_record(kept),
         }
         content = json.dumps(record, indent=1).encode("ascii")
         write_whole(self._path, content, is_private=True)
@@ -126,13 +126,13 @@ class SessionFile:
             self._lock.unlock()
 
 
-def _session_in(path: Path) -> dict[str, Any]:
+def _read_record(path: Path) -> dict[str, Any]:
     """Read the record of a session, or raise SceneFileError."""
     text, name = read_text(path, LARGEST_FILE), one_line(str(path))
     try:
         record = json.loads(text)
     except (ValueError, RecursionError):
-        raise SceneFileError(f"{name} cannot be read: it is no session.") from None
+        raise SceneFileError(f"{name} cannot be read: it is not a session.") from None
     written = record.get("format") if isinstance(record, dict) else None
     if type(written) is not int or written != _FORMAT:
         raise SceneFileError(
@@ -141,15 +141,15 @@ def _session_in(path: Path) -> dict[str, Any]:
     return dict(record)
 
 
-def _record_in(path: Path) -> dict[str, Any] | None:
+def _read_record_if_valid(path: Path) -> dict[str, Any] | None:
     try:
-        return _session_in(path)
+        return _read_record(path)
     except OccError:
         return None
 
 
 def _free_name(path: Path) -> Path:
-    """Return a name that no file has, for one that is put aside."""
+    """Return an unused name for a file that is to be renamed."""
     free, number = path.with_suffix(".unreadable"), 1
     while os.path.lexists(free):
         number += 1
@@ -174,18 +174,19 @@ def _time_of(path: Path) -> int:
 
 
 LONGEST_WAIT_MS = 1000
-"""Longest delay from a change to its writing; later changes within it are written with it."""
+"""Longest time between a change and its saving; changes within it are saved together."""
 
 
-def restored(
+def restore_workspace(
     file: SessionFile, first: Workspace, *, is_scene_asked: bool, are_settings_asked: bool
 ) -> Workspace:
-    """Return the first workspace: the last session's, but for what the command line asks for."""
+    """Return the workspace of the last session, except for what the command line asks for."""
     last = file.last
     if last is None:
         return first
-    # Of a window that crashed comes all that is no step; its scene comes as one.
-    workspace = last.workspace.step.laid_over((file.crashed or last).workspace)
+    # After a crash, everything but the undo state comes from the crashed window; its scene follows
+    # as an undo step.
+    workspace = last.workspace.undo_state.put_into((file.crashed or last).workspace)
     if is_scene_asked:
         workspace = replace(
             workspace, scene=first.scene, preset="", scene_file=None, photo=first.photo,
@@ -195,16 +196,13 @@ def restored(
 
 
 class Session(QObject):
-    """Keeps the workspace of a window in a file, once :meth:`begin` is called.
+    """Saves the workspace of a window to a file, once :meth:`begin` is called.
 
     ``own`` returns what the user has set, without what a lesson shows.
     """
 
     status_message = Signal(str)
-    """What has been restored or put aside, or why the session cannot be written.
-
-    The last is not repeated.
-    """
+    """What has been restored or renamed, or why the session cannot be saved, which is said once."""
 
     written = Signal()
 
@@ -213,54 +211,54 @@ class Session(QObject):
         self._store, self._own = store, own
         self._file: SessionFile | None = None
         self._has_failed = False
-        # Started by the first change only: if each change restarted it, it would never run out
-        # while a slider keeps moving.
+        # Only the first change starts it: restarted by each change, it would never run out while a
+        # slider keeps moving.
         self._timer = QTimer(self, singleShot=True)
         self._timer.setInterval(LONGEST_WAIT_MS)
         self._timer.timeout.connect(self.write)
 
     def begin(self, file: SessionFile, *, is_scene_asked: bool) -> None:
-        """Restore the steps of a crash, and write to the file from now on."""
+        """Restore the steps after a crash, and save to the file from now on."""
         self._file = file
         said = [file.put_aside] if file.put_aside else []
         if file.crashed is not None:
-            said.append(self._bring_back(file.crashed, is_scene_asked=is_scene_asked))
+            said.append(self._restore_crashed(file.crashed, is_scene_asked=is_scene_asked))
         if said:
             self.status_message.emit(" ".join(said))
-        self._store.select(lambda workspace: workspace).changed.connect(self._note_change)
-        self._note_change()
+        self._store.select(lambda workspace: workspace).changed.connect(self._start_timer)
+        self._start_timer()
 
-    def _bring_back(self, left: Kept, *, is_scene_asked: bool) -> str:
-        """Restore the scene of a crash with its steps, or as a single step if it is old; say so."""
-        store, asked = self._store, self._store.workspace.step
-        crashed = left.workspace.step
-        store.put(crashed.laid_over(store.workspace), "restoring of the last session")
+    def _restore_crashed(self, left: KeptSession, *, is_scene_asked: bool) -> str:
+        """Restore the scene and steps of a crashed window; return a sentence that says so."""
+        store, asked = self._store, self._store.workspace.undo_state
+        crashed = left.workspace.undo_state
+        store.put(crashed.put_into(store.workspace), "restoring of the last session")
         if left.history is not None and (is_scene_asked or crashed == asked):
             store.resume(left.history)
         if is_scene_asked and crashed != asked:
-            store.put(asked.laid_over(store.workspace), "opening of what was asked for")
-            return "The last session did not come to its end; Undo brings its scene back."
-        return "The last session did not come to its end: its scene is restored."
+            store.put(asked.put_into(store.workspace), "opening of what was asked for")
+            return "The last session ended unexpectedly; Undo brings its scene back."
+        return "The last session ended unexpectedly: its scene is restored."
 
     @property
     def is_due(self) -> bool:
         return self._timer.isActive()
 
-    def _note_change(self) -> None:
+    def _start_timer(self) -> None:
         if self._file is not None and not self.is_due:
             self._timer.start()
 
     def write(self) -> None:
         own = self._own()
-        self._write(Kept(own, self._store.history(own.step)), in_use=True)
+        self._write(KeptSession(own, self._store.history(own.undo_state)), in_use=True)
 
     def end(self) -> None:
-        self._write(Kept(self._own()), in_use=False)
+        self._write(KeptSession(self._own()), in_use=False)
         if self._file is not None:
             self._file.close()
             self._file = None
 
-    def _write(self, kept: Kept, *, in_use: bool) -> None:
+    def _write(self, kept: KeptSession, *, in_use: bool) -> None:
         self._timer.stop()
         if self._file is None:
             return
@@ -270,7 +268,7 @@ class Session(QObject):
             if not self._has_failed:
                 self._has_failed = True
                 reason = str(error).rstrip(".")
-                self.status_message.emit(f"The scene is not kept over a crash: {reason}.")
+                self.status_message.emit(f"The scene would be lost in a crash: {reason}.")
             return
         self._has_failed = False
         self.written.emit()

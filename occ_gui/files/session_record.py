@@ -10,17 +10,17 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from occ_gui.core.store import History, StepChange
-from occ_gui.core.workspace import FIRST_SETTINGS, Step, Workspace
+from occ_gui.core.workspace import FIRST_SETTINGS, UndoState, Workspace
 from occ_gui.files.preferences import text_of
 from occ_gui.values.film_choice import FRAMES, FilmChoice
 from occ_gui.values.photo_choice import (
     KNOWN,
     MODES,
     SENT,
+    LoadOptions,
     MatchChoice,
     PhotoChoice,
     PhotoFrame,
-    PhotoReading,
 )
 from occ_gui.values.room_choice import RoomChoice
 from occ_gui.values.simulated import PinnedScene, Pins, SimulationRequest
@@ -45,7 +45,7 @@ from occ_model.scene.square_wave import SQUARE_FREQUENCY
 
 T = TypeVar("T")
 
-_MOST_OF_HISTORY = 1_000_000  # longest record of steps, in characters; the oldest ones are left out
+_MOST_OF_HISTORY = 1_000_000  # most characters of stored steps; the oldest steps are left out
 
 _VIEW: Mapping[str, tuple[object, ...]] = {
     "decoder": tuple(DECODERS),
@@ -54,23 +54,23 @@ _VIEW: Mapping[str, tuple[object, ...]] = {
     "is_enhanced": (False, True),
     "shown": SHOWN,
 }
-"""Choices of how results are shown, with their possible values."""
+"""Settings of how results are shown, with their possible values."""
 
 
 @dataclass(frozen=True, slots=True)
-class Kept:
-    """A workspace, and the steps that led to it; none after a regular end."""
+class KeptSession:
+    """A workspace, and the steps that led to it, which are None after a regular end."""
 
     workspace: Workspace
     history: History | None = None
 
 
-def record_of(kept: Kept) -> dict[str, Any]:
+def make_record(kept: KeptSession) -> dict[str, Any]:
     workspace, history = kept.workspace, kept.history
     return {
         "scene": workspace.scene.to_toml(),
         "settings": asdict(workspace.settings),
-        "scene_file": _text(workspace.scene_file),
+        "scene_file": _path_text(workspace.scene_file),
         "photo": _photo_record(workspace.photo),
         "film": _film_record(workspace.film),
         "room": _room_record(workspace.room, RoomChoice()),
@@ -87,9 +87,9 @@ def record_of(kept: Kept) -> dict[str, Any]:
 def _photo_record(photo: PhotoChoice) -> dict[str, Any]:
     region = photo.rectangle
     return {
-        "path": _text(photo.path),
+        "path": _path_text(photo.path),
         "region": None if region is None else asdict(region),
-        "reading": asdict(photo.reading),
+        "load_options": asdict(photo.load_options),
         "form": asdict(photo.form),
         "certain": dict(photo.certain),
     }
@@ -98,12 +98,13 @@ def _photo_record(photo: PhotoChoice) -> dict[str, Any]:
 def _film_record(film: FilmChoice) -> dict[str, Any]:
     recording = {each.name: getattr(film.recording, each.name) for each in DECLARED}
     return {
-        "path": _text(film.path), "axis": film.axis, "frames": film.frames, "recording": recording,
+        "path": _path_text(film.path), "axis": film.axis, "frames": film.frames,
+        "recording": recording,
     }  # fmt: skip
 
 
 def _room_record(choice: RoomChoice, former: RoomChoice) -> dict[str, Any]:
-    """Write a choice; only the camera where nothing else differs from the former room."""
+    """Return the record of a room: only its camera if nothing else differs from the former room."""
     room, other = choice.room, former.room
     is_known = room is None or (
         other is not None and (room.lamps, room.scene) == (other.lamps, other.scene)
@@ -112,7 +113,7 @@ def _room_record(choice: RoomChoice, former: RoomChoice) -> dict[str, Any]:
         "name": choice.name,
         "camera": None if room is None else asdict(room.camera),
         "room": None if room is None or is_known else room.to_toml(),
-        "photo": _text(choice.photo),
+        "photo": _path_text(choice.photo),
         "focal_length": choice.focal_length,
     }
 
@@ -155,7 +156,7 @@ def _history_record(history: History) -> dict[str, Any] | None:
 
 
 def _read(first: T, read: Callable[[], T]) -> T:
-    """Return what is read, or ``first`` where it cannot be."""
+    """Return what ``read`` returns, or ``first`` if it fails."""
     try:
         return read()
     except Exception:  # noqa: BLE001 - the window starts whatever the file contains
@@ -167,8 +168,8 @@ def _check(holds: bool) -> None:
         raise ValueError("no session has this")
 
 
-def kept_in(record: Mapping[str, Any] | None) -> Kept | None:
-    """Read a record; None without a scene that can be read."""
+def read_session(record: Mapping[str, Any] | None) -> KeptSession | None:
+    """Read a record; None if it has no valid scene."""
     values: Mapping[str, Any] = record or {}
     if (scene := _read(None, lambda: _scene(values["scene"]))) is None:
         return None
@@ -180,17 +181,17 @@ def kept_in(record: Mapping[str, Any] | None) -> Kept | None:
         room=_room(values.get("room"), RoomChoice()),
         pins=_pins(values.get("pins")),
         preset=_preset(values.get("preset")),
-        scene_file=_file(values.get("scene_file")),
+        scene_file=_read_path(values.get("scene_file")),
     )
     view: Any = values.get("view")
     chosen = _read(workspace, lambda: _with_view(workspace, view))
     timed = _read(chosen, lambda: replace(chosen, frame_rate=FRAME_RATE.check(view["frame_rate"])))
-    return Kept(timed, _read(None, lambda: _history(values["history"])))
+    return KeptSession(timed, _read(None, lambda: _history(values["history"])))
 
 
 def _with_view(workspace: Workspace, values: Any) -> Workspace:
     chosen: dict[str, Any] = {
-        name: known[known.index(values[name])]  # True, where there is a 1
+        name: known[known.index(values[name])]  # turns a 1 into True
         for name, known in _VIEW.items()
         if values.get(name) in known
     }
@@ -198,59 +199,60 @@ def _with_view(workspace: Workspace, values: Any) -> Workspace:
 
 
 def _photo(values: Any, region: Any) -> PhotoChoice:
-    """Read what was set about photos; the former format has a path and a region."""
+    """Read the settings of photos; in the first format, these were a path and a region."""
     if not isinstance(values, dict):
         values = {"path": values, "region": region}
-    path, part = _file(values.get("path")), _read(None, lambda: _region(values["region"]))
+    path, part = _read_path(values.get("path")), _read(None, lambda: _region(values["region"]))
     parts = {} if path is None or part is None else {PhotoFrame(path): part}
     photo = PhotoChoice(path, parts=parts)
 
-    def chosen() -> PhotoChoice:
-        reading, form = PhotoReading(**values["reading"]), MatchChoice(**values["form"])
+    def read() -> PhotoChoice:
+        options = LoadOptions(**(values.get("load_options") or values["reading"]))  # its former key
+        form = MatchChoice(**values["form"])
         certain = {name: quantity(name).check(value) for name, value in values["certain"].items()}
         SQUARE_FREQUENCY.check(form.square_frequency)
         _check(
-            reading.scan_axis in SCAN_AXES and reading.channel in CHANNELS
+            options.scan_axis in SCAN_AXES and options.channel in CHANNELS
             and form.sent in SENT and form.estimate in KNOWN and certain.keys() <= {*KNOWN}
             and isinstance(form.fit_gamma, bool)
         )  # fmt: skip
-        return replace(photo, reading=reading, form=form, certain=certain)
+        return replace(photo, load_options=options, form=form, certain=certain)
 
-    return _read(photo, chosen)
+    return _read(photo, read)
 
 
 def _film(values: Any) -> FilmChoice:
-    """Read what was set about films; the former format has a path."""
+    """Read the settings of films; in the former format, these were a path."""
     if not isinstance(values, dict):
-        return FilmChoice(_file(values))
-    film = FilmChoice(_file(values.get("path")))
+        return FilmChoice(_read_path(values))
+    film = FilmChoice(_read_path(values.get("path")))
 
-    def chosen() -> FilmChoice:
+    def read() -> FilmChoice:
         axis, frames = values["axis"], values["frames"]
         _check(axis in SCAN_AXES and type(frames) is int and frames in FRAMES)
         recording = film.recording.replace(**values["recording"])
         return replace(film, axis=axis, frames=frames, recording=recording)
 
-    return _read(film, chosen)
+    return _read(film, read)
 
 
 def _room(values: Any, former: RoomChoice) -> RoomChoice:
-    """Read what was set about rooms; a room that is not written is the former one."""
+    """Read the settings of rooms; a record without a room stands for the former room."""
 
-    def chosen() -> RoomChoice:
-        length, photo = values["focal_length"], _file(values["photo"])
+    def read() -> RoomChoice:
+        length, photo = values["focal_length"], _read_path(values["photo"])
         if length is not None:
             length = quantity("equivalent_focal_length").check(length)
         if values["camera"] is None:
             return RoomChoice(photo=photo, focal_length=length)
-        # Not at the start of a window that has shown no room.
+        # Imported here, so that a window that has shown no room starts sooner.
         from occ_model.room.room import Place, Room
 
         known = former.room if values["room"] is None else Room.from_toml(values["room"])
         room = known.replace(camera=Place(**values["camera"]))  # type: ignore[union-attr]  # as any
         return RoomChoice(str(values["name"]), room, photo, length)
 
-    return _read(RoomChoice(), chosen)
+    return _read(RoomChoice(), read)
 
 
 def _preset(name: Any) -> str:
@@ -270,8 +272,8 @@ def _pin(values: Any) -> PinnedScene:
 
 
 def _history(values: Any) -> History:
-    """Read the steps if each of them leads to a scene; the former format has no rooms."""
-    first = Step(
+    """Read the steps if each of them leads to a valid scene; the former format has no rooms."""
+    first = UndoState(
         Scene.from_toml(values["scene"]),
         _force(values["force"]),
         _room(values.get("room"), RoomChoice()),
@@ -311,16 +313,16 @@ def _settings(values: Any) -> SimulationSettings:
 
 
 def _region(values: Any) -> Region:
-    """Read a rectangle of whole numbers; whether it lies in the photo is checked with that."""
+    """Read a rectangle of whole numbers; whether it fits the photo is checked with the photo."""
     region = Region(**values)
     _check(all(type(side) is int and 0 <= side <= MAX_PIXELS for side in asdict(region).values()))
     return region
 
 
-def _file(text: Any) -> Path | None:
+def _read_path(text: Any) -> Path | None:
     path = _read(Path(), lambda: Path(text))
     return path if _read(False, lambda: path.is_absolute() and path.is_file()) else None
 
 
-def _text(path: Path | None) -> str:
+def _path_text(path: Path | None) -> str:
     return "" if path is None else text_of(path.absolute())

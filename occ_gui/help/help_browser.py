@@ -1,4 +1,4 @@
-"""A browser of local Markdown pages: pictures, headings as link targets, and their look."""
+"""A browser for local Markdown pages, with pictures, headings as link targets, and a style."""
 
 from PySide6.QtCore import QEvent, Qt, QUrl
 from PySide6.QtGui import (
@@ -24,7 +24,7 @@ _UNKNOWN = QTextDocument.ResourceType.UnknownResource
 
 
 class HelpBrowser(QTextBrowser):
-    """Shows Markdown files of this computer; other links open in the system's browser."""
+    """Shows Markdown files on this computer; other links open in the system's browser."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -64,9 +64,9 @@ class HelpBrowser(QTextBrowser):
         key = QUrl(name).toString()
         if key not in self._pictures:
             self._pictures[key] = QImage(url.toLocalFile())
-        return self._fitted(self._pictures[key])
+        return self._fit_picture(self._pictures[key])
 
-    def _fitted(self, picture: QImage) -> QImage:
+    def _fit_picture(self, picture: QImage) -> QImage:
         """Return a copy of a picture that is no wider than the page."""
         ratio = self.devicePixelRatioF()
         width = int((self.viewport().width() - 2 * _MARGIN - 1) * ratio)
@@ -83,7 +83,7 @@ class HelpBrowser(QTextBrowser):
             return
         document = self.document()
         for name, picture in self._pictures.items():
-            document.addResource(_IMAGE.value, QUrl(name), self._fitted(picture))
+            document.addResource(_IMAGE.value, QUrl(name), self._fit_picture(picture))
         document.markContentsDirty(0, document.characterCount())
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
@@ -103,7 +103,7 @@ def style_page(document: QTextDocument, palette: QPalette) -> None:
     """Set the margins of headings, the background of code blocks and the lines of tables."""
     ground, line = palette.alternateBase(), palette.mid().color()
     tables: set[int] = set()
-    document.pageCount()  # lays out all: of a page changed before that Qt leaves out paragraphs
+    document.pageCount()  # lays out everything first; otherwise Qt leaves out paragraphs
     block = document.begin()
     while block.isValid():
         cursor = QTextCursor(block)

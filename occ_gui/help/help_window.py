@@ -1,4 +1,4 @@
-"""The window of the manual, opened as a whole or where it explains the current pane."""
+"""The window of the manual, opened at its guide or where it explains the present pane."""
 
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
@@ -31,12 +31,12 @@ class HelpWindow(QMainWindow):
     def __init__(self, folder: Path, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._folder = folder
-        tip = "The pages of the manual, or the places found in them."
+        tip = "The pages of the manual, or what was found in them."
         self.page_list = named(QListWidget(), "Pages", tip)
         self.page_list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self._pages = pages(folder)
         self._sections: list[Section] = []
-        tip = "Lists the places with all these words; Enter shows the first."
+        tip = "Lists the sections that contain all these words; Enter shows the first."
         self.search_all = _search_field("Search all pages", tip)
         self.browser = named(HelpBrowser(), "Page")
         self.search = _search_field("Find in this page", "Enter finds the next place.")
@@ -44,7 +44,7 @@ class HelpWindow(QMainWindow):
         self._list(self._pages)
         self.page_list.itemActivated.connect(self._show_item)
         self.page_list.itemClicked.connect(self._show_item)
-        self.browser.sourceChanged.connect(self._on_page)
+        self.browser.sourceChanged.connect(self._show_current_page)
         self.search.textEdited.connect(self._find_from_start)
         self.search.returnPressed.connect(self.find_next)
         self.search_all.textChanged.connect(self._search_all)
@@ -100,7 +100,7 @@ class HelpWindow(QMainWindow):
         self.browser.setSource(url)
 
     def find_next(self) -> bool:
-        """Find the next occurrence of the searched text, from the start after the last."""
+        """Find the next occurrence of the search text; after the last one, start again."""
         text = self.search.text()
         if not text:
             return False
@@ -123,7 +123,7 @@ class HelpWindow(QMainWindow):
     def _search_all(self, text: str) -> None:
         if not text.strip():
             self._list(self._pages)
-            self._on_page(self.browser.source())
+            self._show_current_page(self.browser.source())
             return
         if not self._sections:
             self._sections = sections(self._folder)
@@ -147,7 +147,7 @@ class HelpWindow(QMainWindow):
         if words:
             self.browser.find(words[0])
 
-    def _on_page(self, url: QUrl) -> None:
+    def _show_current_page(self, url: QUrl) -> None:
         for place in range(self.page_list.count()):
             if self.page_list.item(place).data(_FILE) == url.fileName():
                 self.page_list.setCurrentRow(place)
@@ -161,7 +161,7 @@ def _search_field(name: str, tip: str) -> QLineEdit:
 
 
 class Manual(Service):
-    """The manual's window, made when first shown; ``pages`` maps panes to page and heading."""
+    """Opens the window of the manual; ``pages`` maps each pane to a page and a heading."""
 
     def __init__(
         self, window: QMainWindow, current_pane: Callable[[], str], pages: Mapping[str, str]

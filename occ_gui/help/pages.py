@@ -15,8 +15,8 @@ _LISTED = re.compile(r"^\* \[([^\]]+)\]\(([\w-]+\.md)\)", re.MULTILINE)
 
 
 def docs_folder() -> Path:
-    """Return the folder of the pages; raises OSError where the program has none installed."""
-    # From an archive, both are copied.
+    """Return the folder of the pages; raises OSError if the program is installed without them."""
+    # If the program runs from an archive, this copies the pictures as well.
     resource_path("pictures")
     return resource_path("docs")
 
@@ -24,14 +24,14 @@ def docs_folder() -> Path:
 def pages(folder: Path) -> list[tuple[str, str]]:
     """List title and file name of every page, in the order of the table of contents.
 
-    Raises OSError where the table of contents cannot be read.
+    Raises OSError if the table of contents cannot be read.
     """
     text = (folder / CONTENTS).read_text(encoding="utf-8")
     return [("Contents", CONTENTS), *_LISTED.findall(text)]
 
 
 def heading_id(text: str) -> str:
-    """Return the anchor of a heading, as the usual viewers of Markdown make it."""
+    """Return the anchor of a heading, as common Markdown viewers make it."""
     return re.sub(r"[^\w\- ]", "", text.strip().lower()).replace(" ", "-")
 
 
@@ -41,14 +41,14 @@ _HEADING = re.compile(r"#+ (.+)")
 @dataclass(frozen=True, slots=True)
 class Section:
     title: str
-    """The page's title in the table of contents, and the heading where it is not the page's own."""
+    """The page's title in the table of contents, followed by the heading of a section in it."""
     link: str  # page and heading, such as ``guide.md#set-up-a-scene``
     heading: str
     text: str
 
 
 def sections(folder: Path) -> list[Section]:
-    """Read the sections of all pages, but for the table of contents itself, in its order."""
+    """Read the sections of all pages, in the order of the table of contents and without it."""
     found = []
     for title, name in pages(folder):
         parts = _parts((folder / name).read_text(encoding="utf-8"))
@@ -59,7 +59,7 @@ def sections(folder: Path) -> list[Section]:
 
 
 def _parts(page: str) -> Iterator[tuple[str, str]]:
-    """Divide a page into headings and the text below each, without comments in examples."""
+    """Divide a page into headings and the text below each; a # in an example is no heading."""
     heading, lines, is_example = "", list[str](), False
     for line in page.splitlines():
         is_example ^= line.startswith("```")
@@ -74,7 +74,7 @@ def _parts(page: str) -> Iterator[tuple[str, str]]:
 
 
 def search(of: Sequence[Section], text: str) -> list[Section]:
-    """Return the sections that contain every word, those first whose headings do."""
+    """Return the sections that contain every word, first those that contain them in the title."""
     words = text.lower().split()
 
     def has_all(where: str) -> bool:

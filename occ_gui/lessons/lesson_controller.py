@@ -10,7 +10,7 @@ from occ_gui.core.workspace import Workspace
 from occ_gui.files.file_controller import sample_photos
 from occ_gui.lessons.answers import LessonAnswers, MatchedPhoto
 from occ_gui.lessons.lesson_view import LessonView
-from occ_gui.photo.photo_part import found_in
+from occ_gui.photo.shown_photo import find_match
 from occ_gui.scene.scene_store import new_gesture
 from occ_gui.shell.results import Board
 from occ_gui.values.photo_choice import PhotoChoice
@@ -220,7 +220,7 @@ class LessonController(QObject):
         wanted = samples.get(step.photo)
         if wanted is None:
             return replace(users, path=None)
-        sample = present if present.path == wanted else users.opened(wanted)
+        sample = present if present.path == wanted else users.open(wanted)
         return sample.with_known_frequency(step.scene.transmitter.switching_frequency)
 
     def _step(self) -> LessonStep | None:
@@ -256,7 +256,7 @@ class LessonController(QObject):
             self._pane.step.answer_field.show_waiting()
             results = self._board.results
             name = "" if results.photo is None else one_line(results.photo.path.name)
-            found = found_in(results)
+            found = find_match(results)
             photo = MatchedPhoto(name, None if found is None else found.match)
             self._answers.check(
                 lesson, self._places[lesson.name], text, self._store.workspace.scene, photo

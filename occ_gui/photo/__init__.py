@@ -1,1 +1,1 @@
-"""A real photo: reading it, comparing it with the simulation, and matching the scene to it."""
+"""A real photo: loading it, comparing it with the simulation, and matching the scene to it."""

@@ -1,4 +1,4 @@
-"""Search for the lamps of the open photo, when the user asks for it."""
+"""Search for the lamps of the open photo, started by the user."""
 
 from dataclasses import replace
 

@@ -1,4 +1,4 @@
-"""Lamps of a photo, and a region drawn by hand: as a form with a table, and on the photo itself."""
+"""Lamps of a photo, and a region drawn by hand: in a form, and as outlines on the photo itself."""
 
 import weakref
 from collections.abc import Sequence
@@ -25,7 +25,7 @@ from occ_model.results.decoding import Region
 from occ_model.results.lamp import Lamp
 from occ_model.scene.units import NONE
 
-_MOST_ROWS = 6  # of the table that are seen without scrolling
+_MOST_ROWS = 6  # rows of the table that are visible without scrolling
 _ROW_HEIGHT = 24
 
 _THIN, _THICK = 2, 4
@@ -36,7 +36,7 @@ _HANDLE = 9  # half the size of a corner's handle in pixels: large enough to be 
 
 
 class LampForm(QWidget):
-    """The choice of what is matched: the photo, one of its lamps, or a rectangle drawn by hand."""
+    """Lets the user choose what is matched: the photo, a lamp, or a rectangle drawn by hand."""
 
     find_asked = Signal()
     chosen = Signal(int)  # the user chose the lamp of this index
@@ -47,14 +47,14 @@ class LampForm(QWidget):
         super().__init__()
         self.search = push_button(
             "Find &lamps",
-            "Find every lamp in the photo, and whether its light changes while the picture is "
-            "read out. Choose one to match it by itself.",
+            "Find every lamp in the photo, and whether its light changes during the readout of "
+            "the picture. Choose a lamp to match it alone.",
             self.find_asked,
         )
         self.by_hand = push_button(
             "Re&gion by hand",
-            "Match only a rectangle: drag on the photo beside it to draw another one, its "
-            "middle to move it, and its corners to make it larger or smaller.",
+            "Match only a rectangle. Drag its middle to move it and its corners to resize it; "
+            "drag elsewhere on the photo to draw another one.",
         )
         self.by_hand.setCheckable(True)
         self.by_hand.toggled.connect(self.by_hand_chosen)
@@ -72,8 +72,9 @@ class LampForm(QWidget):
         self.table = read_only(
             QTableWidget(0, 4),
             "Lamps in the photo",
-            "The lamps, the brightest first: the columns that each covers, the columns of a chip "
-            "with their standard deviation, and the periods in view. A doubtful lamp says why.",
+            "The lamps, brightest first: the columns that each one covers, the width of a chip in "
+            "columns with its standard deviation, and the number of periods in view. The tooltip "
+            "of a doubtful lamp says why.",
         )
         self.table.setHorizontalHeaderLabels(["Lamp", "Columns", "Chip (px)", "Periods"])
         self.table.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
@@ -129,7 +130,7 @@ class LampForm(QWidget):
             self.by_hand.setChecked(by_hand)
 
     def show_search(self, is_searched: bool, why_none: str) -> None:
-        """Show that lamps are being searched, or why none were found; else what is matched."""
+        """Show that the search is running, or why no lamps were found."""
         self.search.setEnabled(not is_searched)
         if is_searched or why_none:
             self.place.setText("Searching for lamps…" if is_searched else why_none)
@@ -141,7 +142,7 @@ class LampForm(QWidget):
 
 
 class _DrawingArea(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has no types
-    """Takes drags of the left button anywhere on a photo: each draws a rectangle."""
+    """An area over the whole photo in which dragging with the left button draws a rectangle."""
 
     dragged = Signal(object, bool)
     """The rectangle from where the button was pressed, and whether the drag has ended."""
@@ -163,14 +164,17 @@ class _DrawingArea(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has no
 
 
 class LampOutlines(QObject):
-    """Draws on the view of a photo, whose first pixel's centre is at (0, 0)."""
+    """Outlines of the lamps and of the rectangle, drawn on a photo.
+
+    The centre of the photo's first pixel is at (0, 0).
+    """
 
     clicked = Signal(int)  # the user clicked the lamp of this index
     drawn = Signal(object)  # the user drew another rectangle: a Region, which may leave the photo
 
     def __init__(self, box: pg.ViewBox) -> None:
         super().__init__()
-        # Weak: a signal of the rectangle, which the view holds, holds this object.
+        # Weak, to avoid a cycle: the view holds the rectangle, whose signal holds this object.
         self._box = weakref.proxy(box)
         self._lamps: Sequence[Lamp] = ()
         self.items: list[tuple[pg.PlotCurveItem, pg.TextItem]] = []
@@ -183,7 +187,7 @@ class LampOutlines(QObject):
         self.area = _DrawingArea()
         self.area.setCursor(Qt.CursorShape.CrossCursor)
         self.area.dragged.connect(self._draw_rectangle)
-        # The area is under the rectangle, which moves by itself.
+        # The area lies under the rectangle, which handles drags on itself.
         for height, item in enumerate((self.area, self.rectangle), _LAYER):
             item.setZValue(height)
             item.hide()

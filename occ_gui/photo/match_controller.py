@@ -8,8 +8,8 @@ from PySide6.QtCore import QObject, Signal
 from occ_gui.background.task import Task
 from occ_gui.photo.match_figures import is_certain
 from occ_gui.photo.photo_controller import PhotoController
-from occ_gui.photo.photo_part import PhotoPart
 from occ_gui.photo.photo_work import match
+from occ_gui.photo.shown_photo import ShownPhoto
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.results import Board
 from occ_gui.values.photo_choice import MatchChoice
@@ -29,7 +29,7 @@ _RECORDED = ("exposure_time", "f_number", "iso")
 def sources_of(
     found: Match, photo_name: str, known: str, day: date, *, assumed: bool
 ) -> dict[str, str]:
-    """Write the source and uncertainty of every value that a match estimated."""
+    """Describe the source and the uncertainty of every value that a match estimated."""
     given = quantity(known)
     value = given.format(float(found.scene.value(known)))
     how = "assumed to be" if assumed else "being"
@@ -52,7 +52,7 @@ def cure_of_match(found: Match) -> Cure:
 
 
 class MatchController(QObject):
-    failed = Signal(str)  # why a match, its use, or a setting that was noted is refused
+    failed = Signal(str)  # why a match, its use, or a recorded camera setting is refused
 
     def __init__(self, scenes: SceneStore, photos: PhotoController, board: Board) -> None:
         super().__init__()
@@ -62,11 +62,11 @@ class MatchController(QObject):
             match, "match of the photo", impatient=True
         )
         self.task.finished.connect(self._take)
-        self.task.failed.connect(self._refuse)
+        self.task.failed.connect(self._show_refusal)
         board.select(lambda results: results.photo).changed.connect(self._follow)
 
     def _follow(self) -> None:
-        """End the match of another photo, and begin one that was asked for with this photo."""
+        """End the match of the previous photo; start one if it was requested with the new photo."""
         self.task.cancel()
         choice = self._photos.choice
         if choice.is_match_wanted and self.photo is not None:
@@ -78,15 +78,15 @@ class MatchController(QObject):
         return self._board.results.photo
 
     @property
-    def _part(self) -> PhotoPart:
-        return PhotoPart.of(self._store.workspace, self._board.results)
+    def _part(self) -> ShownPhoto:
+        return ShownPhoto.of(self._store.workspace, self._board.results)
 
     @property
     def match(self) -> Match | None:
         return self._part.match
 
     def start(self, choice: MatchChoice, *, apply: bool = False) -> None:
-        """Match the open photo; ``apply``: and apply what is found to the scene at once."""
+        """Match the open photo; with ``apply``, apply the match to the scene once it is found."""
         document = self._photos.document
         if document is None:
             return
@@ -108,26 +108,26 @@ class MatchController(QObject):
         if document is None or document.requested is None:
             return
         if found.refusal:
-            self._refuse(*found.refusal)
+            self._show_refusal(*found.refusal)
             return
         self._photos.put(replace(document, requested=None, found=found))
-        # A placement by hand belongs to the picture before the match.
+        # The user's placement belongs to the picture before the match.
         self._photos.edit(lambda each: replace(each, placed=None))
-        if document.requested.is_applied_then:
+        if document.requested.applies_result:
             self.apply()
 
-    def _refuse(self, *reasons: str) -> None:
-        """Show why there is no match; the last one of the photo stays."""
+    def _show_refusal(self, *reasons: str) -> None:
+        """Show why there is no match; the photo's last match stays."""
         document = self._photos.document
         if document is None or document.requested is None:
             return
         part = document.requested.part
         found = document.found or FoundMatch(part, None, 0.0)
-        self._photos.put(replace(document, requested=None, found=found.refused(reasons, part)))
-        self.failed.emit(reasons[0])  # which the verdict shows, however short it is
+        self._photos.put(replace(document, requested=None, found=found.with_refusal(reasons, part)))
+        self.failed.emit(reasons[0])  # the bar with the verdict shows all of them
 
-    def use_notes(self) -> None:
-        """Apply the settings that the camera recorded to the scene, as one step."""
+    def apply_camera_settings(self) -> None:
+        """Apply the settings that the camera recorded to the scene, as one undo step."""
         photo = self.photo
         if photo is None:
             return
@@ -140,19 +140,19 @@ class MatchController(QObject):
             self.failed.emit(str(error))
 
     def apply(self) -> None:
-        found, photo = self._usable(), self.photo
+        found, photo = self._take_usable_match(), self.photo
         if found is not None and photo is not None:
             self._scenes.put(found.scene, f"match with {photo.path.name}")
 
     def cure(self) -> None:
-        """Apply the match at a shutter speed without bars to the scene, as one step."""
-        found = self._usable()
+        """Apply the match, with a shutter speed that shows no bars, as one undo step."""
+        found = self._take_usable_match()
         if found is not None:
             self._scenes.put(cure_of(found.scene).scene, "shutter speed without bars")
 
     def save(self, name: str, title: str, day: date | None = None) -> bool:
-        """Save the scene of the match as a preset; return whether that was possible."""
-        found, photo = self._usable(), self.photo
+        """Save the scene of the match as a preset; return whether it was saved."""
+        found, photo = self._take_usable_match(), self.photo
         if found is None or photo is None:
             return False
         given = found.known
@@ -168,8 +168,8 @@ class MatchController(QObject):
             return False
         return True
 
-    def _usable(self) -> Match | None:
-        """Return the match that is shown; report where it is of something else, and not used."""
+    def _take_usable_match(self) -> Match | None:
+        """Return the match; if it belongs to another part or photo, report that and return None."""
         part = self._part
         if part.match is not None and part.elsewhere:
             self.failed.emit(f"This match is {part.elsewhere}; it is not used.")

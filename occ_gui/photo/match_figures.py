@@ -1,4 +1,4 @@
-"""Figures of a match, what they depend on, and lines of them to paste into other programs."""
+"""Values of a match, the condition that they depend on, and lines to paste into other programs."""
 
 import math
 from collections.abc import Mapping
@@ -18,25 +18,26 @@ from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 
 WHAT_ERRORS_MEAN = (
-    "± is one standard deviation, of the fit alone: the error of the value that is known comes "
-    "on top.\nA limit, as in “below 36 µs”, lies two standard deviations above the value.\n"
-    "“Sure” means that no check found a reason to doubt the match; the reasons of a "
-    "doubtful one are listed."
+    "± is one standard deviation of the fit alone; it does not include the error of the value "
+    "that is known.\nA limit, as in “below 36 µs”, lies two standard deviations above the value.\n"
+    "“Sure” means that no check found a reason to doubt the match; the reasons to doubt a "
+    "doubtful match are listed."
 )
 
 
 def is_certain(name: str, value: float, certain: Mapping[str, float]) -> bool:
-    """Whether a known value, in SI units, is one that the user has confirmed."""
+    """Whether the user has confirmed this known value, in SI units."""
     return math.isclose(value, certain.get(name, math.nan), rel_tol=1e-9)
 
 
-def stale_sentence(
+def warn_of_stale(
     scene: Scene, name: str, then: float, given: float, certain: Mapping[str, float]
 ) -> str:
-    """Return the start of a sentence where the scene's known value is not ``then``; else empty.
+    """Return the start of a warning if the scene's known value has changed since; else empty.
 
-    What is certain of a photo holds whatever the scene becomes. ``given`` is the scene's value when
-    the result was found: a square wave has its own frequency.
+    ``then`` is the known value that the result was found with, and ``given`` the scene's value at
+    that time: they differ for a square wave, which has its own frequency. A value that is certain
+    for the photo stays valid when the scene changes.
     """
     declared, now = quantity(name), float(scene.value(name))
     if now in {then, given} or is_certain(name, then, certain):
@@ -45,7 +46,7 @@ def stale_sentence(
 
 
 def condition(name: str, value: float, certain: Mapping[str, float], pattern: str) -> str:
-    """Name the value that estimates depend on, as "if f = 10 kHz: "; empty where it is certain."""
+    """Name the value that estimates depend on, as "if f = 10 kHz: "; empty if it is certain."""
     return "" if is_certain(name, value, certain) else assumption(name, value, pattern)
 
 
@@ -56,7 +57,7 @@ def condition_of(match: Match, certain: Mapping[str, float]) -> str:
 
 
 def _grid(parent: QWidget | None = None) -> QGridLayout:
-    # A form would not reserve the height of wrapped lines.
+    # A QFormLayout would not reserve the height of wrapped lines.
     grid = QGridLayout(parent)
     grid.setContentsMargins(0, 0, 0, 0)
     grid.setVerticalSpacing(2)
@@ -65,7 +66,7 @@ def _grid(parent: QWidget | None = None) -> QGridLayout:
 
 
 class MatchValues(QWidget):
-    """The figures as a table; rows without a value are hidden."""
+    """The values of a match as a table; rows without a value are hidden."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -73,7 +74,7 @@ class MatchValues(QWidget):
         self.labels: dict[str, QLabel] = {}
         self._titled: dict[str, QLabel] = {}
         for row, (name, title) in enumerate(LABELS.items()):
-            # A pattern can be of any length.
+            # A pattern can be arbitrarily long.
             label = ElidedLabel() if name == "pattern" else paragraph()
             label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
             named(label, title, WHAT_ERRORS_MEAN if name in (*ESTIMATES, "frame") else "")
@@ -83,18 +84,18 @@ class MatchValues(QWidget):
         fixed = QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont)
         self.labels["pattern"].setFont(fixed)
         self.labels["region"].setToolTip(
-            "Between the first edge of a stripe and the last: the applied scene is dark outside."
+            "From the first edge of a stripe to the last; outside, the applied scene is dark."
         )
 
     def show_match(self, match: Match, certain: Mapping[str, float], noted: float | None) -> None:
         """Show a match; ``noted``: the exposure time in seconds recorded by the camera, if any."""
         condition = condition_of(match, certain)
         facts = match_facts(match, condition, noted)
-        # Their condition stands once, above them.
+        # The condition is shown once, above the values.
         shown = [(fact.key, str(fact).replace(condition, "")) for fact in facts]
         others = [f"• {text}" for key, text in shown if key == "alternative"]
         texts = dict(shown) | {"alternative": "\n".join(others)}
-        if "gamma" not in match.uncertainties:  # the scene's says nothing of the photo
+        if "gamma" not in match.uncertainties:  # the scene's gamma was not estimated from the photo
             texts["gamma"] = ""
         for name, label in self.labels.items():
             text = texts.get(name, "")
@@ -122,15 +123,15 @@ class PasteLines(QWidget):
         self.show_lines({})
 
     def show_lines(self, lines: Mapping[str, str], condition: str = "") -> None:
-        """Show lines by program, or where they depend on a condition only that.
+        """Show a line for each program; if the values depend on a condition, explain that instead.
 
-        A line that is pasted elsewhere loses its condition.
+        A line that is pasted into another program would lose its condition.
         """
         why_none = ""
         if condition and lines:
             why_none = (
                 f"Lines for {' and '.join(lines)} hold only {condition.removesuffix(': ')}. They "
-                "are given once this is confirmed: enter the value, or tick “certain”."
+                "appear once you confirm this: enter the value, or tick “certain”."
             )
             lines = {}
         self.why_none.setText(why_none)
@@ -140,7 +141,7 @@ class PasteLines(QWidget):
             part.deleteLater()
         self._parts, self.lines = [], {}
         for row, (program, line) in enumerate(lines.items()):
-            # Wrapped: the number stands at the end.
+            # Wrapped rather than shortened, because the number is at the end.
             field = self.lines[program] = paragraph(
                 line, name=f"Line for {program}", is_selectable=True
             )

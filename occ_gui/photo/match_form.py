@@ -42,12 +42,13 @@ class MatchForm(QWidget):
         self._scene: Scene | None = None
         self._shown = MatchChoice()
         self._certain: Mapping[str, float] = {}
-        self._forgotten: Mapping[str, float] = {}  # values that were confirmed for earlier photos
+        self._forgotten: Mapping[str, float] = {}  # values confirmed only for earlier photos
         self.sent = KeyedComboBox(
             "What was sent",
-            "What the LED in the photo sent: what the scene sends, a square wave of so many "
-            "cycles per second, or whatever can be read from the stripes.\n"
-            "Find out: what the scene sends if that explains the stripes, else read.",
+            "What the LED in the photo sent: what the scene sends, a square wave of a given "
+            "number of cycles per second, or whatever can be read from the stripes.\n"
+            "Find out: what the scene sends if that explains the stripes, else what is read from "
+            "them.",
             {
                 "auto": "Find out: as the scene, else read",
                 "scene": "What the scene sends",
@@ -59,8 +60,8 @@ class MatchForm(QWidget):
         self.square = named(QuantityEdit(SQUARE_FREQUENCY), SQUARE_FREQUENCY.label, tip)
         self.estimate = KeyedComboBox(
             "What is estimated",
-            "Stripes determine only the product of readout time (in µs) and switching "
-            "frequency (in kHz): one of them must be known, and is taken from the scene.",
+            "Stripes determine only the product of readout time and switching frequency. One of "
+            "the two must be known; it is taken from the scene.",
             {
                 "readout_time": "Readout time, frequency known",
                 "switching_frequency": "Frequency, readout time known",
@@ -77,12 +78,12 @@ class MatchForm(QWidget):
         for change in (
             self.sent.chosen, self.estimate.chosen, self.square.edited, self.gamma.clicked,
         ):  # fmt: skip
-            change.connect(self._tell)
+            change.connect(self._emit_choice)
         self.square.edited.connect(self._confirm_square)
         self._show_known()
 
     def _make_known(self) -> None:
-        """Make the fields of the known values, which can be edited here, too."""
+        """Make the fields of the known values, which can be edited here as well."""
         self.known: dict[str, QuantityEdit] = {}
         note = "A known value of the photo; entering it changes the scene."
         for name in KNOWN:
@@ -94,13 +95,13 @@ class MatchForm(QWidget):
         self.hint = paragraph()
         self.certain = check_box(
             "certain",
-            "Whether this value is known of this photo. What is found with a value that is "
-            "only assumed is stated with the assumption. A value that you enter here is "
-            "certain.",
+            "Tick if you know this value for this photo. Results that depend on a value that is "
+            "only assumed are stated with the assumption. A value that you enter here is taken "
+            "as certain.",
         )
         self.certain.clicked.connect(self._click_certain)
         self.notices: dict[QuantityEdit, RefusalNotice] = {}
-        """The reason, under each field, why its last input was refused."""
+        """For each field, the notice below it that says why its last input was refused."""
         for field in (self.square, *self.known.values()):
             notice = self.notices[field] = RefusalNotice(field)
             field.refused.connect(notice.show_problem)
@@ -120,14 +121,14 @@ class MatchForm(QWidget):
         self.certain_chosen.emit(name, value)
         self.edited.emit(name, value, new_gesture())
 
-    def _tell(self) -> None:
+    def _emit_choice(self) -> None:
         self.chosen.emit(self._choice())
 
     def _take_sent(self, sent: str) -> None:
-        if sent == "square":  # who chooses it says that its frequency is that of the lamp
+        if sent == "square":  # choosing it confirms its frequency
             self._confirm_square(self.square.value())
         elif self._certain.get(_FREQUENCY) == CHIPS_OF_A_CYCLE * self.square.value():
-            # What was confirmed was the square wave's.
+            # The value that was confirmed was that of the square wave.
             self.certain_chosen.emit(_FREQUENCY, None)
 
     def _confirm_square(self, cycles: float) -> None:
@@ -170,7 +171,7 @@ class MatchForm(QWidget):
         filled(QVBoxLayout(self), grid, run, margins=0, spacing=3)
 
     def choice(self) -> MatchChoice:
-        """Return the choices, including values that are typed but not entered."""
+        """Return the choices, including values that were typed but not yet entered."""
         for field in (self.square, *self.known.values()):
             field.take_typed()
         return self._choice()
@@ -187,7 +188,7 @@ class MatchForm(QWidget):
         self, choice: MatchChoice, certain: Mapping[str, float], forgotten: Mapping[str, float]
     ) -> None:
         """Show the choices, the confirmed values, and those confirmed for other photos."""
-        if choice != self._shown:  # what was typed since and is not entered stays
+        if choice != self._shown:  # else keep what was typed but not yet entered
             self._shown = choice
             self.sent.show_key(choice.sent)
             self.square.set_value(choice.square_frequency)
@@ -197,7 +198,7 @@ class MatchForm(QWidget):
         self._show_known()
 
     def show_scene(self, scene: Scene) -> None:
-        """Show the known values of this scene, in place of refused ones."""
+        """Show the known values of this scene; input that was refused is replaced."""
         self._scene = scene
         for notice in self.notices.values():
             notice.end()
@@ -213,7 +214,7 @@ class MatchForm(QWidget):
         for widget in (self.progress, self.cancel):
             widget.setVisible(running)
         self.start.setVisible(not running)
-        if had_focus:  # otherwise Qt would move the focus to the next field, which takes typing
+        if had_focus:  # otherwise Qt would move it to the next field, where typing changes a value
             shown.setFocus()
         self.gamma.setEnabled(not running)
         self.progress.setValue(0)
@@ -244,14 +245,14 @@ class MatchForm(QWidget):
         if of_frequency:
             cycles = HERTZ.format(self.known[_FREQUENCY].value() / CHIPS_OF_A_CYCLE, 4)
             lines.append(
-                f"two chips a cycle of {cycles}"
+                f"two chips per cycle at {cycles}"
                 if square
-                else f"of chips; an LED that only blinks does so at {cycles}"
+                else f"chips per second; an LED that only blinks does so at {cycles}"
             )
         if not self.certain.isChecked() and is_certain(name, known, self._forgotten):
             lines.append(
-                "Only assumed here: it was certain of another photo. Tick “certain” if it "
-                "holds for this one."
+                "Only assumed here: it was certain for another photo. Tick “certain” if it "
+                "also holds for this one."
             )
         self.hint.setText("\n".join(lines))
         self.hint.setVisible(bool(lines))

@@ -7,7 +7,7 @@ from PySide6.QtCore import QEvent, Qt, Signal
 from PySide6.QtGui import QPalette
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
 
-from occ_gui.photo.match_figures import MatchValues, PasteLines, condition_of, stale_sentence
+from occ_gui.photo.match_figures import MatchValues, PasteLines, condition_of, warn_of_stale
 from occ_gui.widgets.building import filled, named, paragraph, push_button
 from occ_gui.widgets.outdated_mark import DELAY, OutdatedMark
 from occ_gui.widgets.state_look import State, colours_of
@@ -22,13 +22,13 @@ SIGNS = {SURE: "●", DOUBTFUL: "◐", REFUSED: "○", UNREADABLE: "✕"}
 """Sign of each verdict, so that none depends on colour alone."""
 
 STATES = {SURE: State.GOOD, DOUBTFUL: State.DOUBTFUL}
-"""State whose colours a verdict has, here as in the bar at the top."""
+"""The state that gives each verdict its colours, here and in the bar at the top."""
 
 _MARGIN = 4
 
 
-class VerdictView(QWidget):
-    """Whether a match is sure or doubtful: a word on a coloured plate, with its reasons."""
+class MatchVerdictView(QWidget):
+    """The verdict on a match as a word on a coloured background, with its reasons."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -86,16 +86,16 @@ class MatchResult(QWidget):
         self._given = math.nan
         self._certain: Mapping[str, float] = {}
         self._turned = False
-        self.verdict, self.figures, self.paste = VerdictView(), MatchValues(), PasteLines()
+        self.verdict, self.figures, self.paste = MatchVerdictView(), MatchValues(), PasteLines()
         self.mark = OutdatedMark(self.figures)
-        self.condition = paragraph(name="What the figures rest on")
+        self.condition = paragraph(name="What the values depend on")
         self.stale = paragraph(name="Whether the match still belongs to the known value")
         self.stale.hide()
         self.cure = paragraph()
         self._make_buttons()
         filled(
             QVBoxLayout(self),
-            # The cure is what most photographers came for: it needs no scrolling.
+            # Most photographers want the cure, so it is visible without scrolling.
             self.verdict, self.stale, self.condition, self.cure,
             (self.without_bars, 0, Qt.AlignmentFlag.AlignLeft), self.figures, self.paste,
             filled(QHBoxLayout(), self.apply, self.save, None), None,
@@ -105,19 +105,19 @@ class MatchResult(QWidget):
     def _make_buttons(self) -> None:
         self.apply = push_button(
             "&Apply to the scene",
-            "Put the result into the scene, as one step that can be undone: its picture then "
-            "lies on the photo.",
+            "Put the result into the scene, as one step that can be undone. The simulated picture "
+            "then lies on the photo.",
             self.apply_asked,
         )
         self.save = push_button(
             "&Save as preset…",
-            "Save the result as a preset of your own, with the photo and the uncertainties as "
-            "its sources.",
+            "Save the result as a preset of your own, which names the photo and the uncertainties "
+            "as the sources of its values.",
             self.save_asked,
         )
         self.without_bars = push_button(
             "&Without bars",
-            "Simulate the picture at a shutter speed that shows no bars, beside the photo: one "
+            "Simulate the picture at a shutter speed that shows no bars, beside the photo, as one "
             "step that can be undone.",
             self.cure_asked,
         )
@@ -165,7 +165,7 @@ class MatchResult(QWidget):
 
     def _depth(self, found: Cure, match: Match) -> str:
         if match.exposure_verdict != "sure":
-            return ""  # the bars are as deep as the exposure lets them
+            return ""  # the depth of the bars depends on the exposure time
         ends = dict.fromkeys(f"{100.0 * depth:.3g}" for depth in found.depth)
         exposure = SECOND.format(match.exposure_time, 3)
         return f"bars of {' to '.join(ends)} % of its light at {exposure}, "
@@ -207,6 +207,6 @@ class MatchResult(QWidget):
             return
         name = match.known
         then = float(getattr(match, name))
-        stale = stale_sentence(scene, name, then, self._given, self._certain)
+        stale = warn_of_stale(scene, name, then, self._given, self._certain)
         self.stale.setText(f"{stale}match again.")
         self.stale.setVisible(bool(stale))

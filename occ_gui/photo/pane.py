@@ -1,4 +1,4 @@
-"""The pane of the photo: it shows what is set, and what the user does edits that."""
+"""The pane of the photo: shows the settings and results, and turns the user's input into edits."""
 
 from dataclasses import replace
 
@@ -9,14 +9,14 @@ from occ_gui.photo.lamp_views import LampOutlines
 from occ_gui.photo.many.many_controller import ManyPhotosController
 from occ_gui.photo.match_controller import MatchController, cure_of_match
 from occ_gui.photo.photo_controller import PhotoController
-from occ_gui.photo.photo_part import PartEdits, PhotoPart
 from occ_gui.photo.photo_view import PhotoView
 from occ_gui.photo.photo_work import (
     chip_reading,
-    compared,
+    comparison_inputs,
     photo_profile,
     stripe_search,
 )
+from occ_gui.photo.shown_photo import PartEdits, ShownPhoto
 from occ_gui.photo.window_actions import WindowActions
 from occ_gui.picture.image_view import ImageView
 from occ_gui.scene.scene_store import SceneStore
@@ -27,7 +27,7 @@ from occ_gui.values.photo_choice import MODES, MatchChoice, Placed, Placement
 from occ_model.results.decoding import Region
 
 
-class PhotoPane(Pane[PhotoPart]):
+class PhotoPane(Pane[ShownPhoto]):
     def __init__(
         self,
         scenes: SceneStore,
@@ -48,8 +48,8 @@ class PhotoPane(Pane[PhotoPart]):
         works = (photos.work, self.matching, self.lamps, *self.works)
         self.tasks = (*(work.task for work in works), self.many.runner)
         self.outlines = LampOutlines(image.photo.box)
-        self._shown = PhotoPart(scenes.scene, None, photos.choice)
-        self._compared = compared(self._shown)
+        self._shown = ShownPhoto(scenes.scene, None, photos.choice)
+        self._compared = comparison_inputs(self._shown)
         view.show_scene(scenes.scene)
         view.show_choice(photos.choice)
         self.matching.task.reported.connect(view.form.show_progress)
@@ -83,7 +83,7 @@ class PhotoPane(Pane[PhotoPart]):
         view.placement.moving_chosen.connect(self._set_movable)
         view.facts.channel_chosen.connect(photos.take_channel)
         view.facts.scan_axis_chosen.connect(photos.scan_along)
-        view.facts.settings_asked.connect(matching.use_notes)
+        view.facts.settings_asked.connect(matching.apply_camera_settings)
         view.form.chosen.connect(self._take_form)
         view.form.certain_chosen.connect(self._take_certain)
         view.form.asked.connect(matching.start)
@@ -91,7 +91,7 @@ class PhotoPane(Pane[PhotoPart]):
         view.many.match_asked.connect(self.match_all)
         view.many.photo_chosen.connect(photos.open)
         view.result.apply_asked.connect(matching.apply)
-        view.result.cure_asked.connect(self._cure)
+        view.result.cure_asked.connect(self._apply_cure)
         form, parts = view.lamps, self.parts
         form.find_asked.connect(self.lamps.find)
         form.by_hand_chosen.connect(parts.set_by_hand)
@@ -101,18 +101,18 @@ class PhotoPane(Pane[PhotoPart]):
         self.outlines.drawn.connect(parts.draw)
         image.photo.graphics.scene().sigMouseClicked.connect(self._click)
 
-    # What is shown.
+    # Showing the part.
 
     @property
     def placement(self) -> Placement:
         return self._shown.placement
 
-    def show_part(self, part: PhotoPart) -> None:
+    def show_part(self, part: ShownPhoto) -> None:
         shown, self._shown = self._shown, part
         self._show(part, shown)
         self._follow(part, shown)
 
-    def _show(self, part: PhotoPart, shown: PhotoPart) -> None:
+    def _show(self, part: ShownPhoto, shown: ShownPhoto) -> None:
         view, is_another = self.view, part.photo is not shown.photo
         if is_another:
             self._image.show_photo(part.photo)
@@ -130,7 +130,7 @@ class PhotoPane(Pane[PhotoPart]):
             self._image.show_placement(part.placement)
             view.placement.show_placement(*placing)
 
-    def _show_match(self, part: PhotoPart, shown: PhotoPart) -> None:
+    def _show_match(self, part: ShownPhoto, shown: ShownPhoto) -> None:
         view, is_another = self.view, part.match is not shown.match
         if is_another:
             view.show_match(part.found, None if part.match is None else cure_of_match(part.match))
@@ -144,15 +144,17 @@ class PhotoPane(Pane[PhotoPart]):
         if is_new or running != (shown.is_matched_now, shown.refusal):
             view.show_match_running(*running)
 
-    def _follow(self, part: PhotoPart, shown: PhotoPart) -> None:
-        """Do what follows from a change; another part may come of it, which is shown then."""
+    def _follow(self, part: ShownPhoto, shown: ShownPhoto) -> None:
+        """Do what follows from a change; this may change the part again, which is then shown."""
         if part.choice.listed != shown.choice.listed:
             self.many.show_files(part.choice.listed)
         if part.part != shown.part:
             self.matching.cancel()
             if part.part is not None:
-                self._lay(MODES[0])  # lamps and regions are drawn on the photo beside the picture
-        last, self._compared = self._compared, compared(self._shown)
+                self._set_overlay(
+                    MODES[0]
+                )  # lamps and regions are drawn on the photo beside the picture
+        last, self._compared = self._compared, comparison_inputs(self._shown)
         if self._compared != last:
             profile = photo_profile(self._shown)
             self._board.put(replace(self._board.results, photo_profile=profile))
@@ -168,7 +170,7 @@ class PhotoPane(Pane[PhotoPart]):
         self.view.lamps.show_search(*self._shown.search[1:])
         self.outlines.show_rectangle(by_hand)
 
-    # What the user does.
+    # Handling the user's input.
 
     def match(self) -> None:
         self.matching.start(self.view.form.choice())
@@ -191,19 +193,19 @@ class PhotoPane(Pane[PhotoPart]):
     def _reset_placement(self) -> None:
         self._place(None)
 
-    def _cure(self) -> None:
+    def _apply_cure(self) -> None:
         """Show the simulation at a shutter speed without bars next to the photo."""
         self.matching.cure()
-        self._lay(MODES[0])
+        self._set_overlay(MODES[0])
 
-    def _lay(self, mode: str) -> None:
+    def _set_overlay(self, mode: str) -> None:
         self._store.put(replace(self._store.workspace, overlay=mode))
 
     def _set_movable(self, by_mouse: bool) -> None:
         self._image.overlay.set_movable(by_mouse)
         if by_mouse and self._store.workspace.overlay == MODES[0]:
             # A photo beside the picture cannot be moved over it.
-            self._lay(MODES[1])
+            self._set_overlay(MODES[1])
 
     def _click(self, event: MouseClickEvent) -> None:
         self.outlines.click(self._image.photo.box.mapSceneToView(event.scenePos()))

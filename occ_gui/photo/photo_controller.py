@@ -1,4 +1,4 @@
-"""Controller of the open photo: reads it in the background whenever another one is chosen."""
+"""Controller of the open photo: loads it in the background whenever another one is chosen."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -9,17 +9,17 @@ from PySide6.QtCore import QObject, Signal
 import occ_model as occ
 from occ_gui.background.task import Report, Task
 from occ_gui.core.store import Store
+from occ_gui.shell.result_updater import ResultUpdater
 from occ_gui.shell.results import Board, Results
-from occ_gui.shell.work import Work
 from occ_gui.values.photo_choice import PhotoChoice, PhotoSource
 from occ_gui.values.photo_results import PhotoDocument
 
-KEPT_PHOTOS = 3  # photos that are shown again at once: the user's own after a lesson with two
+KEPT_PHOTOS = 3  # photos kept to be shown again at once: two of a lesson, and the user's own
 
 
 def _read(source: PhotoSource, report: Report) -> PhotoDocument:
     report(0.0)
-    axis, channel = source.reading.scan_axis, source.reading.channel
+    axis, channel = source.load_options.scan_axis, source.load_options.channel
     photo = occ.load_photo(source.path, axis, channel=channel, progress=report)
     return PhotoDocument(photo, source)
 
@@ -29,17 +29,17 @@ def _put(results: Results, document: PhotoDocument | None) -> Results:
 
 
 class PhotoController(QObject):
-    """Opens and closes photos, and reads them again along another axis or in another channel."""
+    """Opens and closes photos, and loads them again along another axis or in another channel."""
 
     opened = Signal(object)  # the photo that is shown now, or None
-    failed = Signal(str)  # why a photo could not be read; the previous one stays
+    failed = Signal(str)  # why a photo could not be loaded; the previous one stays
 
     def __init__(self, store: Store, board: Board) -> None:
         super().__init__()
         self._store, self._board = store, board
         self._settled = store.workspace.photo
         task: Task[PhotoSource, PhotoDocument] = Task(_read, "reading of the photo", impatient=True)
-        self.work = Work(
+        self.work = ResultUpdater(
             store, board, task, lambda workspace, _: workspace.photo.source, _put,
             stays=True, keep=KEPT_PHOTOS,
         )  # fmt: skip
@@ -61,8 +61,8 @@ class PhotoController(QObject):
         return self._board.results.document
 
     def put(self, document: PhotoDocument) -> None:
-        """Show the open photo with other requests or findings, which come back with it."""
-        self.work.keep(document.at_rest())
+        """Store the open photo's document; what was found in it is kept for its next opening."""
+        self.work.keep(document.without_work())
         self._board.put(_put(self._board.results, document))
 
     def edit(self, change: Callable[[PhotoChoice], PhotoChoice]) -> None:
@@ -72,30 +72,30 @@ class PhotoController(QObject):
         self._store.put(replace(workspace, photo=change(workspace.photo)))
 
     def open(self, path: Path, *, match: bool = False) -> None:
-        """Open a photo; ``match``: and apply its match to the scene."""
-        self.edit(lambda choice: choice.opened(path, match=match))
+        """Open a photo; with ``match``, match it as well and apply the match to the scene."""
+        self.edit(lambda choice: choice.open(path, match=match))
 
     def list_files(self, paths: Sequence[Path]) -> None:
-        """List these photos in place of the previous ones, without any certain value."""
+        """List these photos in place of the previous ones; no value is certain for them."""
         listed = tuple(paths)
-        self.edit(lambda each: replace(each.uncertain() if listed else each, listed=listed))
+        self.edit(lambda each: replace(each.clear_certain() if listed else each, listed=listed))
 
     def cancel(self) -> None:
-        """Cancel the reading; the previous photo stays."""
+        """Cancel the loading of a photo; the previous photo stays."""
         if not self.work.task.is_idle:
             self._give_up()
 
     def scan_along(self, scan_axis: str) -> None:
-        self._read_by(scan_axis=scan_axis)
+        self._reload_with(scan_axis=scan_axis)
 
     def take_channel(self, channel: str) -> None:
-        self._read_by(channel=channel)
+        self._reload_with(channel=channel)
 
-    def _read_by(self, **changes: str) -> None:
-        self.edit(lambda each: replace(each, reading=replace(each.reading, **changes)))
+    def _reload_with(self, **changes: str) -> None:
+        self.edit(lambda each: replace(each, load_options=replace(each.load_options, **changes)))
 
     def close(self) -> None:
-        self.edit(PhotoChoice.closed)
+        self.edit(PhotoChoice.close)
 
     def _settle(self) -> None:
         self._settled = self.choice
@@ -104,7 +104,7 @@ class PhotoController(QObject):
         shown = self._settled
         changes = {
             name: getattr(shown, name)
-            for name in ("path", "reading", "opening", "certain", "forgotten", "parts")
+            for name in ("path", "load_options", "opening", "certain", "forgotten", "parts")
         }
         self._settled = replace(self.choice, **changes, is_match_wanted=False)
         self._store.put(replace(self._store.workspace, photo=self._settled))

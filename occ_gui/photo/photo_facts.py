@@ -1,4 +1,4 @@
-"""Facts about the photo: name, size, camera and settings, and the options of reading it."""
+"""Facts about the photo: name, size, camera and settings, and the options for loading it."""
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
@@ -43,8 +43,8 @@ class PhotoFacts(QWidget):
         self.channel.chosen.connect(self.channel_chosen)
         self.scan_axis = KeyedComboBox(
             "Scanned",
-            "The direction in which the shutter scanned: by columns or by lines of the file; "
-            "automatic: across the stripes.",
+            "The direction in which the shutter scanned: by columns or by lines of the file. "
+            "Automatic: across the stripes.",
             {"auto": "automatic", "columns": "by columns", "lines": "by lines"},
         )
         self.scan_axis.chosen.connect(self.scan_axis_chosen)
@@ -75,6 +75,6 @@ class PhotoFacts(QWidget):
         self.notes.set_full_text(", ".join(recorded) or "No settings recorded.")
         self.use_settings.setEnabled(bool(recorded))
 
-    def show_reading(self, channel: str, scan_axis: str) -> None:
+    def show_load_options(self, channel: str, scan_axis: str) -> None:
         self.channel.show_key(channel)
         self.scan_axis.show_key(scan_axis)

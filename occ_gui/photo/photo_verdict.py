@@ -1,4 +1,4 @@
-"""How far a photo is explained: the steps to a scene that explains it, and the verdict so far."""
+"""The steps from a photo to a scene that explains it, and the verdict on the match so far."""
 
 from collections.abc import Mapping, Sequence
 
@@ -22,15 +22,15 @@ STEPS = {
     "open": ("Open", "Open a photo of a rolling-shutter camera."),
     "sent": ("Sent?", "Say what the LED sent, as far as it is known."),
     "match": ("Match", "Find the settings that explain the photo's stripes."),
-    "apply": ("Apply", "Take over the settings that were found."),
+    "apply": ("Apply", "Apply the settings that were found to the scene."),
 }
 """The steps in their order, each with its word and its meaning."""
 
-EARLIER = "earlier"  # verdict on a match of something other than what is to be matched now
+EARLIER = "earlier"  # verdict on a match of something else than the part that is chosen now
 
 
 class PhotoSteps(QWidget):
-    """A button for each step: done, next, or waiting."""
+    """A button for each step, which shows whether the step is done, next, or to come."""
 
     chosen = Signal(str)  # the step that the user goes to, one of STEPS
 
@@ -47,16 +47,15 @@ class PhotoSteps(QWidget):
         self.show_state(has_photo=False, match="", is_applied=False)
 
     def show_state(self, *, has_photo: bool, match: str, is_applied: bool) -> None:
-        """Show how far the photo is explained.
+        """Show which steps are done.
 
-        ``match``: ``"sure"``, ``"doubtful"``, EARLIER for a match of something else, or empty for
-        none.
+        ``match``: the verdict ``"sure"`` or ``"doubtful"``, EARLIER, or empty without a match.
         """
         shown = (has_photo, match, is_applied)
-        if shown == self._shown:  # at each change of the scene, and styles are slow to apply
+        if shown == self._shown:  # called at each change of the scene, and styles apply slowly
             return
         self._shown = shown
-        signs = {"": "", EARLIER: "", "sure": "✓", "doubtful": "?"}  # of a match, as its verdict
+        signs = {"": "", EARLIER: "", "sure": "✓", "doubtful": "?"}
         is_present = match not in {"", EARLIER}
         done = {
             "open": "✓" if has_photo else "",
@@ -78,17 +77,17 @@ class PhotoSteps(QWidget):
 
 
 class PhotoVerdictBar(StateBar):
-    """Whether the open photo is matched, how sure that is, and what was found.
+    """Whether the open photo is matched, how sure the match is, and what was found.
 
-    The verdict on the simulated picture, which may be another, is a chip beside it.
+    The verdict on the simulated picture, which may differ, is a badge beside it.
     """
 
-    MOST_LINES = 4  # what a refusal says first is what to do about it
+    MOST_LINES = 4  # enough for a refusal, which begins with what to do about it
 
     def __init__(self) -> None:
         super().__init__()
         self.setAccessibleName("Verdict on the photo")
-        self.step.setToolTip("Match the photo as that of a lamp that only blinks.")
+        self.step.setToolTip("Match the photo as one of a lamp that only blinks.")
         self._photo: Photo | None = None
         self._match: Match | None = None
         self._row: PhotoRow | None = None
@@ -106,7 +105,7 @@ class PhotoVerdictBar(StateBar):
         self._write()
 
     def show_row(self, row: PhotoRow | None) -> None:
-        """Show the table's result for this photo, which is not matched by itself yet."""
+        """Show the table's result for this photo, which has not been matched on its own yet."""
         self._row = row
         self._write()
 
@@ -138,53 +137,53 @@ class PhotoVerdictBar(StateBar):
             self._write()
 
     def show_simulation(self, state: State, verdict: str) -> None:
-        meaning = "What is read from the simulated picture."
+        meaning = "What was read from the simulated picture."
         chips = (Chip("simulation", verdict, meaning, state),)
         if chips != self._simulation:
             self._simulation = chips
             self._write()
 
     def _write(self) -> None:
-        state, (title, *sentences) = self._verdict()
+        state, (title, *sentences) = self._judge()
         chips = self._simulation
         is_present = self._match is not None and not self._outdated and not self._why_not
         if is_present and not self._is_applied:
-            meaning = "The simulation is of another scene. Apply takes the match over."
+            meaning = "The simulation is of another scene. Apply the match to simulate its scene."
             chips = (Chip("applied", "not applied", meaning, State.DOUBTFUL), *chips)
         self.show_state(state, title, *sentences, chips=chips)
         is_plain = PLAIN_STRIPES in self._why_not
         self.offer_step("It sends a &square wave" if is_plain else "")
 
-    def _verdict(self) -> tuple[State, tuple[str, ...]]:
+    def _judge(self) -> tuple[State, tuple[str, ...]]:
         if self._is_running:
             return State.WAITING, ("Photo: matching…",)
         if self._photo is None:
-            sentence = "Open one, say what was sent as far as you know, and match it."
+            sentence = "Open one, say what was sent if you know it, and match it."
             return State.NEUTRAL, ("No photo is open", sentence)
         if self._why_not:
-            reasons = (" ".join(self._why_not), _first_of(self._why_not))
+            reasons = (" ".join(self._why_not), _shorten_reasons(self._why_not))
             return State.BAD, ("Photo: not matched", *reasons)
         if self._match is None and self._row is not None:
-            return self._listed(self._row)
+            return self._judge_row(self._row)
         if self._match is None:
-            sentence = "Say what was sent as far as you know, and match it."
+            sentence = "Say what was sent if you know it, and match it."
             return State.NEUTRAL, ("Photo: no match yet", sentence)
         if self._outdated:
             return State.WAITING, ("Photo: an earlier match is shown", f"It is {self._outdated}.")
-        return self._worth(self._match)
+        return self._judge_match(self._match)
 
-    def _worth(self, match: Match) -> tuple[State, tuple[str, ...]]:
-        found = self._found(match)
+    def _judge_match(self, match: Match) -> tuple[State, tuple[str, ...]]:
+        found = self._describe_match(match)
         if match.verdict == SURE and not match.exposure_reasons:
             return State.GOOD, ("Photo: sure match", found)
         if match.verdict == SURE:
             title = "Photo: sure, but for the exposure"
             return State.GOOD, (title, " ".join((*match.all_reasons, found)), found)
-        reason = _first_of(match.all_reasons)
+        reason = _shorten_reasons(match.all_reasons)
         return State.DOUBTFUL, ("Photo: doubtful match", f"{reason} {found}", reason)
 
     def about(self) -> str:
-        """Return the photo's name, its verdict and what was found, for a figure."""
+        """Return the photo's name, its verdict and what was found, as the caption of a figure."""
         if self._photo is None:
             return ""
         name = f"photo {one_line(self._photo.path.name)}"
@@ -193,20 +192,20 @@ class PhotoVerdictBar(StateBar):
         verdict = self._match.verdict
         if self._match.only_exposure_is_doubtful:
             verdict = f"{verdict} but for the exposure time"
-        found = self._found(self._match)
+        found = self._describe_match(self._match)
         if self._is_applied:
             return f"{name}, the match is {verdict}. {found}"
         return f"{name}; its match is {verdict}, but not this scene's. {found}"
 
-    def _listed(self, row: PhotoRow) -> tuple[State, tuple[str, ...]]:
-        """Return the state and the sentences of the table's result."""
+    def _judge_row(self, row: PhotoRow) -> tuple[State, tuple[str, ...]]:
+        """Return the state and the sentences for the table's result."""
         state = STATES.get(row.verdict, State.BAD)
         is_matched = state is not State.BAD
-        here = "Match it by itself to see its curves and to apply what is found." * is_matched
+        here = "Match it on its own to see its curves and to apply the match." * is_matched
         title = f"Photo: {row.verdict} in the table"
         return state, (title, f"{row.note} {here}".strip(), row.note or here)
 
-    def _found(self, match: Match) -> str:
+    def _describe_match(self, match: Match) -> str:
         parts = []
         for name in (match.estimate, "exposure_time"):
             declared, spread = quantity(name), match.uncertainties.get(name)
@@ -220,6 +219,6 @@ class PhotoVerdictBar(StateBar):
         return f"{found[0].upper()}{found[1:]}."
 
 
-def _first_of(reasons: Sequence[str]) -> str:
+def _shorten_reasons(reasons: Sequence[str]) -> str:
     more = len(reasons) - 1
     return reasons[0] + (f" And {counted(more, 'more reason')}." if more else "")

@@ -1,4 +1,4 @@
-"""Pane of the photo: its facts, its match with the scene, and its placement."""
+"""Pane of the photo: facts about it, its match with the scene, and its placement."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -41,11 +41,11 @@ class PhotoView(QWidget):
         unseen = QWidget(self)
         unseen.hide()
         self.many = ManyPhotosView(unseen)
-        """The table of several photos, until its own pane takes it."""
+        """The table of several photos; its own pane takes it over when it is made."""
         self.facts, self.form, self.lamps = PhotoFacts(), MatchForm(), LampForm()
         self.result, self.placement = MatchResult(), PlacementForm()
         self.verdict = PhotoVerdictBar()
-        """The verdict on the photo, for the place where it is first seen."""
+        """The verdict on the photo, which the window shows above the picture."""
         self._pages = QStackedWidget()
         self._pages.addWidget(self._make_invitation())
         self._pages.addWidget(self._make_page())
@@ -66,12 +66,12 @@ class PhotoView(QWidget):
 
     def _make_invitation(self) -> QWidget:
         text = paragraph(
-            "No photo is open. Drop one or several on the window, or open them, to lay one "
+            "No photo is open. Drop one or more photos on the window, or open them, to lay one "
             "over the simulation and find the settings that explain its stripes."
         )
         button = push_button(
             "&Open photos…",
-            "Choose a photo of a rolling-shutter camera, or several together.",
+            "Choose one or more photos of a rolling-shutter camera.",
             self.open_asked,
         )
         page, self._samples = QWidget(), QVBoxLayout()
@@ -80,7 +80,7 @@ class PhotoView(QWidget):
         return page
 
     def show_samples(self, files: Mapping[str, Path]) -> None:
-        """Offer sample photos, by description, where no photo is open."""
+        """Offer sample photos, by description, for when no photo is open."""
         for text, path in files.items():
             button = push_button(
                 f"Sample: {text} (simulated)",
@@ -101,7 +101,7 @@ class PhotoView(QWidget):
 
     def show_photo(self, photo: Photo | None) -> None:
         if photo is not None and (self._photo is None or self._photo.path != photo.path):
-            self._scroll.verticalScrollBar().setValue(0)  # its name stands at the top
+            self._scroll.verticalScrollBar().setValue(0)  # its name is at the top
         self._photo, self._match, self._is_outdated = photo, None, False
         self.verdict.show_photo(photo)
         self._show_page()
@@ -112,7 +112,7 @@ class PhotoView(QWidget):
             self.facts.show_photo(photo)
 
     def show_choice(self, choice: PhotoChoice) -> None:
-        self.facts.show_reading(choice.reading.channel, choice.reading.scan_axis)
+        self.facts.show_load_options(choice.load_options.channel, choice.load_options.scan_axis)
         self.form.show_choice(choice.form, choice.certain, choice.forgotten)
         for part in (self.result, self.many, self.verdict):
             part.show_certain(choice.certain)
@@ -126,7 +126,7 @@ class PhotoView(QWidget):
         return self._photo is not None
 
     def _show_page(self) -> None:
-        """Show the forms where there is a photo or a table, else the invitation."""
+        """Show the forms if there is a photo or a table, else the invitation."""
         self._pages.setCurrentIndex(1 if self.has_photo or self.many.rows.paths else 0)
         for part in (self.facts, self.form.start, self.placement):
             part.setVisible(self.has_photo)
@@ -160,7 +160,7 @@ class PhotoView(QWidget):
         self.form.match_square()
 
     def show_match_running(self, is_running: bool, why_not: Sequence[str] = ()) -> None:
-        """Show whether a match is at work, and else why the last one was refused, if it was."""
+        """Show whether a match is running; if not, why the last one was refused, if it was."""
         if is_running != self.form.is_running:
             self.form.show_running(is_running)
         if is_running:
@@ -182,7 +182,7 @@ class PhotoView(QWidget):
         noted, given = photo.exposure_time, found.given
         self.result.show_match(match, noted, given, cure, turned=photo.turned)
         self._bring_into_view(self.result)
-        if found.is_listed:  # the table stays at hand
+        if found.is_listed:  # the table stays where it was
             bar.setValue(place)
 
     def show_match_outdated(self, why: str, usable: bool) -> None:
@@ -193,9 +193,9 @@ class PhotoView(QWidget):
         self._show_steps()
 
     def _bring_into_view(self, part: QWidget) -> None:
-        """Scroll to a part that has just appeared, after the page has been laid out again."""
+        """Scroll to a part that has just appeared, once the page has a new layout."""
         self._page.adjustSize()
-        # From its top on: what comes first in it says most, and nothing above it is cut.
+        # Its top is what must be visible: it says most.
         bar, room = self._scroll.verticalScrollBar(), self._scroll.viewport().height()
         top = part.mapTo(self._page, QPoint()).y()
         if not bar.value() <= top <= bar.value() + room - part.height():

@@ -1,4 +1,4 @@
-"""Background work on the open photo: stripes, chips, lamps, the match, and a comparison."""
+"""Background work on the open photo: stripes, chips, lamps, the match, and the comparison."""
 
 from dataclasses import replace
 
@@ -8,9 +8,9 @@ import occ_model as occ
 from occ_gui.background.task import Report, Task
 from occ_gui.core.store import Store
 from occ_gui.core.workspace import Workspace
-from occ_gui.photo.photo_part import Part, PhotoPart, part_of
+from occ_gui.photo.shown_photo import Part, ShownPhoto, part_of
+from occ_gui.shell.result_updater import ResultUpdater
 from occ_gui.shell.results import Board, Results
-from occ_gui.shell.work import Work
 from occ_gui.simulation.snapshot import Reading
 from occ_gui.values.photo_choice import MatchChoice
 from occ_gui.values.photo_results import FoundMatch, MatchRequest, PhotoProfile, StripeSearch
@@ -34,8 +34,8 @@ def _part(workspace: Workspace, results: Results) -> PartOfPhoto | None:
     return None if photo is None else (photo, part_of(workspace.photo, results))
 
 
-def stripe_search(store: Store, board: Board) -> Work[PartOfPhoto, StripeSearch]:
-    """Find the stripes of a photo or a part of it; those of a match replace them."""
+def stripe_search(store: Store, board: Board) -> ResultUpdater[PartOfPhoto, StripeSearch]:
+    """Make the updater that finds the stripes of a photo or a part of it."""
 
     def search(asked: PartOfPhoto, _report: Report) -> StripeSearch:
         try:
@@ -47,12 +47,12 @@ def stripe_search(store: Store, board: Board) -> Work[PartOfPhoto, StripeSearch]
         return replace(results, stripes=found)
 
     task: Task[PartOfPhoto, StripeSearch] = Task(search, "search for stripes", impatient=True)
-    work = Work(store, board, task, _part, put)
+    work = ResultUpdater(store, board, task, _part, put)
     work.failed.connect(lambda why: board.put(put(board.results, StripeSearch(None, why))))
     return work
 
 
-def chip_reading(store: Store, board: Board) -> Work[PartOfPhoto, ChipReading | None]:
+def chip_reading(store: Store, board: Board) -> ResultUpdater[PartOfPhoto, ChipReading | None]:
 
     def read(asked: PartOfPhoto, _report: Report) -> ChipReading | None:
         try:
@@ -64,21 +64,21 @@ def chip_reading(store: Store, board: Board) -> Work[PartOfPhoto, ChipReading | 
         return replace(results, chips=chips)
 
     task: Task[PartOfPhoto, ChipReading | None] = Task(read, "reading of chips", impatient=True)
-    return Work(store, board, task, _part, put)
+    return ResultUpdater(store, board, task, _part, put)
 
 
 def find_lamps(photo: Photo, report: Report) -> tuple[Lamp, ...]:
-    return occ.find_lamps(photo, report)  # imported now, not with the pane
+    return occ.find_lamps(photo, report)  # imports its modules only now
 
 
 def match(request: MatchRequest, report: Report) -> FoundMatch:
     report(0.0)
     choice = request.choice
-    scene, sent = known_scene(request.scene, choice)
+    scene, sent = put_known_values(request.scene, choice)
     known = counterpart(choice.estimate)
     found = FoundMatch(request.part, None, float(request.scene.value(known)))
     try:
-        match = occ.match_photo(  # imported now: the window starts sooner without it
+        match = occ.match_photo(  # imports its modules only now, so that the window starts sooner
             request.photo,
             scene,
             estimate=choice.estimate,
@@ -88,26 +88,26 @@ def match(request: MatchRequest, report: Report) -> FoundMatch:
             progress=report,
         )
     except MatchError as error:
-        return found.refused(error.reasons, request.part)
+        return found.with_refusal(error.reasons, request.part)
     return replace(found, match=match)
 
 
-def known_scene(scene: Scene, choice: MatchChoice) -> tuple[Scene, str]:
+def put_known_values(scene: Scene, choice: MatchChoice) -> tuple[Scene, str]:
     """Return the scene with the known values, and the source of the sent pattern."""
     if choice.sent != "square":
         return scene, choice.sent
-    # A lamp that is dimmed by the width of its pulses blinks too: "scene" would refuse it.
+    # A lamp that is dimmed by pulse width blinks as well, but "scene" would refuse it.
     return send_square_wave(scene, choice.square_frequency), "auto"
 
 
-def compared(part: PhotoPart) -> tuple[object, ...]:
+def comparison_inputs(part: ShownPhoto) -> tuple[object, ...]:
     """Return what a comparison depends on."""
     found = (part.compared_stripes, part.why_no_stripes)
     return (part.photo, part.reading, *found, part.placement, part.is_enhanced)
 
 
-def photo_profile(part: PhotoPart) -> PhotoProfile | None:
-    """Place the photo's profile beside the simulated one; None where there are not both."""
+def photo_profile(part: ShownPhoto) -> PhotoProfile | None:
+    """Return the photo's profile, placed beside the simulated one; None unless there are both."""
     photo, reading, placement = part.photo, part.reading, part.placement
     if photo is None or reading is None:
         return None
@@ -117,7 +117,7 @@ def photo_profile(part: PhotoPart) -> PhotoProfile | None:
     except MatchError as error:
         sentence = str(error)
     if comparison is not None and float(np.ptp(comparison.simulated)) < _LEAST_SWING:
-        # A photo scaled to no swing at all would agree with any simulation.
+        # A photo scaled to a swing of zero would agree with it.
         comparison, sentence = None, "The simulation has no stripes there to compare."
     raw = photo.profile
     if part.is_enhanced:
@@ -127,7 +127,7 @@ def photo_profile(part: PhotoPart) -> PhotoProfile | None:
     return PhotoProfile(comparison, raw, *place, sentence, photo, is_outdated)
 
 
-def _compare(part: PhotoPart, reading: Reading) -> Comparison | None:
+def _compare(part: ShownPhoto, reading: Reading) -> Comparison | None:
     placement, stripes = part.placement, part.compared_stripes
     if stripes is None:
         return None

@@ -38,15 +38,15 @@ SCALE = Quantity(
     "photo_scale",
     "Scale of the photo",
     "",
-    "Pixels of the simulation to one of the photo.",
+    "Pixels of the simulation per pixel of the photo.",
     unit=NONE, low=LEAST_SCALE, high=LARGEST_SCALE, slider=(0.1, 10.0), scale="log", default=1.0,
 )  # fmt: skip
 
-_FIELD_DIGITS = 12  # digits for which a field has room at least, with arrows and frame
+_FIELD_DIGITS = 12  # digits that a field has room for, with arrows and frame
 
 
 class _PlaceField(DecimalEdit):
-    """A field as wide as usual values: Qt would reserve the width of the extreme ones."""
+    """A field as wide as usual values need; Qt would make room for the largest allowed value."""
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         return QSize(self.minimumSizeHint().width(), super().sizeHint().height())
@@ -82,7 +82,7 @@ class PlacementForm(QWidget):
         self.reset = push_button(
             "&Reset",
             "Place the photo automatically: pixel on pixel if both pictures have the same "
-            "size, else with its lamp on the panel.",
+            "size, otherwise with its lamp on the panel.",
             self.reset_asked,
         )
         self._lay_out()

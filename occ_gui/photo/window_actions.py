@@ -1,4 +1,4 @@
-"""What the window does for the pane of the photo."""
+"""Actions of the window that the pane of the photo calls."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass

@@ -1,1 +1,1 @@
-"""The simulated picture, the one before the latest change, and a photo beside or over it."""
+"""The simulated picture, the picture before the latest change, and a photo beside or over it."""

@@ -14,18 +14,18 @@ from occ_gui.simulation.snapshot import halved
 from occ_gui.widgets.guarded_paint import guarded
 from occ_model.arrays import ByteArray
 
-_LEAST_WIDTH = 1.3  # of a pixel whose value is written, relative to that of the widest value
+_LEAST_WIDTH = 1.3  # least width of a pixel with its value in it, relative to the widest value
 _WIDEST_TEXT = "255"
-_MAX_VALUES = 5000  # that are written: more pixels than that cannot be so large on any screen
+_MAX_VALUES = 5000  # most values that are written: no screen has room for more
 _MIDDLE_GREY = 128
 
 
 class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has no types
-    """A grey image that shows the mean of the pixels under each pixel of the screen.
+    """A grey image that shows the mean of the image pixels under each screen pixel.
 
-    Taking one of them instead, as image items do, turns fine stripes into coarse ones that do not
-    exist. A pixel of the image that is larger than one of the screen is drawn as a square;
-    ``with_values`` writes its grey level into it where there is room.
+    Image items of pyqtgraph show one of these pixels instead, which turns fine stripes into coarse
+    ones that do not exist. An image pixel that is larger than a screen pixel is drawn as a
+    rectangle; ``with_values`` writes its grey level into it where there is room.
     """
 
     def __init__(self, *, with_values: bool = False) -> None:
@@ -42,7 +42,8 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
     ) -> None:
         """Show an image of shape (rows, columns), which is not copied.
 
-        ``rect``: its place, by default with the first pixel's centre at (0, 0).
+        ``rect``: its place, by default with the centre of the first pixel at (0, 0). ``halves``:
+        the image halved repeatedly, largest first.
         """
         rows, columns = image.shape
         rect = QRectF(-0.5, -0.5, columns, rows) if rect is None else rect
@@ -54,7 +55,7 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
         self.update()
 
     def show_within(self, first_row: float = -math.inf, last_column: float = math.inf) -> None:
-        """Show only the part at or below this row, and left of this column, of the view."""
+        """Show only the part of the image from this row down and left of this column."""
         if (first_row, last_column) != (self._first_row, self._last_column):
             self._first_row, self._last_column = first_row, last_column
             self.update()
@@ -71,11 +72,11 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
         shown.setRight(min(shown.right(), self._last_column))
         if part.isEmpty() or shown.isEmpty():
             return
-        target = self._target(part)
+        target = self._place_of_part(part)
         on_screen = painter.deviceTransform().mapRect(target)
         size = (max(1, math.ceil(on_screen.width())), max(1, math.ceil(on_screen.height())))
         if self._drawn is None or self._drawn[:2] != (part, size):
-            self._drawn = (part, size, self._averaged(part, size))
+            self._drawn = (part, size, self._average(part, size))
         painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform, False)
         if shown != self._rect:
             painter.setClipRect(shown, Qt.ClipOperation.IntersectClip)
@@ -97,7 +98,7 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
         whole = QRect(0, 0, columns, rows)
         return QRect(left, top, right - left, bottom - top).intersected(whole)
 
-    def _target(self, part: QRect) -> QRectF:
+    def _place_of_part(self, part: QRect) -> QRectF:
         rows, columns = self.image.shape
         x_scale, y_scale = self._rect.width() / columns, self._rect.height() / rows
         return QRectF(
@@ -107,20 +108,20 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
             part.height() * y_scale,
         )
 
-    def _averaged(self, part: QRect, size: tuple[int, int]) -> QImage:
+    def _average(self, part: QRect, size: tuple[int, int]) -> QImage:
         pixels = self.image[
             part.top() : part.top() + part.height(), part.left() : part.left() + part.width()
         ]
-        # Only reduced along each axis here: the painter enlarges, without smoothing.
+        # The image is only reduced here; the painter enlarges it, without smoothing.
         smaller = (min(size[0], part.width()), min(size[1], part.height()))
         if pixels.shape == self.image.shape:
-            pixels = self._smallest_for(*smaller)
+            pixels = self._choose_smallest(*smaller)
         pixels = np.ascontiguousarray(_mean_of_cells(pixels, *smaller))
         rows, columns = pixels.shape
         image = QImage(pixels.data, columns, rows, columns, QImage.Format.Format_Grayscale8)
-        return image.copy()  # the array's memory is freed
+        return image.copy()  # it refers to the array's memory, which is freed
 
-    def _smallest_for(self, columns: int, rows: int) -> ByteArray:
+    def _choose_smallest(self, columns: int, rows: int) -> ByteArray:
         """Return the smallest of the image and its halves with at least this many pixels."""
         large = [h for h in self.halves if h.shape[0] >= rows and h.shape[1] >= columns]
         return large[-1] if large else self.image
@@ -129,8 +130,8 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
 def _mean_of_cells(pixels: ByteArray, columns: int, rows: int) -> ByteArray:
     """Average an image down to a size that is no larger than its own.
 
-    It is halved repeatedly, which is fast; only the last step has another ratio, less than two.
-    The edge that halving leaves out is less than a pixel of the screen.
+    It is halved repeatedly, which is fast, and then reduced by a ratio of less than two. The edge
+    that halving leaves out is smaller than a pixel of the screen.
     """
     while pixels.shape[0] >= 2 * rows and pixels.shape[1] >= 2 * columns:
         pixels = halved(pixels)

@@ -1,4 +1,4 @@
-"""Controller of the comparison with before: it keeps the results before the latest step."""
+"""Controller of the comparison with before: keeps the results from before the latest step."""
 
 from collections.abc import Callable
 
@@ -11,7 +11,7 @@ from occ_model.scene.scene import Scene
 
 
 class BeforeController(QObject):
-    """Keeps the results from before each step that one undo takes back, and shows them."""
+    """Keeps and shows the results from before the latest undo step."""
 
     def __init__(self, store: Store, show: Callable[[Snapshot], None]) -> None:
         super().__init__()
@@ -23,7 +23,7 @@ class BeforeController(QObject):
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
         self._shown = snapshot
-        # A gesture can begin before the picture of its first scene is shown.
+        # A gesture can begin before the picture of the scene that it changes is shown.
         before = self.before
         if snapshot.frame.scene == self._wanted and before is not None:
             if before.frame.scene != self._wanted:
@@ -33,7 +33,7 @@ class BeforeController(QObject):
     def _begin_step(self, left: Workspace) -> None:
         now = self._store.workspace
         if (left.scene, left.settings) == (now.scene, now.settings):
-            return  # a step that leaves the picture as it is
+            return  # the step does not change the picture
         self._wanted = left.scene
         if self._shown is not None:
             self._show(self._shown)

@@ -1,4 +1,4 @@
-"""Wipe between the pictures before and after the latest change, at a line that can be dragged."""
+"""Comparison of the pictures before and after the latest change, at a line that can be dragged."""
 
 import pyqtgraph as pg
 from PySide6.QtCore import QObject, QSignalBlocker, Qt
@@ -45,8 +45,8 @@ class BeforeWipe(QObject):
     def _make_controls(self) -> None:
         self.chosen = check_box(
             "Before",
-            "Show, to the left of a line that can be dragged, the picture before the latest "
-            "change, and to the right of it the one now.",
+            "Show the picture before the latest change to the left of a line, and the present "
+            "picture to the right of it. The line can be dragged.",
             self._arrange,
         )
         self.slider = QSlider(Qt.Orientation.Horizontal)

@@ -1,4 +1,4 @@
-"""Pane of the picture: the simulated one, and a photo beside it or over it."""
+"""Pane of the picture: the simulated picture, and a photo beside it or over it."""
 
 from dataclasses import replace
 
@@ -42,8 +42,8 @@ _MEANINGS = (
 class ImageView(QWidget):
     """The simulated picture with the decoder's region, and the photo beside or over it."""
 
-    mode_chosen = Signal(str)  # the way of showing the photo that the user chose, one of MODES
-    picture_chosen = Signal(str)  # whose picture is shown from now on, one of PICTURES
+    mode_chosen = Signal(str)  # how the photo is to be shown, one of MODES
+    picture_chosen = Signal(str)  # the kind of picture that is shown from now on, one of PICTURES
 
     def __init__(self) -> None:
         super().__init__()
@@ -56,7 +56,7 @@ class ImageView(QWidget):
         self.overlay = PhotoOverlay(self.simulation.box)
         self.before = BeforeWipe(self.simulation.box)
         self._make_switch()
-        # Beside a photo in a small window, a few letters of the title are left.
+        # Room for a few letters of the title, even beside a photo in a small window.
         self.simulation.caption.setMinimumWidth(self.fontMetrics().horizontalAdvance("Camera"))
         self.simulation.caption_row.addWidget(self.switch)
         self.simulation.caption_row.addWidget(self.before.controls)
@@ -77,8 +77,8 @@ class ImageView(QWidget):
     def _make_switch(self) -> None:
         self.switch = KeyedComboBox(
             "Whose picture is shown",
-            "Camera: the picture as the camera gives it; a photo is compared with it.\n"
-            "Receiver: the picture with its contrast enhanced, as it is decoded.",
+            "Camera: the picture as it comes from the camera; photos are compared with it.\n"
+            "Receiver: the picture after the receiver's enhancement, as it is decoded.",
             {"camera": "Camera", "receiver": "Receiver"},
             is_fixed=True,
         )
@@ -86,7 +86,7 @@ class ImageView(QWidget):
 
     def _make_controls(self) -> None:
         self.mode = KeyedComboBox("How photo and simulation are shown", _MEANINGS, _MODES)
-        # Its words must not be cut off: some have the same beginning.
+        # The words must not be cut off, because some begin alike.
         self.mode.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
         self.mode.chosen.connect(self.mode_chosen)
         self.opacity = QSlider(Qt.Orientation.Horizontal)
@@ -98,7 +98,7 @@ class ImageView(QWidget):
         self.opacity.valueChanged.connect(lambda percent: self.overlay.set_opacity(percent / 100))
         self.gain = KeyedComboBox(
             "Factor of the difference",
-            "The factor by which the difference in grey levels is multiplied, up to white.",
+            "The factor by which the difference in grey levels is multiplied.",
             {str(gain): f"× {gain}" for gain in _GAINS},  # noqa: RUF001 - the sign for times
         )
         self.gain.show_key(str(_FIRST_GAIN))
@@ -119,7 +119,7 @@ class ImageView(QWidget):
                 picture = f"Draft, one row in {frame.rows_step}: {picture}"
         if self.shown_photo is None:
             return picture
-        if mode == "beside":  # whose picture it is stands in the choice beside it
+        if mode == "beside":  # the combo box beside it names the kind of picture
             is_draft = frame is not None and frame.rows_step > 1
             return "Simulated, draft" if is_draft else "Simulated"
         if mode == "blend":
@@ -130,7 +130,7 @@ class ImageView(QWidget):
         return f"Difference × {self.gain.key()}: photo and {picture}; black where equal"  # noqa: RUF001
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
-        if snapshot.frame is not self.frame:  # it may have been shown before it was decoded
+        if snapshot.frame is not self.frame:  # else it was already shown, before it was decoded
             self.show_picture(Picture(snapshot.frame, self.whose, ()))
         self.show_reading(snapshot)
 
@@ -138,10 +138,10 @@ class ImageView(QWidget):
         self.simulation.show_region(reading.region)
 
     def show_picture(self, picture: Picture) -> None:
-        """Show a picture in place of the previous one, whose decoded region stays."""
+        """Show a picture in place of the previous one; the region stays until the next reading."""
         self.frame = frame = picture.frame
         image = frame.picture(self.whose)
-        # The user may have chosen the other picture since this one was prepared.
+        # The user may have chosen the other kind of picture since this one was prepared.
         halves = picture.halves if picture.whose == self.whose else ()
         self.simulation.show_picture(image, halves, frame.rows_step)
         if frame.rows_step == 1:
@@ -165,7 +165,7 @@ class ImageView(QWidget):
         self.picture_chosen.emit(whose)
 
     def levels_at(self, column: int, row: int) -> dict[str, int] | None:
-        """Return the levels of a pixel by whose picture it is in, None outside the picture."""
+        """Return the grey level of a pixel in each kind of picture; None outside the picture."""
         frame = self.frame
         if frame is None:
             return None
@@ -199,7 +199,7 @@ class ImageView(QWidget):
         self._arrange()
 
     def fit(self) -> None:
-        """Zoom out until both pictures are seen whole."""
+        """Zoom out until both pictures are entirely visible."""
         self.simulation.fit()
         self.photo.fit()
 

@@ -39,8 +39,8 @@ def rect_of(image: ByteArray, placement: Placement) -> QRectF:
 class DifferenceImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has no types
     """The absolute difference of two images where they overlap, black where they are equal.
 
-    Both are averaged over the pixels of the screen first: only the visible part is computed, and
-    stripes finer than a pixel of the screen do not appear as coarser ones.
+    Both images are first averaged over the pixels of the screen, so that only the visible part is
+    computed and stripes finer than a screen pixel do not appear as coarser ones.
     """
 
     def __init__(self) -> None:
@@ -75,14 +75,14 @@ class DifferenceImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has
             return
         on_screen = painter.deviceTransform().mapRect(grid)
         shape = (max(1, math.ceil(on_screen.height())), max(1, math.ceil(on_screen.width())))
-        difference = np.abs(self._averaged(0, grid, shape) - self._averaged(1, grid, shape))
+        difference = np.abs(self._average(0, grid, shape) - self._average(1, grid, shape))
         levels = np.minimum(self.gain * difference + 0.5, 255.0).astype(np.uint8, order="C")
         rows, columns = shape
         painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform, False)
         image = QImage(levels.data, columns, rows, columns, QImage.Format.Format_Grayscale8)
         painter.drawImage(grid, image)
 
-    def _averaged(self, layer: int, grid: QRectF, shape: tuple[int, int]) -> FloatArray:
+    def _average(self, layer: int, grid: QRectF, shape: tuple[int, int]) -> FloatArray:
         known = self._means.get(layer)
         if known is not None and known[:2] == (grid, shape):
             return known[2]
@@ -94,8 +94,8 @@ class DifferenceImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has
 def difference_cells(first: _Layer, second: _Layer, most: int) -> tuple[FloatArray, QRectF] | None:
     """Return the absolute difference of two images in grey levels, and their common rectangle.
 
-    It is averaged over at most ``most`` cells a side, none smaller than a unit of the rectangles;
-    None where the images do not overlap.
+    It is averaged over at most ``most`` cells a side, none smaller than a unit of the rectangles.
+    Returns None if the images do not overlap.
     """
     grid = first[1].intersected(second[1])
     if grid.isEmpty():
@@ -114,14 +114,14 @@ def cell_means(image: ByteArray, rect: QRectF, grid: QRectF, shape: tuple[int, i
     rows, columns = image.shape
     x = _edges(grid.left() - rect.left(), grid.width(), columns / rect.width(), shape[1], columns)
     y = _edges(grid.top() - rect.top(), grid.height(), rows / rect.height(), shape[0], rows)
-    # At least one pixel, even of a grid that only touches the image's edge.
+    # At least one pixel, even if the grid only touches the edge of the image.
     left, top = min(int(x[0]), columns - 1), min(int(y[0]), rows - 1)
     right, bottom = max(int(np.ceil(x[-1])), left + 1), max(int(np.ceil(y[-1])), top + 1)
     pixels = image[top:bottom, left:right]
-    pixels, x, y = _halved(pixels, x - left, y - top)
+    pixels, x, y = _halve(pixels, x - left, y - top)
     # The running integral is bilinear within each pixel, so this interpolation is exact.
     integral = cv2.integral(np.ascontiguousarray(pixels), sdepth=cv2.CV_64F)
-    total = _interpolated(_interpolated(np.asarray(integral, dtype=np.float64), y).T, x).T
+    total = _interpolate(_interpolate(np.asarray(integral, dtype=np.float64), y).T, x).T
     area = np.outer(np.diff(y), np.diff(x))
     means = np.diff(np.diff(total, axis=0), axis=1) / np.maximum(area, 1e-12)
     return np.asarray(means, dtype=np.float64)
@@ -132,10 +132,10 @@ def _edges(start: float, width: float, scale: float, cells: int, pixels: int) ->
     return np.asarray(np.clip(edges, 0.0, pixels), dtype=np.float64)
 
 
-def _halved(
+def _halve(
     pixels: ByteArray, x: FloatArray, y: FloatArray
 ) -> tuple[ByteArray, FloatArray, FloatArray]:
-    """Halve an image, which is fast, as long as a cell spans at least two of its pixels."""
+    """Halve an image, which is fast, while a cell spans at least four of its pixels."""
     while min(_span(x), _span(y)) >= 4.0 and min(pixels.shape) >= 2:
         pixels = halved(pixels)
         rows, columns = pixels.shape
@@ -147,7 +147,7 @@ def _span(edges: FloatArray) -> float:
     return float(edges[-1] - edges[0]) / (len(edges) - 1)
 
 
-def _interpolated(values: FloatArray, places: FloatArray) -> FloatArray:
+def _interpolate(values: FloatArray, places: FloatArray) -> FloatArray:
     below = np.minimum(places.astype(np.intp), len(values) - 2)
     fraction = (places - below)[:, None]
     return np.asarray(
@@ -156,7 +156,7 @@ def _interpolated(values: FloatArray, places: FloatArray) -> FloatArray:
 
 
 class PhotoOverlay(QObject):
-    """The items drawn over the simulated picture while a photo is shown over it."""
+    """The graphics items over the simulated picture while a photo is shown over it."""
 
     placed = Signal(object)  # the user moved or scaled the photo: a Placement
 
@@ -184,7 +184,7 @@ class PhotoOverlay(QObject):
         self._arrange()
 
     def set_simulated(self, image: ByteArray) -> None:
-        """Set the picture under the photo, its first pixel's centre at (0, 0)."""
+        """Set the picture under the photo, with the centre of its first pixel at (0, 0)."""
         self.simulated = image
         if self.mode == "difference":
             self._compare()
@@ -199,7 +199,7 @@ class PhotoOverlay(QObject):
         self._arrange()
 
     def set_mode(self, mode: str) -> None:
-        """Set how the photo is shown, one of MODES; the first draws nothing over the picture."""
+        """Set how the photo is shown, one of MODES; in the first, nothing lies on the picture."""
         self.mode = mode
         self._arrange()
 

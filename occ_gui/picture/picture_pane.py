@@ -1,4 +1,4 @@
-"""View of one picture with its caption and the region that was decoded."""
+"""View of a single picture with its caption and the region that was decoded."""
 
 from collections.abc import Sequence
 
@@ -50,10 +50,10 @@ class PicturePane(QWidget):
     def show_picture(
         self, image: ByteArray, halves: Sequence[ByteArray] = (), rows_step: int = 1
     ) -> None:
-        """Show a picture; the view changes only if its size does.
+        """Show a picture; the zoom changes only if the size of the picture does.
 
-        ``rows_step``: height of a row: more than 1 in a draft, which lies where the whole picture
-        does.
+        ``rows_step``: the height of a row in pixels; more than 1 in a draft, which covers the same
+        area as the whole picture.
         """
         rows, columns = image.shape
         rect = QRectF(-0.5, -0.5, columns, rows * rows_step)
@@ -64,7 +64,7 @@ class PicturePane(QWidget):
             self.fit()
 
     def rows_per_pixel(self) -> float:
-        """Return how many rows of the picture fall on a pixel of the screen."""
+        """Return how many rows of the picture lie under a pixel of the screen."""
         height = self.graphics.height() * self.graphics.devicePixelRatioF()
         return float(self.box.viewRect().height() / max(height, 1.0))
 
@@ -94,6 +94,6 @@ class PicturePane(QWidget):
 
 
 def _differ(one: ByteArray, step: int, other: ByteArray, other_step: int) -> bool:
-    """Return whether two pictures have different heights; a draft's last row can reach beyond."""
+    """Return whether two pictures differ in height, beyond the last row of a draft."""
     difference: int = abs(one.shape[0] * step - other.shape[0] * other_step)
     return difference >= max(step, other_step)

@@ -1,1 +1,1 @@
-"""Comparison of two pinned states, A and B."""
+"""Comparison of two pinned scenes, A and B."""

@@ -1,4 +1,4 @@
-"""Pane of the comparison: the differences of two pinned states, and both profiles."""
+"""Pane of the comparison: the differences between two pinned scenes, and both profiles."""
 
 from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtWidgets import (
@@ -12,7 +12,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from occ_gui.pins.pin_controller import ComparedRow, Pin, PinController, Pinned
+from occ_gui.pins.pin_controller import DifferenceRow, Pin, PinController, PinnedPair
 from occ_gui.shell.feature import Pane
 from occ_gui.widgets.building import filled, paragraph, push_button, read_only
 from occ_gui.widgets.colours import BAND, SIMULATION, thin
@@ -24,22 +24,22 @@ _LEAST_TABLE = 250
 
 
 class CompareView(QWidget):
-    """Buttons that pin, the table of differences, and the profiles of A and B."""
+    """Buttons to pin scenes, the table of differences, and the profiles of A and B."""
 
-    pin_asked = Signal(str)  # the user pins the current state as "A" or "B"
+    pin_asked = Signal(str)  # the user pins the present scene as "A" or "B"
 
     go_asked = Signal(str)
     clear_asked = Signal()
 
     def __init__(self) -> None:
         super().__init__()
-        self._pinned = Pinned()
-        self._drawn: Pinned | None = None
+        self._pinned = PinnedPair()
+        self._drawn: PinnedPair | None = None
         self._seen = False
         self.pins = {
             name: push_button(
                 f"Pin {name}",
-                f"Keep the current state as {name}, to compare it (Ctrl+Shift+{name}).",
+                f"Keep the present scene as {name}, to compare it (Ctrl+Shift+{name}).",
                 lambda _=False, name=name: self.pin_asked.emit(name),
             )
             for name in ("A", "B")
@@ -47,7 +47,7 @@ class CompareView(QWidget):
         self.returns = {
             name: push_button(
                 f"Take me to {name}",
-                f"Replace the scene by that of {name}, as one step that can be undone.",
+                f"Return to the scene of {name}, as one step that can be undone.",
                 lambda _=False, name=name: self.go_asked.emit(name),
             )
             for name in ("A", "B")
@@ -70,8 +70,8 @@ class CompareView(QWidget):
         header.setSectionResizeMode(0, QHeaderView.ResizeMode.ResizeToContents)
         for column in (1, 2):
             header.setSectionResizeMode(column, QHeaderView.ResizeMode.Stretch)
-        # The height of a sentence depends on the width of its column, so rows are fitted after all
-        # columns are.
+        # Rows are fitted after the columns, because the height of a sentence depends on the width
+        # of its column.
         self._fitting = QTimer(self, singleShot=True)
         self._fitting.setInterval(0)
         self._fitting.timeout.connect(self.table.resizeRowsToContents)
@@ -107,7 +107,7 @@ class CompareView(QWidget):
         if seen and self._drawn is not self._pinned:
             self._redraw()
 
-    def show_pinned(self, pinned: Pinned) -> None:
+    def show_pinned(self, pinned: PinnedPair) -> None:
         self._pinned = pinned
         if self._seen:
             self._redraw()
@@ -121,7 +121,7 @@ class CompareView(QWidget):
             self.curves[name].setData([] if pin is None else pin.profile)
         present = [pin for pin in pins.values() if pin is not None]
         self.clear.setEnabled(bool(present))
-        self.hint.setText(self._hint(pinned))
+        self.hint.setText(self._describe_next_step(pinned))
         self.hint.setVisible(bool(self.hint.text()))
         self._panes.setVisible(bool(present))
         self.table.setVisible(len(present) == len(pins))
@@ -129,22 +129,22 @@ class CompareView(QWidget):
         if present:
             self._fit(present)
 
-    def _hint(self, pinned: Pinned) -> str:
+    def _describe_next_step(self, pinned: PinnedPair) -> str:
         if pinned.a is None and pinned.b is None:
             return (
-                "Compare two scenes: press Pin A to keep the present one, change it by the "
-                "sliders, and press Pin B. What differs is listed here, beside both profiles."
+                "To compare two scenes, press Pin A to keep the present one, change it with the "
+                "sliders, and press Pin B. The differences are listed here, beside both profiles."
             )
         if pinned.a is None or pinned.b is None:
             name = "A" if pinned.a is None else "B"
             kept = "B" if name == "A" else "A"
             return (
-                f"{kept} is kept. Change the scene by the sliders, and press Pin {name}: what "
-                "differs is listed here."
+                f"{kept} is kept. Change the scene with the sliders, and press Pin {name}: the "
+                "differences are listed here."
             )
         return "" if pinned.inputs else "A and B are the same scene."
 
-    def _fill(self, pinned: Pinned) -> None:
+    def _fill(self, pinned: PinnedPair) -> None:
         sections = (("Inputs", pinned.inputs), ("Outputs", pinned.outputs))
         self.table.clearSpans()
         self.table.setRowCount(0)
@@ -166,7 +166,7 @@ class CompareView(QWidget):
         self.table.setItem(place, 0, item)
         self.table.setSpan(place, 0, 1, 3)
 
-    def _add_row(self, row: ComparedRow) -> None:
+    def _add_row(self, row: DifferenceRow) -> None:
         place = self.table.rowCount()
         self.table.insertRow(place)
         for column, text in enumerate((row.what, row.a, row.b)):
@@ -176,7 +176,7 @@ class CompareView(QWidget):
             self.table.setItem(place, column, item)
 
     def _fit(self, pins: list[Pin]) -> None:
-        """Show the first packets of both, and their levels from black."""
+        """Set the ranges to the first packets of both scenes, and to their levels from black."""
         first = min(pin.first_column for pin in pins)
         last = max(pin.first_column + PACKETS_IN_VIEW * pin.packet_columns for pin in pins)
         last = min(last, max(len(pin.profile) - 1.0 for pin in pins))

@@ -1,4 +1,4 @@
-"""Controller of the pins: keep two states, compare them, and return to either."""
+"""Controller of the pins: keeps two scenes, compares them, and returns to either."""
 
 from collections.abc import Callable, Iterator
 from contextlib import suppress
@@ -28,7 +28,7 @@ from occ_model.simulation.render import render_with
 @dataclass(frozen=True, eq=False, slots=True)
 class Pin:
     request: SimulationRequest
-    profile: FloatArray  # shape (columns,): its profile in grey levels
+    profile: FloatArray  # shape (columns,), in grey levels
     # The first column of the panel, and the columns of one period of the signal sent
     first_column: float
     packet_columns: float
@@ -44,7 +44,7 @@ class Pin:
 
 
 @dataclass(frozen=True, slots=True)
-class ComparedRow:
+class DifferenceRow:
     what: str
     a: str
     b: str
@@ -52,11 +52,11 @@ class ComparedRow:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Pinned:
+class PinnedPair:
     a: Pin | None = None
     b: Pin | None = None
-    inputs: tuple[ComparedRow, ...] = ()
-    outputs: tuple[ComparedRow, ...] = ()
+    inputs: tuple[DifferenceRow, ...] = ()
+    outputs: tuple[DifferenceRow, ...] = ()
 
 
 _LONGEST_PAYLOAD = 24  # characters of a payload that the table shows
@@ -66,11 +66,11 @@ _NAMES = ("A", "B")
 
 
 class PinController(QObject):
-    """Keeps up to two states, A and B; a pin waits until the present state is computed."""
+    """Keeps up to two scenes, A and B; a pin waits until the present scene is simulated."""
 
     status_message = Signal(str)  # what was done, or why it could not be done
-    changed = Signal()  # something else is pinned
-    both_pinned = Signal()  # the user has just pinned the second of two states to compare
+    changed = Signal()  # the pinned scenes or their results have changed
+    both_pinned = Signal()  # the user has just pinned the second of two scenes
 
     def __init__(
         self, scenes: SceneStore, is_present: Callable[[Snapshot], bool] = lambda _snapshot: True
@@ -82,7 +82,7 @@ class PinController(QObject):
         self._snapshot: Snapshot | None = None
         self._found: dict[str, Pin] = {}
         self._may_simulate = False
-        self.pinned = Pinned()
+        self.pinned = PinnedPair()
         self.runner: Task[dict[str, SimulationRequest], None] = Task(
             _simulate_all, "comparison", impatient=True
         )
@@ -98,7 +98,7 @@ class PinController(QObject):
 
     @property
     def _missing(self) -> dict[str, SimulationRequest]:
-        """Pins of an earlier window that are not simulated yet."""
+        """Pins from an earlier session that are not simulated yet."""
         return {name: pin.request for name, pin in self._kept.items() if name not in self._found}
 
     @property
@@ -122,7 +122,7 @@ class PinController(QObject):
         self._simulate()
 
     def _simulate(self) -> None:
-        """Simulate what is missing, once the first picture is there."""
+        """Simulate the missing pins, once the window has its first picture."""
         if self._missing and self._may_simulate and self.runner.is_idle:
             self.runner.ask(self._missing)
 
@@ -137,14 +137,14 @@ class PinController(QObject):
             self._keep(name, None)
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
-        """Use these results for the next pin, or for the one that waits for them."""
+        """Use these results for the next pin, or for a pin that waits for them."""
         self._snapshot, self._may_simulate = snapshot, True
         self._simulate()
         if self._waiting and self._is_present(snapshot):
             self.pin(self._waiting)
 
     def give_up(self) -> None:
-        """Cancel waiting pins: the present scene has no picture."""
+        """Cancel a waiting pin, because the present scene has no picture."""
         self._may_simulate = True
         self._simulate()
         if self._waiting:
@@ -158,16 +158,16 @@ class PinController(QObject):
             return
         if not self._is_present(snapshot):
             self._waiting = name
-            self.status_message.emit(f"{name} is pinned as soon as this scene is computed.")
+            self.status_message.emit(f"{name} will be pinned as soon as this scene is computed.")
             return
         self._waiting = ""
         self._found[name] = self._pin_of(snapshot)
         self._keep(name, PinnedScene(snapshot.request, self._store.workspace.preset))
         self._compare()
-        pinned = f"Pinned the current state as {name}"
+        pinned = f"Pinned the present scene as {name}"
         if len(self._found) < len(_NAMES):
             other = "B" if name == "A" else "A"
-            self.status_message.emit(f"{pinned}: change it, and pin {other}, too.")
+            self.status_message.emit(f"{pinned}. Change it, and pin it as {other}.")
             return
         self.both_pinned.emit()
         self.status_message.emit(f"{pinned}.")
@@ -177,7 +177,7 @@ class PinController(QObject):
         self.status_message.emit("Nothing is pinned any more.")
 
     def go_to(self, name: str) -> None:
-        """Replace the scene by that of A or B, as one step."""
+        """Replace the scene by that of A or B, as one undo step."""
         pin = self._kept.get(name)
         if pin is None:
             self.status_message.emit(f"Nothing is pinned as {name} yet.")
@@ -188,15 +188,15 @@ class PinController(QObject):
 
     def _compare(self) -> None:
         a, b = (self._found.get(name) for name in _NAMES)
-        inputs: tuple[ComparedRow, ...] = ()
-        outputs: tuple[ComparedRow, ...] = ()
+        inputs: tuple[DifferenceRow, ...] = ()
+        outputs: tuple[DifferenceRow, ...] = ()
         if a is not None and b is not None:
-            inputs = tuple(self._differing_inputs(a, b))
-            outputs = tuple(self._differing_outputs(a, b))
-        self.pinned = Pinned(a, b, inputs, outputs)
+            inputs = tuple(self._compare_inputs(a, b))
+            outputs = tuple(self._compare_outputs(a, b))
+        self.pinned = PinnedPair(a, b, inputs, outputs)
         self.changed.emit()
 
-    def _differing_inputs(self, a: Pin, b: Pin) -> list[ComparedRow]:
+    def _compare_inputs(self, a: Pin, b: Pin) -> list[DifferenceRow]:
         names = (name for names in GROUPS.values() for name in names)
         inputs: list[tuple[Parameter, ParameterValue, ParameterValue]] = [
             (PARAMETERS[name], a.scene.value(name), b.scene.value(name)) for name in names
@@ -207,23 +207,23 @@ class PinController(QObject):
             if one != other:
                 texts = format_distinctly(declared, one, other)
                 first, second = (text or "none" for text in texts)
-                rows.append(ComparedRow(declared.label, first, second, explain(declared)))
+                rows.append(DifferenceRow(declared.label, first, second, explain(declared)))
         if a.settings.force != b.settings.force:
             labels = self._scenes.settings.effect_labels
             forced = (forced_text(pin.settings.force, labels) for pin in (a, b))
             first, second = (text or "none" for text in forced)
-            meaning = "Effects that you have switched on or off; the plan decides others."
-            rows.append(ComparedRow("Effects by hand", first, second, meaning))
+            meaning = "Effects that you have switched on or off; the plan decides about the others."
+            rows.append(DifferenceRow("Effects by hand", first, second, meaning))
         return rows
 
-    def _differing_outputs(self, a: Pin, b: Pin) -> Iterator[ComparedRow]:
-        """Compare by name: a slow decoder, or a plug-in's, has read only where it was chosen."""
+    def _compare_outputs(self, a: Pin, b: Pin) -> Iterator[DifferenceRow]:
+        """Compare outputs by name; a slow decoder or a plug-in reads only if it was chosen."""
         texts = [{what: text for what, text, _ in pin.outputs} for pin in (a, b)]
         meanings = {what: meaning for what, _, meaning in (*a.outputs, *b.outputs)}
         for what, meaning in meanings.items():
             one, other = (found.get(what, "not read") for found in texts)
             if one != other:
-                yield ComparedRow(what, one, other, meaning)
+                yield DifferenceRow(what, one, other, meaning)
 
     def _pin_of(self, snapshot: Snapshot) -> Pin:
         frame = snapshot.frame
@@ -232,10 +232,10 @@ class PinController(QObject):
             profile=frame.profile,
             first_column=snapshot.panel_origin[0],
             packet_columns=snapshot.packet_columns,
-            outputs=tuple(self._outputs(snapshot)),
+            outputs=tuple(self._measure_outputs(snapshot)),
         )
 
-    def _outputs(self, snapshot: Snapshot) -> list[tuple[str, str, str]]:
+    def _measure_outputs(self, snapshot: Snapshot) -> list[tuple[str, str, str]]:
         frame = snapshot.frame
         scene = frame.scene
         period = scene.transmitter.switching_period
@@ -244,10 +244,10 @@ class PinController(QObject):
             (
                 "Contrast",
                 f"{float(np.ptp(frame.profile)):.1f} grey levels",
-                "Swing of the profile: its largest minus its smallest value.",
+                "Swing of the profile: the largest value minus the smallest.",
             ),
             (
-                "Columns a chip",
+                "Columns per chip",
                 f"{period / scene.camera.readout_time:.2f} columns",
                 "Switching period divided by readout time.",
             ),
@@ -264,16 +264,16 @@ class PinController(QObject):
             (
                 "Simulation time",
                 f"{1e3 * snapshot.simulation_seconds:.1f} ms",
-                "Computing time of the picture.",
+                "Time to compute the picture.",
             ),
-            *self._readings(snapshot),
+            *self._describe_decoders(snapshot),
         ]
 
-    def _readings(self, snapshot: Snapshot) -> list[tuple[str, str, str]]:
+    def _describe_decoders(self, snapshot: Snapshot) -> list[tuple[str, str, str]]:
         rows = []
         for decoder, result in snapshot.results.items():
             name = f"Decoder “{decoder}”"
-            rows.append((name, self._reading(result, snapshot), "The code that it read."))
+            rows.append((name, self._describe_code(result, snapshot), "The code that it read."))
             if decoder != PAPER_DECODER:
                 sure = result.confidence
                 text = "none" if sure is None else f"{sure:.3f}"
@@ -281,7 +281,7 @@ class PinController(QObject):
                 rows.append((f"Confidence, “{decoder}”", text, meaning))
         return rows
 
-    def _reading(self, result: DecodeResult, snapshot: Snapshot) -> str:
+    def _describe_code(self, result: DecodeResult, snapshot: Snapshot) -> str:
         if result.code is None:
             return reason_in(snapshot, result) or "no code read"
         cause = cause_in(snapshot, result)
@@ -295,7 +295,7 @@ class PinController(QObject):
 
 
 def _simulate_all(pins: dict[str, SimulationRequest], report: Report) -> None:
-    """Simulate the pictures of pins, leaving out those that have none."""
+    """Simulate the pictures of pins, and leave out pins that have none."""
     for name, pin in pins.items():
         with suppress(OccError):
             report((name, explained(snapshot_of(pin, render_with(pin.scene, pin.settings)))))

@@ -1,4 +1,4 @@
-"""What a photo adds below the profile: the residual over the columns, and the chips read."""
+"""What is shown below the profile of a photo: the residual, and the chips that were read."""
 
 from typing import TYPE_CHECKING
 
@@ -23,14 +23,14 @@ if TYPE_CHECKING:
 
 _LEAST_HEIGHT = 56
 
-_PADDING = 0.2  # of the axis above and below its last ticks, as a fraction of what is between them
+_PADDING = 0.2  # room beyond the outermost ticks of the axis, as a fraction of their distance
 
 _STEPS = (5.0, 10.0, 15.0, 20.0, 30.0, 50.0, 75.0, 100.0, 150.0, 200.0, 255.0)
-"""Grey levels at which the axis can end, so that it rarely changes."""
+"""Grey levels at which the axis can end; there are only a few, so that it rarely changes."""
 
 
 _CERTAIN_PROBABILITY = 0.95
-"""Least probability that all chips are right at which they are drawn in full."""
+"""Chips are drawn in full colour from this probability that all of them are right."""
 
 
 class ResidualPlot(QWidget):
@@ -43,30 +43,30 @@ class ResidualPlot(QWidget):
         self.plot = new_plot(
             "Residual, photo minus simulation",
             "column",
-            "levels",  # the line above names the residual: a longer label is cut off here
+            "levels",  # a longer label would be cut off; the line above names the residual
             self.palette(),
         )
         self.plot.setMinimumHeight(_LEAST_HEIGHT)
         self.plot.setDownsampling(auto=True, mode="peak")
         self.plot.setClipToView(True)
-        # pyqtgraph's own link would shift one by the distance of their frames on the screen.
+        # pyqtgraph's own link would shift one plot if their frames are not aligned on the screen.
         linked.getViewBox().sigXRangeChanged.connect(self._follow)
         self._linked = linked
         self._follow(linked.getViewBox(), linked.viewRange()[0])
-        self.plot.getViewBox().sigRangeChangedManually.connect(self._lead)
+        self.plot.getViewBox().sigRangeChangedManually.connect(self._move_linked_plot)
         zero = pg.InfiniteLine(angle=0, pen=thin(THRESHOLD, Qt.PenStyle.DashDotLine))
         self.plot.addItem(zero, ignoreBounds=True)
         self.curve = self.plot.add_curve(thin(PHOTO))
         self._photo: Photo | None = None
         self._limit = _STEPS[0]
-        """Limit of the axis: for one photo it only grows, so that a residual is seen to fall."""
+        """Limit of the axis; it only grows for the same photo, so that a smaller residual shows."""
         filled(QVBoxLayout(self), self.numbers, (self.plot, 1), margins=0, spacing=1)
 
     def _follow(self, _box: pg.ViewBox, columns: tuple[float, float]) -> None:
         self.plot.setXRange(*columns, padding=0)
 
-    def _lead(self) -> None:
-        # As if the user had moved the other plot, which then stops following panel or packets.
+    def _move_linked_plot(self) -> None:
+        # As if the user had moved the other plot, which then no longer follows panel or packets.
         self._linked.setXRange(*self.plot.viewRange()[0], padding=0)
         box = self._linked.getViewBox()
         box.sigRangeChangedManually.emit(box.mouseEnabled())
@@ -90,21 +90,23 @@ class ResidualPlot(QWidget):
         self.plot.setYRange(-limit, limit, padding=_PADDING)
         ticks = [(level, f"{level:.0f}") for level in (-limit, 0.0, limit)]
         self.plot.getAxis("left").setTicks([ticks])
-        self.numbers.set_full_text(self._in_words(comparison, (1.0 + 2.0 * _PADDING) * limit))
+        self.numbers.set_full_text(self._describe(comparison, (1.0 + 2.0 * _PADDING) * limit))
 
-    def _in_words(self, comparison: Comparison, shown: float) -> str:
+    def _describe(self, comparison: Comparison, shown: float) -> str:
         text = (
-            "Residual, photo minus the present scene's simulation: correlation "
-            f"{comparison.correlation:.4f} "
-            f"as they lie here, RMSE {comparison.rmse:.2f} grey levels"
+            "Residual, photo minus simulation of the present scene: in this position, correlation "
+            f"{comparison.correlation:.4f} and RMSE {comparison.rmse:.2f} grey levels"
         )
         if comparison.largest_residual > shown:
-            text += f"; at most {comparison.largest_residual:.0f}, beyond the axis"
+            text += f"; largest residual {comparison.largest_residual:.0f}, outside the axis"
         return text
 
 
 class ChipStrip(QWidget):
-    """Chips as cells, lit ones filled, and a button to copy them in the ``left`` pixels."""
+    """The chips as cells, filled where the LED is on; left of them, a button to copy them.
+
+    ``left``: the width of the button in pixels.
+    """
 
     copied = Signal(str)  # a text was copied: a sentence that says so
 
@@ -125,15 +127,15 @@ class ChipStrip(QWidget):
         if reading is not None:
             text = (
                 f"{len(reading.chips)} chips read from the photo, "
-                f"{reading.columns_per_chip:.2f} columns each; all of them are "
-                f"right with a probability of {100.0 * reading.confidence:.0f} %"
+                f"{reading.columns_per_chip:.2f} columns each; the probability that all of them "
+                f"are right is {100.0 * reading.confidence:.0f} %"
             )
             self.cells.setToolTip(text)
             self.cells.setAccessibleDescription(f"{text}: {reading.text}")
         self.cells.update()
 
     def place(self, first_column: float, scale: float) -> None:
-        """Place the photo's first column at a column of the simulation, and scale its columns."""
+        """Set the column of the simulation at the photo's first column, and the photo's scale."""
         self.cells.placement = (first_column, scale)
         self.cells.update()
 

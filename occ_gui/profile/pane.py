@@ -1,4 +1,4 @@
-"""The pane of the column profile: each of its parts is drawn where it differs."""
+"""The pane of the column profile; only the parts that have changed are drawn again."""
 
 from dataclasses import replace
 

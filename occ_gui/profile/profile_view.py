@@ -19,22 +19,22 @@ from occ_gui.widgets.plot import LineLegend, new_plot
 from occ_model.arrays import FloatArray
 from occ_model.results.decoding import PAPER_DECODER
 
-_LEAST_HEIGHT = 76  # pixels: in a low window the panes divide the height
+_LEAST_HEIGHT = 76  # in pixels; panes share the height of a low window
 
 _AXIS_WIDTH = 52
 _LONGEST_LEVEL, _AXIS_GAPS = "-200", 14
 """The longest number of an axis, and the pixels between its name, numbers and ticks."""
 
-_SHADE = 20  # opacity of the text's colour over the columns that are not read, of 255
+_SHADE = 20  # opacity, of 255, of the shade over the columns that are not read
 
 _BEYOND_ANY_PICTURE = 1e7
 
 
 class ProfileView(QWidget):
-    """Grey level over column: the simulation, the band model (or why it is undefined), the photo.
+    """Grey level over column: the simulation, the band model or why it is undefined, and the photo.
 
-    The plot follows the panel's first packets, or the whole panel, until the user moves it. Below
-    it is the residual of an open photo minus the simulation.
+    The plot follows the first packets of the panel, or the whole panel, until the user moves it.
+    Below it is the residual: an open photo minus the simulation.
     """
 
     enhanced_chosen = Signal(bool)  # whether the user chose the enhanced columns
@@ -51,7 +51,7 @@ class ProfileView(QWidget):
         self._simulated_levels: tuple[FloatArray | None, ...] = ()
         self.plot = new_plot("Column profile", "column", "grey level", self.palette())
         self.plot.setMinimumHeight(_LEAST_HEIGHT)
-        # Of several columns on one pixel the extremes are drawn, not an arbitrary one.
+        # Of several columns in one pixel, the smallest and largest values are drawn.
         self.plot.setDownsampling(auto=True, mode="peak")
         self.plot.setClipToView(True)
         self.legend = LineLegend()
@@ -69,7 +69,7 @@ class ProfileView(QWidget):
             "before": ("before", thin(BEFORE)),
             "band": ("band model", thin(BAND, line.DashLine)),
             "photo": ("photo", thin(PHOTO)),
-            # With the mean and the contrast of the simulation: a camera's gain is not known.
+            # Scaled to the mean and contrast of the simulation, as the camera's gain is unknown.
             "fitted": ("photo, fitted levels", thin(PHOTO)),
             "threshold": ("threshold", thin(THRESHOLD, line.DashDotLine)),
         }
@@ -98,8 +98,8 @@ class ProfileView(QWidget):
     def _make_controls(self) -> None:
         self.enhanced = check_box(
             "Enhanced",
-            "Show every curve after the receiver's contrast enhancement: the simulation's as "
-            "the decoders read it, the others each by its own histogram.",
+            "Show every curve after the receiver's contrast enhancement: the simulation as the "
+            "decoders read it, every other curve by its own histogram.",
             self._draw_before,
         )
         self.enhanced.toggled.connect(self._redraw)
@@ -122,14 +122,14 @@ class ProfileView(QWidget):
         layout.addWidget(self.chips)
 
     def _axis_width(self) -> int:
-        """Return the width of the left axes: an upright name beside the longest number."""
+        """Return the width of the left axes: room for the rotated name and the longest number."""
         metrics = self.fontMetrics()
         needed = metrics.height() + metrics.horizontalAdvance(_LONGEST_LEVEL) + _AXIS_GAPS
         return max(_AXIS_WIDTH, needed)
 
     @cached_property
     def residual(self) -> ResidualPlot:
-        """The plot of photo minus simulation, made with the first photo."""
+        """The plot of photo minus simulation, made when the first photo is shown."""
         residual = ResidualPlot(self.plot)
         # So that the columns of both plots are aligned.
         residual.plot.getAxis("left").setWidth(self._axis_width())
@@ -159,10 +159,10 @@ class ProfileView(QWidget):
         self.plot.getAxis("bottom").setStyle(showValues=not below)
 
     def show_reading(self, reading: Reading) -> None:
-        """Show a reading; a hidden pane skips what the exact picture will soon replace."""
+        """Show a reading; a hidden pane skips one that the exact picture will soon replace."""
         self.reading = reading
         text, tip = first_periods(not reading.scene.transmitter.pattern)
-        if text != self._packets.text():  # Qt would lay the row out anew for the same text
+        if text != self._packets.text():  # Qt lays the row out again even if the text is the same
             self._packets.setText(text)
             self._packets.setToolTip(tip)
         self._is_behind = reading.source != "picture" and not self.isVisible()
@@ -191,7 +191,7 @@ class ProfileView(QWidget):
         is_fitted = profile is not None and profile.comparison is not None
         self.legend.show_line("photo", profile is not None and not is_fitted)
         self.legend.show_line("fitted", is_fitted)
-        self._offer_before()
+        self._update_before()
         self._arrange_plots()
         if profile is not None:
             self.residual.show_profile(profile)
@@ -233,11 +233,11 @@ class ProfileView(QWidget):
     def show_before(self, snapshot: Snapshot) -> None:
         self._before = snapshot
         self._draw_before()
-        self._offer_before()
+        self._update_before()
         self._fit_levels()
 
-    def _offer_before(self) -> None:
-        """Show the earlier curve, unless the simulation is compared with a photo."""
+    def _update_before(self) -> None:
+        """Show the curve from before the latest step, unless a photo is compared."""
         shown = self._before is not None and self.photo_levels is None
         self.before.setVisible(shown)
         self.legend.show_line("before", shown)
@@ -248,7 +248,7 @@ class ProfileView(QWidget):
             _draw(self.before, self._before_levels)
 
     def _fit_levels(self) -> None:
-        """Show from black to the largest value, rounded up so that the axis rarely changes."""
+        """Set the range from black to the largest value, rounded up so that it rarely changes."""
         before = self._before_levels if self.photo_levels is None else None
         profiles = (*self._simulated_levels, before, self.photo_levels)
         largest = max((float(p.max()) for p in profiles if p is not None), default=0.0)
@@ -260,12 +260,12 @@ class ProfileView(QWidget):
             return
         first, last = reading.panel_columns
         if self._packets.isChecked():
-            first = self._first_of_photo(first, last)
+            first = self._start_at_photo(first, last)
             last = min(last, first + PACKETS_IN_VIEW * reading.packet_columns)
         self.plot.setXRange(first, max(last, first + 1.0), padding=0.01)
 
-    def _first_of_photo(self, first: float, last: float) -> float:
-        """Return the photo's first column if it lies further right: both are compared there."""
+    def _start_at_photo(self, first: float, last: float) -> float:
+        """Return the photo's first column if it lies further right, where both are compared."""
         comparison = None if self._photo is None else self._photo.comparison
         if comparison is None or not first < comparison.first_column < last:
             return first
@@ -297,7 +297,7 @@ class ProfileView(QWidget):
 def _draw(
     curve: pg.PlotDataItem, values: FloatArray | None, first_column: float = 0.0, scale: float = 1.0
 ) -> None:
-    """Draw a curve, unless it is there already: painting takes longer than comparing."""
+    """Draw a curve, unless it has not changed: painting takes longer than comparing."""
     if values is None:
         columns, values = np.empty(0), np.empty(0)
     else:

@@ -7,7 +7,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 
-from occ_gui.background.task import Reporter
+from occ_gui.background.task import TaskReporter
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.photo.reading.load import load_photo
 from occ_model.room.locate import RoomReading, read_room
@@ -67,7 +67,7 @@ def plan_of(room: Room) -> RoomPlan:
     return RoomPlan(outlines, seen_outline(room, height), aim_of(room.camera, height), height)
 
 
-def show_room(look: Look, report: Reporter) -> ShownRoom:
+def show_room(look: Look, report: TaskReporter) -> ShownRoom:
     if look.photo is not None:
         return _photo(look, look.photo, report)
     room = look.room
@@ -77,7 +77,7 @@ def show_room(look: Look, report: Reporter) -> ShownRoom:
     return replace(shown, reading=read_room(image, room))
 
 
-def _photo(look: Look, path: Path, report: Reporter) -> ShownRoom:
+def _photo(look: Look, path: Path, report: TaskReporter) -> ShownRoom:
     photo = load_photo(path)
     report(ShownRoom(look, look.room, photo.image, _small(photo.image), None))
     found = read_room_photo(photo, look.room, look.focal_length)

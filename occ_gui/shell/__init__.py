@@ -1,1 +1,1 @@
-"""The panes of the window as declarations, and what follows from them: docks, idle, stop."""
+"""Declarations of the window's panes, and the docks, menu entries and figures made from them."""

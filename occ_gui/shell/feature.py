@@ -32,8 +32,8 @@ def later(name: str, *arguments: Any, **named: Any) -> Callable[..., Any]:
     return call
 
 
-class NothingToDraw(OccError):  # noqa: N818 - not an error: the data are not complete yet
-    """There are no data yet for a figure."""
+class NothingToDraw(OccError):  # noqa: N818 - not an error: the data is not complete yet
+    """There is no data yet for a figure."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,16 +41,16 @@ class Figure:
     name: str
     title: str
     draw: Callable[[Any, Snapshot], Draw]
-    """Returns how to draw the figure from the pane, None if it was never seen, and the shown
-    results; raises NothingToDraw."""
-    is_another: Callable[[Any], bool] = lambda _pane: True
-    """Whether it differs at present from all other figures."""
+    """Takes the pane, None if it was never shown, and the results that are shown; returns a
+    function that draws the figure. Raises NothingToDraw."""
+    is_different: Callable[[Any], bool] = lambda _pane: True
+    """Whether the figure differs at present from all other figures."""
 
 
 Part = TypeVar("Part")
 
 
-class VerdictView(Protocol):
+class CodeVerdictView(Protocol):
     """A part of a pane that shows whether the code was read."""
 
     def show_outdated(self, outdated: bool) -> None: ...
@@ -58,7 +58,7 @@ class VerdictView(Protocol):
     def show_run(self, value: str, pictured: str) -> None: ...
 
 
-class Work(Protocol):
+class BackgroundWork(Protocol):
     @property
     def is_idle(self) -> bool: ...
 
@@ -70,10 +70,11 @@ class Service(QObject):
 
     status_message = Signal(str)
 
-    tasks: tuple[Task[Any, Any], ...] = ()  # the work that is waited for, and that ends with it
+    tasks: tuple[Task[Any, Any], ...] = ()
+    """Work that counts for :attr:`is_idle`, and that stops with the service."""
 
-    measures: tuple[Work, ...] = ()
-    """Background measurements that no picture waits for; they end with it."""
+    measures: tuple[BackgroundWork, ...] = ()
+    """Background measurements that no picture waits for; they stop with the service."""
 
     @property
     def is_idle(self) -> bool:
@@ -96,10 +97,10 @@ class Pane(Service, Generic[Part]):
 
     accepted = Signal()  # an allowed value was entered, whether or not it differs from the last one
 
-    verdicts: tuple[VerdictView, ...] = ()  # what says whether the code was read
+    verdicts: tuple[CodeVerdictView, ...] = ()
 
     sentences: tuple[QLabel, ...] = ()
-    """Labels with sentences that the status line need not repeat while they are seen."""
+    """Labels with sentences that the status line need not repeat while they are visible."""
 
     def __init__(self, widget: QWidget) -> None:
         super().__init__()
@@ -113,7 +114,7 @@ class Pane(Service, Generic[Part]):
 
 
 class PiecesPane(Pane[tuple[Any, ...]]):
-    """A pane that redraws only those pieces of its part that have changed."""
+    """A pane that redraws only the pieces of its part that have changed."""
 
     def __init__(self, widget: QWidget, *shows: Callable[[Any], object]) -> None:
         super().__init__(widget)
@@ -131,25 +132,25 @@ class PiecesPane(Pane[tuple[Any, ...]]):
 class Feature(Generic[Part]):
     """A pane of the window, or a service without one.
 
-    ``make`` is called when the pane is first seen, or one of ``commands`` first given: heavy
-    modules are imported there.
+    ``make`` is called when the pane is first shown, or one of ``commands`` is first called; heavy
+    modules are imported only then.
     """
 
     name: str
     title: str = ""  # the title of the pane; empty where there is none
     places: Places = field(default_factory=dict)
-    """Where the modes show the pane at first."""
+    """Where each mode shows the pane at first."""
     elsewhere: Side = "bottom"  # its side in modes that do not show it at first
-    help: str = ""  # page and heading of the manual that explain the pane
+    help: str = ""  # page and heading of the manual that explains the pane
     make: Callable[[], Any] = Service  # makes a Pane where there is a title, and else a Service
     part: Callable[[Workspace, Results], Part | None] = lambda _workspace, _results: None
-    """Selects what the pane shows; None for nothing that it could show."""
-    goes_on_hidden: bool = False
-    """Whether the pane shows its part while it is hidden, too: others look at it."""
+    """Selects what the pane shows; None if there is nothing that it could show."""
+    updates_hidden: bool = False
+    """Whether the pane is kept up to date while it is hidden, because other panes use it."""
     actions: Mapping[str, Callable[[], object]] = field(default_factory=dict)
     """Handlers of menu entries, by name."""
     commands: Mapping[str, Callable[[Any], object]] = field(default_factory=dict)
-    """Handlers of further entries, called with the pane or service, which is made for them."""
+    """Handlers of further entries, called with the pane or service, which is made if needed."""
     enabled: Callable[[Workspace, Results], Mapping[str, bool]] = lambda _workspace, _results: {}
-    """Whether menu entries can be chosen, by name, of those that cannot always be."""
+    """By name, whether the menu entries that are not always available can be chosen."""
     figures: tuple[Figure, ...] = ()

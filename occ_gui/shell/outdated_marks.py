@@ -1,11 +1,11 @@
-"""Outdated marks: each result that is not of the present scene is marked in its pane."""
+"""Outdated marks: a result of an earlier scene is marked in its pane."""
 
 from typing import Any
 
 from PySide6.QtCore import QObject, Qt, QTimer
 from PySide6.QtWidgets import QWidget
 
-from occ_gui.shell.feature import Pane, VerdictView
+from occ_gui.shell.feature import CodeVerdictView, Pane
 from occ_gui.shell.results import Board, MadeOf, of_picture, of_reading, of_snapshot
 from occ_gui.simulation.controller import SimulationController
 from occ_gui.simulation.snapshot import Picture
@@ -14,31 +14,31 @@ from occ_gui.widgets.outdated_mark import DELAY, OutdatedMark
 from occ_model.scene.parameters import quantity
 
 VERDICT_DELAY = 0.06
-"""Seconds before a verdict of an earlier scene is marked, some four frames of a screen."""
+"""Seconds before a verdict on an earlier scene is marked: about four frames of a screen."""
 
 
 _DIGITS = 4  # significant digits of a slider's value
 
 
 class OutdatedMarks(QObject):
-    """Compares the scenes of all results with the present one, at every change of either.
+    """Compares the scenes of all results with the present scene whenever either changes.
 
-    A pane is marked when its result has been outdated for a moment. A verdict follows the scene
-    within a few milliseconds where the profile path answers; one that is later than
-    ``VERDICT_DELAY`` is marked until one of the present scene is there and the scene rests: it
-    would flicker otherwise.
+    A pane is marked when its result has been outdated for a moment. A verdict usually follows the
+    scene within a few milliseconds. One that takes longer than ``VERDICT_DELAY`` is marked until
+    there is a verdict on the present scene and the scene no longer changes, so that the mark does
+    not flicker.
 
-    A slider that runs by itself is always ahead of the picture. Picture and readings are not marked
-    then: the verdicts name their value.
+    The picture always lags behind a slider that runs by itself. Picture and readings are not marked
+    then; the verdicts say which value of the slider they belong to.
     """
 
     def __init__(self, board: Board, simulation: SimulationController, parent: QObject) -> None:
         super().__init__(parent)
         self._board, self._simulation, self._ages = board, simulation, simulation.ages
-        self._verdicts: list[VerdictView] = []
+        self._verdicts: list[CodeVerdictView] = []
         self._marks: list[tuple[OutdatedMark, MadeOf]] = []
         self._refused_after: tuple[Picture | None] | None = None
-        """The picture that stays as the scene has none; None where no scene was refused."""
+        """The picture that stays because the scene was refused; None if it was not refused."""
         self._is_verdict_marked = False
         self._run = ""
         self._settling = QTimer(self, singleShot=True, timerType=Qt.TimerType.PreciseTimer)
@@ -69,7 +69,7 @@ class OutdatedMarks(QObject):
         self._update()
 
     def _on_failure(self, _sentence: str) -> None:
-        # One that is of an earlier request says nothing about the present one.
+        # The failure of an earlier request says nothing about the present one.
         if self._simulation.runner.is_idle:
             self._refused_after = (self._board.results.picture,)
         self._update()
@@ -92,10 +92,10 @@ class OutdatedMarks(QObject):
             self._mark_verdicts(0.0 if runs else self._ages.age(read))
 
     def _age_in_run(self, mark: OutdatedMark, made_of: MadeOf, age: float) -> float:
-        """Return the age to mark by while a slider runs.
+        """Return the age that decides about a mark while a slider runs.
 
-        The verdicts name the value of picture and readings. Any other mark, once shown, stays to
-        the end of the run: it would flicker otherwise.
+        Picture and readings are not marked: the verdicts name their value. Any other mark, once
+        shown, stays until the run ends, so that it does not flicker.
         """
         if made_of is not of_snapshot:
             return 0.0

@@ -1,4 +1,4 @@
-"""Results: what has been computed for the workspace, as one value that all panes read."""
+"""Results: everything computed for the workspace, as one value that all panes read."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -28,24 +28,24 @@ T = TypeVar("T")
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Results:
-    """The latest results; each part holds what it was computed from."""
+    """The latest results; each part holds the request that it was computed from."""
 
-    remark: Remark | None = None  # what the status line was given last
+    remark: Remark | None = None  # the latest remark for the status line
 
     failure: Failure | None = None  # why the present scene has no picture
 
-    snapshot: Snapshot | None = None  # the exact picture, and what is read of it
+    snapshot: Snapshot | None = None  # the exact picture, and what is read from it
 
     picture: Picture | None = None
     """The first picture: a draft, or the exact one before it is decoded."""
 
-    reading: Reading | None = None  # what is read of the scene, by its picture or sooner
+    reading: Reading | None = None  # what is read, from the picture or before there is one
     before: Snapshot | None = None  # the exact picture before the latest step
     switched: tuple[Decision, ...] = ()  # the effects that the plan has just switched in or out
     document: "PhotoDocument | None" = None
-    """The photo that was read last; another one may be on its way."""
+    """The photo that was loaded last; another one may be loading."""
 
-    stripes: "StripeSearch | None" = None  # its stripes, or those of the part that is matched
+    stripes: "StripeSearch | None" = None  # stripes of the photo, or of the part that is matched
 
     chips: "ChipReading | None" = None
 
@@ -54,7 +54,7 @@ class Results:
     photo_profile: "PhotoProfile | None" = None
     """The profile of the open photo, in the columns of the simulated one."""
 
-    film: "Video | None" = None  # the film of a file that was opened last
+    film: "Video | None" = None  # the film that was last opened from a file
 
     @property
     def photo(self) -> "Photo | None":
@@ -70,7 +70,7 @@ def of_snapshot(results: Results) -> SimulationRequest | None:
 
 
 def of_reading(results: Results) -> SimulationRequest | None:
-    """Return what the reading was computed from, which comes before the exact picture."""
+    """Return what the reading was computed from; it is ready before the exact picture."""
     return None if results.reading is None else results.reading.request
 
 
@@ -87,7 +87,7 @@ class Board(QObject):
         self._selections: list[Selection[Any]] = []
 
     def select(self, of: Callable[[Results], T]) -> Selection[T]:
-        """Return a selection of the results, which is notified after the panes."""
+        """Return a selection of the results; its listeners are called after the panes."""
         selection = Selection(of, self.results)
         self._selections.append(selection)
         return selection

@@ -1,4 +1,4 @@
-"""Shell: docks, menu entries, figures, idle and stop of all declared features."""
+"""Shell: puts the declared features into docks and menus, and stops their work."""
 
 from collections.abc import Mapping
 from typing import Any, Protocol
@@ -36,7 +36,7 @@ class Shell(QObject):
     def __init__(self, store: Store, board: Board) -> None:
         super().__init__()
         self._store, self._board = store, board
-        self._places: dict[str, _Place] = {}
+        self._places: dict[str, _PaneHolder] = {}
         self._unseen: dict[str, Feature[Any]] = {}
         self._services: dict[str, Service] = {}
         self._workspaces = store.select(lambda workspace: workspace)
@@ -69,28 +69,28 @@ class Shell(QObject):
                 actions[name].setEnabled(is_enabled)
 
     def embed(self, feature: Feature[Any]) -> QWidget:
-        """Place a feature in another pane, which shows and hides it."""
+        """Return a widget for a feature that is part of another pane, which shows and hides it."""
         place = self._place(feature)
         place.shown.connect(place.set_seen)
         return place
 
-    def _place(self, feature: Feature[Any]) -> "_Place":
-        place = self._places[feature.name] = _Place(feature, self)
-        self._workspaces.changed.connect(place.look)
-        self._board.changed.connect(place.look)
+    def _place(self, feature: Feature[Any]) -> "_PaneHolder":
+        place = self._places[feature.name] = _PaneHolder(feature, self)
+        self._workspaces.changed.connect(place.show_change)
+        self._board.changed.connect(place.show_change)
         return place
 
     def pane(self, name: str) -> Any:
         """Return a pane or a service, which is made if needed."""
         if name in self._places:
-            return self._places[name].made()
+            return self._places[name].make_pane()
         if name not in self._services:
             self._services[name] = self._unseen[name].make()
             self._services[name].status_message.connect(self.said)
         return self._services[name]
 
-    def made_pane(self, name: str) -> Any:
-        """Return a pane or a service, None if it was not made or added yet."""
+    def find_pane(self, name: str) -> Any:
+        """Return a pane or a service; None if it has not been made yet."""
         place = self._places.get(name)
         return place.pane if place else self._services.get(name)
 
@@ -100,7 +100,7 @@ class Shell(QObject):
         return {feature.name: feature.help for feature in features if feature.help}
 
     @property
-    def _figures(self) -> "dict[str, tuple[Figure, _Place]]":
+    def _figures(self) -> "dict[str, tuple[Figure, _PaneHolder]]":
         places = self._places.values()
         return {
             figure.name: (figure, place) for place in places for figure in place.feature.figures
@@ -112,10 +112,12 @@ class Shell(QObject):
 
     @property
     def different_figures(self) -> list[Figure]:
-        return [figure for figure, place in self._figures.values() if figure.is_another(place.pane)]
+        return [
+            figure for figure, place in self._figures.values() if figure.is_different(place.pane)
+        ]
 
     def draw(self, name: str, shown: Snapshot) -> Draw:
-        """Return how to draw a figure of these results; raises NothingToDraw."""
+        """Return a function that draws a figure of these results; raises NothingToDraw."""
         figure, place = self._figures[name]
         return figure.draw(place.pane, shown)
 
@@ -137,7 +139,7 @@ class Shell(QObject):
             work.stop()
 
 
-class _Place(QWidget):
+class _PaneHolder(QWidget):
     shown = Signal(bool)
 
     def __init__(self, feature: Feature[Any], shell: Shell) -> None:
@@ -148,7 +150,7 @@ class _Place(QWidget):
         self.pane: Pane[Any] | None = None
         self._content = filled(QVBoxLayout(self), margins=0)
 
-    def made(self) -> Pane[Any]:
+    def make_pane(self) -> Pane[Any]:
         if self.pane is None:
             pane: Pane[Any] = self.feature.make()
             self.pane = pane
@@ -157,15 +159,15 @@ class _Place(QWidget):
             pane.accepted.connect(self._shell.accepted)
             leave_drops_to_window(self)
             self._shell.made.emit(self.feature.name, pane)
-            self.look()
+            self.show_change()
         return self.pane
 
     def set_seen(self, seen: bool) -> None:
         if not seen and self.pane is None:
             return
         self._is_seen = seen
-        pane = self.made()
-        self.look()
+        pane = self.make_pane()
+        self.show_change()
         pane.set_seen(seen)
 
     def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 - Qt's name
@@ -176,9 +178,9 @@ class _Place(QWidget):
         super().hideEvent(event)
         self.shown.emit(False)
 
-    def look(self) -> None:
+    def show_change(self) -> None:
         """Show the part of the pane, if it is visible and has changed."""
-        if self.pane is None or not (self._is_seen or self.feature.goes_on_hidden):
+        if self.pane is None or not (self._is_seen or self.feature.updates_hidden):
             return
         part = self.feature.part(self._shell._store.workspace, self._shell._board.results)
         if part is not None and part != self._shown:

@@ -1,4 +1,4 @@
-"""Sentence of the status line: what was said last, for as long as it holds."""
+"""The sentence of the status line: the latest remark, for as long as it holds."""
 
 from collections.abc import Callable
 from typing import TypeAlias
@@ -8,7 +8,7 @@ from occ_gui.shell.results import Results
 from occ_gui.values.remarks import Remark
 
 Until: TypeAlias = Callable[[Workspace, Results], object]
-"""Returns that part of the state with whose change a sentence no longer holds."""
+"""Returns the part of the state that a sentence is about: it holds until that part changes."""
 
 
 def next_sentence(_workspace: Workspace, _results: Results) -> object:

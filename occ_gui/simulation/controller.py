@@ -24,7 +24,7 @@ from time import perf_counter
 from PySide6.QtCore import QObject, Signal
 
 from occ_gui.background.result_age import ResultAges
-from occ_gui.background.task import Reporter, Task
+from occ_gui.background.task import Task, TaskReporter
 from occ_gui.core.workspace import FIRST_SETTINGS
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.simulation.jobs import (
@@ -131,7 +131,7 @@ class SimulationController(QObject):
         self.runner.ask(request)
         self.submitted.emit()
 
-    def _simulate(self, request: SimulationRequest, report: Reporter) -> Snapshot:
+    def _simulate(self, request: SimulationRequest, report: TaskReporter) -> Snapshot:
         begun = perf_counter()
         planned = plan_scene(request.scene, request.settings)  # once for all that follows
         reading = reading_by_profile(request, planned)
@@ -161,7 +161,7 @@ class SimulationController(QObject):
             report(snapshot)
         return explained(snapshot, report.give_way)
 
-    def _wait_for_others(self, report: Reporter) -> None:
+    def _wait_for_others(self, report: TaskReporter) -> None:
         """Leave both cores to short work for a while, unless a newer request comes."""
         for _ in range(_MOST_CHECKS):
             if not self._others_first():

@@ -1,1 +1,1 @@
-"""Spectrum of the profile and histogram of the picture, measured on the present scene."""
+"""Spectrum of the profile and histogram of the picture of the present scene."""

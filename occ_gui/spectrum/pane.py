@@ -1,4 +1,4 @@
-"""The pane of the spectrum: the part of the picture that shows the panel is measured."""
+"""The pane of the spectrum, which is measured where the picture shows the panel."""
 
 import numpy as np
 
@@ -11,7 +11,7 @@ from occ_model.study.spectrum import level_histogram, profile_spectrum
 
 
 class SpectrumPane(Pane[Snapshot]):
-    """Measures what is shown of a picture: two milliseconds, so that no thread is needed."""
+    """Measures spectrum and histogram, which takes two milliseconds and needs no thread."""
 
     def __init__(self, view: SpectrumView) -> None:
         super().__init__(view)

@@ -1,4 +1,4 @@
-"""Pane of the spectrum: the profile's frequencies, and the grey levels of the panel's picture."""
+"""Pane of the spectrum: the frequencies of the profile, and the grey levels of the panel."""
 
 import numpy as np
 import pyqtgraph as pg
@@ -16,7 +16,7 @@ _LEAST_TOP = 1.0
 
 
 class SpectrumView(QWidget):
-    """The profile's spectrum with the response of the exposure, and a histogram beside it."""
+    """The spectrum of the profile with the response of the exposure, and a histogram beside it."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -48,7 +48,7 @@ class SpectrumView(QWidget):
         self.legend.add_line(
             "response",
             thin(BAND, Qt.PenStyle.DashLine),
-            "what the exposure leaves, |sinc(F t)|; zero at F = k / t",
+            "response of the exposure, |sinc(F t)|; zero at F = k / t",
         )
 
     def _make_histogram(self) -> None:
@@ -99,8 +99,8 @@ class SpectrumView(QWidget):
         self.histogram.setYRange(0.0, max(_HEADROOM * 100.0 * float(found.fractions.max()), 1.0))
         if found.is_saturated:
             text = (
-                f"⚠ {100.0 * found.white:.0f} % of the panel's pixels are white: the light "
-                "beyond is lost."
+                f"⚠ {100.0 * found.white:.0f} % of the panel's pixels are white: brighter light "
+                "does not change them."
             )
         else:
             text = f"The panel's pixels: {100.0 * found.white:.1f} % are white."

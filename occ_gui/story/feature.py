@@ -86,5 +86,5 @@ def story(
         title="Story",
         make=lambda: StoryPane(scenes, simulation, picture, decoders),
         part=part,
-        goes_on_hidden=True,
+        updates_hidden=True,
     )

@@ -1,1 +1,1 @@
-"""The dialog that writes what a board needs to blink the scene."""
+"""The dialog that writes the files that a microcontroller board needs to send the scene."""

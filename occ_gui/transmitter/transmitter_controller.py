@@ -1,4 +1,4 @@
-"""Transmitter controller: writes a board's files that send the scene."""
+"""Transmitter controller: writes the files with which a board sends the scene."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,14 +17,14 @@ from occ_model.errors import OccError, OutputError, one_line
 from occ_model.files.writing import make_folder
 from occ_model.scene.scene import Scene
 
-# matplotlib takes half a second to import: nothing here imports a figure before it is drawn.
+# matplotlib takes half a second to import, so that functions import what needs it when called.
 
 MOST_FOLDERS = 1000
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Drawn:
-    """The figure of a wiring as PNG, and its text alternative."""
+class WiringDrawing:
+    """The wiring as a PNG picture, and a description of it in words."""
 
     sent: Transmission
     png: bytes
@@ -32,18 +32,18 @@ class Drawn:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Saved:
-    """The written folder, the number of files, and why there is no WAV file, if so."""
+class SavedFiles:
+    """The new folder, its number of files, and why there is no WAV file; empty if there is one."""
 
     folder: Path
     files: int
     missing: str
 
 
-def draw_wiring(sent: Transmission) -> Drawn:
+def draw_wiring(sent: Transmission) -> WiringDrawing:
     from occ_model.figures.transmitter_files import circuit_notes, wiring_bytes
 
-    return Drawn(sent, wiring_bytes(sent, "png"), "\n".join(circuit_notes(sent)))
+    return WiringDrawing(sent, wiring_bytes(sent, "png"), "\n".join(circuit_notes(sent)))
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -54,23 +54,23 @@ class SaveJob:
     parent: Path
 
 
-def save_files(job: SaveJob) -> Saved:
+def save_files(job: SaveJob) -> SavedFiles:
     from occ_model.figures.transmitter_files import write_transmitter_files
 
     folder = new_folder(job.parent, f"blink-{job.sent.board.name}")
     paths, missing = write_transmitter_files(folder, job.sent)
-    return Saved(folder, len(paths), missing)
+    return SavedFiles(folder, len(paths), missing)
 
 
 def new_folder(parent: Path, name: str) -> Path:
-    """Make a folder, with a number after its name where that exists already."""
+    """Make a folder, with a number after its name if the name is taken."""
     for number in range(1, MOST_FOLDERS):
         folder = parent / (name if number == 1 else f"{name}-{number}")
         if not folder.exists():
             make_folder(folder)
             return folder
     raise OutputError(
-        f"{one_line(str(parent))} has {MOST_FOLDERS - 1:,} folders {name} already; choose another "
+        f"{one_line(str(parent))} already has {MOST_FOLDERS - 1:,} folders {name}; choose another "
         "folder."
     )
 
@@ -88,10 +88,10 @@ class TransmitterController(Service):
         stored = preferences.recall(_BOARD)
         self._board = stored if stored in BOARDS else DEFAULT_BOARD
         self.dialog: TransmitterDialog | None = None
-        self.drawing: Task[Transmission, Drawn] = Task(
+        self.drawing: Task[Transmission, WiringDrawing] = Task(
             lambda request, _: draw_wiring(request), "wiring"
         )
-        self.saving: Task[SaveJob, Saved] = Task(
+        self.saving: Task[SaveJob, SavedFiles] = Task(
             lambda request, _: save_files(request), "transmitter files"
         )
         self.tasks = (self.drawing, self.saving)
@@ -137,8 +137,8 @@ class TransmitterController(Service):
         self.dialog.show_sent(facts, differs=not self._sent.timing.is_as_asked)
         self.drawing.ask(self._sent)
 
-    def _show_wiring(self, drawn: Drawn) -> None:
-        # That of an earlier scene or board is not shown.
+    def _show_wiring(self, drawn: WiringDrawing) -> None:
+        # A drawing for an earlier scene or board is not shown.
         if self.dialog is not None and drawn.sent is self._sent:
             self.dialog.show_wiring(drawn.png, drawn.text)
 
@@ -151,7 +151,7 @@ class TransmitterController(Service):
             self._store.change(switching_frequency=float(self._sent.timing.frequency))
 
     def ask_to_save(self) -> None:
-        """Ask for the parent of the new folder, and save there."""
+        """Ask where to make the new folder, and save the files there."""
         title = "Make a folder for the board in"
         folder = QFileDialog.getExistingDirectory(self.dialog, title, self._preferences.folder)
         if folder:
@@ -162,10 +162,10 @@ class TransmitterController(Service):
             self._say("Writing…")
             self.saving.ask(SaveJob(self._sent, parent))
 
-    def _report(self, saved: Saved) -> None:
+    def _report(self, saved: SavedFiles) -> None:
         self._preferences.visit(saved.folder)
         folder = one_line(str(saved.folder))
-        text = f"Saved {saved.files} files into {folder}; scene.toml has the sent frequency."
+        text = f"Saved {saved.files} files in {folder}; scene.toml has the frequency that is sent."
         self._say(f"{text} {saved.missing}".strip())
 
     def _say(self, text: str) -> None:

@@ -1,4 +1,4 @@
-"""The dialog of the transmitter: board, frequency that is sent, wiring, saving."""
+"""The dialog of the transmitter: board, frequency that is sent, wiring, and saving."""
 
 from collections.abc import Mapping
 
@@ -22,7 +22,7 @@ _FIGURE = QSize(700, 553)  # size of the wiring on the screen, in the proportion
 class TransmitterDialog(QDialog):
     board_chosen = Signal(str)
 
-    frequency_asked = Signal()  # the scene is to take the frequency that is sent
+    frequency_asked = Signal()  # the user sets the scene to the frequency that the board sends
 
     save_asked = Signal()
 
@@ -48,10 +48,10 @@ class TransmitterDialog(QDialog):
         roles = QDialogButtonBox.ButtonRole
         self.save = buttons.addButton("&Save files…", roles.ActionRole)
         self.save.setToolTip(
-            "Choose where a new folder is made: sketch, waveform, wiring and scene."
+            "Choose where to make a new folder with sketch, waveform, wiring and scene."
         )
         self.take = buttons.addButton("&Take the sent frequency", roles.ActionRole)
-        self.take.setToolTip("Set the scene to the frequency that the board really sends.")
+        self.take.setToolTip("Set the scene to the frequency that the board actually sends.")
         close: QPushButton = buttons.button(QDialogButtonBox.StandardButton.Close)
         close.setToolTip("Close this dialog.")
         self.save.clicked.connect(self.save_asked)
@@ -78,6 +78,6 @@ class TransmitterDialog(QDialog):
         self.wiring.setAccessibleDescription(text)
 
     def say_of_wiring(self, text: str) -> None:
-        self.wiring.clear()  # an empty text would leave the figure
+        self.wiring.clear()  # setting an empty text would not remove the picture
         self.wiring.setText(text)
         self.wiring.setAccessibleDescription("")

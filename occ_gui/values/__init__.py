@@ -1,1 +1,1 @@
-"""Values that the user has set, of which the workspace consists."""
+"""Values that the workspace consists of, and values that results consist of."""

@@ -9,7 +9,7 @@ from occ_model.photo.reading.choices import SCAN_AXES
 from occ_model.scene.recording import Recording
 
 FIRST_FRAMES, FRAMES = 60, range(2, 100_001)
-"""Number of frames that the simulated film has at first, and its range."""
+"""Number of frames of the simulated film at first, and the numbers that are allowed."""
 
 _openings = count(1)
 
@@ -25,10 +25,10 @@ class FilmSource:
 
 @dataclass(frozen=True, slots=True)
 class FilmChoice:
-    # The film that is open, or about to be; None where there is only the simulated one
+    # The film that is open, or is being loaded; None if there is only the simulated one
     path: Path | None = None
-    axis: str = SCAN_AXES[0]  # what of its pictures the shutter scanned, one of SCAN_AXES
-    opening: int = 0  # the number of its opening: opened again, a file is read again
+    axis: str = SCAN_AXES[0]  # the axis of its pictures that the shutter scanned, one of SCAN_AXES
+    opening: int = 0  # counts the openings, so that opening a file again loads it again
     # How the simulated film is recorded, and how many frames it has
     recording: Recording = field(default_factory=Recording)
     frames: int = FIRST_FRAMES
@@ -37,5 +37,5 @@ class FilmChoice:
     def source(self) -> FilmSource | None:
         return None if self.path is None else FilmSource(self.path, self.axis, self.opening)
 
-    def opened(self, path: Path | None, axis: str = SCAN_AXES[0]) -> Self:
+    def open(self, path: Path | None, axis: str = SCAN_AXES[0]) -> Self:
         return replace(self, path=path, axis=axis, opening=next(_openings))

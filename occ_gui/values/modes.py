@@ -1,4 +1,4 @@
-"""Modes: the window's layouts for a task each, and the places that panes declare in them."""
+"""Modes: a layout of the window for each task, and the places that panes declare in them."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -6,7 +6,7 @@ from types import MappingProxyType
 from typing import Literal, TypeAlias
 
 STORY, PICTURE = "story", "picture"
-"""The pages in the middle: the way from light to bits, and the picture with the photo."""
+"""The pages in the middle: the story from light to bits, and the picture with the photo."""
 
 Side: TypeAlias = Literal["left", "right", "bottom"]
 
@@ -37,8 +37,8 @@ class Place:
     """Where a mode shows a pane at first, as a tab beside the others of that side."""
 
     side: Side
-    is_main: bool = False  # whether the mode is about this pane, which is in front then
-    width: int = 0  # first sizes in pixels; 0 where they do not matter
+    is_main: bool = False  # whether this is the mode's main pane, which is in front at first
+    width: int = 0  # first size in pixels; 0 if it does not matter
     height: int = 0
 
 

@@ -1,4 +1,4 @@
-"""What the user has set about photos: which one is open, how it is read and what is matched."""
+"""What the user has set about photos: which one is open, how it is loaded and what is matched."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
@@ -23,14 +23,14 @@ KNOWN = ("switching_frequency", "readout_time")
 """Stripes determine only the product of these two: one must be known to estimate the other."""
 
 SENT = ("auto", "scene", "square", "read")
-"""Sources of the sent pattern: found out, the scene, a square wave, or read."""
+"""Sources of the sent pattern: found automatically, the scene, a square wave, or the stripes."""
 
 
 @dataclass(frozen=True, slots=True)
 class MatchChoice:
     sent: str = "auto"  # what was sent, one of SENT
     square_frequency: float = 1000.0  # cycles per second of the square wave, in Hz, if one was sent
-    # ``"readout_time"`` or ``"switching_frequency"``; the other one is known
+    # The one of KNOWN that is estimated; the other one is known
     estimate: str = "readout_time"
     fit_gamma: bool = False  # whether gamma is estimated too
 
@@ -46,26 +46,26 @@ class Placement:
 
 
 @dataclass(frozen=True, slots=True)
-class PhotoReading:
+class LoadOptions:
     scan_axis: str = SCAN_AXES[0]  # the axis of the file that the shutter scanned, one of SCAN_AXES
     channel: str = CHANNELS[0]  # the channel of a coloured photo that is read, one of CHANNELS
 
 
 @dataclass(frozen=True, slots=True)
 class PhotoSource:
-    """A file that was opened, and how it is read: opened again, the file is read again."""
+    """A file that was opened, and how it is loaded; opening it again loads it again."""
 
     path: Path
-    reading: PhotoReading
+    load_options: LoadOptions
     opening: int
 
 
 @dataclass(frozen=True, slots=True)
 class PhotoFrame:
-    """A photo and how it is read, which the coordinates of a rectangle depend on."""
+    """A photo with its shape and orientation, which the coordinates of a rectangle refer to."""
 
     path: Path
-    shape: tuple[int, ...] = ()  # rows and columns; empty where it was not read yet
+    shape: tuple[int, ...] = ()  # rows and columns; empty before the photo is loaded
     turned: bool = False
 
 
@@ -79,50 +79,54 @@ class Placed:
 
 @dataclass(frozen=True, slots=True)
 class PhotoChoice:
-    """What the user has set about photos; what belongs to a photo that is not shown is idle."""
+    """What the user has set about photos; a setting for a photo that is not shown has no effect."""
 
-    path: Path | None = None  # the photo that is open, or about to be; None for none
-    reading: PhotoReading = field(default_factory=PhotoReading)
-    opening: int = 0  # the number of its opening: opened again, a file is read again
-    # The lamp or the rectangle that is matched, of all photos since none was open
+    path: Path | None = None  # the photo that is open, or is being loaded; None for none
+    load_options: LoadOptions = field(default_factory=LoadOptions)
+    opening: int = 0  # counts the openings, so that opening a file again loads it again
+    # The lamp or rectangle that is matched, for every photo opened since the last one was closed
     parts: "Mapping[PhotoFrame, Lamp | Region]" = field(default_factory=dict)
-    # The choices of a match, the known values in SI units that are certain of the photo, and those
-    # that were certain of photos before
+    # The choices of a match, the known values in SI units that are certain for this photo, and
+    # those that were certain for earlier photos
     form: MatchChoice = field(default_factory=MatchChoice)
     certain: Mapping[str, float] = field(default_factory=dict)
     forgotten: Mapping[str, float] = field(default_factory=dict)
     listed: tuple[Path, ...] = ()
-    placed: Placed | None = None  # where a photo was put by hand
-    is_match_wanted: bool = False  # whether the photo is matched, and that applied, once it is read
+    placed: Placed | None = None  # where the user has placed a photo
+    is_match_wanted: bool = (
+        False  # whether to match the photo and apply the match once it is loaded
+    )
 
     @property
     def source(self) -> PhotoSource | None:
-        return None if self.path is None else PhotoSource(self.path, self.reading, self.opening)
+        return (
+            None if self.path is None else PhotoSource(self.path, self.load_options, self.opening)
+        )
 
     @property
     def rectangle(self) -> Region | None:
-        """The rectangle that is matched, as a session keeps it; None for the whole photo."""
+        """The rectangle that is matched, as stored in a session; None for the whole photo."""
         parts = [part for frame, part in self.parts.items() if frame.path == self.path]
         if not parts:
             return None
         return parts[-1] if isinstance(parts[-1], Region) else parts[-1].region
 
-    def opened(self, path: Path, *, match: bool = False) -> Self:
-        """Open a photo; what is certain of one photo of the table is certain of all."""
+    def open(self, path: Path, *, match: bool = False) -> Self:
+        """Open a photo; a value that is certain for one photo of the table is certain for all."""
         opened = replace(self, path=path, opening=next(_openings), is_match_wanted=match)
         is_listed = path in self.listed and self.path in (None, *self.listed)
-        return opened if is_listed or path == self.path else opened.uncertain()
+        return opened if is_listed or path == self.path else opened.clear_certain()
 
-    def closed(self) -> Self:
-        return replace(self, path=None, parts={}).uncertain()
+    def close(self) -> Self:
+        return replace(self, path=None, parts={}).clear_certain()
 
     def with_known_frequency(self, frequency: float) -> Self:
-        """Reset the form, with the switching frequency in Hz being certain."""
+        """Reset the form, with a switching frequency in Hz that is certain."""
         certain = {"switching_frequency": frequency}
         return replace(self, form=MatchChoice(), certain=certain, forgotten={})
 
-    def uncertain(self) -> Self:
-        """Take no value as certain any more, and note those that were."""
+    def clear_certain(self) -> Self:
+        """Treat no value as certain any more, but remember those that were."""
         return replace(self, certain={}, forgotten={**self.forgotten, **self.certain})
 
     def with_certain(self, name: str, value: float | None) -> Self:

@@ -1,9 +1,9 @@
-"""What is computed of a photo, each with what it was computed from."""
+"""Results computed from a photo, each with what it was computed from."""
 
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Self
 
-from occ_gui.values.photo_choice import MatchChoice, PhotoFrame, PhotoReading, PhotoSource
+from occ_gui.values.photo_choice import LoadOptions, MatchChoice, PhotoFrame, PhotoSource
 from occ_model.arrays import FloatArray
 from occ_model.results.decoding import Region
 from occ_model.scene.scene import Scene
@@ -17,7 +17,7 @@ if TYPE_CHECKING:  # a window without a photo starts without them
 
 @dataclass(frozen=True, eq=False, slots=True)
 class StripeSearch:
-    """The stripes of a photo or of a part of it, or why there are none."""
+    """The stripes of a photo or a part of it, or the reason why there are none."""
 
     stripes: "Stripes | None"
     sentence: str
@@ -25,68 +25,68 @@ class StripeSearch:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class MatchRequest:
-    """What a match was asked for: the scene and the choices at that time, and the part."""
+    """A request for a match: the photo, the scene and the choices at that time, and the part."""
 
     photo: "Photo"
     scene: Scene
     choice: MatchChoice
     part: "Lamp | Region | None"  # None for all of the photo
-    is_applied_then: bool = False  # whether what is found is applied to the scene at once
+    applies_result: bool = False  # whether the match is applied to the scene as soon as it is found
 
 
 @dataclass(frozen=True, slots=True)
 class FoundMatch:
     part: "Lamp | Region | None"  # what was matched; None for all of the photo
-    # The match; that of before where there is a refusal, None where there was none
+    # The match; with a refusal, the match before it, or None if there was none
     match: "Match | None"
     given: float  # the known value of the scene at the request, in SI units
-    # The reasons why there is no match, each a sentence, and the part that they are about
+    # Why the latest match was refused, a sentence for each reason, and the part that it was of
     refusal: tuple[str, ...] = ()
     refused_part: "Lamp | Region | None" = None
     is_listed: bool = False
 
     def refusal_of(self, part: "Lamp | Region | None") -> tuple[str, ...]:
-        """Return why there is no match of this part; empty where it was not refused."""
+        """Return why the match of this part was refused; empty if it was not."""
         return self.refusal if part == self.refused_part else ()
 
-    def refused(self, reasons: tuple[str, ...], part: "Lamp | Region | None") -> Self:
-        """Keep the match where the next one, of this part, is refused."""
+    def with_refusal(self, reasons: tuple[str, ...], part: "Lamp | Region | None") -> Self:
+        """Return this match with the reasons why the next one, of this part, was refused."""
         return replace(self, refusal=reasons, refused_part=part)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class PhotoDocument:
-    """A photo that was read, what is asked of it, and what was found in it."""
+    """A photo that was loaded, the requests for it, and what was found in it."""
 
     photo: "Photo"
     source: PhotoSource
-    is_searched: bool = False  # whether its lamps are being searched
+    is_searched: bool = False  # whether it is being searched for lamps
     lamps: "tuple[Lamp, ...]" = ()
     why_no_lamps: str = ""  # a sentence where the search has failed
-    requested: MatchRequest | None = None  # the match that is at work
-    found: FoundMatch | None = None  # the outcome of the last one
+    requested: MatchRequest | None = None  # the match that is running
+    found: FoundMatch | None = None  # the result of the last match
 
     @property
     def frame(self) -> PhotoFrame:
         return PhotoFrame(self.photo.path, self.photo.image.shape, self.photo.turned)
 
-    def at_rest(self) -> Self:
-        """Return the document without the work that ends when another photo is opened."""
+    def without_work(self) -> Self:
+        """Return the document without running work, which ends when another photo is opened."""
         return replace(self, is_searched=False, requested=None)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ListedRows:
-    """What was found so far in the photos of the table, and how they were read."""
+    """What has been found so far in the photos of the table, and how they were loaded."""
 
     rows: "tuple[PhotoRow, ...]"
-    reading: PhotoReading
+    load_options: LoadOptions
     given: float  # the known value of the scene when they were matched, in SI units
 
     def match_of(self, document: PhotoDocument) -> FoundMatch | None:
         rows = (row for row in self.rows if row.path == document.photo.path)
         row = next(rows, None)
-        if row is None or row.match is None or document.source.reading != self.reading:
+        if row is None or row.match is None or document.source.load_options != self.load_options:
             return None
         return FoundMatch(None, row.match, self.given, is_listed=True)
 
@@ -97,10 +97,10 @@ class PhotoProfile:
     comparison: "Comparison | None"
     # Shape (columns of the photo,): mean of each column of the whole photo, in grey levels
     raw: FloatArray
-    # The simulated column under the photo's first one, and simulated columns per photo column
+    # The simulated column at the photo's first column, and simulated columns per photo column
     first_column: float = 0.0
     scale: float = 1.0
-    # Why there is no comparison; also empty while the photo is searched for stripes
+    # Why there is no comparison; empty while the photo is being searched for stripes
     sentence: str = ""
     photo: "Photo | None" = None
     is_outdated: bool = False  # whether the simulation is of another scene than the present one

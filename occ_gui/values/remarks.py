@@ -1,4 +1,4 @@
-"""What is said to the user in the status line."""
+"""What the status line tells the user."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -8,8 +8,8 @@ from dataclasses import dataclass
 class Remark:
     sentence: str
     until: Callable[..., object]
-    """Takes workspace and results; returns that part with whose change it no longer holds."""
-    state: object  # that part, as it was when it was said
+    """Takes workspace and results; returns the part that, once changed, ends the remark."""
+    state: object  # that part at the time of the remark
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -17,4 +17,4 @@ class Failure:
     """Why a scene has no picture."""
 
     sentence: str
-    parameters: tuple[str, ...]  # those that it is about
+    parameters: tuple[str, ...]  # names of the parameters that the sentence is about

@@ -12,10 +12,10 @@ FIRST_ROOM = "office"
 
 @dataclass(frozen=True, slots=True)
 class RoomChoice:
-    name: str = FIRST_ROOM  # of the program's room, or of the file, that it was at first
-    # With its camera where the user has put it; None for the first one, as it comes
+    name: str = FIRST_ROOM  # of the built-in room, or of the file, that the room comes from
+    # The room with the camera where the user has put it; None for the first room unchanged
     room: "Room | None" = None
-    # The photo of the room that is shown in place of what its camera sees
+    # The photo of the room that is shown in place of the simulated picture
     photo: Path | None = None
-    # Equivalent focal length of the photo in metres; None for that of its file, or the room's
+    # Equivalent focal length of the photo in metres; None for that in its file, or the room's
     focal_length: float | None = None

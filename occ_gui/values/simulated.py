@@ -1,4 +1,4 @@
-"""A scene with settings, by which simulated pictures and pins are identified."""
+"""Requests for a simulation, which identify simulated pictures and pins."""
 
 from dataclasses import dataclass, field
 from typing import TypeAlias
@@ -8,16 +8,16 @@ from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 
 LEAST_DRAFT_STEP = 4
-"""Fewest rows of the picture for each row of a draft: with fewer it is no faster."""
+"""Least number of picture rows per row of a draft: with fewer, a draft is no faster."""
 
 
 @dataclass(frozen=True, slots=True)
 class SimulationRequest:
     scene: Scene
     settings: SimulationSettings
-    # Neither changes the results.
+    # Two requests that differ only in what follows have the same results.
     whose: str = field(default=PICTURES[0], compare=False)
-    # A draft shows one of so many rows of the picture
+    # A draft simulates one of this many rows of the picture
     draft_step: int = field(default=LEAST_DRAFT_STEP, compare=False)
     more: tuple[str, ...] = field(default=(), compare=False)
 

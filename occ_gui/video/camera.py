@@ -37,7 +37,7 @@ class LivePicture:
     pixels: ByteArray
 
 
-class FrameSource(Protocol):
+class CameraDriver(Protocol):
     """A source of successive pictures; used by one thread at a time."""
 
     title: str

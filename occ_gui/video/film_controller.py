@@ -9,8 +9,8 @@ from PySide6.QtCore import QElapsedTimer, QObject, QTimer, Signal
 import occ_model as occ
 from occ_gui.background.task import Report, Task
 from occ_gui.scene.scene_store import SceneStore
+from occ_gui.shell.result_updater import ResultUpdater
 from occ_gui.shell.results import Board
-from occ_gui.shell.work import Work
 from occ_gui.values.film_choice import FilmChoice, FilmSource
 from occ_gui.video.frame_jobs import FrameRequest, ShownFrame, shown_frame
 from occ_model.photo.reading.choices import SCAN_AXES
@@ -128,7 +128,7 @@ class FilmController(QObject):
         self._is_seen = False
         self.player = FilmPlayer(self)
         self.player.wanted.connect(self.show)
-        self.opener = Work(
+        self.opener = ResultUpdater(
             scenes.store, board, Task(_open, "opening of the film", impatient=True),
             lambda workspace, _: workspace.film.source,
             lambda results, film: replace(results, film=film), stays=True, keep=1,
@@ -176,7 +176,7 @@ class FilmController(QObject):
 
     def open(self, path: Path, axis: str = SCAN_AXES[0]) -> None:
         """Open a film along one of SCAN_AXES; the present one stays until it can be shown."""
-        self.edit(lambda choice: choice.opened(path, axis))
+        self.edit(lambda choice: choice.open(path, axis))
 
     def edit(self, change: Callable[[FilmChoice], FilmChoice]) -> None:
         if self.opener.task.is_idle:
@@ -203,13 +203,13 @@ class FilmController(QObject):
 
     def put_live(self, film: Video) -> None:
         self.is_live = True
-        self.edit(lambda choice: choice.opened(None))
+        self.edit(lambda choice: choice.open(None))
         self.put(film, is_live=True)
 
     def close(self) -> None:
         """Close the film: the simulated one stays."""
         self.is_live = False
-        self.edit(lambda choice: choice.opened(None))
+        self.edit(lambda choice: choice.open(None))
         if self.film is not None:
             self.put(None)
 

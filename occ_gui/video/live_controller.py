@@ -11,8 +11,8 @@ from occ_gui.background.task import Report, Task
 from occ_gui.video.camera import (
     AXES,
     CameraDevice,
+    CameraDriver,
     CameraSource,
-    FrameSource,
     LivePicture,
     find_cameras,
 )
@@ -39,7 +39,7 @@ class LiveVideo(Video):
     """
 
     def __init__(
-        self, source: FrameSource, axis: str = AXES[0], after: "LiveVideo | None" = None
+        self, source: CameraDriver, axis: str = AXES[0], after: "LiveVideo | None" = None
     ) -> None:
         self.title = source.title
         self.shape = (0, 0)
@@ -194,7 +194,7 @@ class LiveController(QObject):
     def start_camera(self, device: CameraDevice) -> None:
         self.start(CameraSource(device))
 
-    def start(self, source: FrameSource, axis: str = "") -> None:
+    def start(self, source: CameraDriver, axis: str = "") -> None:
         """Read a source in place of the open film, along ``axis``, by default the source's own."""
         self.stop_filming()
         self.video = LiveVideo(source, axis or source.axis, self._last)

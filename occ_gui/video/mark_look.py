@@ -6,7 +6,7 @@ from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtGui import QBrush, QColor, QPainter, QPalette, QPen
 
 from occ_gui.video.film_reading import MarkState
-from occ_gui.widgets.plot import Drawing, LineLegend
+from occ_gui.widgets.plot import DrawSample, LineLegend
 from occ_gui.widgets.state_look import State, colours_of
 
 
@@ -75,7 +75,7 @@ class MarkLegend(LineLegend):
             self.add_sample(state.name, _sample_of(state), _SAMPLE, look.name, look.meaning)
 
 
-def _sample_of(state: MarkState) -> Drawing:
+def _sample_of(state: MarkState) -> DrawSample:
     def draw(painter: QPainter, place: QRectF, palette: QPalette) -> None:
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
         draw_mark(painter, place, state, palette)

@@ -53,7 +53,7 @@ class VideoWiring(Pane[FilmChoice]):
         self.live = LiveController(self.films, self.readings, lambda: scenes.scene)
         self.saving: FileWriter[_FilmToSave] = FileWriter(
             _save, "writing of the film", self.view.form.saving,
-            "The film was given up.",
+            "The film was cancelled.",
         )  # fmt: skip
         self.saving.status_message.connect(self.status_message)
         self.view.form.save_asked.connect(self.save_asked)

@@ -1,1 +1,1 @@
-"""The first page that a new user sees: three doors into the program."""
+"""The first page that a new user sees: three ways to begin."""

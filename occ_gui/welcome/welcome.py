@@ -1,4 +1,4 @@
-"""Welcome page: three doors into the program, shown at the first start and from the menu."""
+"""Welcome page: three ways to begin, shown at the first start and from the menu."""
 
 from PySide6.QtCore import QEvent, QSize, Qt, Signal
 from PySide6.QtGui import QPalette
@@ -35,7 +35,7 @@ class Door(QPushButton):
         self._draw()
 
     def size_for(self, width: int = _LEAST_SIDE) -> QSize:
-        """Return the size that shows all texts, at least of this width."""
+        """Return the size at which all texts are visible, with at least this width."""
         width = max(width, self._layout.minimumSize().width())
         return QSize(width, max(_LEAST_SIDE, self._layout.heightForWidth(width)))
 
@@ -53,9 +53,9 @@ _TITLE = 1.5
 
 
 class WelcomeDialog(QDialog):
-    """The choice of what the user wants to do first; closing it means to explore freely."""
+    """Asks what the user wants to do first; closing it leads to free exploration."""
 
-    chosen = Signal(str)  # the door: ``learn``, ``photo`` or ``explore``
+    chosen = Signal(str)  # what the user wants: ``learn``, ``photo`` or ``explore``
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -64,7 +64,7 @@ class WelcomeDialog(QDialog):
         title = emboldened(QLabel("Light that carries bits"), _TITLE)
         about = paragraph(
             "An LED panel blinks a code, a phone's camera photographs it as stripes, and the "
-            "code is read back from them. See how, and where it ends."
+            "code is read back from them. See how this works, and where its limits are."
         )
         self.doors = {
             "learn": Door(
@@ -126,7 +126,7 @@ class Welcome(Service):
         self.dialog.activateWindow()
 
     def enter(self, door: str) -> None:
-        """Arrange the window for the task behind a door, and begin it."""
+        """Arrange the window for what the user has chosen, and begin it."""
         self._window.modes.switch(_MODES[door])
         if door == "learn":
             self._window.bring_to_front("lessons")

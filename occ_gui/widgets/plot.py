@@ -17,7 +17,7 @@ from occ_gui.widgets.guarded_paint import guarded
 
 _LINE = QSize(24, 12)
 
-Drawing: TypeAlias = Callable[[QPainter, QRectF, QPalette], None]
+DrawSample: TypeAlias = Callable[[QPainter, QRectF, QPalette], None]
 """Draws a sample into a rectangle in the colours of a palette."""
 
 
@@ -42,10 +42,10 @@ class LineLegend(QWidget):
         self.add_sample(key, draw, _LINE, text)
 
     def add_sample(
-        self, key: str, draw: Drawing, size: QSize, text: str, meaning: str = ""
+        self, key: str, draw: DrawSample, size: QSize, text: str, meaning: str = ""
     ) -> None:
         entry = QWidget(toolTip=meaning)
-        sample = (Sample(draw, size), 0, Qt.AlignmentFlag.AlignVCenter)
+        sample = (LegendSample(draw, size), 0, Qt.AlignmentFlag.AlignVCenter)
         filled(QHBoxLayout(entry), sample, QLabel(text), margins=(0, 0, 6, 0))
         self._row.addWidget(entry)
         self._entries[key] = entry
@@ -54,10 +54,10 @@ class LineLegend(QWidget):
         self._entries[key].setVisible(visible)
 
 
-class Sample(QWidget):
+class LegendSample(QWidget):
     """The sample of a line or a point, which follows the palette and the scale of the screen."""
 
-    def __init__(self, draw: Drawing, size: QSize) -> None:
+    def __init__(self, draw: DrawSample, size: QSize) -> None:
         super().__init__()
         self._draw = draw
         self.setFixedSize(size)
@@ -154,7 +154,7 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph has no types
         )
 
 
-def marker(symbol: str, size: float, fill: QColor | None) -> Drawing:
+def marker(symbol: str, size: float, fill: QColor | None) -> DrawSample:
     """Return the drawing of a plot's point for a legend: filled, or a ring in the text colour."""
 
     def draw(painter: QPainter, place: QRectF, palette: QPalette) -> None:

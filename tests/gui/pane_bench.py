@@ -26,7 +26,7 @@ from pytestqt.qtbot import QtBot
 from occ_gui.app.panes import export
 from occ_gui.background.task import Task
 from occ_gui.detection_map.slider_strip import SliderStrips
-from occ_gui.detection_map.wiring import Measuring
+from occ_gui.detection_map.wiring import BackgroundRates
 from occ_gui.export.export_controller import ExportController
 from occ_gui.files.preferences import Preferences
 from occ_gui.scene.control_panel import ControlPanel
@@ -126,11 +126,11 @@ class PaneBench:
         return snapshot
 
     @cached_property
-    def measuring(self) -> Measuring:
+    def background_rates(self) -> BackgroundRates:
         """The channels of the processes; nothing is measured along a slider."""
         row = QuantityRow(quantity("iso"))
         row.setParent(self.window)
-        return Measuring(self.scenes, SliderStrips({"iso": row}), lambda: False)
+        return BackgroundRates(self.scenes, SliderStrips({"iso": row}), lambda: False)
 
     @cached_property
     def exporter(self) -> ExportController:

@@ -86,7 +86,7 @@ def _leaked(before: Sequence[QWidget]) -> list[QWidget]:
 
 def forget_lessons(application: Application) -> None:
     """Leave the lesson, and forget what has been done of any, which no user can."""
-    if application.shell.made_pane("lessons") is None:
+    if application.shell.find_pane("lessons") is None:
         return
     lessons = application.shell.pane("lessons")
     lessons.controller.leave()

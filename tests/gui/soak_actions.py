@@ -478,7 +478,7 @@ class Monkey:
 
     def write_for_a_board(self) -> None:
         self._trigger("transmitter")
-        transmitter = not_none(self._application.shell.made_pane("transmitter"))
+        transmitter = not_none(self._application.shell.find_pane("transmitter"))
         dialog = not_none(transmitter.dialog)
         dialog.board.setCurrentIndex(self._random.randrange(dialog.board.count()))
         dialog.board.chosen.emit(dialog.board.key())
@@ -490,6 +490,6 @@ class Monkey:
         self._close_the_board()
 
     def _close_the_board(self) -> None:
-        transmitter = self._application.shell.made_pane("transmitter")
+        transmitter = self._application.shell.find_pane("transmitter")
         if transmitter is not None and transmitter.dialog is not None:
             transmitter.dialog.reject()

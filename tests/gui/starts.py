@@ -47,9 +47,9 @@ sys.exit(main())
 UNMEASURED = """
 import sys
 from occ_gui.__main__ import main
-from occ_gui.detection_map.wiring import Measuring
+from occ_gui.detection_map.wiring import BackgroundRates
 
-Measuring.is_idle, Measuring._begin = True, lambda measuring: None
+BackgroundRates.is_idle, BackgroundRates._begin = True, lambda measuring: None
 sys.exit(main())
 """
 """The same without the rates beside the sliders, which a screenshot waits half a minute for."""

@@ -1,4 +1,4 @@
-"""Controller of several photos: match them in the background, and combine what they measure."""
+"""Controller of several photos: matches them in the background, and combines their estimates."""
 
 from contextlib import closing
 from dataclasses import dataclass, replace
@@ -10,7 +10,7 @@ from PySide6.QtCore import QObject
 from occ_gui.background.task import Report, Task
 from occ_gui.photo.many.many_view import ManyPhotosView
 from occ_gui.photo.photo_controller import PhotoController
-from occ_gui.photo.photo_work import known_scene
+from occ_gui.photo.photo_work import put_known_values
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.results import Board
 from occ_gui.values.photo_choice import MatchChoice
@@ -28,8 +28,7 @@ class ManyRequest:
     paths: tuple[Path, ...]
     settings: "MatchSettings"
     jobs: int | None
-    # What was found before, empty where all photos are matched, and the place of the photo that is
-    # matched again
+    # The earlier rows and the index of the one photo to match again; without rows, all are matched
     rows: tuple[PhotoRow, ...] = ()
     only: int = 0
 
@@ -40,7 +39,7 @@ def match_all(request: ManyRequest, report: Report) -> PhotoTable:
     from occ_model.photo.many.table import table_of
 
     if request.rows:
-        # The same photo, at the first place of a table of one.
+        # A table of this photo alone, in which its index is 0.
         settings = replace(request.settings.of(request.only), known=())
         ((_, row),) = matched_rows([request.paths[request.only]], settings, 1, lambda: report(None))
         given = dict(request.settings.known).get(request.only)
@@ -51,7 +50,7 @@ def match_all(request: ManyRequest, report: Report) -> PhotoTable:
     rows: dict[int, PhotoRow] = {}
     jobs = request.jobs or usual_jobs()
     work = matched_rows(request.paths, request.settings, jobs, lambda: report(None))
-    # Closed here: processes that are not closed would go on after a cancel.
+    # Closed even after a cancel, so that the processes end.
     with closing(work) as found:
         for place, row in found:
             rows[place] = row
@@ -95,11 +94,11 @@ class ManyPhotosController(QObject):
         self._view.show_files(paths)
 
     def start(self, choice: MatchChoice) -> None:
-        paths, reading = self.photos.choice.listed, self.photos.choice.reading
+        paths, options = self.photos.choice.listed, self.photos.choice.load_options
         if not paths:
             return
         try:
-            scene, sent = known_scene(self._scenes.scene, choice)
+            scene, sent = put_known_values(self._scenes.scene, choice)
         except OccError as error:
             self._view.show_failed(str(error))
             return
@@ -111,18 +110,18 @@ class ManyPhotosController(QObject):
             choice.estimate,
             sent,
             fit_gamma=choice.fit_gamma,
-            scan_axis=reading.scan_axis,
-            channel=reading.channel,
+            scan_axis=options.scan_axis,
+            channel=options.channel,
             known=self._view.rows.given(known),
         )
         self._found, self._done, self.table = {}, 0, None
-        self._listed = ListedRows((), reading, float(self._scenes.scene.value(known)))
-        self._tell()
+        self._listed = ListedRows((), options, float(self._scenes.scene.value(known)))
+        self._put_rows()
         self._view.show_begun(choice.estimate, scene)
         self.runner.ask(ManyRequest(paths, settings, self._jobs))
 
     def _match_again(self, place: int) -> None:
-        """Match a photo whose known value was entered; before all are matched, only with them."""
+        """Match a photo again after its known value was entered, if all have been matched."""
         table, settings = self.table, self._settings
         if table is None or settings is None:
             return
@@ -150,8 +149,8 @@ class ManyPhotosController(QObject):
         self.table = table
         self._found = dict(enumerate(table.rows))
         self._view.show_table(table)
-        self._tell()
+        self._put_rows()
 
-    def _tell(self) -> None:
+    def _put_rows(self) -> None:
         listed = replace(self._listed, rows=tuple(self._found.values()))
         self._board.put(replace(self._board.results, listed=listed))

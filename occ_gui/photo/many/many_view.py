@@ -8,7 +8,7 @@ from PySide6.QtCore import QModelIndex, QSize, Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QTableView, QVBoxLayout, QWidget
 
 from occ_gui.photo.many.rows_model import KNOWN, NOTE, PHOTO, PhotoRowsModel
-from occ_gui.photo.match_figures import WHAT_ERRORS_MEAN, PasteLines, condition, stale_sentence
+from occ_gui.photo.match_figures import WHAT_ERRORS_MEAN, PasteLines, condition, warn_of_stale
 from occ_gui.widgets.building import filled, named, paragraph, push_button
 from occ_gui.widgets.plain_text import copy_text
 from occ_gui.widgets.scroll_pane import ScrollPane
@@ -39,9 +39,9 @@ class ManyPhotosView(QWidget):
     copied = Signal(str)  # a text was copied: a sentence that says so
     save_asked = Signal(str)  # the user saves the table: its text as CSV
     cancelled = Signal()
-    closed = Signal()  # the user puts the table away
-    files_shown = Signal()  # other files are shown, or none
-    rows_changed = Signal()  # something else is known of a photo
+    closed = Signal()  # the user closes the table
+    files_shown = Signal()  # other files are listed, or none
+    rows_changed = Signal()  # the result of a photo has changed
     photo_chosen = Signal(Path)  # the user opens one of the photos
 
     def __init__(self, parent: QWidget | None = None) -> None:
@@ -79,7 +79,7 @@ class ManyPhotosView(QWidget):
         self._show_title()
 
     def _lay_out(self) -> None:
-        """Lay the table beside the results of all photos: the pane is wide and low."""
+        """Put the table beside the combined results, because the pane is wide and low."""
         together = QWidget()
         filled(
             QVBoxLayout(together), self.stale, self.mean, self.exposure, self.frame, self.notes,
@@ -96,7 +96,7 @@ class ManyPhotosView(QWidget):
     def _make_buttons(self) -> None:
         self.start = push_button(
             "Match &all",
-            "Match every photo with the choices of the pane Photo, and combine what they measure.",
+            "Match every photo with the choices in the pane Photo, and combine their estimates.",
             self.match_asked,
         )
         self.copy = push_button(
@@ -110,7 +110,7 @@ class ManyPhotosView(QWidget):
             lambda: self.save_asked.emit(self.csv()),
         )
         self.close_table = push_button(
-            "Close table", "Put the table away; the open photo stays.", self.closed
+            "Close table", "Close the table; the open photo stays.", self.closed
         )
 
     def _make_table(self) -> None:
@@ -120,7 +120,7 @@ class ManyPhotosView(QWidget):
         self.table.setWordWrap(False)
         self.table.setTextElideMode(Qt.TextElideMode.ElideMiddle)  # names often end in a number
         self.table.setTabKeyNavigation(False)
-        # The row of the open photo is marked by the model, however it was opened.
+        # The model marks the row of the open photo, however it was opened.
         self.table.setSelectionMode(QTableView.SelectionMode.NoSelection)
         self.table.setHorizontalScrollMode(QTableView.ScrollMode.ScrollPerPixel)
         row, header = self.fontMetrics().height() + 6, self.table.horizontalHeader()
@@ -133,7 +133,7 @@ class ManyPhotosView(QWidget):
         self.table.activated.connect(self._choose)
 
     def _fit_columns(self) -> None:
-        """Fit the columns to their texts, less to long ones, and show the first."""
+        """Fit the columns to their texts, up to a largest width, and scroll to the first one."""
         self.table.resizeColumnsToContents()
         for column, widest in _LARGEST_WIDTHS.items():
             self.table.setColumnWidth(column, min(self.table.columnWidth(column), widest))
@@ -231,21 +231,21 @@ class ManyPhotosView(QWidget):
         if table is None or scene is None:
             return
         then = float(table.scene.value(table.known))
-        stale = stale_sentence(scene, table.known, then, self._given, self._certain)
+        stale = warn_of_stale(scene, table.known, then, self._given, self._certain)
         self.stale.setText(f"{stale}match all again.")
         self.stale.setVisible(bool(stale))
 
     def _condition(self, estimate: str, scene: Scene) -> str:
         """Name the value that an estimate depends on, unless the user is certain of it."""
         if self._found is not None and not self._found.rests_on_the_scene:
-            return ""  # each photo has a value that was entered for it
+            return ""  # a value was entered for each photo
         known = counterpart(estimate)
         pattern = scene.transmitter.pattern
         return condition(known, float(scene.value(known)), self._certain, pattern)
 
     def _show_found(self, table: PhotoTable | None) -> None:
         if table is not None and table is not self._found and self._scene is not None:
-            # A square wave is known by its own frequency, not by the scene's.
+            # The known value of a square wave is its own frequency, not the scene's.
             self._given = float(self._scene.value(table.known))
         self._found = table
         self._show_stale()
@@ -254,8 +254,10 @@ class ManyPhotosView(QWidget):
         texts = {self.mean: "", self.exposure: "", self.frame: "", self.notes: ""}
         if table is not None:
             rests_on = self._condition(table.estimate, table.scene)
-            texts[self.mean] = self._mean(table.estimate, table.estimated, rests_on)
-            texts[self.exposure] = self._mean("exposure_time", table.exposure_time, rests_on)
+            texts[self.mean] = self._describe_mean(table.estimate, table.estimated, rests_on)
+            texts[self.exposure] = self._describe_mean(
+                "exposure_time", table.exposure_time, rests_on
+            )
             frame = frame_readout_time(table)
             if frame is not None:
                 time = estimate_text(quantity("readout_time"), *frame)
@@ -269,7 +271,7 @@ class ManyPhotosView(QWidget):
             label.setVisible(bool(text))
         self._results_pane.setVisible(any(texts.values()))
 
-    def _mean(self, name: str, found: CombinedEstimate | None, condition: str) -> str:
+    def _describe_mean(self, name: str, found: CombinedEstimate | None, condition: str) -> str:
         if found is None:
             return ""
         declared = quantity(name)

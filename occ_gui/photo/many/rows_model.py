@@ -31,7 +31,7 @@ _NUMBERS = (KNOWN, ESTIMATE, EXPOSURE, NOTED, CORRELATION)
 
 
 class PhotoRowsModel(QAbstractTableModel):
-    """The photos, with what was found in each so far and what is known of each."""
+    """The photos, with the result and the known value of each."""
 
     known_given = Signal(int)  # the known value of the photo at this index was entered or removed
 
@@ -49,7 +49,7 @@ class PhotoRowsModel(QAbstractTableModel):
         self._given: dict[str, dict[int, float]] = {}
         """Values entered for single photos, by the parameter's name and the photo's index."""
         self._usual: float | None = None
-        """Known value of all other photos, in SI units, once they are matched with it."""
+        """Known value of all other photos, in SI units, once they have been matched with it."""
         self.is_busy = False
         """Whether the photos are being matched, so that no value can be entered for them."""
 
@@ -77,10 +77,10 @@ class PhotoRowsModel(QAbstractTableModel):
         self.endResetModel()
 
     def show_begun(self, estimate: str, usual: float) -> None:
-        """Clear the results: all photos are matched anew, for this parameter.
+        """Clear the results before all photos are matched again to estimate this parameter.
 
-        ``usual``: the other parameter's known value, in SI units, where a photo has none of its
-        own.
+        ``usual``: the known value of the other parameter, in SI units, for photos without a value
+        of their own.
         """
         self.beginResetModel()
         self._rows, self._table, self._estimate = {}, None, estimate
@@ -97,18 +97,18 @@ class PhotoRowsModel(QAbstractTableModel):
         self._redraw()
 
     def show_condition(self, condition: str) -> None:
-        """Show the assumed value that the times depend on; empty where it is certain."""
+        """Show the assumed value that the times depend on; empty if it is certain."""
         self._condition = condition
 
     def show_earlier(self, path: Path | None) -> None:
-        """Mark the row of a photo that has been matched by itself since."""
+        """Mark the row of a photo that has since been matched on its own."""
         if path == self._earlier:
             return
         self._earlier = path
         self._redraw()
 
     def row_of(self, path: Path) -> PhotoRow | None:
-        """Return what was found in a photo, None if nothing so far."""
+        """Return the row of a photo; None before it is matched."""
         return next((row for row in self._rows.values() if row.path == path), None)
 
     def rowCount(self, parent: _Index = QModelIndex()) -> int:  # noqa: B008, N802 - Qt's
@@ -124,7 +124,7 @@ class PhotoRowsModel(QAbstractTableModel):
             return None
         if role == Qt.ItemDataRole.TextAlignmentRole:
             return _alignment(section)
-        # That of the known value is short: the times beside it are to stay in view.
+        # The title of the known value is short, so that the times beside it stay in view.
         known = f"given {quantity(self.known).symbol}"
         times = LABELS[self._estimate], LABELS["exposure_time"]
         titles = "Photo", "Verdict", known, *times, "As noted", "Correlation", "Why"
@@ -156,7 +156,7 @@ class PhotoRowsModel(QAbstractTableModel):
     def setData(  # noqa: N802 - Qt's name
         self, index: _Index, value: Any, role: int = Qt.ItemDataRole.EditRole
     ) -> bool:
-        """Take the known value of a photo as typed; an empty text restores the usual one."""
+        """Set the known value of a photo from typed text; empty text restores the usual value."""
         place, text = index.row(), str(value).strip()
         if index.column() != KNOWN or role != Qt.ItemDataRole.EditRole:
             return False
@@ -172,7 +172,7 @@ class PhotoRowsModel(QAbstractTableModel):
             given.pop(place, None)
         else:
             given[place] = entered
-        self._rows.pop(place, None)  # what was found belongs to another value
+        self._rows.pop(place, None)  # the result belongs to the former value
         self._redraw()
         self.known_given.emit(place)
         return True
@@ -186,9 +186,9 @@ class PhotoRowsModel(QAbstractTableModel):
             return text if is_own else f"{self._condition}{text}"
         if column == KNOWN:
             return (
-                "Known of this photo: double-click to enter another value than that of all "
-                "others, as of another lamp; enter nothing to take that one again.\n"
-                "A lamp that only blinks has two chips a cycle."
+                "The known value of this photo. Double-click to enter a value for this photo "
+                "alone, for example of another lamp; clear the field to use the common value "
+                "again.\nA lamp that only blinks has two chips per cycle."
             )
         if column == NOTE and row is not None and row.note:
             return one_line(row.note, LONGEST_TEXT)
@@ -210,7 +210,7 @@ class PhotoRowsModel(QAbstractTableModel):
                 return _estimate(row, self._estimate)
             case 4:
                 text = _estimate(row, "exposure_time")
-                # Of a doubtful photo all is.
+                # In a doubtful photo, all values are doubtful.
                 is_apart = row.verdict == SURE and row.exposure_verdict == DOUBTFUL
                 return f"{text} (doubtful)" if is_apart else text
             case 5:

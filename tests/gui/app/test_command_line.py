@@ -12,7 +12,7 @@ import occ_model as occ
 from occ_gui.app.application import Application
 from occ_gui.app.command_line import main, make_parser, take_screenshot, wait_until_shown
 from occ_gui.app.system_libraries import missing_libraries
-from occ_gui.detection_map.wiring import Measuring
+from occ_gui.detection_map.wiring import BackgroundRates
 
 DISPLAYS = ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")
 
@@ -57,7 +57,7 @@ def test_a_screenshot_waits_for_the_study_in_view_and_the_rates_beside_the_slide
 ) -> None:
     looks = list[bool]()
     # The rates are there a while after all else.
-    monkeypatch.setattr(Measuring, "is_idle", property(lambda _: looks.count(True) > 2))
+    monkeypatch.setattr(BackgroundRates, "is_idle", property(lambda _: looks.count(True) > 2))
     application.store.change(rows=60, columns=100)
     application.settings.set_tolerance(2.0)
     application.window.bring_to_front("accuracy")

@@ -262,7 +262,7 @@ def test_the_view_menu_hides_the_strips_and_it_is_remembered(
     application.window.actions_by_name["slider_strips"].trigger()
     QApplication.processEvents()
     assert not any(strip.isVisible() for strip in strips)
-    assert application.measuring.slider_strips.is_idle
+    assert application.background_rates.slider_strips.is_idle
     application.window.close()
     application.window.deleteLater()
     kept.sync()

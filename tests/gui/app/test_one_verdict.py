@@ -25,7 +25,7 @@ from occ_gui.detection_map.slider_strip_controller import (
     own_rate_job,
 )
 from occ_gui.detection_map.slider_strip_controller import RateRequest as Request
-from occ_gui.detection_map.worker import SEED, UNSEEN_PARAMETERS, measure_along, rate_settings
+from occ_gui.detection_map.worker import SEED, UNSEEN_PARAMETERS, measure_strip, rate_settings
 from occ_gui.simulation.verdict import verdict_on
 from occ_gui.widgets.state_look import State
 from occ_model.cli import main
@@ -131,7 +131,7 @@ def test_six_doors_give_the_same_number(
     own_place: dict[str, ParameterValue] = {"switching_frequency": frequency}
     at = ((0, own_place),)
     elsewhere = scene.replace(switching_frequency=5e3)
-    strip = measure_along(
+    strip = measure_strip(
         elsewhere, rate_settings(settings, images, (decoder,), True), "switching_frequency", at,
         lambda: None,
     ).points[0]  # fmt: skip
@@ -201,7 +201,7 @@ def test_strip_and_banner_state_the_rate_of_the_study(
     )
     user.wait_until_idle()
     scene, strips = application.store.scene, application.slider_strips.strips
-    own = application.measuring.own_rate
+    own = application.background_rates.own_rate
     qtbot.waitUntil(lambda: own.rate is not None)
     rate = occ.success_rate(scene, 20)
     assert 5.0 < rate < 99.0

@@ -99,7 +99,7 @@ while not pictures:
 qt.processEvents()
 late = ("pyqtgraph", "matplotlib", "scipy", "occ_gui.photo.photo_view", "occ_gui.lessons.pane")
 print([name for name in late if name in sys.modules])
-print([name for name in application.shell.help_pages if application.shell.made_pane(name)])
+print([name for name in application.shell.help_pages if application.shell.find_pane(name)])
 while not application.is_idle:
     qt.processEvents()
 slow = ("contourpy", "matplotlib", "scipy", "skimage", "occ_gui.video.wiring",

@@ -165,7 +165,9 @@ def test_workers_that_keep_dying_are_reported(
     channel.put("request", jobs(1))
     qtbot.waitUntil(lambda: channel.is_idle)
     assert received.failures == ["Processes in the background ended 3 times without a result."]
-    assert received.messages == 2 * ["A process in the background ended; its work is done again."]
+    assert received.messages == 2 * [
+        "A background process ended unexpectedly; its work is done again."
+    ]
     assert worker.renewed == 3
 
 
@@ -182,9 +184,9 @@ def test_without_processes_the_work_is_done_all_the_same(qtbot: QtBot) -> None:
     assert [found for _, found in received.results] == [1, 2, 3]
     assert received.failures == []
     (sentence,) = received.messages
-    assert sentence.startswith("No processes can be started (")
+    assert sentence.startswith("No background processes can be started (")
     assert sentence.endswith(
-        "): the window does their work itself, and answers more slowly meanwhile."
+        "): the window does their work itself, and responds more slowly meanwhile."
     )
 
 
@@ -203,4 +205,4 @@ def test_stopping_ends_the_workers_and_nothing_arrives_any_more(
     channel.put("late", jobs("b"))
     qtbot.wait(30)
     assert (received.results, received.failures) == ([], [])
-    assert queue_of(HeldWorker()).counted(0) == 0
+    assert queue_of(HeldWorker()).count_of(0) == 0

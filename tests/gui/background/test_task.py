@@ -12,7 +12,7 @@ from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.background import task as tasks
-from occ_gui.background.task import Reporter, Task, WorkerThread
+from occ_gui.background.task import Task, TaskReporter, TaskThread
 from occ_model import plugins
 
 PATIENCE_S = 10.0
@@ -34,7 +34,7 @@ class Bench:
         self.runner.finished.connect(self._note_result)
         self.runner.failed.connect(self.failures.append)
 
-    def _work(self, request: object, report: Reporter) -> object:
+    def _work(self, request: object, report: TaskReporter) -> object:
         self.worked_on.append(request)
         self.work_threads.add(threading.get_ident())
         self.begun.set()
@@ -174,7 +174,7 @@ def test_reports_arrive_in_order_and_of_a_run_that_is_replaced_none_that_is_on_i
 ) -> None:
     allowed, made = threading.Semaphore(0), list[str]()
 
-    def work(request: str, report: Reporter) -> None:
+    def work(request: str, report: TaskReporter) -> None:
         for number in range(3):
             assert allowed.acquire(timeout=PATIENCE_S)
             report()  # of nothing that would be passed on
@@ -201,7 +201,7 @@ def test_reports_arrive_in_order_and_of_a_run_that_is_replaced_none_that_is_on_i
 def test_work_waits_until_what_it_has_reported_is_painted(qtbot: QtBot) -> None:
     order: list[str] = []
 
-    def work(_request: None, report: Reporter) -> None:
+    def work(_request: None, report: TaskReporter) -> None:
         report("a part")
         report.wait_for_paint(PATIENCE_S)
         order.append("goes on")
@@ -233,7 +233,7 @@ class Worker(QObject):
 
 def test_work_waits_for_the_thread_and_none_begins_after_its_end(qtbot: QtBot) -> None:
     worker = Worker()
-    thread = WorkerThread(worker, "work")
+    thread = TaskThread(worker, "work")
     worker.asked.emit()
     qtbot.wait(20)
     assert worker.done_on == []
@@ -242,7 +242,7 @@ def test_work_waits_for_the_thread_and_none_begins_after_its_end(qtbot: QtBot) -
     assert threading.get_ident() not in worker.done_on
     thread.end()
     worker = Worker()
-    thread = WorkerThread(worker, "work")
+    thread = TaskThread(worker, "work")
     thread.end()
     thread.begin()
     worker.asked.emit()
@@ -251,7 +251,7 @@ def test_work_waits_for_the_thread_and_none_begins_after_its_end(qtbot: QtBot) -
 
 
 @pytest.fixture
-def busy(qtbot: QtBot) -> Iterator[tuple[WorkerThread, threading.Event, list[str]]]:
+def busy(qtbot: QtBot) -> Iterator[tuple[TaskThread, threading.Event, list[str]]]:
     """Return a thread at work on what ends with an event, and what it has done."""
     done: list[str] = []
     begun, go_on = threading.Event(), threading.Event()
@@ -265,7 +265,7 @@ def busy(qtbot: QtBot) -> Iterator[tuple[WorkerThread, threading.Event, list[str
             done.append("plug-in")
 
     worker = Holding()
-    thread = WorkerThread(worker, "work")
+    thread = TaskThread(worker, "work")
     thread.begin()
     worker.asked.emit()
     assert begun.wait(PATIENCE_S)
@@ -276,7 +276,7 @@ def busy(qtbot: QtBot) -> Iterator[tuple[WorkerThread, threading.Event, list[str
 
 
 def test_a_plug_in_that_does_not_come_back_is_left_behind(
-    busy: tuple[WorkerThread, threading.Event, list[str]], monkeypatch: pytest.MonkeyPatch
+    busy: tuple[TaskThread, threading.Event, list[str]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(tasks, "PATIENCE_MS", 20)
     thread, _, done = busy
@@ -286,7 +286,7 @@ def test_a_plug_in_that_does_not_come_back_is_left_behind(
 
 
 def test_a_plug_in_that_comes_back_in_time_is_waited_for(
-    busy: tuple[WorkerThread, threading.Event, list[str]], monkeypatch: pytest.MonkeyPatch
+    busy: tuple[TaskThread, threading.Event, list[str]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(tasks, "PATIENCE_MS", 1e9)
     thread, go_on, done = busy

@@ -20,7 +20,7 @@ from pytestqt.qtbot import QtBot
 from occ_gui.app.panes import bench
 from occ_gui.background.signals import WorkQueue
 from occ_gui.bench import bench_results
-from occ_gui.bench.bench_results import BITS, RATES, cell_text, drawn
+from occ_gui.bench.bench_results import BITS, RATES, cell_text, curve_point
 from occ_gui.bench.bench_view import OF_SCENE, PUBLISHED, BenchChoice, BenchView
 from occ_gui.bench.pane import BenchController, request_of
 from occ_gui.detection_map.slider_strip_controller import RANK
@@ -59,8 +59,8 @@ class Measuring:
         item = not_none(self.pane.table.item(row, 2))
         return item.text()
 
-    def measure(self, whose: str = PUBLISHED) -> None:
-        self.controller.choose(BenchChoice(whose, ("threshold",), 64))
+    def measure(self, code_source: str = PUBLISHED) -> None:
+        self.controller.choose(BenchChoice(code_source, ("threshold",), 64))
         self.pane.measure.click()
         self._qtbot.waitUntil(lambda: self.controller.channel.is_idle)
 
@@ -167,7 +167,7 @@ def test_more_pictures_than_are_read_out_are_refused_in_a_sentence(measuring: Me
 @pytest.mark.parametrize(("wrong", "right"), [(0, 10), (10, 9), (500, 0)])
 def test_points_are_drawn_where_their_values_are(wrong: int, right: int) -> None:
     point = point_of(wrong, right)
-    rate, bits = drawn(point, RATES, 30.0), drawn(point, BITS, 30.0)
+    rate, bits = curve_point(point, RATES, 30.0), curve_point(point, BITS, 30.0)
     assert 10.0**rate.high == pytest.approx(point.errors.high)
     assert (rate.value == rate.value) == bool(wrong)  # not a number without an error
     if wrong:

@@ -23,7 +23,7 @@ class MapBench(PaneBench):
         super().__init__(qtbot, scene)
         self.workers: Any = LazyWorkers()
         monkeypatch.setattr(wiring, "new_workers", lambda: self.workers)
-        feature = detection_map(self.scenes, self.measuring)
+        feature = detection_map(self.scenes, self.background_rates)
         self.shell.add(feature, self.window)
 
     @property
@@ -40,7 +40,7 @@ class MapBench(PaneBench):
 
     def stop(self) -> None:
         self.shell.stop()
-        self.measuring.stop()
+        self.background_rates.stop()
 
 
 @pytest.fixture

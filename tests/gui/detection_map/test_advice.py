@@ -116,7 +116,7 @@ def test_an_end_with_errors_all_round_leads_nowhere(small_scene: Scene) -> None:
     only = replace(found, intervals=(interval,))
     doubtful = replace(advice, limits=replace(advice.limits, frequency=only))
     line = advice_lines(doubtful)[2]
-    assert line.text.endswith("No value inside is surely read.")
+    assert line.text.endswith("No value within the limits is sure to be read.")
     assert line.destination is None
 
 
@@ -129,7 +129,7 @@ def test_where_nothing_is_read_the_models_sentence_is_shown(small_scene: Scene) 
     limits = Limits(small_scene, "threshold", 99.0, 20, 1, *ranges)
     lines = advice_lines(advice_of(limits))
     assert lines[1].text == (
-        "It reads 99 % of the bits at no switching frequency from 500 Hz to 100 kHz; the most it "
+        "It reads 99 % of the bits at no switching frequency from 500 Hz to 100 kHz. The most it "
         "reads is 120 of 200 bits, at 2 kHz."
     )
     assert any("at no exposure time from 1 s to 3 s" in line.text for line in lines)
@@ -187,7 +187,8 @@ def test_a_destination_button_changes_the_scene_in_one_step(advised: MapBench) -
         assert advised.store.workspace.decoder == "threshold", "the limit is another decoder's"
         label = quantity(name).label.lower()
         assert advised.view.advice.state.toolTip() == (
-            f"This advice is on the scene before the change. Its limits of the {label} still hold."
+            "This advice is for the scene before the change. "
+            f"Its limits for the {label} still hold."
         )
         advised.scenes.undo_stack.undo()
         assert advised.scenes.scene == before

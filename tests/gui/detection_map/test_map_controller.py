@@ -157,7 +157,7 @@ def test_what_the_model_refuses_is_hatched_and_says_why(bench_of: Callable[..., 
     # A panel as steep as this reaches behind a camera that is near.
     bench = bench_of(yaw=1.0, panel_width=2.0)
     found = bench.look()
-    refused = found.refused() != 0
+    refused = found.find_refused() != 0
     assert refused[:, 0].all()
     assert not refused[:, -1].any()
     np.testing.assert_array_equal(np.isnan(found.rates("threshold")), refused)

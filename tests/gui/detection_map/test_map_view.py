@@ -92,11 +92,11 @@ def view(qtbot: QtBot, small_scene: Scene) -> MapView:
 
 def test_a_known_point_fills_its_cells_until_finer_ones_come() -> None:
     rates = rates_of({0: (10, 10)})
-    x, _ = rates.owners()
+    x, _ = rates.find_owners()
     assert (x[:3, :3] == 0).all()
     assert (x[4:] == -1).all()
     rates.enter([SweepPoint(SHAPE[1] + 1, 10, (0, 0), "", (0, 0))], 1)
-    x, y = rates.owners()
+    x, y = rates.find_owners()
     assert (x[1, 1], y[1, 1]) == (1, 1)
     assert (x[2, 2], y[2, 2]) == (0, 0)
 
@@ -254,14 +254,14 @@ def test_a_pane_that_is_made_late_shows_the_rate_that_was_chosen_meanwhile(
 
 def test_stopping_ends_the_workers(qtbot: QtBot, map_bench: MapBench) -> None:
     map_bench.see("map")
-    qtbot.waitUntil(lambda: map_bench.measuring.queue.workers is not None)
+    qtbot.waitUntil(lambda: map_bench.background_rates.queue.workers is not None)
     map_bench.stop()
     assert map_bench.workers.closed == 1
 
 
 def test_a_map_of_an_earlier_scene_says_so_at_once_and_is_dimmed_later(view: MapView) -> None:
     said = (
-        "91 points, each in the middle of its cell; images a point: 20 or more; "
+        "91 points, each in the middle of its cell; images per point: 20 or more; "
         "colour: success rate"
     )
     view.show_map(whole((5, 10)))

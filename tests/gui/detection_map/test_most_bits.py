@@ -44,7 +44,7 @@ def buttons(card: MostBitsCard) -> set[str]:
 
 
 def test_the_card_asks_searches_and_leads_there(card: MostBitsCard, small_scene: Scene) -> None:
-    assert card.text.toolTip() == "Which code, frequency and bits carry most?"
+    assert card.text.toolTip() == "Which code, frequency and number of bits carry most?"
     assert buttons(card) == {"Search"}
     card.show_begun()
     card.show_tried("threshold", 12)
@@ -163,7 +163,7 @@ def test_more_pictures_than_can_be_read_out_are_not_counted(small_scene: Scene) 
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(advice_worker, "most_bits", most_bits)
-        advice_worker.carry_most(small_scene, "threshold", 1e4, lambda: None)
+        advice_worker.search_most_bits(small_scene, "threshold", 1e4, lambda: None)
     camera = small_scene.camera
     assert seen.value == pytest.approx(1.0 / (camera.columns * camera.readout_time))
 

@@ -22,8 +22,8 @@ from occ_gui.detection_map.colour_map import RATES, to_colours
 from occ_gui.detection_map.rate_map import lattice
 from occ_gui.detection_map.slider_strip import IMAGES, SliderStrip, SliderStrips
 from occ_gui.detection_map.slider_strip_controller import RateRequest, SliderStripController
-from occ_gui.detection_map.wiring import Measuring
-from occ_gui.detection_map.worker import Along
+from occ_gui.detection_map.wiring import BackgroundRates
+from occ_gui.detection_map.worker import StripPoints
 from occ_gui.scene.control_panel import MAIN
 from occ_gui.scene.parameter_rows import QuantityRow
 from occ_model.results.sweep_request import SweepPoint
@@ -141,7 +141,7 @@ def test_a_movement_is_measured_once_where_it_ends(bench: Bench) -> None:
     bench.scenes.change(switching_frequency=40e3)
     assert bench.outdated() == {"switching_frequency": False, "iso": True}
     # It was measured, but too late.
-    bench.queue.channels[0].results_ready.emit(earlier, [Along("iso", ())])
+    bench.queue.channels[0].results_ready.emit(earlier, [StripPoints("iso", ())])
     assert bench.outdated()["iso"]
     bench.wait_until_idle()
     of_one = bench.measured()
@@ -193,7 +193,7 @@ def test_a_strip_has_the_colours_of_the_map_and_says_what_it_is(strips: SliderSt
     assert "read at 1 of 3" in strip.accessibleDescription()
     for strip in strips.strips.values():
         assert strip.accessibleName().startswith("Reading along ")
-        assert "grey not known" in strip.toolTip()
+        assert "grey unknown" in strip.toolTip()
 
 
 def test_an_outdated_strip_says_so_at_once_and_fades_later(qtbot: QtBot) -> None:
@@ -244,7 +244,7 @@ def test_the_strips_begin_a_while_after_the_picture_has_come(
         asked.append(there[min(len(asked), len(there) - 1)])
         return asked[-1]
 
-    measuring = Measuring(store_of(), strips, has_picture)
+    measuring = BackgroundRates(store_of(), strips, has_picture)
     strips.seen.emit(True)
     qtbot.waitUntil(lambda: measuring.queue.workers is not None)  # something is measured
     assert asked == [False, False, True, True]

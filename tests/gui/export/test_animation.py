@@ -58,7 +58,7 @@ def test_an_animation_is_given_up_at_once_and_leaves_nothing(
         pass
     bench.bar.cancelled.emit()
     assert animation.is_idle
-    assert bench.said[-1] == "The animation was given up."
+    assert bench.said[-1] == "The animation was cancelled."
     animation.stop()
     assert list(tmp_path.iterdir()) == []
 

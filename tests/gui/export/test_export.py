@@ -55,7 +55,7 @@ class Bench(PaneBench):
         self.profile = self.add(profile(store, board, str)).view
         for feature in (
             decoding(store), accuracy(scenes, self.simulation), bands(scenes),
-            detection_map(scenes, self.measuring),
+            detection_map(scenes, self.background_rates),
             photo(scenes, self.photos, lambda: image, board, no_actions()),
         ):  # fmt: skip
             self.shell.add(feature, self.window)
@@ -73,7 +73,7 @@ class Bench(PaneBench):
 
     def stop(self) -> None:
         super().stop()
-        self.measuring.stop()
+        self.background_rates.stop()
         self.photos.work.task.stop()
 
     def lay_over(self, mode: str) -> None:
@@ -350,7 +350,7 @@ def test_the_drawing_is_done_off_the_windows_thread_and_exports_that_come_quickl
     threads: list[bool] = []
     work = jobs.export
 
-    def note(job: jobs.ExportJob) -> jobs.Exported:
+    def note(job: jobs.ExportJob) -> jobs.ExportResult:
         threads.append(QThread.currentThread() is bench.window.thread())
         return work(job)
 

@@ -15,7 +15,7 @@ from occ_gui.core.store import Store
 from occ_gui.core.workspace import Workspace
 from occ_gui.files.preferences import Preferences
 from occ_gui.files.session import Session, SessionFile
-from occ_gui.files.session_record import Kept
+from occ_gui.files.session_record import KeptSession
 from occ_model.scene.scene import Scene
 
 
@@ -43,7 +43,7 @@ def test_what_is_no_file_is_neither_read_nor_keeps_a_session_from_being_written(
     NO_FILES[kind](tmp_path / "session-1.json")
     file = SessionFile(tmp_path)
     assert (file.last, file.crashed) == (None, None)
-    kept = Kept(Workspace(Scene()))
+    kept = KeptSession(Workspace(Scene()))
     file.write(kept, in_use=False)
     file.close()
     again = SessionFile(tmp_path)
@@ -58,7 +58,7 @@ COUNTS = ("9" * 4300, "9" * 5000, "-9", "1e999", "NaN", str(2**53), "true", '"7"
 def test_a_count_that_is_none_keeps_no_session_from_being_written(
     tmp_path: Path, count: str
 ) -> None:
-    first, second = (Kept(Workspace(Scene().replace(iso=iso))) for iso in (111.0, 222.0))
+    first, second = (KeptSession(Workspace(Scene().replace(iso=iso))) for iso in (111.0, 222.0))
     file = SessionFile(tmp_path)
     file.write(first, in_use=False)
     file.close()
@@ -79,10 +79,10 @@ OTHERS = {
     '{"format": 2, "scene": "of tomorrow"}': "its format is 2; allowed: 1.",
     '{"format": true}': "its format is True; allowed: 1.",
     "[1]": "its format is None; allowed: 1.",
-    "{": "it is no session.",
-    "[" * 100_000: "it is no session.",
+    "{": "it is not a session.",
+    "[" * 100_000: "it is not a session.",
     "\xff": "it is not text in UTF-8.",
-    '{"format": 1, "scene": ""}': "holds no scene that can be read.",
+    '{"format": 1, "scene": ""}': "contains no valid scene.",
 }
 
 
@@ -118,7 +118,7 @@ def test_what_cannot_be_put_aside_is_not_overwritten(
 
     monkeypatch.setattr(Path, "rename", refuse)
     file = SessionFile(tmp_path)
-    file.write(kept := Kept(Workspace(Scene())), in_use=False)
+    file.write(kept := KeptSession(Workspace(Scene())), in_use=False)
     file.close()
     assert path.read_text("ascii") == '{"format": 2}'
     again = SessionFile(tmp_path)
@@ -134,7 +134,7 @@ from occ_gui.app.start import kept_settings
 from occ_gui.core.workspace import Workspace
 from occ_gui.files.preferences import Preferences
 from occ_gui.files.session import SessionFile, state_folder
-from occ_gui.files.session_record import Kept
+from occ_gui.files.session_record import KeptSession
 from occ_model.scene.scene import Scene
 
 os.umask(0o022)
@@ -144,7 +144,7 @@ preferences = Preferences(settings)
 for name in ("a.png", "b.png"):
     preferences.add(Path(name))
     settings.sync()
-    file.write(Kept(Workspace(Scene())), in_use=False)
+    file.write(KeptSession(Workspace(Scene())), in_use=False)
 print(settings.fileName())
 os._exit(0)
 """
@@ -180,7 +180,7 @@ def test_what_the_program_keeps_about_the_user_is_readable_by_nobody_else(
 
 READ_SETTINGS = """
 from occ_gui.app.start import kept_settings
-print(kept_settings().value("view/margins"))
+print(kept_settings().value("view/strips"))
 """
 
 
@@ -189,7 +189,7 @@ def test_the_default_settings_are_those_of_the_users_folder(
 ) -> None:
     folder = tmp_path / "occ-explorer"
     folder.mkdir()
-    (folder / "occ-gui.conf").write_text("[view]\nmargins=no\n", "ascii")
+    (folder / "occ-gui.conf").write_text("[view]\nstrips=no\n", "ascii")
     monkeypatch.delenv("OCC_STATE")
     read = starts.run(program=READ_SETTINGS, XDG_CONFIG_HOME=str(tmp_path))
     assert (read.stdout, read.stderr) == ("no\n", "")
@@ -198,7 +198,7 @@ def test_the_default_settings_are_those_of_the_users_folder(
 def test_a_value_of_a_kind_that_python_does_not_know_is_left_out(tmp_path: Path) -> None:
     path = tmp_path / "settings.ini"
     value = r"@Variant(\0\0\0\x39\0\0\0\0\x61)"
-    keys = ("files/folder", "files/recent", "view/margins")
+    keys = ("files/folder", "files/recent", "view/strips")
     sections = (f"[{key.split('/')[0]}]\n{key.split('/')[1]}={value}\n" for key in keys)
     path.write_text("".join(sections), "ascii")
     preferences = Preferences(QSettings(str(path), QSettings.Format.IniFormat))

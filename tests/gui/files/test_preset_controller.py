@@ -163,7 +163,7 @@ def test_a_preset_is_replaced_and_deleted_on_request_and_a_missing_one_gives_a_s
 
 def test_without_a_match_there_is_nothing_to_save(application: Application, user: User) -> None:
     application.presets.ask_to_save_match(application.shell.pane("photo").matching)
-    assert user.message == "There is no match yet that could be saved."
+    assert user.message == "There is no match to save yet."
 
 
 def test_a_changed_preset_is_named_until_another_scene_comes(

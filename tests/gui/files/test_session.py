@@ -21,8 +21,8 @@ from occ_gui.app.start import Start
 from occ_gui.core.store import Store
 from occ_gui.core.workspace import Workspace
 from occ_gui.files import session as session_module
-from occ_gui.files.session import Session, SessionFile, restored
-from occ_gui.files.session_record import Kept
+from occ_gui.files.session import Session, SessionFile, restore_workspace
+from occ_gui.files.session_record import KeptSession
 from occ_gui.values.modes import MODES
 from occ_gui.values.room_choice import RoomChoice
 from occ_model.scene.scene import Scene
@@ -47,7 +47,9 @@ def start(qtbot: QtBot, small_scene: Scene, tmp_path: Path, kept: QSettings) -> 
         file = SessionFile(tmp_path / "state")
         first, is_asked = Workspace(asked or small_scene), asked is not None
         if not fresh:
-            first = restored(file, first, is_scene_asked=is_asked, are_settings_asked=False)
+            first = restore_workspace(
+                file, first, is_scene_asked=is_asked, are_settings_asked=False
+            )
         begin = Start(first, is_asked, kept, file, fresh)
         application = Application(begin.first, kept)
         begin.restore(application, with_photo=True)
@@ -81,7 +83,9 @@ def test_a_room_outlives_a_kill_with_the_steps_of_its_camera(qapp: object, tmp_p
     file.close()  # with its process: nothing is written any more
 
     again = SessionFile(tmp_path)
-    begun = restored(again, Workspace(Scene()), is_scene_asked=False, are_settings_asked=False)
+    begun = restore_workspace(
+        again, Workspace(Scene()), is_scene_asked=False, are_settings_asked=False
+    )
     assert begun == store.workspace
     later = Store(begun)
     Session(later, lambda: later.workspace).begin(again, is_scene_asked=False)
@@ -186,9 +190,11 @@ def test_a_settings_file_that_is_none_is_left_out_and_one_of_the_older_form_alon
 
 def test_a_scene_that_is_asked_for_wins(tmp_path: Path, small_scene: Scene) -> None:
     file, asked = SessionFile(tmp_path), Workspace(small_scene.replace(iso=99.0))
-    file.write(Kept(Workspace(small_scene.replace(iso=321.0))), in_use=False)
+    file.write(KeptSession(Workspace(small_scene.replace(iso=321.0))), in_use=False)
     file.close()
-    begun = restored(SessionFile(tmp_path), asked, is_scene_asked=True, are_settings_asked=False)
+    begun = restore_workspace(
+        SessionFile(tmp_path), asked, is_scene_asked=True, are_settings_asked=False
+    )
     assert begun.scene == asked.scene
 
 
@@ -211,7 +217,7 @@ def test_only_a_command_line_that_names_a_scene_asks_for_one(
 def crash(folder: Path, scene: Scene) -> None:
     """Leave behind what a window leaves that does not come to its end."""
     file = SessionFile(folder)
-    file.write(Kept(Workspace(scene, SimulationSettings(tolerance=7.0))), in_use=True)
+    file.write(KeptSession(Workspace(scene, SimulationSettings(tolerance=7.0))), in_use=True)
     file.close()
 
 
@@ -221,7 +227,7 @@ def test_the_scene_of_a_crash_is_restored_as_a_step(
     lost, later = small_scene.replace(iso=777.0), small_scene.replace(iso=99.0)
     other = SessionFile(tmp_path / "state")  # of a window that outlives the other one
     crash(tmp_path / "state", lost)
-    other.write(Kept(Workspace(later)), in_use=False)
+    other.write(KeptSession(Workspace(later)), in_use=False)
     other.close()
     with start() as application:
         assert application.store.scene == lost
@@ -248,15 +254,15 @@ def test_the_session_written_last_is_restored_though_the_clock_was_put_back(
 ) -> None:
     first, second = SessionFile(tmp_path), SessionFile(tmp_path)
     for file, iso in ((first, 99.0), (second, 101.0), (first, 103.0)):
-        file.write(Kept(Workspace(small_scene.replace(iso=iso))), in_use=False)
+        file.write(KeptSession(Workspace(small_scene.replace(iso=iso))), in_use=False)
     for file in (first, second):
         file.close()
     in_a_year = time.time() + 365 * 86400
     os.utime(tmp_path / "session-2.json", (in_a_year, in_a_year))
     for iso in (103.0, 104.0):
         file = SessionFile(tmp_path)
-        assert file.last == Kept(Workspace(small_scene.replace(iso=iso)))
-        file.write(Kept(Workspace(small_scene.replace(iso=iso + 1.0))), in_use=False)
+        assert file.last == KeptSession(Workspace(small_scene.replace(iso=iso)))
+        file.write(KeptSession(Workspace(small_scene.replace(iso=iso + 1.0))), in_use=False)
         file.close()
 
 

@@ -10,11 +10,11 @@ from gui.kinds import not_none
 from small_rooms import small_room
 
 from occ_gui.core.store import History, StepChange
-from occ_gui.core.workspace import FIRST_SETTINGS, Step, Workspace
+from occ_gui.core.workspace import FIRST_SETTINGS, UndoState, Workspace
 from occ_gui.files.session import LARGEST_FILE, SessionFile
-from occ_gui.files.session_record import Kept, kept_in, record_of
+from occ_gui.files.session_record import KeptSession, make_record, read_session
 from occ_gui.values.film_choice import FilmChoice
-from occ_gui.values.photo_choice import MatchChoice, PhotoChoice, PhotoFrame, PhotoReading
+from occ_gui.values.photo_choice import LoadOptions, MatchChoice, PhotoChoice, PhotoFrame
 from occ_gui.values.room_choice import RoomChoice
 from occ_gui.values.simulated import PinnedScene, SimulationRequest
 from occ_model.results.decoding import Region
@@ -29,7 +29,7 @@ def everything_set() -> Workspace:
     """Return a workspace no field of which has its first value."""
     scene = Scene().replace(iso=321.0)
     photo = PhotoChoice(
-        HERE, PhotoReading("lines", "green"), parts={PhotoFrame(HERE): Region(1, 20, 3, 40)},
+        HERE, LoadOptions("lines", "green"), parts={PhotoFrame(HERE): Region(1, 20, 3, 40)},
         form=MatchChoice("square", 750.0, "switching_frequency", fit_gamma=True),
         certain={"readout_time": 8e-6},
     )  # fmt: skip
@@ -52,10 +52,10 @@ def test_all_that_is_set_is_there_again(tmp_path: Path) -> None:
             if getattr(first, each.name) == getattr(workspace, each.name)]  # fmt: skip
     assert not same
     file = SessionFile(tmp_path)
-    file.write(Kept(workspace), in_use=False)
+    file.write(KeptSession(workspace), in_use=False)
     file.close()
     again = SessionFile(tmp_path)
-    assert again.last == Kept(workspace)
+    assert again.last == KeptSession(workspace)
     kept = not_none(again.last.workspace.pins[1])
     assert kept.request.more == ("sequence",)  # by which pins are not told apart
     again.close()
@@ -68,7 +68,7 @@ DAMAGED: list[tuple[tuple[str, ...], object]] = [
     (("room", "room"), None),
     (("room", "focal_length"), -1.0),
     (("room", "photo"), "/nowhere/room.jpg"),
-    (("photo", "reading", "channel"), "infrared"),
+    (("photo", "load_options", "channel"), "infrared"),
     (("photo", "form", "sent"), "?"),
     (("photo", "form", "square_frequency"), -1.0),
     (("photo", "form", "fit_gamma"), 2),
@@ -96,12 +96,12 @@ def test_a_part_that_cannot_be_is_as_at_first_and_no_other_is(
     }
     if place == ("room", "photo"):  # a file that is gone
         first["room"] = replace(workspace.room, photo=None)
-    record: Any = record_of(Kept(workspace))
+    record: Any = make_record(KeptSession(workspace))
     at = record
     for name in place[:-1]:
         at = at[name]
     at[place[-1]] = value
-    kept = not_none(kept_in(record))
+    kept = not_none(read_session(record))
     assert kept.workspace == replace(workspace, **{place[0]: first[place[0]]})
 
 
@@ -122,7 +122,16 @@ def test_a_file_of_the_former_format_is_read() -> None:
         pins=(PinnedScene(SimulationRequest(pinned, known)), None), scene_file=here,
     )  # fmt: skip
     step = StepChange("change", {"iso": 321.0}, {"jpeg": True})
-    assert kept_in(record) == Kept(workspace, History(Step(pinned, {}), (step,), done=1))
+    assert read_session(record) == KeptSession(
+        workspace, History(UndoState(pinned, {}), (step,), done=1)
+    )
+
+
+def test_a_name_of_a_former_version_is_read() -> None:
+    workspace = everything_set()
+    record: Any = make_record(KeptSession(workspace))
+    record["photo"]["reading"] = record["photo"].pop("load_options")
+    assert not_none(read_session(record)).workspace == workspace
 
 
 LONG_NUMBER = "9" * 4000
@@ -145,7 +154,7 @@ DAMAGED_SCENES = {
 def test_a_session_with_numbers_or_lists_that_no_computer_needs_is_left_out(
     tmp_path: Path, value: str
 ) -> None:
-    record = json.dumps(record_of(Kept(Workspace(Scene()))))
+    record = json.dumps(make_record(KeptSession(Workspace(Scene()))))
     text = record.replace('"seed": 1', f'"seed": {value}')
     assert value in text
     (tmp_path / "session-1.json").write_text(text, "ascii")

@@ -9,9 +9,9 @@ from PySide6.QtGui import QAccessible
 
 from occ_gui.photo.match_controller import cure_of_match
 from occ_gui.photo.photo_controller import PhotoController
-from occ_gui.photo.photo_part import PhotoPart
 from occ_gui.photo.photo_verdict import PhotoSteps
 from occ_gui.photo.photo_view import PhotoView
+from occ_gui.photo.shown_photo import ShownPhoto
 from occ_gui.photo.window_actions import WindowActions
 from occ_gui.shell.results import Board
 from occ_gui.simulation.snapshot import Reading
@@ -38,8 +38,8 @@ class PhotoBench:
         return self.store.workspace.photo
 
     @property
-    def part(self) -> PhotoPart:
-        return PhotoPart.of(self.store.workspace, self.board.results)
+    def part(self) -> ShownPhoto:
+        return ShownPhoto.of(self.store.workspace, self.board.results)
 
     def choose(self, **changes: object) -> None:
         photo = replace(self.choice, **changes)  # type: ignore[arg-type]  # fields of its own
@@ -47,11 +47,11 @@ class PhotoBench:
 
     def show_photo(self, photo: Photo | None) -> None:
         """Open a photo that was read already, or close it."""
-        choice = self.choice.closed() if photo is None else self.choice.opened(photo.path)
+        choice = self.choice.close() if photo is None else self.choice.open(photo.path)
         self.store.put(replace(self.store.workspace, photo=choice))
         document = None
         if photo is not None:
-            source = choice.source or PhotoSource(Path(), choice.reading, 0)
+            source = choice.source or PhotoSource(Path(), choice.load_options, 0)
             document = PhotoDocument(photo, source)
         self.board.put(replace(self.board.results, document=document))
 
@@ -93,7 +93,7 @@ class LiveView(PhotoView):
         self.many.files_shown.connect(self._list)
 
     def _list(self) -> None:
-        self.choose(replace(self.choice.uncertain(), listed=self.many.rows.paths))
+        self.choose(replace(self.choice.clear_certain(), listed=self.many.rows.paths))
 
     def _take_form(self, form: MatchChoice) -> None:
         self.choose(replace(self.choice, form=form))
@@ -110,7 +110,7 @@ class LiveView(PhotoView):
 
     def open(self, photo: Photo | None) -> None:
         self.show_photo(photo)
-        self.choose(self.choice.closed() if photo is None else self.choice.opened(photo.path))
+        self.choose(self.choice.close() if photo is None else self.choice.open(photo.path))
 
     def show_matched(self, match: Match | None, cure: Cure | None = None) -> None:
         """Show a match that was asked for in the present scene, with its own cure or another."""

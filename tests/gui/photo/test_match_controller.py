@@ -15,8 +15,8 @@ from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.photo.match_controller import MatchController
-from occ_gui.photo.photo_part import PartEdits
-from occ_gui.values.photo_choice import MatchChoice, PhotoReading
+from occ_gui.photo.shown_photo import PartEdits
+from occ_gui.values.photo_choice import LoadOptions, MatchChoice
 from occ_gui.values.photo_results import ListedRows
 from occ_model.errors import MatchError
 from occ_model.photo.reading.load import Photo
@@ -168,7 +168,7 @@ def test_a_match_is_marked_while_another_photo_is_read(bench: Bench) -> None:
     bench.start()
     shown = bench.choice
     bench.choose(path=Path("other.png"))
-    assert "is being read" in bench.age
+    assert "is being loaded" in bench.age
     bench.store.put(replace(bench.store.workspace, photo=shown))  # it could not be read
     assert bench.age == ""
 
@@ -228,13 +228,13 @@ def test_a_photo_of_the_table_has_its_rows_match_until_it_is_matched_by_itself(
 ) -> None:
     row = PhotoRow(photo.path, "sure", "", match_with())
 
-    def show_listed(reading: PhotoReading) -> None:
-        listed = ListedRows((row,), reading, 1e4)
+    def show_listed(options: LoadOptions) -> None:
+        listed = ListedRows((row,), options, 1e4)
         bench.board.put(replace(bench.board.results, listed=listed))
 
-    show_listed(PhotoReading("lines"))
+    show_listed(LoadOptions("lines"))
     assert bench.controller.match is None, "read in another way it is not what the table matched"
-    show_listed(PhotoReading())
+    show_listed(LoadOptions())
     assert bench.controller.match is row.match
     assert not_none(bench.part.found).is_listed
     bench.controller.apply()
@@ -266,15 +266,15 @@ def test_applying_puts_what_was_found_into_the_scene_as_one_step(
 def test_what_the_camera_noted_goes_into_the_scene_as_one_step_or_is_refused_with_a_sentence(
     bench: Bench, photo: Photo, small_scene: Scene
 ) -> None:
-    bench.controller.use_notes()
+    bench.controller.apply_camera_settings()
     assert bench.scenes.scene == small_scene, "there are none"
     bench.show_photo(replace(photo, exposure_time=1e-3, iso=800.0))
-    bench.controller.use_notes()
+    bench.controller.apply_camera_settings()
     assert bench.scenes.scene == small_scene.replace(exposure_time=1e-3, iso=800.0)
     assert bench.scenes.undo_stack.count() == 1
     assert "stripes.png" in bench.scenes.undo_stack.undoText()
     bench.show_photo(replace(photo, iso=1e12, exposure_time=1e-3))
-    bench.controller.use_notes()
+    bench.controller.apply_camera_settings()
     (sentence,) = bench.failures
     assert sentence.startswith("iso is ")
     assert bench.scenes.undo_stack.count() == 1

@@ -15,11 +15,11 @@ from PySide6.QtCore import QPointF, Qt
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
-from occ_gui.files.session_record import kept_in
+from occ_gui.files.session_record import read_session
 from occ_gui.photo.many.rows_model import VERDICT
 from occ_gui.photo.pane import PhotoPane
 from occ_gui.picture.image_view import ImageView
-from occ_gui.values.photo_choice import PhotoChoice, PhotoReading, Placed, Placement
+from occ_gui.values.photo_choice import LoadOptions, PhotoChoice, Placed, Placement
 from occ_gui.values.photo_results import FoundMatch, ListedRows
 from occ_model.photo.reading.load import Photo
 from occ_model.results.decoding import Region
@@ -202,7 +202,7 @@ def test_a_region_stays_with_another_channel_and_comes_back_with_its_photo(
 
 def photo_in(record: Mapping[str, object]) -> PhotoChoice:
     """Read what a session that has a scene says of photos."""
-    kept = not_none(kept_in({"scene": Scene().to_toml()} | dict(record)))
+    kept = not_none(read_session({"scene": Scene().to_toml()} | dict(record)))
     return kept.workspace.photo
 
 
@@ -253,7 +253,7 @@ def test_a_row_of_the_table_says_that_its_photo_was_matched_by_itself_since(
     many.show_row(0, row, 1)
     is_marked = many.rows.data(many.rows.index(0, 0), Qt.ItemDataRole.BackgroundRole) is not None
     assert is_marked, "it is the photo that is open"
-    listed = replace(bench.board.results, listed=ListedRows((row,), PhotoReading(), 1e4))
+    listed = replace(bench.board.results, listed=ListedRows((row,), LoadOptions(), 1e4))
     document = not_none(listed.document)
     own = replace(listed, document=replace(document, found=FoundMatch(None, match_with(), 1e4)))
     for results, is_earlier in ((listed, False), (own, True), (listed, False)):

@@ -66,7 +66,7 @@ def test_every_channel_and_scan_axis_of_the_model_can_be_chosen(
         assert [control.itemData(place) for place in range(control.count())] == list(keys)
         choose(qtbot, control, keys[1])
     assert received == [CHANNELS[1], SCAN_AXES[1]]
-    view.facts.show_reading("red", "lines")
+    view.facts.show_load_options("red", "lines")
     assert (view.facts.channel.key(), view.facts.scan_axis.key()) == ("red", "lines")
     assert len(received) == 2
 

@@ -17,8 +17,8 @@ from pytestqt.qtbot import QtBot
 import occ_model as occ
 from occ_gui.photo import photo_work
 from occ_gui.photo.lamp_search import LampSearch
-from occ_gui.photo.photo_part import PartEdits
 from occ_gui.photo.photo_work import photo_profile
+from occ_gui.photo.shown_photo import PartEdits
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.values.photo_choice import Placed, Placement
 from occ_gui.values.photo_results import FoundMatch, PhotoProfile

@@ -12,7 +12,7 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.app.panes import compare
 from occ_gui.pins.compare_view import CompareView
-from occ_gui.pins.pin_controller import PinController, Pinned
+from occ_gui.pins.pin_controller import PinController, PinnedPair
 from occ_gui.simulation.jobs import snapshot_of as snapshot_of_frame
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.simulation.verdict import symptom
@@ -31,11 +31,11 @@ def pin_two(pins: PinController, a: Snapshot, b: Snapshot) -> None:
         pins.pin(name)
 
 
-def inputs(pinned: Pinned) -> dict[str, tuple[str, str]]:
+def inputs(pinned: PinnedPair) -> dict[str, tuple[str, str]]:
     return {row.what: (row.a, row.b) for row in pinned.inputs}
 
 
-def outputs(pinned: Pinned) -> dict[str, tuple[str, str]]:
+def outputs(pinned: PinnedPair) -> dict[str, tuple[str, str]]:
     return {row.what: (row.a, row.b) for row in pinned.outputs}
 
 
@@ -70,7 +70,7 @@ def test_the_outputs_are_those_of_the_two_states(
     found = outputs(pins.pinned)
     swings = tuple(f"{np.ptp(s.frame.profile):.1f} grey levels" for s in (a, b))
     assert found["Contrast"] == swings
-    assert found["Columns a chip"] == ("12.50 columns", "7.81 columns")
+    assert found["Columns per chip"] == ("12.50 columns", "7.81 columns")
     assert found["Exposure"] == ("0.680 chips", "2.176 chips")
     right, why = found["Decoder “threshold”"]
     assert right == "code 718, right"
@@ -163,7 +163,7 @@ def test_the_view_requests_what_is_missing_then_lists_and_draws(
     for name, pin in (("A", pins.pinned.a), ("B", pins.pinned.b)):
         assert pin is not None
         assert np.array_equal(view.curves[name].getOriginalDataset()[1], pin.profile)
-    view.show_pinned(Pinned())
+    view.show_pinned(PinnedPair())
     assert "press Pin A" in view.hint.text()
     assert not view.clear.isEnabled()
     assert all(curve.getOriginalDataset() == (None, None) for curve in view.curves.values())
@@ -224,7 +224,7 @@ def test_states_are_pinned_compared_and_restored_in_one_step(
 ) -> None:
     bench.choose("pin_a")
     assert "as A" in bench.said[-1]
-    assert "pin B, too" in bench.said[-1]
+    assert "pin it as B" in bench.said[-1]
     bench.simulate(iso=200.0)
     bench.choose("pin_b")
     assert ["ISO speed", "100", "200"] in texts(bench.view.table)
@@ -258,7 +258,7 @@ def test_a_pin_waits_for_the_results_of_the_present_scene_if_it_has_a_picture(be
     bench.scenes.change(iso=200.0)
     bench.choose("pin_a")
     assert bench.pins.pinned.a is None
-    assert bench.said[-1] == "A is pinned as soon as this scene is computed."
+    assert bench.said[-1] == "A will be pinned as soon as this scene is computed."
     bench.simulate()
     assert bench.pins.pinned.a is not None
     assert bench.pins.pinned.a.scene.camera.iso == 200.0

@@ -155,7 +155,7 @@ def test_neither_one_edge_nor_the_scene_before_sets_the_axis_of_the_residual(
         view.show_photo_profile(PhotoProfile(comparison, photo.profile))
         assert view.residual.plot.getViewBox().viewRange()[1] == pytest.approx([-7.0, 7.0])
         text = view.residual.numbers.toolTip()
-        assert ("beyond the axis" in text) == said
+        assert ("outside the axis" in text) == said
     assert f"at most {comparison.largest_residual:.0f}, beyond" in text
     ends = []
     for height, is_outdated in ((190.0, True), (4.0, False), (40.0, False), (4.0, False)):
@@ -356,8 +356,8 @@ def test_chips_are_copied_as_text_and_told_in_words(shown: ProfileView, qtbot: Q
     assert said == ["Copied: 10110"]
     cells = shown.chips.cells
     assert cells.toolTip() == (
-        "5 chips read from the photo, 10.00 columns each; all of them are right with a "
-        "probability of 99 %"
+        "5 chips read from the photo, 10.00 columns each; the probability that all of "
+        "them are right is 99 %"
     )
     assert cells.accessibleDescription().endswith(": 10110")
     assert shown.chips.isVisible()

@@ -69,7 +69,7 @@ class Bench:
 
     @property
     def pane(self) -> Noting:
-        pane = self.shell.made_pane("iso")
+        pane = self.shell.find_pane("iso")
         assert isinstance(pane, Noting)
         return pane
 
@@ -84,7 +84,7 @@ def bench(qtbot: QtBot) -> Iterator[Bench]:
 def test_a_pane_is_made_when_it_is_first_seen(bench: Bench) -> None:
     bench.see(False)
     bench.put(200.0)
-    assert bench.shell.made_pane("iso") is None
+    assert bench.shell.find_pane("iso") is None
     assert bench.shell.is_idle
     bench.see(True)
     pane = bench.pane

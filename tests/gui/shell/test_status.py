@@ -18,7 +18,7 @@ from occ_gui.shell.status import (
     next_sentence,
     status_message,
 )
-from occ_gui.values.photo_choice import PhotoReading, PhotoSource
+from occ_gui.values.photo_choice import LoadOptions, PhotoSource
 from occ_gui.values.photo_results import FoundMatch, PhotoDocument
 from occ_model.photo.reading.load import Photo
 from occ_model.scene.scene import Scene
@@ -28,7 +28,7 @@ SENTENCE = "Iso is 0; allowed: 1 to 2."
 
 def states(photo: Photo, snapshot_of: SnapshotOf) -> dict[str, tuple[Workspace, Results]]:
     """Return a state, and others in each of which one thing differs."""
-    source = PhotoSource(Path("a.png"), PhotoReading(), 1)
+    source = PhotoSource(Path("a.png"), LoadOptions(), 1)
     document = PhotoDocument(photo, source)
     workspace, results = Workspace(Scene()), Results(document=document)
     found = replace(document, found=FoundMatch(None, None, 1e4, ("No.",)))

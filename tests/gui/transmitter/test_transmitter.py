@@ -18,7 +18,11 @@ from occ_gui.app.panes import transmitter as declared
 from occ_gui.files.preferences import Preferences
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.transmitter import transmitter_controller
-from occ_gui.transmitter.transmitter_controller import Drawn, TransmitterController, new_folder
+from occ_gui.transmitter.transmitter_controller import (
+    TransmitterController,
+    WiringDrawing,
+    new_folder,
+)
 from occ_gui.transmitter.transmitter_dialog import TransmitterDialog
 from occ_model.boards.transmission import Transmission
 from occ_model.errors import OutputError
@@ -30,8 +34,8 @@ from occ_model.scene.scene import Scene
 def undrawn(monkeypatch: pytest.MonkeyPatch, png_of: Callable[[str], bytes]) -> None:
     """Leave out what takes long: drawing the wiring."""
 
-    def draw(sent: Transmission) -> Drawn:
-        return Drawn(sent, png_of(sent.board.name), sent.board.title)
+    def draw(sent: Transmission) -> WiringDrawing:
+        return WiringDrawing(sent, png_of(sent.board.name), sent.board.title)
 
     monkeypatch.setattr(transmitter_controller, "draw_wiring", draw)
     monkeypatch.setattr(transmitter_files, "wiring_bytes", lambda sent, format_name: b"")
@@ -81,7 +85,7 @@ def choose_board(dialog: TransmitterDialog, name: str) -> None:
 def test_its_entry_opens_it_on_the_scene_at_hand(qtbot: QtBot, small_scene: Scene) -> None:
     bench = PaneBench(qtbot, small_scene)
     bench.shell.add(declared(bench.window, bench.scenes, Preferences(None)), bench.window)
-    assert bench.shell.made_pane("transmitter") is None
+    assert bench.shell.find_pane("transmitter") is None
     bench.window.actions_by_name["transmitter"].trigger()
     bench.wait_until_idle()
     opened = bench.shell.pane("transmitter").dialog
@@ -136,7 +140,7 @@ def test_the_scene_takes_the_sent_frequency_in_a_step_that_can_be_undone(
 def test_a_drawing_that_fails_is_told_where_the_dialog_is_open_still(
     store: SceneStore, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch, is_open: bool
 ) -> None:
-    def fail(_sent: Transmission) -> Drawn:
+    def fail(_sent: Transmission) -> WiringDrawing:
         raise OutputError("It cannot be drawn.")
 
     monkeypatch.setattr(transmitter_controller, "draw_wiring", fail)
@@ -183,7 +187,7 @@ def test_saving_makes_a_new_folder_each_time(
         dialog.save.click()
         wait(qtbot, transmitter)
         assert dialog.note.text() == (
-            f"Saved 8 files into {tmp_path / name}; scene.toml has the sent frequency."
+            f"Saved 8 files in {tmp_path / name}; scene.toml has the frequency that is sent."
         )
         sketch = (tmp_path / name / f"{name}.ino").read_text()
         assert sketch == occ.transmitter_sketch(store.scene, "arduino-uno")
@@ -211,5 +215,5 @@ def test_folders_of_one_name_are_numbered_up_to_a_limit(
     made = [new_folder(tmp_path, "uno") for _ in range(3)]
     assert made == [tmp_path / name for name in ("uno", "uno-2", "uno-3")]
     assert all(folder.is_dir() for folder in made)
-    with pytest.raises(OutputError, match="has 3 folders uno already; choose another"):
+    with pytest.raises(OutputError, match="already has 3 folders uno; choose another"):
         new_folder(tmp_path, "uno")

@@ -113,7 +113,7 @@ def test_a_film_of_the_last_session_can_be_closed_unseen_and_opens_when_the_mode
     assert not application.window.actions_by_name["close_film"].isEnabled()
     store.put(replace(store.workspace, film=FilmChoice(film_file)))
     assert film_in(application) == film_file
-    assert application.shell.made_pane("video") is None
+    assert application.shell.find_pane("video") is None
     application.window.modes.switch("video")
     user.wait_until_idle()
     pane = application.video.wiring

@@ -171,6 +171,6 @@ def test_the_simulated_film_is_saved_and_given_up(
     pane.save(tmp_path / "other.gif")
     pane.view.form.saving.cancelled.emit()
     wait()
-    assert said[-1] == "The film was given up."
+    assert said[-1] == "The film was cancelled."
     pane.saving.runner.stop()
     assert not (tmp_path / "other.gif").exists()

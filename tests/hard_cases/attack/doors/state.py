@@ -20,7 +20,7 @@ from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 
 if TYPE_CHECKING:  # Qt is slow to import, and only the doors of the window need it
-    from occ_gui.files.session_record import Kept
+    from occ_gui.files.session_record import KeptSession
 
 SESSION, SETTINGS = "session-1.json", "settings.ini"
 _LAYOUT = re.compile(r"(?<==)[A-Za-z0-9+/]{80,}=*")
@@ -30,11 +30,11 @@ _LAYOUT = re.compile(r"(?<==)[A-Za-z0-9+/]{80,}=*")
 def session_text() -> str:
     """A whole session file."""
     from occ_gui.core.store import History, StepChange
-    from occ_gui.core.workspace import Step, Workspace
+    from occ_gui.core.workspace import UndoState, Workspace
     from occ_gui.files.session import SessionFile
-    from occ_gui.files.session_record import Kept
+    from occ_gui.files.session_record import KeptSession
     from occ_gui.values.film_choice import FilmChoice
-    from occ_gui.values.photo_choice import MatchChoice, PhotoChoice, PhotoFrame, PhotoReading
+    from occ_gui.values.photo_choice import LoadOptions, MatchChoice, PhotoChoice, PhotoFrame
     from occ_gui.values.room_choice import RoomChoice
     from occ_gui.values.simulated import PinnedScene, SimulationRequest
     from occ_model.room.rooms import load_room
@@ -60,7 +60,7 @@ def session_text() -> str:
             scene_file=path,
             photo=PhotoChoice(
                 path,
-                PhotoReading("lines", "red"),
+                LoadOptions("lines", "red"),
                 parts={PhotoFrame(path): Region(0, 9, 0, 9)},
                 form=form,
                 certain={"readout_time": 8e-6},
@@ -70,13 +70,13 @@ def session_text() -> str:
             preset="phone-68us",
             pins=(PinnedScene(SimulationRequest(Scene(), settings, more=("sequence",))), None),
         )
-        session = Kept(workspace, History(Step(Scene(), {}), steps, done=1))
+        session = KeptSession(workspace, History(UndoState(Scene(), {}), steps, done=1))
         file.write(session, in_use=True)
         file.close()
         return Path(folder, SESSION).read_text("ascii")
 
 
-def _check_session(session: "Kept | None") -> None:
+def _check_session(session: "KeptSession | None") -> None:
     """See that a session can be written, and is the same again when it is read."""
     from occ_gui.files.session import SessionFile
 
@@ -95,7 +95,7 @@ def _check_session(session: "Kept | None") -> None:
 def _session(chance: Random, folder: Path) -> list[str]:
     from occ_gui.core.workspace import Workspace
     from occ_gui.files.session import SessionFile
-    from occ_gui.files.session_record import Kept
+    from occ_gui.files.session_record import KeptSession
 
     text = session_text()
     if chance.random() < 0.2:
@@ -109,7 +109,7 @@ def _session(chance: Random, folder: Path) -> list[str]:
     file = SessionFile(folder)
     _check_session(file.last)
     _check_session(file.crashed)
-    kept = file.last or Kept(Workspace(Scene()))
+    kept = file.last or KeptSession(Workspace(Scene()))
     file.write(kept, in_use=False)
     file.close()
     again = SessionFile(folder)

@@ -1,4 +1,4 @@
-"""Work: a result is asked for when what it follows from differs, and comes back with it."""
+"""ResultUpdater: a result is computed when its request changes, and kept for the same request."""
 
 import threading
 from collections.abc import Iterator
@@ -11,14 +11,14 @@ from gui.stores import store_of
 from pytestqt.qtbot import QtBot
 
 from occ_gui.background.task import Report, Task
+from occ_gui.shell.result_updater import ResultUpdater
 from occ_gui.shell.results import Board, Results
-from occ_gui.shell.work import Work
 
 PATIENCE_S = 10.0
 
 
 class Bench:
-    """Work on the name of the decoder, and a hand on it."""
+    """A result that depends on the name of the decoder; the test decides when it is ready."""
 
     def __init__(self, qtbot: QtBot, **options: Any) -> None:
         self.store, self.board = store_of().store, Board()
@@ -26,7 +26,7 @@ class Bench:
         self.told: list[object] = []
         self.go_on = threading.Event()
         self.go_on.set()
-        self.work = Work(
+        self.work = ResultUpdater(
             self.store, self.board, Task(self._do, "work", impatient=True),
             lambda workspace, _: workspace.decoder or None, self._put, **options,
         )  # fmt: skip

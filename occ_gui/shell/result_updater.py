@@ -1,4 +1,4 @@
-"""Work: keeps one of the results up to date by a task."""
+"""ResultUpdater: keeps one of the results up to date with a task."""
 
 from collections import deque
 from collections.abc import Callable
@@ -12,18 +12,18 @@ from occ_gui.core.workspace import Workspace
 from occ_gui.shell.results import Board, Results
 
 
-class Work(QObject, Generic[Request, Result]):
-    """Keeps a result up to date with workspace and results.
+class ResultUpdater(QObject, Generic[Request, Result]):
+    """Recomputes a result whenever the workspace, or a result that it depends on, changes.
 
-    ``of`` returns the request to the task; None where there is no such result. ``put`` stores or
-    removes a result. ``stays``: whether the last result stays until the next one is there.
-    ``keep``: number of results that are kept for requests that come back.
+    ``of`` returns the request for the task, or None if there is nothing to compute. ``put`` stores
+    or removes the result. ``stays``: whether the last result stays until the next one is ready.
+    ``keep``: number of earlier results that are kept for requests that are made again.
     """
 
     begun = Signal()
 
-    ended = Signal()  # the request was met, has failed, or is not wanted any more
-    found = Signal(object)  # a result that the task has just given; it is on the board
+    ended = Signal()  # the request was met, has failed, or is no longer needed
+    found = Signal(object)  # a result of the task, after it was stored
     failed = Signal(str)  # a sentence that says why there is no result
 
     def __init__(
@@ -44,11 +44,11 @@ class Work(QObject, Generic[Request, Result]):
         self._kept: deque[tuple[Request, Result]] = deque(maxlen=keep)
         task.finished.connect(self._take)
         task.failed.connect(self._fail)
-        store.select(lambda workspace: workspace).changed.connect(self.look)
-        board.changed.connect(self.look)
-        self.look()
+        store.select(lambda workspace: workspace).changed.connect(self.update)
+        board.changed.connect(self.update)
+        self.update()
 
-    def look(self) -> None:
+    def update(self) -> None:
         request = self._of(self._store.workspace, self._board.results)
         if request == self._request:
             return
@@ -64,7 +64,7 @@ class Work(QObject, Generic[Request, Result]):
             self._board.put(self._put(self._board.results, kept))
 
     def keep(self, result: Result) -> None:
-        """Keep a result of the present request, in place of the one before."""
+        """Keep a result of the present request in place of the previous one."""
         if self._request is not None:
             others = [(asked, other) for asked, other in self._kept if asked != self._request]
             self._kept = deque([*others, (self._request, result)], self._kept.maxlen)

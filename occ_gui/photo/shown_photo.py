@@ -1,4 +1,4 @@
-"""What of a photo is shown and matched, derived from what the user has set."""
+"""The open photo as it is shown and matched, derived from workspace and results."""
 
 from dataclasses import dataclass, field, replace
 from typing import TypeAlias
@@ -19,11 +19,14 @@ from occ_model.results.match import Match, Stripes
 from occ_model.scene.scene import Scene
 
 Part: TypeAlias = Lamp | Region | None
-"""What of a photo is matched: a lamp, a rectangle drawn by hand, or None for all of it."""
+"""The part of a photo that is matched: a lamp, a rectangle drawn by hand, or None for all of it."""
 
 
 def part_of(choice: PhotoChoice, results: Results) -> Part:
-    """Return the matched part of the open photo; of a lamp that is no longer known, its place."""
+    """Return the part of the open photo that is matched.
+
+    For a lamp that is no longer among the lamps found, this is its region.
+    """
     document = results.document
     if document is None:
         return None
@@ -42,8 +45,8 @@ def lies_within(photo: Photo, region: Region) -> bool:
     return True
 
 
-def found_in(results: Results) -> FoundMatch | None:
-    """Return the match of the open photo: its own, or that of its row in the table."""
+def find_match(results: Results) -> FoundMatch | None:
+    """Return the match of the open photo: its own, or the one in its row of the table."""
     document, listed = results.document, results.listed
     if document is None:
         return None
@@ -51,7 +54,7 @@ def found_in(results: Results) -> FoundMatch | None:
     if listed is not None and (found is None or found.match is None):
         row = listed.match_of(document)
         if row is not None and found is not None:
-            row = row.refused(found.refusal, found.part)
+            row = row.with_refusal(found.refusal, found.part)
         return row or found
     return found
 
@@ -71,21 +74,21 @@ def automatic_placement(
 
 
 @dataclass(frozen=True, slots=True)
-class PhotoPart:
+class ShownPhoto:
     scene: Scene
-    reading: Reading | None  # what is read of the simulated scene
+    reading: Reading | None  # what is read from the simulated scene
     choice: PhotoChoice
     document: PhotoDocument | None = None
     part: Part = None
     found: FoundMatch | None = None
     searched: StripeSearch | None = None
     placement: Placement = field(default_factory=Placement)
-    is_by_hand: bool = False  # whether the photo lies where the user has put it
-    is_late: bool = False  # whether another photo is being read than the one that is shown
+    is_by_hand: bool = False  # whether the user has placed the photo
+    is_late: bool = False  # whether another photo is being loaded
     is_enhanced: bool = False
 
     @classmethod
-    def of(cls, workspace: Workspace, results: Results) -> "PhotoPart":
+    def of(cls, workspace: Workspace, results: Results) -> "ShownPhoto":
         choice, document, reading = workspace.photo, results.document, results.reading
         there = cls(workspace.scene, reading, choice)
         if document is None:
@@ -100,7 +103,7 @@ class PhotoPart:
             there,
             document=document,
             part=part_of(choice, results),
-            found=found_in(results),
+            found=find_match(results),
             searched=results.stripes,
             placement=placement,
             is_by_hand=is_by_hand,
@@ -118,12 +121,12 @@ class PhotoPart:
 
     @property
     def is_matched_now(self) -> bool:
-        """Whether a match is at work."""
+        """Whether a match is running."""
         return self.document is not None and self.document.requested is not None
 
     @property
     def search(self) -> tuple[tuple[Lamp, ...], bool, str]:
-        """The lamps that were found, whether they are being searched, and why there are none."""
+        """The lamps that were found, whether the search is running, and why it found none."""
         document = self.document
         if document is None:
             return (), False, ""
@@ -138,12 +141,12 @@ class PhotoPart:
 
     @property
     def compared_stripes(self) -> Stripes | None:
-        """The stripes to compare, with the same levels before a match and after it."""
+        """The stripes to compare: a match does not change their levels."""
         return self.stripes if self.searched is None else self.searched.stripes or self.stripes
 
     @property
     def why_no_stripes(self) -> str:
-        """Why no stripes are known; empty also while they are searched."""
+        """Why no stripes are known; also empty while the search is running."""
         return "" if self.match is not None or self.searched is None else self.searched.sentence
 
     @property
@@ -152,14 +155,14 @@ class PhotoPart:
 
     @property
     def refusal(self) -> tuple[str, ...]:
-        """Why the match was refused; empty where it was not."""
+        """Why the match was refused; empty if it was not."""
         return () if self.found is None else self.found.refusal_of(self.part)
 
     @property
     def elsewhere(self) -> str:
-        """Why the match belongs to something else and cannot be used; empty if it can."""
+        """Why the match belongs to another photo or part and cannot be used; empty if it can."""
         if self.is_late:
-            return "of the photo before: one is being read"
+            return "of the previous photo: the next one is being loaded"
         if self.found is not None and self.found.part != self.part:
             return "of another part of the photo: match again"
         return ""
@@ -167,11 +170,11 @@ class PhotoPart:
     @property
     def age(self) -> tuple[str, bool]:
         """Why the match is outdated, empty if it is not, and whether it can be used."""
-        refused = "of the match before: the last one is refused" * bool(self.refusal)
+        refused = "an earlier match: the latest one was refused" * bool(self.refusal)
         return self.elsewhere or refused, not self.elsewhere
 
 
-_INSET = 4  # a first rectangle leaves out the photo's size divided by this at each side
+_INSET = 4  # the first rectangle leaves out a fraction 1 / _INSET of the photo at each side
 
 
 class PartEdits(QObject):
@@ -201,7 +204,10 @@ class PartEdits(QObject):
         self._match(clipped if lies_within(photo, clipped) else self.part)
 
     def set_by_hand(self, by_hand: bool) -> None:
-        """Match a rectangle drawn by hand, at first that of the chosen lamp, or the whole photo."""
+        """Match a rectangle drawn by hand, or the whole photo again.
+
+        The first rectangle is that of the chosen lamp, or the middle of the photo.
+        """
         photo = self._board.results.photo
         if not by_hand or photo is None:
             self.match_whole()

@@ -1,1 +1,1 @@
-"""Films: opening, simulating and reading them, and a camera that is read while it films."""
+"""Films: opening, simulating and reading them, and live reading from a camera."""

@@ -1,4 +1,4 @@
-"""Cameras of this computer, and the pictures of one or another live source."""
+"""The cameras of this computer, and the pictures of a live source."""
 
 import platform
 from collections.abc import Iterator
@@ -22,18 +22,18 @@ _DEVICES = Path("/sys/class/video4linux")
 
 IS_LINUX = platform.system() == "Linux"
 
-_MOST_PROBED = 4  # cameras that are tried one by one where the system does not list them
+_MOST_TRIED = 4  # cameras that are tried one by one if the system does not list them
 
 _WIDTH, _HEIGHT = 1920, 1080
 _MANUAL, _AUTOMATIC = 0.25, 0.75
 _V4L_MANUAL, _V4L_AUTOMATIC = 1.0, 3.0
-"""Modes of exposure as OpenCV's back ends count them; Video4Linux has its own numbers."""
+"""Numbers of the exposure modes in OpenCV's back ends; Video4Linux has its own numbers."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class LivePicture:
     time: float  # seconds since the source was opened
-    # Shape (lines, pixels) or (lines, pixels, 3): Grey, or blue, green and red
+    # Shape (lines, pixels) in grey, or (lines, pixels, 3) in blue, green and red
     pixels: ByteArray
 
 
@@ -47,10 +47,10 @@ class CameraDriver(Protocol):
     def open(self) -> None: ...
 
     def read(self) -> LivePicture | None:
-        """Wait for the next picture; None where there are no more, as of a camera unplugged."""
+        """Wait for the next picture; None if there are no more, as when a camera is unplugged."""
 
     def lock_exposure(self, on: bool) -> bool:
-        """Lock the exposure, or let the source choose it; False if it cannot."""
+        """Lock the exposure, or let the source choose it; return False if this is not possible."""
 
     def close(self) -> None:
         """Close the source, if it is open."""
@@ -58,23 +58,23 @@ class CameraDriver(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class CameraDevice:
-    number: int  # its number, as OpenCV counts
+    number: int  # OpenCV's number for it
     name: str
 
 
 def find_cameras(devices: Path = _DEVICES) -> tuple[CameraDevice, ...]:
-    """List the cameras; where the system has no list, try to open each of the first."""
-    return tuple(_listed(devices) if IS_LINUX else _probed())
+    """List the cameras; if the system has no list, try to open the first few."""
+    return tuple(_list_devices(devices) if IS_LINUX else _probe_devices())
 
 
-def _listed(devices: Path) -> Iterator[CameraDevice]:
+def _list_devices(devices: Path) -> Iterator[CameraDevice]:
     """List the capture devices: the first node of each camera."""
-    for number, folder in sorted(_numbered(devices)):
-        if _text_in(folder / "index") in ("", "0"):
-            yield CameraDevice(number, _text_in(folder / "name") or f"/dev/video{number}")
+    for number, folder in sorted(_number_devices(devices)):
+        if _read_text(folder / "index") in ("", "0"):
+            yield CameraDevice(number, _read_text(folder / "name") or f"/dev/video{number}")
 
 
-def _numbered(devices: Path) -> Iterator[tuple[int, Path]]:
+def _number_devices(devices: Path) -> Iterator[tuple[int, Path]]:
     with suppress(OSError):
         for folder in devices.iterdir():
             digits = folder.name.removeprefix("video")
@@ -82,16 +82,16 @@ def _numbered(devices: Path) -> Iterator[tuple[int, Path]]:
                 yield int(digits), folder
 
 
-def _text_in(file: Path) -> str:
+def _read_text(file: Path) -> str:
     try:
         return one_line(file.read_text(encoding="utf-8", errors="replace").strip())
     except OSError:
         return ""
 
 
-def _probed() -> Iterator[CameraDevice]:
+def _probe_devices() -> Iterator[CameraDevice]:
     with quiet_opencv():
-        for number in range(_MOST_PROBED):
+        for number in range(_MOST_TRIED):
             capture = cv2.VideoCapture(number)
             if capture.isOpened():
                 yield CameraDevice(number, f"Camera {number + 1}")
@@ -106,7 +106,7 @@ class CameraSource:
         self._began = 0.0
 
     def open(self) -> None:
-        """Open the camera at the size of a full-HD film, or the nearest that it has."""
+        """Open the camera in full HD, or in the nearest size that it has."""
         self.close()
         with quiet_opencv():
             kind = cv2.CAP_V4L2 if IS_LINUX else cv2.CAP_ANY
@@ -114,10 +114,10 @@ class CameraSource:
             if not capture.isOpened():
                 capture.release()
                 raise VideoError(
-                    f"The camera {self.title} cannot be opened: it is not there any more, it is "
-                    "used by another program, or this program may not use it."
+                    f"The camera {self.title} cannot be opened: it is no longer connected, "
+                    "another program uses it, or this program has no permission to use it."
                 )
-            # Uncompressed, few cameras have so large a picture so often.
+            # Without compression, few cameras deliver such large pictures fast enough.
             capture.set(cv2.CAP_PROP_FOURCC, cv2.VideoWriter.fourcc(*"MJPG"))
             capture.set(cv2.CAP_PROP_FRAME_WIDTH, _WIDTH)
             capture.set(cv2.CAP_PROP_FRAME_HEIGHT, _HEIGHT)

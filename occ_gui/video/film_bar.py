@@ -1,4 +1,4 @@
-"""Bars of the film: what is opened and read, and buttons that play it and step through it."""
+"""Bars of the film: a bar to open and read films, and a bar to play and step through one."""
 
 from collections.abc import Sequence
 
@@ -29,7 +29,7 @@ class FilmBar(QWidget):
         super().__init__()
         tip = "Choose a film of a rolling-shutter camera."
         self.open = push_button("Open fil&m…", tip, self.open_asked)
-        self.camera = push_button("Camera", "Read what a camera of this computer sees, live.")
+        self.camera = push_button("Camera", "Read live from a camera of this computer.")
         self.cameras = QMenu(self.camera)
         self.camera.setMenu(self.cameras)
         self.cameras.aboutToShow.connect(self.cameras_asked)
@@ -37,7 +37,7 @@ class FilmBar(QWidget):
         self.axis = KeyedComboBox(
             "What the shutter scans",
             "Whether the shutter scans the picture line by line or column by column.\n"
-            "Of a film it is found on the first frames; choose, where that went wrong.",
+            "For a film, this is found from its first frames; change it if it is wrong.",
             dict(zip(AXES, ("line by line", "column by column"), strict=True)),
             is_fixed=True,
         )
@@ -52,7 +52,7 @@ class FilmBar(QWidget):
         self.show_reading(False)
 
     def show_film(self, title: str, *, is_film: bool, is_live: bool) -> None:
-        """Show what is read: a film, a camera's picture, or else the simulated film."""
+        """Show what is open: a film, a camera, or else the simulated film."""
         self.title.set_full_text(title)
         self.close_film.setVisible(is_film or is_live)
         self.close_film.setText("Stop camera" if is_live else "Close")
@@ -68,7 +68,7 @@ class FilmBar(QWidget):
     def show_reading(self, reading: bool, done: bool = False) -> None:
         self.read.setText("Stop reading" if reading else "Read again" if done else "Read the film")
         self.read.setToolTip(
-            "Leave it at what has been read."
+            "Stop; what has been read so far stays."
             if reading
             else "Find the packets in all frames, and measure the camera's clock."
         )
@@ -95,10 +95,10 @@ class TransportButton(IconButton):
 
 
 class Transport(QWidget):
-    """Play, step back, step on, and the frame and time that are shown."""
+    """Buttons to play and step, and the number and time of the frame that is shown."""
 
     play_asked = Signal()  # the user starts or stops the film
-    step_asked = Signal(int)  # how many frames the user goes on; back where it is below zero
+    step_asked = Signal(int)  # the number of frames that the user steps forward; negative for back
 
     def __init__(self) -> None:
         super().__init__()

@@ -1,4 +1,4 @@
-"""Controller of the film: opens it, plays it, and shows a frame beside the simulated one."""
+"""Controller of the film: opens it, plays it, and shows its frames beside simulated ones."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -12,26 +12,26 @@ from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.result_updater import ResultUpdater
 from occ_gui.shell.results import Board
 from occ_gui.values.film_choice import FilmChoice, FilmSource
-from occ_gui.video.frame_jobs import FrameRequest, ShownFrame, shown_frame
+from occ_gui.video.frame_jobs import FrameRequest, ShownFrame, process_frame
 from occ_model.photo.reading.choices import SCAN_AXES
 from occ_model.results.video import USUAL_RATE, Video, VideoFrame
 
-_TURN_MS = 33  # milliseconds between two frames on the screen, at least
+_TURN_MS = 33  # least milliseconds between two frames on the screen
 
-_DRAFT_STEP = 8  # a draft of the simulated frame shows one of so many rows, while a film plays
+_DRAFT_STEP = 8  # while a film plays, a draft simulates one of this many rows
 
 
 class FilmPlayer(QObject):
     """Plays a film at its own speed, skipping frames that would be late."""
 
-    wanted = Signal(int)  # the number of the frame that is to be shown
+    wanted = Signal(int)  # the index of the frame to show
 
     playing_changed = Signal(bool)
 
     def __init__(self, parent: QObject | None = None, clock: QElapsedTimer | None = None) -> None:
         super().__init__(parent)
-        self.index = 0  # the number of the frame that is shown, or about to be
-        self.count = 0  # how many frames there are, as far as is known
+        self.index = 0  # index of the frame that is shown or requested
+        self.count = 0  # number of frames, as far as it is known
         self._rate = USUAL_RATE
         self._began_at = 0
         self._clock = clock or QElapsedTimer()
@@ -44,13 +44,13 @@ class FilmPlayer(QObject):
         return self._turns.isActive()
 
     def set_film(self, count: int, rate: float | None) -> None:
-        """Stop, and rewind to the start of a film of so many frames at this rate."""
+        """Stop, and take another film with this number of frames and frame rate."""
         self.pause()
         self.index, self.count = 0, count
         self._rate = rate or USUAL_RATE
 
     def set_count(self, count: int) -> None:
-        """Set the number of frames, where it is found by reading the film."""
+        """Set the number of frames once reading the film has found it."""
         self.count = count
         if self.index >= count > 0:
             self.seek(count - 1)
@@ -106,9 +106,9 @@ def _open(source: FilmSource, report: Report) -> Video:
 
 
 class FilmController(QObject):
-    """The film that is open, the frame that is shown of it, and the simulated film beside it."""
+    """The open film, the frame of it that is shown, and the simulated film beside it."""
 
-    opened = Signal(object)  # the open Video, None for the simulated one
+    opened = Signal(object)  # the open Video; None for the simulated film
 
     failed = Signal(str)  # why a film cannot be opened; what was open stays
 
@@ -120,11 +120,11 @@ class FilmController(QObject):
         super().__init__()
         self._scenes, self._store = scenes, scenes.store
         self._settled = replace(self.choice, path=None)
-        """The choices of the film that is shown; one chosen since is not shown yet."""
-        self.film: Video | None = None  # the open film; None for the simulated one
-        self.is_live = False  # whether the film is a camera's, which keeps no frames
+        """The choices for the film that is shown; those for a film that is still loading differ."""
+        self.film: Video | None = None  # the open film; None for the simulated film
+        self.is_live = False  # whether the film comes from a camera, which keeps no frames
         self.last_live: VideoFrame | None = None
-        """The last frame of a camera, which stays when the camera is gone."""
+        """The last frame of a camera; it stays when the camera is gone."""
         self._is_seen = False
         self.player = FilmPlayer(self)
         self.player.wanted.connect(self.show)
@@ -136,11 +136,11 @@ class FilmController(QObject):
         self.opener.failed.connect(self._fail)
         board.select(lambda results: results.film).changed.connect(self._settle)
         self.loader: Task[FrameRequest, ShownFrame] = Task(
-            lambda request, _: shown_frame(request), "reading of a frame"
+            lambda request, _: process_frame(request), "reading of a frame"
         )
         self.loader.finished.connect(self.frame_shown)
         self.loader.failed.connect(self.frame_failed)
-        # The last one to be sent: at rest, the exact picture follows the draft.
+        # Connected last: when the film stops, the exact picture replaces the draft.
         self.player.playing_changed.connect(self._on_playing)
         for store in (scenes, scenes.settings):
             store.changed.connect(self.show)
@@ -151,7 +151,7 @@ class FilmController(QObject):
 
     @property
     def count(self) -> int:
-        """Number of frames, 0 if unknown."""
+        """Number of frames; 0 if it is unknown."""
         if self.film is None:
             return self.choice.frames
         return self.film.frame_count or 0
@@ -160,8 +160,8 @@ class FilmController(QObject):
     def rate(self) -> float | None:
         return self.choice.recording.frame_rate if self.film is None else self.film.frame_rate
 
-    def simulated(self) -> Video:
-        """Return the present scene's film; raises OccError where it cannot be recorded."""
+    def simulate(self) -> Video:
+        """Simulate a film of the present scene; raises OccError if it cannot be recorded."""
         return occ.render_video(
             self._scenes.scene, self.choice.frames, self.choice.recording,
             settings=self._scenes.settings.settings,
@@ -175,7 +175,7 @@ class FilmController(QObject):
             self.player.pause()
 
     def open(self, path: Path, axis: str = SCAN_AXES[0]) -> None:
-        """Open a film along one of SCAN_AXES; the present one stays until it can be shown."""
+        """Open a film along one of SCAN_AXES; the present film stays until the new one is ready."""
         self.edit(lambda choice: choice.open(path, axis))
 
     def edit(self, change: Callable[[FilmChoice], FilmChoice]) -> None:
@@ -207,7 +207,7 @@ class FilmController(QObject):
         self.put(film, is_live=True)
 
     def close(self) -> None:
-        """Close the film: the simulated one stays."""
+        """Close the film, so that only the simulated film is left."""
         self.is_live = False
         self.edit(lambda choice: choice.open(None))
         if self.film is not None:
@@ -215,7 +215,7 @@ class FilmController(QObject):
 
     def show_live(self, frame: VideoFrame) -> None:
         self.last_live = frame
-        if self.loader.is_idle:  # else the next one is shown
+        if self.loader.is_idle:  # else this frame is skipped
             self.show()
 
     def show(self) -> None:

@@ -1,4 +1,4 @@
-"""Jobs of one frame: take it from the film, simulate it, read it, and make its pictures."""
+"""Background work on one frame: take it from the film, simulate it, read it, and make pictures."""
 
 from dataclasses import dataclass, replace
 
@@ -17,66 +17,66 @@ from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.video.read_frame import read_by_itself
 
-_MOST_DRAFT_PIXELS = 1_000_000  # pixels of a picture up to which it is simulated as soon as a draft
+_MOST_DRAFT_PIXELS = 1_000_000  # up to this size, the exact picture is as fast as a draft
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class FrameRequest:
-    film: Video | None  # the film, None where there is only the simulated one
-    live: VideoFrame | None  # the frame of a live film, which keeps none
+    film: Video | None  # the film; None if there is only the simulated film
+    live: VideoFrame | None  # the frame of a live film, which does not keep frames
     index: int
     scene: Scene
     settings: SimulationSettings
     recording: Recording
-    # A draft of the simulated frame shows one of so many rows; 1 for the exact picture
+    # A draft of the simulated frame has one of this many rows; 1 for the exact picture
     draft_step: int = 1
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ShownFrame:
     request: FrameRequest
-    time: float | None  # when the frame began, in seconds; None where there is none
+    time: float | None  # when the frame began, in seconds; None if there is no frame
     film: ShownPicture | None
     simulated: ShownPicture | None
     instead: str
     story: FrameStory | None
 
 
-def shown_frame(request: FrameRequest) -> ShownFrame:
-    """Take a frame from its film, simulate the one of the same number, and read both."""
+def process_frame(request: FrameRequest) -> ShownFrame:
+    """Take a frame from its film, simulate the frame with the same number, and read both."""
     film, title, frame = None, "", request.live
     if frame is None and request.film is not None:
         frame = request.film.frame(request.index)
     story = None
     if frame is not None:
         title = "" if request.film is None else request.film.title
-        story = _story(frame, request.scene, None, title)
-        film = _shown(frame.image, story, f"{title}: {_at(frame)}")
+        story = _make_story(frame, request.scene, None, title)
+        film = _make_picture(frame.image, story, f"{title}: {_describe_time(frame)}")
     simulated, instead, own = None, "", None
     start = None if story is None else start_of(story.reading.results[PAPER_DECODER], request.scene)
     try:
-        own = _simulated(request, start)
+        own = _simulate(request, start)
     except OccError as error:
         instead = str(error)
     if own is not None and own.scene is not None:
         step = len(range(0, request.scene.camera.rows, request.draft_step))
         is_draft = step != request.scene.camera.rows
-        seen = _story(own, own.scene, request, "Simulated")
-        when = _at(own) if start is None else "in phase with the film"
-        simulated = _shown(own.image, seen, f"Simulated{' (draft)' * is_draft}: {when}")
+        seen = _make_story(own, own.scene, request, "Simulated")
+        when = _describe_time(own) if start is None else "in phase with the film"
+        simulated = _make_picture(own.image, seen, f"Simulated{' (draft)' * is_draft}: {when}")
         story = story or seen
     time = frame.time if frame is not None else None if own is None else own.time
     return ShownFrame(request, time, film, simulated, instead, story)
 
 
-def _at(frame: VideoFrame) -> str:
+def _describe_time(frame: VideoFrame) -> str:
     return f"frame {frame.index + 1}, {frame.time:.4f} s"
 
 
 def start_of(decoded: DecodeResult, scene: Scene) -> float | None:
-    """Return the start time with which the scene sends what was read: seconds below a packet's.
+    """Return the start time, within a packet, with which the scene sends what was read.
 
-    None where another code was read than the scene sends, or the decoder does not say where a
+    None if another code was read than the scene sends, or if the decoder does not say where a
     packet begins.
     """
     transmitter, region = scene.transmitter, decoded.region
@@ -89,17 +89,17 @@ def start_of(decoded: DecodeResult, scene: Scene) -> float | None:
     changes = np.flatnonzero(np.diff(decoded.chips)) + 1
     if not changes.size:
         return None
-    # The edge lies before the first column beyond the threshold. Where it is not in the middle of
-    # the levels, it moves rising and falling edges apart: their mean stays.
+    # An edge lies before the first column beyond the threshold. A threshold that is not midway
+    # between the levels shifts rising and falling edges in opposite directions; their mean stays.
     columns = region.first_column + starts[changes] - 0.5
     chips = changes - decoded.headers[0]
     begin = float(np.mean(columns * camera.readout_time - chips * period))
-    # A chip is read from where the exposure has passed over its edge by half.
+    # The level crosses the threshold when half of the exposure lies behind the edge.
     return float(-(begin + camera.exposure_time / 2.0) % (len(occ.packet(scene)) * period))
 
 
-def _simulated(request: FrameRequest, start: float | None) -> VideoFrame:
-    """Simulate the frame of the film's number, or one that begins at the same phase."""
+def _simulate(request: FrameRequest, start: float | None) -> VideoFrame:
+    """Simulate the frame with the film's index, or a frame that starts at the film's phase."""
     camera, scene = request.scene.camera, request.scene
     step = request.draft_step if camera.rows * camera.columns > _MOST_DRAFT_PIXELS else 1
     if start is not None:
@@ -111,14 +111,16 @@ def _simulated(request: FrameRequest, start: float | None) -> VideoFrame:
     return video.frame(request.index if start is None else 0)
 
 
-def _shown(image: ByteArray, story: FrameStory, caption: str) -> ShownPicture:
+def _make_picture(image: ByteArray, story: FrameStory, caption: str) -> ShownPicture:
     step = story.picture.rows.step
     region = story.reading.region
     return ShownPicture(image, halves_of(image), region, caption, step)
 
 
-def _story(frame: VideoFrame, scene: Scene, request: FrameRequest | None, whose: str) -> FrameStory:
-    """Read one frame by its scene, which is a simulated frame's own, with its request."""
+def _make_story(
+    frame: VideoFrame, scene: Scene, request: FrameRequest | None, source_name: str
+) -> FrameStory:
+    """Read one frame with its scene; ``request`` is None for a frame that was filmed."""
     image = frame.image
     step = 1
     if request is not None and image.shape[0] != scene.camera.rows:
@@ -127,7 +129,7 @@ def _story(frame: VideoFrame, scene: Scene, request: FrameRequest | None, whose:
     region = decoded.region or Region(0, image.shape[0], 0, image.shape[1])
     profile = column_means(image, Region(region.first_row, region.last_row, 0, image.shape[1]))
     shown = _with_size(scene, image, step)
-    decoded = _in_whole_picture(decoded, step, shown.camera.rows)
+    decoded = _scale_to_picture(decoded, step, shown.camera.rows)
     region = decoded.region or Region(0, shown.camera.rows, 0, image.shape[1])
     corners = _corners(region)
     transmitter = scene.transmitter
@@ -141,13 +143,14 @@ def _story(frame: VideoFrame, scene: Scene, request: FrameRequest | None, whose:
     )  # fmt: skip
     rows, size = range(0, shown.camera.rows, step), (shown.camera.rows, shown.camera.columns)
     picture = PictureView(image, rows, size, corners, image)
-    # Else its threshold would seem to contradict that of Explore, which is of an enhanced picture.
+    # Without this note, its threshold would seem to contradict that in the mode Explore.
     how = "enhanced" if is_enhanced else "not enhanced"
-    title = f"{whose}, frame {frame.index + 1}, read by itself, {how}: {_in_words(decoded)}"
+    place = f"{source_name}, frame {frame.index + 1}"
+    title = f"{place}, read by itself, {how}: {_describe_result(decoded)}"
     return FrameStory(picture, reading, request is not None, title)
 
 
-def _in_words(decoded: DecodeResult) -> str:
+def _describe_result(decoded: DecodeResult) -> str:
     if decoded.failure is not None:
         return decoded.failure
     return f"{decoded.payload or f'code {decoded.code}'} read."
@@ -161,7 +164,7 @@ def _with_size(scene: Scene, image: ByteArray, step: int) -> Scene:
     return scene.replace(rows=rows, columns=columns)
 
 
-def _in_whole_picture(decoded: DecodeResult, step: int, rows: int) -> DecodeResult:
+def _scale_to_picture(decoded: DecodeResult, step: int, rows: int) -> DecodeResult:
     region = decoded.region
     if region is None or step == 1:
         return decoded

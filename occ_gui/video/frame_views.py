@@ -1,4 +1,4 @@
-"""Views of the frame that is shown: its pictures side by side, and the rows of its story."""
+"""Views of a frame: its pictures side by side, and the rows of its story."""
 
 from dataclasses import dataclass
 
@@ -25,11 +25,11 @@ _LEAST = QSize(140, 90)
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ShownPicture:
-    image: ByteArray  # shape (rows, columns): the picture
+    image: ByteArray  # shape (rows, columns)
     halves: tuple[ByteArray, ...]
-    region: Region | None  # what was read of it, None where nothing was found
+    region: Region | None  # the part that was read; None if nothing was found
     caption: str
-    rows_step: int = 1  # height of a row: more than 1 in a draft
+    rows_step: int = 1  # height of a row in pixels; more than 1 in a draft
 
 
 class _Side(QStackedWidget):
@@ -61,7 +61,7 @@ class _Side(QStackedWidget):
 
 
 class FilmPictures(QWidget):
-    """The film's picture at the left, the simulated one at the right."""
+    """The picture of the film on the left, and the simulated picture on the right."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -92,15 +92,15 @@ class FilmPictures(QWidget):
 class FrameStory:
     picture: PictureView
     reading: ColumnView
-    # Whether the light that its columns gathered is known, as of a simulated frame
+    # Whether the light that its columns gathered is known, as in a simulated frame
     knows_light: bool
     title: str
 
 
 class FrameRows(QWidget):
-    """The rows, with whose frame they show, and the range of columns in view."""
+    """The rows of the story, a title that names the frame, and the ranges of columns to view."""
 
-    picture_asked = Signal()  # the user wants to see the whole picture large
+    picture_asked = Signal()  # the user wants to see the whole picture enlarged
 
     def __init__(self) -> None:
         super().__init__()
@@ -119,7 +119,7 @@ class FrameRows(QWidget):
             self.title.set_full_text(instead)
             return
         self.title.set_full_text(story.title)
-        # The light of a frame that was filmed is not known: only what its columns gathered of it.
+        # For a frame that was filmed, only what its columns gathered is known, not the light.
         self.rows.light.setVisible(story.knows_light)
         self.rows.time.setVisible(story.knows_light)
         name = "simulation" if story.knows_light else "film"

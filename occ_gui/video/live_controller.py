@@ -1,4 +1,4 @@
-"""Live camera: its newest picture is shown and read whenever the one before has been."""
+"""Live camera: shows and reads its newest picture as soon as the previous one is done."""
 
 from collections.abc import Callable, Iterator
 from threading import Condition, Thread
@@ -23,19 +23,19 @@ from occ_model.errors import OccError, VideoError
 from occ_model.results.video import Video, VideoFrame
 from occ_model.scene.scene import Scene
 
-_JOIN_SECONDS = 5.0  # longest wait, in seconds, for a device that does not answer
+_JOIN_SECONDS = 5.0  # longest wait in seconds for a device that does not respond
 
 _TURN_MS = 30  # milliseconds between two pictures on the screen
 
 
 class LiveVideo(Video):
-    """The pictures of a source as a film without end, which drops those that are not read.
+    """The pictures of a source as an endless film, which drops pictures that are not read.
 
-    The source is opened, read and closed by a thread of its own, so that decoding never delays the
-    next pictures, and a device that hangs never blocks the window.
+    A thread of its own opens, reads and closes the source, so that decoding never delays the next
+    pictures and a device that hangs never blocks the window.
 
-    ``axis``: the axis that the shutter scans, one of AXES. ``after``: the film before, whose device
-    is released first.
+    ``axis``: the axis that the shutter scans, one of AXES. ``after``: the previous film, which
+    must release its device first.
     """
 
     def __init__(
@@ -45,7 +45,7 @@ class LiveVideo(Video):
         self.shape = (0, 0)
         self.frame_rate = self.frame_count = None
         self.source = source
-        self.axis = axis  # what of its pictures the rolling shutter scans, one of AXES
+        self.axis = axis
         self._after = after
         self._changed = Condition()
         self._newest: LivePicture | None = None
@@ -62,34 +62,34 @@ class LiveVideo(Video):
 
     @property
     def problem(self) -> str | None:
-        """Why there are no more pictures, or None."""
+        """Why there are no more pictures; None if there are."""
         return self._problem
 
     def start(self) -> None:
         self.thread.start()
 
     def end(self) -> None:
-        """End filming: the device is released as soon as it answers."""
+        """End filming; the device is released as soon as it responds."""
         with self._changed:
             self._is_stopped = self.has_ended = True
             self._newest = None
             self._changed.notify_all()
 
     def join(self) -> None:
-        """Wait until the device is released, but not for ever: a driver may hang."""
+        """Wait until the device is released, but only for some seconds, as a driver may hang."""
         if self.thread.ident is not None:
             self.thread.join(_JOIN_SECONDS)
 
     def lock_exposure(self, on: bool, answer: Callable[[bool], None]) -> None:
-        """Lock or release the exposure, between two pictures.
+        """Lock or release the exposure between two pictures.
 
-        ``answer`` is called from another thread with the success.
+        ``answer`` is called from another thread; its argument says whether that was possible.
         """
         with self._changed:
             self._orders.append(lambda: answer(self.source.lock_exposure(on)))
 
     def frames(self, first: int = 0) -> Iterator[VideoFrame]:  # noqa: ARG002 - as of any film
-        """Yield the newest picture at each request, once each; ``first`` is ignored."""
+        """Yield the newest picture whenever one is requested, each only once; ignores ``first``."""
         while (frame := self._next()) is not None:
             yield frame
 
@@ -110,7 +110,7 @@ class LiveVideo(Video):
         return self.last
 
     def _grey(self, pixels: ByteArray) -> ByteArray:
-        """Return the luma, as of a film in a file, with the scan axis as columns."""
+        """Return the luma with the scan axis as columns, as for a film from a file."""
         if pixels.ndim == 3:
             pixels = np.asarray(cv2.cvtColor(pixels, cv2.COLOR_BGR2GRAY), dtype=np.uint8)
         if self.axis == "lines":
@@ -127,13 +127,13 @@ class LiveVideo(Video):
             while not self._is_stopped:
                 picture = self.source.read()
                 if picture is None:
-                    problem = f"{self.title} gives no more pictures: it has ended or is unplugged."
+                    problem = f"{self.title} delivers no more pictures: it ended or was unplugged."
                     break
                 self._put(picture)
         except OccError as error:
             problem = str(error)
         except Exception as error:  # noqa: BLE001 - a driver may raise anything
-            problem = f"{self.title} gives no more pictures ({type(error).__name__}: {error})."
+            problem = f"{self.title} delivers no more pictures ({type(error).__name__}: {error})."
         finally:
             self.source.close()
             with self._changed:
@@ -160,8 +160,8 @@ def _find(_request: None, report: Report) -> tuple[CameraDevice, ...]:
 class LiveController(QObject):
     devices_found = Signal(object)
 
-    ended = Signal(str)  # why there are no more pictures; empty where the camera was stopped
-    exposure_refused = Signal(str)  # why the exposure is not held
+    ended = Signal(str)  # why there are no more pictures; empty if the user stopped the camera
+    exposure_refused = Signal(str)  # why the exposure is not locked or released
 
     _answered = Signal(bool, bool)
 
@@ -195,7 +195,7 @@ class LiveController(QObject):
         self.start(CameraSource(device))
 
     def start(self, source: CameraDriver, axis: str = "") -> None:
-        """Read a source in place of the open film, along ``axis``, by default the source's own."""
+        """Open a source in place of the film; ``axis`` is by default the source's usual axis."""
         self.stop_filming()
         self.video = LiveVideo(source, axis or source.axis, self._last)
         self._shown = -1
@@ -241,9 +241,9 @@ class LiveController(QObject):
     def _on_answer(self, on: bool, done: bool) -> None:
         if not done:
             self.exposure_refused.emit(
-                "This camera does not let its exposure be held."
+                "The exposure of this camera cannot be held."
                 if on
-                else "This camera does not let its exposure go."
+                else "The exposure of this camera cannot be released."
             )
 
     def release(self) -> None:

@@ -1,4 +1,4 @@
-"""Look of a mark: colour, pattern and height together say whether it was read."""
+"""Look of a mark: its colour, pattern and height all say whether it was read."""
 
 from dataclasses import dataclass
 
@@ -14,27 +14,27 @@ from occ_gui.widgets.state_look import State, colours_of
 class MarkLook:
     state: State
     pattern: Qt.BrushStyle
-    height: float  # in parts of its row: it distinguishes states where patterns are too fine
+    height: float  # as a fraction of its row; tells states apart where marks are too narrow
     name: str
     meaning: str
-    heard: str  # what a screen reader says of a frame
+    spoken: str  # what a screen reader says about a frame
 
 
 _Pattern = Qt.BrushStyle
 LOOKS = {
     MarkState.READ: MarkLook(
         State.GOOD, _Pattern.SolidPattern, 1.0, "read",
-        "A frame whose place is known; a packet as all others have it.", "read",
+        "A frame with a known place, or a packet that agrees with all others.", "read",
     ),
     MarkState.UNCHECKED: MarkLook(
         State.DOUBTFUL, _Pattern.Dense5Pattern, 0.65, "not checked",
-        "Read, but nothing says whether it is right, or where it belongs.", "read, not checked",
+        "Read, but it is unknown whether it is right, or where it belongs.", "read, not checked",
     ),
     MarkState.LOST: MarkLook(
-        State.BAD, _Pattern.BDiagPattern, 0.35, "lost", "Not read, or read wrong.", "lost"
+        State.BAD, _Pattern.BDiagPattern, 0.35, "lost", "Not read, or misread.", "lost"
     ),
     MarkState.PENDING: MarkLook(
-        State.NEUTRAL, _Pattern.NoBrush, 1.0, "to come", "Not looked at yet.", "not looked at yet"
+        State.NEUTRAL, _Pattern.NoBrush, 1.0, "to come", "Not examined yet.", "not examined yet"
     ),
 }  # fmt: skip
 """In the order of the legend."""
@@ -44,7 +44,7 @@ _LEAST_OUTLINE = 4.0  # least width in pixels of a mark that is drawn with an ou
 
 
 def brush_of(state: MarkState, palette: QPalette) -> QBrush:
-    """Return the brush of a state's marks; an empty one for frames to come."""
+    """Return the brush for marks of a state; an empty brush for frames to come."""
     return QBrush(colours_of(LOOKS[state].state, palette).ink, LOOKS[state].pattern)
 
 

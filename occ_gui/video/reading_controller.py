@@ -1,4 +1,4 @@
-"""Reading of a film in the background, with a summary of all frames now and then."""
+"""Reading of a film in the background, with a regular summary of all frames."""
 
 from collections import deque
 from dataclasses import dataclass
@@ -18,35 +18,35 @@ from occ_model.scene.scene import Scene
 from occ_model.study.reading_facts import film_facts
 
 _INTERVAL = 0.1  # seconds between two reports, so that the window can draw each of them
-_LIVE_INTERVAL = 0.03  # the same for a camera, whose picture is shown with each
-_LOOK_INTERVAL = 1.0  # seconds between two looks at all frames together
-_LOOK_FRACTION = 0.2  # largest fraction of the time that looking at all frames together takes
-MOST_LIVE = 900  # frames of a live film that are remembered: half a minute of 30 a second
-MOST_MARKS = 1_000_000  # packets up to which each has a mark of its own
+_LIVE_INTERVAL = 0.03  # seconds between two reports of a camera, which also show its picture
+_LOOK_INTERVAL = 1.0  # least seconds between two readings of all frames together
+_LOOK_FRACTION = 0.2  # largest fraction of the time spent on reading all frames together
+MOST_LIVE = 900  # frames of a live film that are kept: half a minute at 30 frames a second
+MOST_MARKS = 1_000_000  # up to this number of packets, each has a mark of its own
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ReadingRequest:
     film: Video
     scene: Scene
-    is_live: bool = False  # whether it has no end, so that only its last frames are remembered
+    is_live: bool = False  # whether the film has no end, so that only its last frames are kept
 
 
 def read_film(request: ReadingRequest, report: Report) -> FilmReading:
-    """Read a film from its first frame to its last, reporting FilmReadings."""
-    collected, last = _Collected(request), monotonic()
+    """Read a film from its first frame to its last, and report a FilmReading now and then."""
+    collector, last = _Collector(request), monotonic()
     interval = _LIVE_INTERVAL if request.is_live else _INTERVAL
     for frame in request.film:
         report(None)
-        collected.add(frame)
+        collector.add(frame)
         if monotonic() - last >= interval:
-            report(collected.reading())
+            report(collector.summarize())
             last = monotonic()
-    collected.look()
-    return collected.reading()
+    collector.read_together()
+    return collector.summarize()
 
 
-class _Collected:
+class _Collector:
     def __init__(self, request: ReadingRequest) -> None:
         most = MOST_LIVE if request.is_live else None
         self._request = request
@@ -66,8 +66,8 @@ class _Collected:
 
     def add(self, frame: VideoFrame) -> None:
         if self._request.is_live and self._frames == MOST_LIVE:
-            # What it knows grows with every frame.
-            self.look()
+            # A new reader, because the memory of the old one grows with every frame.
+            self.read_together()
             self._reader, self._frames = self._new_reader(), 0
             self._before = self._packets
         self._known = self._reader.add(frame)
@@ -75,10 +75,10 @@ class _Collected:
         self._times.append(frame.time)
         self._states.append(state_of_frame(self._known.frame))
         if monotonic() >= self._next_look:
-            self.look()
+            self.read_together()
 
-    def look(self) -> None:
-        """Read all frames together: later ones show the places of earlier ones."""
+    def read_together(self) -> None:
+        """Read all frames together, because later frames tell the places of earlier ones."""
         if not self._frames:
             return
         began = monotonic()
@@ -88,11 +88,11 @@ class _Collected:
                 break
             self._states[-place] = state_of_frame(frame)
         found = marks_of_packets(self._whole.packets)
-        self._packets = _joined(self._before, found, self._times[0])
+        self._packets = _join_marks(self._before, found, self._times[0])
         took = monotonic() - began
         self._next_look = monotonic() + max(_LOOK_INTERVAL, took / _LOOK_FRACTION)
 
-    def reading(self) -> FilmReading:
+    def summarize(self) -> FilmReading:
         known = self._known
         if known is None:
             problem = self._request.film.problem
@@ -111,7 +111,7 @@ class _Collected:
 
 
 def state_of_frame(frame: FrameReading) -> MarkState:
-    """Return whether a frame's chips were read, with their place in what is sent."""
+    """Return the state of a frame: whether its chips were read, and their place is known."""
     if frame.place is not None:
         return MarkState.READ
     return MarkState.UNCHECKED if frame.chips.size else MarkState.LOST
@@ -124,7 +124,7 @@ def state_of_packet(packet: PacketReading) -> MarkState:
 
 
 def marks_of_packets(packets: SentPackets) -> Marks:
-    """Return a mark for each packet; of very many one for all that lie between two in view."""
+    """Return a mark for each packet; if there are very many, lost packets share a mark."""
     shown = np.array([packet.number for packet in packets.in_view], dtype=np.int64)
     if len(packets) <= MOST_MARKS:
         edges = np.arange(len(packets) + 1)
@@ -137,8 +137,8 @@ def marks_of_packets(packets: SentPackets) -> Marks:
     return Marks(starts, last + packets.steps(edges[:-1]), states)
 
 
-def _joined(before: Marks, after: Marks, first: float) -> Marks:
-    """Return both sequences of marks, from a time on."""
+def _join_marks(before: Marks, after: Marks, first: float) -> Marks:
+    """Join two sequences of marks, and drop the marks that end before ``first``."""
     if not len(before):
         return after
     last = float(after.starts[0]) if len(after) else np.inf
@@ -161,12 +161,12 @@ def sentences_of(
     elif known.clock is not None:
         said += known.clock.problems
     if whole is not None and whole.cut_off:
-        said.append(_losses(known, whole))
+        said.append(_explain_losses(known, whole))
     return tuple(dict.fromkeys(said))
 
 
-def _losses(known: FilmProgress, whole: VideoReading) -> str:
-    """Explain lost packets, whose bits do not count as wrong."""
+def _explain_losses(known: FilmProgress, whole: VideoReading) -> str:
+    """Explain which packets were lost; their bits do not count as wrong."""
     where = "sent in the gap between two frames, or cut off by a frame's edge"
     if unplaced := known.frames - known.placed:
         where += f", or in {counted(unplaced, 'frame')} without a known place"
@@ -178,10 +178,10 @@ def _losses(known: FilmProgress, whole: VideoReading) -> str:
 
 
 class ReadingController(QObject):
-    """The reading of one film at a time, which grows while the film is read."""
+    """Reads one film at a time; the result grows while the film is read."""
 
-    changed = Signal()  # more has been read, the reading has ended, or it is of another film
-    failed = Signal(str)  # why a film cannot be read on; what was read of it stays
+    changed = Signal()  # more has been read, the reading has ended, or there is another film
+    failed = Signal(str)  # why the rest of a film cannot be read; what was read stays
 
     def __init__(self) -> None:
         super().__init__()

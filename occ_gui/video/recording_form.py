@@ -18,13 +18,13 @@ from occ_model.scene.scene import Scene
 from occ_model.scene.units import SECOND
 
 FRAMES = Count(
-    "frames", "Frames", "", "How many frames the simulated film has.",
+    "frames", "Frames", "", "Number of frames of the simulated film.",
     low=COUNTS[0], high=COUNTS[-1], default=FIRST_FRAMES,
 )  # fmt: skip
 
 
 class RecordingForm(QWidget):
-    """Fields of the frame rate, the jitter, the clocks and the length of the simulated film."""
+    """Fields for the length, frame rate, jitter and clocks of the simulated film."""
 
     changed = Signal()  # the user has entered another value
     save_asked = Signal()  # the user writes the simulated film to a file
@@ -56,10 +56,10 @@ class RecordingForm(QWidget):
         form.addRow(self.gap)
         self.save = push_button(
             "Sa&ve the simulated film…",
-            "MKV, GIF and PNG keep every grey level, MP4 does not. The scene is inside.",
+            "MKV, GIF and PNG keep every grey level; MP4 does not. The file contains the scene.",
             self.save_asked,
         )
-        self.saving = WorkBar("How much of the film has been written")
+        self.saving = WorkBar("Progress of writing the film")
         line = filled(QHBoxLayout(), self.save, self.saving, None)
         form.addRow(line)
         self.show_recording(self.recording)
@@ -78,7 +78,7 @@ class RecordingForm(QWidget):
             self.count.setValue(frames)
 
     def show_scene(self, scene: Scene) -> None:
-        """Show what a film of this scene misses between frames, or why there is none."""
+        """Show how much a film of this scene misses between frames, or why it is refused."""
         try:
             self.recording.check(scene)
         except OccError as error:
@@ -86,7 +86,7 @@ class RecordingForm(QWidget):
             return
         gap, fraction = self.recording.gap(scene), 100.0 * self.recording.gap_ratio(scene)
         self.gap.setText(
-            f"Between two frames no column is read for {SECOND.format(gap, 4)}, "
+            f"Between two frames, no column is read out for {SECOND.format(gap, 4)}, "
             f"{fraction:.1f} % of a frame."
         )
 

@@ -1,4 +1,4 @@
-"""Timeline of a film: its frames and packets, read or lost, and the frame that is shown."""
+"""Timeline of a film: frames and packets, read or lost, and the frame that is shown."""
 
 import math
 
@@ -23,10 +23,10 @@ from occ_gui.widgets.columns import round_step
 from occ_gui.widgets.guarded_paint import guarded
 
 _LEAST_GUTTER, _NAME_PADDING, _MARGIN = 64, 6, 10
-"""Pixels at the left at least, around the rows' names, and at the right."""
+"""Least width of the names of the rows, room around them, and the margin at the right."""
 
 _FRAMES, _PACKETS, _TICKS, _GAP = 24, 18, 18, 4
-_LEAST_SPACING = 80.0  # fewest pixels between two ticks
+_LEAST_SPACING = 80.0  # least pixels between two ticks
 _LEAST_MARK = 3.0  # least width in pixels of a single mark; narrower ones are counted in bins
 
 _STEPS = {
@@ -91,10 +91,10 @@ class Timeline(QWidget):
         self.setAccessibleDescription(
             f"frame {self.index + 1} of {count}, "
             f"{float(self.frames.starts[self.index]):.3f} s, "
-            f"{LOOKS[MarkState(int(self.frames.states[self.index]))].heard}"
+            f"{LOOKS[MarkState(int(self.frames.states[self.index]))].spoken}"
         )
 
-    # Where things are.
+    # Layout.
 
     def _gutter(self) -> int:
         names = "frames", "packets"
@@ -115,7 +115,7 @@ class Timeline(QWidget):
         """Return the frame at a pixel, clamped to the film."""
         area = self._area()
         time = self._first + (x - area.left()) / area.width() * (self._last - self._first)
-        order = np.argsort(self.frames.starts, kind="stable")  # some films state another one
+        order = np.argsort(self.frames.starts, kind="stable")  # the times of some films go back
         place = int(np.searchsorted(self.frames.starts, time, side="right", sorter=order)) - 1
         return int(order[max(place, 0)]) if len(order) else 0
 
@@ -176,9 +176,9 @@ class Timeline(QWidget):
             draw_mark(painter, cell.intersected(place), MarkState(state), palette)
 
     def _draw_bins(self, painter: QPainter, place: QRectF, marks: Marks) -> None:
-        """Draw stacked counts of the states of marks that fall on a few pixels."""
+        """Draw how many marks of each state lie in bins of a few pixels, as stacked bars."""
         bins = max(1, int(place.width() / _LEAST_MARK))
-        counts = marks.counted(np.linspace(self._first, self._last, bins + 1))
+        counts = marks.count_states(np.linspace(self._first, self._last, bins + 1))
         painter.setPen(Qt.PenStyle.NoPen)
         states = (MarkState.READ, MarkState.UNCHECKED, MarkState.LOST)
         brushes = {state: brush_of(state, self.palette()) for state in states}
@@ -249,7 +249,7 @@ class Timeline(QWidget):
             self._seek(self.frame_at(event.position().x()))
 
     def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 - Qt's name
-        """Step by the arrows, go to the ends by Home and End, play by the space bar."""
+        """Step with the arrow keys, go to the ends with Home and End, play with the space bar."""
         key = Qt.Key(event.key())
         if key in _STEPS:
             self._seek(self.index + _STEPS[key])
@@ -270,9 +270,9 @@ class Timeline(QWidget):
 
 
 def tick_step(span: float, width: float) -> tuple[float, int]:
-    """Return the step between ticks in seconds, and its decimals.
+    """Return the step between ticks in seconds, and the number of its decimals.
 
-    ``span``: the time in view, in seconds, more than zero. ``width``: its pixels.
+    ``span``: the time in view, in seconds, more than zero. ``width``: the pixels it takes.
     """
     step = round_step(span * _LEAST_SPACING / max(width, 1.0) * 0.999)
     return step, max(0, -math.floor(math.log10(step * 1.001)))

@@ -1,4 +1,4 @@
-"""Pane of the films: the film beside its simulation, what is read of it, and its timeline."""
+"""Pane of films: the film beside its simulation, what is read from it, and its timeline."""
 
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QKeyEvent, QTextCursor
@@ -26,7 +26,7 @@ from occ_gui.widgets.plain_text import in_tool_tip
 from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_model.results.fact import Fact
 
-_MOST_TEXT = 200_000  # most characters of the text that are kept on the screen: its end
+_MOST_TEXT = 200_000  # most characters of text that are shown, from its end
 
 _LEAST_HEIGHT = 40
 
@@ -36,11 +36,11 @@ _LEAST_FORM = QSize(240, 80)
 
 
 class DataView(QWidget):
-    """The received text, the facts of the reading, and remarks."""
+    """The text that was read, facts about the reading, and remarks."""
 
     def __init__(self) -> None:
         super().__init__()
-        hint = "What is read of the film appears here."
+        hint = "What is read from the film appears here."
         field = QPlainTextEdit(readOnly=True, placeholderText=hint, tabChangesFocus=True)
         self.text = named(field, "What was read")
         self.text.setMinimumHeight(_LEAST_HEIGHT)
@@ -67,7 +67,7 @@ class DataView(QWidget):
             return
         bar = self.text.verticalScrollBar()
         follows, place = bar.value() >= bar.maximum(), bar.value()
-        if shown and text.startswith(shown):  # what is selected stays so
+        if shown and text.startswith(shown):  # a selection stays
             cursor = QTextCursor(self.text.document())
             cursor.movePosition(QTextCursor.MoveOperation.End)
             cursor.insertText(text[len(shown) :])
@@ -99,7 +99,7 @@ class DataView(QWidget):
 
 
 class VideoView(QWidget):
-    """Pictures above, rows, data and recording in pages below them, and the timeline."""
+    """Pictures at the top, pages of rows, data and recording below them, and the timeline."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -130,7 +130,7 @@ class VideoView(QWidget):
         self._outdated = [OutdatedMark(part) for part in (self.data, self.timeline)]
 
     def _size_by_page(self) -> None:
-        """Let only the visible page need height: the pictures get what is left."""
+        """Let only the visible page take height, so that the pictures get the rest."""
         kinds = QSizePolicy.Policy
         for page in self._pages:
             is_shown = page is self.pages.currentWidget()
@@ -142,7 +142,7 @@ class VideoView(QWidget):
         self.message.setVisible(bool(sentence))
 
     def show_large(self) -> None:
-        """Give the pictures most of the pane, and show the whole of them."""
+        """Give the pictures most of the pane, and show them whole."""
         height = sum(self.split.sizes())
         self.split.setSizes(
             [_LARGE_PICTURE_PERCENT * height // 100, (100 - _LARGE_PICTURE_PERCENT) * height // 100]
@@ -159,5 +159,5 @@ class VideoView(QWidget):
             mark.show_age(1.0 if outdated else 0.0, "read for an earlier scene")
 
     def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 - Qt's name
-        """Apply the keys of the timeline wherever no other widget uses them."""
+        """Pass keys that no other widget uses to the timeline."""
         self.timeline.keyPressEvent(event)

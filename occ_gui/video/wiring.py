@@ -1,4 +1,4 @@
-"""Connections of the film's pane with opening, showing, reading and filming."""
+"""The pane of films: connects its view with the controllers that open, show, read and film."""
 
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -113,12 +113,12 @@ class VideoWiring(Pane[FilmChoice]):
 
     @property
     def is_idle(self) -> bool:
-        """Whether the frame is shown and the film read; a camera never comes to an end."""
+        """Whether the frame is shown and the film is read; the reading of a camera never ends."""
         endless = self.readings.runner if self.live.is_filming else None
         return all(task.is_idle for task in self.tasks if task is not endless)
 
     def set_seen(self, seen: bool) -> None:
-        """Show frames while the pane is visible; a hidden one releases its camera."""
+        """Show frames while the pane is visible; release the camera when it is hidden."""
         if not seen:
             self.live.stop_filming()
             self._show_bar()
@@ -140,7 +140,7 @@ class VideoWiring(Pane[FilmChoice]):
             self.readings.cancel()
             return
         try:
-            film = self.films.film or self.films.simulated()
+            film = self.films.film or self.films.simulate()
         except OccError as error:
             self.view.show_message(str(error))
             return
@@ -148,7 +148,7 @@ class VideoWiring(Pane[FilmChoice]):
 
     def save(self, path: Path) -> None:
         try:
-            self.saving.start(_FilmToSave(path, self.films.simulated()))
+            self.saving.start(_FilmToSave(path, self.films.simulate()))
         except OccError as error:
             self.status_message.emit(str(error))
 
@@ -157,7 +157,7 @@ class VideoWiring(Pane[FilmChoice]):
         self.live.release()
         super().stop()
 
-    # What happens.
+    # Handling events.
 
     def _on_film(self, film: Video | None) -> None:
         self.readings.forget()
@@ -214,7 +214,7 @@ class VideoWiring(Pane[FilmChoice]):
         self.view.show_message(sentence)
 
     def _scan_along(self, axis: str) -> None:
-        """Read the film or the camera anew, along another axis."""
+        """Open the film or the camera again, along another axis."""
         if self.live.is_filming:
             self.live.scan_along(axis)
         elif self.path is not None:
@@ -224,7 +224,7 @@ class VideoWiring(Pane[FilmChoice]):
         self.view.bar.list_cameras(None)
         self.live.find()
 
-    # What is shown.
+    # Showing the state.
 
     def _show_bar(self) -> None:
         film, form = self.films.film, self.view.form
@@ -262,10 +262,10 @@ class VideoWiring(Pane[FilmChoice]):
         view.transport.show_place(index, count, shown.time)
 
     def _placeholder(self) -> str:
-        """Return the text in place of a film's frame while there is none."""
+        """Return the text to show while there is no frame of a film."""
         if self.films.film is not None or self.films.is_live:
-            return "The frame is on its way."
-        return "Open a film, or use a camera, to see it beside the simulated one."
+            return "Loading the frame…"
+        return "Open a film, or use a camera, to see it beside the simulated film."
 
     def _show_reading(self) -> None:
         readings = self.readings
@@ -283,7 +283,7 @@ class VideoWiring(Pane[FilmChoice]):
         self.view.show_outdated(scene is not None and scene != self._scenes.scene)
 
     def _frames(self) -> Marks:
-        """Return the marks of frames read and of those still to come."""
+        """Return marks for the frames that were read and for the frames to come."""
         reading = self.readings.reading
         read = len(reading.times)
         step = 1.0 / (self.films.rate or USUAL_RATE)

@@ -1,1 +1,1 @@
-"""Widgets and plot elements that several panes use."""
+"""Widgets and elements of plots that several panes use."""

@@ -1,4 +1,4 @@
-"""Plot axes: a linear one and a logarithmic one, whose drawing cannot raise an exception."""
+"""A linear and a logarithmic axis for plots; an exception while drawing them is only reported."""
 
 import math
 from typing import Any
@@ -11,21 +11,21 @@ from PySide6.QtWidgets import QGraphicsSceneResizeEvent, QStyleOptionGraphicsIte
 from occ_gui.widgets.columns import round_step
 from occ_gui.widgets.guarded_paint import guarded
 
-NUMBER_LENGTH = {"left": 18.0, "bottom": 36.0}  # pixels that a number occupies along the axis
+NUMBER_LENGTH = {"left": 18.0, "bottom": 36.0}  # pixels that a number takes along the axis
 
 _LEAST_SPACING = 3.0  # least distance, in pixels, of unnumbered ticks at powers of ten
 
-_LEAST_NUMBERS = 2  # powers of ten in view below which other round values are numbered
+_LEAST_NUMBERS = 2  # with fewer powers of ten in view, other round values have numbers, too
 
 _LARGEST_POWER = 300  # powers of ten with a larger exponent, of either sign, are written as 1e+N
 
 
 class Axis(pg.AxisItem):  # type: ignore[misc]  # pyqtgraph has no types
-    """A linear axis that stays empty where its range cannot be numbered."""
+    """A linear axis, which stays empty if no numbers can be found for its range."""
 
     def __init__(self, side: str) -> None:
         super().__init__(side)
-        # Of values below 1 pyqtgraph would write thousandths, as 800 and "light (x0.001)".
+        # pyqtgraph would write values below 1 in thousandths: 800 and "light (x0.001)".
         self.enableAutoSIPrefix(False)
 
     @guarded
@@ -45,12 +45,12 @@ class Axis(pg.AxisItem):  # type: ignore[misc]  # pyqtgraph has no types
         self.resizeEvent()
 
     def _fit_name(self) -> None:
-        """Shorten the name by dots where the plot is too low or narrow; its tip holds the whole."""
+        """Shorten the name if the plot is too small for it; its tooltip shows the whole name."""
         label, name = self.label, self.labelText
         if label is None or not name:  # None once the plot is closed
             return
         is_upright = self.orientation in {"left", "right"}
-        # Up to the same distance on both sides of the axis the plot has room, too.
+        # The name may extend beyond both ends of the axis by the same distance.
         place = self.scenePos()
         room = self.height() + 2.0 * place.y() if is_upright else self.width()
         label.setHtml(self.labelString())
@@ -67,7 +67,7 @@ class Axis(pg.AxisItem):  # type: ignore[misc]  # pyqtgraph has no types
     def generateDrawSpecs(  # noqa: N802 - pyqtgraph's name
         self, painter: QPainter
     ) -> tuple[Any, Any, list[tuple[QRectF, Any, str]]] | None:
-        """Lay out the axis, with numbers at whole pixels: between them Qt's versions differ."""
+        """Lay out the axis with numbers at whole pixels, which all versions of Qt draw alike."""
         found = super().generateDrawSpecs(painter)
         if found is None:
             return None
@@ -78,7 +78,7 @@ class Axis(pg.AxisItem):  # type: ignore[misc]  # pyqtgraph has no types
 class LogAxis(Axis):
     """An axis for decimal logarithms, labelled with the values themselves.
 
-    ``least``: the exponent at which all smaller values are drawn, too; it is labelled with ≤.
+    ``least``: the exponent at which all smaller values are drawn; its label begins with ≤.
     """
 
     def __init__(self, side: str, least: int | None = None) -> None:
@@ -99,7 +99,7 @@ class LogAxis(Axis):
         is_short = len(numbered) < _LEAST_NUMBERS and self._least not in numbered
         if is_short and abs(high) <= _LARGEST_POWER:
             numbered = self._round_values(low + edge, high - edge, decades_a_pixel)
-        # Limited by the pixels: a view can be zoomed to any number of decades.
+        # Limited by the pixels, because a view can show any number of decades.
         powers = self._powers(low, high, max(1, math.ceil(_LEAST_SPACING * decades_a_pixel)))
         digits = range(1, 10) if step == 1 else (1,)
         ticks = [power + math.log10(digit) for power in powers for digit in digits]
@@ -107,14 +107,14 @@ class LogAxis(Axis):
         return [(1.0, numbered), (0.1, between)]
 
     def _round_values(self, low: float, high: float, decades_a_pixel: float) -> list[float]:
-        """Return evenly spaced round values, with room for a number where they are closest."""
+        """Return evenly spaced round values, with room for a number where they are densest."""
         largest = 10.0**high
         step = round_step(largest * (1.0 - 10.0 ** (-self._number_length * decades_a_pixel)))
         first, last = math.ceil(10.0**low / step), math.floor(largest / step)
         return [math.log10(place * step) for place in range(max(first, 1), last + 1)]
 
     def _powers(self, low: float, high: float, step: int) -> range:
-        """Return each ``step``-th exponent in an interval, counted from the least one."""
+        """Return every ``step``-th exponent in an interval, counted from the least exponent."""
         first = math.floor(low)
         return range(first + ((self._least or 0) - first) % step, math.ceil(high) + 1, step)
 

@@ -1,4 +1,4 @@
-"""Layouts that are filled, and widgets that are made and named, in one call."""
+"""Functions that fill a layout, or make and name a widget, in one call."""
 
 from collections.abc import Callable
 from typing import Any, TypeAlias, TypeVar
@@ -17,7 +17,8 @@ from PySide6.QtWidgets import (
 
 Box = TypeVar("Box", bound=QBoxLayout)
 Part: TypeAlias = QWidget | QLayout | int | tuple[Any, ...] | None
-"""A widget or a layout, also with its stretch and alignment; pixels of space; None: a stretch."""
+"""A widget or a layout, or a tuple of it with its stretch and alignment; an integer for pixels of
+space; None for a stretch."""
 
 
 def filled(
@@ -26,7 +27,7 @@ def filled(
     margins: int | tuple[int, int, int, int] | None = None,
     spacing: int | None = None,
 ) -> Box:
-    """Fill a layout; margins and spacing default to those of the style."""
+    """Fill a layout, and return it; margins and spacing default to those of the style."""
     if margins is not None:
         left, top, right, bottom = (margins,) * 4 if isinstance(margins, int) else margins
         layout.setContentsMargins(left, top, right, bottom)
@@ -63,7 +64,7 @@ def push_button(
     *,
     name: str = "",
 ) -> QPushButton:
-    """Make a button; without a name of its own Qt gives screen readers its present text."""
+    """Make a button; without ``name``, screen readers get its text."""
     made = named(QPushButton(text), name, tip)
     if do is not None:
         made.clicked.connect(do)
@@ -73,7 +74,7 @@ def push_button(
 def check_box(
     text: str, tip: str = "", do: Callable[..., object] | SignalInstance | None = None
 ) -> QCheckBox:
-    """Make a check box; ``do`` is called at every change, by the user or not."""
+    """Make a check box; ``do`` is called at every change, also by the program."""
     made = QCheckBox(text)
     made.setToolTip(tip)
     if do is not None:
@@ -82,7 +83,7 @@ def check_box(
 
 
 def read_only(table: Table, name: str, tip: str = "") -> Table:
-    """Make a table read-only: whole rows without numbers; the Tab key leaves it."""
+    """Make a table read-only: it selects whole rows, and the Tab key leaves it."""
     table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
     table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
     table.verticalHeader().hide()

@@ -1,4 +1,4 @@
-"""Cells of chips: filled where the LED is on, with their digits."""
+"""Chips as cells, filled where the LED is on, with their digits."""
 
 from collections.abc import Sequence
 from functools import cache
@@ -11,13 +11,13 @@ from occ_gui.widgets.colours import seen_on
 _LEAST_DIGIT_WIDTH = 7.5
 
 _MIN_FITTING_FRACTION = 0.6
-"""Least fraction of the cells with room for a digit: those at the edges are cut off."""
+"""Least fraction of cells with room for a digit; cells at the edges may be cut off."""
 
 _FADED_OPACITY = 0.45
 
 
 @cache
-def _digit(value: int) -> QStaticText:
+def _digit_text(value: int) -> QStaticText:
     text = QStaticText(str(value))
     text.setTextFormat(Qt.TextFormat.PlainText)
     return text
@@ -26,7 +26,7 @@ def _digit(value: int) -> QStaticText:
 def draw_digits(
     painter: QPainter, cells: Sequence[tuple[int, QRectF]], within: QRectF | None = None
 ) -> None:
-    """Write each chip's digit into its cell, where there is room ``within`` the visible area."""
+    """Write the digit of each chip into its cell, if there is room ``within`` the visible area."""
     size = painter.fontMetrics().size(0, "0")
     width, height = size.width(), size.height()
     for chip, cell in cells:
@@ -34,11 +34,11 @@ def draw_digits(
         is_whole = within is None or within.left() <= left <= within.right() - width
         if cell.width() >= _LEAST_DIGIT_WIDTH and is_whole:
             top = cell.top() + (cell.height() - height) / 2
-            painter.drawStaticText(QPointF(left, top), _digit(chip))
+            painter.drawStaticText(QPointF(left, top), _digit_text(chip))
 
 
 def have_room_for_digits(cells: Sequence[tuple[int, QRectF]]) -> bool:
-    """Return whether most cells have room for their digits; else none gets one."""
+    """Return whether most cells have room for a digit; if not, no digit is drawn."""
     wide = sum(cell.width() >= _LEAST_DIGIT_WIDTH for _, cell in cells)
     return wide >= _MIN_FITTING_FRACTION * len(cells)
 
@@ -51,7 +51,7 @@ def draw_chips(
     certain: bool = True,
     within: QRectF | None = None,
 ) -> None:
-    """Draw chips at their places; uncertain ones are faded, with digits in the colour of text."""
+    """Draw chips; uncertain chips are faded, with digits in the colour of text."""
     lit = seen_on(palette, colour)
     base, text = (
         palette.color(role) for role in (QPalette.ColorRole.Base, QPalette.ColorRole.Text)

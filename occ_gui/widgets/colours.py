@@ -7,8 +7,8 @@ from PySide6.QtGui import QBrush, QColor, QPalette, QPen
 
 from occ_model import colours
 
-_LEAST_CONTRAST = 4.5  # of text to its background by WCAG 2.1 (success criterion 1.4.3)
-_LIGHTNESS_STEP = 108  # step of the lightness, in percent
+_LEAST_CONTRAST = 4.5  # between text and its background by WCAG 2.1 (success criterion 1.4.3)
+_LIGHTNESS_STEP = 108  # each step makes the lightness this many percent of what it was
 
 
 def luminance(colour: QColor) -> float:
@@ -27,15 +27,15 @@ def contrast(one: QColor, other: QColor) -> float:
 
 
 def seen_on(palette: QPalette, colour: QColor) -> QColor:
-    """Lighten a colour on a dark background to the least contrast; keep it on a light one."""
-    return QColor(_seen(palette.color(QPalette.ColorRole.Base).rgba(), colour.rgba()))
+    """Lighten a colour to the least contrast on a dark background; keep it on a light one."""
+    return QColor(_lighten(palette.color(QPalette.ColorRole.Base).rgba(), colour.rgba()))
 
 
 @lru_cache(maxsize=256)
-def _seen(paper_rgba: int, ink_rgba: int) -> QColor:
+def _lighten(paper_rgba: int, ink_rgba: int) -> QColor:
     paper, ink = QColor.fromRgba(paper_rgba), QColor.fromRgba(ink_rgba)
     while luminance(paper) < luminance(ink) < 1.0 and contrast(ink, paper) < _LEAST_CONTRAST:
-        # By the lightness of HSL, towards white; the value of HSV ends at pure blue.
+        # In HSL, a growing lightness leads to white; in HSV, a growing value ends at pure blue.
         ink = QColor.fromHslF(
             ink.hslHueF(), ink.hslSaturationF(), min(1.0, ink.lightnessF() * _LIGHTNESS_STEP / 100)
         )
@@ -43,7 +43,7 @@ def _seen(paper_rgba: int, ink_rgba: int) -> QColor:
 
 
 def mixed(one: QColor, other: QColor, fraction: float) -> QColor:
-    """Return the opaque colour of one colour over another, at this opacity."""
+    """Return the opaque colour that results from one colour over another with this opacity."""
     parts = zip(one.getRgb()[:3], other.getRgb()[:3], strict=True)  # type: ignore[index]
     return QColor(*(round(fraction * a + (1.0 - fraction) * b) for a, b in parts))
 
@@ -62,11 +62,11 @@ THRESHOLD = QColor(colours.THRESHOLD)
 REGION = QColor(colours.REGION)
 NOISE = QColor(colours.NOISE)
 BEFORE = QColor("#8A8A8A")
-"""Colour of the results before the last change: grey, which nothing else uses."""
+"""Colour of the results from before the last change: a grey that nothing else uses."""
 
 
 def thin(colour: QColor, style: Qt.PenStyle = Qt.PenStyle.SolidLine) -> QPen:
-    """Return a pen of width one, as of lines that divide and mark."""
+    """Return a pen of width one, for lines that divide or mark."""
     pen = QPen(QBrush(colour), 1.0, style)
     pen.setCosmetic(True)
     return pen

@@ -1,4 +1,4 @@
-"""Elided label: a text that is too long is shortened by dots."""
+"""Elided label: shortens a text that is too long, and adds dots."""
 
 from PySide6.QtCore import QEvent, QSize, Qt
 from PySide6.QtGui import QResizeEvent
@@ -17,7 +17,7 @@ class ElidedLabel(QLabel):
         super().__init__()
         self._how = how
         self._full = ""
-        self._fitted: tuple[str, int] | None = None
+        self._fitted_to: tuple[str, int] | None = None
         self.setTextFormat(Qt.TextFormat.PlainText)
         self.set_full_text(text)
 
@@ -30,14 +30,14 @@ class ElidedLabel(QLabel):
 
     def _fit(self) -> None:
         wanted = (self._full, self.contentsRect().width())
-        if wanted != self._fitted:  # a text that is set anew lays its surroundings out anew
-            self._fitted = wanted
+        if wanted != self._fitted_to:  # setting a text lays out the surrounding widgets again
+            self._fitted_to = wanted
             self.setText(self.fontMetrics().elidedText(self._full, self._how, wanted[1]))
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
         super().changeEvent(event)
         if event.type() == QEvent.Type.FontChange and hasattr(self, "_how"):
-            self._fitted = None
+            self._fitted_to = None
             self._fit()
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name

@@ -12,7 +12,7 @@ _NUMBER = re.compile(r"[-+]?\d+(?:[.,]\d+)?(?:[eE][-+]?\d+)?")
 
 
 class _WheelFilter(QObject):
-    """Passes wheel events on to the page while the control does not have the focus."""
+    """Passes wheel events to the page while the control does not have the focus."""
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
         if event.type() == QEvent.Type.Wheel and isinstance(watched, QWidget):
@@ -24,13 +24,13 @@ class _WheelFilter(QObject):
 
 
 def keep_wheel_for_scrolling(control: QWidget) -> None:
-    """Let the wheel change a control's value only while it has the focus; else scroll the page."""
+    """Let the wheel change a control only while it has the focus; otherwise, scroll the page."""
     control.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
     control.installEventFilter(_WheelFilter(control))
 
 
 class _NumberFilter(QObject):
-    """Selects the whole number that is double-clicked: for Qt, it ends at the decimal point."""
+    """Selects all of a number that is double-clicked; Qt would stop at the decimal point."""
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
         if (
@@ -40,7 +40,7 @@ class _NumberFilter(QObject):
             and isinstance(watched, QLineEdit)
         ):
             place = watched.cursorPositionAt(event.position().toPoint())
-            watched.mouseDoubleClickEvent(event)  # also prepares the third click, which takes all
+            watched.mouseDoubleClickEvent(event)  # so that a third click selects the whole text
             for found in _NUMBER.finditer(watched.text()):
                 if found.start() <= place <= found.end():
                     watched.setSelection(found.start(), found.end() - found.start())
@@ -79,8 +79,8 @@ class _UndoKeyFilter(QObject):
 def leave_undo_to_window(field: QLineEdit | QAbstractSpinBox) -> None:
     """Let a field use the undo and redo keys only while its input is unfinished.
 
-    A line edit always uses them, even where it has nothing to undo. Once a value is entered, undo
-    should take back the last change of the scene.
+    A line edit always uses them, even if it has nothing to undo. Once a value is entered, undo
+    should revert the last change of the scene.
     """
     _UndoKeyFilter(field)
 

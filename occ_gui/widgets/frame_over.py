@@ -1,4 +1,4 @@
-"""A frame drawn over a widget of whatever style; it lets the mouse through."""
+"""A frame drawn over any widget, which does not receive mouse events."""
 
 from collections.abc import Callable
 
@@ -12,7 +12,7 @@ _WIDTH = 2
 
 
 class FrameOver(QWidget):
-    """``place`` returns where it lies in its parent, whenever ``watched`` has moved."""
+    """A frame in ``parent`` where ``place`` says, which is asked again when ``watched`` moves."""
 
     def __init__(
         self,

@@ -10,7 +10,7 @@ Paint = TypeVar("Paint", bound=Callable[..., None])
 
 
 def guarded(paint: Paint) -> Paint:
-    """Report an exception of a paint method as an unhandled one, and continue."""
+    """Report an exception of a paint method like an unhandled exception, and continue."""
 
     @wraps(paint)
     def draw(*arguments: Any) -> None:
@@ -18,7 +18,7 @@ def guarded(paint: Paint) -> Paint:
             paint(*arguments)
         except Exception as error:  # noqa: BLE001 - Qt cannot handle any
             sys.excepthook(type(error), error, error.__traceback__)
-            # A painter that is still active when Qt continues would end the program.
+            # A painter that is still active when Qt continues would crash the program.
             clear_frames(error.__traceback__)
 
     return draw  # type: ignore[return-value]

@@ -1,4 +1,4 @@
-"""Icons: drawings in SVG, in the colours of a palette and sharp on any screen."""
+"""Icons from SVG drawings, in the colours of a palette and sharp on any screen."""
 
 from functools import cache
 
@@ -14,7 +14,7 @@ PROGRAM = "occ-explorer"
 PROGRAM_SIZES = (16, 32, 48, 64, 128, 256)  # sides of the program's icon in pixels
 
 _FOLDER, _ENDING = "icons", ".svg"
-_INK = "currentColor"  # what the drawings name in place of a colour, as in CSS
+_INK = "currentColor"  # what the drawings contain in place of a colour, as in CSS
 
 
 @cache
@@ -25,8 +25,8 @@ def _drawing(name: str) -> str:
 def icon(name: str, palette: QPalette, size: int, ratio: float) -> QIcon:
     """Draw an icon for a screen, in the text colours of a palette.
 
-    ``size``: width and height, independent of the screen.
-    ``ratio``: pixels of the screen that each of them takes.
+    ``size``: width and height in device-independent pixels.
+    ``ratio``: screen pixels per device-independent pixel.
     """
     found = QIcon()
     for mode, group in (
@@ -47,7 +47,7 @@ def program_icon() -> QIcon:
 
 def pixmap(name: str, colour: QColor, size: int, ratio: float) -> QPixmap:
     """Draw an icon in one colour; the parameters are those of :func:`icon`."""
-    # Loaded with the first icon that is seen, not with the program.
+    # Imported with the first icon that is shown, not when the program starts.
     from PySide6.QtSvg import QSvgRenderer
 
     side = round(size * ratio)
@@ -61,7 +61,7 @@ def pixmap(name: str, colour: QColor, size: int, ratio: float) -> QPixmap:
 
 
 class IconButton(QToolButton):
-    """A flat button with an icon of ``size`` pixels, independent of the screen."""
+    """A flat button with an icon of ``size`` device-independent pixels."""
 
     def __init__(self, drawing: str, size: int) -> None:
         super().__init__()
@@ -80,7 +80,7 @@ class IconButton(QToolButton):
 
     @guarded
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
-        """Draw the icon when it is first seen, not with the program."""
+        """Draw the icon when the button is first shown, not when the program starts."""
         if not self._is_drawn:
             self._draw()
         super().paintEvent(event)

@@ -7,11 +7,11 @@ from PySide6.QtWidgets import QComboBox, QSizePolicy
 
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
 
-_POPUP_MARGIN = 36  # pixels of a list besides its words: margins and scroll bar
+_POPUP_MARGIN = 36  # pixels for margins and scroll bar of the list
 
 
 class KeyedComboBox(QComboBox):
-    """A combo box that emits the key of the chosen word; a fixed one is as wide as its words."""
+    """A combo box that emits the key of the chosen word; if fixed, it is as wide as its words."""
 
     chosen = Signal(str)
 
@@ -32,7 +32,7 @@ class KeyedComboBox(QComboBox):
         self.activated.connect(lambda: self.chosen.emit(self.key()))
 
     def showPopup(self) -> None:  # noqa: N802 - Qt's name
-        """Open the list as wide as its widest word, however narrow the box."""
+        """Open the list as wide as its widest word, even if the box is narrower."""
         words = (self.itemText(place) for place in range(self.count()))
         widest = max(map(self.fontMetrics().horizontalAdvance, words), default=0)
         self.view().setMinimumWidth(widest + _POPUP_MARGIN)

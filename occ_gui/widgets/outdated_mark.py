@@ -1,4 +1,4 @@
-"""Mark of an outdated result: a veil over the pane, with the reason."""
+"""Mark of an outdated result: it dims the pane and shows the reason."""
 
 import math
 
@@ -8,15 +8,15 @@ from PySide6.QtWidgets import QWidget
 
 from occ_gui.widgets.guarded_paint import guarded
 
-DELAY = 0.12  # seconds: a pane that is behind for a shorter time is not marked, or it would flicker
-_FRESH_AGE = DELAY / 3  # a mark that is shown stays until a result is at most as old
+DELAY = 0.12  # seconds; a pane that is outdated for less is not marked, so that it does not flicker
+_FRESH_AGE = DELAY / 3  # a mark that is shown stays until a result is at most this old
 
 _OPACITY = 0.45
 _PADDING = 8
 
 
 class OutdatedMark(QWidget):
-    """Dims a pane while its result belongs to an earlier scene, and names the reason."""
+    """Dims a pane while its result belongs to an earlier scene, and shows the reason."""
 
     def __init__(self, pane: QWidget) -> None:
         super().__init__(pane)
@@ -30,7 +30,10 @@ class OutdatedMark(QWidget):
         pane.installEventFilter(self)
 
     def show_age(self, age: float, text: str) -> None:
-        """Mark the pane once its result is outdated for a moment; ``age`` in seconds, or 0."""
+        """Mark the pane once its result has been outdated for a moment.
+
+        ``age``: for how many seconds it has been outdated; 0 if it is not.
+        """
         if age == 0.0 and self.isHidden() and not self._waiting.isActive():
             return
         self._set_text(text)

@@ -1,4 +1,4 @@
-"""Plain text: text from files is shown literally, without markup or marks of Qt."""
+"""Plain text: text from files is shown literally, not as markup or with Qt's special characters."""
 
 import html
 
@@ -30,7 +30,7 @@ def in_title(text: str) -> str:
 
 
 def plain(text: str) -> str:
-    """Return a menu entry's text without the marks of its shortcut letters."""
+    """Return the text of a menu entry without the marks of shortcut letters."""
     return text.replace("&&", "\0").replace("&", "").replace("\0", "&")
 
 

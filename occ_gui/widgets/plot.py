@@ -1,4 +1,4 @@
-"""Plots: common axes and limits of zooming, and the legend beside one."""
+"""Plots with common axes and limits of zooming, and a legend."""
 
 from collections.abc import Callable
 from typing import TypeAlias
@@ -18,7 +18,7 @@ from occ_gui.widgets.guarded_paint import guarded
 _LINE = QSize(24, 12)
 
 DrawSample: TypeAlias = Callable[[QPainter, QRectF, QPalette], None]
-"""Draws a sample into a rectangle in the colours of a palette."""
+"""Draws a sample of a line or a point into a rectangle, in the colours of a palette."""
 
 
 class LineLegend(QWidget):
@@ -28,10 +28,10 @@ class LineLegend(QWidget):
         self._entries: dict[str, QWidget] = {}
 
     def add_line(self, key: str, pen: QPen, text: str) -> None:
-        """Add an entry, shown until :meth:`show_line` hides it."""
+        """Add an entry, which is shown until :meth:`show_line` hides it."""
         thick = QPen(pen)
         thick.setWidth(max(2, pen.width()))
-        thick.setCosmetic(False)  # as wide as the curve at any scale of the screen
+        thick.setCosmetic(False)  # as wide as the curve on any screen
 
         def draw(painter: QPainter, place: QRectF, palette: QPalette) -> None:
             middle = place.center().y()
@@ -55,7 +55,7 @@ class LineLegend(QWidget):
 
 
 class LegendSample(QWidget):
-    """The sample of a line or a point, which follows the palette and the scale of the screen."""
+    """A sample of a line or a point, which follows the palette and the scale of the screen."""
 
     def __init__(self, draw: DrawSample, size: QSize) -> None:
         super().__init__()
@@ -70,8 +70,8 @@ class LegendSample(QWidget):
 
 
 CURVE_WIDTH = 2.0
-"""Width of a curve in pixels of the window. pyqtgraph draws a solid one line by line, in 1 to 4 ms
-of processor time for 1800 points, and a dashed one as a path, in 7 ms."""
+"""Width of a curve in pixels of the window. For 1800 points, pyqtgraph draws a solid curve line by
+line in 1 to 4 ms of processor time, and a dashed curve as a path in 7 ms."""
 
 _MAX_RANGE = 2e6
 """Largest distance from zero in view, in columns, levels or runs: twice the most columns."""
@@ -84,10 +84,10 @@ _MIN_HEIGHT_FOR_AXIS_NAME = 76
 
 
 class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph has no types
-    """A plot whose lower axis has a name if the plot is high enough."""
+    """A plot that shows the name of its lower axis if it is high enough."""
 
     _is_named = False
-    _dressed: tuple[Callable[[QPalette], None], ...] = ()
+    _dressers: tuple[Callable[[QPalette], None], ...] = ()
 
     def dress(self, palette: QPalette) -> None:
         self.setBackground(palette.color(QPalette.ColorRole.Base))
@@ -95,30 +95,30 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph has no types
             axis = self.getAxis(side)
             axis.setPen(palette.color(QPalette.ColorRole.Mid))
             axis.setTextPen(palette.color(QPalette.ColorRole.Text))
-        for dress in self._dressed:
+        for dress in self._dressers:
             dress(palette)
 
     def dress_with(self, dress: Callable[[QPalette], None]) -> None:
         """Call a function with the palette, now and whenever it changes."""
-        self._dressed = (*self._dressed, dress)
+        self._dressers = (*self._dressers, dress)
         dress(self.palette())
 
     def add_curve(self, pen: QPen, *, is_crowded: bool = False) -> pg.PlotDataItem:
-        """Add an empty curve of sufficient contrast; a crowded one is as thin as its pen."""
+        """Add an empty curve of sufficient contrast; a crowded curve is as thin as its pen."""
         curve = self.plot(pen=pen)
         width = QPen if is_crowded else self.stroke
         self.dress_with(lambda palette: curve.setPen(width(pen_on(palette, pen))))
         return curve
 
     def stroke(self, pen: QPen) -> QPen:
-        """Return a pen of the width of a curve on the present screen."""
+        """Return a pen with the width of a curve on the present screen."""
         wide = QPen(pen)
-        # The pens of pyqtgraph are as wide as they are in the pixels of the screen.
+        # pyqtgraph takes the width of a pen in pixels of the screen.
         wide.setWidthF(CURVE_WIDTH * self.devicePixelRatioF())
         return wide
 
     def event(self, event: QEvent) -> bool:
-        """Draw the curves as wide on a screen of another resolution."""
+        """Draw the curves again, equally wide, if the window moves to another kind of screen."""
         done = bool(super().event(event))
         if event.type() == QEvent.Type.DevicePixelRatioChange and self.plotItem is not None:
             self.dress(self.palette())
@@ -127,8 +127,8 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph has no types
     def limit(self, side: str, farthest: float, least_span: float) -> None:
         """Limit panning and zooming to what can be drawn.
 
-        In the axis's unit, ``farthest`` is the largest distance from zero in view, ``least_span``
-        the smallest range.
+        ``farthest`` is the largest distance from zero that can be in view, and ``least_span`` the
+        smallest range, both in the unit of the axis.
         """
         axis = "X" if side == "bottom" else "Y"
         ends = {f"{axis.lower()}Min": -farthest, f"{axis.lower()}Max": farthest}
@@ -155,7 +155,7 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph has no types
 
 
 def marker(symbol: str, size: float, fill: QColor | None) -> DrawSample:
-    """Return the drawing of a plot's point for a legend: filled, or a ring in the text colour."""
+    """Return a function that draws a point of a plot: filled, or as a ring in the text colour."""
 
     def draw(painter: QPainter, place: QRectF, palette: QPalette) -> None:
         ring = QPen(palette.color(QPalette.ColorRole.Text), 1.5 / size)  # scaled below
@@ -185,12 +185,12 @@ def new_plot(
     plot.dress(palette)
     plot.name_bottom(True)
     plot.setMinimumHeight(_LEAST_HEIGHT)
-    # As high as its pane; the size hint of pyqtgraph is far too large.
+    # As high as its pane, because the size hint of pyqtgraph is far too large.
     plot.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Ignored)
     plot.hideButtons()
     for side in ("left", "bottom"):
         plot.limit(side, _MAX_RANGE, _LEAST_SPAN)
     plot.getViewBox().disableAutoRange()
-    leave_drops_to_window(plot)  # some are made when the window is long there
+    leave_drops_to_window(plot)  # for plots that are made after the window
     plot.setAcceptDrops(False)
     return plot

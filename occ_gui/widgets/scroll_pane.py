@@ -1,11 +1,11 @@
-"""Scroll pane: scrolls vertically where its content is higher."""
+"""Scroll pane: scrolls vertically if its content is higher."""
 
 from PySide6.QtCore import QEvent, QObject, QSize, Qt
 from PySide6.QtWidgets import QFrame, QScrollArea, QTabWidget, QWidget
 
 
 class ScrollPane(QScrollArea):
-    """Shows a widget as wide as the pane, and as high as it needs."""
+    """Shows a widget that is as wide as the pane, and as high as it needs to be."""
 
     def __init__(self, content: QWidget, least: QSize) -> None:
         super().__init__()
@@ -22,7 +22,7 @@ class ScrollPane(QScrollArea):
         return handled
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return the least size: no narrower than the content, which only scrolls up and down."""
+        """Return the least size, no narrower than the content, which only scrolls vertically."""
         content = self.widget()
         if content is None:
             return self._least
@@ -32,7 +32,7 @@ class ScrollPane(QScrollArea):
 
 
 def bring_into_view(widget: QWidget, margin: int = 50) -> None:
-    """Choose the tabs and scroll all around a widget so that it is seen."""
+    """Select the tabs and scroll the areas that contain a widget, so that it is visible."""
     scrolled: list[QScrollArea] = []
     page, around = widget, widget.parentWidget()
     while around is not None:
@@ -42,5 +42,5 @@ def bring_into_view(widget: QWidget, margin: int = 50) -> None:
         elif isinstance(tabs, QTabWidget):
             tabs.setCurrentWidget(page)
         page, around = around, tabs
-    for area in scrolled:  # a page that was never in front is laid out by now, and not before
+    for area in scrolled:  # only now, when a page that was never in front has been laid out
         area.ensureWidgetVisible(widget, 0, margin)

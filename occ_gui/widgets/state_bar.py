@@ -1,4 +1,4 @@
-"""State bar: a state in large letters, its reason below, and chips at the right."""
+"""State bar: a state in large letters, its reason below, and badges at the right."""
 
 import math
 from collections.abc import Sequence
@@ -21,10 +21,10 @@ _PADDING, _MARGIN = 12, 5
 
 
 class StateBar(QWidget):
-    """A title in the colours and with the icon of its state, a sentence, and a row of chips."""
+    """A title in the colours and with the icon of its state, a sentence, and a row of badges."""
 
-    MOST_LINES = 1  # lines that a sentence may take where it does not fit into one
-    changed = Signal()  # it shows something else
+    MOST_LINES = 1  # most lines that a sentence may take
+    changed = Signal()  # the bar shows something else
     step_taken = Signal()  # the user presses the button of the step that helps
 
     def __init__(self) -> None:
@@ -61,7 +61,7 @@ class StateBar(QWidget):
         return title, metrics.height() + (self._lines - 1) * metrics.lineSpacing() + 2
 
     def _place(self) -> None:
-        """Assign the title the width that it needs, and the chips what is left."""
+        """Give the title the width that it needs, and the badges the rest."""
         left = 2 * _PADDING + _ICON
         room = whole = max(0, self.width() - left - _PADDING)
         if not self.step.isHidden():
@@ -69,7 +69,7 @@ class StateBar(QWidget):
             room = max(0, whole - size.width() - _PADDING)
             top = (self.height() - size.height()) // 2
             self.step.setGeometry(left + room + _PADDING, top, size.width(), size.height())
-        text = self._fitting(room)
+        text = self._choose_sentence(room)
         self._take_lines(text, room)
         first, second = self._heights()
         wanted = self.title.fontMetrics().horizontalAdvance(self._title) + 4
@@ -83,7 +83,7 @@ class StateBar(QWidget):
         self.chips.setGeometry(beside, top, max(0, left + room - beside), height)
         for label in (self.sentence, self.wrapped):
             label.setGeometry(left, _MARGIN + first, room, second)
-        # A widget that is not shown yet gets no event of its size.
+        # A widget that is not shown yet gets no resize event.
         self.title.set_full_text(self._title)
         self.sentence.set_full_text(text)
         self.wrapped.setText(text)
@@ -103,11 +103,11 @@ class StateBar(QWidget):
         if room <= 0 or metrics.horizontalAdvance(text) <= room:
             return 1
         box = metrics.boundingRect(0, 0, room, 1, Qt.TextFlag.TextWordWrap, text)
-        # A word that is wider than the room is cut off in as many lines as there may be.
+        # A word that is wider than the room is cut off, however many lines there are.
         return max(2, math.ceil(box.height() / metrics.lineSpacing()))
 
-    def _fitting(self, room: int) -> str:
-        """Return the longest of the sentences that fits, else the shortest."""
+    def _choose_sentence(self, room: int) -> str:
+        """Return the longest sentence that fits, or else the shortest."""
         fitting = (t for t in self._sentences if self._lines_of(t, room) <= self.MOST_LINES)
         return next(fitting, self._sentences[-1])
 
@@ -117,7 +117,7 @@ class StateBar(QWidget):
 
     @property
     def heading(self) -> str:
-        """The title, however much of it fits."""
+        """The whole title, even if only a part of it fits."""
         return self._title
 
     @property
@@ -152,7 +152,7 @@ class StateBar(QWidget):
     def _take_colours(self) -> None:
         ink = colours_of(self.state, self.palette()).ink
         for label in (self.title, self.sentence, self.wrapped):
-            palette = QPalette()  # in which all other colours stay those of the theme
+            palette = QPalette()  # all other colours stay those of the theme
             palette.setColor(QPalette.ColorRole.WindowText, ink)
             label.setPalette(palette)
         self.update()

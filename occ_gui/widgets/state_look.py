@@ -1,4 +1,4 @@
-"""Look of a state: its colours, and an icon whose shape says the same without colour."""
+"""Look of a state: its colours, and an icon that shows the same by its shape."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -35,7 +35,7 @@ _COLOURS = {
     State.BAD: (("#8c1d18", "#fbdedb"), ("#ffb8b0", "#521a16")),
     State.NEUTRAL: (("#2b2b2b", "#e2e4e8"), ("#ececec", "#4a4d52")),
 }
-"""Colours of ink and paper, in the light and in the dark theme."""
+"""Colours of text and background, in the light and in the dark theme."""
 
 
 def is_dark(palette: QPalette) -> bool:

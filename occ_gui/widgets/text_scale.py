@@ -1,4 +1,4 @@
-"""Text scale: sizes of text, all relative to the application's font."""
+"""Text scale: sizes of text relative to the application's font."""
 
 from typing import TypeVar
 
@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QLabel
 Label = TypeVar("Label", bound=QLabel)
 
 
-_HEADING = 16 / 13  # size of a heading, as a factor: 16 pixels where text has 13
+_HEADING = 16 / 13  # size of a heading relative to text: 16 pixels if text has 13
 
 
 def resized(font: QFont, factor: float) -> QFont:
@@ -27,10 +27,10 @@ def heading_font(font: QFont) -> QFont:
 
 
 def emboldened(label: Label, factor: float = 1.0) -> Label:
-    """Set a label in bold, in a size that is so many times its own."""
+    """Make the text of a label bold, and change its size by a factor; return the label."""
     font = label.font()
     font.setBold(True)
-    if factor != 1.0:  # a size that is set no longer follows that of the application
+    if factor != 1.0:  # a label with a size of its own does not follow the application's size
         font = resized(font, factor)
     label.setFont(font)
     return label

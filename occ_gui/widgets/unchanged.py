@@ -1,4 +1,4 @@
-"""Comparison of what is drawn: painting takes longer than comparing."""
+"""Comparison of drawn values, to avoid painting, which takes longer than comparing."""
 
 from collections.abc import Sequence
 

@@ -1,4 +1,4 @@
-"""Work bar: the progress of some work, and a button that cancels it."""
+"""Work bar: shows the progress of some work, with a button that cancels it."""
 
 from typing import Protocol
 
@@ -9,7 +9,7 @@ from occ_gui.widgets.building import filled, named, push_button
 
 _STEPS = 1000
 
-_PATIENCE_MS = 300  # work that takes less time is not shown: the bar would only flash
+_PATIENCE_MS = 300  # work that takes less time is not shown, because the bar would only flash
 
 
 class _Reports(Protocol):
@@ -31,7 +31,7 @@ class WorkBar(QWidget):
         super().__init__(parent)
         self.progress = named(QProgressBar(), what, what)
         self.progress.setRange(0, _STEPS)
-        self.cancel = push_button("Cancel", "Give up what is being worked on.", self.cancelled)
+        self.cancel = push_button("Cancel", "Cancel this work.", self.cancelled)
         self._patience = QTimer(self, singleShot=True)
         self._patience.setInterval(_PATIENCE_MS)
         self._patience.timeout.connect(self.show)
@@ -39,7 +39,7 @@ class WorkBar(QWidget):
         self.hide()
 
     def follow(self, work: "_Work") -> None:
-        """Show the progress of this work from its begin to its end."""
+        """Show the progress of this work from its start to its end."""
         work.begun.connect(self.begin)
         work.task.reported.connect(self.show_progress)
         work.ended.connect(self.end)

@@ -156,7 +156,7 @@ def test_neither_one_edge_nor_the_scene_before_sets_the_axis_of_the_residual(
         assert view.residual.plot.getViewBox().viewRange()[1] == pytest.approx([-7.0, 7.0])
         text = view.residual.numbers.toolTip()
         assert ("outside the axis" in text) == said
-    assert f"at most {comparison.largest_residual:.0f}, beyond" in text
+    assert f"largest residual {comparison.largest_residual:.0f}, outside" in text
     ends = []
     for height, is_outdated in ((190.0, True), (4.0, False), (40.0, False), (4.0, False)):
         comparison = Comparison(0, np.full(300, 100.0 + height), np.full(300, 100.0), 0.9)

@@ -11,7 +11,7 @@ from gui.kinds import not_none
 import occ_model as occ
 from occ_gui.video import reading_controller
 from occ_gui.video.film_reading import FilmReading, MarkState
-from occ_gui.video.frame_jobs import FrameRequest, shown_frame, start_of
+from occ_gui.video.frame_jobs import FrameRequest, process_frame, start_of
 from occ_gui.video.reading_controller import (
     ReadingRequest,
     marks_of_packets,
@@ -198,7 +198,7 @@ def request_of(film_scene: Scene) -> FrameRequest:
 def test_without_a_film_the_simulated_frame_is_shown_and_read(
     request_of: FrameRequest, film: Video
 ) -> None:
-    shown = shown_frame(request_of)
+    shown = process_frame(request_of)
     assert shown.film is None
     assert shown.simulated is not None
     assert shown.story is not None
@@ -217,7 +217,7 @@ def test_without_a_film_the_simulated_frame_is_shown_and_read(
     assert reading.results["threshold"].threshold == camera.threshold
     assert "frame 4, read by itself, not enhanced: code " in shown.story.title
     dim = occ.load_preset("phone-136us").replace(switching_frequency=14.21e3, rows=1152)
-    enhanced = shown_frame(replace(request_of, index=0, scene=dim))
+    enhanced = process_frame(replace(request_of, index=0, scene=dim))
     assert enhanced.story is not None
     assert "read by itself, enhanced: code " in enhanced.story.title
 
@@ -226,7 +226,7 @@ def test_a_film_stands_beside_its_simulation_and_its_rows_are_its_own(
     request_of: FrameRequest, film: Video
 ) -> None:
     other = request_of.scene.replace(code=5)
-    shown = shown_frame(replace(request_of, film=film, scene=other))
+    shown = process_frame(replace(request_of, film=film, scene=other))
     assert shown.film is not None
     assert shown.simulated is not None
     assert shown.story is not None
@@ -242,8 +242,8 @@ def test_a_film_stands_beside_its_simulation_and_its_rows_are_its_own(
 
 def test_a_draft_lies_where_the_whole_picture_does(request_of: FrameRequest) -> None:
     large = request_of.scene.replace(rows=1000)
-    draft = shown_frame(replace(request_of, scene=large, draft_step=8)).simulated
-    whole = shown_frame(replace(request_of, scene=large)).simulated
+    draft = process_frame(replace(request_of, scene=large, draft_step=8)).simulated
+    whole = process_frame(replace(request_of, scene=large)).simulated
     assert draft is not None
     assert whole is not None
     assert "draft" in draft.caption
@@ -258,21 +258,21 @@ def test_a_scene_that_cannot_be_filmed_is_a_sentence_and_a_frame_that_is_not_the
     request_of: FrameRequest, film: Video
 ) -> None:
     fast = occ.Recording(frame_rate=1000.0)
-    shown = shown_frame(replace(request_of, film=film, recording=fast))
+    shown = process_frame(replace(request_of, film=film, recording=fast))
     assert shown.simulated is None
     assert "Reading out 1600 columns" in shown.instead
     assert shown.film is not None
-    alone = shown_frame(replace(request_of, recording=fast))
+    alone = process_frame(replace(request_of, recording=fast))
     assert (alone.story, alone.time) == (None, None)
     with pytest.raises(OccError):
-        shown_frame(replace(request_of, film=film, index=99))
+        process_frame(replace(request_of, film=film, index=99))
 
 
 def test_the_simulation_is_in_phase_with_a_film_of_the_same_code(
     request_of: FrameRequest, film: Video
 ) -> None:
     for index in range(6):
-        shown = shown_frame(replace(request_of, film=film, index=index))
+        shown = process_frame(replace(request_of, film=film, index=index))
         assert shown.simulated is not None
         assert shown.simulated.caption == "Simulated: in phase with the film"
         assert shown.story is not None

@@ -110,7 +110,7 @@ def test_no_film_is_no_trouble(qtbot: QtBot) -> None:
 def test_bins_hold_each_mark_once(states: list[MarkState], bins: int) -> None:
     times = np.arange(len(states)) / 30.0
     marks = frame_marks(times, np.array(states, dtype=np.uint8), 1.0 / 30.0)
-    counts = marks.counted(np.linspace(*marks.extent, bins + 1))
+    counts = marks.count_states(np.linspace(*marks.extent, bins + 1))
     assert counts.shape == (bins, len(MarkState))
     assert counts.sum(axis=0).tolist() == [states.count(state) for state in MarkState]
 

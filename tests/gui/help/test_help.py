@@ -194,8 +194,9 @@ def test_a_missing_manual_is_answered_with_a_sentence(
 def test_pages_and_pictures_come_out_of_an_archive(tmp_path: Path) -> None:
     archive = tmp_path / "occ.zip"
     with zipfile.ZipFile(archive, "w") as packed:
-        for file in [*ROOT.glob("occ_model/**/*.py"), *ROOT.glob("occ_gui/**/*.py")]:
-            packed.write(file, file.relative_to(ROOT))
+        for pattern in ("occ_model/**/*.py", "occ_model/*.pyi", "occ_gui/**/*.py"):
+            for file in ROOT.glob(pattern):
+                packed.write(file, file.relative_to(ROOT))
         for folder in ("docs", "pictures"):
             for file in (ROOT / "resources" / folder).iterdir():
                 packed.write(file, Path("occ_model", file.relative_to(ROOT)))

@@ -147,7 +147,7 @@ class MapView(QWidget):
         self._progress = f"{known} of {total} points measured"
         if known >= total:
             self._progress = (
-                f"{total} points, each in the middle of its cell; images per point: {images} or "
+                f"{total} points, each in the middle of its cell; images a point: {images} or "
                 "more; colour: {what}"
             )
         self._show_status()

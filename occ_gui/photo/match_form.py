@@ -247,7 +247,7 @@ class MatchForm(QWidget):
             lines.append(
                 f"two chips per cycle at {cycles}"
                 if square
-                else f"chips per second; an LED that only blinks does so at {cycles}"
+                else f"chip rate; an LED that only blinks does so at {cycles}"
             )
         if not self.certain.isChecked() and is_certain(name, known, self._forgotten):
             lines.append(

@@ -261,7 +261,7 @@ def test_stopping_ends_the_workers(qtbot: QtBot, map_bench: MapBench) -> None:
 
 def test_a_map_of_an_earlier_scene_says_so_at_once_and_is_dimmed_later(view: MapView) -> None:
     said = (
-        "91 points, each in the middle of its cell; images per point: 20 or more; "
+        "91 points, each in the middle of its cell; images a point: 20 or more; "
         "colour: success rate"
     )
     view.show_map(whole((5, 10)))

@@ -40,7 +40,7 @@ def test_what_is_known_beside_the_estimate_is_shown(view: LiveView, qtbot: QtBot
     view.show_scene(occ.Scene().replace(switching_frequency=7e3, readout_time=9e-6))
     frequency, readout = (view.form.known[n] for n in ("switching_frequency", "readout_time"))
     assert (frequency.text(), readout.isVisible()) == ("7 kHz", False)
-    assert view.form.hint.text() == "chips per second; an LED that only blinks does so at 3.5 kHz"
+    assert view.form.hint.text() == "chip rate; an LED that only blinks does so at 3.5 kHz"
     for key in ("scene", "read", "auto", "square"):
         choose(qtbot, view.form.sent, key)
         assert view.form.square.isVisible() == (key == "square")

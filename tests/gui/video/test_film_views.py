@@ -112,7 +112,8 @@ def test_values_are_taken_as_people_write_them_and_refused_out_of_range(
 def test_the_gap_is_stated_or_why_there_is_none(form: RecordingForm, film_scene: Scene) -> None:
     form.show_scene(film_scene)  # 1600 columns of 15 us each: 24 ms of 33.3 ms
     assert (
-        form.gap.text() == "Between two frames no column is read for 9.333 ms, 28.0 % of a frame."
+        form.gap.text()
+        == "Between two frames, no column is read out for 9.333 ms, 28.0 % of a frame."
     )
     form.show_recording(occ.Recording(frame_rate=60.0))
     form.show_scene(film_scene)

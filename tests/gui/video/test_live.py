@@ -209,7 +209,7 @@ def test_what_ends_without_being_asked_to_says_so_and_what_is_stopped_has_no_pro
     video = start(unplugged)
     list(video)
     video.join()
-    assert video.problem == "Listed gives no more pictures: it has ended or is unplugged."
+    assert video.problem == "Listed delivers no more pictures: it ended or was unplugged."
     assert not unplugged.is_open
     source = StepwiseSource(numbered(2))
     video = start(source)

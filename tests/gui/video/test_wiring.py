@@ -122,7 +122,7 @@ def test_a_camera_that_is_unplugged_leaves_its_last_picture_and_a_sentence(
     qtbot.waitUntil(lambda: not pane.live.is_filming)
     wait()
     assert pane.view.message.text() == (
-        "Listed gives no more pictures: it has ended or is unplugged."
+        "Listed delivers no more pictures: it ended or was unplugged."
     )
     assert pane.view.pictures.shown[0]
     assert pane.view.bar.title.toolTip() == "Listed, stopped"
@@ -140,7 +140,7 @@ def test_a_camera_that_cannot_hold_its_exposure_says_so(
     pane.live.start(source)
     pane.view.bar.lock.click()
     qtbot.waitUntil(lambda: not pane.view.bar.lock.isChecked())
-    assert pane.view.message.text() == "This camera does not let its exposure be held."
+    assert pane.view.message.text() == "The exposure of this camera cannot be held."
     assert source.locked == [True]
 
 

@@ -1,1 +1,1 @@
-"""The commands of ``occ-model``, one module each."""
+"""The commands of ``occ-model``, in a module each."""

@@ -35,15 +35,15 @@ def _run(options: argparse.Namespace) -> int:
     scene, settings = scene_of(options), simulation_settings_of(options)
     measured = accuracy(scene, settings)
     if options.out:
-        make_folder(options.out)  # a refusal must not come after minutes of work
+        make_folder(options.out)  # refuse a folder before minutes of work
     points = []
     with progress_bar(total=point_count(scene, settings), unit="point") as bar:
         for point in measured:
             points.append(point)
-            bar.write(_line(point), file=sys.stdout)
+            bar.write(_format_point(point), file=sys.stdout)
             bar.update()
     if options.out:
-        # matplotlib takes half a second to import: only where a figure is drawn.
+        # matplotlib takes half a second to import, which only figures need.
         from occ_model.figures.accuracy import write_accuracy_figure
 
         write_accuracy_figure(options.out, scene, settings, points)
@@ -51,7 +51,7 @@ def _run(options: argparse.Namespace) -> int:
     return 0
 
 
-def _line(point: AccuracyPoint) -> str:
+def _format_point(point: AccuracyPoint) -> str:
     mark = "  <- current" if point.current else ""
     return (
         f"{point.part:12}{point.name:28}{1e3 * point.seconds:10.3f} ms"

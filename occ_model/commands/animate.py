@@ -1,4 +1,4 @@
-"""The command ``occ-model animate``: let a parameter run through its values, and film it."""
+"""The command ``occ-model animate``: film a scene while a parameter changes."""
 
 import argparse
 from pathlib import Path
@@ -21,15 +21,13 @@ from occ_model.scene.parameters import parameter_named
 
 
 def add_to(commands: Commands) -> None:
-    parser = commands.add_parser(
-        "animate", help="write an animation in which a parameter runs through its values"
-    )
+    parser = commands.add_parser("animate", help="write an animation in which a parameter changes")
     add_scene_options(parser)
     add_simulation_options(parser)
     parser.add_argument("--vary", required=True, metavar="AXIS", help=SYNTAX)
     parser.add_argument("--decoder", choices=DECODERS, default=PAPER_DECODER)
     add_option(parser, "--rate", 15.0, "frames a second", metavar="N")
-    parser.add_argument("--back", action="store_true", help="run back to the first value as well")
+    parser.add_argument("--back", action="store_true", help="also go back to the first value")
     parser.add_argument(
         "-o", "--out", type=Path, required=True, help="file to write: .gif, .mp4 or .png"
     )
@@ -43,7 +41,9 @@ def _run(options: argparse.Namespace) -> int:
     scene = scene_of(options)
     ((name, values),) = axes_of([options.vary]).items()
     if not isinstance(parameter_named(name), Quantity):
-        raise ParameterError(f"{name} cannot run through values; allowed: a parameter with a unit.")
+        raise ParameterError(
+            f"{name} cannot change in an animation; allowed: a parameter with a unit."
+        )
     run = [float(value) for value in values]
     if options.back:
         run += run[-2:0:-1]

@@ -13,12 +13,12 @@ from occ_model.study.bands.eye import eye_flicker
 
 _DIGITS = 4
 
-_RANGES = 6  # maximum number of ranges listed before the last one
+_RANGES = 6  # most ranges that are listed before the last one
 
 
 def add_to(commands: Commands) -> None:
     parser = commands.add_parser(
-        "bands", help="report the depth of a picture's bars, and settings without bars"
+        "bands", help="report the depth of a picture's bars, and which settings have none"
     )
     add_scene_options(parser)
     add_option(
@@ -31,13 +31,13 @@ def add_to(commands: Commands) -> None:
 def _run(options: argparse.Namespace) -> int:
     scene = scene_of(options)
     advice = band_advice(scene, options.limit / 100.0)
-    for line in (*_depth(scene, band_depth(scene)), *_advice(scene, advice)):
+    for line in (*_depth_lines(scene, band_depth(scene)), *_advice_lines(scene, advice)):
         print(line)
     print("\n  ".join(eye_flicker(scene).sentences))
     return 0
 
 
-def _depth(scene: Scene, found: BandDepth) -> list[str]:
+def _depth_lines(scene: Scene, found: BandDepth) -> list[str]:
     exposure = SECOND.format(scene.camera.exposure_time)
     columns = "none" if found.period == math.inf else f"{found.period:.4g} columns"
     if scene.camera.columns < found.period < math.inf:
@@ -52,21 +52,21 @@ def _depth(scene: Scene, found: BandDepth) -> list[str]:
     ]
 
 
-def _advice(scene: Scene, advice: BandAdvice) -> list[str]:
+def _advice_lines(scene: Scene, advice: BandAdvice) -> list[str]:
     limit = f"{100.0 * advice.limit:.3g} %"
     frequency = HERTZ.format(scene.transmitter.switching_frequency, _DIGITS)
     exposure = SECOND.format(scene.camera.exposure_time)
-    exposures = [_range(SECOND, ends) for ends in advice.exposures]
-    frequencies = [_range(HERTZ, ends) for ends in advice.frequencies]
+    exposures = [_format_range(SECOND, ends) for ends in advice.exposures]
+    frequencies = [_format_range(HERTZ, ends) for ends in advice.frequencies]
     lines = [
         advice.sentence,
         f"At {frequency} exposures with less than {limit}: "
-        f"{_listed(exposures, advice.all_exposures, SECOND)}.",
+        f"{_list_ranges(exposures, advice.all_exposures, SECOND)}.",
         f"At {exposure} switching frequencies with less than {limit}: "
-        f"{_listed(frequencies, advice.all_frequencies, HERTZ)}.",
+        f"{_list_ranges(frequencies, advice.all_frequencies, HERTZ)}.",
     ]
     if scene.transmitter.edge_time:
-        lines.append("  Both for sharp edges; with the LED's edges the ranges are wider.")
+        lines.append("  Both are for sharp edges; with the LED's edges the ranges are wider.")
     lines += [
         "Bars peak to peak, of the mean light:",
         "shutter speed  nominal   at the power of two nearby",
@@ -86,11 +86,11 @@ def _advice(scene: Scene, advice: BandAdvice) -> list[str]:
     return lines
 
 
-def _range(unit: Unit, ends: tuple[float, float]) -> str:
+def _format_range(unit: Unit, ends: tuple[float, float]) -> str:
     return " to ".join(unit.format(end, _DIGITS) for end in ends)
 
 
-def _listed(ranges: list[str], rest: float | None, unit: Unit) -> str:
+def _list_ranges(ranges: list[str], rest: float | None, unit: Unit) -> str:
     shown = ranges[:_RANGES]
     if len(ranges) > _RANGES:
         shown.append(f"{len(ranges) - _RANGES} more")

@@ -16,26 +16,26 @@ from occ_model.study.bench.data_set import SampleReading, load_samples, read_sam
 from occ_model.study.bit_error_rate import check_frame_rate
 
 _DEFAULT_REQUEST = BenchRequest()
-_NUMBERS = {  # the option of each number of a request, with its metavar and its meaning
-    "at_exposure": ("--at-exposure", "SYMBOLS", "of the curve over noise"),
-    "at_decibels": ("--at-snr", "DB", "of the curve over exposure"),
-    "rows_a_symbol": ("--rows", "ROWS", "read out while a symbol lasts"),
-    "payload_bits": ("--payload-bits", "BITS", "of a payload, one a picture"),
-    "bits": ("--bits", "BITS", "at each point at the least"),
+_NUMBERS = {  # the option of each number of a request: flag, metavar and meaning
+    "at_exposure": ("--at-exposure", "SYMBOLS", "of the curve against noise"),
+    "at_decibels": ("--at-snr", "DB", "of the curve against exposure"),
+    "rows_a_symbol": ("--rows", "ROWS", "read out during a symbol"),
+    "payload_bits": ("--payload-bits", "BITS", "of a payload; each picture has one"),
+    "bits": ("--bits", "BITS", "at least, for each point"),
 }
 
 
 def add_to(commands: Commands) -> None:
     parser = commands.add_parser(
-        "bench", help="compare bit error rates over exposure and noise, or read a data set"
+        "bench", help="compare bit error rates against exposure and noise, or read a data set"
     )
     own = _DEFAULT_REQUEST
     for flag, field, kind, metavar, what, usual in (
         ("--scheme", "schemes", str, "LINE_CODE[/FRAMING]", "", own.schemes[0]),
         ("--decoder", "decoders", decoder_name, "DECODER", "", "all"),
-        ("--exposure", "exposures", number, "SYMBOLS", "", _list(own.exposures)),
+        ("--exposure", "exposures", number, "SYMBOLS", "", _format_list(own.exposures)),
         ("--snr", "decibels", number, "DB", "the chips' variance over that of a row's noise; ",
-         _list(own.decibels)),
+         _format_list(own.decibels)),
     ):  # fmt: skip
         parser.add_argument(
             flag, dest=field, action="append", type=kind, metavar=metavar,
@@ -47,7 +47,7 @@ def add_to(commands: Commands) -> None:
     add_option(parser, "--seed", own.seed)
     parser.add_argument(
         "--data", type=Path, metavar="CSV",
-        help="read the pictures of a data set instead, whose table this is",
+        help="the table of a data set, whose pictures are read instead",
     )  # fmt: skip
     parser.add_argument(
         "--out", type=Path, metavar="FOLDER", help="write bench.csv, bench.pdf and bench.png there"
@@ -71,10 +71,10 @@ def _run(options: argparse.Namespace) -> int:
     check_bench(request)
     check_frame_rate(bench_scene(request, request.schemes[0]), options.fps)
     if options.out is not None:
-        make_folder(options.out)  # a refusal must not come after minutes of work
+        make_folder(options.out)  # refuse a folder before minutes of work
     with progress_bar(total=len(request.points), unit=" points", leave=False, delay=0.5) as bar:
         points = bench(request, lambda done, _all: bar.update(done - bar.n))
-    for line in _table(points, options.fps):
+    for line in _table_lines(points, options.fps):
         print(line)
     if options.out is not None:
         from occ_model.figures.bench import write_bench  # slow to import
@@ -83,7 +83,7 @@ def _run(options: argparse.Namespace) -> int:
     return 0
 
 
-def _table(points: tuple[BenchPoint, ...], frames_a_second: float) -> list[str]:
+def _table_lines(points: tuple[BenchPoint, ...], frames_a_second: float) -> list[str]:
     lines = ["scheme      decoder     exposure  SNR (dB)  bit error rate (95 % interval), bits/s"]
     for point in points:
         errors = point.errors
@@ -111,11 +111,11 @@ def _read_data_set(table: Path, names: tuple[str, ...], scheme: str) -> int:
         )
     print("picture                      exposure  rows  decoder     chips  correlation  wrong")
     for reading in readings:
-        print(_line(reading))
+        print(_format_reading(reading))
     return 0
 
 
-def _line(reading: SampleReading) -> str:
+def _format_reading(reading: SampleReading) -> str:
     sample = reading.sample
     correlation = "" if reading.correlation is None else f"{reading.correlation:.4f}"
     wrong = "" if reading.wrong_chips is None else f"{reading.wrong_chips:.2g}"
@@ -126,5 +126,5 @@ def _line(reading: SampleReading) -> str:
     )
 
 
-def _list(values: tuple[float, ...]) -> str:
+def _format_list(values: tuple[float, ...]) -> str:
     return ", ".join(f"{value:g}" for value in values)

@@ -1,6 +1,6 @@
-"""The command line of ``occ-model``: each command's ``add_to`` declares its options and action.
+"""The command line of ``occ-model``; the ``add_to`` of each command declares its options.
 
-A command is imported when it is called: most need a part of the model only.
+A command is imported when it is called, as most need only a part of the model.
 """
 
 import argparse
@@ -22,7 +22,7 @@ _MODULES = {  # the module of each command
 
 
 def make_parser(command: str | None = None) -> Parser:
-    """Make the parser of one command, or of all where there is no such command."""
+    """Make the parser of one command, or of all commands if there is no such one."""
     parser = Parser(
         prog="occ-model", description="Simulate and decode rolling-shutter pictures of a panel."
     )

@@ -50,21 +50,21 @@ def add_to(commands: Commands) -> None:
         "--scan-axis",
         choices=SCAN_AXES,
         default="auto",
-        help="what the shutter scanned in the file; auto: across the stripes (default)",
+        help="what the shutter scans in the file; auto: across the stripes (default)",
     )
     parser.add_argument(
         "--channel",
         choices=CHANNELS,
         default="brightest",
-        help="what of a coloured photo is read; brightest: the colour with the largest mean "
-        "(default); of a film red, green or blue, else its luma",
+        help="the channel of a coloured photo to read; brightest: the colour with the largest mean "
+        "(default); of a film it can be red, green or blue, and is luma by default",
     )
     parser.add_argument(
-        "--follow", action="store_true", help="of a film: print what is known after each frame"
+        "--follow", action="store_true", help="for a film: print what is known after each frame"
     )
     add_option(
         parser, "--readout-tolerance", 100.0 * READOUT_TOLERANCE,
-        "of a film: by how much the readout time may be another one", metavar="PERCENT",
+        "for a film: by how much the readout time may differ", metavar="PERCENT",
     )  # fmt: skip
     parser.set_defaults(command=_run)
 
@@ -78,8 +78,8 @@ def _run(options: argparse.Namespace) -> int:
         )
     if options.follow or is_film(options.file):
         return read_film(options, scene)
-    result, image = _decoded(scene, options, options.scan_axis)
-    for line in _report(result):
+    result, image = _decode_picture(scene, options, options.scan_axis)
+    for line in _report_lines(result):
         print(line)
     for sentence in _remarks(result, image, scene):
         print(sentence, file=sys.stderr)
@@ -87,32 +87,32 @@ def _run(options: argparse.Namespace) -> int:
 
 
 def _remarks(result: DecodeResult, image: ByteArray, scene: Scene) -> list[str]:
-    """State why nothing was read, and that the picture is overexposed: first if that is why."""
+    """State why nothing was read, and if the picture is overexposed (first if that is why)."""
     failure = [] if result.failure is None else [result.failure]
     if result.region is None:
         return failure
     white = white_fraction(image, result.region, is_enhanced=scene.model.enhancement != "none")
-    # Of a picture that is not the scene's own nothing is known but what it shows.
+    # A picture need not be the scene's; only what it shows is known.
     cause = cause_of(scene, result.decoder) if failure and white != 0.0 else None
     if cause is not None and cause.is_overexposed:
         return [str(cause), *failure]
     return [*failure, overexposed_text(white)] if white else failure
 
 
-def _decoded(
+def _decode_picture(
     scene: Scene, options: argparse.Namespace, scan_axis: str
 ) -> tuple[DecodeResult, ByteArray]:
-    """Read a picture; one of the scene's size that holds no code turned is taken as it lies."""
+    """Read a picture; one of the scene's size without a code is also tried as it is stored."""
     image = load_photo(options.file, scan_axis, channel=options.channel).image
     result = decode(image, scene, options.decoder)
     rows, columns = scene.camera.rows, scene.camera.columns
     is_turned = scan_axis == "auto" and rows != columns and image.shape == (columns, rows)
     if result.failure is not None and is_turned:
-        return _decoded(scene, options, "columns")
+        return _decode_picture(scene, options, "columns")
     return result, image
 
 
-def _report(result: DecodeResult) -> list[str]:
+def _report_lines(result: DecodeResult) -> list[str]:
     lines = []
     if result.code is not None:
         if result.payload:
@@ -133,18 +133,18 @@ def _report(result: DecodeResult) -> list[str]:
     return lines
 
 
-_RATE_PARTS = 5  # parts of the film in which error rates are reported
-_MIN_RATE_PACKETS = 50  # packets from which the rates of parts are reported
+_RATE_PARTS = 5  # parts of a film for which error rates are reported
+_MIN_RATE_PACKETS = 50  # fewest packets for which the rates of parts are reported
 
 
 def read_film(options: argparse.Namespace, scene: Scene) -> int:
-    """Read the film of a command line, and print the results."""
-    video = load_video(options.file, options.scan_axis, channel=_channel(options.channel))
+    """Read the film of a command line and print the results."""
+    video = load_video(options.file, options.scan_axis, channel=_film_channel(options.channel))
     with progress_bar(total=video.frame_count, unit="frame", disable=options.follow or None) as bar:
 
         def report_progress(known: FilmProgress) -> None:
             if options.follow:
-                print(_film_line(known), flush=True)
+                print(_format_progress(known), flush=True)
             else:
                 bar.update()
 
@@ -155,7 +155,7 @@ def read_film(options: argparse.Namespace, scene: Scene) -> int:
             readout_tolerance=options.readout_tolerance / 100.0,
             progress=report_progress,
         )
-    for line in _film_report(reading, video):
+    for line in _film_lines(reading, video):
         print(line)
     for sentence in (video.problem, *reading.problems, reading.faults):
         if sentence:
@@ -166,7 +166,7 @@ def read_film(options: argparse.Namespace, scene: Scene) -> int:
     return 0
 
 
-def _channel(name: str) -> str:
+def _film_channel(name: str) -> str:
     if name == "brightest":
         return "luma"
     if name not in FILM_CHANNELS:
@@ -176,11 +176,11 @@ def _channel(name: str) -> str:
     return name
 
 
-def _film_line(known: FilmProgress) -> str:
-    """Describe in one line what is known after a frame."""
+def _format_progress(known: FilmProgress) -> str:
+    """Describe what is known after a frame in one line."""
     frame = known.frame
     chips = counted(len(frame.chips), "chip")
-    what = frame.failure or f"{chips} from chip {frame.place} of the packet on"
+    what = frame.failure or f"{chips}, starting with chip {frame.place} of the packet"
     payload = f"  {known.payload}" if known.payload else ""
     return (
         f"frame {frame.index:5d}  {SECOND.format(frame.time):>10}  {100.0 * known.known:3.0f} %"
@@ -188,7 +188,7 @@ def _film_line(known: FilmProgress) -> str:
     )
 
 
-def _film_report(reading: VideoReading, video: Video) -> list[str]:
+def _film_lines(reading: VideoReading, video: Video) -> list[str]:
     placed = sum(frame.place is not None for frame in reading.frames)
     rows, columns = video.shape
     lines = []
@@ -206,11 +206,11 @@ def _film_report(reading: VideoReading, video: Video) -> list[str]:
     for fact in facts:
         lines.append(f"{fact.label.lower():18}{fact}")
         if fact.key == "packet_error_rate" and len(reading.packets) >= _MIN_RATE_PACKETS:
-            lines += _by_parts(reading)
+            lines += _rates_by_part(reading)
     return lines
 
 
-def _by_parts(reading: VideoReading) -> Iterator[str]:
+def _rates_by_part(reading: VideoReading) -> Iterator[str]:
     """Format the packet error rate of each part of the film."""
     for window in reading.rates(_RATE_PARTS):
         if window.packets:

@@ -25,8 +25,8 @@ def add_to(commands: Commands) -> None:
     parser = commands.add_parser(
         "figures",
         help="write the paper's figures 2 to 6",
-        epilog="Stopped by Ctrl-C, or by anything else, the rates that are measured stay in the "
-        "folder of --out until their figure is written; the same command goes on from there.",
+        epilog="If it is stopped, by Ctrl-C or otherwise, the measured rates stay in the "
+        "folder of --out until their figure is written; the same command continues from there.",
     )
     parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder to fill")
     add_option(parser, "--images", IMAGES, "a point")
@@ -34,7 +34,10 @@ def add_to(commands: Commands) -> None:
     add_option(parser, "--jobs", 1, "processes", metavar="N")
     for exposure in ("68us", "136us"):
         parser.add_argument(
-            f"--photo-{exposure}", type=Path, metavar="FILE", help="its profile is drawn too"
+            f"--photo-{exposure}",
+            type=Path,
+            metavar="FILE",
+            help="a photo whose profile is also drawn",
         )
     names = (f"figure-{number}" for number in range(2, 7))
     parser.set_defaults(command=_run, writes={"out": folder_of_figures(*names)})
@@ -44,7 +47,7 @@ def _run(options: argparse.Namespace) -> int:
     check_count("images", options.images, 1, MOST_IMAGES)
     check_seed(options.seed)
     check_count("jobs", options.jobs, 1, MOST_JOBS)
-    # matplotlib takes half a second to import: only where a figure is drawn.
+    # matplotlib takes half a second to import, which only figures need.
     from occ_model.figures.drawing import house_style
 
     photos = [
@@ -72,7 +75,7 @@ def _draw_figures(options: argparse.Namespace, photos: list[Photo | None]) -> No
                 preset: run_sweep(
                     requests[preset],
                     jobs=options.jobs,
-                    progress=_progress_of(bar),
+                    progress=_continue_bar(bar),
                     results=_rates_file(options, preset),
                 )
                 for preset in presets
@@ -83,8 +86,8 @@ def _draw_figures(options: argparse.Namespace, photos: list[Photo | None]) -> No
                 bar.write(detection_sentence(preset, table), file=sys.stdout)
 
 
-def _progress_of(bar: Any) -> Progress:
-    """Return a callback that moves a bar on, by one sweep from where it is."""
+def _continue_bar(bar: Any) -> Progress:
+    """Return a callback that advances a bar from where it is, by one sweep."""
     before = bar.n
     return lambda done, _total, _left: bar.update(before + done - bar.n)
 
@@ -98,7 +101,7 @@ def _requests(options: argparse.Namespace) -> dict[str, SweepRequest]:
 
 
 def _rates_file(options: argparse.Namespace, preset: str) -> Path:
-    """Return the file that keeps the rates until their figure is written."""
+    """Return the file that stores the rates until their figure is written."""
     folder: Path = options.out
     return folder / f"rates-{preset}-images-{options.images}-seed-{options.seed}.csv"
 

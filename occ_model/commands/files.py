@@ -1,4 +1,4 @@
-"""Check the files that a command line reads and writes: no output may overwrite another one."""
+"""Check the files of a command line: no output may overwrite another file that it names."""
 
 import argparse
 from collections.abc import Callable, Iterator
@@ -9,7 +9,7 @@ from occ_model.errors import OutputError, one_line
 from occ_model.scene.from_text import check_scene_path
 from occ_model.scene.presets import user_folder
 
-INPUTS = {  # options that name a file to read, or several, with the file's name in messages
+INPUTS = {  # options that name files to read, with the files' names in messages
     "file": "the photo",
     "more": "one of the photos",
     "files": "one of the files to open",
@@ -29,12 +29,12 @@ OUTPUTS = {  # options that name a file or folder to write
 
 
 @dataclass(frozen=True, slots=True)
-class Written:
-    """What a command writes to the path of an option."""
+class OutputFiles:
+    """The files that a command writes at the path of an option."""
 
-    # Refuses a path that has another ending
+    # Refuses a path with a wrong ending
     check: Callable[[Path], object] = lambda _path: None
-    # The files that are written, where the path is that of their folder
+    # Names of the files, if the path is their folder
     names: tuple[str, ...] = ()
 
 
@@ -43,24 +43,24 @@ def _check_table_path(path: Path) -> None:
         raise OutputError(f"{one_line(str(path))} does not have the ending of a table; use .csv.")
 
 
-SCENE_FILE = Written(check_scene_path)
-TABLE = Written(_check_table_path)
+SCENE_FILE = OutputFiles(check_scene_path)
+TABLE = OutputFiles(_check_table_path)
 
 
-def folder_of_figures(*names: str) -> Written:
-    """Describe a folder of figures of these names, each as PDF, PNG and CSV."""
+def folder_of_figures(*names: str) -> OutputFiles:
+    """Describe a folder of figures with these names, each as PDF, PNG and CSV."""
     endings = ("pdf", "png", "csv")
-    return Written(names=tuple(f"{name}.{end}" for name in names for end in endings))
+    return OutputFiles(names=tuple(f"{name}.{end}" for name in names for end in endings))
 
 
 def check_files(options: argparse.Namespace) -> None:
-    """Refuse a command line that would write a file over another one that it names.
+    """Refuse a command line that would overwrite a file that it names.
 
-    ``options.writes`` maps an option to what is written to its path, or to a function of the parsed
-    command line that says so. Raises OutputError: an output is one of the inputs, by its path or by
-    a link; two outputs are one file; or a file has the ending of another kind.
+    ``options.writes`` maps an option to its :class:`OutputFiles`, or to a function of the parsed
+    command line that returns them. It is an OutputError if an output is one of the inputs, by its
+    path or by a link, if two outputs are one file, or if a file has a wrong ending.
     """
-    inputs, outputs = list(_inputs(options)), list(_outputs(options))
+    inputs, outputs = list(_list_inputs(options)), list(_list_outputs(options))
     for place, (name, path) in enumerate(outputs):
         for other, read in inputs:
             if is_same_file(path, read):
@@ -80,10 +80,10 @@ def _check_endings(options: argparse.Namespace) -> None:
     for option in vars(options).get("writes", {}):
         path: Path | None = getattr(options, option)
         if path is not None:
-            _written(options, option).check(path)
+            _outputs_of(options, option).check(path)
 
 
-def _inputs(options: argparse.Namespace) -> Iterator[tuple[str, Path]]:
+def _list_inputs(options: argparse.Namespace) -> Iterator[tuple[str, Path]]:
     named = vars(options)
     for option, name in INPUTS.items():
         paths = named.get(option)
@@ -93,27 +93,27 @@ def _inputs(options: argparse.Namespace) -> Iterator[tuple[str, Path]]:
         yield "the file of --preset", user_folder() / f"{options.preset}.toml"
 
 
-def _outputs(options: argparse.Namespace) -> Iterator[tuple[str, Path]]:
+def _list_outputs(options: argparse.Namespace) -> Iterator[tuple[str, Path]]:
     named = vars(options)
     for option, name in OUTPUTS.items():
         path: Path | None = named.get(option)
         if path is None:
             continue
-        written = _written(options, option)
+        written = _outputs_of(options, option)
         if written.names:
             yield from ((f"{name}, where {each} goes,", path / each) for each in written.names)
         else:
             yield name, path
 
 
-def _written(options: argparse.Namespace, option: str) -> Written:
-    written: Written | Callable[[argparse.Namespace], Written]
-    written = vars(options).get("writes", {}).get(option, Written())
-    return written if isinstance(written, Written) else written(options)
+def _outputs_of(options: argparse.Namespace, option: str) -> OutputFiles:
+    written: OutputFiles | Callable[[argparse.Namespace], OutputFiles]
+    written = vars(options).get("writes", {}).get(option, OutputFiles())
+    return written if isinstance(written, OutputFiles) else written(options)
 
 
 def is_same_file(path: Path, other: Path) -> bool:
-    """Return whether two paths are, or would be, the same file, whatever links or letter case."""
+    """Return whether two paths are, or would be, the same file, despite links and letter case."""
     try:
         return path.samefile(other)
     except (OSError, ValueError):  # one of them does not exist yet
@@ -140,7 +140,7 @@ def _is_same_folder(folder: Path, other: Path) -> bool:
 
 
 def ignores_case(folder: Path) -> bool:
-    """Try with a name in a folder whether names that differ only in case are the same file."""
+    """Find out whether names in a folder that differ only in case are the same file."""
     try:
         inside = [path for path in folder.iterdir() if path.name != path.name.swapcase()][:1]
     except OSError:

@@ -23,7 +23,7 @@ from occ_model.video.file.write import FILM_ENDINGS, LOSSLESS, check_film_path, 
 from occ_model.video.load import load_video
 from occ_model.video.render import render_video
 
-_FRAMES = 90  # frames of a film: three seconds at the usual rate
+_FRAMES = 90  # frames of a film, three seconds at the usual rate
 
 
 def add_to(commands: Commands) -> None:
@@ -51,18 +51,18 @@ def add_to(commands: Commands) -> None:
         metavar="TIME:NAME=VALUE,...",
         action="append",
         default=[],
-        help="how far the panel, as the camera sees it, has moved at a time, such as "
+        help="how far the panel has moved, relative to the camera, at a time, such as "
         "'1s:offset_x=20cm,roll=5deg'; may be repeated, in the order of time",
     )
     parser.add_argument(
         "-o", "--out", type=Path, required=True,
-        help=f"file to write: {', '.join(FILM_ENDINGS)}; all but .mp4 keep every grey level",
+        help=f"file to write: {', '.join(FILM_ENDINGS)}; all except .mp4 keep every grey level",
     )  # fmt: skip
     parser.set_defaults(command=_run)
 
 
 def _run(options: argparse.Namespace) -> int:
-    recording = _recording(options)
+    recording = _parse_recording(options)
     film = render_video(
         scene_of(options), options.frames, recording, settings=simulation_settings_of(options)
     )
@@ -78,28 +78,28 @@ def _run(options: argparse.Namespace) -> int:
         f"gap {SECOND.format(gap, 4)}, {100 * recording.gap_ratio(film.scene):.3g} % of a frame"
     )
     if options.out.suffix.lower() not in LOSSLESS:
-        print(_loss(film, options.out))
+        print(_describe_loss(film, options.out))
     return 0
 
 
-def _recording(options: argparse.Namespace) -> Recording:
+def _parse_recording(options: argparse.Namespace) -> Recording:
     values = {
         declared.name: declared.parse(getattr(options, declared.name)) for declared in DECLARED
     }
     texts = [text for text in options.exposures.split(",") if text.strip()]
     exposures = tuple(quantity("exposure_time").parse(text) for text in texts)
-    path = tuple(_waypoint(text) for text in options.waypoints)
+    path = tuple(_parse_waypoint(text) for text in options.waypoints)
     return Recording(**values, exposure_times=exposures, path=path)  # type: ignore[arg-type]
 
 
-def _waypoint(text: str) -> Waypoint:
+def _parse_waypoint(text: str) -> Waypoint:
     start, _, rest = text.partition(":")
     time = SECOND.parse(start)
     if time is None or not rest:
         raise ParameterError.of(
             "waypoint",
             shown(text),
-            "a time and what has changed, such as 1s:offset_x=20cm,roll=5deg",
+            "a time and changes, such as 1s:offset_x=20cm,roll=5deg",
         )
     changes: dict[str, float] = {}
     for part in rest.split(","):
@@ -117,8 +117,8 @@ def _waypoint(text: str) -> Waypoint:
     return Waypoint(time, **changes)
 
 
-def _loss(film: Video, path: Path) -> str:
-    """Describe the loss of a codec in the first frame."""
+def _describe_loss(film: Video, path: Path) -> str:
+    """Describe the loss by a codec in the first frame."""
     written = load_video(path, "columns").frame(0).image
     rows, columns = written.shape
     error = written.astype(np.float64) - film.frame(0).image[:rows, :columns]

@@ -1,4 +1,4 @@
-"""The command ``occ-model film-study``: packets received over frequency, gap and packet length."""
+"""The command ``occ-model film-study``: packets received against frequency, gap and length."""
 
 import argparse
 import sys
@@ -37,7 +37,7 @@ Number = TypeVar("Number", int, float)
 
 def add_to(commands: Commands) -> None:
     parser = commands.add_parser(
-        "film-study", help="measure what films carry, over frequency, gap and packet length"
+        "film-study", help="measure what films carry, against frequency, gap and packet length"
     )
     add_scene_options(parser)
     add_option(parser, "--frequencies", "4kHz,8kHz", "switching frequencies", metavar="LIST")
@@ -55,7 +55,7 @@ def add_to(commands: Commands) -> None:
     add_option(parser, "--seed", 1)
     parser.add_argument(
         "--example", action="store_true",
-        help="the published example of CamComSim instead, beside counting and its own rule",
+        help="measure the published example of CamComSim instead, beside counting and its own rule",
     )  # fmt: skip
     parser.add_argument(
         "--out", type=Path, metavar="DIR", help="folder for the figure as PDF, PNG, SVG and CSV"
@@ -64,22 +64,22 @@ def add_to(commands: Commands) -> None:
 
 
 def _run(options: argparse.Namespace) -> int:
-    request = _example(options) if options.example else _request(options)
+    request = _example_of(options) if options.example else _request_of(options)
     if options.out:
-        make_folder(options.out)  # a refusal must not come after minutes of work
+        make_folder(options.out)  # refuse a folder before minutes of work
     points = []
     print("   frequency    gap   bits  packets  received  by counting  with repeats")
     with progress_bar(total=request.points * request.frames, unit="frame") as bar:
         for point in film_study(request, bar.update):
             points.append(point)
-            bar.write(_line(point), file=sys.stdout)
+            bar.write(_format_point(point), file=sys.stdout)
     if options.example:
         print(
             f"CamComSim states no figure; by its own rule {100.0 * float(published_rule()):.2f} % "
             "are received."
         )
     if options.out:
-        # matplotlib takes half a second to import: only where a figure is drawn.
+        # matplotlib takes half a second to import, which only figures need.
         from occ_model.figures.films import write_films_figure
 
         write_films_figure(options.out, request, points)
@@ -87,19 +87,19 @@ def _run(options: argparse.Namespace) -> int:
     return 0
 
 
-def _example(options: argparse.Namespace) -> FilmRequest:
+def _example_of(options: argparse.Namespace) -> FilmRequest:
     request = example_request(seed=options.seed)
     frames = request.frames if options.frames is None else options.frames
     return replace(request, frames=frames, decoder=options.decoder)
 
 
-def _request(options: argparse.Namespace) -> FilmRequest:
+def _request_of(options: argparse.Namespace) -> FilmRequest:
     frequency = quantity("switching_frequency")
     return FilmRequest(
         scene_of_films(scene_of(options)),
         frequencies=tuple(frequency.parse(text) for text in options.frequencies.split(",")),
-        gaps=tuple(gap / 100.0 for gap in _numbers("gaps", options.gaps, float, "numbers")),
-        bits=_numbers("bits", options.bits, int, "whole numbers"),
+        gaps=tuple(gap / 100.0 for gap in _parse_numbers("gaps", options.gaps, float, "numbers")),
+        bits=_parse_numbers("bits", options.bits, int, "whole numbers"),
         frame_rate=options.frame_rate,
         frames=_FRAMES if options.frames is None else options.frames,
         decoder=options.decoder,
@@ -107,17 +107,17 @@ def _request(options: argparse.Namespace) -> FilmRequest:
     )
 
 
-def _numbers(name: str, text: str, kind: type[Number], what: str) -> tuple[Number, ...]:
+def _parse_numbers(name: str, text: str, kind: type[Number], what: str) -> tuple[Number, ...]:
     numbers = []
     for part in text.split(","):
         try:
             numbers.append(kind(part))
         except ValueError:
-            raise ParameterError(f"{name} holds {shown(part)}; allowed: {what}.") from None
+            raise ParameterError(f"{name} has {shown(part)}; allowed: {what}.") from None
     return tuple(numbers)
 
 
-def _line(point: FilmPoint) -> str:
+def _format_point(point: FilmPoint) -> str:
     wrong = "" if point.is_right else point.failure or "The payload is wrong."
     note = "".join(f"  {text}" for text in (wrong, point.faults) if text)
     received, counted = 100.0 * point.reception, 100.0 * point.counted_reception

@@ -40,27 +40,27 @@ _BAR = "{desc}: {percentage:3.0f} %|{bar}| {elapsed}, about {remaining} left"
 
 def add_to(commands: Commands) -> None:
     parser = commands.add_parser(
-        "limits", help="find how fast a scene can go, and how long it can be exposed"
+        "limits", help="find how fast a scene can send, and how long it can be exposed"
     )
     add_scene_options(parser)
     parser.add_argument(
         "--decoder",
         type=decoder_name,
         action="append",
-        help=f"one of {', '.join(DECODERS)} or a plug-in's; give it again for more; default: these",
+        help=f"one of {', '.join(DECODERS)} or a plug-in's; may be repeated; default: these",
     )
     parser.add_argument(
         "--rate", type=number, default=READ_RATE, metavar="PERCENT",
-        help="of the bits from which a scene counts as read; default: %(default)s",
+        help="of the bits that counts as read; default: %(default)s",
     )  # fmt: skip
-    add_option(parser, "--images", 20, "at each value tried; more of them make the answer surer")
+    add_option(parser, "--images", 20, "at each value; more images make the answer more certain")
     add_option(
         parser, "--fps", FRAMES_A_SECOND,
-        "pictures a second, or as many as can be read out, one payload each",
+        "pictures a second (or as many as can be read out), with one payload each",
     )  # fmt: skip
     add_option(parser, "--seed", 1)
     add_option(
-        parser, "--jobs", 2, "processes, two at most; the answer is the same with one", metavar="N"
+        parser, "--jobs", 2, "processes, at most two; the answer is the same with one", metavar="N"
     )
     parser.set_defaults(command=_run)
 
@@ -77,10 +77,10 @@ def _run(options: argparse.Namespace) -> int:
 
         settings = RateSettings(options.images, decoders, options.seed)
         answers = limits_of(scene, settings, options.rate, jobs=options.jobs, progress=show)
-    for line in _heading(scene, options):
+    for line in _heading_lines(scene, options):
         print(line)
     for each in answers:
-        print(row(each, options.fps))
+        print(format_row(each, options.fps))
     for line in sentences(answers, options.fps):
         print(line)
     reads = any(each.highest_frequency and each.longest_exposure for each in answers)
@@ -93,28 +93,28 @@ _COLUMNS = (
 _WIDTHS = (10, 23, 23, 23, 23, 23, 23, 14)
 
 
-def _heading(scene: Scene, options: argparse.Namespace) -> list[str]:
+def _heading_lines(scene: Scene, options: argparse.Namespace) -> list[str]:
     exposure = SECOND.format(scene.camera.exposure_time)
     frequency = HERTZ.format(scene.transmitter.switching_frequency)
     distance = quantity("distance").format(scene.pose.distance)
     return [
         f"Read with {options.rate:g} % of the bits at {distance}, sending {sent_text(scene)}: "
         f"frequencies at {exposure}, exposures and bits a second at {frequency}.",
-        _in_columns(_COLUMNS),
+        _align_cells(_COLUMNS),
     ]
 
 
-def _in_columns(cells: Sequence[str]) -> str:
+def _align_cells(cells: Sequence[str]) -> str:
     padded = [cell.ljust(width) for cell, width in zip(cells, _WIDTHS, strict=True)]
     return "  ".join(padded).rstrip()
 
 
-def row(found: Limits, frames_a_second: float = FRAMES_A_SECOND) -> str:
+def format_row(found: Limits, frames_a_second: float = FRAMES_A_SECOND) -> str:
     """Format the limits of a decoder as a line of the table."""
     cells = [found.decoder]
     for each in (found.frequency, found.exposure):
         cells += range_cells(each)
-    return _in_columns([*cells, f"{found.bits_a_second(frames_a_second):.4g}"])
+    return _align_cells([*cells, f"{found.bits_a_second(frames_a_second):.4g}"])
 
 
 def range_cells(found: WorkingRange) -> tuple[str, str, str]:
@@ -141,7 +141,7 @@ def sentences(answers: Sequence[Limits], frames_a_second: float = FRAMES_A_SECON
                 f"The {found.decoder} decoder does not read the scene as it is. {advice.cause}"
             )
         for each in (found.frequency, found.exposure):
-            lines += _on_range(found.decoder, each)
+            lines += _range_lines(found.decoder, each)
         two_packets = advice.frequency.two_packets
         if two_packets is not None:
             lines.append(f"  {two_packets_text(two_packets)}")
@@ -152,7 +152,7 @@ def sentences(answers: Sequence[Limits], frames_a_second: float = FRAMES_A_SECON
     return lines
 
 
-def _on_range(decoder: str, found: WorkingRange) -> list[str]:
+def _range_lines(decoder: str, found: WorkingRange) -> list[str]:
     faults = [found.faults] if found.faults else []
     if found.failure is not None:
         return [found.failure, *faults]

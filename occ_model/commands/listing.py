@@ -1,4 +1,4 @@
-"""The commands ``codes``, ``presets`` and ``parameters`` of ``occ-model``: list what can be set."""
+"""The commands ``codes``, ``presets`` and ``parameters`` of ``occ-model``, which list these."""
 
 import argparse
 from collections.abc import Callable
@@ -15,22 +15,22 @@ from occ_model.transmitter.line_codes.line_code import LineCode
 from occ_model.transmitter.registry import FRAMINGS, LINE_CODES
 from occ_model.transmitter.scheme import Scheme
 
-_MAX_NOTE_CHARACTERS = 1000  # maximum printed length of a value's note
+_MAX_NOTE_CHARACTERS = 1000  # characters of a value's note
 
 
 def add_to(commands: Commands) -> None:
     parser = commands.add_parser("codes", help="list line codes, framings and decoders")
     parser.add_argument("--markdown", action="store_true", help="as tables")
-    parser.set_defaults(command=_codes)
+    parser.set_defaults(command=_print_codes)
     parser = commands.add_parser("presets", help="list the presets, or one with its sources")
-    parser.add_argument("name", nargs="?", help="the preset to show whole")
-    parser.set_defaults(command=_presets)
-    parser = commands.add_parser("parameters", help="list what --set can set")
+    parser.add_argument("name", nargs="?", help="the preset to show in full")
+    parser.set_defaults(command=_print_presets)
+    parser = commands.add_parser("parameters", help="list the parameters that --set can set")
     parser.add_argument("--markdown", action="store_true", help="as a table")
-    parser.set_defaults(command=_parameters)
+    parser.set_defaults(command=_print_parameters)
 
 
-def _presets(options: argparse.Namespace) -> int:
+def _print_presets(options: argparse.Namespace) -> int:
     if options.name is None:
         for preset in all_presets():
             print(f"{preset.name:20}{one_line(preset.title)}")
@@ -48,7 +48,7 @@ def _presets(options: argparse.Namespace) -> int:
     return 0
 
 
-def _parameters(options: argparse.Namespace) -> int:
+def _print_parameters(options: argparse.Namespace) -> int:
     if options.markdown:
         print(parameter_table())
         return 0
@@ -59,7 +59,7 @@ def _parameters(options: argparse.Namespace) -> int:
 
 
 def parameter_table() -> str:
-    """Write all parameters as a Markdown table: name with symbol, meaning, default and range."""
+    """Write all parameters as a Markdown table: name and symbol, meaning, default and range."""
     lines = ["| name | meaning | default | allowed |", "|---|---|---|---|"]
     for name, declaration in PARAMETERS.items():
         symbol = f", {declaration.symbol}" if declaration.symbol else ""
@@ -69,10 +69,10 @@ def parameter_table() -> str:
     return "\n".join(lines)
 
 
-_EXAMPLE = ("manchester", 10)  # line code and bits by which the lengths of frames are compared
+_EXAMPLE = ("manchester", 10)  # line code and bits for which the lengths of frames are compared
 
 
-def _codes(options: argparse.Namespace) -> int:
+def _print_codes(options: argparse.Namespace) -> int:
     if options.markdown:
         print(line_code_table())
         print()
@@ -80,18 +80,18 @@ def _codes(options: argparse.Namespace) -> int:
         return 0
     print("line codes")
     for name in LINE_CODES.names():
-        print(f"  {name:26}{_title(LINE_CODES.get, name)}")
+        print(f"  {name:26}{_title_of(LINE_CODES.get, name)}")
     print("framings")
     for name in FRAMINGS.names():
-        print(f"  {name:26}{_title(FRAMINGS.get, name)}")
+        print(f"  {name:26}{_title_of(FRAMINGS.get, name)}")
     print("decoders")
     for name in decoders():
-        print(f"  {name:26}{_title(decoder_named, name)}")
+        print(f"  {name:26}{_title_of(decoder_named, name)}")
     return 0
 
 
-def _title(find: Callable[[str], LineCode | Framing | Decoder], name: str) -> str:
-    """Return the title of a name, or why it cannot be used."""
+def _title_of(find: Callable[[str], LineCode | Framing | Decoder], name: str) -> str:
+    """Return the title of a code or decoder, or why it cannot be used."""
     try:
         return find(name).title
     except OccError as error:
@@ -99,33 +99,33 @@ def _title(find: Callable[[str], LineCode | Framing | Decoder], name: str) -> st
 
 
 def line_code_table() -> str:
-    """Write the properties that the built-in line codes declare as a Markdown table."""
+    """Write the declared properties of the built-in line codes as a Markdown table."""
     lines = [
         "| line code | chips a bit | without a bit | longest run, chips | ones and zeros "
         "| slowest wave | its runs unseen from | one wrong chip |",
         "|---|---|---|---|---|---|---|---|",
     ]
     lines += [
-        f"| {' | '.join(_properties(code))} |" for code in LINE_CODES.load_built_in().values()
+        f"| {' | '.join(_line_code_cells(code))} |" for code in LINE_CODES.load_built_in().values()
     ]
     return "\n".join(lines)
 
 
-def _properties(code: LineCode) -> tuple[str, ...]:
+def _line_code_cells(code: LineCode) -> tuple[str, ...]:
     least = code.least_switching_frequency
     return (
         f"`{code.name}`",
         f"{float(code.chips_a_bit):g}",
         f"{100 * float(code.overhead):.0f} %",
         "no limit" if code.longest_run is None else str(code.longest_run),
-        _balance(code),
+        _balance_text(code),
         "no limit" if code.longest_run is None else f"f / {2 * code.longest_run}",
         "no frequency" if least is None else HERTZ.format(least),
         "found or harmless" if code.finds_wrong_chip else "may pass",
     )
 
 
-def _balance(code: LineCode) -> str:
+def _balance_text(code: LineCode) -> str:
     if code.disparity is None:
         return "any"
     return f"differ by up to {code.disparity}" if code.disparity else "as many"
@@ -138,11 +138,14 @@ def framing_table() -> str:
         f"| framing | a frame | chips for {bits} bits, `{name}` | checks the payload |",
         "|---|---|---|---|",
     ]
-    lines += [f"| {' | '.join(_frame(framing))} |" for framing in FRAMINGS.load_built_in().values()]
+    lines += [
+        f"| {' | '.join(_framing_cells(framing))} |"
+        for framing in FRAMINGS.load_built_in().values()
+    ]
     return "\n".join(lines)
 
 
-def _frame(framing: Framing) -> tuple[str, ...]:
+def _framing_cells(framing: Framing) -> tuple[str, ...]:
     name, bits = _EXAMPLE
     scheme = Scheme(LINE_CODES.get(name), framing, "", "none", bits)
     checks = "yes" if framing.checks else "no"

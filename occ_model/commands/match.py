@@ -5,7 +5,7 @@ import re
 from dataclasses import replace
 from pathlib import Path
 
-from occ_model.commands.match_many import add_many_options, run_many, written_by
+from occ_model.commands.match_many import add_many_options, outputs_of_match, run_many
 from occ_model.commands.options import (
     Commands,
     add_option,
@@ -32,53 +32,57 @@ from occ_model.scene.units import Unit
 
 def add_to(commands: Commands) -> None:
     parser = commands.add_parser("match", help="find the settings that explain a photo")
-    parser.add_argument("file", type=Path, help="image file; of several, one table is made")
+    parser.add_argument("file", type=Path, help="image file; several files give one table")
     add_many_options(parser)
     add_scene_options(parser)
     parser.add_argument(
         "--led-frequency",
         metavar="FREQUENCY",
-        help="the LED blinks as a plain square wave of so many cycles, such as 1kHz",
+        help="the LED sends a plain square wave with so many cycles a second, such as 1kHz",
     )
     parser.add_argument(
         "--sent",
         choices=PATTERN_SOURCES,
         default="auto",
-        help="scene: what the scene sends; read: read it from the stripes; auto: what fits "
+        help="scene: what the scene sends; read: read it from the stripes; auto: whichever fits "
         "(default)",
     )
-    add_option(parser, "--estimate", ESTIMATES[0], "the one that is not known", choices=ESTIMATES)
-    parser.add_argument("--fit-gamma", action="store_true", help="estimate gamma too")
+    add_option(
+        parser, "--estimate", ESTIMATES[0], "the parameter that is not known", choices=ESTIMATES
+    )
+    parser.add_argument("--fit-gamma", action="store_true", help="also estimate gamma")
     add_option(parser, "--scan-axis", SCAN_AXES[0], choices=SCAN_AXES)
     add_option(parser, "--channel", CHANNELS[0], choices=CHANNELS)
     where = parser.add_mutually_exclusive_group()
     where.add_argument(
         "--region",
         metavar="R0:R1,C0:C1",
-        help="search rows R0 to before R1 and columns C0 to before C1 only; columns are the scan "
+        help="search only rows R0 to before R1 and columns C0 to before C1; columns are the scan "
         "axis",
     )
-    where.add_argument("--lamps", action="store_true", help="find and match every lamp by itself")
+    where.add_argument(
+        "--lamps", action="store_true", help="find every lamp and match each by itself"
+    )
     parser.add_argument(
         "--chips",
         action="store_true",
-        help="only read the chips in view, which need not repeat; nothing need be known of them",
+        help="only read the chips in view, which need not repeat or be known",
     )
     parser.add_argument(
         "--out",
         type=Path,
         metavar="FILE",
-        help="write the fitted scene here (.toml), or the table of several photos (.csv)",
+        help="file for the fitted scene (.toml), or for the table of several photos (.csv)",
     )
-    parser.set_defaults(command=_run, writes={"out": written_by})
+    parser.set_defaults(command=_run, writes={"out": outputs_of_match})
 
 
 def _run(options: argparse.Namespace) -> int:
-    _check(options)
-    region = None if options.region is None else region_from(options.region)
+    _check_options(options)
+    region = None if options.region is None else parse_region(options.region)
     scene = scene_of(options)
     if options.led_frequency is not None:
-        scene = _square_wave(scene, options.led_frequency)
+        scene = _send_square_wave(scene, options.led_frequency)
     if options.more:
         return run_many(options, scene)
     photo = load_photo(options.file, options.scan_axis, channel=options.channel)
@@ -97,7 +101,7 @@ def _run(options: argparse.Namespace) -> int:
             region=region,
             progress=lambda fraction: bar.update(fraction - bar.n),
         )
-    for line in _report(match, _how_known(match, options), photo.exposure_time):
+    for line in _report_lines(match, _assumption_of_match(match, options), photo.exposure_time):
         print(line)
     if options.out:
         write_scene_file(options.out, match.scene)
@@ -105,14 +109,16 @@ def _run(options: argparse.Namespace) -> int:
     return 0
 
 
-def _check(options: argparse.Namespace) -> None:
+def _check_options(options: argparse.Namespace) -> None:
     if options.out and (options.lamps or options.chips):
         what = "--lamps" if options.lamps else "--chips"
-        raise ParameterError(f"--out is given with {what}; allowed: the scene of one match.")
+        raise ParameterError(f"--out is given with {what}; allowed: with a single match.")
     if options.lamps and options.chips:
-        raise ParameterError("--chips is given with --lamps; read each lamp by its --region.")
+        raise ParameterError("--chips is given with --lamps; read each lamp with its --region.")
     if options.more and (options.lamps or options.region or options.chips):
-        raise ParameterError("--lamps, --region or --chips is given with several photos; use one.")
+        raise ParameterError(
+            "--lamps, --region or --chips is given with several photos; name one photo."
+        )
     if options.known and not options.more:
         raise ParameterError("--known is given with one photo; allowed: --led-frequency or --set.")
 
@@ -129,31 +135,31 @@ def _run_lamps(photo: Photo, scene: Scene, options: argparse.Namespace) -> int:
         )
     if not matched:
         raise MatchError(
-            "No lamp was found: no place is far brighter than the rest of the photo, and none has "
-            "stripes with sharp edges; without --lamps the stripes of the whole photo are matched."
+            "No lamp was found: no place is much brighter than the rest of the photo, and none has "
+            "stripes with sharp edges. Without --lamps the stripes of the whole photo are matched."
         )
     for number, (lamp, match) in enumerate(matched, 1):
         lines = lamp_lines(number, lamp)
         if isinstance(match, Match):
-            lines += _report(match, _how_known(match, options), photo.exposure_time)
+            lines += _report_lines(match, _assumption_of_match(match, options), photo.exposure_time)
         else:
             lines.append(str(match))
         print("\n  ".join(lines))
     return 0
 
 
-def _how_known(match: Match, options: argparse.Namespace) -> str:
+def _assumption_of_match(match: Match, options: argparse.Namespace) -> str:
     known = match.known
     return assumption_of(known, getattr(match, known), match.pattern, options)
 
 
-def _square_wave(scene: Scene, text: str) -> Scene:
-    """Make a scene send a square wave; the sentence about a wrong value names the option."""
+def _send_square_wave(scene: Scene, text: str) -> Scene:
+    """Let a scene send a square wave; an error about the value names the option."""
     return send_square_wave(scene, replace(SQUARE_FREQUENCY, name="--led-frequency").parse(text))
 
 
-def _report(match: Match, assumption: str, noted: float | None) -> list[str]:
-    """Describe a match in lines; ``noted``: exposure time in seconds recorded by the camera."""
+def _report_lines(match: Match, assumption: str, noted: float | None) -> list[str]:
+    """Describe a match in lines; ``noted`` is the exposure time in seconds by the camera."""
     verdict = [f"{'verdict':22}{match.verdict}", *(f"{'':22}{why}" for why in match.all_reasons)]
     return [*verdict, *in_columns(match_facts(match, assumption, noted))]
 
@@ -161,7 +167,7 @@ def _report(match: Match, assumption: str, noted: float | None) -> list[str]:
 _REGION = re.compile(r"(\d{1,9}):(\d{1,9}),(\d{1,9}):(\d{1,9})")
 
 
-def region_from(text: str) -> Region:
+def parse_region(text: str) -> Region:
     """Parse the rectangle ``R0:R1,C0:C1``: rows R0 to before R1, columns C0 to before C1."""
     found = _REGION.fullmatch(text.strip())
     if found is None:
@@ -169,7 +175,7 @@ def region_from(text: str) -> Region:
             "--region",
             shown(text),
             "R0:R1,C0:C1, such as 100:800,0:1920: the first row, the row after the last, and the "
-            "same of the columns",
+            "same for columns",
         )
     return Region(*(int(number) for number in found.groups()))
 
@@ -192,7 +198,7 @@ def lamp_lines(number: int, lamp: Lamp) -> list[str]:
 def chip_lines(reading: ChipReading) -> list[str]:
     return [
         f"{'chips':22}{reading.text}",
-        f"{'chips in view':22}{len(reading.chips)}, between the first edge and the last one",
+        f"{'chips in view':22}{len(reading.chips)}, between the first and the last edge",
         f"{'chip length':22}{reading.columns_per_chip:.3f} columns",
         f"{'first chip from':22}column {reading.start:.1f}",
         f"{'all right with':22}a probability of {100.0 * reading.confidence:.0f} %",

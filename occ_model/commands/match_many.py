@@ -1,11 +1,11 @@
-"""The command ``occ-model match`` with several photos: one readout time from all of them."""
+"""The command ``occ-model match`` with several photos, which give one readout time."""
 
 import argparse
 import sys
 from dataclasses import replace
 from pathlib import Path
 
-from occ_model.commands.files import SCENE_FILE, TABLE, Written
+from occ_model.commands.files import SCENE_FILE, TABLE, OutputFiles
 from occ_model.commands.options import assumption_of, whole_number
 from occ_model.commands.progress_bar import progress_bar
 from occ_model.errors import ParameterError, counted, one_line
@@ -38,27 +38,27 @@ def add_many_options(parser: argparse.ArgumentParser) -> None:
         "--jobs",
         type=whole_number,
         metavar="N",
-        help="processes for several photos; default: one a core",
+        help="processes for several photos; default: one for each core",
     )
     parser.add_argument(
         "--known",
         action="append",
         default=[],
         metavar="PHOTO=VALUE",
-        help="of one of several photos the value that is known, such as garage.jpg=2kHz: the "
+        help="the known value for one of several photos, such as garage.jpg=2kHz: the "
         "frequency of its lamp, stated as for the others, or the readout time of its camera",
     )
 
 
 def run_many(options: argparse.Namespace, scene: Scene) -> int:
-    """Match several photos, print their table, and write it where ``--out`` says."""
+    """Match several photos, print their table, and write it to ``--out``."""
     paths = [options.file, *options.more]
     jobs = usual_jobs() if options.jobs is None else options.jobs
     check_count("jobs", jobs, 1, MOST_JOBS)
-    own = _known(paths, options)
+    own = _parse_known(paths, options)
     if options.out:
-        check_replaceable(options.out)  # before minutes of work are done
-    table = _matched(paths, scene, own, options, jobs)
+        check_replaceable(options.out)  # before minutes of work
+    table = _match_with_bar(paths, scene, own, options, jobs)
     if table is None:
         return EXIT_INTERRUPTED
     known = ""
@@ -68,21 +68,21 @@ def run_many(options: argparse.Namespace, scene: Scene) -> int:
     paste = stated_lines(table, known)
     if options.out:
         write_whole(options.out, csv_text(table, paste, known).encode("utf-8"))
-    for line in [*_report(table, known), *paste]:
+    for line in [*_report_lines(table, known), *paste]:
         print(line)
     if options.out:
         print(f"{one_line(str(options.out))}: {counted(len(table.rows), 'photo')}")
     return EXIT_FAILURE if table.estimated is None else 0
 
 
-def _known(paths: list[Path], options: argparse.Namespace) -> dict[int, float]:
-    """Return the known values of single photos, by index."""
+def _parse_known(paths: list[Path], options: argparse.Namespace) -> dict[int, float]:
+    """Parse the known values of single photos, by index."""
     known: dict[int, float] = {}
     of_cycles = options.led_frequency is not None and options.estimate == "readout_time"
     declared = SQUARE_FREQUENCY if of_cycles else quantity(counterpart(options.estimate))
     for text in options.known:
         name, _, value = text.rpartition("=")
-        places = _places(name, paths)
+        places = _find_photo(name, paths)
         number = replace(declared, name=f"--known {one_line(name)}").parse(value)
         if not known.keys().isdisjoint(places):
             raise ParameterError(
@@ -93,26 +93,26 @@ def _known(paths: list[Path], options: argparse.Namespace) -> dict[int, float]:
     return known
 
 
-def _places(name: str, paths: list[Path]) -> list[int]:
-    """Return the indices of a photo among those given, by its path or its file's name alone."""
+def _find_photo(name: str, paths: list[Path]) -> list[int]:
+    """Return a photo's indices among those given, by its path or by its file name alone."""
     for names in ([str(path) for path in paths], [path.name for path in paths]):
         places = [place for place, each in enumerate(names) if each == name]
         if len({paths[place] for place in places}) == 1:
             return places
     raise ParameterError(
-        f"--known {one_line(name) or '(nothing)'} is none of the photos, or several; allowed: "
+        f"--known {one_line(name) or '(nothing)'} is not exactly one of the photos; allowed: "
         f"PHOTO=VALUE with the path of one, such as {one_line(str(paths[0]))}=1kHz."
     )
 
 
-def _matched(
+def _match_with_bar(
     paths: list[Path],
     scene: Scene,
     known: dict[int, float],
     options: argparse.Namespace,
     jobs: int,
 ) -> PhotoTable | None:
-    """Match with a progress bar; None after Ctrl-C."""
+    """Match photos with a progress bar; None after Ctrl-C."""
     reached = 0
     try:
         with progress_bar(total=len(paths), unit="photo", leave=False) as bar:
@@ -143,11 +143,11 @@ def _matched(
     return None
 
 
-def _report(table: PhotoTable, known: str) -> list[str]:
+def _report_lines(table: PhotoTable, known: str) -> list[str]:
     name = table.estimate
     width = min(max(len(one_line(row.path.name)) for row in table.rows), _MAX_FILE_CHARACTERS)
     lines = [
-        f"{_cut(row.path.name, width):{width}}  {row.verdict:10}  {_found(row, name)}"
+        f"{_shorten(row.path.name, width):{width}}  {row.verdict:10}  {_estimates_text(row, name)}"
         + (f"  given: {quantity(table.known).format(row.given)}" if row.given is not None else "")
         + ("  outlier" if table.is_outlier(place) else "")
         + (f"  {row.note}" if row.note else "")
@@ -155,47 +155,49 @@ def _report(table: PhotoTable, known: str) -> list[str]:
     ]
     counts = ", ".join(f"{table.count(v)} {v}" for v in VERDICTS if table.count(v))
     lines += ["", f"{'photos':22}{len(table.rows)}: {counts}"]
-    lines += _mean(name, table.estimated, known)
-    lines += _mean("exposure_time", table.exposure_time, known)
+    lines += _mean_lines(name, table.estimated, known)
+    lines += _mean_lines("exposure_time", table.exposure_time, known)
     frame = frame_readout_time(table)
     if frame is not None:
-        lines.append(f"{'readout of the frame':22}{known}{_with_error('readout_time', *frame)}")
+        lines.append(
+            f"{'readout of the frame':22}{known}{_format_estimate('readout_time', *frame)}"
+        )
     return lines + list(table.notes)
 
 
-def _found(row: PhotoRow, name: str) -> str:
+def _estimates_text(row: PhotoRow, name: str) -> str:
     texts = []
     for each in (name, "exposure_time"):
         value, error = getattr(row, each), row.uncertainty(each)
-        texts.append("" if value is None else _with_error(each, value, error or 0.0))
-    # Of a doubtful photo all is.
+        texts.append("" if value is None else _format_estimate(each, value, error or 0.0))
+    # In a doubtful photo everything is doubtful.
     if row.verdict == SURE and row.exposure_verdict == DOUBTFUL:
         texts[1] += " (doubtful)"
     return f"{texts[0]:24}  {texts[1]:22}".rstrip()
 
 
-def _mean(name: str, found: CombinedEstimate | None, known: str) -> list[str]:
+def _mean_lines(name: str, found: CombinedEstimate | None, known: str) -> list[str]:
     if found is None:
         return []
-    text = f"{known}{_with_error(name, found.value, found.uncertainty)}, mean of {found.count}"
+    text = f"{known}{_format_estimate(name, found.value, found.uncertainty)}, mean of {found.count}"
     if found.count > 1:
         text += f"; chi-square {found.chi_square:.3g} of {found.degrees_of_freedom}: " + (
             "they agree" if found.agrees else "they differ by more than their errors"
         )
     if found.outliers:
-        text += f"; {len(found.outliers)} left out as too far from the others"
+        text += f"; {len(found.outliers)} excluded as too far from the others"
     return [f"{name:22}{text}"]
 
 
-def _with_error(name: str, value: float, error: float) -> str:
+def _format_estimate(name: str, value: float, error: float) -> str:
     return estimate_text(quantity(name), value, error)
 
 
-def _cut(text: str, width: int) -> str:
+def _shorten(text: str, width: int) -> str:
     shown = one_line(text)
     return shown if len(shown) <= width else f"…{shown[1 - width :]}"
 
 
-def written_by(options: argparse.Namespace) -> Written:
-    """Return what ``--out`` writes: the table of several photos, or the scene fitted to one."""
+def outputs_of_match(options: argparse.Namespace) -> OutputFiles:
+    """Return the output of ``--out``: the table of several photos, or the scene of one."""
     return TABLE if options.more else SCENE_FILE

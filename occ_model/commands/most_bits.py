@@ -1,4 +1,4 @@
-"""The command ``occ-model most-bits``: which code, frequency and number of bits carry most."""
+"""The command ``occ-model most-bits``: the code, frequency and number of bits that carry most."""
 
 import argparse
 
@@ -31,7 +31,7 @@ def add_to(commands: Commands) -> None:
         help=f"may be repeated; default: {', '.join(DECODERS)}",
     )  # fmt: skip
     add_option(parser, "--fps", FRAMES_A_SECOND, "pictures a second, one payload each")
-    add_option(parser, "--pictures", 10, "of which every bit must be read")
+    add_option(parser, "--pictures", 10, "in which every bit must be read")
     add_option(parser, "--seed", 1)
     parser.set_defaults(command=_run)
 
@@ -60,7 +60,7 @@ def _run(options: argparse.Namespace) -> int:
     null = HERTZ.format(theory.null_frequency(scene), 4)
     rows = HERTZ.format(2.0 * theory.row_rate_frequency(scene), 4)
     print(
-        f"By theory an alternating pattern has no stripes at {null}, and from {rows} on a chip is "
+        f"By theory an alternating pattern has no stripes at {null}, and above {rows} a chip is "
         "shorter than a column."
     )
     return 0 if all(one.scene for one in found) else EXIT_FAILURE
@@ -72,7 +72,7 @@ def _sentence(found: MostBits) -> str:
     sent = found.scene.transmitter
     frequency = HERTZ.format(sent.switching_frequency, 3)
     rest = (
-        f"none of {found.tried} combinations that carry as much or more"
+        f"none of {found.tried} combinations that carry as much or more was read"
         if found.tried
         else "no combination carries more"
     )

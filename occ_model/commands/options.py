@@ -1,4 +1,4 @@
-"""The common options of commands (scene, simulated effects, noise), and their parser."""
+"""Common options of commands (scene, simulated effects, noise), and their parser."""
 
 import argparse
 import sys
@@ -19,24 +19,24 @@ from occ_model.scene.simulation_settings import (
 )
 from occ_model.scene.units import NONE
 
-if TYPE_CHECKING:  # argparse's own class cannot be subscripted when it runs
+if TYPE_CHECKING:  # argparse's class cannot be subscripted at run time
     Commands: TypeAlias = argparse._SubParsersAction[argparse.ArgumentParser]
 else:
     Commands: TypeAlias = argparse._SubParsersAction
 
 
-_MAX_MESSAGE_CHARACTERS = 1000  # all allowed values fit, long input is cut
+_MAX_MESSAGE_CHARACTERS = 1000  # all allowed values fit; longer input is cut
 
 
 class Parser(argparse.ArgumentParser):
-    """A parser whose help raises errors of output, and whose error messages are short."""
+    """A parser that raises errors when it prints help, and whose messages are short."""
 
     def print_help(self, file: IO[str] | None = None) -> None:  # type: ignore[override]
-        """Print the help; errors are raised, which argparse ignores by default."""
+        """Print the help, and raise errors, which argparse would ignore."""
         print(self.format_help(), end="", file=file or sys.stdout)
 
     def error(self, message: str) -> NoReturn:
-        """Exit with the usage and a message, of bounded length whatever the command line."""
+        """Exit with the usage and a message of bounded length."""
         super().error(one_line(message, _MAX_MESSAGE_CHARACTERS))
 
 
@@ -63,7 +63,7 @@ def whole_number(text: str) -> int:
 
 
 def decoder_name(text: str) -> str:
-    """Check the name of a decoder; a plug-in's is not imported yet."""
+    """Check the name of a decoder, without importing a plug-in."""
     if text not in DECODERS and text not in decoders():
         raise argparse.ArgumentTypeError(
             f"there is no decoder {shown(text)}; known: {', '.join(decoders())}"
@@ -78,9 +78,9 @@ def add_option(
     what: str = "",
     **more: Any,
 ) -> None:
-    """Add an option with a default, which ends its help and sets its type."""
+    """Add an option whose default is in its help, and sets its type."""
     kinds = {int: whole_number, float: number}
-    if type(default) in kinds:  # a text stays as it is: a window asks whether it is the default
+    if type(default) in kinds:  # a window checks whether a text is the default
         more["type"] = kinds[type(default)]
     shown = "%(default)g" if isinstance(default, float) else "%(default)s"
     help_text = f"{what}; default: {shown}" if what else f"default: {shown}"
@@ -91,7 +91,9 @@ def add_scene_options(parser: argparse.ArgumentParser) -> None:
     """Add the options that choose a scene; :func:`scene_of` reads them."""
     start = parser.add_mutually_exclusive_group()
     add_option(start, "--preset", DEFAULT_PRESET)
-    start.add_argument("--scene", type=Path, metavar="FILE", help="a scene file instead")
+    start.add_argument(
+        "--scene", type=Path, metavar="FILE", help="a scene file in place of a preset"
+    )
     parser.add_argument(
         "--set",
         dest="settings",
@@ -110,17 +112,17 @@ def scene_of(options: argparse.Namespace) -> Scene:
 def add_plan_options(parser: argparse.ArgumentParser) -> None:
     own = SimulationSettings()
     add_option(
-        parser, "--tolerance", own.tolerance, "what effects left out may change, in levels of the "
-        "stretched profile; 0: simulate all, inf: none", metavar="LEVELS",
+        parser, "--tolerance", own.tolerance, "how much omitted effects may change, in levels of "
+        "the stretched profile; 0: simulate all effects, inf: none", metavar="LEVELS",
     )  # fmt: skip
     add_option(
-        parser, "--observable", own.observable, "what the tolerance is of", choices=OBSERVABLES
+        parser, "--observable", own.observable, "the quantity of the tolerance", choices=OBSERVABLES
     )
     add_switches(parser)
 
 
 def add_switches(parser: argparse.ArgumentParser) -> None:
-    """Add the options that switch effects by hand; :func:`forced` reads them."""
+    """Add the options that switch effects on or off, for :func:`forced_effects`."""
     for switch, meaning in (("on", "simulate an effect"), ("off", "leave an effect out")):
         parser.add_argument(
             f"--{switch}",
@@ -133,7 +135,7 @@ def add_switches(parser: argparse.ArgumentParser) -> None:
 
 def add_noise_options(parser: argparse.ArgumentParser) -> None:
     own = SimulationSettings()
-    meaning = "exact: drawn for each pixel; reused: many times faster"
+    meaning = "exact: random numbers for each pixel; reused: stored ones, many times faster"
     add_option(parser, "--noise", own.noise, meaning, choices=NOISE_SOURCES)
     add_option(parser, "--seed", own.seed)
 
@@ -145,11 +147,11 @@ def add_simulation_options(parser: argparse.ArgumentParser) -> None:
 
 def simulation_settings_of(options: argparse.Namespace) -> SimulationSettings:
     return SimulationSettings(
-        options.tolerance, options.observable, forced(options), options.noise, options.seed
+        options.tolerance, options.observable, forced_effects(options), options.noise, options.seed
     ).check(NAMES)
 
 
-def forced(options: argparse.Namespace) -> dict[str, bool]:
+def forced_effects(options: argparse.Namespace) -> dict[str, bool]:
     """Return the effects that a command line switches on or off."""
     for name in set(options.on) & set(options.off):
         raise ParameterError(
@@ -159,7 +161,7 @@ def forced(options: argparse.Namespace) -> dict[str, bool]:
 
 
 def assumption_of(name: str, value: float, pattern: str, options: argparse.Namespace) -> str:
-    """Name the value that estimated times depend on; empty where the command line states it."""
+    """Name the value on which estimated times depend; empty if the command line states it."""
     stated = {setting.partition("=")[0].strip() for setting in options.settings}
     if options.led_frequency is not None:
         stated.add("switching_frequency")

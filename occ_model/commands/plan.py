@@ -1,4 +1,4 @@
-"""The command ``occ-model plan``: list the effects a scene calls for, and what each changes."""
+"""The command ``occ-model plan``: list the effects that a scene needs, and their changes."""
 
 import argparse
 
@@ -14,7 +14,7 @@ from occ_model.scene.simulation_settings import SimulationSettings
 
 
 def add_to(commands: Commands) -> None:
-    parser = commands.add_parser("plan", help="list the effects that a scene calls for, and why")
+    parser = commands.add_parser("plan", help="list the effects that a scene needs, and why")
     add_scene_options(parser)
     add_plan_options(parser)
     own = SimulationSettings()

@@ -1,4 +1,4 @@
-"""Progress bars on standard error, which never stop the command that shows them."""
+"""Progress bars on standard error, which never stop a command."""
 
 import os
 import sys
@@ -9,46 +9,46 @@ from typing import Any
 
 from occ_model.program import discard
 
-_SETTINGS = "TQDM_"  # prefix of the environment variables by which a user changes tqdm's bars
+_SETTINGS = "TQDM_"  # prefix of the environment variables that change tqdm's bars
 
 
 def progress_bar(**options: Any) -> Any:
-    """Return a tqdm bar, shown on a terminal whatever the user's environment says."""
+    """Return a tqdm bar, shown on a terminal regardless of the user's environment."""
     return _bar_class()(file=sys.stderr, **{"disable": None, **options})
 
 
 def print_above_bar(sentence: str) -> None:
     """Print a line on standard error, above the bar if one is shown."""
-    with _full_disk_ignored():
+    with _ignore_full_disk():
         _bar_class().write(sentence, file=sys.stderr)
 
 
 @lru_cache(maxsize=1)
 def _bar_class() -> Any:
-    with _settings_hidden():
-        # Slow to import, and only needed where a command takes long. It reads its settings then.
+    with _hide_settings():
+        # Slow to import, and needed only by long commands. It reads its settings at import.
         from tqdm import tqdm
 
     class Bar(tqdm):  # type: ignore[misc]  # tqdm has no types
-        """A bar that is abandoned where it cannot be written: the result counts."""
+        """A bar that is abandoned if it cannot be written, as only the result matters."""
 
         def display(self, *arguments: Any, **options: Any) -> None:
-            with _full_disk_ignored():
+            with _ignore_full_disk():
                 super().display(*arguments, **options)
 
         def clear(self, *arguments: Any, **options: Any) -> None:
-            with _full_disk_ignored():
+            with _ignore_full_disk():
                 super().clear(*arguments, **options)
 
         def close(self) -> None:
-            with _full_disk_ignored():
+            with _ignore_full_disk():
                 super().close()
 
     return Bar
 
 
 @contextmanager
-def _settings_hidden() -> Iterator[None]:
+def _hide_settings() -> Iterator[None]:
     hidden = {name: os.environ.pop(name) for name in list(os.environ) if name.startswith(_SETTINGS)}
     try:
         yield
@@ -57,8 +57,8 @@ def _settings_hidden() -> Iterator[None]:
 
 
 @contextmanager
-def _full_disk_ignored() -> Iterator[None]:
-    """Discard all of standard error from the first failing write on."""
+def _ignore_full_disk() -> Iterator[None]:
+    """Discard standard error after the first write that fails."""
     try:
         yield
     except OSError:

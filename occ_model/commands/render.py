@@ -28,15 +28,15 @@ def add_to(commands: Commands) -> None:
         "--picture",
         choices=PICTURES,
         default="receiver",
-        help="whose picture is written: the receiver's, enhanced as the scene says, which decode "
-        "reads (default), or the camera's, as a photo is",
+        help="the picture to write: the receiver's, with the scene's enhancement, which decode "
+        "reads (default), or the camera's, like a photo",
     )
     parser.add_argument(
         "--rows-step",
         type=whole_number,
         default=1,
         metavar="K",
-        help="make a draft: simulate and write every K-th row only; default: all rows",
+        help="make a draft of only every K-th row; default: all rows",
     )
     parser.add_argument("-o", "--out", type=Path, required=True, help="image file to write")
     parser.add_argument("--save-scene", type=Path, metavar="FILE.toml", help="also write the scene")
@@ -46,7 +46,7 @@ def add_to(commands: Commands) -> None:
 def _run(options: argparse.Namespace) -> int:
     scene = scene_of(options)
     settings = simulation_settings_of(options)
-    check_image_path(options.out)  # before seconds of work are done
+    check_image_path(options.out)  # before seconds of work
     frame = render_with(scene, settings, options.rows_step)
     image, title = frame.picture(options.picture), frame.picture_title(options.picture)
     write_image(options.out, image, title)

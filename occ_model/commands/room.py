@@ -1,4 +1,4 @@
-"""The command ``occ-model room``: draw a room's picture, or find where a picture was taken."""
+"""The command ``occ-model room``: simulate a room's picture, or find where one was taken."""
 
 import argparse
 import math
@@ -46,13 +46,15 @@ _FOCAL_LENGTH = "equivalent_focal_length"
 
 
 def add_to(commands: Commands) -> None:
-    parser = commands.add_parser("room", help="many lamps in one picture: which, and from where")
+    parser = commands.add_parser(
+        "room", help="many lamps in one picture: their names, and the camera's place"
+    )
     kinds = parser.add_subparsers(required=True, metavar="ACTION")
     render = kinds.add_parser("render", help="simulate the camera's picture of a room")
     _add_room(render)
     add_simulation_options(render)
     render.add_argument("-o", "--out", type=Path, required=True, help="image file to write")
-    render.set_defaults(command=_render)
+    render.set_defaults(command=_run_render)
     locate = kinds.add_parser(
         "locate", help="name the lamps in a picture and say where it was taken"
     )
@@ -61,38 +63,38 @@ def add_to(commands: Commands) -> None:
         "file",
         nargs="?",
         type=Path,
-        help="a photo, whose focal length is that of its EXIF data, or else that of the room; "
-        "default: simulate a picture and compare",
+        help="a photo, with the focal length in its EXIF data or else that of the room; "
+        "default: a simulated picture, with its true place",
     )
     add_simulation_options(locate)
-    locate.set_defaults(command=_locate)
+    locate.set_defaults(command=_run_locate)
     floor = kinds.add_parser(
         "map",
-        help="measure over the floor how many lamps are read, and how well the place is known",
-        epilog="Stopped by Ctrl-C, or by anything else, what is done is in the file of --out; the "
-        "same command goes on from there.",
+        help="measure across the floor how many lamps are read, and how well the place is known",
+        epilog="If it is stopped, by Ctrl-C or otherwise, the results so far are in the file of "
+        "--out; the same command continues from there.",
     )  # fmt: skip
-    _add_room(floor, _AXES[2:])  # x and y are those of the floor's places
+    _add_room(floor, _AXES[2:])  # x and y are those of places on the floor
     _add_floor(floor, 5)
     add_work_options(floor)
-    floor.set_defaults(command=_map, writes={"out": TABLE})
+    floor.set_defaults(command=_run_map, writes={"out": TABLE})
     _add_codes(kinds)
 
 
 def _add_codes(kinds: Commands) -> None:
     parser = kinds.add_parser(
         "codes",
-        help="compare lengths of codes for many lamps: how alike they are, and what is read",
+        help="compare lengths of codes for many lamps: their distances, and what is read",
     )
     _add_room(parser, _AXES[2:])
-    add_option(parser, "--lamps", 1024, "lamps that have a code each, of which the room holds some")
+    add_option(parser, "--lamps", 1024, "lamps with a code each, some of which are in the room")
     parser.add_argument(
         "--bits", type=whole_number, action="append", default=[],
-        help="a length of code, may be repeated; default: the shortest, and 2 and 4 bits more",
+        help="a length of code; may be repeated; default: the shortest, and 2 and 4 bits more",
     )  # fmt: skip
     _add_floor(parser, 3)
     add_worker_options(parser)
-    parser.set_defaults(command=_codes)
+    parser.set_defaults(command=_run_codes)
 
 
 def _add_floor(parser: argparse.ArgumentParser, side: int) -> None:
@@ -128,10 +130,10 @@ def _room_of(options: argparse.Namespace) -> Room:
     )
 
 
-def _render(options: argparse.Namespace) -> int:
+def _run_render(options: argparse.Namespace) -> int:
     room, settings = _room_of(options), simulation_settings_of(options)
     check_image_path(options.out)
-    frame = _rendered(room, settings)
+    frame = _render_with_settings(room, settings)
     write_image(options.out, frame.camera_image, "Camera's picture")
     shown = [one.lamp.name + (" (cut)" if one.is_cut else "") for one in frame.lamps]
     seconds = sum(frame.timings.values())
@@ -142,21 +144,21 @@ def _render(options: argparse.Namespace) -> int:
     return 0
 
 
-def _rendered(room: Room, settings: SimulationSettings) -> RoomFrame:
+def _render_with_settings(room: Room, settings: SimulationSettings) -> RoomFrame:
     return render_room(
         room, tolerance=settings.tolerance, seed=settings.seed, observable=settings.observable,
         force=settings.force, noise=settings.noise,
     )  # fmt: skip
 
 
-def _request(options: argparse.Namespace) -> RoomMapRequest:
+def _request_of(options: argparse.Namespace) -> RoomMapRequest:
     room = _room_of(options)
     places = floor_under(room, options.side)
     return RoomMapRequest(room, *places, options.images, options.seed, options.tolerance)
 
 
-def _map(options: argparse.Namespace) -> int:
-    request = _request(options)
+def _run_map(options: argparse.Namespace) -> int:
+    request = _request_of(options)
 
     def run(executor: Executor | None, progress: Progress) -> tuple[RoomPoint, ...]:
         return room_map(
@@ -185,8 +187,8 @@ def _map(options: argparse.Namespace) -> int:
     return 0
 
 
-def _codes(options: argparse.Namespace) -> int:
-    request = _request(options)
+def _run_codes(options: argparse.Namespace) -> int:
+    request = _request_of(options)
 
     def run(executor: Executor | None, progress: Progress) -> tuple[CodeLength, ...]:
         return code_lengths(
@@ -212,14 +214,14 @@ def _codes(options: argparse.Namespace) -> int:
     )
     alike = [f"{one.bits}" for one, gain in zip(found, gains, strict=True) if gain == max(gains)]
     if len(alike) > 1:
-        print(f"As well do {', '.join(alike[1:])} bits: so few pictures do not distinguish them.")
+        print(f"{', '.join(alike[1:])} bits do as well; so few pictures do not distinguish them.")
     return 0
 
 
-def _locate(options: argparse.Namespace) -> int:
+def _run_locate(options: argparse.Namespace) -> int:
     room, settings = _room_of(options), simulation_settings_of(options)
     if options.file is None:
-        reading = read_room(_rendered(room, settings).camera_image, room)
+        reading = read_room(_render_with_settings(room, settings).camera_image, room)
     else:
         given = any(text.split("=")[0].strip() == _FOCAL_LENGTH for text in options.settings)
         focal_length = room.scene.camera.equivalent_focal_length if given else None
@@ -227,13 +229,13 @@ def _locate(options: argparse.Namespace) -> int:
         reading = found.reading
         for sentence in found.assumed:
             print(f"Assumed. {sentence}")
-    _print(reading)
+    _print_reading(reading)
     if options.file is None:
-        print("True place: " + _numbers_of(room.camera))
+        print("True place: " + _format_place(room.camera))
     return 0 if reading.located else EXIT_FAILURE
 
 
-def _print(reading: RoomReading) -> None:
+def _print_reading(reading: RoomReading) -> None:
     for lamp in reading.lamps:
         at = f"columns {lamp.region.first_column} to {lamp.region.last_column - 1}"
         code = "no code" if lamp.code is None else f"code {lamp.code}"
@@ -241,21 +243,21 @@ def _print(reading: RoomReading) -> None:
     for reason in reading.reasons:
         print(reason)
     for one in filter(None, (reading.located, *reading.alternatives)):
-        print("I am here:  " + _numbers_of(one.place, one))
+        print("I am here:  " + _format_place(one.place, one))
         if one.focal_error:
             focal, error = 1e3 * one.focal_length, 1e3 * one.focal_error
             print(f"Focal length that fits: {focal:.2f} ± {error:.2g} mm equivalent.")
 
 
-def _numbers_of(place: Place, located: Located | None = None) -> str:
+def _format_place(place: Place, located: Located | None = None) -> str:
     texts = []
     errors = np.zeros(len(_AXES)) if located is None else located.errors
     for name, error in zip(_AXES, errors.tolist(), strict=True):
         value = getattr(place, name)
         scale, unit, digits = (1.0, "m", 4) if name in "xyz" else (180.0 / math.pi, "°", 2)
-        if error:  # two digits of it
+        if error:  # show two digits of it
             digits = max(digits, 1 - math.floor(math.log10(error * scale)))
         own = f" ± {error * scale:.{digits}f}" if located else ""
-        rounded = round(value * scale, digits) + 0.0  # no minus before 0
+        rounded = round(value * scale, digits) + 0.0  # no -0
         texts.append(f"{name} {rounded:.{digits}f}{own} {unit}")
     return ", ".join(texts)

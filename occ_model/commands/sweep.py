@@ -1,4 +1,4 @@
-"""The command ``occ-model sweep``: measure the success rate over any parameters."""
+"""The command ``occ-model sweep``: measure the success rate against any parameters."""
 
 import argparse
 import asyncio
@@ -18,7 +18,7 @@ from occ_model.commands.options import (
     add_scene_options,
     add_switches,
     decoder_name,
-    forced,
+    forced_effects,
     scene_of,
 )
 from occ_model.commands.progress_bar import print_above_bar, progress_bar
@@ -45,20 +45,20 @@ BOTH, ALL = "both", "all"
 
 Study = TypeVar("Study")
 
-PLOT_ENDINGS = (".png", ".pdf", ".svg")  # of the files that a plot is written to
+PLOT_ENDINGS = (".png", ".pdf", ".svg")  # of the file of a plot
 
 
 def add_to(commands: Commands) -> None:
     parser = commands.add_parser(
         "sweep",
-        help="measure the success rate over any parameters",
-        epilog="Stopped by Ctrl-C, or by anything else, what is done is in the file of --out; the "
-        "same command goes on from there.",
+        help="measure the success rate against any parameters",
+        epilog="If it is stopped, by Ctrl-C or otherwise, the results so far are in the file of "
+        "--out; the same command continues from there.",
     )
     add_scene_options(parser)
     parser.add_argument(
         "--vary", action="append", required=True, metavar="NAME=VALUES",
-        help=f"{SYNTAX}; may be repeated, all combinations are measured",
+        help=f"{SYNTAX}; may be repeated: all combinations are measured",
     )  # fmt: skip
     add_option(parser, "--images", 5, "a point")
     parser.add_argument(
@@ -68,18 +68,18 @@ def add_to(commands: Commands) -> None:
         f"{PAPER_DECODER}",
     )  # fmt: skip
     add_option(
-        parser, "--fps", FRAMES_A_SECOND, "images a second, or as many as can be read out, by "
+        parser, "--fps", FRAMES_A_SECOND, "images a second (or as many as can be read out), by "
         "which bits a second are counted",
     )  # fmt: skip
     add_option(parser, "--seed", 1)
     add_option(
-        parser, "--tolerance", TOLERANCE.default, "what effects left out may change in the signal "
+        parser, "--tolerance", TOLERANCE.default, "how much omitted effects may change the signal "
         "that is decoded, in levels of the stretched profile", metavar="LEVELS",
     )  # fmt: skip
     add_switches(parser)
     add_option(
-        parser, "--path", "auto", "by whole images, a sample of their rows, the column means "
-        "alone, or as the plan allows", choices=SIGNAL_PATHS,
+        parser, "--path", "auto", "by whole images, a sample of their rows, only the column means, "
+        "or as the plan allows", choices=SIGNAL_PATHS,
     )  # fmt: skip
     add_work_options(parser)
     parser.add_argument(
@@ -103,7 +103,7 @@ def add_work_options(parser: argparse.ArgumentParser) -> None:
     add_worker_options(parser)
     parser.add_argument(
         "--out", type=Path, metavar="FILE.csv",
-        help="results, point by point; where a part of them is there, the rest is measured",
+        help="file of results, point by point; if it has a part of them, only the rest is measured",
     )  # fmt: skip
 
 
@@ -114,11 +114,11 @@ def _run(options: argparse.Namespace) -> int:
         decoders_of(options.decoder or [PAPER_DECODER]),
         options.seed,
         options.tolerance,
-        forced(options),
+        forced_effects(options),
         options.path,
         options.fps,
     )
-    # All arguments are checked before a cluster is contacted or minutes of work are done.
+    # All arguments are checked before a cluster is contacted or minutes of work begin.
     request = checked_request(scene, axes, settings)
     check_count("jobs", options.jobs, 1, MOST_JOBS)
     if options.plot:
@@ -143,7 +143,7 @@ def _run(options: argparse.Namespace) -> int:
     elif not options.plot:
         sys.stdout.writelines(table.csv())
     if options.plot:
-        # matplotlib takes half a second to import: only where a figure is drawn.
+        # matplotlib takes half a second to import, which only figures need.
         from occ_model.figures.sweep import write_sweep_figure
 
         write_sweep_figure(options.plot, table, options.show)
@@ -174,7 +174,7 @@ def _check_plot(path: Path, axes: int) -> None:
 def run_with_bar(
     run: Callable[[Executor | None, Progress], Study], options: argparse.Namespace
 ) -> Study | None:
-    """Measure with a progress bar that shows the time left; None after Ctrl-C."""
+    """Run a study with a progress bar that shows the time left; None after Ctrl-C."""
     workers = cluster_executor(options.cluster) if options.cluster else nullcontext()
     reached = "before the first point"
     with ExitStack() as stack:
@@ -182,28 +182,28 @@ def run_with_bar(
 
         def progress(done: int, total: int, _left: float) -> None:
             nonlocal bar, reached
-            if bar is None:  # not before the first point: a refused study shows none
+            if bar is None:  # only after the first point, so that a refused study shows no bar
                 bar = stack.enter_context(progress_bar(total=total, unit="point"))
             reached = f"after {done} of {total} points"
             bar.update(done - bar.n)
 
         try:
-            stack.enter_context(_warnings_as_sentences())
+            stack.enter_context(_print_warnings_as_sentences())
             return run(stack.enter_context(workers), progress)
         except KeyboardInterrupt:
             pass
     out = getattr(options, "out", "")
-    kept = f"they are in {one_line(str(out))}, and the same command goes on from there."
+    kept = f"the results are in {one_line(str(out))}, and the same command continues from there."
     if out == "":
-        kept = "none is kept."
+        kept = "no results are kept."
     elif not out:
-        kept = "with --out FILE.csv they would be kept."
+        kept = "with --out FILE.csv the results would be kept."
     print(f"occ-model: stopped {reached}; {kept}", file=sys.stderr)
     return None
 
 
 @contextmanager
-def _warnings_as_sentences() -> Iterator[None]:
+def _print_warnings_as_sentences() -> Iterator[None]:
     """Print warnings as plain sentences, above the progress bar if there is one."""
 
     def show(message: Warning | str, *_others: object, **_options: object) -> None:
@@ -224,16 +224,16 @@ class ClusterError(OccError):
 
 @contextmanager
 def cluster_executor(address: str) -> Iterator[Executor]:
-    """Return an executor on the dask cluster of a scheduler such as ``tcp://10.0.0.5:8786``."""
+    """Return an executor on the dask cluster of a scheduler, such as ``tcp://10.0.0.5:8786``."""
     try:
         from distributed import Client
     except ImportError:
         raise ClusterError(
             "A cluster needs the package distributed: pip install 'occ-explorer[cluster]'."
         ) from None
-    # A connection that fails is reported below in one sentence, instead of dask's log.
+    # A failed connection is reported below in one sentence, instead of dask's log.
     logging.getLogger("distributed").setLevel(logging.CRITICAL)
-    if not asyncio.run(_workers(address)):
+    if not asyncio.run(_count_workers(address)):
         raise ClusterError(
             f"The cluster at {shown(address)} has no workers; start one with "
             f"'dask worker {one_line(address)}'."
@@ -245,13 +245,13 @@ def cluster_executor(address: str) -> Iterator[Executor]:
         client.close(timeout=SECONDS)
 
 
-async def _workers(address: str) -> int:
-    """Ask a scheduler for its number of workers: a client without a scheduler is slow to close."""
+async def _count_workers(address: str) -> int:
+    """Ask a scheduler for its number of workers, since a client without one is slow to close."""
     from distributed.core import rpc
     from distributed.security import Security
 
     try:
-        # As the client does: certificates for tls:// come from dask's configuration.
+        # As in the client, certificates for tls:// come from dask's configuration.
         keys: Any = Security().get_connection_args("client")
         async with asyncio.timeout(SECONDS):
             async with rpc(address, connection_args=keys) as scheduler:
@@ -259,7 +259,7 @@ async def _workers(address: str) -> int:
             return len(known["workers"])
     except TimeoutError:
         reason = f"no answer within {SECONDS} s"
-    except Exception as error:  # noqa: BLE001 - whatever may listen there can answer anything
+    except Exception as error:  # noqa: BLE001 - anything may listen and answer there
         reason = " ".join(str(error).split()).rstrip(".") or type(error).__name__
     raise ClusterError(
         f"No dask scheduler answers at {shown(address)}: {one_line(reason)}. Allowed: the address "

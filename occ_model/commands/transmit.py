@@ -7,7 +7,7 @@ from occ_model.boards.chip_table import frequency_lines
 from occ_model.boards.sketch import BOARDS, DEFAULT_BOARD, SCENE, board_named, file_names
 from occ_model.boards.transmission import EYES, Transmission, flicker_sentence, prepare_transmission
 from occ_model.boards.waveform_files import choose_wav_timing
-from occ_model.commands.files import Written
+from occ_model.commands.files import OutputFiles
 from occ_model.commands.options import Commands, add_option, add_scene_options, scene_of
 from occ_model.errors import one_line
 from occ_model.files.writing import make_folder
@@ -26,35 +26,40 @@ def add_to(commands: Commands) -> None:
     parser.add_argument(
         "-o", "--out", type=Path, required=True, metavar="DIR", help="folder to fill"
     )
-    parser.set_defaults(command=_run, writes={"out": _written})
+    parser.set_defaults(command=_run, writes={"out": _outputs_of})
 
 
-def _written(options: argparse.Namespace) -> Written:
+def _outputs_of(options: argparse.Namespace) -> OutputFiles:
     names = file_names(options.out, board_named(options.board))
-    return Written(names=names)
+    return OutputFiles(names=names)
 
 
 def _run(options: argparse.Namespace) -> int:
     sent = prepare_transmission(scene_of(options), board_named(options.board))
-    make_folder(options.out)  # a refusal must not come after the drawing
-    # matplotlib takes half a second to import: only where a figure is drawn.
+    make_folder(options.out)  # refuse a folder before drawing
+    # matplotlib takes half a second to import, which only figures need.
     from occ_model.figures.transmitter_files import write_transmitter_files
 
     paths, missing = write_transmitter_files(options.out, sent)
     print(f"{one_line(str(options.out))}: {', '.join(sorted(path.name for path in paths))}")
-    for line in (*_facts(sent), missing or _wav(sent), flicker_sentence(sent), EYES):
+    for line in (
+        *_frequency_facts(sent),
+        missing or _wav_sentence(sent),
+        flicker_sentence(sent),
+        EYES,
+    ):
         print(line)
     return 0
 
 
-def _facts(sent: Transmission) -> list[str]:
+def _frequency_facts(sent: Transmission) -> list[str]:
     facts = [" ".join(frequency_lines(sent))]
     if not sent.timing.is_as_asked:
-        facts.append(f"{SCENE} has the frequency that is sent: match your photos with it.")
+        facts.append(f"{SCENE} has the frequency that is sent; match your photos with it.")
     return facts
 
 
-def _wav(sent: Transmission) -> str:
+def _wav_sentence(sent: Transmission) -> str:
     """State the frequency error of the WAV file, whose sample rate is a whole number of Hz."""
     timing = choose_wav_timing(sent)
     return (

@@ -1,4 +1,4 @@
-"""Parse the values over which a parameter is varied, such as ``2kHz:20kHz:2kHz``."""
+"""Parse the values of a varied parameter, such as ``2kHz:20kHz:2kHz``."""
 
 import math
 from collections.abc import Iterable
@@ -12,12 +12,12 @@ from occ_model.scene.parameters import parameter_named
 from occ_model.study.sweep.request_check import check_points
 
 SYNTAX = (  # what :func:`axes_of` parses
-    "NAME=a,b,c: these values; NAME=low:high:step: from low in even steps, with high where a step "
-    "meets it; NAME=low:high:xN: N values from low to high, in even ratios where the parameter's "
+    "NAME=a,b,c: these values; NAME=low:high:step: from low in even steps, with high if a step "
+    "meets it; NAME=low:high:xN: N values from low to high, in even ratios if the parameter's "
     "slider is logarithmic (frequency, times, distance), else in even steps"
 )
 
-_DIGITS = 12  # significant digits of a value in even steps, so that 0.6 + 3 x 0.2 is 1.2
+_DIGITS = 12  # significant digits of a value in even steps, so that 0.6 + 3 x 0.2 gives 1.2
 
 
 def axes_of(settings: Iterable[str]) -> dict[str, list[ParameterValue]]:
@@ -31,19 +31,19 @@ def axes_of(settings: Iterable[str]) -> dict[str, list[ParameterValue]]:
         parameter = parameter_named(name)
         if name in axes:
             raise parameter.refuse("is varied twice", "one axis a parameter")
-        axes[name] = _values(parameter, text)
-        check_points(axes)  # before the next axis is made
+        axes[name] = _parse_values(parameter, text)
+        check_points(axes)  # before making the next axis
     return axes
 
 
-def _values(parameter: Parameter, text: str) -> list[ParameterValue]:
+def _parse_values(parameter: Parameter, text: str) -> list[ParameterValue]:
     if ":" not in text:
         if text.count(",") >= MOST_POINTS:
             raise parameter.refuse("has too many values", f"at most {MOST_POINTS:,}")
         return [parameter.parse(part) for part in text.split(",")]
     parts = text.split(":")
     if len(parts) != 3 or not isinstance(parameter, Quantity | Count):
-        raise parameter.refuse(f"varies over {shown(text)}", _forms(parameter))
+        raise parameter.refuse(f"varies over {shown(text)}", _allowed_forms(parameter))
     low, high = parameter.parse(parts[0]), parameter.parse(parts[1])
     if not low < high:
         raise parameter.refuse(
@@ -51,22 +51,22 @@ def _values(parameter: Parameter, text: str) -> list[ParameterValue]:
         )
     step = parts[2].strip()
     if step[:1] in ("x", "X"):
-        return _spread(parameter, low, high, step)
-    return _stepped(parameter, low, high, step)
+        return _spread_values(parameter, low, high, step)
+    return _step_values(parameter, low, high, step)
 
 
-def _forms(parameter: Parameter) -> str:
+def _allowed_forms(parameter: Parameter) -> str:
     if isinstance(parameter, Quantity | Count):
         return "low:high:step, low:high:xN, or values with commas between them"
     return "values with commas between them"
 
 
-def _spread(
+def _spread_values(
     parameter: Quantity | Count, low: float, high: float, text: str
 ) -> list[ParameterValue]:
     """Return N values from low to high, in even ratios or steps."""
     factor = text[1:].lstrip("0")
-    # Python refuses to convert numbers of thousands of digits.
+    # Python does not convert numbers of thousands of digits.
     is_whole = factor.isdecimal() and len(factor) <= len(str(MOST_POINTS))
     number = int(factor) if is_whole else 0
     if not 2 <= number <= MOST_POINTS:
@@ -78,15 +78,17 @@ def _spread(
     return [low, *(float(f"{value:.6g}") for value in even[1:-1]), high]
 
 
-def _stepped(
+def _step_values(
     parameter: Quantity | Count, low: float, high: float, text: str
 ) -> list[ParameterValue]:
     """Return the values from low to high in even steps."""
-    step = parameter.unit.parse(text) if isinstance(parameter, Quantity) else _whole(text)
+    step = (
+        parameter.unit.parse(text) if isinstance(parameter, Quantity) else _parse_whole_number(text)
+    )
     if step is None or not step > 0.0 or math.isinf(step):
         raise parameter.refuse(f"varies in steps of {shown(text)}", "a step above 0")
     steps = (high - low) / step * (1 + 1e-9)
-    if steps < 1.0:  # only the first value would be left
+    if steps < 1.0:  # there would be only the first value
         raise parameter.refuse(
             f"varies in steps of {shown(text)}", "a step above 0, no larger than the range"
         )
@@ -100,5 +102,5 @@ def _stepped(
     return [min(value, high) for value in values]
 
 
-def _whole(text: str) -> float | None:
+def _parse_whole_number(text: str) -> float | None:
     return float(text) if text.strip().isdecimal() else None

@@ -72,7 +72,9 @@ def write_animation(  # noqa: PLR0913 - settings, most of them optional
         )
     parameter = parameter_named(name)
     if not isinstance(parameter, Quantity):
-        raise ParameterError(f"{name} cannot run through values; allowed: a parameter with a unit.")
+        raise ParameterError(
+            f"{name} cannot change in an animation; allowed: a parameter with a unit."
+        )
     if not 1 <= len(values) <= MOST_FRAMES:
         raise ParameterError.of("frames", f"{len(values)}", f"1 to {MOST_FRAMES}")
     if isinstance(rate, bool) or not 0.0 < rate <= _MAX_GIF_RATE:

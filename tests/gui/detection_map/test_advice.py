@@ -17,7 +17,7 @@ from occ_gui.detection_map import advice_worker, map_schedule
 from occ_gui.detection_map import search_controller as module
 from occ_gui.detection_map.advice_sentences import advice_lines
 from occ_gui.detection_map.advice_view import AdviceView
-from occ_model.commands.limits import row, sentences
+from occ_model.commands.limits import format_row, sentences
 from occ_model.parallel.job import Job, JobResult
 from occ_model.receiver.decoders import DECODERS
 from occ_model.results.advice import Advice, TheoryLimits
@@ -151,7 +151,7 @@ def test_why_the_scene_itself_is_not_read_comes_first_in_window_and_shell(
 
 def test_window_and_shell_state_the_same_numbers(small_scene: Scene) -> None:
     advice = advice_on(small_scene)
-    shell = " ".join([row(advice.limits), *sentences([advice.limits])])
+    shell = " ".join([format_row(advice.limits), *sentences([advice.limits])])
     for line in advice_lines(advice):
         if line.destination is not None:
             assert line.destination[2] in shell
@@ -160,7 +160,7 @@ def test_window_and_shell_state_the_same_numbers(small_scene: Scene) -> None:
             )
     (bits,) = re.findall(r"%\): (\S+) bits a second", " ".join(
         line.text for line in advice_lines(advice)))  # fmt: skip
-    assert row(advice.limits).split()[-1] == bits
+    assert format_row(advice.limits).split()[-1] == bits
 
 
 def test_every_decoder_is_searched_and_each_end_has_a_button(advised: MapBench) -> None:
@@ -262,7 +262,7 @@ def test_what_holds_for_every_decoder_is_said_once_below_all(
         advice = advice_on(small_scene)
         view.show_advice(replace(advice, limits=replace(advice.limits, decoder=decoder)))
     QApplication.processEvents()
-    labels = [label for row in view.lines for label in row.findChildren(QLabel)]
+    labels = [label for format_row in view.lines for label in format_row.findChildren(QLabel)]
     labels.sort(key=lambda label: label.mapTo(view.content, QPoint()).y())
     shown = [label.text() for label in labels]
     common = shown.index("For every decoder")
@@ -277,14 +277,22 @@ def test_outdated_advice_is_dimmed_and_leads_only_where_it_still_holds(advised: 
     advice = advised.view.advice
 
     def state() -> tuple[set[bool], list[bool]]:
-        labels = {label.isEnabled() for row in advice.lines for label in row.findChildren(QLabel)}
+        labels = {
+            label.isEnabled()
+            for format_row in advice.lines
+            for label in format_row.findChildren(QLabel)
+        }
         return labels, [button.isEnabled() for button in [*advice.destinations][:3]]
 
     assert state() == ({True}, [True, True, True])
     advised.scenes.change(switching_frequency=9e3)  # its limits do not depend on it
     assert state() == ({True, False}, [True, False, False])
-    (row,) = [row for row in advice.lines if next(iter(advice.destinations)) in row.children()]
-    assert all(label.isEnabled() for label in row.findChildren(QLabel))
+    (format_row,) = [
+        format_row
+        for format_row in advice.lines
+        if next(iter(advice.destinations)) in format_row.children()
+    ]
+    assert all(label.isEnabled() for label in format_row.findChildren(QLabel))
     advised.scenes.change(iso=200.0)
     assert state() == ({False}, [False, False, False])
     advised.scenes.undo_stack.undo()

@@ -44,7 +44,7 @@ def test_a_data_set_is_read_by_its_table(
     capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
     table = make_data_set(tmp_path, (2.0,))
-    name = "\x1b[31m0.png"  # which would colour all that follows on a terminal
+    name = "\x1b[31m0.png"  # which would colour the rest of a terminal
     (tmp_path / "images" / "0.png").rename(tmp_path / "images" / name)
     table.write_text(table.read_text("utf-8").replace("0.png", name), "utf-8")
     assert main(["bench", "--data", str(table), "--decoder", "sequence"]) == 0

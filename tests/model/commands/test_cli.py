@@ -38,13 +38,13 @@ def command(capsys: pytest.CaptureFixture[str]) -> Command:
 
 
 def report(outcome: Outcome) -> dict[str, str]:
-    """What decode says of a code that it read, as a table."""
+    """Parse the table that decode prints for a code that it has read."""
     assert (outcome.code, outcome.err) == (0, "")
     pairs = (line.split("  ", 1) for line in outcome.out.splitlines())
     return {name: value.strip() for name, value in pairs}
 
 
-def test_overexposure_is_said_first_where_it_is_why(command: Command, tmp_path: Path) -> None:
+def test_overexposure_is_named_first_if_it_is_the_cause(command: Command, tmp_path: Path) -> None:
     path = tmp_path / "white.png"
     scene = (*SMALL, "--preset", "phone-136us", "--set", "iso=12800")
     rendered = command("render", *scene, "-o", path)
@@ -55,7 +55,7 @@ def test_overexposure_is_said_first_where_it_is_why(command: Command, tmp_path: 
         cause, symptom = failed.err.splitlines()
         assert cause.startswith("Overexposed. The lit panel would have the level 860.6")
         assert not symptom.startswith("Overexposed")
-    # It is no cause where the picture is read, or would be read no better without it.
+    # It is no cause if the picture is read, or would not be read without it either.
     other = (*SMALL, "--preset", "phone-136us", "--set", "iso=6400")
     command("render", *other, "-o", path)
     read = command("decode", path, *other)
@@ -68,7 +68,7 @@ def test_overexposure_is_said_first_where_it_is_why(command: Command, tmp_path: 
     assert fact.startswith("Overexposed: ")
 
 
-def test_what_an_enhancement_makes_white_is_not_called_overexposed(
+def test_pixels_that_an_enhancement_makes_white_are_not_called_overexposed(
     command: Command, tmp_path: Path
 ) -> None:
     path = tmp_path / "even.png"
@@ -80,7 +80,7 @@ def test_what_an_enhancement_makes_white_is_not_called_overexposed(
 @pytest.mark.parametrize(
     ("name", "code"), [("picture.png", 0), ("picture.JPG", 718), ("picture.png", 1023)]
 )
-def test_what_render_writes_decode_reads(
+def test_decode_reads_the_picture_that_render_writes(
     command: Command, tmp_path: Path, name: str, code: int
 ) -> None:
     path = tmp_path / name
@@ -105,7 +105,7 @@ def test_a_saved_scene_renders_the_same_picture_again(command: Command, tmp_path
     assert first.read_bytes() == again.read_bytes()
 
 
-def test_decode_turns_a_picture_whose_lines_were_scanned(command: Command, tmp_path: Path) -> None:
+def test_decode_turns_a_picture_whose_rows_were_scanned(command: Command, tmp_path: Path) -> None:
     path = tmp_path / "picture.png"
     assert command("render", *SMALL, "-o", path).code == 0
     with Image.open(path) as picture:
@@ -119,11 +119,11 @@ def test_decode_turns_a_picture_whose_lines_were_scanned(command: Command, tmp_p
 def test_a_picture_without_stripes_is_not_turned_away_from_the_scenes_size(
     command: Command, tmp_path: Path
 ) -> None:
-    """The window takes the same picture as it lies: both then say the same of it."""
+    """The window does not turn this picture either, so that both give the same result."""
     path = tmp_path / "picture.png"
     dark = ("--set", "rows=900", "--set", "columns=300", "--set", "luminance=0.5")
     assert command("render", *dark, "-o", path).code == 0
-    assert occ.load_photo(path).image.shape == (300, 900)  # noise alone tells no axis
+    assert occ.load_photo(path).image.shape == (300, 900)  # noise alone does not show the scan axis
     failed = command("decode", path, *dark)
     assert failed.code == 1
     assert failed.out.startswith("region       columns 0 to 299, rows 0 to 899")
@@ -172,9 +172,7 @@ def test_parameters_lists_what_can_be_set_and_what_is_allowed(command: Command) 
 
 
 @pytest.mark.parametrize("line", ["", "fly", "render", "decode", "decode x.png --decoder none"])
-def test_a_command_that_is_none_is_answered_with_the_usage(
-    capsys: pytest.CaptureFixture[str], line: str
-) -> None:
+def test_an_unknown_command_gives_the_usage(capsys: pytest.CaptureFixture[str], line: str) -> None:
     with pytest.raises(SystemExit) as ended:
         main(line.split())
     assert ended.value.code == 2
@@ -208,12 +206,12 @@ _LAMP = (
 )  # fmt: skip
 
 
-def test_a_dimmed_lamp_gets_its_depth_and_its_shutter_speeds(
+def test_bands_reports_a_dimmed_lamp_s_depth_and_shutter_speeds(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     assert main(_LAMP) == 0
     lines = capsys.readouterr().out.splitlines()
-    # 0.96 of 480 Hz's periods: 0.04 of one is missing, of 0.72 that are lit.
+    # 0.96 of a period at 480 Hz: 0.04 of one is missing, of 0.72 that are lit.
     assert lines[0].startswith("Bars at 2 ms: 5.56 % of the mean light peak to peak")
     assert "The lamp's bars vanish at whole multiples of 2.083 ms." in lines
     rows = {line.split(" s ")[0]: line for line in lines if line.startswith("1/")}
@@ -223,7 +221,7 @@ def test_a_dimmed_lamp_gets_its_depth_and_its_shutter_speeds(
     assert any("percent flicker 100 %" in line for line in lines)
 
 
-def test_what_hides_the_bars_of_a_picture_is_told(capsys: pytest.CaptureFixture[str]) -> None:
+def test_what_hides_the_bars_of_a_picture_is_named(capsys: pytest.CaptureFixture[str]) -> None:
     pulses = "bands --set pattern=10 --set"
     for words, what, bars in (
         ("switching_frequency=64kHz --set readout_time=31.25us --set exposure_time=10us",

@@ -1,4 +1,4 @@
-"""The parsers of all commands: which module declares each, its defaults, and numbers in options."""
+"""The parsers of all commands: their modules, their defaults, and numbers in options."""
 
 import argparse
 import inspect
@@ -28,12 +28,14 @@ def help_of(parser: argparse.ArgumentParser, name: str, capsys: pytest.CaptureFi
     return capsys.readouterr().out
 
 
-def test_where_there_is_no_such_command_all_are_listed() -> None:
+def test_without_such_a_command_all_are_listed() -> None:
     assert len(COMMANDS) == len(set(COMMANDS)) > 15
     assert commands_of(make_parser("no-command")) == COMMANDS
 
 
-def test_a_command_alone_is_what_it_is_among_all(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_command_s_parser_is_the_same_alone_and_among_all(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
     whole = make_parser()
     for name in COMMANDS:
         alone = make_parser(name)
@@ -88,7 +90,7 @@ def test_a_decimal_comma_is_read_like_a_point(text: str, value: float) -> None:
         ["sweep", "--vary", "distance=1", "--tolerance"],
     ],
 )
-def test_what_is_no_number_or_two_is_refused_with_a_sentence(
+def test_a_text_of_no_number_or_of_two_is_refused_with_a_sentence(
     words: list[str], text: str, reason: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     with pytest.raises(SystemExit) as ended:

@@ -1,4 +1,4 @@
-"""No command writes over a file that it reads, nor over another that it writes."""
+"""No command overwrites a file that it reads, or another that it writes."""
 
 import argparse
 import os
@@ -17,7 +17,7 @@ from occ_model.commands.files import INPUTS, OUTPUTS, is_same_file
 
 
 def test_every_option_that_names_a_file_is_known() -> None:
-    """A command that is added must say what it reads and writes."""
+    """A new command must declare what it reads and writes."""
     known = {*INPUTS, *OUTPUTS}
     seen: set[str] = set()
 
@@ -46,7 +46,7 @@ def test_every_option_that_names_a_file_is_known() -> None:
 
 
 @pytest.mark.parametrize("ignores", [True, False])
-def test_names_that_differ_in_case_are_one_file_where_that_holds(
+def test_names_that_differ_in_case_are_one_file_if_the_file_system_says_so(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, ignores: bool
 ) -> None:
     monkeypatch.setattr(files, "ignores_case", lambda _folder: ignores)
@@ -57,7 +57,7 @@ def test_names_that_differ_in_case_are_one_file_where_that_holds(
 
 
 @pytest.mark.parametrize("filled", [True, False])
-def test_a_file_system_is_asked_whether_it_tells_case_apart(tmp_path: Path, filled: bool) -> None:
+def test_a_file_system_is_asked_whether_it_distinguishes_case(tmp_path: Path, filled: bool) -> None:
     folder = tmp_path / "folder"
     folder.mkdir()
     if filled:
@@ -66,7 +66,7 @@ def test_a_file_system_is_asked_whether_it_tells_case_apart(tmp_path: Path, fill
     assert files.ignores_case(folder) is (tmp_path / "PROBE").exists()
 
 
-def test_names_that_are_no_text_are_read_written_and_shown(
+def test_names_that_are_not_utf_8_are_read_written_and_shown(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(match, "match_photo", lambda *_, **__: match_with())

@@ -1,4 +1,4 @@
-"""The commands that simulate a film and that read one."""
+"""The commands that simulate a film and read one."""
 
 import math
 from pathlib import Path
@@ -83,7 +83,9 @@ def test_the_film_is_the_recording_of_the_scene(
     assert all((a.image == b.image).all() for a, b in zip(film, again, strict=True))
 
 
-def test_a_lossy_film_says_what_it_lost(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_loss_of_a_lossy_film_is_stated(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert main(["film", *SMALL, "-o", str(tmp_path / "film.mp4")]) == 0
     words = capsys.readouterr().out.splitlines()[1]
     assert words.startswith("Its codec is lossy: in the first frame pixels differ by ")

@@ -72,7 +72,7 @@ def test_table_mean_and_lines_to_paste_are_printed(
 
 
 @pytest.mark.whole
-def test_an_assumed_frequency_stands_before_every_time(
+def test_an_assumed_frequency_is_before_every_time(
     folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     known = tmp_path / "known.toml"
@@ -135,7 +135,7 @@ def test_a_photo_of_another_lamp_is_corrected_by_its_own_frequency(
     paths, out = [folder / "0.png", tmp_path / "a=b.png"], tmp_path / "x.csv"
     asked: list[dict[int, float]] = []
 
-    def matched(
+    def match_lamps_of(
         paths: list[Path], scene: Scene, known: dict[int, float], **_: object
     ) -> PhotoTable:
         asked.append(known)
@@ -145,7 +145,7 @@ def test_a_photo_of_another_lamp_is_corrected_by_its_own_frequency(
         ]
         return table_of(MatchSettings(scene), rows)
 
-    monkeypatch.setattr(match_many, "match_photos", matched)
+    monkeypatch.setattr(match_many, "match_photos", match_lamps_of)
     one = ["match", *map(str, paths), "--led-frequency", "2.5kHz", "--jobs", "1", "--out", str(out)]
     assert main([*one, "--known", "a=b.png=4kHz"]) == 0
     assert asked == [{1: 8e3}]
@@ -162,7 +162,7 @@ def lines_of(text: str) -> dict[str, str]:
     return {line[:22].strip(): line[22:] for line in text.splitlines()}
 
 
-def printed(capsys: pytest.CaptureFixture[str], *arguments: object) -> str:
+def print_lines(capsys: pytest.CaptureFixture[str], *arguments: object) -> str:
     capsys.readouterr()
     assert main(["match", *map(str, arguments)]) == 0
     return capsys.readouterr().out
@@ -171,7 +171,7 @@ def printed(capsys: pytest.CaptureFixture[str], *arguments: object) -> str:
 def test_the_chips_in_view_are_printed_without_a_known_code(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    lines = lines_of(printed(capsys, SAMPLE, "--chips", "--region", PART))
+    lines = lines_of(print_lines(capsys, SAMPLE, "--chips", "--region", PART))
     sent = "".join(map(str, sent_chips(read_scene_file(SAMPLE.with_suffix(".toml")).transmitter)))
     assert lines["chips"] in sent * 9
     assert lines["chips in view"].startswith(f"{len(lines['chips'])}, ")
@@ -182,13 +182,13 @@ def test_the_chips_in_view_are_printed_without_a_known_code(
     assert lines["region"].startswith(f"columns {first} to {last}, rows ")
 
 
-def test_the_cameras_exposure_stands_under_the_fitted_one(
+def test_the_cameras_exposure_is_below_the_fitted_one(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     sample = SAMPLE.with_name("led-1khz.jpg")
     found = match_with(pattern="10", pattern_was_read=False, exposure_time=68.5e-6)
     monkeypatch.setattr(match, "match_photo", lambda *_, **__: found)
-    out = printed(capsys, sample, "--led-frequency", "1kHz")
+    out = print_lines(capsys, sample, "--led-frequency", "1kHz")
     names = [line[:22].strip() for line in out.splitlines()]
     place = names.index("exposure_time")
     assert names[place + 1] == "noted by the camera"

@@ -1,4 +1,4 @@
-"""A progress bar stops no command: not by the user's settings, nor by a disk that is full."""
+"""A progress bar stops no command, neither by the user's settings nor by a full disk."""
 
 import os
 import subprocess
@@ -10,7 +10,7 @@ import pytest
 from occ_model.commands.progress_bar import print_above_bar, progress_bar
 
 
-def test_the_users_settings_of_tqdm_reach_no_bar() -> None:
+def test_the_users_settings_of_tqdm_do_not_affect_bars() -> None:
     program = (
         "from occ_model.commands.progress_bar import progress_bar\n"
         "with progress_bar(total=1, disable=False) as bar: bar.update()\n"

@@ -1,4 +1,4 @@
-"""A command that cannot be done ends with one sentence before any work, and changes no file."""
+"""An impossible command ends with one sentence before any work, and changes no file."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -26,7 +26,7 @@ WITHOUT_FILES = {
     "sweep --vary distance=1 --vary distance=2": "distance is varied twice",
     "sweep --vary distance=1 --jobs 100000": "allowed: a whole number from 1 to 1,024.",
     "film-study --frequencies ,": "switching_frequency is '', which is not a number in kHz",
-    "film-study --gaps 10,": "gaps holds ''; allowed: numbers",
+    "film-study --gaps 10,": "gaps has ''; allowed: numbers",
     "limits --jobs 3": "jobs is 3; allowed: a whole number from 1 to 2.",
     f"sweep --vary distance=1 --images {'9' * 4000}": "a whole number from 1 to 1,000,000.",
     "sweep --vary iso=100:4000:1 --vary distance=1:2:x300": "1,170,300 points; allowed",
@@ -37,7 +37,7 @@ WITHOUT_FILES = {
     "film --waypoint 1s:speed=1 -o f.mkv": "waypoint changes 'speed'; allowed: distance",
     "film --waypoint 1s:yaw=x -o f.mkv": "waypoint's yaw is 'x'; allowed: a number in °",
     "film --exposures 68us,long -o f.mkv": "exposure_time is 'long'",
-    "animate --vary averaging=light -o a.gif": "averaging cannot run through values",
+    "animate --vary averaging=light -o a.gif": "averaging cannot change in an animation",
     "figures --out new --seed -1": "seed is -1",
     "transmit --set switching_frequency=1MHz -o new": "switching_frequency is 1 MHz; allowed on",
     "transmit --set line_code=nrz --set framing=c-ook -o new": "line_code is 'nrz', which does",
@@ -53,7 +53,7 @@ READING = {
     "decode --follow film.mp4": "film.mp4 ",
     "match text.txt": "text.txt is not an image that can be read.",
     "match grey.png": "No stripes",
-    "match black.png --lamps": "No lamp was found: no place is far brighter than the rest of the ",
+    "match black.png --lamps": "No lamp was found: no place is much brighter than the rest of the ",
     "bench --data no-such-table.csv": "no-such-table.csv cannot be read",
     **{
         f"decode p.png {kind} --readout-tolerance={percent}": f"--readout-tolerance is {percent} "
@@ -64,8 +64,8 @@ READING = {
     "match p.png --chips --out fit.toml": "--out is given with --chips",
     "match p.png 0.png --chips": "--chips is given with several photos",
     "match p.png --known p.png=1kHz": "--known is given with one photo",
-    "match 0.png p.png --known 0.png": "--known (nothing) is none of the photos, or several; ",
-    "match 0.png p.png --known 2.png=1kHz": "--known 2.png is none of the photos",
+    "match 0.png p.png --known 0.png": "--known (nothing) is not exactly one of the photos; ",
+    "match 0.png p.png --known 2.png=1kHz": "--known 2.png is not exactly one of the photos",
     "match 0.png p.png --known 0.png=loud": "--known 0.png is 'loud'",
     "match 0.png p.png --led-frequency 1kHz --known 0.png=-1kHz": "is -1 kHz; allowed: 0.5 Hz to",
     "match 0.png p.png --known 0.png=2s": "--known 0.png is '2s'",
@@ -127,7 +127,7 @@ REFUSED = WITHOUT_FILES | READING | WRITING | SAME_FILE
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
-    """The current folder, with files and links that no command may change."""
+    """Make the current folder one with files and links that no command may change."""
     folder = tmp_path_factory.mktemp("files")
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(folder)
@@ -172,7 +172,7 @@ def test_a_refused_command_says_one_sentence_and_changes_no_file(
     assert contents(folder) == before
 
 
-NAMED = (  # N is a name of 5,000 letters
+NAMED = (  # N stands for a name of 5,000 letters
     "render --set N=1", "render --set averaging=N", "render --set payload=bits:N", "render --on N",
     "render --preset N", "render --scene N.toml", "render -o N.png", "match N", "match p.png N",
     "match 0.png p.png --known N=1kHz", "match 0.png p.png --known 0.png=N",
@@ -198,7 +198,7 @@ def test_a_name_of_any_length_is_shortened_in_a_sentence(
     ("line", "simulation"),
     [
         ("render -o out.xyz", "occ_model.commands.render.render_with"),
-        ("room render -o out.xyz", "occ_model.commands.room._rendered"),
+        ("room render -o out.xyz", "occ_model.commands.room._render_with_settings"),
     ],
 )
 def test_a_picture_that_cannot_be_written_is_not_simulated(

@@ -1,4 +1,4 @@
-"""The command room draws a room's picture and says where a picture was taken."""
+"""The command room simulates a room's picture and finds where a picture was taken."""
 
 import math
 from pathlib import Path
@@ -9,22 +9,20 @@ from PIL import Image
 
 import occ_model as occ
 from occ_model.cli import main
-from occ_model.commands.room import _numbers_of
+from occ_model.commands.room import _format_place
 from occ_model.room.pose_fit import Located
 from occ_model.room.room import Place
 
 
 def _file(folder: Path) -> Path:
-    # Every second pixel, read in the same time.
+    # Every second pixel, read out in the same time.
     room = occ.load_room("hall").replace(rows=2304, columns=1728, readout_time=16e-6)
     path = folder / "small.toml"
     path.write_text(room.to_toml(), encoding="utf-8")
     return path
 
 
-def test_a_picture_that_was_drawn_is_located(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_simulated_picture_is_located(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     room, picture = str(_file(tmp_path)), str(tmp_path / "picture.png")
     turned = ["--yaw", "10", "--roll", "40"]
     assert main(["room", "render", "--room", room, *turned, "-o", picture]) == 0
@@ -39,16 +37,16 @@ def test_a_picture_that_was_drawn_is_located(
     assert "yaw 10.0" in said or "yaw 9.9" in said
 
 
-def test_no_error_is_printed_as_none_and_no_zero_as_negative() -> None:
+def test_no_error_is_printed_as_zero_and_no_zero_as_negative() -> None:
     errors = np.array([2e-3, 3e-4, 8.71e-5, *np.radians([0.0042, 0.028, 0.00057])])
     yaw, roll = math.radians(-0.0003), math.radians(40.0012)
     place = Place(x=0.5009, y=-0.2001, z=1.1997, yaw=yaw, pitch=-1e-12, roll=roll)
-    said = _numbers_of(place, Located(place, np.diag(errors**2), 1.0, 1))
+    said = _format_place(place, Located(place, np.diag(errors**2), 1.0, 1))
     assert said == (
         "x 0.5009 ± 0.0020 m, y -0.20010 ± 0.00030 m, z 1.199700 ± 0.000087 m, "
         "yaw -0.0003 ± 0.0042 °, pitch 0.000 ± 0.028 °, roll 40.00120 ± 0.00057 °"
     )
-    assert _numbers_of(place).endswith("yaw 0.00 °, pitch 0.00 °, roll 40.00 °")
+    assert _format_place(place).endswith("yaw 0.00 °, pitch 0.00 °, roll 40.00 °")
 
 
 def test_a_picture_without_a_named_lamp_fails_with_the_reason(

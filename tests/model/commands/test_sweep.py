@@ -1,4 +1,4 @@
-"""``occ-model sweep``: what it takes, writes, draws and says."""
+"""``occ-model sweep``: its axes, files, figures and messages."""
 
 import csv
 import signal
@@ -41,7 +41,7 @@ VARY = ("--vary", "switching_frequency=4kHz:14kHz:10kHz", "--vary", "distance=0.
         ("averaging=light,pixel-value", ["light", "pixel-value"]),
         (" yaw = -10deg:10deg:10deg", [-np.pi / 18, 0.0, np.pi / 18]),
         ("edge_time=0:2us:x3", [0.0, 1e-6, 2e-6]),
-        # From zero no ratios are even, on a logarithmic scale either.
+        # From zero there are no even ratios, even on a logarithmic scale.
         ("luminance=0:2000:x3", [0.0, 1000.0, 2000.0]),
     ]
 )
@@ -51,7 +51,7 @@ def test_axes_are_read_as_people_write_them(text: str, values: list[object]) -> 
     assert {type(value) for value in found} == {type(value) for value in values}
 
 
-def test_steps_that_meet_the_end_end_there_exactly() -> None:
+def test_steps_that_reach_the_end_end_there_exactly() -> None:
     for step in ("0.1", "0.3", "0.7", "1/3"):
         values = axes_of([f"distance=0.1:21.1:{step}"])["distance"]
         assert values[-1] == 21.1
@@ -83,7 +83,7 @@ def test_steps_that_meet_the_end_end_there_exactly() -> None:
         ("bits=2:9:0.5", "a step above 0"),
     ]
 )
-def test_axes_that_cannot_be_are_refused_with_a_sentence(text: str, words: str) -> None:
+def test_impossible_axes_are_refused_with_a_sentence(text: str, words: str) -> None:
     with pytest.raises(ParameterError) as refusal:
         axes_of([text])
     assert words in str(refusal.value)
@@ -146,7 +146,7 @@ def test_a_cluster_is_reached_with_dasks_certificates(monkeypatch: pytest.Monkey
         pass
 
 
-@pytest.mark.whole  # the import of dask alone takes two seconds
+@pytest.mark.whole  # importing dask takes two seconds
 def test_an_unreachable_cluster_gives_a_sentence_in_time(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -173,7 +173,7 @@ def test_a_cluster_that_refuses_is_named_in_a_sentence(
     )
 
 
-def test_ctrl_c_keeps_what_is_done_and_says_how_to_go_on(tmp_path: Path) -> None:
+def test_ctrl_c_keeps_the_results_and_says_how_to_continue(tmp_path: Path) -> None:
     out = tmp_path / "r.csv"
     program = "import sys; from occ_model.cli import main; sys.exit(main(sys.argv[1:]))"
     command = [sys.executable, "-c", program, "sweep", "--vary", "iso=100:4000:1", "--images", "9"]
@@ -181,7 +181,7 @@ def test_ctrl_c_keeps_what_is_done_and_says_how_to_go_on(tmp_path: Path) -> None
         [*command, "--out", out],
         stderr=subprocess.PIPE,
         text=True,
-        # A shell that runs the tests in the background may let them ignore Ctrl-C.
+        # A shell that runs tests in the background may make them ignore Ctrl-C.
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     )
     deadline = time.monotonic() + 30
@@ -195,10 +195,10 @@ def test_ctrl_c_keeps_what_is_done_and_says_how_to_go_on(tmp_path: Path) -> None
     *_, last = error.splitlines()
     count = int(last.split()[3])
     assert 5 <= written < 3901
-    assert count <= written <= count + 1  # perhaps stopped just before the count
+    assert count <= written <= count + 1  # it may stop just before the count
     assert last == (
-        f"occ-model: stopped after {count} of 3901 points; they are in {out}, and the same command "
-        "goes on from there."
+        f"occ-model: stopped after {count} of 3901 points; the results are in {out}, and the same "
+        "command continues from there."
     )
 
 
@@ -206,7 +206,7 @@ def test_ctrl_c_keeps_what_is_done_and_says_how_to_go_on(tmp_path: Path) -> None
     ("done", "said"),
     [(None, "stopped before the first point"), (4, "stopped after 4 of 27 points")],
 )
-def test_a_study_that_is_stopped_says_how_far_its_own_progress_came(
+def test_a_stopped_study_says_how_far_it_came(
     done: int | None, said: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     def run(_executor: object, progress: Progress) -> None:
@@ -215,7 +215,7 @@ def test_a_study_that_is_stopped_says_how_far_its_own_progress_came(
         raise KeyboardInterrupt
 
     assert run_with_bar(run, Namespace(cluster=None)) is None
-    assert capsys.readouterr().err.endswith(f"occ-model: {said}; none is kept.\n")
+    assert capsys.readouterr().err.endswith(f"occ-model: {said}; no results are kept.\n")
 
 
 def table_of(**axes: object) -> occ.SweepTable:
@@ -223,7 +223,7 @@ def table_of(**axes: object) -> occ.SweepTable:
 
 
 @pytest.mark.usefixtures("plain_figures")
-def test_what_the_model_refuses_is_grey_in_a_map(tmp_path: Path) -> None:
+def test_points_that_the_model_refuses_are_grey_in_a_map(tmp_path: Path) -> None:
     path = tmp_path / "f.png"
     small = occ.load_preset("phone-136us").replace(rows=60, panel_height=0.01)
     write_sweep_figure(path, occ.sweep(small, {"yaw": [0.0, 1.2], "distance": [0.1, 1.0]}, 1))
@@ -232,7 +232,7 @@ def test_what_the_model_refuses_is_grey_in_a_map(tmp_path: Path) -> None:
     assert 0.05 < grey.mean() < 0.3
 
 
-def test_what_cannot_be_drawn_is_refused(tmp_path: Path) -> None:
+def test_a_figure_that_is_impossible_is_refused(tmp_path: Path) -> None:
     with pytest.raises(ParameterError, match="varies iso, bits, rows; allowed in a figure: one"):
         write_sweep_figure(tmp_path / "f.png", table_of(iso=[100.0], bits=[10], rows=[100]))
     with pytest.raises(OutputError, match=r"not have the ending of a figure; use \.png, "):

@@ -1,4 +1,4 @@
-"""The command ``occ-model transmit``: a folder with all that is needed to blink a scene."""
+"""The command ``occ-model transmit``: a folder with everything needed to blink a scene."""
 
 from pathlib import Path
 
@@ -27,7 +27,7 @@ def test_the_folder_has_sketch_waveform_wiring_and_scene(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     folder, drawn = tmp_path / "blink", transmitter_files.wiring_bytes
-    monkeypatch.setattr(  # drawing takes long: one of three pictures is enough
+    monkeypatch.setattr(  # drawing takes long, so that one of three pictures is enough
         transmitter_files, "wiring_bytes", lambda *how: drawn(*how) if how[1] == "svg" else b""
     )
     assert run(*SCENE, "--board", "arduino-uno", "-o", folder) == 0
@@ -55,13 +55,13 @@ def test_the_folder_has_sketch_waveform_wiring_and_scene(
         ("raspberry-pi-pico", "lamp", "main.py"),
     ],
 )
-def test_the_sketch_has_the_name_that_the_board_wants(
+def test_the_sketch_has_the_name_that_the_board_needs(
     tmp_path: Path, board: str, folder: str, sketch: str
 ) -> None:
     assert set(file_names(tmp_path / folder, board_named(board))) == {sketch, *FILES}
 
 
-def test_without_a_wav_file_it_is_said_why(
+def test_without_a_wav_file_the_reason_is_stated(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(transmitter_files, "wiring_bytes", lambda *_: b"")  # drawing takes long

@@ -51,7 +51,7 @@ def test_there_is_a_frame_for_each_value(tmp_path: Path, scene: Scene, ending: s
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
-        ({"name": "code"}, "code cannot run through values"),
+        ({"name": "code"}, "code cannot change in an animation"),
         ({"name": "speed"}, "speed"),
         ({"values": []}, "frames is 0; allowed: 1 to 300"),
         ({"values": [1e3] * 301}, "frames is 301"),

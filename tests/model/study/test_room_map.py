@@ -221,9 +221,9 @@ def test_the_command_says_which_length_serves_best(
     said = capsys.readouterr().out
     assert "6       64     16" in said
     assert "6 bits serve 64 lamps best: 2 of 2 whole lamps named correctly" in said
-    assert "As well do" not in said
+    assert "bits do as well" not in said
     assert main((*words, "--bits", "8")) == 0
-    assert "As well do 8 bits: so few pictures do not distinguish them." in capsys.readouterr().out
+    assert "8 bits do as well; so few pictures do not distinguish them." in capsys.readouterr().out
 
 
 def test_progress_is_that_of_all_lengths() -> None:

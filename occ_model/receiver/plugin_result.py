@@ -24,6 +24,7 @@ from occ_model.transmitter.plugin_checks import (
 from occ_model.transmitter.registry import MOST_CHIPS
 
 _SHORTEST_CHIP = 1e-6  # columns
+_FARTHEST_CHIP = 10.0  # signals, before or behind this one, within which a chip may begin
 
 
 def checked_result(who: str, result: DecodeResult, columns: int, scene: Scene) -> DecodeResult:
@@ -60,6 +61,10 @@ def checked_result(who: str, result: DecodeResult, columns: int, scene: Scene) -
     ) -> FloatArray | None:
         return checked_numbers(who, name, getattr(result, name), length, low, high)
 
+    farthest = _FARTHEST_CHIP * columns
+    starts = numbers("chip_starts", len(chips), -farthest, farthest)
+    if starts is not None and (np.diff(starts) < 0.0).any():
+        raise PluginError(f"{who} gives chip_starts that do not rise.")
     folded: object = result.model if result.folded is None else result.folded
     bins = min(len(folded), MOST_CHIPS) if isinstance(folded, np.ndarray) and folded.ndim else 1
     return DecodeResult(
@@ -74,7 +79,7 @@ def checked_result(who: str, result: DecodeResult, columns: int, scene: Scene) -
         histograms=_histograms(who, result.histograms, columns),
         chip_length=number("chip_length", low=_SHORTEST_CHIP),
         chips=chips,
-        chip_starts=numbers("chip_starts", len(chips)),
+        chip_starts=starts,
         headers=checked_places(who, "headers", result.headers, len(chips)),
         correlation=number("correlation", -1.0, 1.0),
         confidence=number("confidence", 0.0, 1.0),

@@ -16,6 +16,7 @@ from occ_model.results.decoding import PAPER_DECODER, DecodeResult, Region
 from occ_model.results.video import VideoFrame
 from occ_model.results.video_reading import FrameReading
 from occ_model.scene.scene import Scene
+from occ_model.transmitter.registry import MOST_CHIPS
 from occ_model.video.chip_timing import ChipLattice, ChipTiming, fit_timing
 
 _MAX_UNEXPLAINED = 0.3  # maximum fraction of the variance that the chips leave unexplained
@@ -203,6 +204,8 @@ def first_lattice(
         step = _most_coherent(kinds, expected)
         numbers = np.rint(np.concatenate(chip_numbers(kinds, lattice_at(kinds, step))))
         places = np.concatenate([kinds.rising, kinds.falling])
+    if step * len(signal) > MOST_CHIPS:  # far more than columns can show
+        return None
     # The middle of an exposure at a column is where its chip is read.
     middle = float(np.mean(numbers - places * step))
     phase = middle - 0.5 * exposure
@@ -218,7 +221,7 @@ def _regular(
     """Return the chips a column of a line through edges, and how far each edge lies off it."""
     parts = np.column_stack([np.ones(len(places)), numbers, np.where(rising, 0.5, -0.5)])
     found = np.linalg.lstsq(parts, places, rcond=None)[0]
-    if found[1] <= 0.0:
+    if found[1] * MOST_CHIPS <= 1.0:  # not even a part of a column each
         return 0.0, np.zeros(len(places))
     return float(1.0 / found[1]), np.asarray((places - parts @ found) / found[1])
 

@@ -4,15 +4,18 @@ import csv
 import re
 import signal
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import NoReturn
 
 import numpy as np
 import pytest
+from hard_cases.attack.doors.plugins import installed
 from model.plugins.installed_package import forget_plugins, install
 
 import occ_model as occ
 from occ_model import plugins
+from occ_model.arrays import FloatArray
 from occ_model.cli import main
 from occ_model.commands.limits import sentences
 from occ_model.files.writing import write_image
@@ -375,6 +378,19 @@ def test_what_fails_of_a_line_code_or_a_framing_is_counted_too(changes: dict[str
     )
     name = next(iter(changes.values()))
     assert f"failed in 2 of 2 readings; first: The plug-in '{name}'" in point.note
+
+
+@pytest.mark.parametrize("gap", [0.0, 5e-324, 1e-300, 1e-12, 1e-9])
+def test_chips_that_lie_on_each_other_are_no_chips_of_a_film(gap: float) -> None:
+    scene = SCENE.replace(enhancement="none")
+
+    def read(signal: FloatArray, scene: occ.Scene) -> occ.DecodeResult:
+        found = occ.decode(signal, scene, "threshold")
+        return replace(found, chip_starts=gap * np.arange(len(found.chips)))
+
+    with installed(plugins.DECODERS, occ.Decoder("own", "Own", read)):
+        reading = occ.decode_video(occ.render_video(scene, 2), scene, "own")
+    assert "The stripes do not follow the chips that were read." in str(reading.failure)
 
 
 def test_what_a_signal_raises_within_a_plug_in_is_for_the_program() -> None:

@@ -147,6 +147,8 @@ IMPOSSIBLE: tuple[tuple[dict[str, Any], str], ...] = (
     ({"bits": np.array([0, 1, 0, 2])}, "bits that are not zeros and ones."),
     ({"chip_starts": np.zeros(3)}, "3 chip_starts; allowed: up to 2."),
     ({"chip_starts": np.zeros(1)}, "1 chip_starts in place of 2."),
+    ({"chip_starts": np.array([3.0, 2.0])}, "chip_starts that do not rise."),
+    ({"chip_starts": np.array([3, 201])}, "chip_starts that are not all numbers from -200 to 200."),
     ({"light": np.full(20, np.nan)}, "light that are not all finite numbers."),
     ({"bit_likelihoods": np.full(4, 1.1)}, "bit_likelihoods that are not all numbers from 0 to 1."),
     ({"folded": np.zeros(3), "model": np.zeros(2)}, "2 model in place of 3."),

@@ -5,6 +5,7 @@ import math
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, redirect_stderr, redirect_stdout
 from dataclasses import fields, replace
+from functools import cache
 from pathlib import Path
 from random import Random
 from types import SimpleNamespace
@@ -17,6 +18,7 @@ from model.plugins.installed_package import forget_plugins
 import occ_model as occ
 from hard_cases.attack.promise import Door
 from occ_model import plugins
+from occ_model.arrays import FloatArray
 from occ_model.cli import main
 from occ_model.figures.decoding import decode_drawing
 from occ_model.files.writing import write_image
@@ -29,6 +31,7 @@ from occ_model.study.sweep.points import measure_point
 from occ_model.transmitter.framings.preamble import FRAMING
 from occ_model.transmitter.line_codes.manchester import LINE_CODE
 from occ_model.transmitter.packet import code_of
+from occ_model.video.reader import VideoReader
 
 NAME = "own"
 
@@ -104,6 +107,9 @@ def check_read(result: occ.DecodeResult, columns: int, scene: occ.Scene) -> None
         assert values is None or np.isfinite(values).all()
         if name.endswith("likelihoods") and values is not None:
             assert np.all((values >= 0.0) & (values <= 1.0))
+    if result.chip_starts is not None:
+        assert np.all(np.diff(result.chip_starts) >= 0.0)
+        assert np.all(np.abs(result.chip_starts) <= 10.0 * columns + 1e-6)
     assert all(type(place) is int and 0 <= place < len(result.chips) for place in result.headers)
 
 
@@ -128,10 +134,17 @@ def _instead(chance: Random, given: Any) -> Any:
     if kind < 0.35 or isinstance(given, np.ndarray):
         return given if chance.random() < 0.6 else chance.choice(RUBBISH)
     names = [field.name for field in fields(given)]
-    return replace(
-        given,
-        **{name: chance.choice(RUBBISH) for name in chance.sample(names, chance.choice((1, 1, 2)))},
-    )
+    if isinstance(given, occ.DecodeResult) and chance.random() < 0.3:
+        return replace(given, chip_starts=_rising(chance, len(given.chips)))
+    spoiled = chance.sample(names, chance.choice((1, 1, 2)))
+    return replace(given, **{name: chance.choice(RUBBISH) for name in spoiled})
+
+
+def _rising(chance: Random, count: int) -> FloatArray:
+    """Places of chips that rise, and are as near to each other or as far apart as may be."""
+    far = chance.choice((0.0, 5e-324, 1e-300, 1e-9, 1e-3, 1.0, 300.0, 2e4))
+    first = chance.choice((-2e4, -1.0, 0.0, 0.0, 1e3))
+    return np.sort([first + chance.uniform(0.0, far) for _ in range(count)]).astype(np.float64)
 
 
 def _spoiled(chance: Random, function: Callable[..., Any]) -> Callable[..., Any]:
@@ -209,6 +222,20 @@ def _benched(scene: occ.Scene, decoder: str, _folder: Path) -> list[str]:
     return [point.errors.faults] if point.errors.faults else []
 
 
+@cache
+def _film(scene: occ.Scene) -> tuple[occ.VideoFrame, ...]:
+    return tuple(occ.render_video(scene, 3))
+
+
+def _filmed(scene: occ.Scene, decoder: str, _folder: Path) -> list[str]:
+    plain = scene.replace(line_code="manchester", framing="paper")
+    reader = VideoReader(scene, decoder)
+    for frame in _film(plain):
+        reader.add(frame)
+    reading = reader.reading()
+    return [reading.faults] if reading.faults else []
+
+
 _CHANGES = {
     plugins.DECODERS: {},
     plugins.LINE_CODES: {"line_code": NAME, "framing": "preamble"},
@@ -224,7 +251,7 @@ def _plugin(chance: Random, folder: Path) -> list[str]:
     with installed(group, offered(chance, group)):
         scene = chance.choice(SCENES).replace(**_CHANGES[group])
         decoder = NAME if group == plugins.DECODERS else chance.choice(("threshold", "matched"))
-        come = chance.choice((_decoded, _decoded, _by_shell, _studied, _benched))
+        come = chance.choice((_decoded, _decoded, _by_shell, _studied, _benched, _filmed))
         return come(scene, decoder, folder)
 
 

@@ -79,8 +79,8 @@ def _entries(parts: Parts) -> Feature[None]:
             "save_scene": parts.document.save,
             "save_scene_as": files.ask_to_save_scene,
             "save_picture": files.ask_to_save_picture,
-            "reset_scene": lambda: parts.store.put(
-                load_preset(DEFAULT_PRESET), "reset of the scene", force={}
+            "reset_scene": lambda: parts.store.begin(
+                load_preset(DEFAULT_PRESET), "reset of the scene"
             ),
             "match": lambda: _match(parts),
             "delete_preset": parts.presets.ask_to_delete,

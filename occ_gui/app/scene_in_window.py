@@ -6,7 +6,7 @@ from occ_gui.accuracy.plan_changes import PlanNews, switch_sentence
 from occ_gui.app.parts import Parts
 from occ_gui.picture.before_controller import BeforeController
 from occ_gui.scene.control_panel import MAIN
-from occ_gui.scene.forced_effects import forced_text
+from occ_gui.scene.forced_effects import accuracy_chip, set_by_hand
 from occ_gui.shell.status import entries_of
 from occ_gui.simulation.snapshot import Snapshot
 from occ_model.results.plan import Decision
@@ -39,6 +39,7 @@ class SceneInWindow(QObject):
         store.changed.connect(self._show_scene)
         store.store.select(entries_of).changed.connect(messages.accept)
         store.refused.connect(self._refuse)
+        store.noted.connect(messages.note)
         store.refused_for.connect(controls.show_problem)
         store.settings.changed.connect(self._show_settings)
         store.settings.refused.connect(messages.note)
@@ -79,7 +80,8 @@ class SceneInWindow(QObject):
     def _show_settings(self, settings: SimulationSettings) -> None:
         parts = self._parts
         labels = parts.store.settings.effect_labels
-        parts.controls.forced.show_list(forced_text(settings.force, labels))
+        parts.controls.forced.show_list(set_by_hand(settings, labels))
+        parts.window.show_accuracy(accuracy_chip(settings, labels))
 
     def _refuse(self, sentence: str) -> None:
         # The control still shows the refused value.

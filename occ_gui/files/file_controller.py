@@ -185,7 +185,7 @@ class FileController(QObject):
             self.status_message.emit(str(error))
             return False
         title = f"opening of {one_line(path.name)}"
-        self._store.put(scene, title, force={})
+        self._store.begin(scene, title)
         return True
 
     def ask_to_save_scene(self) -> None:

@@ -70,7 +70,7 @@ class PresetController(QObject):
             self.update()
             return
         title = f"preset {name}"
-        self._store.put(scene, title, new_gesture(), force={})
+        self._store.begin(scene, title, new_gesture())
 
     def ask_to_save_match(self, matching: "MatchController") -> None:
         photo = matching.photo

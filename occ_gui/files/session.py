@@ -180,7 +180,10 @@ LONGEST_WAIT_MS = 1000
 def restore_workspace(
     file: SessionFile, first: Workspace, *, is_scene_asked: bool, are_settings_asked: bool
 ) -> Workspace:
-    """Return the workspace of the last session, except for what the command line asks for."""
+    """Return the first workspace: the last session's, but for what the command line asks for.
+
+    A scene that is asked for is simulated as in a new window, whatever was left out of another one.
+    """
     last = file.last
     if last is None:
         return first
@@ -192,7 +195,8 @@ def restore_workspace(
             workspace, scene=first.scene, preset="", scene_file=None, photo=first.photo,
             film=first.film,
         )  # fmt: skip
-    return replace(workspace, settings=first.settings) if are_settings_asked else workspace
+    is_new = is_scene_asked or are_settings_asked
+    return replace(workspace, settings=first.settings) if is_new else workspace
 
 
 class Session(QObject):

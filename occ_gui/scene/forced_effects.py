@@ -1,11 +1,19 @@
-"""Forced effects: a line of the effects switched by hand, with a button that resets them."""
+"""What the user has set of a simulation's accuracy by hand, in words and as a line."""
 
+import math
 from collections.abc import Mapping
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QWidget
 
+from occ_gui.core.workspace import FIRST_SETTINGS
 from occ_gui.widgets.building import filled, paragraph, push_button
+from occ_gui.widgets.chip_row import Chip
+from occ_gui.widgets.state_look import State
+from occ_model.errors import counted
+from occ_model.scene.simulation_settings import SimulationSettings, unit_of
+
+_MOST_NAMED = 1  # effects switched by hand that a chip names
 
 
 def switch_text(effect: str, included: bool | None, labels: Mapping[str, str]) -> str:
@@ -20,18 +28,56 @@ def forced_text(force: Mapping[str, bool], labels: Mapping[str, str]) -> str:
     return ", ".join(switch_text(name, force[name], labels) for name in names)
 
 
+def set_by_hand(settings: SimulationSettings, labels: Mapping[str, str]) -> str:
+    """Describe how the accuracy differs from what a new window plans; empty where it does not."""
+    texts = (_tolerance_text(settings), forced_text(settings.force, labels))
+    listed = ", ".join(text for text in texts if text)
+    return f"{listed[:1].upper()}{listed[1:]}"
+
+
+def _tolerance_text(settings: SimulationSettings) -> str:
+    tolerance, observable = settings.tolerance, settings.observable
+    if (tolerance, observable) == (FIRST_SETTINGS.tolerance, FIRST_SETTINGS.observable):
+        return ""
+    amount = f"tolerance {tolerance:g} {unit_of(observable)}"
+    if tolerance == math.inf:
+        amount = "bare paper model"
+    return amount if observable == FIRST_SETTINGS.observable else f"{amount} of the {observable}"
+
+
+def accuracy_chip(settings: SimulationSettings, labels: Mapping[str, str]) -> Chip | None:
+    """Return what is always to be seen of the accuracy; None where nothing is left out by hand."""
+    by_hand, is_reused = set_by_hand(settings, labels), settings.noise == "reused"
+    count = len(settings.force)
+    forced = forced_text(settings.force, labels)
+    if count > _MOST_NAMED:
+        forced = f"{counted(count, 'effect')} by hand"
+    short = (_tolerance_text(settings), forced, "reused noise" if is_reused else "")
+    text = " · ".join(part for part in short if part)
+    if not text:
+        return None
+    meanings = [f"{by_hand}."] if by_hand else []
+    if is_reused:
+        meanings.append(
+            "The noise is taken from a stored plane: much faster than drawn for each pixel."
+        )
+    meanings.append("The mode Effects shows what that changes.")
+    state = State.DOUBTFUL if by_hand else State.NEUTRAL
+    return Chip("accuracy", text, "\n".join(meanings), state)
+
+
 class ForcedEffects(QWidget):
-    """The effects switched by hand, and a button that resets them; hidden without any."""
+    """What is set by hand, and a button that resets it; hidden where nothing is."""
 
     released = Signal()  # the user leaves all effects to the plan
 
     def __init__(self) -> None:
         super().__init__()
-        self.text = paragraph(name="Effects switched by hand")
+        self.text = paragraph(name="Accuracy set by hand")
         self.text.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Minimum)
         self.back = push_button(
             "Back to the plan",
-            "Let the plan decide on these effects again, as one step that can be undone.",
+            "Let the plan decide on all effects again, within the usual tolerance.",
             self.released,
         )
         filled(

@@ -7,7 +7,7 @@ from itertools import count
 from PySide6.QtCore import QElapsedTimer, QObject, Signal
 
 from occ_gui.core.store import NO_GESTURE, Store
-from occ_gui.core.workspace import Workspace
+from occ_gui.core.workspace import FIRST_SETTINGS, Workspace
 from occ_gui.scene.forced_effects import switch_text
 from occ_model.errors import OccError
 from occ_model.scene.parameter_kinds import ParameterValue
@@ -69,6 +69,8 @@ class SceneStore(QObject):
 
     refused_for = Signal(str, object)  # the refusal, and the names of the refused parameters
 
+    noted = Signal(str)  # what else has changed with the scene
+
     def __init__(self, store: Store, effect_labels: Mapping[str, str] | None = None) -> None:
         super().__init__()
         self.store = store
@@ -103,7 +105,21 @@ class SceneStore(QObject):
         self.put(self.scene, f"switch: {text}", force=force)
 
     def release_effects(self) -> None:
-        self.put(self.scene, "return of all effects to the plan", force={})
+        """Leave all effects to the plan, with the tolerance of a new window."""
+        title = "return of all effects to the plan"
+        self.store.put(replace(self.store.workspace, settings=self._as_planned()), title)
+
+    def _as_planned(self) -> SimulationSettings:
+        """Return the settings without what the user has left out or taken in by hand."""
+        settings = self.settings.settings
+        return replace(FIRST_SETTINGS, noise=settings.noise, seed=settings.seed)
+
+    def begin(self, scene: Scene, title: str, gesture: int = NO_GESTURE) -> None:
+        """Replace the scene by another one, of which nothing is left out by hand, as one step."""
+        settings, former = self._as_planned(), self.settings.settings
+        self.store.put(replace(self._with(scene), settings=settings), title, gesture)
+        if settings != former:
+            self.noted.emit("What is left out is up to the plan again, within the usual tolerance.")
 
     def put(
         self,

@@ -86,7 +86,9 @@ def reading_by_profile(
     found = read_profile(request.scene, request.settings, decoders, view)
     if found is None:
         return None
-    return Reading(source="profile", **_seen(request, request.scene, found, found.results))
+    error = 0.0 if planned is None else planned.plan.error
+    seen = _seen(request, request.scene, found, found.results)
+    return Reading(source="profile", error=error, **seen)
 
 
 def is_soon(planned: PlannedScene) -> bool:
@@ -109,7 +111,8 @@ def reading_of_draft(request: SimulationRequest, frame: Frame) -> Reading:
     scene = frame.scene
     found = _decode_by_all(occ.decode(frame.image, scene), scene, request.more)
     results = {name: _in_whole_picture(result, frame) for name, result in found.items()}
-    return Reading(source="draft", **_seen(request, scene, frame, results))
+    seen = _seen(request, scene, frame, results)
+    return Reading(source="draft", error=frame.plan.error, **seen)
 
 
 def _in_whole_picture(result: DecodeResult, draft: Frame) -> DecodeResult:
@@ -130,6 +133,7 @@ def snapshot_of(request: SimulationRequest, frame: Frame) -> Snapshot:
         source="picture",
         called_for=name_effects_for_signal(frame.plan, scene),
         has_picture=True,
+        error=frame.plan.error,
         frame=frame,
         reading_seconds=seconds,
         **_seen(request, scene, frame, _decode_by_all(decoded, scene, request.more)),

@@ -85,6 +85,8 @@ class Reading(ColumnView):
     called_for: tuple[str, ...] = ()
     has_picture: bool = False
     overexposed: float = 0.0  # fraction of the panel's columns
+    # How much what the picture leaves out changes what the tolerance limits, in its unit
+    error: float = 0.0
     # Why decoders have not read the scene, by their names; None before that is searched
     causes: Mapping[str, Cause] | None = None
 

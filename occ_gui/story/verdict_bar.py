@@ -1,11 +1,11 @@
 """Verdict bar: whether the code was read, in words, colour and shape, and what holds beside."""
 
+import math
 from collections.abc import Iterator
 
 from PySide6.QtCore import Signal
 
 from occ_gui.detection_map.slider_strip import OwnRate
-from occ_gui.scene.forced_effects import switch_text
 from occ_gui.simulation.snapshot import Reading
 from occ_gui.simulation.verdict import (
     Verdict,
@@ -21,19 +21,19 @@ from occ_gui.widgets.chip_row import Chip
 from occ_gui.widgets.state_bar import StateBar
 from occ_gui.widgets.state_look import State
 from occ_model.results.decoding import PAPER_DECODER
+from occ_model.scene.simulation_settings import TOLERANCE, unit_of
 from occ_model.scene.units import SECOND
 from occ_model.simulation.overexposure import overexposed_text
 
 _COMPUTING = "computing"  # the chip of results that are still to come
 _READS = 0.99  # fraction of the bits from which a decoder counts as reading
-_MOST_FORCED = 2  # effects switched by hand that have a chip each; more have one together
 
 
 def chips_of(reading: Reading, decoder: str) -> Iterator[Chip]:
     """Yield what holds for the results besides the verdict on one decoder's."""
     if not reading.has_picture:  # which has the last word
         meaning = "Read from the column profile or a draft; the exact picture is computed."
-        yield Chip(_COMPUTING, "picture follows", meaning, State.WAITING)
+        yield Chip(_COMPUTING, "picture follows", meaning, State.WAITING, stays=True)
     if reading.overexposed:
         text = f"overexposed: {100.0 * reading.overexposed:.2g} %"
         yield Chip("overexposed", text, overexposed_text(reading.overexposed), State.DOUBTFUL)
@@ -46,13 +46,12 @@ def chips_of(reading: Reading, decoder: str) -> Iterator[Chip]:
     if reading.band_undefined:
         yield Chip("band", "band model ends here", reading.band_undefined)
     yield from _other_decoders(reading, decoder)
-    yield from _by_hand(reading)
     if reading.called_for:
         yield Chip("left out", "effects left out", left_out_in_words(reading), State.DOUBTFUL)
 
 
 def computing() -> Chip:
-    return Chip(_COMPUTING, "computing", "The results are computed.", State.WAITING)
+    return Chip(_COMPUTING, "computing", "The results are computed.", State.WAITING, stays=True)
 
 
 def of_pictures(rate: OwnRate) -> Chip:
@@ -79,7 +78,7 @@ def behind_run(chips: tuple[Chip, ...], pictured: str) -> tuple[Chip, ...]:
     if not pictured:
         return rest
     meaning = "The slider runs ahead of the picture, which is still of this value."
-    return (Chip(_COMPUTING, f"picture: {pictured}", meaning), *rest)
+    return (Chip(_COMPUTING, f"picture: {pictured}", meaning, stays=True), *rest)
 
 
 def _other_decoders(reading: Reading, decoder: str) -> list[Chip]:
@@ -97,17 +96,6 @@ def _other_decoders(reading: Reading, decoder: str) -> list[Chip]:
     )
     text = f"also read: {names}" if decoder in right else f"read by: {names}"
     return [Chip("others", text, meaning, State.GOOD)]
-
-
-def _by_hand(reading: Reading) -> list[Chip]:
-    decisions = reading.plan.decisions
-    labels = {decision.effect: decision.label for decision in decisions}
-    texts = [switch_text(d.effect, d.included, labels) for d in decisions if d.forced]
-    meaning = "The plan would decide by the tolerance; this was decided by hand."
-    if len(texts) > _MOST_FORCED:
-        text = f"{len(texts)} effects by hand"
-        return [Chip("forced", text, "\n".join([*texts, meaning]), State.DOUBTFUL)]
-    return [Chip("forced", text, meaning, State.DOUBTFUL) for text in texts]
 
 
 AVERAGES_LESSON = "2-past-the-shutter"
@@ -196,13 +184,14 @@ class VerdictBar(StateBar):
         if cause is None:
             # What follows from a failure is no title while its cause is searched for.
             title = verdict.title if reading.causes is None else verdict.heading
+            title += _left_out(verdict, reading)
             heading, why = self._heading(title), self._why(verdict, reading)
             if _is_averaged(verdict, reading) and not (self._is_outdated or self._run):
                 self._offer_lesson(AVERAGES_LESSON)
         else:
             unread = "No code" if result.code is None else verdict.title
             heading = self._heading(f"{unread}: {cause.what}")
-            why = [f"{cause.why} {symptom(verdict.reason)}".strip(), cause.why]
+            why = [f"{cause.why} {symptom(verdict.reason)}".strip(), cause.why, symptom(cause.why)]
             self._offer(None if self._is_outdated else cause.step)
         self.show_state(state, heading, *why, chips=chips)
 
@@ -260,6 +249,14 @@ class VerdictBar(StateBar):
             "No column sees one chip alone: the band model ends.",
             *texts,
         ]
+
+
+def _left_out(verdict: Verdict, reading: Reading) -> str:
+    """Qualify a good verdict where more is left out than a new window would; else empty."""
+    if verdict.state is not State.GOOD or reading.error <= TOLERANCE.default:
+        return ""
+    amount = f"up to {reading.error:.2g} {unit_of(reading.request.settings.observable)}"
+    return f" ({amount if math.isfinite(reading.error) else 'an unknown part'} left out)"
 
 
 def _is_averaged(verdict: Verdict, reading: Reading) -> bool:

@@ -25,6 +25,7 @@ class Chip:
     text: str  # a few words, as HTML with ``sub`` only
     meaning: str
     state: State = State.NEUTRAL
+    stays: bool = False  # whether it is shown however little room there is
 
 
 class ChipLabel(QWidget):
@@ -79,7 +80,10 @@ class ChipLabel(QWidget):
 
 
 class ChipRow(QWidget):
-    """Chips in a row at the right; those that do not fit are counted by the last one."""
+    """Chips in a row at the right; those that do not fit are counted by the last one.
+
+    Chips that stay come first.
+    """
 
     def __init__(self) -> None:
         super().__init__()
@@ -93,9 +97,10 @@ class ChipRow(QWidget):
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
 
     def show_chips(self, chips: Sequence[Chip]) -> None:
-        if tuple(chips) == self.chips:
+        chips = tuple(sorted(chips, key=lambda chip: not chip.stays))
+        if chips == self.chips:
             return
-        self.chips = tuple(chips)
+        self.chips = chips
         former = [*self._labels, *self._spare]
         self._labels = [_taken(former, chip) or ChipLabel(chip, self) for chip in self.chips]
         self._spare = former
@@ -109,7 +114,7 @@ class ChipRow(QWidget):
         if sum(widths) + _GAP * (fitting - 1) > self.width():
             room = self.width() - _MORE_WIDTH
             ends = accumulate(width + _GAP for width in widths)
-            fitting = sum(end <= room for end in ends)
+            fitting = max(sum(end <= room for end in ends), self._staying)
         hidden = self._labels[fitting:]
         shown = self._labels[:fitting]
         self._more.setVisible(bool(hidden))
@@ -135,8 +140,13 @@ class ChipRow(QWidget):
         width = sum(hint.width() + _GAP for hint in hints)
         return QSize(width, self.fontMetrics().height() + 6)
 
+    @property
+    def _staying(self) -> int:
+        return sum(chip.stays for chip in self.chips)
+
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        return QSize(_MORE_WIDTH, self.sizeHint().height())
+        staying = (label.sizeHint().width() + _GAP for label in self._labels[: self._staying])
+        return QSize(sum(staying) + _MORE_WIDTH, self.sizeHint().height())
 
 
 def plain_text_of(html: str) -> str:

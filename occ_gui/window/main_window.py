@@ -79,6 +79,7 @@ class MainWindow(QMainWindow):
         line = self._status_line
         self.reading, self.filming, self.pointed = line.reading, line.filming, line.pointed
         self.show_timing = self._status_line.show_timing
+        self.show_accuracy = self._status_line.show_accuracy
         self.show_plan_change = self._status_line.show_plan_change
         self.modes.changed.connect(
             lambda mode: line.show_times("controls" in self._panes.shown_in(mode))

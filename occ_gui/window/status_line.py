@@ -4,6 +4,7 @@ from PySide6.QtCore import QEvent, QObject, QSize
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QLabel, QSizePolicy, QStatusBar
 
+from occ_gui.widgets.chip_row import Chip, ChipLabel
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.plain_text import LONGEST_TEXT
 from occ_gui.widgets.work_bar import WorkBar
@@ -39,8 +40,12 @@ class StatusLine(QStatusBar):
         self.reading = WorkBar("How much of the photo has been read")
         self.filming = WorkBar("How much of the animation has been written")
         self.pointed, self.timing = _Readout(), _Readout()
+        # Of a size that no other text takes from it.
+        self.accuracy = ChipLabel(Chip("accuracy", "", ""))
+        self.accuracy.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
+        self.accuracy.hide()
         self.addWidget(self._sentence, 1)
-        for widget in (self.reading, self.filming, self.pointed, self.timing):
+        for widget in (self.reading, self.filming, self.pointed, self.timing, self.accuracy):
             self.addPermanentWidget(widget)
         for readout in (self.pointed, self.timing):
             readout.hide()
@@ -72,6 +77,13 @@ class StatusLine(QStatusBar):
     def _is_shown_elsewhere(self) -> bool:
         texts = (each.text() for each in self._others if each.isVisible())
         return bool(self._message) and any(self._message in _in_one_line(text) for text in texts)
+
+    def show_accuracy(self, chip: Chip | None) -> None:
+        """Show what is left out by hand, always and whole; None for nothing."""
+        self.accuracy.setVisible(chip is not None)
+        if chip is not None:
+            self.accuracy.show_chip(chip)
+            self.accuracy.updateGeometry()
 
     def show_plan_change(self, sentence: str) -> None:
         """Show which effects the plan has switched, while there is no message; empty removes it."""

@@ -87,6 +87,8 @@ class Estimates:
     stretch: float  # Levels of the stretched profile per grey level
     factors: Mapping[str, float]  # Weight of an effect's change, at least 1
     unknown: str = ""  # Why no bound is known; every limit is then infinite
+    # With the effects that are switched off; None where none is
+    complete: "Estimates | None" = None
 
     def errors_of(self, sets: Sequence[frozenset[str]]) -> list[float]:
         """Return bounds of the change, in levels, when each set of effects is left out."""
@@ -95,6 +97,11 @@ class Estimates:
         most = np.sqrt(self.seen.largest_squares(sets)).tolist()
         factors = [max((self.factors[name] for name in one), default=1.0) for one in sets]
         return [self.stretch * one * own for one, own in zip(factors, most, strict=True)]
+
+    def error_without(self, effects: frozenset[str]) -> float:
+        """Return a bound of the change without some effects, those switched off as well."""
+        (error,) = (self.complete or self).errors_of([effects])
+        return error
 
 
 def estimates_of(view: PaperView, settings: SimulationSettings) -> Estimates:
@@ -110,13 +117,13 @@ def estimates_of(view: PaperView, settings: SimulationSettings) -> Estimates:
         kept = tuple(effect for effect in EFFECTS if force.get(effect.name, True))
         own = _estimate_from_sample(view, settings.observable, kept)
         sizes, limits = {**found.sizes, **own.sizes}, {**found.limits, **own.limits}
-        found = replace(own, sizes=sizes, limits=limits)
+        found = replace(own, sizes=sizes, limits=limits, complete=found)
     if view.swing > FLAT_SPAN:
         return found
     # A change is either far above the tolerance or absent from the sample, which then says nothing.
     limits = dict.fromkeys(found.sizes, math.inf)
     why = "the stripes span less than a grey level"
-    return replace(found, seen=None, limits=limits, unknown=why)
+    return replace(found, seen=None, limits=limits, unknown=why, complete=None)
 
 
 def _estimate_from_sample(

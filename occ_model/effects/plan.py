@@ -99,11 +99,16 @@ def plan_of(view: PaperView, settings: SimulationSettings) -> Plan:
     effect_set, error = sets.choose(settings.tolerance)
     left_out = sets.names - effect_set.effects
     decisions = tuple(_decide(effect, estimates, left_out, settings) for effect in EFFECTS)
+    by_hand = {d.effect for d in decisions if d.forced and d.estimate and not d.included}
+    if settings.tolerance == math.inf:
+        error = estimates.error_without(left_out)
+    all_out = estimates.error_without(left_out | by_hand) if by_hand else error
     return Plan(
         tolerance=settings.tolerance,
         observable=settings.observable,
         decisions=decisions,
-        left_out=0.0 if settings.tolerance == math.inf else error,
+        left_out=error,
+        error=all_out,
         stretch=estimates.stretch,
         saved=sets.complete_seconds - effect_set.seconds,
         effect_sets=sets.effect_sets,
@@ -116,7 +121,7 @@ def complete_plan(scene: Scene, settings: SimulationSettings) -> Plan:
         _decide_without_estimate(effect, scene, settings.force.get(effect.name))
         for effect in EFFECTS
     )
-    return Plan(0.0, settings.observable, decisions, left_out=0.0, stretch=math.nan)
+    return Plan(0.0, settings.observable, decisions, left_out=0.0, error=math.nan, stretch=math.nan)
 
 
 def _decide_without_estimate(effect: Effect, scene: Scene, by_hand: bool | None) -> Decision:
@@ -159,8 +164,10 @@ def plan_of_any(views: Sequence[PaperView], settings: SimulationSettings) -> Pla
         other = plan_of(view, settings)
         pairs = zip(chosen.decisions, other.decisions, strict=True)
         decisions = tuple(max(pair, key=lambda d: (d.included, d.estimate)) for pair in pairs)
-        left_out = max(chosen.left_out, other.left_out)
-        chosen = replace(chosen, decisions=decisions, left_out=left_out)
+        left_out, error = (max(pair) for pair in (
+            (chosen.left_out, other.left_out), (chosen.error, other.error),
+        ))  # fmt: skip
+        chosen = replace(chosen, decisions=decisions, left_out=left_out, error=error)
     return chosen
 
 

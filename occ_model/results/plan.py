@@ -69,6 +69,9 @@ class Plan:
         One for each effect, in the order of the light path.
     left_out
         Combined change of the effects that the plan (not the user) omits, at most the tolerance.
+    error
+        Combined change of all omitted effects, by the plan or by the user; infinite where it is not
+        known, NaN of a plan without estimates.
     stretch
         Levels of the stretched profile per grey level.
     saved
@@ -81,6 +84,7 @@ class Plan:
     observable: Observable
     decisions: tuple[Decision, ...]
     left_out: float
+    error: float
     stretch: float
     saved: float = 0.0
     effect_sets: tuple[EffectSet, ...] = field(default=(), repr=False)

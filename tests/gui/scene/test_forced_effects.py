@@ -1,14 +1,22 @@
 """Effects switched by hand are listed where they are seen, and one click ends them all."""
 
+import math
 from dataclasses import replace
+from pathlib import Path
+from typing import Any
 
 import pytest
+from gui.kinds import not_none
 from gui.user import User
+from PySide6.QtCore import QRect
 
 from occ_gui.app import features
 from occ_gui.app.application import Application
+from occ_gui.core.workspace import FIRST_SETTINGS
 from occ_gui.files import preset_controller
-from occ_gui.scene.forced_effects import forced_text
+from occ_gui.scene.forced_effects import accuracy_chip, forced_text
+from occ_gui.values.modes import MODES
+from occ_gui.widgets.state_look import State
 from occ_model.effects.registry import EFFECTS
 from occ_model.scene.preset_file import Preset
 from occ_model.scene.presets import load_preset, preset_named
@@ -34,6 +42,90 @@ def test_each_forced_effect_is_named_in_the_order_of_light() -> None:
     )
     everything = forced_text({effect.name: True for effect in reversed(EFFECTS)}, labels)
     assert everything.split(", ") == [f"{effect.label} on by hand" for effect in EFFECTS]
+
+
+@pytest.mark.parametrize(
+    ("settings", "text", "is_doubtful"),
+    [
+        ({}, "reused noise", False),
+        ({"tolerance": 10.0}, "tolerance 10 levels · reused noise", True),
+        ({"tolerance": 0.1, "noise": "exact"}, "tolerance 0.1 levels", True),
+        ({"tolerance": math.inf}, "bare paper model · reused noise", True),
+        (
+            {"tolerance": 2.0, "observable": "decision", "noise": "exact"},
+            "tolerance 2 margins of the decision", True,
+        ),
+        ({"force": {"jpeg": False}, "noise": "exact"}, "JPEG off by hand", True),
+        ({"force": {"jpeg": False, "flicker": True}}, "2 effects by hand · reused noise", True),
+    ],
+)  # fmt: skip
+def test_what_is_left_out_by_hand_is_one_chip(
+    settings: dict[str, Any], text: str, is_doubtful: bool
+) -> None:
+    labels = {effect.name: effect.label for effect in EFFECTS}
+    chip = not_none(accuracy_chip(replace(FIRST_SETTINGS, **settings), labels))
+    assert chip.text == text
+    assert chip.state is (State.DOUBTFUL if is_doubtful else State.NEUTRAL)
+    for effect in settings.get("force", {}):
+        assert labels[effect] in chip.meaning
+    assert accuracy_chip(replace(FIRST_SETTINGS, noise="exact"), labels) is None
+
+
+def test_it_is_always_on_the_screen(application: Application, user: User) -> None:
+    """In whole, in every mode, beside the longest messages, at small and large sizes."""
+    window = application.window
+    application.settings.set_tolerance(10.0)
+    for effect in ("jpeg", "flicker", "defocus"):
+        application.store.force(effect, False)
+    line = window.statusBar()
+    chip = line.accuracy
+    for width, height in ((1280, 800), (1024, 700), (1920, 1080)):
+        window.resize(width, height)
+        for mode in MODES:
+            window.modes.switch(mode)
+            window.show_message("Switching frequency is '1,000 Hz', which means 1 Hz. " * 9)
+            line.pointed.set_full_text("Picture: column 1234, row 1200, camera level 123")
+            user.wait_until_idle()
+            assert chip.isVisible()
+            assert chip.chip.text == "tolerance 10 levels · 3 effects by hand · reused noise"
+            assert chip.width() >= chip.sizeHint().width()
+            place = QRect(chip.mapTo(window, chip.rect().topLeft()), chip.size())
+            assert window.rect().contains(place)
+            assert chip.visibleRegion().boundingRect() == chip.rect()
+    window.modes.switch("explore")
+
+
+def test_another_scene_is_simulated_within_the_usual_tolerance_again(
+    application: Application, user: User, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def small(name: str) -> Scene:
+        return load_preset(name).replace(rows=200)
+
+    def small_preset(name: str) -> Preset:
+        return replace(preset_named(name), scene=small(name))
+
+    monkeypatch.setattr(preset_controller, "preset_named", small_preset)
+    monkeypatch.setattr(features, "load_preset", small)
+    path = tmp_path / "own.toml"
+    path.write_text(small("tablet-61us").to_toml(), encoding="utf-8")
+    for begin in (
+        user.choose_next_preset,
+        lambda: user.choose("Reset &scene"),
+        lambda: application.files.open_scene(path),
+    ):
+        application.settings.set_tolerance(10.0)
+        application.settings.set_observable("signal")
+        application.settings.set_noise("exact")
+        application.store.force("jpeg", False)
+        begin()
+        user.wait_until_idle()
+        # Exact noise leaves nothing out.
+        assert application.settings.settings == replace(FIRST_SETTINGS, noise="exact")
+        assert not application.controls.forced.isVisible()
+    application.settings.set_tolerance(10.0)
+    assert application.controls.forced.text.text() == "Tolerance 10 levels"
+    application.controls.forced.back.click()
+    assert application.settings.settings == replace(FIRST_SETTINGS, noise="exact")
 
 
 def test_forced_effects_are_listed_and_end_by_a_click_another_preset_and_a_reset_in_one_step(

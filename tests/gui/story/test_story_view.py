@@ -42,7 +42,7 @@ def test_a_range_is_marked_until_the_columns_are_moved(view: StoryView) -> None:
     assert view.decoder.key() == "matched"
     assert view.rows.decoded is not None
     assert view.rows.decoded.decoder == "matched"
-    assert view.verdict.title.text() == "Code 718 read, all bits right"
+    assert view.verdict.heading.startswith("Code 718 read, all bits right")
 
 
 def test_the_difference_is_that_of_the_model(view: StoryView, snapshot: Snapshot) -> None:

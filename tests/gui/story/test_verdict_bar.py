@@ -1,22 +1,25 @@
 """The verdict bar says in words and by shape what each decoder's result is worth."""
 
+import math
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
-from gui.kinds import SnapshotOf, add_widget, collect, with_result
+from gui.kinds import SnapshotOf, add_widget, collect, not_none, with_result
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
+from occ_gui.core.workspace import FIRST_SETTINGS
 from occ_gui.simulation.controller import simulate
+from occ_gui.simulation.jobs import reading_by_profile
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.simulation.verdict import Verdict
 from occ_gui.story.verdict_bar import VerdictBar
 from occ_gui.widgets.chip_row import ChipLabel
 from occ_gui.widgets.state_look import State
 from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.simulation.render import plan_scene
 from occ_model.teaching.lessons import lessons
 
 
@@ -141,16 +144,42 @@ def test_the_chips_say_where_the_band_model_ends(bar: VerdictBar, snapshot_of: S
     )
 
 
-def test_each_effect_by_hand_is_named_until_they_are_many(
+def test_a_good_verdict_beside_a_large_error_says_how_large(
     bar: VerdictBar, small_scene: Scene
 ) -> None:
-    for force, wanted in (
-        ({"jpeg": False}, ["JPEG off by hand"]),
-        ({"jpeg": False, "flicker": False, "defocus": False}, ["3 effects by hand"]),
-    ):
-        bar.show_reading(simulate(small_scene, SimulationSettings(force=force)))
-        assert [chip.text for chip in bar.chips.chips if chip.key == "forced"] == wanted
-        assert all(c.state is State.DOUBTFUL for c in bar.chips.chips if c.key == "forced")
+    read = simulate(small_scene)
+    bar.show_reading(read)
+    assert bar.heading == "Code 718 read, all bits right"
+    for settings in (
+        replace(FIRST_SETTINGS, tolerance=math.inf), replace(FIRST_SETTINGS, tolerance=30.0),
+        replace(FIRST_SETTINGS, force={"sensor-noise": False}),
+    ):  # fmt: skip
+        rough = simulate(small_scene, settings)
+        assert rough.error == rough.plan.error > 0.5
+        bar.show_reading(rough)
+        said = f"Code 718 read, all bits right (up to {rough.error:.2g} levels left out)"
+        assert bar.heading == said
+    # Before its picture is there, too.
+    planned = plan_scene(small_scene, rough.request.settings)
+    early = not_none(reading_by_profile(rough.request, planned))
+    bar.show_reading(early)
+    assert bar.heading == said
+    bar.show_reading(replace(read, error=math.inf))
+    assert bar.heading.endswith("(an unknown part left out)")
+
+
+def test_that_the_picture_is_not_the_last_word_is_said_however_little_room_there_is(
+    bar: VerdictBar, snapshot_of: SnapshotOf
+) -> None:
+    early = replace(snapshot_of(exposure_time=136e-6), source="draft", has_picture=False)
+    bar.show()
+    for width in (900, 500, 420):
+        bar.resize(width, 60)
+        bar.show_reading(early)
+        shown = [label for label in bar.findChildren(ChipLabel) if not label.isHidden()]
+        (waiting,) = [label for label in shown if label.chip.key == "computing"]
+        assert waiting.width() >= waiting.sizeHint().width()
+        assert bar.chips.rect().contains(waiting.geometry())
 
 
 def test_the_verdict_is_that_of_the_chosen_decoder(bar: VerdictBar, small_scene: Scene) -> None:

@@ -255,7 +255,10 @@ def _left_out(verdict: Verdict, reading: Reading) -> str:
     """Qualify a good verdict where more is left out than a new window would; else empty."""
     if verdict.state is not State.GOOD or reading.error <= TOLERANCE.default:
         return ""
-    amount = f"up to {reading.error:.2g} {unit_of(reading.request.settings.observable)}"
+    observable = reading.request.settings.observable
+    # Of single columns and decisions it is sometimes a little more than estimated.
+    most = "up to" if observable == "image" else "about"
+    amount = f"{most} {reading.error:.2g} {unit_of(observable)}"
     return f" ({amount if math.isfinite(reading.error) else 'an unknown part'} left out)"
 
 

@@ -101,6 +101,28 @@ def test_what_is_left_out_changes_no_more_than_the_tolerance(observable: Observa
     assert max(fractions) <= 1.0
 
 
+@pytest.mark.parametrize("observable", OBSERVABLES)
+def test_all_that_is_left_out_changes_no_more_than_stated(observable: Observable) -> None:
+    """By a plan without a tolerance, and by hand."""
+    ratios = []
+    for number in range(SCENES):
+        scene = scene_of(number)
+        everything = occ.plan(scene, 0.0, observable)
+        effects = present(everything)
+        whole = seen(scene, effects, observable, number)
+        by_hand = dict.fromkeys(sorted(effects)[::2], False)
+        for chosen in (
+            occ.plan(scene, math.inf, observable),
+            occ.plan(scene, 2.0, observable, force=by_hand),
+        ):
+            assert chosen.error >= chosen.left_out
+            kept = seen(scene, present(chosen), observable, number)
+            change = rms(whole - kept) * everything.stretch
+            ratios.append(change / max(chosen.error, SMALL))
+    assert np.mean(np.array(ratios) <= 1.0) >= (1.0 if observable == "image" else 0.85)
+    assert 0.3 < np.median(ratios) <= 1.0  # nor is the bound far too large
+
+
 _BROKEN = [
     pytest.param(7, "profile", id="a file's own error is cut off at black"),
     pytest.param(72008, "profile", id="a file rounds an even picture's blocks all alike"),

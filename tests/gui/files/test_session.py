@@ -190,12 +190,15 @@ def test_a_settings_file_that_is_none_is_left_out_and_one_of_the_older_form_alon
 
 def test_a_scene_that_is_asked_for_wins(tmp_path: Path, small_scene: Scene) -> None:
     file, asked = SessionFile(tmp_path), Workspace(small_scene.replace(iso=99.0))
-    file.write(KeptSession(Workspace(small_scene.replace(iso=321.0))), in_use=False)
+    left = Workspace(small_scene.replace(iso=321.0), SimulationSettings(9.0, force={"jpeg": False}))
+    file.write(KeptSession(left), in_use=False)
     file.close()
-    begun = restore_workspace(
-        SessionFile(tmp_path), asked, is_scene_asked=True, are_settings_asked=False
-    )
-    assert begun.scene == asked.scene
+    again = SessionFile(tmp_path)
+    begun = restore_workspace(again, asked, is_scene_asked=True, are_settings_asked=False)
+    # Nothing is left out of it that was left out of another one.
+    assert (begun.scene, begun.settings) == (asked.scene, asked.settings)
+    as_left = restore_workspace(again, asked, is_scene_asked=False, are_settings_asked=False)
+    assert (as_left.scene, as_left.settings) == (left.scene, left.settings)
 
 
 @pytest.mark.parametrize(

@@ -16,6 +16,7 @@ from occ_gui.core.workspace import FIRST_SETTINGS
 from occ_gui.files import preset_controller
 from occ_gui.scene.forced_effects import accuracy_chip, forced_text
 from occ_gui.values.modes import MODES
+from occ_gui.widgets.chip_row import ChipLabel
 from occ_gui.widgets.state_look import State
 from occ_model.effects.registry import EFFECTS
 from occ_model.scene.preset_file import Preset
@@ -77,14 +78,13 @@ def test_it_is_always_on_the_screen(application: Application, user: User) -> Non
     application.settings.set_tolerance(10.0)
     for effect in ("jpeg", "flicker", "defocus"):
         application.store.force(effect, False)
-    line = window.statusBar()
-    chip = line.accuracy
+    (chip,) = window.statusBar().findChildren(ChipLabel)
     for width, height in ((1280, 800), (1024, 700), (1920, 1080)):
         window.resize(width, height)
         for mode in MODES:
             window.modes.switch(mode)
             window.show_message("Switching frequency is '1,000 Hz', which means 1 Hz. " * 9)
-            line.pointed.set_full_text("Picture: column 1234, row 1200, camera level 123")
+            window.pointed.set_full_text("Picture: column 1234, row 1200, camera level 123")
             user.wait_until_idle()
             assert chip.isVisible()
             assert chip.chip.text == "tolerance 10 levels · 3 effects by hand · reused noise"
@@ -139,7 +139,7 @@ def test_forced_effects_are_listed_and_end_by_a_click_another_preset_and_a_reset
     assert forced(by_hand) == {}
     assert not listed.isVisible()
     switches = by_hand.view("accuracy").table.switches.values()
-    assert {switch.currentText() for switch in switches} <= {"auto"}
+    assert {switch.currentText() for switch in switches} <= {"plan"}
     user.choose("&Undo")
     assert forced(by_hand) == {"jpeg": False, "vignetting": True}
     chosen: list[str] = []

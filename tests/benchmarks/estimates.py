@@ -19,7 +19,7 @@ from tqdm import tqdm
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
-from physics.effect_world import large_scene_of, present, rms, scene_of, seen
+from physics.effect_world import large_scene_of, observe_with, present_effects, rms, scene_of
 
 import occ_model as occ
 from occ_model.scene.scene import Scene
@@ -49,7 +49,7 @@ class _ChangeOf:
     def __call__(self, included: frozenset[str]) -> float:
         if included not in self._known:
             scene, observable, seed = self._seen
-            found = seen(scene, included, observable, seed)
+            found = observe_with(scene, included, observable, seed)
             self._known[included] = rms(self._complete - found) * self._stretch
         return self._known[included]
 
@@ -60,8 +60,8 @@ def compared(
     """Yield observable, effect, estimate, limit and change; a plan's tolerance is both of these."""
     for observable in BEFORE_DECISION:
         everything = occ.plan(scene, 0.0, observable)
-        effects, stretch = present(everything), everything.stretch
-        complete = seen(scene, effects, observable, seed)
+        effects, stretch = present_effects(everything), everything.stretch
+        complete = observe_with(scene, effects, observable, seed)
         change = _ChangeOf(scene, complete, observable, seed, stretch)
         for decision in everything.decisions:
             if decision.included:
@@ -69,7 +69,7 @@ def compared(
                 sizes = decision.estimate, decision.limit
                 yield observable, name, *sizes, change(effects - {name})
         for tolerance in tolerances:
-            chosen = present(occ.plan(scene, tolerance, observable))
+            chosen = present_effects(occ.plan(scene, tolerance, observable))
             yield observable, f"tolerance {tolerance:g}", tolerance, tolerance, change(chosen)
 
 

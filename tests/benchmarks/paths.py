@@ -23,8 +23,8 @@ from physics.paths import (
     DECODERS,
     PRESETS,
     TwoPaths,
-    compared,
-    compared_at,
+    compare_paths,
+    compare_paths_at,
     scene_in_doubt,
     significance,
 )
@@ -69,8 +69,8 @@ def main() -> None:
 def compared_one(number: int, images: int, seed: int, any_scene: bool) -> list[TwoPaths]:
     """Compare at one scene, as the job of a process."""
     if any_scene:
-        return list(compared((number,), images, seed))
-    return list(compared_at(scene_in_doubt(number, seed), images, number))
+        return list(compare_paths((number,), images, seed))
+    return list(compare_paths_at(scene_in_doubt(number, seed), images, number))
 
 
 def so_far(found: list[TwoPaths]) -> str:

@@ -1,1 +1,1 @@
-"""Cases that are hard on numbers, far beyond the sliders, against references of more digits."""
+"""Numerically hard cases, far beyond the sliders, compared with references of more digits."""

@@ -1,4 +1,4 @@
-"""How many cases a law is tried on, and how wrong it was found at worst."""
+"""How many cases a law is tested on, and its largest error."""
 
 import math
 import os
@@ -10,23 +10,23 @@ from amount import amount
 from hypothesis import HealthCheck, given, settings
 from hypothesis.strategies import SearchStrategy
 
-LAWS = 40  # laws that share all cases: at least so many are tried
+LAWS = 40  # laws that share all cases, of which at least so many are tested
 
 
 @dataclass
-class Found:
-    """What was found of one law."""
+class LawResult:
+    """The result for one law."""
 
     ranges: str
     cases: int = 0
     worst: float = 0.0
 
 
-FOUND: dict[str, Found] = {}  # by the law
+FOUND: dict[str, LawResult] = {}  # by the law
 
 
 def record(law: str, ranges: str, error: float, most: float = math.inf) -> None:
-    """Note how wrong a law was found in one case, and fail where that is too much.
+    """Note a law's error in one case, and fail if it is too large.
 
     Parameters
     ----------
@@ -39,7 +39,7 @@ def record(law: str, ranges: str, error: float, most: float = math.inf) -> None:
     most
         The largest error allowed.
     """
-    found = FOUND.setdefault(law, Found(ranges))
+    found = FOUND.setdefault(law, LawResult(ranges))
     found.cases += 1
     wrong = error if error == error else math.inf
     found.worst = max(found.worst, wrong)
@@ -50,12 +50,12 @@ Test = Callable[..., None]
 
 
 def _cases_of_a_law() -> int:
-    """Return a law's part of all cases; how much is tried is known once pytest is configured."""
+    """Return a law's part of all cases; their number is known once pytest is configured."""
     return max(int(os.environ.get("OCC_HARD_CASES", amount(800, 3_000))) // LAWS, 20)
 
 
 def cases(**strategies: SearchStrategy[Any]) -> Callable[[Test], Test]:
-    """Try a test on generated cases, always the same ones."""
+    """Run a test on generated cases, always the same ones."""
 
     def decorate(test: Test) -> Test:
         chosen = settings(
@@ -74,19 +74,19 @@ Row = tuple[str, str, int, float]  # A law, its ranges, the cases tried and the 
 
 
 def rows() -> list[Row]:
-    """Return what was found as plain values: pytest-xdist sends no numbers of numpy."""
+    """Return the results as plain values, since pytest-xdist sends no numbers of NumPy."""
     return [(law, found.ranges, found.cases, float(found.worst)) for law, found in FOUND.items()]
 
 
 def merge(law: str, ranges: str, cases: int, worst: float) -> None:
-    """Add what another process found of a law."""
-    found = FOUND.setdefault(law, Found(ranges))
+    """Add the results of another process for a law."""
+    found = FOUND.setdefault(law, LawResult(ranges))
     found.cases += cases
     found.worst = max(found.worst, worst)
 
 
 def table() -> list[str]:
-    """Write what was found, in Markdown."""
+    """Write the results as a Markdown table."""
     lines = ["| law | range | cases | worst error |", "|---|---|---|---|"]
     for law, found in sorted(FOUND.items()):
         worst = "none" if found.worst == 0.0 else f"{found.worst:.1e}"

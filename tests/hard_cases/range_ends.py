@@ -1,4 +1,4 @@
-"""Ask everything of scenes at the ends of the parameters' ranges, in a process of its own.
+"""Ask every question about scenes at the ends of the parameters' ranges, in its own process.
 
 ``python tests/hard_cases/range_ends.py FIRST STEP`` asks of every STEP-th case from FIRST on, and
 prints as JSON how many there were, what fell, and where it took the most memory and time. Before
@@ -50,8 +50,8 @@ from occ_model.teaching.quantities import QUANTITIES
 
 Case = Mapping[str, ParameterValue]
 
-PATIENCE = 60.0  # seconds of processor time of a question that never ends
-MEMORY = 1500.0  # megabytes that the process may have at any question
+PATIENCE = 60.0  # seconds of processor time after which a question counts as endless
+MEMORY = 1500.0  # megabytes that the process may have during any question
 
 _LONGEST_PAYLOAD = "bits:" + "1101" * 1024
 
@@ -60,11 +60,11 @@ _MULTIPLIED = (
     "start_time", "rows", "columns", "pattern", "payload", "point_spread", "distance",
     "panel_width", "panel_height", "equivalent_focal_length",
 )  # fmt: skip
-"""Frequencies, times and sizes, whose products are numbers of something."""
+"""Frequencies, times and sizes whose products are numbers of things."""
 
 
 def base() -> Scene:
-    """A small picture with every effect of a real camera."""
+    """Make a small picture with every effect of a real camera."""
     scene = occ.load_preset("phone-136us-real")
     return scene.replace(rows=240, columns=320, readout_time=25e-6, distance=0.5)
 
@@ -130,7 +130,7 @@ def _teaching(scene: Scene) -> None:
 
 
 def questions() -> dict[str, Callable[[Scene], object]]:
-    """Return what is asked of a scene, by a name."""
+    """Return the questions about a scene, by name."""
     quantities = {
         f"quantity {name}": each.compute
         for name, each in QUANTITIES.items()
@@ -168,7 +168,7 @@ def _decode(scene: Scene, decoder: str) -> None:
 
 
 def _read_photo(scene: Scene, decoder: str) -> None:
-    """Decode a picture that is not the scene's: its settings are taken for a photo's."""
+    """Decode a picture that is not the scene's, with its settings, as a photo."""
     occ.decode(_frame(base()).image, scene, decoder)
 
 
@@ -177,8 +177,8 @@ def _success(scene: Scene, decoder: str) -> None:
 
 
 @dataclass
-class Found:
-    """What came of all questions: how many, how many refused, what fell, and the most it took."""
+class Answers:
+    """The answers to all questions: number, refusals, failures, and the largest cost."""
 
     cases: int = 0
     asked: int = 0
@@ -188,9 +188,9 @@ class Found:
     most_seconds: tuple[float, str] = (0.0, "")
 
 
-def ask_all(asked: list[Case]) -> Found:
-    """Ask everything of some cases."""
-    found = Found()
+def ask_all(asked: list[Case]) -> Answers:
+    """Ask all questions about some cases."""
+    found = Answers()
     for case in asked:
         found.cases += 1
         shown = " ".join(f"{name}={str(value)[:20]}" for name, value in case.items())
@@ -205,7 +205,7 @@ def ask_all(asked: list[Case]) -> Found:
     return found
 
 
-def _ask(found: Found, what: str, question: Callable[[], object]) -> None:
+def _ask(found: Answers, what: str, question: Callable[[], object]) -> None:
     print(what, flush=True)  # noqa: T201
     found.asked += 1
     Path("/proc/self/clear_refs").write_text("5", encoding="ascii")  # forgets the peak
@@ -224,7 +224,7 @@ def _ask(found: Found, what: str, question: Callable[[], object]) -> None:
 
 def _report(lines: Iterator[str]) -> None:
     first, step = (int(word) for word in lines)
-    # What would take more fails by itself, and not with the machine that it runs on.
+    # Anything that needs more fails by itself, without the machine.
     most = round(2.0 * MEMORY * 1e6)
     resource.setrlimit(resource.RLIMIT_DATA, (most, most))
     print(json.dumps(asdict(ask_all(cases()[first::step]))))  # noqa: T201

@@ -1,4 +1,4 @@
-"""What the laws are held against: exact arithmetic, and strategies that reach far."""
+"""References for the laws: exact arithmetic, and strategies with wide ranges."""
 
 import math
 from dataclasses import dataclass
@@ -19,13 +19,13 @@ PATTERNS = st.one_of(st.just(""), st.text(alphabet="01", min_size=1, max_size=40
 
 
 def decades(low: float, high: float) -> st.SearchStrategy[float]:
-    """Positive numbers, as many in each decade."""
+    """Draw positive numbers, equally many in each decade."""
     lowest, highest = math.log10(low), math.log10(high)
     return st.floats(lowest, highest).map(lambda x: min(max(10.0**x, low), high))
 
 
 def signed_decades(low: float, high: float) -> st.SearchStrategy[float]:
-    """Numbers of both signs, as many in each decade."""
+    """Draw numbers of both signs, equally many in each decade."""
     return st.tuples(st.sampled_from([-1.0, 1.0]), decades(low, high)).map(math.prod)
 
 
@@ -36,7 +36,7 @@ STARTS = st.one_of(
 
 
 def within(name: str, value: float) -> float:
-    """Return the nearest value that a parameter may have."""
+    """Return the nearest allowed value of a parameter."""
     declared = PARAMETERS[name]
     assert isinstance(declared, Quantity | Count)
     return min(max(value, declared.low), declared.high)
@@ -44,7 +44,7 @@ def within(name: str, value: float) -> float:
 
 @dataclass(frozen=True)
 class ExactTimes:
-    """A scene's times as exact fractions, in chips, and the light within them."""
+    """A scene's times as exact fractions in chips, and the light during them."""
 
     scene: Scene
 
@@ -66,7 +66,8 @@ class ExactTimes:
 
     @cached_property
     def _tables(self) -> tuple[list[int], list[int]]:
-        """Lit chips before each chip, and twice the integral of that; the whole period's last."""
+        """Lit chips before each chip, and twice the integral of that, with the whole period's
+        last."""
         lit, doubled = [0], [0]
         for chip in self.chips:
             doubled.append(doubled[-1] + 2 * lit[-1] + chip)
@@ -98,12 +99,12 @@ class ExactTimes:
         return (whole + within) / 2 + lit[-1] * periods * remainder
 
     def fraction(self, column: int) -> Fraction:
-        """The lit fraction of a column's exposure, the LED's edges sharp."""
+        """Return the lit fraction of a column's exposure with sharp edges of the LED."""
         x = self.start(column)
         return (self.lit_until(x + self.exposure) - self.lit_until(x)) / self.exposure
 
     def edged_fraction(self, column: int) -> Fraction:
-        """The same, the LED taking its time."""
+        """Return the same with slow edges."""
         x, t, tau = self.start(column), self.exposure, self.edge
         until = self.lit_until_integrated
         now, before = until(x + t) - until(x), until(x + t - tau) - until(x - tau)
@@ -111,7 +112,7 @@ class ExactTimes:
 
 
 def some_columns(scene: Scene) -> set[int]:
-    """The first column, the last, and some between."""
+    """Return the first column, the last one, and some between."""
     last = scene.camera.columns - 1
     return {0, 1 % (last + 1), last // 3, last // 2, last}
 
@@ -124,7 +125,7 @@ GEOMETRY = {"sensor-noise": False, "fixed-pattern": False, "distortion": True, "
 
 @st.composite
 def poses(draw: st.DrawFn) -> Scene:
-    """A panel of any size anywhere before a small picture, the lens and the light as they are."""
+    """Draw a panel of any size anywhere before a small picture, with the usual lens and light."""
     distance = draw(decades(1e-3, 1e4))
     size = decades(1e-3, 1e4).map(lambda fraction: within("panel_width", fraction * distance))
     aside = st.just(0.0) | st.floats(-1.0, 1.0) | signed_decades(1e-6, 1.0)

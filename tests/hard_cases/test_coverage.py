@@ -60,7 +60,7 @@ def test_row_spans_are_those_of_rational_arithmetic(quad: np.ndarray) -> None:
 
 @st.composite
 def stars(draw: st.DrawFn) -> np.ndarray:
-    """A concave polygon round a point near the picture, of any size."""
+    """Draw a concave polygon of any size around a point near the picture."""
     count = draw(st.integers(3, 12))
     size = draw(decades(1e-2, 1e6))
     reach = draw(st.lists(st.floats(0.05, 1.0), min_size=count, max_size=count))
@@ -107,7 +107,7 @@ def test_the_widest_blur_of_a_rectangle_is_two_normal_integrals(
     ends = np.array([left, left + width, top, top + height]) * blur
     outline = np.array([ends[[0, 2]], ends[[1, 2]], ends[[1, 3]], ends[[0, 3]]])
     found = Coverage(outline, 3, 5, blur).rows(range(3))
-    # A panel is made of the pixels whose centres it covers.
+    # A panel consists of the pixels whose centres it covers.
     x0, x1, y0, y1 = (np.ceil(ends) - 0.5).tolist()
     across = [normal((x1 - c) / blur) - normal((x0 - c) / blur) for c in range(5)]
     down = [normal((y1 - r) / blur) - normal((y0 - r) / blur) for r in range(3)]
@@ -117,7 +117,7 @@ def test_the_widest_blur_of_a_rectangle_is_two_normal_integrals(
 
 @pytest.mark.parametrize("columns", [32_766, 32_768, 70_000, 200_000])
 def test_a_blur_of_more_columns_than_16_bits_hold_is_right(columns: int) -> None:
-    # OpenCV counts the places of a transformed picture in 16 bits.
+    # OpenCV uses 16 bits for the coordinates of a transformed picture.
     ends = np.array([0.3, 0.9]) * columns
     outline = np.array([[ends[0], -99], [ends[1], -99], [ends[1], 99], [ends[0], 99]])
     found = Coverage(outline, 2, columns, 8.5).rows(range(2))
@@ -133,7 +133,7 @@ def test_a_blur_of_more_columns_than_16_bits_hold_is_right(columns: int) -> None
 
 @pytest.mark.parametrize("side", range(3, 60, 7))
 def test_an_upright_edge_on_pixels_centres_is_not_jagged(side: int) -> None:
-    # x (1 - s) + x s is not x for every s: a row in ten lost a pixel, and with it its level look.
+    # x (1 - s) + x s is not x for every s: one row in ten lost a pixel, so that the rim was jagged.
     for x in range(side, side + 7):
         outline = np.array([[x, -9.7], [90, -9.7], [90, 411.3], [x, 411.3]])
         first, last = row_spans(outline, 300, 80)

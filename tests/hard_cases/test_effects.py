@@ -1,4 +1,4 @@
-"""Effects, where their closed forms cancel, against rational arithmetic and 50 digits."""
+"""Effects where their closed forms cancel, compared with rational arithmetic and 50 digits."""
 
 import math
 from fractions import Fraction
@@ -37,7 +37,7 @@ def test_flicker_is_that_of_its_integral_in_fifty_digits(
         flicker_frequency=frequency, flicker_depth=depth, flicker_phase=phase,
         exposure_time=exposure, start_time=start, columns=300,
     )  # fmt: skip
-    # Exact but for what is left of a cycle: no digits are lost in it.
+    # Exact except for the fraction of a cycle, in which no digits are lost.
     length = Fraction(frequency) * Fraction(exposure)
     turn = mpmath.mpf(length.numerator) / length.denominator
     exact = mpmath.sinpi(turn) / (mpmath.pi * turn)
@@ -57,10 +57,10 @@ def test_flicker_is_that_of_its_integral_in_fifty_digits(
 @pytest.mark.parametrize(
     ("frequency", "exposure"),
     [
-        (0.01, 1e-9),  # F t = 1e-11: the sine is its angle, to the last digit
+        (0.01, 1e-9),  # F t = 1e-11: the sine equals its angle to the last digit
         (1.0, 1e-9),  # F t = 1e-9
-        (100.0, 0.01),  # F t is whole but for the rounding of 0.01
-        (128.0, 1 / 128),  # F t is 1 exactly: pi has no last digit, but nothing is left
+        (100.0, 0.01),  # F t is whole except for the rounding of 0.01
+        (128.0, 1 / 128),  # F t is exactly 1: the result must be 0 although pi is rounded
         (2.0**20, 1e6),  # 1e12 cycles exactly
         (120.0, math.nextafter(1 / 120, 1)),  # one ulp beyond a whole cycle
     ],
@@ -81,7 +81,7 @@ def test_whole_cycles_leave_nothing_and_short_exposures_all(
 
 
 def gain_of(effect: OpticsEffect, scene: Scene) -> np.ndarray:
-    """What an effect multiplies each pixel's light by."""
+    """Return an effect's factor on each pixel's light."""
     optics = effect.apply(scene, Optics(np.zeros((4, 2))))
     (gain,) = (*optics.emission, *optics.transmission)
     assert isinstance(gain, Gain)
@@ -90,7 +90,7 @@ def gain_of(effect: OpticsEffect, scene: Scene) -> np.ndarray:
 
 
 def corner_rays(scene: Scene) -> list[tuple[int, int, mpmath.matrix]]:
-    """The picture's corners and its middle, and their rays (x, y, 1)."""
+    """Return the picture's corners and middle, and their rays (x, y, 1)."""
     camera = scene.camera
     rows, columns = camera.rows, camera.columns
     focal = mpmath.mpf(camera.equivalent_focal_length) / mpmath.mpf(0.04327)
@@ -149,7 +149,7 @@ def test_emission_is_that_of_fifty_digits_at_grazing_angles(
 
 
 def exact_spread(effect: NoiseEffect, scene: Scene, value: float) -> mpmath.mpf:
-    """A pixel's deviation in grey levels, by its definition."""
+    """Return a pixel's deviation in grey levels, by its definition."""
     camera, sensor = scene.camera, scene.sensor
     exact = mpmath.mpf
     gamma = exact(camera.gamma)
@@ -193,7 +193,7 @@ def test_noise_spreads_as_in_fifty_digits_at_any_light(
         (found,) = effect.spread(scene, values).tolist()
     exact = exact_spread(effect, scene, float(values[0]))
     assert math.isfinite(found)
-    # Near saturation, and beyond it, noise may be cut off: then it is less.
+    # Near and beyond saturation noise may be clipped, and is then less.
     room = max(min(saturation_value(scene), 255.0) - float(values[0]), 0.0)
     least, most = min(exact, mpmath.mpf(room)), exact
     beyond = max(found - most, least - found, mpmath.mpf(0))

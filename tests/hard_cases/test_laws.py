@@ -1,4 +1,4 @@
-"""What was found of the laws reaches the process that prints it."""
+"""The results for the laws reach the process that prints them."""
 
 import numpy as np
 import pytest
@@ -7,9 +7,9 @@ from hard_cases import laws
 
 
 @pytest.fixture
-def found(monkeypatch: pytest.MonkeyPatch) -> dict[str, laws.Found]:
-    """Begin with no law tried."""
-    empty: dict[str, laws.Found] = {}
+def found(monkeypatch: pytest.MonkeyPatch) -> dict[str, laws.LawResult]:
+    """Start without results."""
+    empty: dict[str, laws.LawResult] = {}
     monkeypatch.setattr(laws, "FOUND", empty)
     return empty
 
@@ -20,7 +20,7 @@ def test_errors_are_sent_as_plain_numbers() -> None:
     assert [tuple(map(type, row)) for row in laws.rows()] == [(str, str, int, float)]
 
 
-def test_what_two_processes_found_counts_together(found: dict[str, laws.Found]) -> None:
+def test_the_results_of_two_processes_are_combined(found: dict[str, laws.LawResult]) -> None:
     laws.record("a law", "everywhere", 0.5)
     laws.merge("a law", "everywhere", 3, 0.25)
     laws.merge("another", "nowhere", 1, 2.0)

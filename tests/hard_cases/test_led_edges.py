@@ -15,7 +15,7 @@ from occ_model.effects.light_effects import lit_fraction_with_edges
 from occ_model.scene.scene import Scene
 
 LONG = ["1" * 2048 + "0" * 2048, "10" * 2048, "1" + "0" * 4095, ("1" * 63 + "0") * 64]
-"""Patterns of the most chips: slow, fast, hardly ever lit, hardly ever dark."""
+"""Patterns with the most chips: slow, fast, rarely lit, rarely dark."""
 
 FREQUENCY = 1e6
 
@@ -23,8 +23,8 @@ EDGED = "lit fraction with LED edges"
 WIDE = "edges 1e-12 to 1e6 chips, t 1e-3 to 1e6, packets to 4096 chips"
 
 
-def edged(edge: float, exposure: float, **changes: float | str) -> Scene:
-    """A scene with times in chips."""
+def edged_scene(edge: float, exposure: float, **changes: float | str) -> Scene:
+    """Make a scene with times in chips."""
     return Scene().replace(
         edge_time=within("edge_time", edge / FREQUENCY),
         exposure_time=within("exposure_time", exposure / FREQUENCY), switching_frequency=FREQUENCY,
@@ -33,7 +33,7 @@ def edged(edge: float, exposure: float, **changes: float | str) -> Scene:
 
 
 def edge_error(scene: Scene) -> float:
-    """The worst column's lit fraction less that of rational arithmetic."""
+    """Return the largest error of a column's lit fraction against rational arithmetic."""
     exact, found = ExactTimes(scene), lit_fraction_with_edges(scene)
     assert 0.0 <= found.min() <= found.max() <= 1.0
     columns = some_columns(scene)
@@ -50,7 +50,7 @@ def edge_error(scene: Scene) -> float:
 def test_edged_light_is_that_of_rational_arithmetic(
     edge: float, exposure: float, start: float, readout: float, pattern: str
 ) -> None:
-    scene = edged(edge, exposure, start_time=start, readout_time=readout, pattern=pattern)
+    scene = edged_scene(edge, exposure, start_time=start, readout_time=readout, pattern=pattern)
     error = edge_error(scene)
     record(EDGED, WIDE, error, 1e-12)
 
@@ -62,7 +62,7 @@ def test_edged_light_is_that_of_rational_arithmetic(
 def test_the_longest_patterns_lose_no_digits_to_long_edges(
     edge: float, exposure: float, start: float, pattern: str
 ) -> None:
-    scene = edged(edge, exposure, start_time=start, pattern=pattern, readout_time=13.7e-6)
+    scene = edged_scene(edge, exposure, start_time=start, pattern=pattern, readout_time=13.7e-6)
     error = edge_error(scene)
     record(EDGED, WIDE, error, 1e-12)
 
@@ -71,10 +71,10 @@ def test_the_longest_patterns_lose_no_digits_to_long_edges(
 def test_a_vanishing_edge_moves_no_more_light_than_its_fraction(
     edge: float, exposure: float, start: float, pattern: str
 ) -> None:
-    scene = edged(edge, exposure, start_time=start, pattern=pattern)
+    scene = edged_scene(edge, exposure, start_time=start, pattern=pattern)
     tau = scene.transmitter.edge_time * FREQUENCY
     moved = float(np.abs(lit_fraction_with_edges(scene) - lit_fraction(scene)).max())
-    # Half of it at each end of the exposure; or all of a window shorter than the edge.
+    # Half of it at each end of the exposure, or all of a window shorter than the edge.
     beyond = max(moved - min(tau / (scene.camera.exposure_time * FREQUENCY), 1.0), 0.0)
     record(
         "light moved by LED edges beyond what they add", "edges 1e-300 to 1e-3 chips", beyond, 1e-15
@@ -82,10 +82,10 @@ def test_a_vanishing_edge_moves_no_more_light_than_its_fraction(
 
 
 EDGES: dict[str, dict[str, float | str]] = {
-    # Windows 1/1000 of a chip, on sums that swing by a million chips^2 to and fro.
+    # Windows of 1/1000 of a chip, on sums that oscillate by a million chips^2.
     "a slow pattern of 4096 chips": {"edge_time": 5.5e-6, "exposure_time": 1e-9,
                                      "pattern": LONG[0]},
-    # Light goes up and down a thousand times within the edge: what is left is 1 part in 1000.
+    # Light goes up and down a thousand times during the edge, so that 1 part in 1000 is left.
     "a fast pattern of 4096 chips": {"edge_time": 999.5e-6, "exposure_time": 1e-9,
                                      "pattern": LONG[1]},
     # An edge of whole packets leaves exactly no stripes: two equal windows cancel.
@@ -93,7 +93,7 @@ EDGES: dict[str, dict[str, float | str]] = {
     # One ulp more than that: the windows differ by an ulp only.
     "whole packets and an ulp": {
         "switching_frequency": 2.0**20, "edge_time": math.nextafter(24 * 2.0**-20, 1)},
-    # Just at one chip the closed form changes.
+    # At one chip exactly the closed form changes.
     "one chip": {"switching_frequency": 2.0**20, "edge_time": 2.0**-20},
     # Just below one chip, where the ramps nearly meet.
     "one chip less an ulp": {
@@ -101,15 +101,15 @@ EDGES: dict[str, dict[str, float | str]] = {
     # A billion chips in one edge, a billion seconds from time zero.
     "a second at 1 GHz": {
         "switching_frequency": 1e9, "edge_time": 1.0, "exposure_time": 1e-9, "start_time": 1e9},
-    # The edge and the exposure are the same average twice: a triangle.
+    # Edge and exposure are equal averages, which together give a triangle.
     "an edge as long as the exposure": {"edge_time": 7.3e-6, "exposure_time": 7.3e-6},
-    # So short that its square is nothing.
+    # So short that its square underflows.
     "the smallest number there is": {"edge_time": 5e-324},
 }  # fmt: skip
 
 
 @each_case(product(EDGES, (0.0, 1e9 - 1 / 7)))
 def test_edged_light_of_hard_scenes_is_that_of_exact_arithmetic(name: str, start: float) -> None:
-    scene = edged(0.0, 1.7, **({"start_time": start} | EDGES[name]))
+    scene = edged_scene(0.0, 1.7, **({"start_time": start} | EDGES[name]))
     error = edge_error(scene)
     record(EDGED, WIDE, error, 1e-12)

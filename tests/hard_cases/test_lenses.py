@@ -1,4 +1,4 @@
-"""Lenses that fold or bend by every amount, and pictures and blurs that would fill the memory."""
+"""Lenses that fold or bend by any amount, and pictures and blurs that could fill the memory."""
 
 import math
 import tracemalloc
@@ -48,7 +48,7 @@ def test_the_bent_outline_lies_on_the_curve_that_opencv_projects(
         outline = Distortion().apply(scene, Optics(corners)).outline
     except occ.ProjectionError:
         return
-    # Every pictured corner that is in the picture is a corner of the outline,
+    # Every corner that OpenCV projects into the picture is a corner of the outline,
     rays = image_rays(corners, scene.camera)
     pictured = opencv_places(rays, scene)
     inside = ((pictured >= 0) & (pictured <= [799, 599])).all(axis=1)
@@ -118,7 +118,7 @@ def test_any_pose_and_lens_gives_a_picture_or_a_sentence(
 
 
 HUGE: dict[str, dict[str, int]] = {
-    # 1e11 pixels, each number within its range.
+    # 1e11 pixels, with each number in its range.
     "the most rows and columns": {"rows": 100_000, "columns": 1_000_000},
     # One row too many.
     "a row too many": {"rows": MAX_PIXELS // 1_000_000 + 1, "columns": 1_000_000},
@@ -141,7 +141,7 @@ def test_a_picture_too_large_for_memory_is_refused_beforehand(
 
 
 def test_the_widest_blur_takes_no_more_memory_than_a_narrow_one() -> None:
-    # A blur of 1e8 pixels once took a row of numbers for each pixel that it reaches to.
+    # A blur of 1e8 pixels once took a row of numbers for each pixel in its reach.
     scene = Scene().replace(
         rows=2, columns=200_000, focus_distance=0.001, equivalent_focal_length=2.0,
         f_number=0.5, distance=1.2, pattern="1", pixel_pitch=1e-4,

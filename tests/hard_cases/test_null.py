@@ -1,4 +1,4 @@
-"""The null: where an exposure holds as much light wherever it starts, and the contrast cancels."""
+"""The null, where an exposure has the same light for any start, so that the contrast cancels."""
 
 import math
 from fractions import Fraction
@@ -19,18 +19,18 @@ mpmath.mp.dps = 40
 
 METHODS = st.sampled_from(["equalization", "stretch", "none"])
 OFF_THE_NULL = st.one_of(st.just(0.0), signed_decades(1e-16, 1e-2))
-"""By how much the frequency misses the null, as a fraction."""
+"""Relative distances of the frequency from the null."""
 
 
 def null_scene(packets: int, exposure: float, off: float, **changes: float | str) -> Scene:
-    """A scene whose exposure lasts so many packets, or nearly."""
+    """Make a scene whose exposure lasts some packets, or nearly."""
     scene = Scene().replace(**({"columns": 24, "exposure_time": exposure} | changes))
     frequency = packets * len(occ.packet(scene)) / exposure * (1 + off)
     return scene.replace(switching_frequency=within("switching_frequency", frequency))
 
 
 def exact_value(scene: Scene, column: int) -> mpmath.mpf:
-    """A column's pixel value, by equations (1) to (3), to 40 digits."""
+    """Return a column's pixel value, by equations (1) to (3), to 40 digits."""
     camera, surroundings = scene.camera, scene.surroundings
     exact = ExactTimes(scene).fraction(column)
     fraction = mpmath.mpf(exact.numerator) / exact.denominator
@@ -72,7 +72,7 @@ def test_the_swing_is_right_at_and_beside_the_null(
 
 @pytest.mark.parametrize("periods", [1, 2, 3, 1000, 61_035])
 def test_an_alternating_pattern_cancels_at_each_even_multiple(periods: int) -> None:
-    # f = 2/t, 4/t ...: each column sees as many lit chips as dark ones; 2^-13 s keeps it exact.
+    # At f = 2/t, 4/t ... each exposure has as many lit chips as dark ones; 2^-13 s keeps it exact.
     scene = null_scene(periods, 2.0**-13, 0.0, pattern="01", start_time=1e9 / 7, columns=1000)
     assert scene.transmitter.switching_frequency == periods * 2.0**14
     assert np.ptp(occ.column_profile(scene)) == 0.0
@@ -86,7 +86,7 @@ def test_an_alternating_pattern_cancels_at_each_even_multiple(periods: int) -> N
 def test_a_profile_of_less_than_one_level_gets_rounding_only(
     level: float, swing: float, half: bool, method: str, seed: int
 ) -> None:
-    # Half-way between two grey levels the least bit decides which of them a column gets.
+    # Half-way between two grey levels, the last bit decides which of them a column gets.
     low = math.floor(level) + 0.5 if half else level
     profile = low + swing * np.random.default_rng(seed).random(200)
     enhanced = enhance(profile, method).astype(float)
@@ -154,7 +154,7 @@ def half_way(scene: Scene) -> Scene:
 @pytest.mark.parametrize("method", ["equalization", "stretch", "none"])
 @pytest.mark.parametrize("off", [0.0, 1e-15, -1e-15, 1e-13])
 def test_values_between_two_levels_make_no_rounding_stripes(off: float, method: str) -> None:
-    # The columns differ by 1e-13 levels, about 100.5: rounded one by one they show 100 and 101.
+    # The columns differ by 1e-13 levels around 100.5, so that separate rounding gives 100 and 101.
     scene = null_scene(1, 136e-6, off, columns=600, rows=8, distance=0.1, code=5, bits=4)
     scene = half_way(scene.replace(enhancement=method))
     profile = occ.column_profile(scene)
@@ -165,7 +165,7 @@ def test_values_between_two_levels_make_no_rounding_stripes(off: float, method: 
 
 
 def test_a_null_is_called_by_its_name() -> None:
-    # 255 / swing would be without end: the plan counts no swing below one grey level.
+    # 255 / swing would be infinite; the plan takes no swing below one grey level.
     scene = null_scene(1, 136e-6, 0.0, columns=600, rows=8, distance=0.1, code=5, bits=4)
     plan = occ.plan(scene)
     assert plan.stretch == 255.0

@@ -1,4 +1,4 @@
-"""Otsu's threshold of histograms full of ties, against rational arithmetic."""
+"""Otsu's threshold for histograms full of ties, compared with rational arithmetic."""
 
 import math
 from collections.abc import Iterable
@@ -18,7 +18,7 @@ COUNTS = st.one_of(st.just(0), st.integers(0, 3), decades(1, 1e12).map(int))
 
 
 def variances(counts: list[int], splits: Iterable[int]) -> dict[int, Fraction]:
-    """The variance between the classes of those splits that leave neither empty, exactly."""
+    """Return the exact variance between classes for each split that leaves neither empty."""
     weights = list(accumulate(counts))
     moments = list(accumulate(place * count for place, count in enumerate(counts)))
     total, moment = weights[-1], moments[-1]
@@ -30,7 +30,7 @@ def variances(counts: list[int], splits: Iterable[int]) -> dict[int, Fraction]:
 
 
 def shortfall(counts: list[int], split: int | None) -> float:
-    """By which fraction of the largest variance the split's falls short of it."""
+    """Return by what fraction a split's variance is below the largest one."""
     filled = {place for place, count in enumerate(counts) if count}
     exact = variances(counts, filled if split is None else {*filled, split})
     if not exact:
@@ -42,7 +42,7 @@ def shortfall(counts: list[int], split: int | None) -> float:
 
 @st.composite
 def histograms(draw: st.DrawFn) -> list[int]:
-    """Filled bins with gaps between them; the same forwards and backwards every other time."""
+    """Draw filled bins with gaps between them; every other histogram is symmetric."""
     filled = draw(st.lists(st.tuples(COUNTS, st.integers(0, 40)), min_size=1, max_size=12))
     counts = [number for count, gap in filled for number in (count, *[0] * gap)]
     return counts + counts[::-1] if draw(st.booleans()) else counts
@@ -60,7 +60,7 @@ def test_otsus_split_is_the_best_of_all_in_rational_arithmetic(counts: list[int]
         largest = max(exact.values())
         best = [place for place, variance in exact.items() if variance == largest]
         close = [place for place, variance in exact.items() if variance > largest * (1 - 1e-9)]
-        # Where none is all but as good, the middle one of those that are the best.
+        # If no other is nearly as good, it is the middle one of the best.
         assert close != best or split == best[len(best) // 2]
 
 
@@ -69,18 +69,18 @@ HISTOGRAMS: dict[str, tuple[list[int], int | None]] = {
     "no bin": ([0, 0, 0], None),
     "a single bin": ([0, 7, 0], None),
     "a histogram of one bin": ([5], None),
-    # Every split between the two is as good: 0 to 9, of which the middle one is the 5.
+    # Every split between the two, 0 to 9, is equally good, and 5 is the middle one.
     "two bins far apart": ([1, *[0] * 9, 1], 5),
-    # One against a trillion: the variance is 1e-12 of what the counts would allow.
+    # One against a trillion, where the variance is 1e-12 of what the counts would allow.
     "one against a trillion": ([10**12, *[0] * 9, 1], 5),
     # Two splits are exactly as good, and mirror each other.
     "three equal bins": ([1, 1, 1], 1),
-    # Four are: of each pair of neighbours between equal bins, the outer ones are worse.
+    # Four are equally good; outside these, the splits between equal bins are worse.
     "two pairs": ([1, 1, 0, 0, 0, 1, 1], 3),
     # Two are, and each leaves one beside very many.
     "one on either side of ten thousand": ([1, 10_000, 1], 1),
     "one on either side of a trillion": ([1, 10**12, 1], 1),
-    # All moments are multiples of 1e12 but the last: single precision would hold none of them.
+    # All moments except the last are multiples of 1e12, which single precision cannot represent.
     "a trillion each": ([10**12] * 4, 1),
 }  # fmt: skip
 
@@ -93,7 +93,7 @@ def test_otsus_split_of_a_hard_histogram(name: str) -> None:
 
 
 def test_otsus_split_of_100000_run_lengths_loses_nothing() -> None:
-    # The longest run is as long as the signal, the others are a few columns: 1e5 bins, ten filled.
+    # The longest run is as long as the signal, the others are short: 1e5 bins, ten of them filled.
     random = np.random.default_rng(3)
     for _ in range(amount(5, 20)):
         counts = np.zeros(100_000, dtype=np.int64)
@@ -105,7 +105,7 @@ def test_otsus_split_of_100000_run_lengths_loses_nothing() -> None:
 
 @st.composite
 def two_tones(draw: st.DrawFn) -> tuple[np.ndarray, float, float]:
-    """A signal of two values with runs of any length, and the values."""
+    """Draw a signal of two values with runs of any length, and the values."""
     low = draw(st.floats(-1e4, 1e4))
     high = low + draw(decades(1.001, 1e4))
     lengths = draw(st.lists(decades(1, 1e3).map(int), min_size=2, max_size=30))
@@ -117,7 +117,7 @@ def two_tones(draw: st.DrawFn) -> tuple[np.ndarray, float, float]:
 def test_the_threshold_of_two_values_lies_halfway(signal: tuple[np.ndarray, float, float]) -> None:
     values, low, high = signal
     threshold = otsu_threshold(values)
-    # 255 steps have no middle: it is half a step off at the most.
+    # 255 steps have no middle, so that it may be off by half a step.
     error = abs(threshold - (low + high) / 2) / (high - low)
     record(
         "threshold between two values, off the middle, of the swing",

@@ -1,4 +1,4 @@
-"""Pixel values from no light at all to 1e16 cd/m2, against arithmetic of fifty digits."""
+"""Pixel values from no light to 1e16 cd/m2, compared with arithmetic of fifty digits."""
 
 import math
 
@@ -39,7 +39,7 @@ EPS = float(np.finfo(np.float64).eps)
 
 
 def value_of(luminance: mpmath.mpf, camera: Camera) -> mpmath.mpf:
-    """Equations (1) and (2), the parameters being what they are in binary."""
+    """Return the value by equations (1) and (2), with the exact binary parameters."""
     gain = mpmath.mpf(camera.iso) * mpmath.mpf(camera.exposure_time)
     gain /= mpmath.mpf(camera.meter_constant) * mpmath.mpf(camera.f_number) ** 2
     return 118 * mpmath.power(gain * luminance, 1 / mpmath.mpf(camera.gamma))
@@ -75,7 +75,7 @@ def test_the_luminance_of_a_pixel_value_is_the_one_it_came_from(
     name=st.sampled_from(["iso", "exposure_time", "luminance", "f_number"]),
     factor=st.just(1.0 + EPS) | decades(1.0 + 1e-12, 1e3),
 )
-def test_more_light_is_never_darker_be_it_one_ulp_more(
+def test_more_light_is_never_darker_even_by_one_ulp(
     camera: Camera, luminance: float, name: str, factor: float
 ) -> None:
     scene = Scene(camera=camera).replace(
@@ -93,7 +93,7 @@ def test_more_light_is_never_darker_be_it_one_ulp_more(
 
 @st.composite
 def lit_scenes(draw: st.DrawFn) -> Scene:
-    """A few columns, at all ratios of exposure to period, in any light."""
+    """Draw scenes of a few columns, with all ratios of exposure to period, in any light."""
     dark = st.just(0.0)
     scene = Scene(camera=draw(CAMERAS)).replace(
         columns=7,
@@ -118,7 +118,7 @@ def test_a_profile_is_finite_and_between_its_two_levels(scene: Scene) -> None:
     assert error <= 4 * EPS
     profile = occ.column_profile(scene)
     assert ((profile >= 0.0) & (profile <= WHITE)).all()
-    # Full is full: exactly the largest value, not next to it.
+    # A full pixel has exactly the largest value, and none next to it.
     assert (profile[values >= WHITE] == WHITE).all()
     assert (profile[values < WHITE] < WHITE).all()
 
@@ -161,13 +161,13 @@ def test_a_pixel_is_full_from_where_the_equation_says(camera: Camera, by: float)
 BRIGHT = 3600.0 * 1e12
 
 NAMED: dict[str, dict[str, float | str]] = {
-    # 0 to the power of 1/gamma, and back: a logarithm of it is none.
+    # 0 to the power of 1/gamma and back, where a logarithm would fail.
     "no light at all": {"luminance": 0.0, "illuminance": 0.0},
-    # Nothing to divide by where the swing should be: PV_max and PV_min are one value.
+    # PV_max and PV_min are equal, so that there is no swing to divide by.
     "a panel that gives no light": {"luminance": 0.0},
-    # 1e16: nothing but saturation is left, by a factor that overflows a byte and an integer.
+    # At 1e16 everything saturates, by a factor that overflows a byte and an integer.
     "light 1e12 times over": {"luminance": BRIGHT, "illuminance": 290e12},
-    # The same in the dark: the profile is 0 or 255 and nothing between.
+    # The same in the dark, so that the profile is either 0 or 255.
     "light 1e12 times over in the dark": {"luminance": BRIGHT, "illuminance": 0.0},
 }  # fmt: skip
 
@@ -178,7 +178,7 @@ def test_equal_levels_make_no_stripes(name: str) -> None:
         scene = Scene().replace(columns=500, averaging=averaging, **NAMED[name])
         low, high = level_values(scene)
         assert low == high
-        # Not one ulp of difference may be stretched to stripes.
+        # Not even one ulp of difference may be stretched to stripes.
         assert np.ptp(occ.column_profile(scene)) == 0.0
         frame = occ.render(scene.replace(rows=20, enhancement="stretch"), tolerance=math.inf)
         assert np.ptp(frame.image) == 0

@@ -1,4 +1,4 @@
-"""At both ends of every parameter's range whatever is asked is answered in bounded memory."""
+"""At both ends of every parameter's range, every question is answered in bounded memory."""
 
 import json
 import subprocess
@@ -11,7 +11,7 @@ from hard_cases.range_ends import MEMORY, cases
 
 PROGRAM = Path(__file__).with_name("range_ends.py")
 PROCESSES = 4
-EVERYDAY = 90  # cases from one that is tried every day to the next
+EVERYDAY = 90  # step between the cases that are tested every day
 
 
 def check(first: int, step: int) -> None:
@@ -40,6 +40,6 @@ def test_all_ends_of_ranges_are_answered_in_bounded_memory(first: int) -> None:
 
 
 def test_a_fast_flicker_beside_a_slow_lamp_is_answered_in_bounded_memory() -> None:
-    """The pair whose product was once a length, among the cases."""
+    """The pair whose product once was the length of an array."""
     pair = {"switching_frequency": 1.0, "flicker_frequency": 1e9}
     check(cases().index(pair), len(cases()))

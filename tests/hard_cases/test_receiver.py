@@ -1,4 +1,4 @@
-"""Signals and images that are hardly any are read, or refused with a sentence."""
+"""Degenerate signals and images are read, or refused with a sentence."""
 
 import math
 from typing import Any
@@ -22,7 +22,7 @@ BOTH = sorted(DECODERS)
 
 @st.composite
 def receivers(draw: st.DrawFn) -> Scene:
-    """Scenes with any parameters that a receiver knows."""
+    """Draw scenes with any parameters that a receiver knows."""
     return Scene().replace(
         code=0,
         bits=draw(st.integers(2, 7)),
@@ -36,14 +36,14 @@ def receivers(draw: st.DrawFn) -> Scene:
 
 
 def check(result: DecodeResult, columns: int) -> None:
-    """What holds for whatever was read."""
+    """Check the laws of any result."""
     assert (result.code is None) == (result.failure is not None)
     if result.failure is not None:
         assert result.failure.endswith((".", "header's."))
         assert "nan" not in result.failure
         assert "inf" not in result.failure.split()
     assert result.region is not None or "No panel" in str(result.failure)
-    # A chip of a third of a column is the shortest that is ever tried, and refined from there.
+    # A chip of a third of a column is the shortest that is tried, before refinement.
     assert len(result.chips) <= 8 * columns
     for number in (result.threshold, result.chip_length, result.correlation, result.confidence):
         assert number is None or math.isfinite(number)
@@ -51,8 +51,8 @@ def check(result: DecodeResult, columns: int) -> None:
         assert array is None or np.isfinite(array).all()
 
 
-def tried(image: object, scene: Scene, decoder: str, columns: int) -> float:
-    """0 where an array was read or refused with a sentence, 1 where anything else happened."""
+def reading_error(image: object, scene: Scene, decoder: str, columns: int) -> float:
+    """Return 0 if an array was read or refused with a sentence, and 1 otherwise."""
     try:
         check(occ.decode(image, scene, decoder), columns)  # type: ignore[arg-type]
     except occ.DecodeInputError as refusal:
@@ -62,10 +62,10 @@ def tried(image: object, scene: Scene, decoder: str, columns: int) -> float:
 
 @st.composite
 def garbage_profiles(draw: st.DrawFn) -> np.ndarray:
-    """Runs of any length between a column and thousands, of a few values or of all."""
+    """Draw runs of one to thousands of columns, of a few values or of all."""
     random = np.random.default_rng(draw(st.integers(0, 2**32)))
     runs = draw(st.integers(1, 60))
-    # Heavy tails: most runs are short, some are as long as all the others.
+    # Heavy-tailed: most runs are short, some are as long as all the others.
     lengths = np.ceil(draw(decades(1.0, 30.0)) * random.pareto(draw(st.floats(0.6, 5.0)), runs))
     lengths = np.clip(lengths, 1, 5000).astype(np.int64)
     size = draw(decades(0.1, 9e4))
@@ -79,18 +79,18 @@ def garbage_profiles(draw: st.DrawFn) -> np.ndarray:
 def test_any_profile_is_read_or_refused_with_a_sentence(
     profile: np.ndarray, scene: Scene, decoder: str
 ) -> None:
-    error = tried(profile, scene, decoder, len(profile))
+    error = reading_error(profile, scene, decoder, len(profile))
     record("any profile: read, or a sentence", "1 to 1e5 columns, any receiver", error, 0.0)
 
 
 def test_an_exposure_of_a_billionth_of_a_chip_is_read() -> None:
     scene = Scene().replace(pattern="01", switching_frequency=1.0, exposure_time=1e-9)
-    assert tried(np.array([6.4, 1.05, 1.05]), scene, "sequence", 3) == 0.0
+    assert reading_error(np.array([6.4, 1.05, 1.05]), scene, "sequence", 3) == 0.0
 
 
 @st.composite
 def garbage_images(draw: st.DrawFn) -> np.ndarray:
-    """Noise, specks, stripes and constants of every type, with numbers that are none."""
+    """Draw noise, specks, stripes and constants of every type, also with NaN and infinity."""
     random = np.random.default_rng(draw(st.integers(0, 2**32)))
     rows = draw(st.integers(1, 40) | st.just(1))
     columns = draw(st.integers(1, 600) | st.just(1))
@@ -121,7 +121,7 @@ def garbage_images(draw: st.DrawFn) -> np.ndarray:
 def test_any_image_is_read_or_refused_with_a_sentence(
     image: np.ndarray, scene: Scene, decoder: str
 ) -> None:
-    error = tried(image, scene, decoder, image.shape[1])
+    error = reading_error(image, scene, decoder, image.shape[1])
     record(
         "any image: read, or a sentence", "any type, shape, stride; NaN and infinity", error, 0.0
     )
@@ -159,28 +159,28 @@ SIGNALS: dict[str, np.ndarray] = {
     "constant, but for rounding": 117.0 + 1e-13 * (np.arange(500) % 2),
     # One column: no run, no histogram, no lag.
     "one column": np.array([200.0]),
-    # Two: each is a run that the rim cuts off.
+    # Two columns, each of them a run that the rim cuts off.
     "two columns": np.array([0.0, 255.0]),
-    # A single step: no whole run at all.
+    # A single step, and so no whole run.
     "one step": np.repeat([10.0, 200.0], 300),
     # One whole run, of one kind only: the histogram of the other is empty.
     "one whole run": np.repeat([0.0, 255.0, 0.0], [50, 10, 50]),
-    # Two whole runs, one of each kind: one short of what tells a chip's length.
+    # Two whole runs, one of each kind, which is one too few for a chip's length.
     "two whole runs": np.repeat([0.0, 255.0, 0.0, 255.0], [50, 10, 7, 50]),
-    # Every run is one column: no run is longer than another, and no split has two classes.
+    # Every run is one column, so that no split of lengths has two classes.
     "alternating columns": np.resize([0.0, 255.0], 2000),
-    # The same at the swing that just counts as stripes.
+    # The same, with the smallest swing that counts as stripes.
     "one grey level of swing": np.resize([100.0, 101.0], 2000),
     # All runs alike, in many columns.
     "many columns, two values": np.resize(np.repeat([0.0, 255.0], 14), MANY),
-    # One long run beside runs of one: the histogram has as many bins, all but two empty.
+    # One long run beside runs of one column, so that all but two bins are empty.
     "one run of nearly all columns": np.concatenate(
         [np.resize([0.0, 255.0], 51), np.zeros(MANY - 100), np.resize([255.0, 0.0], 49)]),
-    # Values next to the largest that is taken for a grey level, and 0 with a sign.
+    # Values next to the largest grey level, and -0.
     "the largest values": np.resize([1e5, -1e5, -0.0, 0.0], 400),
     # The swing is one ulp in the histogram's last bin.
     "a ramp": np.linspace(0.0, 255.0, MANY),
-    # A chirp: each run is a column longer than the one before, and none fits whole chips.
+    # A chirp, in which each run is a column longer than the one before.
     "runs of all lengths": np.repeat(np.resize([0.0, 255.0], LONGEST), np.arange(1, LONGEST + 1)),
 }  # fmt: skip
 
@@ -198,13 +198,13 @@ def test_a_hard_signal_is_read_or_refused_with_a_reason(name: str, decoder: str)
     for changes in scenes[: amount(2, 4)]:
         result = occ.decode(signal, Scene().replace(**changes), decoder)
         check(result, len(signal))
-        # Of the four codes of two bits one may well look like anything.
+        # One of the four codes of two bits can look like anything.
         assert result.failure is not None or "bits" in changes
 
 
 @pytest.mark.parametrize("decoder", BOTH)
 def test_a_hundred_thousand_columns_are_read(decoder: str) -> None:
-    # 333 packets: a phase that drifts by a thousandth of a chip a packet would blur the last ones.
+    # Over 333 packets, a drift of a thousandth of a chip a packet would blur the last ones.
     scene = Scene().replace(code=0b1011001110, exposure_time=68e-6)
     profile = profile_of(100_000, code=0b1011001110, exposure_time=68e-6)
     result = occ.decode(profile, scene, decoder)
@@ -214,7 +214,7 @@ def test_a_hundred_thousand_columns_are_read(decoder: str) -> None:
 
 @pytest.mark.parametrize("decoder", BOTH)
 def test_codes_of_16_bits_in_100000_columns_are_read(decoder: str) -> None:
-    # 65,536 codes at 288 phases: a table of them all would fill 150 GB with the columns.
+    # A table of 65,536 codes at 288 phases would fill 150 GB with the columns.
     scene = Scene().replace(bits=16, code=0xBEEF, exposure_time=68e-6)
     profile = occ.column_profile(scene.replace(columns=100_000))
     assert occ.decode(profile, scene, decoder).code == 0xBEEF
@@ -226,7 +226,7 @@ def test_images_of_all_types_give_the_same_code(decoder: str) -> None:
     image = occ.render(scene).image
     images: dict[str, Any] = {
         "uint8": image,
-        # 255 becomes 65535: what is above a byte must be scaled, not cut off.
+        # 255 becomes 65535: larger values must be scaled to a byte, not cut off.
         "uint16": image.astype(np.uint16) * 257,
         # Eleven bits hold a byte exactly.
         "float16": image.astype(np.float16),
@@ -234,13 +234,13 @@ def test_images_of_all_types_give_the_same_code(decoder: str) -> None:
         "float64": image.astype(np.float64),
         # A type that OpenCV does not know.
         "longdouble": image.astype(np.longdouble),
-        # Of the other byte order, as files and networks have it.
+        # The other byte order, as in files and networks.
         "big-endian uint16": (image.astype(np.uint16) * 257).astype(">u2"),
         "big-endian float32": image.astype(">f4"),
         # Fractions of white, as of scikit-image.
         "fractions": image / 255.0,
         "fractions of single precision": image.astype(np.float32) / np.float32(255.0),
-        # Memory that OpenCV cannot walk through: columns first, backwards, every other pixel.
+        # Memory layouts that OpenCV cannot use: columns first, backwards, every other pixel.
         "columns first": np.asfortranarray(image),
         "from the end": image[::-1, ::-1].copy()[::-1, ::-1],
         "every other": np.repeat(np.repeat(image, 2, axis=0), 2, axis=1)[::2, ::2],
@@ -251,7 +251,7 @@ def test_images_of_all_types_give_the_same_code(decoder: str) -> None:
 
 
 def test_sixteen_bits_tell_more_than_eight() -> None:
-    # A profile of 16 bits whose stripes are a third of a grey level in 8: too flat, but not cut.
+    # A profile of 16 bits whose stripes are a third of a grey level: too flat, but not rounded off.
     stripes = np.resize(np.repeat([1000, 1090], 20), 3000).astype(np.uint16)
     failure = occ.decode(stripes, Scene()).failure
     assert "0.35 grey levels" in failure
@@ -266,7 +266,7 @@ def test_a_profile_in_fractions_is_refused_with_what_to_do(decoder: str) -> None
 
 
 NOT_IMAGES: dict[str, tuple[object, str]] = {
-    # A NaN is neither below a threshold nor above it, and spreads through every sum.
+    # NaN is neither below nor above a threshold, and spreads through every sum.
     "NaN": (np.array([[1.0, np.nan], [2.0, 3.0]]), "not numbers"),
     "NaN in a profile": (np.r_[np.zeros(99_999), np.nan], "not numbers"),
     "infinity": (np.array([[1.0, np.inf]]), "not numbers"),
@@ -275,10 +275,10 @@ NOT_IMAGES: dict[str, tuple[object, str]] = {
     "infinity of half precision": (np.array([1.0, np.inf], np.float16), "not numbers"),
     # Finite, but its square is not.
     "the largest float": (np.array([0.0, np.finfo(float).max]), "1.8e+308"),
-    # Fractions that overshoot white, or grey levels of a dark picture.
+    # Either fractions beyond white, or grey levels of a dark picture.
     "beyond fractions": (np.array([[0.0, 1.1]]), "from 0 to 1.1; allowed in floating point"),
     "hardly grey levels": (np.array([[0.0, 2.0]]), "from 0 to 2; allowed in floating point"),
-    # Twelve bits, white being 4095.
+    # Twelve bits, where white is 4095.
     "beyond grey levels": (np.array([[0.0, 4095.0]], np.float32), "from 0 to 4095; allowed"),
     "from -1 to 1": (np.array([[-1.0, 1.0]]), "from -1 to 1; allowed in floating point"),
     "a little too large": (np.array([0.0, -100_001.0]), "1e+05"),
@@ -296,14 +296,14 @@ NOT_IMAGES: dict[str, tuple[object, str]] = {
     "numbers of any length": ([[10**400, 1]], "object"),
     "dates": (np.zeros(5, "datetime64[s]"), "datetime64"),
     "rows of different lengths": ([[1, 2], [3]], "different lengths"),
-    # A view of one byte as a terabyte: to copy it would be the end.
+    # A view of one byte as a terabyte, which must not be copied.
     "a terabyte in a byte": (np.broadcast_to(np.uint8(3), (2**20, 2**20)), "million pixels"),
     "a profile of a terabyte": (np.broadcast_to(np.float64(3), (2**37,)), "million pixels"),
 }  # fmt: skip
 
 
 @each_case(NOT_IMAGES)
-def test_what_is_no_image_is_refused_with_a_sentence(name: str) -> None:
+def test_an_array_that_is_no_image_is_refused_with_a_sentence(name: str) -> None:
     image, word = NOT_IMAGES[name]
     for decoder in BOTH:
         with pytest.raises(occ.DecodeInputError) as refusal:
@@ -314,7 +314,7 @@ def test_what_is_no_image_is_refused_with_a_sentence(name: str) -> None:
 
 @pytest.mark.parametrize("frequency", [1e6, 1e7, 1e9])
 def test_chips_shorter_than_a_column_are_not_counted(frequency: float) -> None:
-    # Runs of 2 columns would hold 1e10 chips each, and the chips of them all 15 terabytes.
+    # Runs of 2 columns would have 1e10 chips each, and all chips would take 15 terabytes.
     scene = Scene().replace(pattern="01", switching_frequency=frequency, readout_time=1e-3)
     result = occ.decode(np.resize([0.0, 0.0, 255.0, 255.0], 200), scene)
     assert result.failure.startswith("A chip lasts ")
@@ -323,7 +323,7 @@ def test_chips_shorter_than_a_column_are_not_counted(frequency: float) -> None:
 
 @pytest.mark.parametrize("exposure", [24 / 8192, 1e3 + 1e-5, 1e6])
 def test_an_exposure_that_leaves_only_the_mean_is_refused(exposure: float) -> None:
-    # Exactly a packet, or so many that the rest is lost in the last digits: all codes look alike.
+    # Exactly one packet, or so many that the rest is lost in rounding: all codes look alike.
     scene = Scene().replace(exposure_time=exposure, switching_frequency=8192.0)
     failure = occ.decode(SIGNALS["runs of all lengths"], scene, "matched").failure
     assert failure.startswith("All codes look alike")
@@ -332,11 +332,11 @@ def test_an_exposure_that_leaves_only_the_mean_is_refused(exposure: float) -> No
 LOCATED: dict[str, tuple[np.ndarray, Region]] = {
     # The fraction of the brightest pixels is less than one pixel.
     "one pixel of a million": (np.zeros((1000, 1000), np.uint8), Region(999, 1000, 0, 1)),
-    # Less than a cell of the grid that contours are grown on, at the far end of it.
+    # Less than a cell of the grid on which contours grow, at its far end.
     "the last of 100,000 columns": (
         np.zeros((1, 100_000), np.uint8), Region(0, 1, 99_999, 100_000)),
     "the last of 100,000 rows": (np.zeros((100_000, 1), np.uint8), Region(99_999, 100_000, 0, 1)),
-    # One level brighter is all there is.
+    # Only one level brighter.
     "a single grey level": (np.full((50, 60), 254, np.uint8), Region(20, 30, 10, 40)),
 }  # fmt: skip
 

@@ -1,4 +1,4 @@
-"""Sums over millions of pixels, and rates of millions of trials, without the loss of a digit."""
+"""Sums over millions of pixels and rates of millions of trials lose no digit."""
 
 import math
 from collections.abc import Iterator
@@ -32,7 +32,7 @@ def whole(image: np.ndarray) -> Region:
 
 @st.composite
 def byte_images(draw: st.DrawFn) -> tuple[np.ndarray, Region]:
-    """Tall, wide and small images, of all levels or the largest only, and a part of each."""
+    """Draw tall, wide and small images, of all levels or only the largest, and a part of each."""
     rows, columns = draw(
         st.sampled_from([(1, 3000), (3000, 1), (70, 60), (2, 2), (1, 1), (20_000, 3)])
     )
@@ -53,11 +53,11 @@ def test_column_means_are_integer_sums_over_integers(image: tuple[np.ndarray, Re
 
 
 SIXTEEN_MILLION: dict[str, tuple[tuple[int, int], int]] = {
-    # A camera's, all white: each column's sum is the largest for its rows.
+    # A camera's picture, all white, with the largest sum of each column.
     "a white picture": ((4608, 3472), 255),
-    # One column: its sum, 4e9, is beyond what an integer of 32 bits holds.
+    # One column, whose sum 4e9 does not fit into 32 bits.
     "a single column": ((16_000_000, 1), 255),
-    # Two columns whose sums lie next to that limit, one below and one above.
+    # Two columns with sums next to that limit, one below and one above.
     "two columns at the limit": ((8_421_505, 2), 254),
     # One row: a million sums of one.
     "a single row": ((1, 1_000_000), 0),
@@ -75,7 +75,7 @@ def test_column_means_of_sixteen_million_pixels_lose_nothing(name: str) -> None:
 
 
 def test_half_of_thirty_million_pixels_is_counted_to_the_pixel() -> None:
-    # OpenCV counts in single precision, in which 2^24 + 1 is 2^24: one short of the half.
+    # OpenCV counts in single precision, in which 2^24 + 1 is 2^24, one short of the half.
     half = 2**24 + 1
     image = np.zeros(2 * half, dtype=np.uint8)
     image[:half] = 200
@@ -86,14 +86,14 @@ def test_half_of_thirty_million_pixels_is_counted_to_the_pixel() -> None:
 
 @st.composite
 def panels_of_rows(draw: st.DrawFn) -> list[tuple[np.ndarray, np.ndarray | slice]]:
-    """Pixel values block by block, with the panel's place in each."""
+    """Draw pixel values block by block, with the panel's place in each."""
     columns = draw(st.integers(1, 40))
     random = np.random.default_rng(draw(st.integers(0, 2**32)))
     size = draw(decades(1e-30, 1e30))
     blocks: list[tuple[np.ndarray, np.ndarray | slice]] = []
     for _ in range(draw(st.integers(1, 12))):
         shape = (draw(st.integers(1, 64)), columns)
-        # Of all sizes: in a sum of single precision the small ones would leave no trace.
+        # Values of all sizes; a sum in single precision would lose the small ones.
         values = (size * 10.0 ** random.uniform(-6, 0, shape)).astype(np.float32)
         ends = sorted(draw(st.tuples(st.integers(0, columns), st.integers(0, columns))))
         mask = random.random(shape) < draw(st.floats(0, 1))
@@ -103,7 +103,7 @@ def panels_of_rows(draw: st.DrawFn) -> list[tuple[np.ndarray, np.ndarray | slice
 
 
 def rows_with(panel: np.ndarray | slice, values: np.ndarray) -> Rows:
-    """Rows that show the panel there."""
+    """Make rows that show the panel at a place."""
     if isinstance(panel, slice):
         inside = (panel,) if panel.stop > panel.start else ()
         return Rows(range(len(values)), values, None, (), inside)
@@ -140,7 +140,7 @@ PIXELS = Scene().replace(
     read_noise=30.0,
     iso=800.0,
 )
-"""Sixteen million pixels of panel with noise in them, every day a quarter of the columns."""
+"""Make sixteen million noisy pixels of a panel; without --whole a quarter of the columns."""
 
 
 def exposed() -> tuple[PixelExposure, Enhancement]:
@@ -168,7 +168,7 @@ def test_means_of_sixteen_million_pixels_are_exact_to_1e_9() -> None:
     exact = np.array([math.fsum(column) / 4608 for column in pixels.T.tolist()])
     error = float(np.abs(profile[chosen] - exact).max())
     record("profile means of 16 MP, grey levels", "noise of 30 electrons", error, 1e-9)
-    # What the noise moves the mean by: it is not lost among the pixels, and no larger than due.
+    # The noise of the mean is neither lost among the pixels nor larger than it should be.
     bare = expose_columns(paper_view_of(PIXELS), occ.plan(PIXELS, math.inf)).profile
     noise = pixels - bare[chosen]
     for column, place in enumerate(chosen.tolist()):
@@ -179,8 +179,8 @@ def test_means_of_sixteen_million_pixels_are_exact_to_1e_9() -> None:
     assert float(profile.sum()) * 4608 == pytest.approx(total, rel=1e-12)
 
 
-def test_noise_that_is_used_again_has_no_mean_of_its_own() -> None:
-    # Two million numbers in single precision, whose own sum would be off in the fifth digit.
+def test_reused_noise_has_zero_mean() -> None:
+    # Two million numbers in single precision, whose sum in that would be off in the fifth digit.
     scene = Scene().replace(columns=1, rows=4)
     noise = ReusedNoise([SensorNoise()], scene, 1)
     numbers = noise.places[:, 0]

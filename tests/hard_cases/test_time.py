@@ -1,4 +1,4 @@
-"""Time: where a column's exposure starts and ends among the chips, against rational arithmetic."""
+"""Where columns' exposures start and end among the chips, compared with rational arithmetic."""
 
 import math
 from fractions import Fraction
@@ -31,8 +31,8 @@ COINCIDENCE = "t_on where edges coincide, of t"
 WIDE = "t 1e-3 to 1e6 chips, f 1 Hz to 1 GHz, t_0 to 1e9 s"
 
 
-def timed(chips: float, frequency: float, **changes: float | str) -> Scene:
-    """A scene whose exposure lasts about so many chips, as far as one may."""
+def scene_of_exposure(chips: float, frequency: float, **changes: float | str) -> Scene:
+    """Make a scene whose exposure lasts about some chips, as far as allowed."""
     exposure = within("exposure_time", chips / frequency)
     return Scene().replace(
         switching_frequency=frequency, exposure_time=exposure, columns=300,
@@ -40,10 +40,10 @@ def timed(chips: float, frequency: float, **changes: float | str) -> Scene:
 
 
 def error_of(scene: Scene) -> float:
-    """The worst column's t_on less that of exact arithmetic, relative to t.
+    """Return the largest error of a column's t_on against exact arithmetic, relative to t.
 
-    Relative to a thousandth of a chip where t is shorter: where in a chip a column starts is known
-    to 2e-16 chips, whatever t is.
+    It is relative to a thousandth of a chip if t is shorter, since the start of a column is known
+    to 2e-16 chips for any t.
     """
     exact, on_time = ExactTimes(scene), occ.on_time(scene)
     t = Fraction(scene.camera.exposure_time)
@@ -58,7 +58,9 @@ def error_of(scene: Scene) -> float:
 def test_on_time_is_that_of_rational_arithmetic(
     chips: float, frequency: float, readout: float, start: float, pattern: str
 ) -> None:
-    scene = timed(chips, frequency, readout_time=readout, start_time=start, pattern=pattern)
+    scene = scene_of_exposure(
+        chips, frequency, readout_time=readout, start_time=start, pattern=pattern
+    )
     error = error_of(scene)
     record("t_on, of t", WIDE, error, 1e-12)
 
@@ -73,7 +75,7 @@ def test_on_time_is_that_of_rational_arithmetic(
 def test_on_time_of_whole_packets_is_exact_an_ulp_either_side(
     whole: int, unit: int, ulps: int, frequency: float, start: float
 ) -> None:
-    scene = timed(whole * unit, frequency, start_time=start)
+    scene = scene_of_exposure(whole * unit, frequency, start_time=start)
     exposure = scene.camera.exposure_time
     beside = exposure if ulps == 0 else math.nextafter(exposure, ulps * math.inf)
     error = error_of(scene.replace(exposure_time=within("exposure_time", beside)))
@@ -87,11 +89,11 @@ def test_on_time_of_whole_packets_is_exact_an_ulp_either_side(
 def test_a_packet_may_start_just_where_a_column_does(
     seconds: float, chips: float, frequency: float, ulps: int, whole: int, column: int
 ) -> None:
-    # As near as a start time can bring them together, and one ulp either side.
+    # As close as a start time can bring them, and one ulp on either side.
     start = float(whole * 24 / Fraction(frequency) - column * Fraction(seconds))
     start = start if ulps == 0 else math.nextafter(start, ulps * math.inf)
     start = within("start_time", start)
-    scene = timed(chips, frequency, readout_time=seconds, start_time=start)
+    scene = scene_of_exposure(chips, frequency, readout_time=seconds, start_time=start)
     exact, found = ExactTimes(scene), occ.on_time(scene)[column] / scene.camera.exposure_time
     error = float(abs(Fraction(float(found)) - exact.fraction(column)))
     record(COINCIDENCE, "t of whole chips, packets at a column's start, +- 1 ulp", error, 1e-12)
@@ -101,7 +103,7 @@ def test_a_packet_may_start_just_where_a_column_does(
 def test_on_time_is_never_negative_nor_above_the_exposure(
     chips: float, frequency: float, start: float, pattern: str
 ) -> None:
-    scene = timed(chips, frequency, start_time=start, pattern=pattern)
+    scene = scene_of_exposure(chips, frequency, start_time=start, pattern=pattern)
     on_time, exposure = occ.on_time(scene), scene.camera.exposure_time
     beyond = max(-float(on_time.min()), float(on_time.max()) - exposure, 0.0) / exposure
     record("0 <= t_on <= t, of t", "t 1e-9 to 1e9 chips", beyond, 0.0)
@@ -113,7 +115,7 @@ def test_on_time_is_never_negative_nor_above_the_exposure(
 def test_on_and_off_time_are_the_exposure(
     chips: float, frequency: float, start: float, pattern: str
 ) -> None:
-    scene = timed(chips, frequency, start_time=start)
+    scene = scene_of_exposure(chips, frequency, start_time=start)
     scene = scene.replace(pattern=pattern or "".join(map(str, occ.packet(scene))))
     opposite = scene.replace(pattern=scene.transmitter.pattern.translate({48: "1", 49: "0"}))
     exposure = scene.camera.exposure_time
@@ -122,7 +124,7 @@ def test_on_and_off_time_are_the_exposure(
     record("t_on + t_off = t, in ulps of t", "t 1e-9 to 1e6 chips", ulps)
     # The sum, the division and the product round each of the two by half an ulp.
     assert ulps <= 3.0
-    # The camera's own t_off is t less t_on.
+    # The camera's t_off is t minus t_on.
     assert np.abs(on_time + (exposure - on_time) - exposure).max() <= math.ulp(exposure)
 
 
@@ -133,7 +135,7 @@ def test_on_and_off_time_are_the_exposure(
 def test_a_start_whole_packets_later_changes_only_rounding(
     packets: int, chips: float, frequency: float, start: float, pattern: str
 ) -> None:
-    scene = timed(chips, frequency, start_time=start, pattern=pattern)
+    scene = scene_of_exposure(chips, frequency, start_time=start, pattern=pattern)
     period = len(occ.packet(scene)) / Fraction(frequency)
     wanted = Fraction(start) + packets * period
     later = scene.replace(start_time=within("start_time", float(wanted)))
@@ -164,7 +166,7 @@ def test_a_small_change_of_a_time_changes_on_time_by_its_fraction(
     all of time stretches about zero: the window starts e (t_0 + i t_r) later, and is e t longer
     in chips, which are e shorter.
     """
-    scene = timed(chips, frequency, readout_time=readout, start_time=start)
+    scene = scene_of_exposure(chips, frequency, readout_time=readout, start_time=start)
     old = float(scene.value(which))
     new = within(which, old * (1 + sign * size))
     changed = scene.replace(**{which: new})
@@ -186,17 +188,17 @@ def test_a_small_change_of_a_time_changes_on_time_by_its_fraction(
 LONG = "1" * 2048 + "0" * 2048
 
 MANY_COLUMNS: dict[str, dict[str, float | str]] = {
-    # No binary fraction of a chip: each step's rounding would add up to 1e-10 chips.
+    # Not a binary fraction of a chip: rounding at each step would add up to 1e-10 chips.
     "a decimal readout time": {"readout_time": 7.77e-6},
     # A step of nearly a period, whose product with the column number needs 65 bits.
     "a step just short of a packet": {"readout_time": 24e-4 * (1 - 1e-9)},
-    # The step's rest, at 24 bits of thousands of chips, adds up to hundreds of chips itself.
+    # The step's remainder beyond 24 bits of thousands of chips adds up to hundreds of chips.
     "thousands of chips a column": {"readout_time": 0.3333333333333333, "pattern": LONG},
-    # 4e-11 packets a column: the last one must still be 4e-5 packets from the first.
+    # With 4e-11 packets a column, the last one must still be 4e-5 packets from the first.
     "a step of next to nothing": {"readout_time": 1e-9, "switching_frequency": 1.0},
-    # Ten million chips between two columns, of which all but a fraction must go exactly.
+    # Ten million chips between two columns, all but a fraction of which must cancel exactly.
     "ten seconds a column at 1 GHz": {"readout_time": 9.999999999, "switching_frequency": 1e9},
-    # Column and packet keep step exactly: every column must show the very same.
+    # Columns and packets are exactly in step, so that all columns must be the same.
     "exactly a packet a column": {"readout_time": 24 / 8192, "switching_frequency": 8192.0},
 }  # fmt: skip
 
@@ -214,31 +216,31 @@ def test_a_million_columns_do_not_drift(name: str) -> None:
 
 
 NAMED: dict[str, dict[str, float | str]] = {
-    # 2e14 chips since time zero: a double of the start in chips has not one digit after the point.
+    # 2e14 chips after time zero, where the start in chips as a double has no decimals.
     "a million chips, a billion seconds away": {
         "start_time": 1e9 - 0.1, "exposure_time": 100.0, "switching_frequency": 1e4},
-    # The same backwards: what is negative must not be rounded towards zero.
+    # The same backwards: negative numbers must not be rounded towards zero.
     "a billion seconds before": {"start_time": -1e9 + 0.1, "switching_frequency": 1e9},
-    # t_on is a thousandth of a chip, at an edge: nothing is left of it in the difference of sums.
+    # t_on is a thousandth of a chip at an edge, which the difference of sums would lose.
     "a thousandth of a chip": {"exposure_time": 1e-7, "start_time": 1e9, "pattern": "01"},
-    # t = t_LED but for the rounding of 1/f: the window holds one chip's edge, or just two.
+    # t = t_LED except for the rounding of 1/f, so that the window has one edge or just two.
     "just one chip": {"exposure_time": 1 / 3e4, "switching_frequency": 3e4, "pattern": "10"},
-    # t is three packets exactly, so that every column sees the same, at whatever start.
+    # t is exactly three packets, so that every column is the same for any start.
     "just three packets": {"exposure_time": 72 / 8192, "switching_frequency": 8192.0},
     # One ulp more than that: t_on may differ from column to column by that ulp only.
     "three packets and an ulp": {
         "exposure_time": math.nextafter(72 / 8192, 1), "switching_frequency": 8192.0},
-    # Columns start on every chip's edge exactly: the edge belongs to one of the two.
+    # Columns start exactly at chips' edges, each of which belongs to one of two chips.
     "one chip a column": {"readout_time": 2.0**-13, "switching_frequency": 8192.0},
-    # All columns are the same instant of the packet.
+    # All columns are at the same instant of the packet.
     "one packet a column": {"readout_time": 24 / 8192, "switching_frequency": 8192.0},
     # The shortest time at the highest frequency: one chip a column and an exposure.
     "nanoseconds": {"readout_time": 1e-9, "exposure_time": 1e-9, "switching_frequency": 1e9},
-    # A nanosecond a column and a chip a second: no column must move at all, nor stand still.
+    # A nanosecond a column and a chip a second: columns must neither jump nor stand still.
     "a chip of a billion columns": {"readout_time": 1e-9, "switching_frequency": 1.0},
-    # 1e15 chips in an exposure: the rest beyond whole packets is the 16th digit.
+    # 1e15 chips in an exposure, where the rest beyond whole packets is the 16th digit.
     "the longest exposure": {"exposure_time": 1e6, "switching_frequency": 1e9},
-    # One lit chip in 4096: t_on is nothing nearly everywhere, and all of t somewhere.
+    # One lit chip in 4096: t_on is nearly everywhere 0, and somewhere all of t.
     "one lit chip": {"pattern": "1" + "0" * 4095, "exposure_time": 1e-6, "readout_time": 1e-4},
 }  # fmt: skip
 

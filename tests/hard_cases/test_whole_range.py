@@ -1,4 +1,5 @@
-"""Any scene that the declarations allow, with any effects: a picture, or a sentence why not."""
+"""Any scene that the declarations allow, with any effects, gives a picture or a sentence why
+not."""
 
 import math
 from collections.abc import Callable
@@ -23,7 +24,7 @@ Made = TypeVar("Made")
 
 
 def quantities(name: str) -> st.SearchStrategy[float | int | str]:
-    """All values that a parameter may have, its limits and every decade among them."""
+    """Draw any value that a parameter may have, with its limits and every decade."""
     declared = PARAMETERS[name]
     if isinstance(declared, Choice):
         return st.sampled_from(declared.choices)
@@ -52,11 +53,11 @@ SIZES = {
 CHANGES = st.fixed_dictionaries(
     SIZES, optional={name: quantities(name) for name in PARAMETERS if name not in SIZES}
 )
-"""Any parameters of any scene, in small pictures: the others have their defaults."""
+"""Any parameters of small pictures; the others have their defaults."""
 
 
 def given_or_refused(make: Callable[[], Made]) -> Made | str:
-    """Return what is made of a scene, or the sentence that says why it cannot be."""
+    """Return what is made of a scene, or the sentence why it cannot be made."""
     try:
         return make()
     except occ.OccError as error:
@@ -74,7 +75,7 @@ def test_every_bound_of_any_scene_is_a_number_and_not_negative(
         return
     wrong = 0
     for decision in plan.decisions:
-        # A lens that folds the picture changes it without end: simulating it is refused.
+        # A lens that folds the picture has an infinite bound, and its simulation is refused.
         folds = decision.effect == "distortion" and decision.estimate == math.inf
         wrong += not (folds or (math.isfinite(decision.estimate) and decision.estimate >= 0.0))
         if folds:
@@ -107,32 +108,33 @@ def test_any_scenes_picture_has_pixels_and_a_finite_profile(
 
 
 SCENES: dict[str, dict[str, float | int | str]] = {
-    # The noise of a gain that hardly varies: its square, and that of 255 over it, are no numbers.
+    # A gain that hardly varies, where squares of its noise and of 255 over it underflow or
+    # overflow.
     "noise of next to nothing": {"gain_variation": 1e-157, "lambertian_order": 2.0},
-    # No light at all: every pixel value is 0, and so is what is divided by.
+    # No light: every pixel value is 0, and so are divisors.
     "no light": {"luminance": 0.0, "illuminance": 0.0, "gain_variation": 0.5, "edge_time": 1.0},
-    # All light there can be: 1e29 times white, in single precision where the lens vignettes.
+    # As much light as possible, 1e29 times white, in single precision with vignetting.
     "all light": {"luminance": 1e16, "illuminance": 1e16, "reflectance": 1.0, "iso": 4e6,
                   "exposure_time": 1e6, "f_number": 0.5, "gamma": 1.0, "vignetting_exponent": 1.0},
-    # Hardly any: 1e-31 times white, of which single precision leaves nothing.
+    # As little light as possible, 1e-31 times white, which underflows in single precision.
     "hardly any light": {"luminance": 1e-16, "illuminance": 1e-16, "iso": 1.0, "gamma": 1.0,
                          "exposure_time": 1e-9, "f_number": 128.0, "vignetting_exponent": 20.0},
-    # The panel's own light is lost in the last digit of what it reflects.
+    # The panel's own light is lost in the last digit of the reflected light.
     "a panel lost in the sun": {"luminance": 1e-9, "illuminance": 1e9},
     # Light that has fewer digits than a float has, the smallest number but 0.
     "the smallest luminance there is": {"luminance": 5e-324, "illuminance": 0.0},
-    # The steepest gamma: next to black one ulp of light is a grey level.
+    # The steepest gamma, where next to black one ulp of light is a grey level.
     "the steepest gamma": {"gamma": 4.0, "luminance": 1e-12, "illuminance": 0.0},
-    # The corner sees 1e-27 of the light on the axis.
+    # The corner gets 1e-27 of the light on the axis.
     "the corner of a fisheye": {"equivalent_focal_length": 1e-3, "vignetting_exponent": 20.0,
                                 "distance": 1e-3, "panel_width": 100.0, "panel_height": 100.0},
-    # A panel all but edge-on, whose light is in a beam: cos^99 of nearly a right angle.
+    # A panel nearly edge-on with its light in a beam: cos^99 of nearly a right angle.
     "a beam from the side": {"yaw": math.radians(89.99), "lambertian_order": 100.0,
                              "panel_width": 1e-4, "point_spread": 3.0},
     # A picture of one pixel: no two columns to compare, no interval between them.
     "one pixel": {"rows": 1, "columns": 1, "point_spread": 2.0, "jpeg_quality": 1},
-    # An LED whose edges take less than the smallest normal number of chips; eight columns that
-    # are divided at once, and one more.
+    # An LED whose edges take less than the smallest normal number of chips; eight columns are
+    # divided at once, and one more.
     "edges of next to nothing": {"edge_time": 5e-324, "columns": 9},
     # A blur a hundred times as wide as the picture.
     "a blur wider than the picture": {"point_spread": 1000.0, "focus_distance": 1e-300},

@@ -1,4 +1,4 @@
-"""A world of scenes wider than the sliders, to try the plan's promise and its estimates on."""
+"""A world of scenes wider than the sliders, to test the plan's promise and its estimates."""
 
 import math
 
@@ -26,21 +26,21 @@ NOTHING: dict[str, ParameterValue] = {
     "flicker_depth": 0.0,
     "gain_variation": 0.0,
 }
-"""Each effect's parameters where it is nothing."""
+"""Values of each effect's parameters that switch it off."""
 
 PRESETS = occ.presets()
 METHODS = ("equalization", "stretch", "none")
 
 
-def anywhere(random: np.random.Generator) -> Scene:
-    """A small picture of a panel that is seen somewhere in it, everything else anywhere."""
+def draw_anywhere(random: np.random.Generator) -> Scene:
+    """Draw a small picture with a panel somewhere in it, and all other parameters anywhere."""
     changes: dict[str, ParameterValue] = {
         name: declared.at(float(random.random()))
         for name, declared in PARAMETERS.items()
         if isinstance(declared, Quantity)
     }
     distance = float(random.uniform(0.3, 3.0))
-    seen = random.uniform(0.1, 1.5, size=2) * distance
+    observe_with = random.uniform(0.1, 1.5, size=2) * distance
     changes |= {
         "rows": int(random.integers(16, 200)),
         "columns": int(random.integers(60, 400)),
@@ -51,11 +51,11 @@ def anywhere(random: np.random.Generator) -> Scene:
         "adc_bits": int(random.integers(6, 14)),
         "equivalent_focal_length": float(random.uniform(0.02, 0.06)),
         "distance": distance,
-        "panel_width": float(seen[0]),
-        "panel_height": float(seen[1]),
+        "panel_width": float(observe_with[0]),
+        "panel_height": float(observe_with[1]),
         "offset_x": float(random.normal() * 0.2 * distance),
         "offset_y": float(random.normal() * 0.2 * distance),
-        # The sliders' ends fold most pictures back.
+        # At the sliders' ends most pictures fold.
         "radial_k1": float(random.uniform(-0.15, 0.15)),
         "radial_k2": float(random.uniform(-0.15, 0.15)),
     }
@@ -69,8 +69,8 @@ def anywhere(random: np.random.Generator) -> Scene:
     return Scene().replace(**changes)
 
 
-def like_a_preset(random: np.random.Generator) -> Scene:
-    """A preset's small picture: some near a null, tilted, dark, saturated or ten rows high."""
+def draw_like_preset(random: np.random.Generator) -> Scene:
+    """Draw a small picture like a preset's, sometimes near a null, tilted, dark, full or flat."""
     scene = occ.load_preset(str(random.choice(PRESETS)))
     smaller = int(random.integers(6, 13))
     changes: dict[str, ParameterValue] = {
@@ -115,7 +115,7 @@ def weaken(changes: dict[str, ParameterValue], random: np.random.Generator) -> N
 
 
 def scene_of(seed: int) -> Scene:
-    """A random scene that has a picture; one that has none is drawn again."""
+    """Draw random scenes until one has a picture."""
     random = np.random.default_rng([7, seed])
     while True:
         scene = _drawn(random)
@@ -124,7 +124,7 @@ def scene_of(seed: int) -> Scene:
 
 
 def large_scene_of(seed: int) -> Scene:
-    """A random picture of many columns, of which a plan samples some, and of few rows."""
+    """Draw a picture of few rows and of many columns, some of which a plan samples."""
     random = np.random.default_rng([11, seed])
     while True:
         scene = _drawn(random)
@@ -138,7 +138,7 @@ def large_scene_of(seed: int) -> Scene:
 
 
 def _drawn(random: np.random.Generator) -> Scene:
-    return anywhere(random) if random.random() < 0.5 else like_a_preset(random)
+    return draw_anywhere(random) if random.random() < 0.5 else draw_like_preset(random)
 
 
 def _has_picture(scene: Scene) -> bool:
@@ -149,17 +149,19 @@ def _has_picture(scene: Scene) -> bool:
     return True
 
 
-def seen(scene: Scene, effects: frozenset[str], observable: Observable, seed: int) -> np.ndarray:
-    """What is observed of a scene with these effects alone."""
+def observe_with(
+    scene: Scene, effects: frozenset[str], observable: Observable, seed: int
+) -> np.ndarray:
+    """Return the observable of a scene with only these effects."""
     force = dict.fromkeys(sorted(effects), True)
     return observe(scene, occ.plan(scene, math.inf, observable, force), seed=seed).astype(float)
 
 
 def rms(change: np.ndarray) -> float:
-    """Root mean square."""
+    """Return the root mean square."""
     return math.sqrt(float(np.mean(change**2)))
 
 
-def present(plan: Plan) -> frozenset[str]:
-    """The effects that a plan's scene has."""
+def present_effects(plan: Plan) -> frozenset[str]:
+    """Return the effects that a plan's scene has."""
     return frozenset(d.effect for d in plan.decisions if d.included)

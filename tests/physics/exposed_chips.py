@@ -1,4 +1,4 @@
-"""Chips of Manchester code seen by noisy rows: a closed simulation that uses no code of ours.
+"""Chips of Manchester code in noisy rows, simulated in closed form without our code.
 
 The signal-to-noise ratio is the chips' variance, 1/4, over the variance of a row's noise.
 """
@@ -13,8 +13,8 @@ def manchester(bits: np.ndarray) -> np.ndarray:
     return np.stack([1 - bits, bits], axis=1).ravel()
 
 
-def seen_by_rows(chips: np.ndarray, exposure: float, step: float, phase: float) -> np.ndarray:
-    """Average chips over each row's exposure: the difference of their running integral."""
+def expose_rows(chips: np.ndarray, exposure: float, step: float, phase: float) -> np.ndarray:
+    """Average chips over each row's exposure, by the difference of their running integral."""
     rows = int((len(chips) - exposure - phase) / step)
     starts = phase + step * np.arange(rows)
     edges, integral = np.arange(len(chips) + 1), np.concatenate([[0.0], np.cumsum(chips)])

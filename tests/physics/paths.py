@@ -1,4 +1,4 @@
-"""Success rates as studies count them and of whole pictures, side by side at random scenes."""
+"""Success rates by studies and by whole pictures, side by side for random scenes."""
 
 import math
 from collections.abc import Iterable, Iterator
@@ -16,17 +16,17 @@ from occ_model.study.success_rate import right_bits_of_images
 PRESETS = ("phone-68us", "phone-136us", "tablet-61us", "tablet-122us", "phone-136us-real")
 
 DECODERS = ("threshold", "matched", "equalizer", "sequence")
-IN_DOUBT = (0.05, 0.95)  # between which rates a scene's rate is in doubt
+IN_DOUBT = (0.05, 0.95)  # a rate between these is in doubt
 
 
 @dataclass(frozen=True)
 class TwoPaths:
-    """The fraction of right bits in images of one scene, by a study and of whole pictures.
+    """The fraction of right bits in images of one scene, by a study and by whole pictures.
 
     Parameters
     ----------
     study, image : ndarray of float64, shape (images,)
-        Of each image; those of the study and the whole pictures have nothing in common.
+        The fraction in each image; the study's images and the whole pictures are independent.
     """
 
     number: int
@@ -37,7 +37,7 @@ class TwoPaths:
 
     @property
     def preset(self) -> str:
-        """The preset that the scene was made from, as its timing tells."""
+        """The preset of the scene, as its timing tells."""
         exposure = round(1e6 * self.scene.camera.exposure_time)
         real = "-real" if self.scene.lens.radial_k1 else ""
         return next(name for name in PRESETS if name.endswith(f"-{exposure}us{real}"))
@@ -53,10 +53,11 @@ class TwoPaths:
 
     @property
     def deviation(self) -> float:
-        """The difference of the rates, in standard deviations; 0 where no image differs.
+        """The difference of the rates in standard deviations; 0 if no image differs.
 
-        That of all ways to deal the images to both: if both are alike its mean square is exactly 1,
-        however few images there are, and whichever scenes are kept by the rate of all images.
+        The standard deviation is that over all ways to assign the images to the two. If both are
+        alike, the mean square is then exactly 1, however few images there are, and whichever scenes
+        are selected by the rate of all images.
         """
         off = float(self.study.mean() - self.image.mean())
         variance = np.concatenate([self.study, self.image]).var(ddof=1)
@@ -65,10 +66,10 @@ class TwoPaths:
 
 
 def random_scene(random: np.random.Generator) -> Scene:
-    """A panel on part of a preset's sensor: dark or bright, near or far, at or between nulls.
+    """Draw a panel on part of a preset's sensor: dark or bright, near or far, at or between nulls.
 
-    The exposure is 1.5 to 16 chips long. Every fifth scene has a lens, a file and flicker: its
-    rows differ, and a study reads a sample of them.
+    The exposure is 1.5 to 16 chips long. Every fifth scene has a lens, a file and flicker, so that
+    its rows differ and a study reads a sample of them.
     """
     scene = occ.load_preset(PRESETS[int(random.integers(len(PRESETS)))])
     null = random.random() < 0.3
@@ -110,7 +111,7 @@ def fractions(scene: Scene, path: SignalPath, images: int, seed: int) -> np.ndar
 
 
 def scene_in_doubt(number: int, seed: int, tries: int = 60, images: int = 4) -> Scene:
-    """Draw scenes until one of the decoders, each in turn, reads some of few images and not all.
+    """Draw scenes until a decoder, each in turn, reads some but not all of a few images.
 
     These images choose the scene and are not counted.
     """
@@ -124,14 +125,14 @@ def scene_in_doubt(number: int, seed: int, tries: int = 60, images: int = 4) -> 
     return scene
 
 
-def compared(scenes: Iterable[int], images: int, seed: int) -> Iterator[TwoPaths]:
+def compare_paths(scenes: Iterable[int], images: int, seed: int) -> Iterator[TwoPaths]:
     """Compare a study with whole pictures at some scenes."""
     for number in scenes:
         scene = random_scene(np.random.default_rng([seed, number]))
-        yield from compared_at(scene, images, number)
+        yield from compare_paths_at(scene, images, number)
 
 
-def compared_at(scene: Scene, images: int, number: int) -> Iterator[TwoPaths]:
+def compare_paths_at(scene: Scene, images: int, number: int) -> Iterator[TwoPaths]:
     """Compare both at a scene, by images with seeds of their own."""
     by_study = fractions(scene, "auto", images, number)
     by_image = fractions(scene, "image", images, 500_000_000 + number)
@@ -142,7 +143,7 @@ def compared_at(scene: Scene, images: int, number: int) -> Iterator[TwoPaths]:
 def significance(found: list[TwoPaths]) -> tuple[float, int, float]:
     """Test whether the rates agree: chi-square, its terms, and the probability of a larger one.
 
-    Only rates in doubt count: elsewhere an image in hundreds differs, whose number is not normal.
+    Only rates in doubt count, since elsewhere the number of images that differ is not normal.
     """
     counted = [pair for pair in found if pair.is_in_doubt]
     total = sum(pair.deviation**2 for pair in counted)

@@ -1,4 +1,4 @@
-"""The light that each pixel shows, of a panel that one effect of the optics changes."""
+"""The light of each pixel with one effect of the optics."""
 
 import numpy as np
 
@@ -11,7 +11,7 @@ from occ_model.scene.scene import Scene
 
 
 def pictured_luminance(scene: Scene, effect: OpticsEffect) -> np.ndarray:
-    """The luminance that each pixel shows, shape (rows, columns)."""
+    """Return the luminance of each pixel, shape (rows, columns)."""
     optics = effect.apply(scene, Optics(occ.panel_corners(scene)))
     light = ColumnLight.of(scene)
     panel = panel_values(scene, light)

@@ -1,4 +1,4 @@
-"""Laws of the band model, the peer that the paper compares itself with."""
+"""Laws of the band model, with which the paper compares itself."""
 
 import numpy as np
 import pytest
@@ -98,7 +98,7 @@ def test_the_literal_reading_gives_chips_whole_columns() -> None:
 
 
 def test_the_literal_reading_drifts_at_every_pair_of_equal_chips() -> None:
-    # 0011: four chips of seven columns are 28; read literally, 4 x 4 + 2 x 3 = 22.
+    # 0011 has four chips of seven columns, 28; in the literal model it has 4 x 4 + 2 x 3 = 22.
     scene = Scene().replace(
         pattern="0011",
         switching_frequency=1 / 7e-6,
@@ -114,7 +114,7 @@ def test_the_literal_reading_drifts_at_every_pair_of_equal_chips() -> None:
 
 
 @given(fraction=st.floats(0.02, 1.0), code=st.integers(0, 1023), readout=st.floats(2e-6, 2e-5))
-def test_the_drift_is_what_a_packet_of_the_model_is_shorter(
+def test_the_drift_is_by_how_much_the_model_s_packet_is_shorter(
     fraction: float, code: int, readout: float
 ) -> None:
     scene = Scene().replace(

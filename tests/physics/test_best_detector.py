@@ -1,4 +1,4 @@
-"""The sequence detector errs hardly more often than the best detector of single bits.
+"""The sequence detector makes hardly more errors than the best detector of single bits.
 
 The best is computed here in another way: forward and backward over the bits (L. R. Bahl, J. Cocke,
 F. Jelinek and J. Raviv, IEEE Trans. Inf. Theory 20:284, 1974), from the exposures' overlaps with
@@ -12,7 +12,7 @@ import math
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from physics.exposed_chips import manchester, noise_of, seen_by_rows
+from physics.exposed_chips import expose_rows, manchester, noise_of
 
 from occ_model.receiver.sequence.exposures import Timing, gather
 from occ_model.receiver.sequence.search import best_chips
@@ -20,13 +20,13 @@ from occ_model.receiver.sequence.trellis import Word, trellis_of
 
 EXPOSURE, STEP, PHASE, DECIBELS = 4, 0.2, 0.13, 15.0
 ROWS = 10  # rows that begin while a bit, of two chips, lasts
-BITS_BACK = EXPOSURE // 2  # bits after its own that the exposure of a row reaches
+BITS_BACK = EXPOSURE // 2  # bits after its own during the exposure of a row
 
 Floats = NDArray[np.float64]
 
 
 def branch_light() -> Floats:
-    """Return the light of the rows that begin in a bit, for each choice of that bit and the next.
+    """Return the light of the rows that begin in a bit, for each choice of that and the next bits.
 
     Shape (2, 2, 2, ROWS): the bit, the two that follow it, and the rows.
     """
@@ -92,7 +92,7 @@ def rates(sequences: int, bits: int, seed: int) -> tuple[float, float, float]:
     wrong = counted = 0
     for number, payload in enumerate(sent):
         chips = manchester(payload)
-        light = seen_by_rows(chips, EXPOSURE, STEP, PHASE)
+        light = expose_rows(chips, EXPOSURE, STEP, PHASE)
         light = light + noise * random.standard_normal(len(light))
         seen[number] = light[: whole * ROWS].reshape(whole, ROWS)
         found = best_chips(trellis_of(words, timing.memory), gather(light, timing))
@@ -109,7 +109,7 @@ def rates(sequences: int, bits: int, seed: int) -> tuple[float, float, float]:
 def test_the_model_of_the_best_detector_is_that_of_the_rows() -> None:
     random = np.random.default_rng(1)
     bits = random.integers(0, 2, 40)
-    light = seen_by_rows(manchester(bits), EXPOSURE, STEP, PHASE)
+    light = expose_rows(manchester(bits), EXPOSURE, STEP, PHASE)
     model = branch_light()
     for k in range(30):
         expected = model[tuple(bits[k : k + BITS_BACK + 1])]
@@ -121,6 +121,6 @@ def test_at_4_chips_and_15_db_no_detector_reaches_5_in_10000() -> None:
     found = np.array([rates(20, 5_000, seed) for seed in range(100, 112)])
     best, counted, sequence = found.mean(axis=0)
     errors = found.std(axis=0, ddof=1) / math.sqrt(len(found))
-    assert counted == pytest.approx(best, abs=4.0 * float(errors[1]))  # it is as likely as it says
+    assert counted == pytest.approx(best, abs=4.0 * float(errors[1]))  # as stated
     assert best - 2.0 * errors[0] > 5e-4
     assert counted <= sequence < 1.1 * counted

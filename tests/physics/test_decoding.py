@@ -1,4 +1,4 @@
-"""What the receiver must read, and what it must say when it cannot."""
+"""What the receiver must read, and what it must say if it cannot."""
 
 from pathlib import Path
 
@@ -14,17 +14,17 @@ CODES = range(0, 1024, amount(29, 7))
 
 
 @pytest.fixture(scope="module")
-def covered() -> Scene:
-    """The phone at 10 kHz and 68 us, so close that the panel fills the picture."""
-    # Fewer rows than the phone has: every row of the panel is the same.
+def covering_scene() -> Scene:
+    """Place the phone at 10 kHz and 68 us so close that the panel fills the picture."""
+    # Fewer rows than the phone has, as all rows of the panel are the same.
     scene = occ.load_preset("phone-68us")
     return scene.replace(distance=0.1, rows=16, switching_frequency=10e3)
 
 
 @pytest.mark.parametrize("exposure", [68e-6, 136e-6], ids=["below the period", "beyond"])
-def test_codes_are_read_from_their_own_picture(covered: Scene, exposure: float) -> None:
+def test_codes_are_read_from_their_own_picture(covering_scene: Scene, exposure: float) -> None:
     for code in CODES:
-        scene = covered.replace(code=code, exposure_time=exposure)
+        scene = covering_scene.replace(code=code, exposure_time=exposure)
         result = occ.decode(occ.render(scene).image, scene)
         assert (result.code, result.failure) == (code, None)
         assert result.bits.tolist() == list(bits_of(code, 10))
@@ -33,41 +33,43 @@ def test_codes_are_read_from_their_own_picture(covered: Scene, exposure: float) 
 @pytest.mark.parametrize("enhancement", ["equalization", "stretch", "none"])
 @pytest.mark.parametrize("code", [0, 1, 341, 512, 682, 718, 1023])
 def test_codes_are_read_whatever_the_enhancement(
-    covered: Scene, code: int, enhancement: str
+    covering_scene: Scene, code: int, enhancement: str
 ) -> None:
-    scene = covered.replace(code=code, enhancement=enhancement)
+    scene = covering_scene.replace(code=code, enhancement=enhancement)
     assert occ.decode(occ.render(scene).image, scene).code == code
 
 
 @pytest.mark.parametrize("bits", [2, 3, 5, 16])
-def test_codes_of_other_lengths_are_read(covered: Scene, bits: int) -> None:
+def test_codes_of_other_lengths_are_read(covering_scene: Scene, bits: int) -> None:
     for code in range(0, 2**bits, max(1, 2**bits // amount(8, 32))):
-        scene = covered.replace(bits=bits, code=code, switching_frequency=12e3)
+        scene = covering_scene.replace(bits=bits, code=code, switching_frequency=12e3)
         assert occ.decode(occ.render(scene).image, scene).code == code
 
 
 @pytest.mark.parametrize("bits", range(2, 10))
-def test_other_code_lengths_are_read_beyond_the_period(covered: Scene, bits: int) -> None:
-    # A third of these two codes' equalized pictures is white, and Otsu's threshold lies right
-    # below: their only single one vanishes, and with it what tells them apart.
+def test_other_code_lengths_are_read_beyond_the_period(covering_scene: Scene, bits: int) -> None:
+    # A third of these two codes' equalized pictures is white, with Otsu's threshold just below, so
+    # that their only single one vanishes, which distinguishes them.
     vanished = {1, 2} if bits == 2 else set()
     codes = {*range(0, 2**bits, max(1, 2**bits // amount(6, 128))), 2**bits - 1}
     for code in sorted(codes - vanished):
-        scene = covered.replace(bits=bits, code=code, exposure_time=136e-6)
+        scene = covering_scene.replace(bits=bits, code=code, exposure_time=136e-6)
         result = occ.decode(occ.render(scene).signal, scene)
         assert (result.code, result.failure) == (code, None)
 
 
 @pytest.mark.parametrize("bits", [3, 5, 7, 9, 11, 13])
-def test_a_packet_without_single_zeros_is_read_from_any_start(covered: Scene, bits: int) -> None:
-    all_ones = covered.replace(bits=bits, code=2**bits - 1, exposure_time=136e-6)
+def test_a_packet_without_single_zeros_is_read_from_any_start(
+    covering_scene: Scene, bits: int
+) -> None:
+    all_ones = covering_scene.replace(bits=bits, code=2**bits - 1, exposure_time=136e-6)
     for start in np.linspace(0.0, 3e-3, amount(6, 50)):
         scene = all_ones.replace(start_time=float(start))
         assert occ.decode(occ.render(scene).signal, scene).code == 2**bits - 1
 
 
-def test_every_step_stands_on_the_result(covered: Scene) -> None:
-    scene = covered.replace(start_time=0.0)
+def test_every_step_is_in_the_result(covering_scene: Scene) -> None:
+    scene = covering_scene.replace(start_time=0.0)
     result = occ.decode(occ.render(scene).image, scene)
     assert result.signal.shape == (result.region.columns,)
     assert result.runs.lengths.sum() == result.region.columns
@@ -76,16 +78,16 @@ def test_every_step_stands_on_the_result(covered: Scene) -> None:
     assert np.diff(result.headers).tolist() == [24] * (len(result.headers) - 1)
 
 
-def test_chips_read_are_the_chips_sent(covered: Scene) -> None:
-    result = occ.decode(occ.render(covered).image, covered)
+def test_chips_read_are_the_chips_sent(covering_scene: Scene) -> None:
+    result = occ.decode(occ.render(covering_scene).image, covering_scene)
     first = result.headers[0]
     read = result.chips[first : first + 24]
-    np.testing.assert_array_equal(read, occ.packet(covered))
+    np.testing.assert_array_equal(read, occ.packet(covering_scene))
 
 
 def test_too_few_chips_say_how_many_fit_and_what_helps() -> None:
     scene = occ.load_preset("phone-68us").replace(switching_frequency=4e3, distance=2.0, rows=64)
-    # Start behind a header, so that only one whole header lies in the picture.
+    # Start after a header, so that only one whole header is in the picture.
     failure = occ.decode(occ.render(scene.replace(start_time=2e-3)).image, scene).failure
     assert "two needed" in failure
     assert "of 48 chips fit" in failure
@@ -98,18 +100,18 @@ def failure_of(scene: Scene, columns: int, decoder: str = "threshold") -> str:
     return occ.decode(signal, scene, decoder).failure or ""
 
 
-def test_chips_are_called_too_few_only_where_they_are_and_only_what_helps_is_advised() -> None:
+def test_chips_are_called_too_few_only_if_they_are_and_only_what_helps_is_advised() -> None:
     scene = occ.load_preset("phone-136us")  # 12.5 columns a chip, 48 chips take 600
     assert "chips fit" not in failure_of(scene, 700)
     both = "47 of 48 chips fit the panel's image; come closer or raise the frequency."
     assert failure_of(scene, 590).endswith(both)
-    # A panel that fills the picture comes no closer.
+    # Coming closer does not help if the panel fills the picture.
     full = scene.replace(columns=590)
     assert failure_of(full, 590).endswith("chips fit the panel's image; raise the frequency.")
-    # Where 48 chips fit, an exposure would be longer than two of them.
+    # With 48 chips in the picture, an exposure would be longer than two chips.
     small = scene.replace(columns=250)
     assert failure_of(small, 250).endswith("20 of 48 chips fit the panel's image.")
-    # And where chips would be narrower than a column, no decoder reads them.
+    # And no decoder reads chips that are narrower than a column.
     narrow = scene.replace(columns=20)
     assert failure_of(narrow, 20, "matched").endswith("1 of 24 chips fit the panel's image.")
 
@@ -134,9 +136,11 @@ def test_of_an_overexposed_picture_no_failure_names_another_cause() -> None:
 @pytest.mark.parametrize("pattern", ["01", "0011", "0101100", "010100010110001001000"])
 @pytest.mark.parametrize("frequency", [2e3, 5e3, 10e3])
 def test_the_chips_of_a_raw_pattern_are_read(
-    covered: Scene, pattern: str, frequency: float
+    covering_scene: Scene, pattern: str, frequency: float
 ) -> None:
-    scene = covered.replace(pattern=pattern, switching_frequency=frequency, enhancement="stretch")
+    scene = covering_scene.replace(
+        pattern=pattern, switching_frequency=frequency, enhancement="stretch"
+    )
     result = occ.decode(occ.render(scene).image, scene)
     assert result.chip_length == pytest.approx(1 / frequency / 8e-6, rel=0.01)
     whole = "".join(map(str, result.chips[3:-3]))  # the runs at the edges are cut off
@@ -158,8 +162,8 @@ def test_the_chips_of_real_photos_are_read(photos: Path) -> None:
     assert "".join(map(str, result.chips[2:-2])) in pattern * 5
 
 
-def test_a_raw_pattern_gives_its_chips_and_no_packet(covered: Scene) -> None:
-    scene = covered.replace(pattern="010100010110001001000")
+def test_a_raw_pattern_gives_its_chips_and_no_packet(covering_scene: Scene) -> None:
+    scene = covering_scene.replace(pattern="010100010110001001000")
     result = occ.decode(occ.render(scene).image, scene)
     assert result.code is None
     assert "raw chip pattern" in result.failure

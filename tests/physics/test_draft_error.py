@@ -1,4 +1,4 @@
-"""A draft's column means lie as near to those of the whole picture as it says."""
+"""A draft's column means are as near to those of the whole picture as stated."""
 
 import math
 from types import SimpleNamespace
@@ -24,7 +24,7 @@ OBSERVED = ("profile", "signal")
 
 
 def random_scene(random: np.random.Generator) -> Scene:
-    """A small picture with all effects, each of any size; every second panel is turned."""
+    """Draw a small picture with all effects of any size; every second panel is turned."""
     distance = float(random.uniform(0.3, 3.0))
     seen = random.uniform(0.2, 1.5, size=2) * distance
     changes: dict[str, ParameterValue] = {
@@ -57,7 +57,7 @@ def random_scene(random: np.random.Generator) -> Scene:
 
 
 def errors(scene: Scene, step: int) -> list[tuple[float, float]]:
-    """The error found and the one stated, of the profile and of the signal."""
+    """Return the true and the stated error of the profile and of the signal."""
     whole = occ.render(scene, tolerance=0.0, seed=1)
     draft = occ.render(scene, tolerance=0.0, seed=2, noise="reused", rows_step=step)
     region = paper_view_of(scene).region
@@ -69,7 +69,7 @@ def errors(scene: Scene, step: int) -> list[tuple[float, float]]:
     return found
 
 
-def test_a_draft_is_as_near_to_its_picture_as_it_says() -> None:
+def test_a_draft_is_as_near_to_its_picture_as_stated() -> None:
     random = np.random.default_rng(1)
     tried = 0
     while tried < amount(6, 50):
@@ -87,7 +87,7 @@ def test_a_draft_is_as_near_to_its_picture_as_it_says() -> None:
     "preset", ["phone-136us-real", pytest.param("tablet-61us-real", marks=pytest.mark.whole)]
 )
 @pytest.mark.parametrize("turn", [{}, {"roll": 0.15, "yaw": 0.2}])
-def test_the_stated_error_of_a_real_cameras_draft_is_no_empty_one(
+def test_the_stated_error_of_a_real_cameras_draft_is_not_far_too_large(
     preset: str, turn: dict[str, float]
 ) -> None:
     scene = occ.load_preset(preset).replace(**turn)
@@ -136,7 +136,7 @@ def test_of_independent_noise_it_is_that_of_the_means_with_a_margin_of_five_devi
         )
         means = DraftedMeans(image, image.mean(axis=0), np.array([120.0]), 1.0)
         stated.append(draft_errors(panel, {"profile": means}, _none_short)["profile"])
-    # The whole picture's mean has noise of its own, of as many more rows.
+    # The whole picture's mean has its own noise, over more rows.
     deviation = 12.0 / math.sqrt(ROWS) * math.sqrt(1.0 + 1.0 / STEP)
     # Eight neighbouring columns count as one independent estimate of a variance.
     margin = 1.0 + 5.0 / math.sqrt(2.0 * columns / 8)
@@ -157,7 +157,7 @@ def test_the_rounding_of_a_file_counts_by_its_deviation_a_block(rounding: float)
         return draft_errors(panel, {"profile": means}, _none_short)["profile"]
 
     assert stated(0.0) == 0.0
-    # Of as many blocks as the draft has, twice the deviation is twice the error.
+    # With the same number of blocks, twice the deviation gives twice the error.
     assert stated(2.0 * rounding) == pytest.approx(2.0 * stated(rounding))
     assert stated(rounding) >= rounding / math.sqrt(ROWS / 8)
 
@@ -167,7 +167,7 @@ def blocks(*levels: float, columns: int = 3) -> np.ndarray:
     return np.tile(np.repeat(levels, 8).astype(np.uint8)[:, None], (1, columns))
 
 
-def test_rows_of_the_blurred_rim_are_not_taken_for_noise() -> None:
+def test_rows_of_the_blurred_rim_do_not_count_as_noise() -> None:
     """Blur darkens the rows at both ends of the panel, the same in every draft."""
     image = blocks(40, 100, 104, 100, 40)
     first, last = np.zeros(3, dtype=int), np.full(3, 40)
@@ -218,7 +218,7 @@ def test_columns_of_few_rows_are_compared_with_all_of_them() -> None:
 
 
 def test_of_an_even_white_that_the_lens_darkens_the_error_is_not_stated_as_none() -> None:
-    """All that the panel and its surroundings can be without the lens is one level."""
+    """Without the lens, panel and surroundings have a single level."""
     scene = occ.load_preset("phone-136us").replace(
         rows=300, columns=300, iso=50.0, illuminance=3e5, reflectance=1.0, luminance=1e4,
         vignetting_exponent=8.0, panel_height=0.004, panel_width=0.3, offset_y=0.35, distance=1.0,
@@ -228,7 +228,7 @@ def test_of_an_even_white_that_the_lens_darkens_the_error_is_not_stated_as_none(
 
 
 def small_scene(random: np.random.Generator, step: int) -> Scene:
-    """A scene of which a draft has no row, one or a few on the panel."""
+    """Make a scene whose draft has no, one or a few rows on the panel."""
     scene = random_scene(random)
     pixel = scene.pose.distance / scene.camera.focal_length_pixels
     height = pixel * step * float(10 ** random.uniform(-1.5, 0.7))
@@ -236,7 +236,7 @@ def small_scene(random: np.random.Generator, step: int) -> Scene:
     return scene.replace(panel_height=max(1e-4, height), panel_width=max(1e-4, width))
 
 
-def test_of_a_panel_with_few_rows_the_error_is_as_stated_and_not_much_less() -> None:
+def test_with_few_rows_of_the_panel_the_error_is_as_stated_and_not_much_less() -> None:
     random = np.random.default_rng(8)
     ratios: list[float] = []
     while len(ratios) < amount(15, 300):
@@ -281,5 +281,5 @@ def test_the_blurred_rim_that_is_left_out_is_whole() -> None:
         )
         return draft_errors(panel, {"profile": means}, _none_short)["profile"]
 
-    # Less than a row of blur leaves out the block at either rim, all of whose rows differ.
+    # Even less than a row of blur leaves out the block at either rim, all of whose rows differ.
     assert stated(0.05) < 0.2 * stated(0.0)

@@ -1,4 +1,4 @@
-"""Laws of a panel that bundles its light, and of a lens that darkens the corners."""
+"""Laws of a panel with directed light, and of a lens that darkens the corners."""
 
 import math
 from itertools import product
@@ -22,8 +22,8 @@ AXIS = (50, 150)  # the pixel that the optical axis meets
 NO_NOISE = {"sensor-noise": False, "fixed-pattern": False}
 
 
-def steady(**changes: float | str) -> Scene:
-    """A panel always lit, larger than the picture, and dim enough not to saturate."""
+def steady_scene(**changes: float | str) -> Scene:
+    """Make a panel that is always lit, larger than the picture, and too dim to saturate."""
     return Scene().replace(
         rows=ROWS, columns=COLUMNS, pattern="1", distance=0.5, panel_width=3.0, panel_height=3.0,
         lambertian_order=3.0, luminance=1000.0, enhancement="none",
@@ -35,14 +35,14 @@ def test_a_turned_panel_is_darker_by_the_cosine_of_its_turn(
     order: float, turn: str, degrees: float
 ) -> None:
     angle = math.radians(degrees)
-    scene = steady(lambertian_order=order, panel_width=0.2, panel_height=0.2, **{turn: angle})
+    scene = steady_scene(lambertian_order=order, panel_width=0.2, panel_height=0.2, **{turn: angle})
     dark, bright = luminance_levels(scene)
     own = pictured_luminance(scene, Emission())[AXIS] - dark
     assert own == pytest.approx((bright - dark) * math.cos(angle) ** (order - 1), rel=1e-5)
 
 
 def test_each_corners_angle_is_between_its_normal_and_its_ray() -> None:
-    scene = steady(yaw=0.4, pitch=-0.3, roll=0.5, distance=3.0, offset_x=0.2, panel_width=1.0)
+    scene = steady_scene(yaw=0.4, pitch=-0.3, roll=0.5, distance=3.0, offset_x=0.2, panel_width=1.0)
     pose = scene.pose
 
     def turned(x: float, y: float, z: float) -> np.ndarray:
@@ -65,17 +65,17 @@ def test_each_corners_angle_is_between_its_normal_and_its_ray() -> None:
 
 
 def test_reflected_light_and_surroundings_stay_as_they_are() -> None:
-    scene = steady(pattern="0", yaw=1.0, panel_width=0.2)
+    scene = steady_scene(pattern="0", yaw=1.0, panel_width=0.2)
     np.testing.assert_allclose(
         pictured_luminance(scene, Emission()), luminance_levels(scene)[0], rtol=1e-5, atol=0
     )
 
 
 def test_the_picture_of_a_turned_panel_is_darker() -> None:
-    scene = steady(panel_width=0.2)
+    scene = steady_scene(panel_width=0.2)
     level = occ.render(scene, force=NO_NOISE)
     turned = occ.render(scene.replace(yaw=math.radians(60)), force=NO_NOISE)
-    dark, bright = luminance_levels(steady())
+    dark, bright = luminance_levels(steady_scene())
     factor = (dark + (bright - dark) / 4) / bright
     expected = level.image[AXIS] * factor ** (1 / 2.22)
     assert turned.image[AXIS] == pytest.approx(expected, abs=1.0)
@@ -84,21 +84,21 @@ def test_the_picture_of_a_turned_panel_is_darker() -> None:
 ONLY = {"sensor-noise": False, "fixed-pattern": False, "vignetting": True}
 
 
-def vignetted(**changes: float | str) -> Scene:
-    """A steady panel that fills a picture whose middle pixel lies on the optical axis."""
+def vignetted_scene(**changes: float | str) -> Scene:
+    """Make a steady panel that fills a picture with its middle pixel on the optical axis."""
     return Scene().replace(
         rows=101, columns=301, pattern="1", distance=0.1, vignetting_exponent=4.0,
         luminance=2000.0, enhancement="none",
     ).replace(**changes)  # fmt: skip
 
 
-def shown(scene: Scene, force: dict[str, bool] = ONLY) -> np.ndarray:
-    """The panel's pixel values before rounding: those of the picture where it fills that."""
+def panel_values_of(scene: Scene, force: dict[str, bool] = ONLY) -> np.ndarray:
+    """Return the pixel values before rounding of a panel that fills the picture."""
     return observe(scene, occ.plan(scene, force=force))
 
 
 def cosine(scene: Scene, row: int, column: int) -> float:
-    """Of the angle between a pixel's ray and the axis, which meets row 50 and column 150."""
+    """Return the cosine between a pixel's ray and the axis, which meets row 50 and column 150."""
     off_axis = math.hypot(row - 50, column - 150)
     return math.cos(math.atan(off_axis / scene.camera.focal_length_pixels))
 
@@ -106,8 +106,8 @@ def cosine(scene: Scene, row: int, column: int) -> float:
 @pytest.mark.parametrize("gamma", [1.0, 2.22])
 @pytest.mark.parametrize("exponent", [1.0, 4.0, 8.0])
 def test_pixels_darken_by_the_power_of_their_cosine(exponent: float, gamma: float) -> None:
-    scene = vignetted(vignetting_exponent=exponent, gamma=gamma, luminance=1000.0)
-    values = shown(scene)
+    scene = vignetted_scene(vignetting_exponent=exponent, gamma=gamma, luminance=1000.0)
+    values = panel_values_of(scene)
     unvignetted = occ.column_profile(scene)[0]
     assert unvignetted < 255.0
     for pixel in ((50, 150), (50, 0), (0, 150), (0, 0), (100, 300), (13, 222)):
@@ -116,7 +116,7 @@ def test_pixels_darken_by_the_power_of_their_cosine(exponent: float, gamma: floa
 
 
 def test_all_light_is_lost_alike_that_of_the_surroundings_too() -> None:
-    scene = vignetted(distance=3.0, illuminance=3000.0)
+    scene = vignetted_scene(distance=3.0, illuminance=3000.0)
     image = occ.render(scene, force=ONLY).image
     dark = float(occ.column_profile(scene.replace(pattern="0"))[0])
     for pixel in ((0, 0), (100, 300), (50, 0)):
@@ -125,21 +125,23 @@ def test_all_light_is_lost_alike_that_of_the_surroundings_too() -> None:
 
 
 def test_the_picture_is_the_vignetted_one_rounded() -> None:
-    scene = vignetted(pattern="")
-    np.testing.assert_array_equal(occ.render(scene, force=ONLY).image, np.rint(shown(scene)))
+    scene = vignetted_scene(pattern="")
+    np.testing.assert_array_equal(
+        occ.render(scene, force=ONLY).image, np.rint(panel_values_of(scene))
+    )
 
 
 @pytest.mark.parametrize("limit", ["white", "full well"])
 def test_light_is_lost_before_a_pixel_is_full(limit: str) -> None:
-    scene = vignetted(iso=2000.0, full_well=1e9)
+    scene = vignetted_scene(iso=2000.0, full_well=1e9)
     unlimited = float(level_values(scene)[1])
     full = 255.0
     if limit == "full well":
-        # As many electrons as the pixel value 200 stands for, of the light of the lit panel.
+        # As many electrons as the lit panel gives at the pixel value 200.
         light = 0.65 * 136e-6 / 2.48**2 * (2000 + 290 * 0.4 / math.pi) * 8.8e15 * 1e-12 * 0.55
         full = 200.0
         scene = scene.replace(full_well=light * (full / unlimited) ** 2.22)
-    values = shown(scene, ONLY | {"full-well": True})
+    values = panel_values_of(scene, ONLY | {"full-well": True})
     corner = unlimited * cosine(scene, 0, 0) ** (4 / 2.22)
     assert unlimited > 255.0
     assert values[50, 150] == pytest.approx(full, rel=1e-3)

@@ -1,4 +1,4 @@
-"""Laws of a lens that makes a spot of a point."""
+"""Laws of a lens that images a point as a spot."""
 
 import math
 
@@ -13,12 +13,12 @@ from occ_model.scene.scene import Scene
 
 ROWS, COLUMNS = 201, 401
 WIDTH, HEIGHT = 151, 81
-"""Pixels of the panel, whose rim lies between pixels: the optical axis meets one's centre."""
+"""Pixels of the panel, with its rim between pixels, as the optical axis meets a pixel's centre."""
 
 ONLY = {"sensor-noise": False, "fixed-pattern": False, "full-well": False, "defocus": True}
 
 
-def unsharp(blur: float, **changes: float | str) -> Scene:
+def unsharp_scene(blur: float, **changes: float | str) -> Scene:
     focal = Scene().replace(rows=ROWS, columns=COLUMNS).camera.focal_length_pixels
     return Scene().replace(
         rows=ROWS, columns=COLUMNS, point_spread=blur, distance=1.0, panel_width=WIDTH / focal,
@@ -27,13 +27,13 @@ def unsharp(blur: float, **changes: float | str) -> Scene:
 
 
 def panel_fraction(scene: Scene) -> np.ndarray:
-    """The fraction of the lit panel's own light in each pixel."""
+    """Return the fraction of the lit panel's own light in each pixel."""
     dark, bright = luminance_levels(scene)
     return (pictured_luminance(scene, Defocus()) - dark) / (bright - dark)
 
 
 def soft_step(size: int, width: int, blur: float) -> np.ndarray:
-    """Light across a slit of some width in the middle, through a Gaussian point spread."""
+    """Return the light across a slit in the middle, through a Gaussian point spread."""
     place = np.arange(size) - (size - 1) / 2
     ends = [(place - sign * width / 2) / (blur * math.sqrt(2)) for sign in (-1, 1)]
     rise, fall = ([math.erf(x) for x in end] for end in ends)
@@ -43,16 +43,16 @@ def soft_step(size: int, width: int, blur: float) -> np.ndarray:
 @pytest.mark.parametrize("gamma", [1.0, 2.22])
 @pytest.mark.parametrize("blur", [1.0, 2.5, 6.0, 8.0, 15.0])
 def test_the_rim_of_a_level_panel_is_the_error_function_in_light(blur: float, gamma: float) -> None:
-    scene = unsharp(blur, gamma=gamma, luminance=1500.0)
+    scene = unsharp_scene(blur, gamma=gamma, luminance=1500.0)
     expected = np.outer(soft_step(ROWS, HEIGHT, blur), soft_step(COLUMNS, WIDTH, blur))
-    # A kernel of pixels falls short of the curve between them, the more the narrower it is.
+    # A kernel of whole pixels deviates from the curve, the more the narrower it is.
     largest = 0.02 / blur**2 if blur < 8.0 else 5e-3
     np.testing.assert_allclose(panel_fraction(scene), expected, rtol=0, atol=largest)
 
 
 @pytest.mark.parametrize("blur", [0.3, 1.0, 5.0, 9.0])
 def test_light_is_conserved_where_the_panel_lies_well_inside(blur: float) -> None:
-    assert panel_fraction(unsharp(blur)).sum() == pytest.approx(WIDTH * HEIGHT, rel=1e-3)
+    assert panel_fraction(unsharp_scene(blur)).sum() == pytest.approx(WIDTH * HEIGHT, rel=1e-3)
 
 
 @pytest.mark.parametrize(
@@ -90,15 +90,15 @@ def test_focus_is_sharp_and_both_blurs_add_their_variances() -> None:
 
 @pytest.mark.parametrize("blur", [0.7, 3.0, 12.0, 40.0])
 def test_a_panel_beyond_the_picture_is_not_darker_at_its_rim(blur: float) -> None:
-    scene = unsharp(blur, distance=0.05)
+    scene = unsharp_scene(blur, distance=0.05)
     np.testing.assert_allclose(panel_fraction(scene), 1.0, rtol=0, atol=2e-4)
 
 
 @pytest.mark.parametrize("averaging", ["pixel-value", "light"])
 @pytest.mark.parametrize("blur", [2.0, 9.0])
 def test_stripes_keep_their_full_contrast(blur: float, averaging: str) -> None:
-    # Chips of one column's time: the finest stripes there are.
-    scene = unsharp(
+    # Chips that last one column give the finest possible stripes.
+    scene = unsharp_scene(
         blur,
         pattern="01",
         switching_frequency=125e3,
@@ -117,7 +117,7 @@ def test_stripes_keep_their_full_contrast(blur: float, averaging: str) -> None:
 
 
 def test_a_blur_far_wider_than_the_picture_is_pictured_at_once() -> None:
-    scene = unsharp(1000.0, focus_distance=0.001, distance=1e4)
+    scene = unsharp_scene(1000.0, focus_distance=0.001, distance=1e4)
     assert blur_of(scene) > ROWS + COLUMNS
     fraction = panel_fraction(scene)
     assert 0.0 < fraction.max() < 0.01

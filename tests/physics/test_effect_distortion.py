@@ -31,7 +31,7 @@ HUGE = [{"distance": 0.2}, {"distance": 0.05, "roll": 0.5}, {"distance": 0.5, "y
 ONLY = {"sensor-noise": False, "fixed-pattern": False, "distortion": True}
 
 
-def bent(**changes: float | str) -> Scene:
+def bent_scene(**changes: float | str) -> Scene:
     return Scene().replace(rows=ROWS, columns=COLUMNS, enhancement="none").replace(**changes)
 
 
@@ -43,8 +43,8 @@ def opencv_camera(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
     return matrix, np.array(coefficients)
 
 
-def projected(points: np.ndarray, scene: Scene) -> np.ndarray:
-    """Points in the camera's coordinates, pictured by OpenCV with the distortion."""
+def project_by_opencv(points: np.ndarray, scene: Scene) -> np.ndarray:
+    """Project points in the camera's coordinates with distortion, by OpenCV."""
     still = np.zeros(3)
     pictured, _ = cv2.projectPoints(points, still, still, *opencv_camera(scene))
     return pictured[:, 0]
@@ -52,20 +52,20 @@ def projected(points: np.ndarray, scene: Scene) -> np.ndarray:
 
 @lru_cache
 def rays_of_pixels(lens: Lens) -> np.ndarray:
-    """The ray that reaches each pixel: OpenCV's projection undone, step by step."""
-    scene = dataclasses.replace(bent(), lens=lens)
+    """Find the ray to each pixel by iteratively inverting OpenCV's projection."""
+    scene = dataclasses.replace(bent_scene(), lens=lens)
     row, column = np.mgrid[0:ROWS, 0:COLUMNS].astype(float)
     pixels = np.column_stack([column.ravel(), row.ravel()])
     rays = image_rays(pixels, scene.camera)
     for _ in range(15):
-        missed = pixels - projected(np.column_stack([rays, np.ones(len(rays))]), scene)
+        missed = pixels - project_by_opencv(np.column_stack([rays, np.ones(len(rays))]), scene)
         rays = rays + missed / scene.camera.focal_length_pixels
     assert np.abs(missed).max() < 1e-3
     return rays
 
 
-def panel_seen(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
-    """Which pixels see the panel, by the ray that reaches each; and which see its very rim."""
+def find_panel_pixels(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
+    """Find the pixels whose rays meet the panel, and those whose rays meet its rim."""
     rays = rays_of_pixels(scene.lens)
     corners = image_rays(occ.panel_corners(scene), scene.camera)
     inside, margin = np.ones(len(rays), dtype=bool), np.full(len(rays), np.inf)
@@ -82,8 +82,8 @@ def panel_seen(scene: Scene) -> tuple[np.ndarray, np.ndarray]:
 def test_a_pixel_shows_the_panel_where_its_ray_meets_it(
     lens: dict[str, float], pose: dict[str, float]
 ) -> None:
-    scene = bent(**lens, **pose, pattern="1", illuminance=0.0)
-    inside, at_rim = panel_seen(scene)
+    scene = bent_scene(**lens, **pose, pattern="1", illuminance=0.0)
+    inside, at_rim = find_panel_pixels(scene)
     image = occ.render(scene, force=ONLY).image
     np.testing.assert_array_equal((image > 0)[~at_rim], inside[~at_rim])
     assert at_rim.mean() < 0.01
@@ -91,9 +91,9 @@ def test_a_pixel_shows_the_panel_where_its_ray_meets_it(
 
 @pytest.mark.parametrize("lens", LENSES)
 def test_stripes_stay_columns(lens: dict[str, float]) -> None:
-    scene = bent(**lens, distance=0.9, roll=0.2, enhancement="equalization")
+    scene = bent_scene(**lens, distance=0.9, roll=0.2, enhancement="equalization")
     frame = occ.render(scene, force=ONLY)
-    inside, at_rim = panel_seen(scene)
+    inside, at_rim = find_panel_pixels(scene)
     columns = np.broadcast_to(occ.render(scene, tolerance=float("inf")).signal, inside.shape)
     shown = inside & ~at_rim
     assert shown.mean() > 0.3
@@ -104,7 +104,7 @@ def test_stripes_stay_columns(lens: dict[str, float]) -> None:
 
 @pytest.mark.parametrize("lens", [*LENSES, {"radial_k1": -0.25, "radial_k2": 0.05}])
 def test_undistorted_points_are_pictured_where_they_were(lens: dict[str, float]) -> None:
-    scene = bent(**lens)
+    scene = bent_scene(**lens)
     points = np.array([[0.0, 0.0], [COLUMNS - 1.0, 0.0], [30.0, 70.0], [COLUMNS / 2.0, ROWS - 1.0]])
     rays = image_rays(undistort(points, scene), scene.camera)
     np.testing.assert_allclose(
@@ -112,8 +112,8 @@ def test_undistorted_points_are_pictured_where_they_were(lens: dict[str, float])
     )
 
 
-def test_next_to_no_distortion_pictures_the_straight_panel() -> None:
-    scene = bent(radial_k1=1e-12, roll=0.4, distance=0.9)
+def test_a_minimal_distortion_gives_the_straight_panel() -> None:
+    scene = bent_scene(radial_k1=1e-12, roll=0.4, distance=0.9)
     bare = occ.render(scene, tolerance=float("inf"))
     np.testing.assert_array_equal(occ.render(scene, force=ONLY).image, bare.image)
 
@@ -121,8 +121,8 @@ def test_next_to_no_distortion_pictures_the_straight_panel() -> None:
 @pytest.mark.parametrize("blur", [0.0, 5.0, 30.0, 200.0])
 @pytest.mark.parametrize("k1", [-0.1, -0.15])
 def test_no_blur_folds_a_lens_that_does_not_fold(k1: float, blur: float) -> None:
-    """Only beyond the picture's corners does it fold: 0.83 focal lengths from the middle."""
-    scene = bent(radial_k1=k1, point_spread=blur, distance=0.05)
+    """It folds only beyond the picture's corners, 0.83 focal lengths from the middle."""
+    scene = bent_scene(radial_k1=k1, point_spread=blur, distance=0.05)
     frame = occ.render(scene, tolerance=0, force=ONLY)
     largest = 1.0 if blur else 0.0
     columns = occ.render(scene, tolerance=float("inf")).signal
@@ -133,7 +133,7 @@ def test_no_blur_folds_a_lens_that_does_not_fold(k1: float, blur: float) -> None
 
 @pytest.mark.parametrize("k1", [-0.15, 0.5, 10.0])
 def test_a_panel_a_thousand_times_the_picture_fills_it(k1: float) -> None:
-    scene = bent(radial_k1=k1, distance=0.001)
+    scene = bent_scene(radial_k1=k1, distance=0.001)
     columns = occ.render(scene, tolerance=float("inf")).signal
     frame = occ.render(scene, force=ONLY)
     np.testing.assert_array_equal(frame.image, np.tile(columns, (ROWS, 1)))
@@ -141,6 +141,6 @@ def test_a_panel_a_thousand_times_the_picture_fills_it(k1: float) -> None:
 
 def test_a_panel_out_of_sight_leaves_the_picture_dark() -> None:
     for offset in (3.0, 40.0, 5000.0):
-        scene = bent(radial_k1=-0.1, offset_x=offset)
+        scene = bent_scene(radial_k1=-0.1, offset_x=offset)
         frame = occ.render(scene, tolerance=0, force=ONLY)
         assert frame.image.min() == frame.image.max()

@@ -1,4 +1,4 @@
-"""Laws of an LED that takes time to switch, and of lamps that flicker."""
+"""Laws of an LED with rise and fall times, and of lamps that flicker."""
 
 import numpy as np
 import pytest
@@ -12,11 +12,11 @@ from occ_model.effects.light_effects import ambient_fractions, lit_fraction_with
 from occ_model.scene.scene import Scene
 
 FREQUENCY = 8192.0
-"""Chips and packets of it last binary fractions of a second, so that edges of them are exact."""
+"""Its chips and packets last binary fractions of a second, so that their edges are exact."""
 
 
 def edged_scene(edge: float, exposure: float, **changes: float | str) -> Scene:
-    """A scene with times in chips, small enough to be checked column by column."""
+    """Make a scene with times in chips, small enough to check every column."""
     return Scene().replace(
         edge_time=edge / FREQUENCY, exposure_time=exposure / FREQUENCY,
         switching_frequency=FREQUENCY, readout_time=0.0813 / FREQUENCY, start_time=0.4567,
@@ -28,7 +28,7 @@ def edged_scene(edge: float, exposure: float, **changes: float | str) -> Scene:
 def test_an_edge_and_an_exposure_are_the_same_average(
     edge: float, exposure: float, start: float
 ) -> None:
-    """Both are moving averages, and so exchange: only the window's end stays where it is."""
+    """Both are moving averages and can be exchanged; only the window's end stays the same."""
     edge = max(edge, 0.01)
     scene = edged_scene(edge, exposure, start_time=start, columns=50)
     other = edged_scene(exposure, edge, columns=50)
@@ -44,8 +44,9 @@ def test_an_edge_and_an_exposure_are_the_same_average(
 ONLY_FLICKER = {"sensor-noise": False, "fixed-pattern": False, "flicker": True}
 
 
-def flickering(**changes: float | str) -> Scene:
-    """Deep flicker at 100 Hz, in a small picture whose panel has surroundings at all sides."""
+def flickering_scene(**changes: float | str) -> Scene:
+    """Make deep flicker at 100 Hz in a small picture with surroundings on all sides of the
+    panel."""
     return Scene().replace(
         flicker_depth=0.8, flicker_frequency=100.0, illuminance=3000.0, rows=90, columns=400,
         readout_time=50e-6, distance=2.0, enhancement="none",
@@ -53,8 +54,8 @@ def flickering(**changes: float | str) -> Scene:
 
 
 def test_the_crest_is_at_phase_0_and_the_trough_half_a_cycle_on() -> None:
-    # 128 Hz: the columns, 1/32 of a cycle apart, start at exact binary times.
-    scene = flickering(
+    # At 128 Hz the columns are 1/32 of a cycle apart and start at exact binary times.
+    scene = flickering_scene(
         flicker_frequency=128.0, readout_time=2.0**-12, exposure_time=1e-9, columns=32
     )
     fractions = ambient_fractions(scene)
@@ -64,7 +65,7 @@ def test_the_crest_is_at_phase_0_and_the_trough_half_a_cycle_on() -> None:
 
 
 def test_the_surroundings_flicker_as_the_dark_panel_does() -> None:
-    scene = flickering(pattern="0")
+    scene = flickering_scene(pattern="0")
     frame = occ.render(scene, force=ONLY_FLICKER)
     dark = luminance_levels(scene)[0] * ambient_fractions(scene)
     expected = np.rint(pixel_value(dark, scene.camera))
@@ -74,7 +75,7 @@ def test_the_surroundings_flicker_as_the_dark_panel_does() -> None:
 
 @pytest.mark.parametrize("enhancement", ["none", "stretch", "equalization"])
 def test_the_surroundings_flicker_beside_a_panel_that_blinks(enhancement: str) -> None:
-    scene = flickering(enhancement=enhancement)
+    scene = flickering_scene(enhancement=enhancement)
     frame = occ.render(scene, force=ONLY_FLICKER)
     first, last = row_spans(frame.corners, 90, 400)
     row = 45
@@ -88,7 +89,7 @@ def test_the_surroundings_flicker_beside_a_panel_that_blinks(enhancement: str) -
 
 @pytest.mark.parametrize("averaging", ["pixel-value", "light"])
 def test_the_panel_flickers_by_the_light_that_it_reflects(averaging: str) -> None:
-    scene = flickering(averaging=averaging, code=0, illuminance=1000.0)
+    scene = flickering_scene(averaging=averaging, code=0, illuminance=1000.0)
     profile = occ.render(scene, force=ONLY_FLICKER).profile
     dark, bright = luminance_levels(scene)
     reflected = dark * ambient_fractions(scene)

@@ -1,4 +1,4 @@
-"""Laws of pictures with effects: what is in them, and what stands beside them."""
+"""Laws of pictures with effects, and of their profiles, plans and times."""
 
 import math
 
@@ -27,18 +27,18 @@ ALL: dict[str, float | int] = {
     "vignetting_exponent": 4.0,
     "jpeg_quality": 90,
 }
-"""What it takes for every effect to be there."""
+"""Parameters with which every effect is present."""
 
 
 @pytest.fixture(scope="module")
 def scene() -> Scene:
-    """A panel in the middle of a small picture, with no effect but its sensor's noise."""
+    """Make a panel in the middle of a small picture, with no effect except sensor noise."""
     bare = occ.load_preset("phone-136us")
     return bare.replace(rows=ROWS, columns=COLUMNS, enhancement="none", start_time=1.2345e-4)
 
 
 def whole(scene: Scene) -> Scene:
-    """The same with every effect; the low ISO speed makes the well full, the light bright."""
+    """Make the same with every effect; low ISO speed and bright light fill the well."""
     return scene.replace(**ALL, iso=20.0, luminance=1e5, illuminance=3e4)
 
 
@@ -147,7 +147,7 @@ def test_the_signal_is_the_mean_of_the_panels_enhanced_pixels(
 
 
 @pytest.mark.parametrize("enhancement", ["none", "stretch", "equalization"])
-def test_of_column_effects_the_signal_is_the_enhanced_profile(
+def test_with_column_effects_only_the_signal_is_the_enhanced_profile(
     scene: Scene, enhancement: str
 ) -> None:
     force = {name: name in COLUMN_EFFECTS for name in NAMES}
@@ -185,7 +185,7 @@ def test_column_effects_alone_leave_the_profile_to_the_columns(scene: Scene, rol
 def test_pictures_made_by_columns_and_by_pixels_are_the_same(
     scene: Scene, enhancement: str, roll: float
 ) -> None:
-    """A lens that is switched on by hand and does nothing takes the way of the pixels."""
+    """A lens that does nothing, but is switched on, selects the simulation by pixels."""
     complete = whole(scene).replace(enhancement=enhancement, roll=roll, point_spread=0.0)
     columns = {name: name in COLUMN_EFFECTS for name in NAMES}
     by_columns = occ.render(complete, force=columns)

@@ -1,4 +1,4 @@
-"""Laws of a full well, and of photon transfer in electrons counted by hand."""
+"""Laws of a full well and of photon transfer, with electrons computed independently."""
 
 import math
 from itertools import product
@@ -14,17 +14,17 @@ from occ_model.scene.scene import Scene
 ONLY = {"sensor-noise": False, "fixed-pattern": False}
 
 
-def overexposed(**changes: float | str) -> Scene:
-    """A panel that fills the picture and overfills the pixels at a low ISO speed."""
+def overexposed_scene(**changes: float | str) -> Scene:
+    """Make a panel that fills the picture and overfills its pixels at a low ISO speed."""
     return Scene().replace(
         rows=40, columns=300, distance=0.05, iso=20.0, luminance=100_000.0, enhancement="none",
     ).replace(**changes)  # fmt: skip
 
 
 def value_of_full(scene: Scene) -> float:
-    """The pixel value, by equations (1) and (2), of the light that just fills a pixel."""
+    """Return the pixel value, by equations (1) and (2), of the light that just fills a pixel."""
     camera, sensor = scene.camera, scene.sensor
-    photons = 1 / (320.0 * 3.547e-19)  # in a lumen second, of 560 nm
+    photons = 1 / (320.0 * 3.547e-19)  # in a lumen second of 560 nm
     lux_seconds = sensor.full_well / (photons * sensor.pixel_pitch**2 * sensor.quantum_efficiency)
     meter = camera.iso * (lux_seconds / 0.65) / camera.meter_constant
     return float(118.0 * meter ** (1 / camera.gamma))
@@ -34,7 +34,7 @@ def value_of_full(scene: Scene) -> float:
 def test_the_picture_saturates_at_the_value_of_a_full_pixel(
     iso: float, gamma: float, pitch: float
 ) -> None:
-    scene = overexposed(
+    scene = overexposed_scene(
         iso=iso, gamma=gamma, pixel_pitch=pitch, luminance=2e6, full_well=3000 * (pitch / 1e-6) ** 2
     )
     full = value_of_full(scene)
@@ -45,7 +45,7 @@ def test_the_picture_saturates_at_the_value_of_a_full_pixel(
 
 
 def test_values_below_a_full_pixel_stay_as_they_are() -> None:
-    scene = overexposed()
+    scene = overexposed_scene()
     full, bare = value_of_full(scene), occ.column_profile(scene)
     assert bare.min() < full < bare.max()
     profile = occ.render(scene, tolerance=0, force=ONLY).profile
@@ -55,13 +55,13 @@ def test_values_below_a_full_pixel_stay_as_they_are() -> None:
 
 
 def test_surroundings_are_full_as_well() -> None:
-    scene = overexposed(distance=5.0, pattern="0", illuminance=2e6)
+    scene = overexposed_scene(distance=5.0, pattern="0", illuminance=2e6)
     frame = occ.render(scene, tolerance=0, force=ONLY)
     assert frame.image.min() == frame.image.max() == pytest.approx(value_of_full(scene), abs=1.0)
 
 
 def test_at_a_high_iso_speed_the_pixel_value_ends_first() -> None:
-    scene = overexposed(iso=400.0)
+    scene = overexposed_scene(iso=400.0)
     assert value_of_full(scene) > 255.0
     assert not FullWell().is_present(scene)
     frame = occ.render(scene, tolerance=0, force=ONLY | {"full-well": True})
@@ -73,13 +73,13 @@ SHOT = {"fixed-pattern": False, "full-well": False, "sensor-noise": True}
 PATTERN = {"fixed-pattern": True, "full-well": False, "sensor-noise": False}
 
 _PHOTON = 6.62607e-34 * 2.99792e8 / 560e-9
-"""Energy of a photon of the middle of white light, in joules."""
+"""Energy in joules of a photon in the middle of white light."""
 
 
-def steady(electrons: float, **changes: float | str) -> Scene:
-    """A panel always lit that fills the picture and gives each pixel so many electrons.
+def steady_scene(electrons: float, **changes: float | str) -> Scene:
+    """Make a panel, always lit, that fills the picture and gives each pixel some electrons.
 
-    They are those of 320 lm/W, and of 0.65 L t / N^2 lux seconds.
+    They follow from 320 lm/W and 0.65 L t / N^2 lux seconds.
     """
     chosen: dict[str, float | str] = {
         "rows": ROWS,
@@ -103,8 +103,8 @@ def level_of(scene: Scene) -> float:
     return float(occ.column_profile(scene)[0])
 
 
-def counted(scene: Scene, electrons: float, seed: int = 1) -> np.ndarray:
-    """The electrons in each pixel of the picture, the gamma undone, shape (rows, columns)."""
+def count_electrons(scene: Scene, electrons: float, seed: int = 1) -> np.ndarray:
+    """Return the electrons in each pixel, with the gamma inverted, shape (rows, columns)."""
     image = occ.render(scene, force=SHOT, seed=seed).image
     return (image / level_of(scene)) ** scene.camera.gamma * electrons
 
@@ -112,8 +112,8 @@ def counted(scene: Scene, electrons: float, seed: int = 1) -> np.ndarray:
 def test_the_picture_itself_shows_the_line() -> None:
     read_noise, samples = 10.0, ROWS * COLUMNS
     for electrons in (60.0, 150.0, 300.0, 500.0, 650.0):
-        scene = steady(electrons, read_noise=read_noise, adc_bits=24)
-        seen = counted(scene, electrons)
+        scene = steady_scene(electrons, read_noise=read_noise, adc_bits=24)
+        seen = count_electrons(scene, electrons)
         a_level = electrons / level_of(scene)
         expected = electrons + read_noise**2 + a_level**2 / 12  # the picture's own rounding
         assert seen.var() == pytest.approx(expected, rel=5 * math.sqrt(2 / samples))
@@ -122,8 +122,8 @@ def test_the_picture_itself_shows_the_line() -> None:
 
 def test_the_line_holds_behind_a_gamma() -> None:
     for electrons in (500.0, 1000.0, 1600.0):
-        scene = steady(electrons, gamma=2.22)
-        seen = counted(scene, electrons)
+        scene = steady_scene(electrons, gamma=2.22)
+        seen = count_electrons(scene, electrons)
         a_level = 2.22 * electrons / level_of(scene)
         constant = scene.sensor.read_noise**2 + a_level**2 / 12
         assert seen.var() == pytest.approx(electrons + constant, rel=0.05)
@@ -132,7 +132,7 @@ def test_the_line_holds_behind_a_gamma() -> None:
 @pytest.mark.parametrize("limit", ["white", "full well"])
 @pytest.mark.parametrize("gamma", [1.0, 2.22])
 def test_full_pixels_show_no_noise(limit: str, gamma: float) -> None:
-    scene = steady(5000.0, gamma=gamma, iso=400.0)
+    scene = steady_scene(5000.0, gamma=gamma, iso=400.0)
     if limit == "full well":
         scene = scene.replace(full_well=4000.0, iso=15.0)
     image = occ.render(scene, force=SHOT | PATTERN | {"full-well": True}, seed=2).image
@@ -141,27 +141,27 @@ def test_full_pixels_show_no_noise(limit: str, gamma: float) -> None:
 
 
 def test_a_larger_pixel_has_less_noise_at_the_same_level() -> None:
-    scene = steady(100.0, iso=400.0)
+    scene = steady_scene(100.0, iso=400.0)
     small, large = (
         occ.render(scene.replace(pixel_pitch=pitch), force=SHOT).image for pitch in (1e-6, 3e-6)
     )
     assert large.mean() == pytest.approx(small.mean(), abs=0.3)
-    # Nine times the light: shot noise alone is a third, read noise beside it less than that.
+    # With nine times the light, the relative shot noise is a third and read noise even less.
     assert large.std() < small.std() / 3 + 0.1
 
 
 def test_the_fixed_pattern_is_the_same_in_every_picture() -> None:
-    scene = steady(400.0, gain_variation=0.05)
+    scene = steady_scene(400.0, gain_variation=0.05)
     first, second = (occ.render(scene, force=PATTERN, seed=seed).image for seed in (1, 2))
     np.testing.assert_array_equal(first, second)
     level = level_of(scene)
     assert (first / level).std() == pytest.approx(0.05, rel=0.03)
-    brighter = occ.render(steady(600.0, gain_variation=0.05), force=PATTERN).image
+    brighter = occ.render(steady_scene(600.0, gain_variation=0.05), force=PATTERN).image
     np.testing.assert_allclose(brighter / 1.5, first, rtol=0, atol=1.0)
 
 
 def test_averaged_pictures_keep_only_the_fixed_pattern() -> None:
-    scene = steady(500.0, gain_variation=0.03)
+    scene = steady_scene(500.0, gain_variation=0.03)
     force = SHOT | {"fixed-pattern": True}
     stack = [occ.render(scene, force=force, seed=seed).image / 1.0 for seed in range(40)]
     pattern = occ.render(scene, force=PATTERN).image

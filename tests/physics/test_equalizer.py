@@ -1,4 +1,4 @@
-"""The equalizer: the exposure undone where it can be, and said where it cannot."""
+"""The equalizer undoes the exposure where possible, and says where it cannot."""
 
 from typing import Any
 
@@ -31,14 +31,14 @@ def test_the_box_is_the_exposures_fraction_of_each_column(columns: float) -> Non
     assert len(taps) % 2 == 1
     assert taps.sum() == pytest.approx(1.0)
     np.testing.assert_allclose(taps, taps[::-1])
-    # Its middle columns are covered whole.
+    # Its middle columns are covered completely.
     assert taps.max() == pytest.approx(1.0 / columns)
     assert np.count_nonzero(taps > 0.0) == pytest.approx(columns, abs=2.0)
 
 
 @pytest.mark.parametrize("columns", [7, 17, 63])
 def test_its_response_is_that_of_a_mean_over_columns(columns: int) -> None:
-    # The sum of equally long steps in closed form: Dirichlet's kernel.
+    # The closed form of a sum of equal steps is Dirichlet's kernel.
     frequency = np.arange(1, 2049) / 4096
     kernel = np.sin(np.pi * frequency * columns) / (columns * np.sin(np.pi * frequency))
     np.testing.assert_allclose(response(columns, 4096)[1:], kernel, atol=1e-12)
@@ -80,11 +80,11 @@ def test_mmse_errs_less_than_zero_forcing_in_noise() -> None:
         mmse = error(light, undo_exposure(seen, 17.0, 12.0, "mmse"))
         forced = error(light, undo_exposure(seen, 17.0, 12.0, "zero-forcing"))
         assert mmse < forced
-        # Giving no stripes at all would be an error of a half: the least-error filter errs less.
+        # An output without stripes would have an error of a half; the least-error filter has less.
         assert mmse < 0.5
 
 
-def test_more_noise_never_makes_the_filter_bolder() -> None:
+def test_more_noise_never_makes_the_filter_amplify_more() -> None:
     light = chips_in_columns(300, 12)
     seen = exposed(light, 17.0)
     swings = []

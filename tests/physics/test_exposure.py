@@ -1,4 +1,4 @@
-"""Laws of the rolling shutter's exposure, against exact rational arithmetic."""
+"""Laws of the rolling shutter's exposure, compared with exact rational arithmetic."""
 
 import numpy as np
 import pytest
@@ -75,7 +75,7 @@ def test_every_run_shows_beyond_the_period_at_10_khz() -> None:
     scene = occ.load_preset("phone-136us").replace(switching_frequency=10e3)
     lit = lit_fraction(scene)
     assert scene.camera.exposure_time > scene.transmitter.switching_period
-    assert lit.max() == 1.0  # the header's three ones outlast the exposure
+    assert lit.max() == 1.0  # the header's three ones last longer than the exposure
     assert lit.min() == 0.0  # and so do two zeros
 
 

@@ -1,4 +1,4 @@
-"""Laws of a film's frames: each is exact at its own time, however long the film has run."""
+"""Laws of a film's frames: each is exact at its own time, after any running time."""
 
 from fractions import Fraction
 
@@ -46,14 +46,14 @@ def test_a_frame_is_as_exact_after_days_as_at_once(
     start = Fraction(SMALL.model.start_time) + index / Fraction(rate) / (1 + Fraction(camera))
     assert film.start_of(index) == start
     exact = exact_on_time(scene, start, column)
-    # A double's rounding of a time within one packet, counted in chips of which it has 24.
+    # Rounding of a time within one packet of 24 chips as a double, in chips.
     assert occ.on_time(scene)[column] * frequency == pytest.approx(exact * frequency, abs=2e-14)
 
 
 @pytest.mark.parametrize("index", [1, 2, 77])
 def test_a_frame_is_the_picture_of_the_scene_at_its_time(index: int) -> None:
     scene = SMALL.replace(start_time=0.25)
-    # 32 frames a second: the times are exact as doubles, so that nothing need be reduced.
+    # At 32 frames a second the times are exact doubles, so that none needs to be reduced.
     film = occ.render_video(scene, recording=occ.Recording(frame_rate=32.0))
     later = scene.replace(start_time=0.25 + index / 32.0)
     expected = occ.render(later, seed=film.seed_of(index))
@@ -105,5 +105,6 @@ def test_clocks_that_drift_alike_show_the_same_stripes() -> None:
             occ.on_time(film.scene_of(index)) / film.scene_of(index).camera.exposure_time
             for film in films
         )
-        # The rounded frequency and readout time differ by some 1e-16 of the chips gone by.
+        # Rounding of frequency and readout time gives a difference of some 1e-16 of the elapsed
+        # chips.
         assert np.abs(lit - other).max() < 1e-9

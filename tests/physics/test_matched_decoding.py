@@ -1,4 +1,4 @@
-"""What the matched decoder must read, past where thresholds end."""
+"""What the matched decoder must read beyond the limit of threshold decoding."""
 
 import tracemalloc
 from fractions import Fraction
@@ -33,7 +33,7 @@ def test_every_noisy_code_is_read_at_136_us_from_4_to_40_khz(frequency: int) -> 
         assert success_rate(scene.replace(code=code), 2, "matched", seed=code) == 100.0
 
 
-def test_it_reads_a_single_packet_and_says_where_none_fits() -> None:
+def test_it_reads_a_single_packet_and_says_if_none_fits() -> None:
     scene = occ.load_preset("phone-136us").replace(distance=0.6)
     # 3456 columns of 8 us: at 1 kHz they last 27.6 chips, a packet has 24.
     assert success_rate(scene.replace(switching_frequency=1e3), 2, "matched") == 100.0
@@ -96,7 +96,7 @@ def _exposures(bits: int) -> list[Fraction]:
 
 
 def _signals(templates: CodeTemplates, rng: np.random.Generator) -> list[FloatArray]:
-    """Return signals: some code's profile at some phase, alone and under noise, and noise alone."""
+    """Return signals: a code's profile at some phase, with and without noise, and noise alone."""
     bins = len(templates.levels)
     profile = templates.profiles(rng.integers(0, len(templates.energy), 1))[0]
     profile = np.roll(profile, int(rng.integers(bins)))
@@ -114,7 +114,7 @@ def test_the_search_finds_the_codes_that_an_exhaustive_one_finds(bits: int) -> N
             found, phases = most_likely(signal, templates)
             correlations = _correlations(signal, templates, every)
             largest = correlations.max(axis=1)
-            # Codes that tie may be exchanged, but none that correlates better is left out.
+            # Codes that tie may be exchanged, but none with a better correlation may be missing.
             assert len(set(found.tolist())) == len(found) == min(16, len(every))
             limit = 1e-7 * abs(largest).max()
             np.testing.assert_allclose(correlations[found, phases], largest[found], atol=limit)
@@ -204,13 +204,13 @@ def test_a_wrong_code_never_comes_with_high_confidence() -> None:
             wrong += 1
             wrong_and_sure += result.confidence >= HIGH_CONFIDENCE
     assert wrong_and_sure == 0
-    assert wrong > 0  # else the trials were too easy to prove anything
+    assert wrong > 0  # otherwise the trials are too easy to prove anything
 
 
 @pytest.mark.parametrize("bits", [2, 5])
 @pytest.mark.parametrize("exposure", [Fraction(1, 2), Fraction(7, 3)])
 def test_levels_are_quantiles_of_all_codes_profiles(bits: int, exposure: Fraction) -> None:
-    """As many evenly spaced ones as there are bins."""
+    """There are as many evenly spaced quantiles as bins."""
     templates = code_templates(bits, exposure)
     profiles = templates.profiles(np.arange(2**bits))
     bins = profiles.shape[1]

@@ -23,12 +23,12 @@ from occ_model.transmitter.framings.paper import HEADER
 from occ_model.transmitter.packet import packet_length
 
 TRIED = amount((0.6, 1.2, 1.6, 2.0), DISTANCES)
-"""Distances of the paper's at which rates are measured."""
+"""The paper's distances at which rates are measured."""
 
 
 @cache
 def grid(preset: str, decoder: str) -> SweepTable:
-    # Of the decoder that is not the paper's fewer images are enough.
+    # Fewer images are enough for the decoder that is not the paper's.
     request = grid_request(preset, [decoder], amount(2, 5) if decoder == "threshold" else 2)
     return run_sweep(replace(request, axes={**request.axes, "distance": TRIED}))
 
@@ -38,7 +38,7 @@ def scene_of(preset: str, row: SweepRow) -> Scene:
 
 
 def two_headers_fit(preset: str, row: SweepRow) -> bool:
-    """Whether two whole headers lie in the panel's image wherever a packet happens to start."""
+    """Return whether two whole headers are in the panel's image for any start of a packet."""
     scene = scene_of(preset, row)
     panel = np.clip(occ.panel_corners(scene)[:, 0], 0, scene.camera.columns - 1)
     seconds = float(np.ptp(panel)) * scene.camera.readout_time
@@ -65,7 +65,7 @@ def test_twice_the_exposure_is_read_up_to_the_papers_limit(preset: str, last: fl
     exposure = occ.load_preset(preset).camera.exposure_time
     assert exposure > 1 / last
     assert set(rates(preset, 4e3, last - 2e3)) == {100.0}
-    # The tablet's last step is 2 % below the null: there an image in some dozens is lost.
+    # The tablet's last step is 2 % below the null, where one image in some dozens is lost.
     at_last = [rate for rate in rates(preset, last, last) if rate is not None]
     assert np.mean(at_last) >= 90.0
     assert set(rates(preset, last + 2e3, 20e3)) == {0.0}
@@ -89,7 +89,7 @@ def test_a_real_lens_ends_detection_where_the_experiment_ended(preset: str, last
     assert occ.success_rate(scene, 1) == 100.0
     beyond = scene.replace(switching_frequency=last + 2e3)
     assert occ.success_rate(beyond, 1) == 0.0
-    # It is the fall-off of light across the panel that one threshold cannot follow.
+    # A single threshold cannot follow the fall-off of light across the panel.
     level = {"vignetting": False}
     if preset.startswith("phone"):
         assert occ.success_rate(beyond, 1, tolerance=0.0, force=level) == 100.0
@@ -106,7 +106,7 @@ def test_tablet_at_2_khz_loses_codes_with_distance(preset: str) -> None:
     by_distance = grid(preset, "threshold").rates()[FREQUENCIES.index(2e3)].tolist()
     assert by_distance[0] == 100.0
     assert by_distance[-1] == 0.0
-    # A few images a point: single points may stand out, the trend may not.
+    # With few images a point, single points may deviate, but not the trend.
     assert np.corrcoef(TRIED, by_distance)[0, 1] < -0.8
 
 

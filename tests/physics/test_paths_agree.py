@@ -1,9 +1,9 @@
-"""Studies give the success rates of whole pictures, as far as counting can tell."""
+"""Studies give the success rates of whole pictures, to within counting errors."""
 
 import numpy as np
 import pytest
 from amount import amount
-from physics.paths import compared, significance
+from physics.paths import compare_paths, significance
 
 import occ_model as occ
 from occ_model.results.sweep_request import RateSettings
@@ -14,8 +14,8 @@ SETTLED = (1, 2, 3)  # others
 
 
 @pytest.mark.whole
-def test_studies_say_of_every_decoder_what_pictures_show() -> None:
-    pairs = list(compared((*IN_DOUBT, *SETTLED), images=16, seed=2))
+def test_studies_agree_with_pictures_for_every_decoder() -> None:
+    pairs = list(compare_paths((*IN_DOUBT, *SETTLED), images=16, seed=2))
     _, terms, probability = significance(pairs)
     assert terms >= len(IN_DOUBT)  # rates in doubt, by which they can differ
     assert probability > 0.01
@@ -32,7 +32,7 @@ def test_studies_say_of_every_decoder_what_pictures_show() -> None:
         pytest.param(14.6e3, marks=pytest.mark.whole),
     ],
 )
-def test_what_a_study_says_is_what_pictures_show(frequency: float) -> None:
+def test_a_study_s_rate_is_that_of_pictures(frequency: float) -> None:
     # Every second column and a part of the rows, read in the same time.
     scene = occ.load_preset("phone-136us")
     scene = scene.replace(
@@ -55,7 +55,7 @@ def test_what_a_study_says_is_what_pictures_show(frequency: float) -> None:
         pytest.param(14e3, marks=pytest.mark.whole),
     ],
 )
-def test_a_sample_of_the_rows_reads_what_whole_pictures_do(frequency: float) -> None:
+def test_a_sample_of_the_rows_has_the_rate_of_whole_pictures(frequency: float) -> None:
     scene = occ.load_preset("phone-136us-real").replace(switching_frequency=frequency)
     scene = scene.replace(
         rows=scene.camera.rows // 8,
@@ -79,7 +79,7 @@ def test_a_sample_of_the_rows_reads_what_whole_pictures_do(frequency: float) -> 
 
 
 def test_noise_left_out_by_hand_makes_the_paths_differ() -> None:
-    # The test's own power: what the old plan left out is seen at once.
+    # The power of the test: it detects noise that an earlier plan left out.
     scene = occ.load_preset("phone-136us").replace(switching_frequency=14.6e3)
     with_noise = occ.success_rate(scene, images=5)
     without = occ.success_rate(

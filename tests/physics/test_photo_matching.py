@@ -1,4 +1,4 @@
-"""Photos of known scenes are explained by the scenes they were taken of."""
+"""Photos of known scenes are explained by these scenes."""
 
 import numpy as np
 import pytest
@@ -7,12 +7,12 @@ from photo_trials import Found, round_trip
 pytestmark = pytest.mark.first
 
 SAMPLE, WHOLE = range(1, 3), range(1, 11)
-"""Photos that are tried; tests/benchmarks/matching.py tries hundreds."""
+"""Photos in the test; tests/benchmarks/matching.py has hundreds."""
 
 
 @pytest.fixture(scope="module")
 def sample() -> list[Found]:
-    """Match the photos that are tried every day."""
+    """Match the photos that are tested every day."""
     return [round_trip(seed) for seed in SAMPLE]
 
 
@@ -27,7 +27,7 @@ def found(request: pytest.FixtureRequest, sample: list[Found]) -> list[Found]:
 def test_the_readout_time_comes_back_within_two_thousandths(found: list[Found]) -> None:
     errors = np.array([one.readout for one in found])
     assert np.median(errors) < 0.002
-    # Far better than the median must be: nearly all of them do.
+    # Nearly all of them are within that.
     assert np.mean(errors < 0.002) > 0.985
 
 
@@ -46,11 +46,13 @@ def test_photos_that_cannot_be_explained_are_few_and_say_why(found: list[Found])
 
 
 @pytest.mark.parametrize("index", range(3), ids=["readout_time", "exposure_time", "start_time"])
-def test_the_uncertainties_are_neither_boasting_nor_empty(found: list[Found], index: int) -> None:
+def test_the_uncertainties_are_neither_too_small_nor_too_large(
+    found: list[Found], index: int
+) -> None:
     deviations = np.array([one.deviations[index] for one in found if one.deviations])
     assert np.mean(deviations < 3.0) > 0.85
-    # Blur that is not known may be taken for a short exposure: its stated error holds a column of
-    # it, which these sharp photos do not need.
+    # Unknown blur can look like a short exposure, so that the stated error includes a column of it,
+    # which these sharp photos do not need.
     long = [
         one.deviations[index] for one in found if one.deviations and one.exposure_in_chips > 0.5
     ]

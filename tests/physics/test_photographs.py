@@ -1,4 +1,4 @@
-"""What is sure of photographs that are not the model's own holds: samples, cameras, lamps."""
+"""Sure results hold for photographs from outside the model: samples, cameras, lamps."""
 
 from io import BytesIO
 
@@ -24,7 +24,7 @@ def test_the_scene_beside_a_sample_is_the_one_it_shows(name: str) -> None:
         kept = np.asarray(opened).astype(float)
     simulated = taken(SCENES[name]).astype(float)
     assert kept.shape == simulated.shape
-    # As far apart as compression leaves them, and no further.
+    # They differ by compression, and no more.
     again = np.asarray(Image.open(BytesIO(as_jpeg(SCENES[name])))).astype(float)
     loss = np.sqrt(np.mean((again - simulated) ** 2))
     assert np.sqrt(np.mean((kept - simulated) ** 2)) < 1.2 * loss + 0.2
@@ -49,7 +49,7 @@ def test_a_sample_says_that_it_is_simulated_and_how_it_was_taken(name: str) -> N
 
 @pytest.mark.parametrize("seed", [91000, 91001, 91007])
 def test_a_photographs_stripes_repeat_after_the_chips_that_are_told(seed: int) -> None:
-    """Where the truth is told wrongly, a period off by half a column no longer fits."""
+    """With a wrong truth, a period that is off by half a column would not fit."""
     drawn = foreign(seed)
     profile = drawn.image.mean(axis=0)
     columns = np.arange(len(profile))

@@ -1,4 +1,4 @@
-"""Common sense that a plan must show."""
+"""Plans must agree with common sense."""
 
 import numpy as np
 import pytest
@@ -16,7 +16,7 @@ COLUMNS_ONLY = {"sensor-noise": False, "fixed-pattern": False}
 
 
 def close_up() -> Scene:
-    """A bright panel that fills more than 3,000 rows."""
+    """Make a bright panel that fills more than 3,000 rows."""
     scene = occ.load_preset("phone-68us").replace(distance=0.6)
     assert paper_view_of(scene).region.rows > 3000
     return scene
@@ -43,7 +43,7 @@ def test_near_the_null_the_same_scene_needs_noise(pattern: str) -> None:
     scene = close_up().replace(pattern=pattern)
     null = scene.replace(switching_frequency=2.0 / scene.camera.exposure_time * (1 + 1e-4))
     assert noises(scene) == set()
-    if pattern == "01":  # of packets only the single chips vanish there
+    if pattern == "01":  # in packets only the single chips vanish there
         assert "sensor-noise" in noises(null)
     assert occ.plan(null, 0.5, "profile").stretch > occ.plan(scene, 0.5, "profile").stretch
 
@@ -62,8 +62,8 @@ def test_a_camera_without_distortion_never_runs_that_stage(monkeypatch: pytest.M
 
 
 def test_an_edge_of_1_us_counts_at_100_khz_and_not_at_2_khz() -> None:
-    # The same ramp touches one column in six at 2 kHz and all of them at 100 kHz, where the
-    # stripes are fainter, too: 0.5 and 5 levels.
+    # The same ramp affects one column in six at 2 kHz, and all of them at 100 kHz, where the
+    # stripes are also fainter: by 0.5 and 5 levels.
     scene = occ.load_preset("phone-136us").replace(edge_time=1e-6, distance=0.6)
     for frequency, counts in ((2e3, False), (100e3, True)):
         plan = occ.plan(scene.replace(switching_frequency=frequency), 0.6)
@@ -105,7 +105,7 @@ def test_profile_and_image_paths_decode_alike_on_the_papers_grid(
             scene = occ.load_preset(exposure)
             scene = scene.replace(switching_frequency=frequency, distance=distance)
             start = float(random.uniform(0.0, 24.0 / frequency))
-            # All rows of a level panel are alike: a few show as much as 4,608 do.
+            # All rows of an upright panel are alike, so that a few are as good as 4,608.
             scene = scene.replace(start_time=start, **few_rows(scene), **light)
             plan = occ.plan(scene, 0.0, "profile", COLUMNS_ONLY)
             assert plan.kinds == ({"column"} if light else set())
@@ -120,7 +120,7 @@ def test_profile_and_image_paths_decode_alike_on_the_papers_grid(
 
 
 def few_rows(scene: Scene) -> dict[str, float | int]:
-    """Fewer rows, the same pixels of the panel across, and the same fraction of it upwards."""
+    """Return parameters for fewer rows, with the same columns and fraction of rows on the panel."""
     camera, rows = scene.camera, 96
     diagonal = np.hypot(camera.rows, camera.columns) / np.hypot(rows, camera.columns)
     return {

@@ -51,7 +51,7 @@ def test_pixel_values_are_the_published_ones(
 @pytest.mark.parametrize(("gamma", "ratio"), [(2.2, 5.448), (2.22, 5.533)])
 def test_a_pixel_is_white_at_the_published_exposure(gamma: float, ratio: float) -> None:
     camera = Scene().replace(gamma=gamma, iso=100, exposure_time=0.125, f_number=1.0).camera
-    # S t / (K N^2) is 1 here, so that the luminance is the ratio itself.
+    # S t / (K N^2) is 1 here, so that the luminance equals the ratio.
     assert pixel_value(np.array(ratio), camera) == pytest.approx(255.0, abs=0.02)
 
 

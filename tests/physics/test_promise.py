@@ -1,4 +1,4 @@
-"""The plan's estimates are close, and its promise holds, in a world wider than the sliders."""
+"""The plan's estimates are close and its promise holds in a world wider than the sliders."""
 
 import math
 from collections.abc import Sequence
@@ -8,7 +8,7 @@ from typing import Any, TypeAlias
 import numpy as np
 import pytest
 from amount import amount
-from physics.effect_world import large_scene_of, present, rms, scene_of, seen
+from physics.effect_world import large_scene_of, observe_with, present_effects, rms, scene_of
 
 import occ_model as occ
 from occ_model.scene.scene import Scene
@@ -22,10 +22,10 @@ TOLERANCES = (0.5, 2.0, 8.0)
 OBSERVABLES: tuple[Observable, ...] = ("image", "profile", "signal")
 
 
-SMALL = 0.1  # levels below which neither an estimate nor a change matters to any plan
+SMALL = 0.1  # levels below which an estimate or a change matters to no plan
 
 KNOWN = 2.0
-"""Times its estimate that the limit of an effect is at most where a plan knows what it changes."""
+"""Largest ratio of limit to estimate of an effect whose change a plan knows."""
 
 
 @cache
@@ -35,12 +35,12 @@ def changes(
     """Return each effect's estimate, limit and change, and plans' changes over the tolerance."""
     scene = large_scene_of(number) if is_large else scene_of(number)
     everything = occ.plan(scene, 0.0, observable)
-    effects = present(everything)
-    whole = seen(scene, effects, observable, number)
+    effects = present_effects(everything)
+    whole = observe_with(scene, effects, observable, number)
 
     @cache
     def change(included: frozenset[str]) -> float:
-        return rms(whole - seen(scene, included, observable, number)) * everything.stretch
+        return rms(whole - observe_with(scene, included, observable, number)) * everything.stretch
 
     pairs = [
         (decision.estimate, decision.limit, change(effects - {decision.effect}))
@@ -48,11 +48,11 @@ def changes(
         if decision.included
     ]
     plans = [occ.plan(scene, tolerance, observable) for tolerance in TOLERANCES]
-    return pairs, [change(present(chosen)) / chosen.tolerance for chosen in plans]
+    return pairs, [change(present_effects(chosen)) / chosen.tolerance for chosen in plans]
 
 
 def ratios_of(observable: Observable) -> np.ndarray:
-    """Return estimate and limit over truth of the effects that matter to any plan, in rows."""
+    """Return estimate over truth, and limit over truth, of the effects that matter to a plan."""
     found = [each for number in range(SCENES) for each in changes(number, observable)[0]]
     return np.array(
         [
@@ -65,7 +65,7 @@ def ratios_of(observable: Observable) -> np.ndarray:
 
 @pytest.mark.whole
 @pytest.mark.parametrize("observable", OBSERVABLES)
-def test_an_estimate_is_in_the_median_the_truth(observable: Observable) -> None:
+def test_the_median_estimate_is_the_truth(observable: Observable) -> None:
     ratios = ratios_of(observable)
     assert len(ratios) > 3 * SCENES
     assert 1.0 <= np.median(ratios[:, 0]) <= 1.1
@@ -75,7 +75,7 @@ def test_an_estimate_is_in_the_median_the_truth(observable: Observable) -> None:
 @pytest.mark.parametrize(
     ("observable", "most"), [("image", 0.05), ("profile", 0.05), ("signal", 0.08)]
 )
-def test_where_a_plan_knows_an_effect_its_estimate_is_seldom_half_too_large(
+def test_an_estimate_of_a_known_effect_is_seldom_half_too_large(
     observable: Observable, most: float
 ) -> None:
     ratios = ratios_of(observable)
@@ -91,7 +91,7 @@ def test_a_limit_is_seldom_below_the_truth(observable: Observable) -> None:
 
 
 @pytest.mark.parametrize("observable", OBSERVABLES)
-def test_what_is_left_out_changes_no_more_than_the_tolerance(observable: Observable) -> None:
+def test_omitted_effects_change_no_more_than_the_tolerance(observable: Observable) -> None:
     fractions = [
         fraction for number in range(SCENES) for fraction in changes(number, observable)[1]
     ]
@@ -147,15 +147,15 @@ _BROKEN = [
 ]
 
 
-def some_every_day(cases: Sequence[Case], apart: int) -> list[Case]:
-    """Leave most cases, each of which takes a tenth of a second or more, to the whole tests."""
+def select_cases(cases: Sequence[Case], apart: int) -> list[Case]:
+    """Leave most cases, each of which takes a tenth of a second or more, to ``--whole``."""
     return [
         case if place % apart == 0 else pytest.param(*case.values, id=case.id, marks=WHOLE)
         for place, case in enumerate(cases)
     ]
 
 
-@pytest.mark.parametrize(("number", "observable"), some_every_day(_BROKEN, 4))
+@pytest.mark.parametrize(("number", "observable"), select_cases(_BROKEN, 4))
 def test_the_promise_holds_where_it_was_once_broken(number: int, observable: Observable) -> None:
     assert max(changes(number, observable)[1]) <= 1.0
 
@@ -170,33 +170,33 @@ _SAMPLED = [
 ]
 
 
-@pytest.mark.parametrize(("number", "observable"), some_every_day(_SAMPLED, 5))
+@pytest.mark.parametrize(("number", "observable"), select_cases(_SAMPLED, 5))
 def test_the_promise_holds_in_pictures_of_which_columns_are_sampled(
     number: int, observable: Observable
 ) -> None:
-    """Each broke it once: by few columns beside a large step, or a rim that few columns show."""
+    """Each once broke it, with few columns beside a large step or at a rim."""
     assert max(changes(number, observable, is_large=True)[1]) <= 1.0
 
 
 @pytest.mark.whole
 @pytest.mark.parametrize("name", ["phone-136us-real", "tablet-61us-real"])
 @pytest.mark.parametrize("observable", OBSERVABLES)
-def test_of_a_real_scene_an_estimate_is_within_half_of_the_truth(
+def test_an_estimate_for_a_real_scene_is_within_half_of_the_truth(
     name: str, observable: Observable
 ) -> None:
-    scene = smaller(occ.load_preset(name))
+    scene = shrink_scene(occ.load_preset(name))
     everything = occ.plan(scene, 0.0, observable)
-    effects = present(everything)
-    whole = seen(scene, effects, observable, 1)
+    effects = present_effects(everything)
+    whole = observe_with(scene, effects, observable, 1)
     for decision in everything.decisions:
         if decision.included:
-            without = seen(scene, effects - {decision.effect}, observable, 1)
+            without = observe_with(scene, effects - {decision.effect}, observable, 1)
             change = rms(whole - without) * everything.stretch
             assert abs(math.log(max(decision.estimate, 0.3) / max(change, 0.3))) < 0.7, decision
 
 
-def smaller(scene: Scene) -> Scene:
-    """A quarter of the sensor, read in the same time, with the same angle of view."""
+def shrink_scene(scene: Scene) -> Scene:
+    """Take a quarter of the sensor, read out in the same time, with the same angle of view."""
     return scene.replace(
         rows=scene.camera.rows // 4,
         columns=scene.camera.columns // 4,

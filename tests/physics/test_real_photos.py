@@ -1,4 +1,4 @@
-"""What is known of the two real photographs is found in them."""
+"""Matching finds what is known about the two real photographs."""
 
 import re
 from pathlib import Path
@@ -13,11 +13,11 @@ pytestmark = pytest.mark.photos
 NOTED = 79e-6  # the exposure time that the iPhone noted, in seconds
 
 STRIPES = "01010" + "0010110001001000"
-"""The pattern that VLCDetector's transmitter sends over and over."""
+"""The pattern that VLCDetector's transmitter repeats."""
 
 
 def assert_manual_states(match: occ.Match, row: str) -> None:
-    """Compare what a row of the manual's table says was found, to its last digits."""
+    """Compare the results with a row of the manual's table, to its last digits."""
     (found,) = [
         line.split(" | ")[-1]
         for line in text_of(FOLDER / "validation.md").splitlines()
@@ -59,7 +59,7 @@ def test_the_readout_is_what_was_measured(square_wave: occ.Match) -> None:
 
 
 def test_the_exposure_is_what_the_camera_was_set_to(square_wave: occ.Match) -> None:
-    """Four columns long: what blurs them is not known, and the stated error holds it."""
+    """It is four columns long; the blur is not known, and the stated error includes it."""
     stated = square_wave.uncertainties["exposure_time"]
     assert abs(square_wave.exposure_time - 62.5e-6) < 2.0 * stated
     assert stated < 0.5 * square_wave.exposure_time
@@ -105,7 +105,7 @@ def test_all_chips_are_read_without_being_given(photos: Path) -> None:
 
 
 @pytest.mark.whole
-def test_chips_that_are_read_explain_the_profile_in_spite_of_saturation(stripes: occ.Match) -> None:
+def test_the_chips_read_explain_the_profile_despite_saturation(stripes: occ.Match) -> None:
     assert stripes.pattern_was_read
     assert len(stripes.pattern) == len(STRIPES) == 21
     assert stripes.pattern in STRIPES + STRIPES
@@ -124,8 +124,8 @@ def test_the_fitted_scene_shows_the_photo(square_wave: occ.Match, led: occ.Photo
 
 
 @pytest.mark.whole
-def test_two_photos_of_one_camera_agree_and_know_what_hides_an_exposure(photos: Path) -> None:
-    """The camera notes 79.0 us for both; of one the stripes are white."""
+def test_two_photos_of_one_camera_agree_and_name_what_hides_an_exposure(photos: Path) -> None:
+    """The camera states 79.0 us for both; in one the stripes are white."""
     matches = []
     for name, chips_a_second in (("iphone_1khz.jpg", 2e3), ("iphone_2.5khz.jpg", 5e3)):
         photo = occ.load_photo(photos / name)

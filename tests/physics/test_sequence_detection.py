@@ -1,11 +1,11 @@
-"""Sequence detection: bit error rates of known timing, optimality, and honest likelihoods."""
+"""Sequence detection: bit error rates at known timing, optimality, and correct likelihoods."""
 
 import itertools
 
 import numpy as np
 import pytest
 from amount import amount
-from physics.exposed_chips import manchester, noise_of, seen_by_rows
+from physics.exposed_chips import expose_rows, manchester, noise_of
 
 import occ_model as occ
 from occ_model.receiver.sequence.exposures import Timing, gather, taps
@@ -15,10 +15,10 @@ from occ_model.receiver.sequence.trellis import FREE_CHIPS, Word, trellis_of
 from occ_model.scene.scene import Scene
 
 MANCHESTER = (Word(0, (0, 1), 0), Word(0, (1, 0), 0))
-STEP, PHASE = 0.2, 0.13  # five rows a chip, none at a chip's edge
+STEP, PHASE = 0.2, 0.13  # five rows a chip, none of them at a chip's edge
 
 POINTS = [(7, 15, 3e-2), (7, 20, 8e-4), (7, 30, 1e-4), (4, 10, 6e-2), (4, 20, 1e-4)]
-"""Exposure in chips, signal-to-noise ratio in decibels, and the bit error rate asked for."""
+"""Exposure in chips, signal-to-noise ratio in decibels, and the required bit error rate."""
 
 
 def detect(light: np.ndarray, exposure: float, words: tuple[Word, ...] = MANCHESTER) -> Chips:
@@ -29,7 +29,7 @@ def detect(light: np.ndarray, exposure: float, words: tuple[Word, ...] = MANCHES
 def wrong_bits(exposure: float, decibels: float, bits: int, seed: int) -> tuple[int, int]:
     random = np.random.default_rng(seed)
     sent = manchester(random.integers(0, 2, bits))
-    light = seen_by_rows(sent, exposure, STEP, PHASE)
+    light = expose_rows(sent, exposure, STEP, PHASE)
     found = detect(light + noise_of(decibels) * random.standard_normal(len(light)), exposure)
     place = found.first + np.arange(len(found.values))
     second = (place >= 0) & (place < len(sent)) & (place % 2 == 1)
@@ -58,7 +58,7 @@ def test_the_lit_fraction_of_a_row_is_that_of_the_chips_under_its_exposure() -> 
     chips = Chips(0, values, np.ones(6))
     timing = Timing(1.5, 0.25, 0.0)
     model, slope = lit_fractions(chips, timing, 18)
-    # Exactly, by a running integral of the light.
+    # Exact, by a running integral of the light.
     lit = np.concatenate([[0.0], np.cumsum(values)])
     starts = 0.25 * np.arange(18)
     ends = np.interp(np.add.outer([1.5, 1.501], starts), np.arange(7), lit)
@@ -82,7 +82,7 @@ def test_no_other_sequence_is_nearer_to_the_rows(words: tuple[Word, ...], exposu
     random = np.random.default_rng(7)
     count = 10
     sent = manchester(random.integers(0, 2, count // 2))
-    light = seen_by_rows(sent, exposure, STEP, 0.0)
+    light = expose_rows(sent, exposure, STEP, 0.0)
     light = light + 0.2 * random.standard_normal(len(light))
     timing = Timing(exposure, STEP, 0.0)
     statistics = gather(light, timing)
@@ -91,11 +91,11 @@ def test_no_other_sequence_is_nearer_to_the_rows(words: tuple[Word, ...], exposu
     chips = best_chips(trellis, statistics)
     every = np.array(list(itertools.product([0, 1], repeat=count)))
     if words is MANCHESTER:
-        # Both ways that the pairs may lie, and a chip more at the end of each.
+        # Both alignments of the pairs, each also with another chip at the end.
         pairs = np.array([manchester(np.array(b)) for b in itertools.product([0, 1], repeat=6)])
         every = np.concatenate([pairs[:, :count], pairs[:, 1 : count + 1]])
     distances = [
-        float(((seen_by_rows(one, exposure, STEP, 0.0) - light) ** 2).sum()) for one in every
+        float(((expose_rows(one, exposure, STEP, 0.0) - light) ** 2).sum()) for one in every
     ]
     assert least == pytest.approx(min(distances), abs=1e-9)
     best = every[int(np.argmin(distances))]
@@ -106,13 +106,13 @@ def test_a_margin_is_what_the_opposite_chip_costs() -> None:
     random = np.random.default_rng(5)
     exposure, count = 1.6, 9
     sent = random.integers(0, 2, count)
-    light = seen_by_rows(sent, exposure, STEP, 0.0)
+    light = expose_rows(sent, exposure, STEP, 0.0)
     light = light + 0.15 * random.standard_normal(len(light))
     timing = Timing(exposure, STEP, 0.0)
     found = best_chips(trellis_of(FREE_CHIPS, timing.memory), gather(light, timing))
     every = np.array(list(itertools.product([0, 1], repeat=count)))
     distances = np.array(
-        [((seen_by_rows(one, exposure, STEP, 0.0) - light) ** 2).sum() for one in every]
+        [((expose_rows(one, exposure, STEP, 0.0) - light) ** 2).sum() for one in every]
     )
     for chip in range(count - 1):
         lit = every[:, chip] == 1
@@ -124,14 +124,14 @@ def test_a_margin_is_what_the_opposite_chip_costs() -> None:
 def test_the_beam_finds_what_the_whole_trellis_finds(exposure: float) -> None:
     random = np.random.default_rng(2)
     sent = manchester(random.integers(0, 2, 150))
-    light = seen_by_rows(sent, exposure, STEP, PHASE)
+    light = expose_rows(sent, exposure, STEP, PHASE)
     light = light + noise_of(25.0) * random.standard_normal(len(light))
     timing = Timing(exposure, STEP, PHASE)
     statistics = gather(light, timing)
     whole = best_chips(trellis_of(MANCHESTER, timing.memory), statistics)
     beam = beam_chips(MANCHESTER, timing.memory, statistics)
     same = beam.values[whole.first - beam.first :][: len(whole.values)] == whole.values
-    # The beam has to find its way in first.
+    # The beam first has to converge.
     assert same[3 * timing.memory :].all()
 
 
@@ -154,12 +154,12 @@ def test_taps_are_the_overlaps_of_exposure_and_chips(
 
 
 def test_stated_likelihoods_are_those_of_the_errors() -> None:
-    # Near the margin of what is readable: of the bits said to be right with a probability of p,
-    # about a fraction p is right.
+    # Near the limit of readability, about a fraction p of the bits with the stated probability p
+    # must be right.
     random = np.random.default_rng(4)
     exposure, decibels = 7.0, 14.0
     sent = manchester(random.integers(0, 2, 20_000))
-    light = seen_by_rows(sent, exposure, STEP, PHASE)
+    light = expose_rows(sent, exposure, STEP, PHASE)
     found = detect(light + noise_of(decibels) * random.standard_normal(len(light)), exposure)
     place = found.first + np.arange(len(found.values))
     second = (place >= 0) & (place < len(sent)) & (place % 2 == 1)
@@ -198,7 +198,7 @@ def test_codes_are_read_on_both_sides_of_the_null(
         assert result.bit_likelihoods.min() > 0.99
 
 
-def test_what_no_chips_explain_is_refused() -> None:
+def test_a_signal_that_no_chips_explain_is_refused() -> None:
     random = np.random.default_rng(3)
     noise = random.normal(100.0, 5.0, 3456)
     smooth = np.convolve(random.normal(100.0, 20.0, 3472), np.ones(17) / 17.0, "valid")

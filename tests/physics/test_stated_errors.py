@@ -1,4 +1,4 @@
-"""Stated errors hold on photographs of a world that is wider than the model."""
+"""Stated errors hold for photographs from a world that is wider than the model."""
 
 from dataclasses import replace
 from types import SimpleNamespace
@@ -19,7 +19,7 @@ from occ_model.photo.stripes.evenly_lit import Cells
 
 
 def small_world(seed: int, **changes: Any) -> World:
-    """Draw a photograph that is quickly matched: a rectangle of long chips."""
+    """Draw a photograph that can be matched quickly, a rectangle with long chips."""
     world = random_world(seed)
     lamp = replace(
         world.lamp, shape="rectangular", middle_row=50.0, middle_column=400.0, half_height=40.0,
@@ -34,14 +34,14 @@ def small_world(seed: int, **changes: Any) -> World:
 
 @pytest.fixture(scope="module")
 def sample() -> list[Trial]:
-    """Match a few photographs, of which every other one is saturated."""
+    """Match a few photographs, every other one of which is saturated."""
     return [
         trial(small_world(seed, saturated=0.25 * (seed % 2), chips="10" if seed < 1 else "1110010"))
         for seed in range(2)
     ]
 
 
-def test_what_is_sure_lies_within_four_stated_deviations(sample: list[Trial]) -> None:
+def test_sure_results_are_within_four_stated_deviations(sample: list[Trial]) -> None:
     sure = [one for one in sample if one.is_sure]
     assert len(sure) >= 1
     for one in sure:
@@ -58,22 +58,22 @@ def test_no_stated_deviation_is_below_the_bound(sample: list[Trial]) -> None:
 
 
 def test_the_bound_shrinks_with_the_root_of_the_light() -> None:
-    """Shot noise alone: four times the electrons, half the deviation."""
+    """With shot noise alone, four times the electrons give half the deviation."""
     world = small_world(1, read_noise=0.0, full_well=500.0)
     few, many = bound_of_light(world), bound_of_light(replace(world, full_well=2000.0))
     assert few[0] == pytest.approx(2.0 * many[0], rel=1e-6)
     assert few[1] == pytest.approx(2.0 * many[1], rel=1e-6)
 
 
-def test_a_picture_tells_as_much_as_its_light_where_the_camera_adds_nothing() -> None:
-    """Little light of few electrons: beside shot noise, rounding and JPEG do not count."""
+def test_the_bound_is_that_of_the_light_if_the_camera_adds_nothing() -> None:
+    """With few electrons, rounding and JPEG are negligible beside shot noise."""
     world = small_world(1, full_well=30.0, read_noise=0.0, blur=0.0, quality=100, peak=0.9)
     world = replace(world, ambient=0.1, lamp=replace(world.lamp, halo=0.0), curve=power(1.0))
     by_picture = bound_of_picture(world, camera_known=True)
     np.testing.assert_allclose(by_picture, bound_of_light(world), rtol=0.05)
 
 
-def test_what_is_not_known_of_the_camera_can_only_widen_the_bound() -> None:
+def test_unknown_properties_of_the_camera_can_only_widen_the_bound() -> None:
     world = small_world(2, blur=0.8)
     known, unknown = bound_of_picture(world, camera_known=True), bound_of_picture(world)
     coarse = bound_of_picture(replace(world, quality=50))
@@ -94,7 +94,7 @@ def test_an_exposure_far_from_the_noted_one_is_doubted() -> None:
 
 @pytest.mark.whole
 def test_an_exposure_of_a_square_wave_in_bright_surroundings_is_doubted() -> None:
-    """2.15 chips look like 0.15 of a lamp with less swing."""
+    """2.15 chips look like 0.15 chips of a lamp with less swing."""
     world = random_world(730036)
     match = occ.match_photo(photo_of(photograph(world)), told(world), sent="scene")
     assert match.verdict == "sure"
@@ -102,7 +102,7 @@ def test_an_exposure_of_a_square_wave_in_bright_surroundings_is_doubted() -> Non
 
 
 def test_an_exposure_that_may_be_none_at_all_is_doubted() -> None:
-    """A column's exposure behind long tails of blur: two deviations of it reach nothing."""
+    """An exposure of one column, hidden by a long-tailed blur; two deviations include 0."""
     world = small_world(3, exposure_time=10e-6, blur=1.4, blur_shape="exponential")
     photo = photo_of(photograph(replace(world, curve=power(2.22))))
     match = occ.match_photo(photo, told(world), sent="scene")
@@ -114,7 +114,7 @@ def test_an_exposure_that_may_be_none_at_all_is_doubted() -> None:
 @pytest.mark.whole
 @pytest.mark.parametrize("seed", [1020061, 1120222])
 def test_errors_hold_where_grey_levels_near_black_are_blurred(seed: int) -> None:
-    """Of levels that were corrected once, exposures were 3.8 and 4.9 deviations off."""
+    """With levels corrected only once, exposures were off by 3.8 and 4.9 deviations."""
     one = trial(random_world(seed))
     assert one.is_sure_of("exposure")
     assert abs(one.readout) < 2.0 * one.readout_deviation
@@ -124,7 +124,8 @@ def test_errors_hold_where_grey_levels_near_black_are_blurred(seed: int) -> None
 @pytest.mark.whole
 @pytest.mark.parametrize("seed", [730509, 93030])
 def test_errors_hold_where_another_exposure_looked_likelier(seed: int) -> None:
-    """1.52 chips for 0.48 of a square wave, and twice the right ones beside a soft rim."""
+    """1.52 chips instead of 0.48 for a square wave, and twice the right number beside a soft
+    rim."""
     one = trial(random_world(seed))
     assert one.is_sure_of("exposure")
     assert abs(one.readout) < 2.0 * one.readout_deviation
@@ -133,7 +134,7 @@ def test_errors_hold_where_another_exposure_looked_likelier(seed: int) -> None:
 
 @pytest.mark.whole
 def test_errors_hold_where_only_the_dark_chips_are_not_white() -> None:
-    """How bright the lamp is then follows from what is white alone (seed 1020109)."""
+    """The lamp's brightness then follows only from the white part (seed 1020109)."""
     one = trial(random_world(1020109))
     assert one.is_sure_of("exposure")
     assert abs(one.readout) < 3.0 * one.readout_deviation < 3e-4
@@ -141,8 +142,8 @@ def test_errors_hold_where_only_the_dark_chips_are_not_white() -> None:
 
 
 @pytest.mark.whole
-def test_an_exposure_is_not_another_one_of_its_own() -> None:
-    """Two searches that end at 0.108 chips found one exposure, and not two (seed 1120060)."""
+def test_an_exposure_is_not_listed_as_an_alternative_to_itself() -> None:
+    """Two searches that end at 0.108 chips found one exposure, not two (seed 1120060)."""
     world = random_world(1120060)
     match = occ.match_photo(photo_of(photograph(world)), told(world), sent="scene")
     assert match.other_exposures == ()
@@ -151,7 +152,7 @@ def test_an_exposure_is_not_another_one_of_its_own() -> None:
 
 @pytest.mark.whole
 def test_edges_hidden_by_white_are_doubted() -> None:
-    """A short exposure of a lamp far brighter than white: its ramps end within a column or two."""
+    """With a short exposure of a lamp far brighter than white, ramps end within a column or two."""
     world = small_world(3, exposure_time=40e-6, saturated=0.58, ambient=0.0005)
     lamp = replace(world.lamp, darkening=0.0, halo=0.0, rim=1.0)
     match = occ.match_photo(
@@ -164,7 +165,7 @@ def test_the_exposure_is_doubted_where_more_than_two_fifths_are_white() -> None:
     world = small_world(3, saturated=0.45)
     match = occ.match_photo(photo_of(photograph(world)), told(world), sent="scene")
     assert match.verdict == "sure"
-    assert match.scene.model.enhancement == "none"  # a camera is not taken to equalize
+    assert match.scene.model.enhancement == "none"  # cameras are not assumed to equalize
     assert any("at most 40.0 % are allowed" in why for why in match.exposure_reasons)
     given: Any = SimpleNamespace(rate=1.0, was_read=False)
     assert exposure_doubts(given, replace(match.stripes, saturated=0.4)) == []

@@ -26,12 +26,12 @@ def identity(lit: np.ndarray, _gamma: float) -> np.ndarray:
 
 
 def spread(index: int, low: float, high: float) -> float:
-    """Numbers that fill a range evenly, none a simple fraction of another."""
+    """Return numbers that fill a range evenly, none a simple fraction of another."""
     return low + (high - low) * (index * (math.sqrt(5.0) - 1.0) / 2.0 % 1.0)
 
 
 def sample_of(count: int, everyday: int) -> list[Any]:
-    """Return numbers from 1, of which the first few are tried every day."""
+    """Return numbers from 1; without --whole only the first few."""
     return [
         pytest.param(index, marks=pytest.mark.whole if index > everyday else ())
         for index in range(1, count + 1)
@@ -67,7 +67,7 @@ def test_gamma_comes_back_where_it_is_asked_for() -> None:
 
 @given(exposure=st.floats(0.05, 0.95), turns=st.integers(1, 3))
 def test_exposures_that_add_up_to_whole_periods_look_alike(exposure: float, turns: int) -> None:
-    """Its moving average is a trapezoid whose ramps last the exposure up to the next period."""
+    """The moving average is a trapezoid whose ramps last the exposure modulo the period."""
     waveform = Waveform(np.array([1, 0], dtype=np.uint8))
     one = Timing(0.07, exposure, 0.3, 2.22).lit_fraction(waveform, 500)
     other = Timing(0.07, 2.0 * turns - exposure, 0.3, 2.22).lit_fraction(waveform, 500)
@@ -93,14 +93,14 @@ IN_DAYLIGHT = 12_300.0  # lux at which the dark panel is at four fifths of the l
 def test_all_exposures_that_explain_a_square_wave_are_named() -> None:
     photo, scene = square_wave_photo(IN_DAYLIGHT)
     match = occ.match_photo(photo, scene.replace(readout_time=1e-6, exposure_time=1e-3))
-    # Eight bits hold little of so faint stripes.
+    # Eight bits resolve such faint stripes only poorly.
     assert abs(match.exposure_time - 60e-6) < 3.0 * match.uncertainties["exposure_time"]
     assert match.exposure_time == pytest.approx(60e-6, rel=0.1)
     # Half a period of a pulse as long as the exposure looks the same.
     assert match.other_exposures[:2] == pytest.approx((200e-6, 2 * 200e-6 - 60e-6), rel=0.02)
 
 
-def test_what_the_camera_noted_decides_among_them() -> None:
+def test_the_exposure_that_the_camera_states_decides_among_them() -> None:
     photo, scene = square_wave_photo(IN_DAYLIGHT)
     noted = occ.Photo(
         path=photo.path, samples=photo.samples, white=255, image=photo.image,
@@ -112,7 +112,8 @@ def test_what_the_camera_noted_decides_among_them() -> None:
 
 @pytest.mark.whole
 def test_an_exposure_that_would_need_darker_than_black_is_none() -> None:
-    """A long one keeps the LED's light in every column: dark stripes tell that it was short."""
+    """A long exposure has the LED's light in every column, so that dark stripes show a short
+    one."""
     photo, scene = square_wave_photo(100.0)
     match = occ.match_photo(photo, scene.replace(readout_time=1e-6, exposure_time=1e-3))
     assert match.exposure_time == pytest.approx(60e-6, rel=0.02)
@@ -142,7 +143,7 @@ def test_a_blinking_leds_exposure_comes_back_under_uneven_light(seed: int) -> No
     ],
 )
 def test_the_windows_own_picture_is_explained(enhancement: str) -> None:
-    """Equalized histograms too, which keep the order of the column values and nothing else."""
+    """Also with equalized histograms, which keep only the order of the column values."""
     scene = occ.load_preset("phone-136us").replace(enhancement=enhancement, columns=1728)
     columns = occ.render(scene, tolerance=math.inf).signal
     picture = np.repeat(columns.astype(np.uint8)[None], 40, 0)

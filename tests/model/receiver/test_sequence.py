@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from physics.exposed_chips import noise_of, seen_by_rows
+from physics.exposed_chips import expose_rows, noise_of
 
 import occ_model as occ
 from occ_model.receiver.light import PER_CHIP, expected_light, light_of_chips
@@ -24,7 +24,7 @@ SENT = RANDOM.integers(0, 2, 120).astype(np.uint8)
 
 def test_few_ways_find_the_chips_of_the_whole_trellis_with_a_margin_each() -> None:
     timing = Timing(2.3, 0.2, 0.13)
-    light = seen_by_rows(SENT, 2.3, 0.2, 0.13)
+    light = expose_rows(SENT, 2.3, 0.2, 0.13)
     seen = gather(light + noise_of(20) * RANDOM.standard_normal(len(light)), timing)
     found = beam_chips(FREE_CHIPS, timing.memory, seen)
     whole = best_chips(trellis_of(FREE_CHIPS, timing.memory), seen)
@@ -58,7 +58,7 @@ def test_the_light_of_random_data_is_all_and_nothing_and_half_on_the_mean(patter
 
 
 def test_the_brightness_is_first_guessed_by_how_neighbouring_rows_go_together() -> None:
-    light = 60.0 + 150.0 * seen_by_rows(SENT, 1.3, 0.35, 0.0)
+    light = 60.0 + 150.0 * expose_rows(SENT, 1.3, 0.35, 0.0)
     guess = first_guess(light, light_of_chips(SENT, 1.3), Timing(1.3, 0.35), PER_CHIP)
     assert guess.dark == pytest.approx(60.0, abs=1.0)
     assert guess.swing == pytest.approx(150.0, abs=1.0)

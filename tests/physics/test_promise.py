@@ -108,15 +108,15 @@ def test_all_that_is_left_out_changes_no_more_than_stated(observable: Observable
     for number in range(SCENES):
         scene = scene_of(number)
         everything = occ.plan(scene, 0.0, observable)
-        effects = present(everything)
-        whole = seen(scene, effects, observable, number)
+        effects = present_effects(everything)
+        whole = observe_with(scene, effects, observable, number)
         by_hand = dict.fromkeys(sorted(effects)[::2], False)
         for chosen in (
             occ.plan(scene, math.inf, observable),
             occ.plan(scene, 2.0, observable, force=by_hand),
         ):
             assert chosen.error >= chosen.left_out
-            kept = seen(scene, present(chosen), observable, number)
+            kept = observe_with(scene, present_effects(chosen), observable, number)
             change = rms(whole - kept) * everything.stretch
             ratios.append(change / max(chosen.error, SMALL))
     assert np.mean(np.array(ratios) <= 1.0) >= (1.0 if observable == "image" else 0.85)

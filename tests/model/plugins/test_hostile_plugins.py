@@ -386,7 +386,7 @@ def test_chips_that_lie_on_each_other_are_no_chips_of_a_film(gap: float) -> None
 
     def read(signal: FloatArray, scene: occ.Scene) -> occ.DecodeResult:
         found = occ.decode(signal, scene, "threshold")
-        return replace(found, chip_starts=gap * np.arange(len(found.chips)))
+        return replace(found, chip_starts=gap * np.arange(float(len(found.chips))))
 
     with installed(plugins.DECODERS, occ.Decoder("own", "Own", read)):
         reading = occ.decode_video(occ.render_video(scene, 2), scene, "own")

@@ -36,7 +36,7 @@ def picture_figures(store: Store, about_photo: Callable[[], str]) -> tuple[Figur
         if pane is None or photo is None:
             return later(
                 "occ_model.figures.window_panes:picture_drawing",
-                shown.frame, shown.region, None, workspace.whose, None, "",
+                shown.frame, shown.region, None, workspace.picture_kind, None, "",
             )  # fmt: skip
         return _with_photo(pane.view, photo, shown, workspace.overlay, about_photo())
 
@@ -65,7 +65,7 @@ def _photo(pane: "PicturesPane | None") -> "Photo | None":
 
 def _with_photo(view: "ImageView", opened: "Photo", shown: Snapshot, mode: str, about: str) -> Draw:
     frame, region = shown.frame, shown.region
-    photo, whose, over = opened.image, view.whose, view.overlay
+    photo, picture_kind, over = opened.image, view.picture_kind, view.overlay
     place = over.placement
     opacities = {_BLENDED: (over.opacity, None), _SPLIT: (1.0, over.split_row)}
     laid, times = opacities.get(mode), over.difference.gain
@@ -79,7 +79,7 @@ def _with_photo(view: "ImageView", opened: "Photo", shown: Snapshot, mode: str, 
         if laid is not None:
             layer = PhotoLayer(place.column, place.row, place.scale, *laid)
         elif mode == _DIFFERENCE:
-            image = frame.picture(whose)
+            image = frame.picture(picture_kind)
             layers = (image, rect_of(image, Placement())), (photo, rect_of(photo, place))
             found = difference_cells(*layers, MOST_CELLS)
             if found is None:
@@ -87,7 +87,7 @@ def _with_photo(view: "ImageView", opened: "Photo", shown: Snapshot, mode: str, 
             levels, grid = found
             edges = (grid.left(), grid.right(), grid.bottom(), grid.top())
             layer = Difference(levels, edges, times)
-        return picture_drawing(frame, region, photo, whose, layer, about)
+        return picture_drawing(frame, region, photo, picture_kind, layer, about)
 
     return draw
 

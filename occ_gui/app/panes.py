@@ -45,7 +45,7 @@ def picture(store: Store, about_photo: Callable[[], str]) -> Feature[Any]:
 
     def part(workspace: Workspace, results: Results) -> tuple[object, ...]:
         there = (results.before, results.picture, results.snapshot, results.reading)
-        return (workspace.whose, workspace.overlay, *there)
+        return (workspace.picture_kind, workspace.overlay, *there)
 
     return Feature(
         name="picture",

@@ -48,7 +48,7 @@ class Workspace:
     frame_rate: float = FRAME_RATE.default
     shown: Shown = "rate"
     decoder: str = PAPER_DECODER  # the decoder that has its result and steps shown
-    whose: str = PICTURES[0]  # whose picture is shown, one of PICTURES
+    picture_kind: str = PICTURES[0]  # the camera's or the receiver's picture, one of PICTURES
     overlay: str = "beside"
     """How a photo is shown with the picture: beside it, or over it in one of several ways."""
     is_enhanced: bool = False  # whether profiles are shown after the receiver's enhancement

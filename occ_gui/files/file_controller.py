@@ -199,9 +199,9 @@ class FileController(QObject):
             self.scene_saved.emit(path)
 
     def ask_to_save_picture(self) -> None:
-        whose = self._store.store.workspace.whose
-        title, kinds = f"Save the {whose}'s picture", f"Pictures ({_PICTURES})"
-        if path := self._ask_for_name(title, f"simulation-{whose}.png", kinds):
+        picture_kind = self._store.store.workspace.picture_kind
+        title, kinds = f"Save the {picture_kind}'s picture", f"Pictures ({_PICTURES})"
+        if path := self._ask_for_name(title, f"simulation-{picture_kind}.png", kinds):
             self.save_picture(path)
 
     def ask_to_save_table(self, text: str) -> None:
@@ -212,11 +212,13 @@ class FileController(QObject):
 
     def save_picture(self, path: Path) -> None:
         """Save the picture of the present scene at full size, the camera's or the receiver's."""
-        self._when_present(partial(self._write_picture, path, self._store.store.workspace.whose))
+        self._when_present(
+            partial(self._write_picture, path, self._store.store.workspace.picture_kind)
+        )
 
-    def _write_picture(self, path: Path, whose: str, shown: Snapshot) -> None:
+    def _write_picture(self, path: Path, picture_kind: str, shown: Snapshot) -> None:
         frame = shown.frame
-        image, title = frame.picture(whose), frame.picture_title(whose)
+        image, title = frame.picture(picture_kind), frame.picture_title(picture_kind)
         said = f"{title[:1].lower()}{title[1:]}"
         self._save(path, lambda: write_image(path, image, title), said)
 

@@ -49,12 +49,15 @@ _MOST_OF_HISTORY = 1_000_000  # most characters of stored steps; the oldest step
 
 _VIEW: Mapping[str, tuple[object, ...]] = {
     "decoder": tuple(DECODERS),
-    "whose": PICTURES,
+    "picture_kind": PICTURES,
     "overlay": MODES,
     "is_enhanced": (False, True),
     "shown": SHOWN,
 }
 """Settings of how results are shown, with their possible values."""
+
+_FORMER_NAMES = {"picture_kind": "whose"}
+"""Names of settings in sessions of former versions."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -190,11 +193,11 @@ def read_session(record: Mapping[str, Any] | None) -> KeptSession | None:
 
 
 def _with_view(workspace: Workspace, values: Any) -> Workspace:
-    chosen: dict[str, Any] = {
-        name: known[known.index(values[name])]  # turns a 1 into True
-        for name, known in _VIEW.items()
-        if values.get(name) in known
-    }
+    chosen: dict[str, Any] = {}
+    for name, known in _VIEW.items():
+        value = values.get(name, values.get(_FORMER_NAMES.get(name)))
+        if value in known:
+            chosen[name] = known[known.index(value)]  # turns a 1 into True
     return replace(workspace, **chosen)
 
 

@@ -156,7 +156,7 @@ class LessonController(QObject):
         photo = present.photo if is_own(present.photo) else user.photo
         return replace(
             present, scene=user.scene, settings=user.settings, preset=user.preset, photo=photo,
-            decoder=user.decoder, whose=user.whose, is_enhanced=user.is_enhanced,
+            decoder=user.decoder, picture_kind=user.picture_kind, is_enhanced=user.is_enhanced,
             overlay=user.overlay, frame_rate=user.frame_rate,
             room=user.room if self._has_set_room else present.room,
         )  # fmt: skip
@@ -197,7 +197,7 @@ class LessonController(QObject):
         first = Workspace(step.scene)
         workspace = replace(
             user, scene=first.scene, settings=first.settings, preset=first.preset, photo=photo,
-            decoder=step.decoder or first.decoder, whose=first.whose,
+            decoder=step.decoder or first.decoder, picture_kind=first.picture_kind,
             is_enhanced=first.is_enhanced, overlay=first.overlay, frame_rate=first.frame_rate,
             room=first.room if step.pane == "room" else user.room,
         )  # fmt: skip

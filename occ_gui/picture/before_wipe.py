@@ -25,7 +25,7 @@ class BeforeWipe(QObject):
     def __init__(self, box: pg.ViewBox) -> None:
         super().__init__()
         self._frame: Frame | None = None
-        self._whose = PICTURES[0]
+        self._picture_kind = PICTURES[0]
         self._image: ByteArray | None = None
         self._fraction = 0.5
         self.picture = AveragedImage()
@@ -64,12 +64,12 @@ class BeforeWipe(QObject):
         self._frame = snapshot.frame
         self._take_picture()
 
-    def choose_picture(self, whose: str) -> None:
-        self._whose = whose
+    def choose_picture(self, picture_kind: str) -> None:
+        self._picture_kind = picture_kind
         self._take_picture()
 
     def _take_picture(self) -> None:
-        self._image = None if self._frame is None else self._frame.picture(self._whose)
+        self._image = None if self._frame is None else self._frame.picture(self._picture_kind)
         if self.chosen.isChecked():
             self._arrange()
 

@@ -50,7 +50,7 @@ class ImageView(QWidget):
         self.shown_photo: Photo | None = None
         self.frame: Frame | None = None
         self._mode = MODES[0]
-        self.whose = PICTURES[0]
+        self.picture_kind = PICTURES[0]
         self.simulation = PicturePane("Simulated picture")
         self.photo = PicturePane("Photo")
         self.overlay = PhotoOverlay(self.simulation.box)
@@ -114,7 +114,7 @@ class ImageView(QWidget):
         frame, mode = self.frame, self._mode
         picture = "Simulated picture"
         if frame is not None:
-            picture = frame.picture_title(self.whose)
+            picture = frame.picture_title(self.picture_kind)
             if frame.rows_step > 1:
                 picture = f"Draft, one row in {frame.rows_step}: {picture}"
         if self.shown_photo is None:
@@ -131,7 +131,7 @@ class ImageView(QWidget):
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
         if snapshot.frame is not self.frame:  # else it was already shown, before it was decoded
-            self.show_picture(Picture(snapshot.frame, self.whose, ()))
+            self.show_picture(Picture(snapshot.frame, self.picture_kind, ()))
         self.show_reading(snapshot)
 
     def show_reading(self, reading: Reading) -> None:
@@ -140,9 +140,9 @@ class ImageView(QWidget):
     def show_picture(self, picture: Picture) -> None:
         """Show a picture in place of the previous one; the region stays until the next reading."""
         self.frame = frame = picture.frame
-        image = frame.picture(self.whose)
+        image = frame.picture(self.picture_kind)
         # The user may have chosen the other kind of picture since this one was prepared.
-        halves = picture.halves if picture.whose == self.whose else ()
+        halves = picture.halves if picture.picture_kind == self.picture_kind else ()
         self.simulation.show_picture(image, halves, frame.rows_step)
         if frame.rows_step == 1:
             self.overlay.set_simulated(image)
@@ -154,15 +154,15 @@ class ImageView(QWidget):
     def rows_per_pixel(self) -> float:
         return self.simulation.rows_per_pixel()
 
-    def choose_picture(self, whose: str) -> None:
-        if whose == self.whose:
+    def choose_picture(self, picture_kind: str) -> None:
+        if picture_kind == self.picture_kind:
             return
-        self.whose = whose
-        self.switch.show_key(whose)
-        self.before.choose_picture(whose)
+        self.picture_kind = picture_kind
+        self.switch.show_key(picture_kind)
+        self.before.choose_picture(picture_kind)
         if self.frame is not None:
-            self.show_picture(Picture(self.frame, whose, ()))
-        self.picture_chosen.emit(whose)
+            self.show_picture(Picture(self.frame, picture_kind, ()))
+        self.picture_chosen.emit(picture_kind)
 
     def levels_at(self, column: int, row: int) -> dict[str, int] | None:
         """Return the grey level of a pixel in each kind of picture; None outside the picture."""
@@ -173,7 +173,7 @@ class ImageView(QWidget):
         if not (0 <= row < camera.rows and 0 <= column < camera.columns):
             return None
         row //= frame.rows_step
-        return {whose: int(frame.picture(whose)[row, column]) for whose in PICTURES}
+        return {kind: int(frame.picture(kind)[row, column]) for kind in PICTURES}
 
     def show_photo(self, photo: Photo | None) -> None:
         self.shown_photo = photo
@@ -225,5 +225,7 @@ class PicturesPane(PiecesPane):
             view.show_snapshot, view.show_reading,
         )  # fmt: skip
         self.made_of = {view.simulation: of_picture}
-        view.picture_chosen.connect(lambda whose: store.put(replace(store.workspace, whose=whose)))
+        view.picture_chosen.connect(
+            lambda kind: store.put(replace(store.workspace, picture_kind=kind))
+        )
         view.mode_chosen.connect(lambda mode: store.put(replace(store.workspace, overlay=mode)))

@@ -119,9 +119,9 @@ class SimulationController(QObject):
     def _request(self) -> SimulationRequest:
         scene = self._scenes.scene
         step = self._draft_rows.step(scene.camera.rows, self._rows_per_pixel())
-        whose = self._scenes.store.workspace.whose
+        picture_kind = self._scenes.store.workspace.picture_kind
         settings = self._scenes.settings.settings
-        return SimulationRequest(scene, settings, whose, step, self._more)
+        return SimulationRequest(scene, settings, picture_kind, step, self._more)
 
     def _submit(self) -> None:
         request = self._request()
@@ -141,7 +141,7 @@ class SimulationController(QObject):
         if draft is not None:
             reading = reading or reading_of_draft(request, draft)
             self._draft_rows.record_time(perf_counter() - begun)
-            report(Picture.of(draft, request.whose, request, reading))
+            report(Picture.of(draft, request.picture_kind, request, reading))
             report.wait_for_paint(_LONGEST_PAINT)
             reading, heartbeat = None, report.give_way
             report.give_way(self.ages.rest(_REST_TIME))
@@ -152,7 +152,7 @@ class SimulationController(QObject):
         frame = render_with(request.scene, request.settings, heartbeat=heartbeat, planned=planned)
         if reading is not None:
             reading = replace(reading, has_picture=True)
-        report(Picture.of(frame, request.whose, request, reading))
+        report(Picture.of(frame, request.picture_kind, request, reading))
         report.wait_for_paint(_LONGEST_PAINT)
         if reading is not None:
             report.give_way()  # the scene's verdict is there: a later scene comes first

@@ -118,14 +118,14 @@ class PictureView:
     corners: FloatArray
     smallest: ByteArray  # the same pixels, or a copy of fewer
 
-    def seen_by(self, _whose: str) -> Self:
+    def seen_by(self, _picture_kind: str) -> Self:
         return self
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Picture:
     frame: Frame
-    whose: str  # whose picture of the frame it is, the ``"camera"``'s or the ``"receiver"``'s
+    picture_kind: str  # one of PICTURES
     # The picture at a half of its size, at a quarter and so on; each pixel is the
     # mean of four
     halves: tuple[ByteArray, ...]
@@ -134,11 +134,11 @@ class Picture:
     # What is shown of the same scene together with the picture, where that is known already
     reading: Reading | None = None
 
-    def seen_by(self, whose: str) -> PictureView:
+    def seen_by(self, picture_kind: str) -> PictureView:
         """Return the pixels of the camera's picture or of the receiver's."""
         frame, camera = self.frame, self.frame.scene.camera
-        image = frame.picture(whose)
-        smallest = self.halves[-1] if self.halves and self.whose == whose else image
+        image = frame.picture(picture_kind)
+        smallest = self.halves[-1] if self.halves and self.picture_kind == picture_kind else image
         return PictureView(
             image, frame.rows, (camera.rows, camera.columns), frame.corners, smallest
         )
@@ -147,12 +147,12 @@ class Picture:
     def of(
         cls,
         frame: Frame,
-        whose: str,
+        picture_kind: str,
         request: SimulationRequest | None = None,
         reading: Reading | None = None,
     ) -> Self:
         """Compute the reduced copies; slow, for a background thread."""
-        return cls(frame, whose, halves_of(frame.picture(whose)), request, reading)
+        return cls(frame, picture_kind, halves_of(frame.picture(picture_kind)), request, reading)
 
 
 def halves_of(pixels: ByteArray) -> tuple[ByteArray, ...]:

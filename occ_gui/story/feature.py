@@ -41,7 +41,7 @@ class StoryPane(PiecesPane):
         self._plugins = QTimer(self, singleShot=True)
         self._plugins.setInterval(_REST_MS)
         self._plugins.timeout.connect(self._offer)
-        view.whose.chosen.connect(self._choose_picture)
+        view.picture_kind.chosen.connect(self._choose_picture)
         view.decoder.chosen.connect(self.choose_decoder)
         view.verdict.step_chosen.connect(self._take)
         once = Qt.ConnectionType.SingleShotConnection
@@ -59,9 +59,9 @@ class StoryPane(PiecesPane):
         store = self._scenes.store
         store.put(replace(store.workspace, decoder=name))
 
-    def _choose_picture(self, whose: str) -> None:
-        store, is_enhanced = self._scenes.store, whose == "receiver"
-        store.put(replace(store.workspace, whose=whose, is_enhanced=is_enhanced))
+    def _choose_picture(self, picture_kind: str) -> None:
+        store, is_enhanced = self._scenes.store, picture_kind == "receiver"
+        store.put(replace(store.workspace, picture_kind=picture_kind, is_enhanced=is_enhanced))
 
     def _take(self, step: Step) -> None:
         if step.decoder:
@@ -77,9 +77,9 @@ def story(
 
     def part(workspace: Workspace, results: Results) -> tuple[object, ...]:
         # A photo's profile is drawn where both are enhanced, or neither is.
-        agree = workspace.is_enhanced == (workspace.whose == "receiver")
+        agree = workspace.is_enhanced == (workspace.picture_kind == "receiver")
         photo = results.photo_profile if agree else None
-        return workspace.decoder, workspace.whose, results.reading, results.picture, photo
+        return workspace.decoder, workspace.picture_kind, results.reading, results.picture, photo
 
     return Feature(
         name="story",

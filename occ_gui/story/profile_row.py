@@ -44,7 +44,7 @@ class ProfileRow(StoryRow):
         self._reading: ColumnView | None = None
         self._decoded: DecodeResult | None = None
         self._photo: PhotoProfile | None = None
-        self._whose = "camera"
+        self._picture_kind = "camera"
         self._drawn_from: tuple[object, ...] = ()
         self._top = 255.0
         self.threshold: tuple[float, float] | None = None
@@ -58,19 +58,19 @@ class ProfileRow(StoryRow):
         self._photo = photo
         self._fit()
 
-    def choose_picture(self, whose: str) -> None:
-        self._whose = whose
+    def choose_picture(self, picture_kind: str) -> None:
+        self._picture_kind = picture_kind
         self._fit()
 
     @property
     def levels(self) -> FloatArray | None:
-        is_enhanced = self._whose != "camera"
+        is_enhanced = self._picture_kind != "camera"
         return None if self._reading is None else self._reading.levels(enhanced=is_enhanced)
 
     @property
     def band(self) -> FloatArray | None:
         """The band model's level of each column, None where it is undefined."""
-        is_enhanced = self._whose != "camera"
+        is_enhanced = self._picture_kind != "camera"
         return None if self._reading is None else self._reading.band_levels(enhanced=is_enhanced)
 
     @property
@@ -96,7 +96,7 @@ class ProfileRow(StoryRow):
         if levels is None or decoded is None or decoded.threshold is None:
             return None
         found = threshold_levels(levels, decoded)
-        if found is None or self._whose == "camera":
+        if found is None or self._picture_kind == "camera":
             return found
         return decoded.threshold, decoded.threshold
 

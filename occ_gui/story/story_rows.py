@@ -47,7 +47,7 @@ class StoryRows(QWidget):
         self._reading: ColumnView | None = None
         self._picture: Picture | PictureView | None = None
         self._decoder = PAPER_DECODER
-        self._whose = PICTURES[0]
+        self._picture_kind = PICTURES[0]
         self.range = RANGES[0]
         self._held: float | None = None
         self.ranges: dict[str, QPushButton] = {}  # buttons that choose the range, of RANGES
@@ -128,7 +128,7 @@ class StoryRows(QWidget):
 
     def show_picture(self, picture: Picture | PictureView) -> None:
         self._picture = picture
-        self.stripes.show_picture(picture.seen_by(self._whose))
+        self.stripes.show_picture(picture.seen_by(self._picture_kind))
 
     def show_reading(self, reading: ColumnView) -> None:
         was_seen = self._sees_chosen()
@@ -156,11 +156,11 @@ class StoryRows(QWidget):
         self._show_decoded()
         self._read_out()
 
-    def choose_picture(self, whose: str) -> None:
-        self._whose = whose
-        self.profile.choose_picture(whose)
+    def choose_picture(self, picture_kind: str) -> None:
+        self._picture_kind = picture_kind
+        self.profile.choose_picture(picture_kind)
         if self._picture is not None:
-            self.stripes.show_picture(self._picture.seen_by(whose))
+            self.stripes.show_picture(self._picture.seen_by(picture_kind))
         self._show_legend()
         self._read_out()
 

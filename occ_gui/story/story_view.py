@@ -62,7 +62,7 @@ class StoryView(QWidget):
             QHBoxLayout(), 4, (_Held(self.readout), 1), self.decoder,
             (self.whole, 0, Qt.AlignmentFlag.AlignRight), margins=0,
         )  # fmt: skip
-        for control in (self.whose, *self.rows.ranges.values()):
+        for control in (self.picture_kind, *self.rows.ranges.values()):
             self.rows.controls.addWidget(control)
         self._layout = filled(
             QVBoxLayout(self), self.verdict, line, self.measured, (self._pages, 1),
@@ -79,7 +79,7 @@ class StoryView(QWidget):
             "Decoder", "Whose verdict, threshold, chips and bits are shown.", {}, is_fixed=True
         )
         self.offer(decoders)
-        self.whose = KeyedComboBox(
+        self.picture_kind = KeyedComboBox(
             "Whose picture and profile are shown",
             "Camera: picture and profile as the camera gives them.\n"
             "Receiver: with the contrast enhanced, as they are decoded.",
@@ -141,9 +141,9 @@ class StoryView(QWidget):
         self.verdict.choose_decoder(name)
         self.rows.choose_decoder(name)
 
-    def choose_picture(self, whose: str) -> None:
-        self.whose.show_key(whose)
-        self.rows.choose_picture(whose)
+    def choose_picture(self, picture_kind: str) -> None:
+        self.picture_kind.show_key(picture_kind)
+        self.rows.choose_picture(picture_kind)
 
     def switch_measuring(self, on: bool) -> None:
         if on:

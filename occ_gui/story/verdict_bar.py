@@ -217,8 +217,8 @@ class VerdictBar(StateBar):
             verdict = f"{self._run}: {verdict[:1].lower()}{verdict[1:]}"
         if not self._is_named:
             return f"Earlier scene: {verdict}" if self._is_outdated else verdict
-        whose = "Simulation of the earlier scene" if self._is_outdated else "Simulation"
-        return f"{whose}: {verdict[:1].lower()}{verdict[1:]}"
+        subject = "Simulation of the earlier scene" if self._is_outdated else "Simulation"
+        return f"{subject}: {verdict[:1].lower()}{verdict[1:]}"
 
     def _why(self, verdict: Verdict, reading: Reading) -> list[str]:
         if verdict.explanation:

@@ -16,7 +16,7 @@ class SimulationRequest:
     scene: Scene
     settings: SimulationSettings
     # Two requests that differ only in what follows have the same results.
-    whose: str = field(default=PICTURES[0], compare=False)
+    picture_kind: str = field(default=PICTURES[0], compare=False)
     # A draft simulates one of this many rows of the picture
     draft_step: int = field(default=LEAST_DRAFT_STEP, compare=False)
     more: tuple[str, ...] = field(default=(), compare=False)

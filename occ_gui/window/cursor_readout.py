@@ -64,7 +64,7 @@ def follow_pictures(image: ImageView, show: Callable[[str], None]) -> None:
         levels = image.levels_at(column, row)
         if levels is None:
             return ""
-        of_both = ", ".join(f"{whose} level {level}" for whose, level in levels.items())
+        of_both = ", ".join(f"{kind} level {level}" for kind, level in levels.items())
         return f"Simulation: column {column}, row {row}, {of_both}"
 
     def in_photo(point: QPointF) -> str:

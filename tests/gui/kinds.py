@@ -50,8 +50,8 @@ def show_widget(qtbot: QtBot, widget: Widget, width: int = 0, height: int = 0) -
 @lru_cache(maxsize=4)  # pictures take much memory
 def _simulated(asked: bytes) -> Snapshot:
     snapshot = simulate(*pickle.loads(asked))
-    for whose in PICTURES:  # others show them, too
-        snapshot.frame.picture(whose).flags.writeable = False
+    for picture_kind in PICTURES:  # others show them, too
+        snapshot.frame.picture(picture_kind).flags.writeable = False
     return snapshot
 
 

@@ -120,7 +120,9 @@ class PaneBench:
         snapshot = simulated(workspace.scene, workspace.settings)
         for hear in self.hear_first:
             hear(snapshot)
-        self.board.show_picture(Picture.of(snapshot.frame, workspace.whose, snapshot.request))
+        self.board.show_picture(
+            Picture.of(snapshot.frame, workspace.picture_kind, snapshot.request)
+        )
         self.board.show_reading(snapshot)
         self.board.show_snapshot(snapshot)
         return snapshot

@@ -239,7 +239,7 @@ def test_every_class_has_a_case() -> None:
 def picture_stays(application: Application, last: Snapshot) -> bool:
     """Whether the picture shown is the last one that could be made, by a sample of its pixels."""
     image = application.view("picture")
-    picture = last.frame.picture(image.whose)
+    picture = last.frame.picture(image.picture_kind)
     rows, columns = picture.shape
     places = [(row, column) for row in range(0, rows, 19) for column in range(0, columns, 23)]
     return all(

@@ -97,7 +97,9 @@ def test_a_crash_during_a_lesson_leaves_the_users_own_state(
     session.begin(SessionFile(tmp_path), is_scene_asked=True)
     application.settings.set_tolerance(7.0)
     store = application.store.store
-    store.put(replace(store.workspace, decoder="matched", whose="receiver", is_enhanced=True))
+    store.put(
+        replace(store.workspace, decoder="matched", picture_kind="receiver", is_enhanced=True)
+    )
     application.files.open_photo(photo_file)
     user.wait_until_idle()
     before = application.store.store.workspace
@@ -112,7 +114,11 @@ def test_a_crash_during_a_lesson_leaves_the_users_own_state(
     assert record["settings"] == asdict(before.settings)
     assert application.store.store.workspace.decoder == "threshold"
     shown = record["view"]
-    assert (shown["decoder"], shown["whose"], shown["is_enhanced"]) == ("matched", "receiver", True)
+    assert (shown["decoder"], shown["picture_kind"], shown["is_enhanced"]) == (
+        "matched",
+        "receiver",
+        True,
+    )
     assert record["photo"]["path"] == str(photo_file)
     guide.step.all.click()
     user.wait_until_idle()

@@ -109,13 +109,13 @@ def test_the_receivers_picture_is_chosen_in_all_panes(application: Application) 
         application.view("picture"),
         application.view("profile"),
     )
-    story.whose.chosen.emit("receiver")
-    assert (story.whose.key(), image.whose) == ("receiver", "receiver")
+    story.picture_kind.chosen.emit("receiver")
+    assert (story.picture_kind.key(), image.picture_kind) == ("receiver", "receiver")
     assert profile.enhanced.isChecked()
     reading = not_none(profile.reading)
     assert story.rows.profile.levels is reading.signal
     image.choose_picture("camera")
-    assert story.whose.key() == "camera"
+    assert story.picture_kind.key() == "camera"
     assert story.rows.profile.levels is reading.profile
     profile.enhanced.click()
     assert not application.store.store.workspace.is_enhanced

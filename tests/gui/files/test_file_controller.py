@@ -139,9 +139,9 @@ def test_a_picture_that_is_waited_for_is_the_one_chosen_at_first(
 ) -> None:
     path = tmp_path / "picture.png"
     store = bench.store.store
-    store.put(replace(store.workspace, whose="receiver"))
+    store.put(replace(store.workspace, picture_kind="receiver"))
     bench.files.save_picture(path)
-    store.put(replace(store.workspace, whose="camera"))
+    store.put(replace(store.workspace, picture_kind="camera"))
     assert bench.status_message == []
     assert list(tmp_path.iterdir()) == []
     shown = snapshot_of()

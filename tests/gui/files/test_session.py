@@ -133,7 +133,7 @@ def test_scene_settings_photo_options_and_layouts_are_there_again_and_layouts_ca
         assert application.board.results.photo is not None
         picture = application.view("picture")
         assert picture.mode.key() == "blend"
-        assert picture.switch.key() == picture.whose == "receiver"
+        assert picture.switch.key() == picture.picture_kind == "receiver"
         assert application.options.brightness.is_on
         assert application.options.theme.theme == "dark"
         application.options.theme.choose("system")

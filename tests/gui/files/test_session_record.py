@@ -127,10 +127,11 @@ def test_a_file_of_the_former_format_is_read() -> None:
     )
 
 
-def test_a_name_of_a_former_version_is_read() -> None:
-    workspace = everything_set()
+def test_names_of_a_former_version_are_read() -> None:
+    workspace = replace(everything_set(), picture_kind="receiver")
     record: Any = make_record(KeptSession(workspace))
     record["photo"]["reading"] = record["photo"].pop("load_options")
+    record["view"]["whose"] = record["view"].pop("picture_kind")
     assert not_none(read_session(record)).workspace == workspace
 
 

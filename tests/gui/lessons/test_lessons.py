@@ -186,7 +186,7 @@ def test_the_list_follows_the_theme(guide: LessonView) -> None:
 def shown(workspace: Workspace) -> tuple[object, ...]:
     """What a step's question may be about, beside the scene and the photo."""
     return (
-        workspace.settings, workspace.decoder, workspace.whose, workspace.is_enhanced,
+        workspace.settings, workspace.decoder, workspace.picture_kind, workspace.is_enhanced,
         workspace.overlay, workspace.frame_rate,
     )  # fmt: skip
 
@@ -199,7 +199,7 @@ def test_each_step_sets_what_it_asks_about_and_its_end_gives_it_back(
     room = RoomChoice("mine.toml", small_room(), None, 0.03)
     mine = replace(
         store.workspace, settings=replace(FIRST_SETTINGS, tolerance=7.0), decoder="matched",
-        whose="receiver", is_enhanced=True, overlay="split", frame_rate=24.0, room=room,
+        picture_kind="receiver", is_enhanced=True, overlay="split", frame_rate=24.0, room=room,
     )  # fmt: skip
     store.put(mine)
     guide.list.choices[number].click()
@@ -210,7 +210,9 @@ def test_each_step_sets_what_it_asks_about_and_its_end_gives_it_back(
         assert store.workspace.room == (first.room if step.pane == "room" else room)
         # What is tried meanwhile is the lesson's, and not the user's.
         store.put(
-            replace(store.workspace, decoder="sequence", whose="receiver", overlay="difference")
+            replace(
+                store.workspace, decoder="sequence", picture_kind="receiver", overlay="difference"
+            )
         )
         guide.step.next.click()
     bench.wait_until_idle()
@@ -228,7 +230,9 @@ def test_each_step_sets_what_it_asks_about_and_its_end_gives_it_back(
 def test_undo_within_a_step_loses_nothing_of_the_users(
     bench: Lessons, guide: LessonView, small_scene: Scene
 ) -> None:
-    mine = replace(bench.store.workspace, decoder="matched", whose="receiver", is_enhanced=True)
+    mine = replace(
+        bench.store.workspace, decoder="matched", picture_kind="receiver", is_enhanced=True
+    )
     bench.store.put(mine)
     guide.list.choices[1].click()
     bench.wait_until_idle()

@@ -125,8 +125,8 @@ def pane_with_wipe(qtbot: QtBot) -> tuple[PicturePane, BeforeWipe]:
 def flat(snapshot: Snapshot, level: int) -> Snapshot:
     """Paint the pictures of a copy of a snapshot all over with one level."""
     painted = deepcopy(snapshot)
-    for whose in PICTURES:
-        painted.frame.picture(whose)[...] = level
+    for picture_kind in PICTURES:
+        painted.frame.picture(picture_kind)[...] = level
     return painted
 
 

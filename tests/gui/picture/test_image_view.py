@@ -276,12 +276,14 @@ def test_every_way_of_showing_a_photo_names_the_picture(
     view.resize(1600, 400)
     view.show_snapshot(snapshot_of())
     view.show_photo(photo)
-    for whose in PICTURES:
-        view.choose_picture(whose)
-        assert view.switch.key() == whose, "side by side the choice beside the caption names it"
+    for picture_kind in PICTURES:
+        view.choose_picture(picture_kind)
+        assert view.switch.key() == picture_kind, (
+            "side by side the choice beside the caption names it"
+        )
         for mode in ("blend", "split", "difference"):
             view.set_mode(mode)
-            assert f"{whose}'s picture" in view.simulation.caption.toolTip().lower()
+            assert f"{picture_kind}'s picture" in view.simulation.caption.toolTip().lower()
 
 
 class Bench(PaneBench):
@@ -305,8 +307,8 @@ def test_the_pointer_reads_the_levels_of_both_pictures(bench: Bench) -> None:
     view = pane.graphics
     middle = QPointF(frame.image.shape[1] / 2, frame.image.shape[0] / 2)
     place = QPoint(view.mapFromScene(pane.box.mapViewToScene(middle)))
-    for whose in PICTURES:
-        bench.picture.choose_picture(whose)
+    for picture_kind in PICTURES:
+        bench.picture.choose_picture(picture_kind)
         for right in (0, 20, 40):  # faster than a hand: where it stops is read, too
             point = place + QPoint(right, 0)
             move_mouse(view.viewport(), point)
@@ -333,12 +335,12 @@ def test_the_mouse_leaves_a_view_whose_label_went_first(bench: Bench) -> None:
 
 def test_an_export_draws_and_names_the_one_that_is_shown(bench: Bench, tmp_path: Path) -> None:
     means = []
-    for whose in PICTURES:
-        bench.picture.picture_chosen.emit(whose)
-        path = tmp_path / f"{whose}.csv"
+    for picture_kind in PICTURES:
+        bench.picture.picture_chosen.emit(picture_kind)
+        path = tmp_path / f"{picture_kind}.csv"
         bench.export("picture", path)
         lines = path.read_text(encoding="utf-8").splitlines()
-        assert f"{whose.title()}'s picture" in lines[0]
+        assert f"{picture_kind.title()}'s picture" in lines[0]
         rows = list(csv.reader(line for line in lines if not line.startswith("#")))
         means.append(np.mean([float(cell) for row in rows[1:] for cell in row[1:]]))
     frame = bench.frame

@@ -71,7 +71,7 @@ def test_a_result_follows_its_request_and_goes_with_it(bench: Bench) -> None:
     bench.choose("other")
     bench.wait()
     assert (bench.result, bench.told[-1]) == ("OTHER", "OTHER")
-    bench.store.put(replace(bench.store.workspace, whose="receiver"))
+    bench.store.put(replace(bench.store.workspace, picture_kind="receiver"))
     told = list(bench.told)
     bench.board.put(replace(bench.board.results))
     assert (bench.asked, bench.told) == (["threshold", "other"], told)

@@ -185,19 +185,19 @@ def test_the_version_is_that_of_the_package(capsys: pytest.CaptureFixture[str]) 
     assert (ended.value.code, capsys.readouterr().out) == (0, f"occ-model {occ.__version__}\n")
 
 
-@pytest.mark.parametrize("whose", PICTURES)
+@pytest.mark.parametrize("picture_kind", PICTURES)
 def test_the_picture_asked_for_is_written_and_named(
-    command: Command, tmp_path: Path, whose: str
+    command: Command, tmp_path: Path, picture_kind: str
 ) -> None:
     path = tmp_path / "picture.png"
     settings = (*SMALL, "--set", "switching_frequency=6kHz", "--set", " exposure_time = 68 us")
-    words = ("--preset", "tablet-61us", *settings, "--picture", whose, "--out", path)
-    assert f"{whose}'s picture" in command("render", *words).out
+    words = ("--preset", "tablet-61us", *settings, "--picture", picture_kind, "--out", path)
+    assert f"{picture_kind}'s picture" in command("render", *words).out
     changes = {"rows": 300, "switching_frequency": 6e3, "exposure_time": 68e-6}
     frame = occ.render(occ.load_preset("tablet-61us").replace(**changes))
     with Image.open(path) as picture:
-        assert np.array_equal(np.asarray(picture), frame.picture(whose))
-        assert picture.info["Description"] == frame.picture_title(whose)
+        assert np.array_equal(np.asarray(picture), frame.picture(picture_kind))
+        assert picture.info["Description"] == frame.picture_title(picture_kind)
 
 
 _LAMP = (

@@ -141,11 +141,11 @@ def test_the_exposure_of_a_receivers_equalized_picture_is_doubtful(tmp_path: Pat
     scene = occ.load_preset("phone-136us").replace(rows=200, columns=1600)
     frame = occ.render(scene)
     photos = {}
-    for ending, whose in itertools.product(("png", "jpg", "tif"), ("camera", "receiver")):
-        path = tmp_path / f"{whose}.{ending}"
-        write_image(path, frame.picture(whose), frame.picture_title(whose))
+    for ending, picture_kind in itertools.product(("png", "jpg", "tif"), ("camera", "receiver")):
+        path = tmp_path / f"{picture_kind}.{ending}"
+        write_image(path, frame.picture(picture_kind), frame.picture_title(picture_kind))
         photo = photos[path.name] = occ.load_photo(path, "columns")
-        assert photo.enhancement == (None if whose == "camera" else "equalization")
+        assert photo.enhancement == (None if picture_kind == "camera" else "equalization")
     verdicts = []
     for name in ("camera.png", "receiver.png"):
         match = occ.match_photo(photos[name], scene, sent="scene")

@@ -25,7 +25,7 @@ _AT_HANDLE = 3  # pixels on each side of the handle with the colour of the prese
 
 
 @dataclass(frozen=True, slots=True)
-class OwnRate:
+class SceneRate:
     """The success rate of the present scene.
 
     The fraction of the bits that are read correctly, from 0 to 1, with its 95 % interval, the
@@ -46,7 +46,7 @@ class SliderStrip(QWidget):
         super().__init__()
         self.slider = slider
         self.fractions: tuple[float | None, ...] = ()
-        self.present: OwnRate | None = None  # the success rate at the scene's own value
+        self.present: SceneRate | None = None  # the success rate at the scene's own value
         slider.valueChanged.connect(self.update)
         self._is_outdated = self._is_faded = False
         self._fading = QTimer(self, singleShot=True)
@@ -86,7 +86,7 @@ class SliderStrip(QWidget):
         self._explain()
         self.update()
 
-    def show_present(self, rate: OwnRate | None) -> None:
+    def show_present(self, rate: SceneRate | None) -> None:
         """Show the rate of the present scene, at the handle; None if unknown."""
         if rate != self.present:
             self.present = rate
@@ -221,6 +221,6 @@ class SliderStrips(QObject):
         if self.legend.parentWidget() is not None:
             self.legend.setVisible(shown)
 
-    def show_present(self, rate: OwnRate | None) -> None:
+    def show_present(self, rate: SceneRate | None) -> None:
         for strip in self.strips.values():
             strip.show_present(rate)

@@ -9,7 +9,7 @@ from PySide6.QtCore import QObject, QTimer, Signal
 from occ_gui.background.result_age import PAUSE
 from occ_gui.background.signals import JobChannel
 from occ_gui.detection_map.rate_map import lattice
-from occ_gui.detection_map.slider_strip import IMAGES, OwnRate, SliderStrips
+from occ_gui.detection_map.slider_strip import IMAGES, SceneRate, SliderStrips
 from occ_gui.detection_map.worker import (
     UNSEEN_PARAMETERS,
     StripPoints,
@@ -195,24 +195,24 @@ def _nearest(fractions: Mapping[int, float | None], place: int) -> float | None:
     return fractions.get(round(place / STRIDES[0]) * STRIDES[0])
 
 
-OWN_IMAGES = 20  # pictures from which the rate is computed, as many as for the limits
-OWN_RANK = 1  # after the first points of the map, before all else
+SCENE_IMAGES = 20  # pictures from which the rate is computed, as many as for the limits
+SCENE_RANK = 1  # after the first points of the map, before all else
 
 
-class OwnRateController(RateController):
+class SceneRateController(RateController):
     """Measures the rate of the present scene once it no longer changes, while it is visible."""
 
-    changed = Signal(object)  # the rate, an :class:`OwnRate`; None if unknown
+    changed = Signal(object)  # the rate, an :class:`SceneRate`; None if unknown
 
     def __init__(self, scenes: SceneStore, channel: JobChannel) -> None:
         super().__init__(scenes, channel)
-        self.rate: OwnRate | None = None
+        self.rate: SceneRate | None = None
 
     def _forget(self) -> None:
         super()._forget()
         self._show(None)
 
-    def _show(self, rate: OwnRate | None) -> None:
+    def _show(self, rate: SceneRate | None) -> None:
         if rate != self.rate:
             self.rate = rate
             self.changed.emit(rate)
@@ -229,23 +229,23 @@ class OwnRateController(RateController):
 
     def _measure(self) -> None:
         if self._asked is not None:
-            self._channel.put(self._asked, iter([own_rate_job(self._asked)]))
+            self._channel.put(self._asked, iter([scene_rate_job(self._asked)]))
 
     def _take(self, request: RateRequest, results: list[MeasuredPoints]) -> None:
         if request == self._asked and results:
-            self._show(own_rate(results[-1]))
+            self._show(scene_rate(results[-1]))
 
 
-def own_rate_job(request: RateRequest) -> Job:
-    settings = rate_settings(request.settings, OWN_IMAGES, (request.decoder,), True)
-    return Job(measure_points, (request.scene, settings, ((0, {}),)), rank=OWN_RANK)
+def scene_rate_job(request: RateRequest) -> Job:
+    settings = rate_settings(request.settings, SCENE_IMAGES, (request.decoder,), True)
+    return Job(measure_points, (request.scene, settings, ((0, {}),)), rank=SCENE_RANK)
 
 
-def own_rate(measured: MeasuredPoints) -> OwnRate | None:
+def scene_rate(measured: MeasuredPoints) -> SceneRate | None:
     """Return the rate of a single point; None if it is refused or a plug-in has failed."""
     (point,) = measured.points
     if point.note:
         return None
     low, high = interval_of_pictures(point.right[0], point.sent, measured.images)
     fraction, (whole,) = point.right[0] / point.sent, point.whole
-    return OwnRate(fraction, low / 100.0, high / 100.0, measured.images, whole)
+    return SceneRate(fraction, low / 100.0, high / 100.0, measured.images, whole)

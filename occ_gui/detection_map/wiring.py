@@ -12,14 +12,14 @@ from occ_gui.scene.scene_store import SceneStore
 if TYPE_CHECKING:
     from occ_gui.background.signals import JobChannel, WorkQueue
     from occ_gui.detection_map.slider_strip_controller import (
-        OwnRateController,
+        SceneRateController,
         SliderStripController,
     )
     from occ_model.parallel.job import Workers
 
 PROCESSES = 2
 
-CHANNELS = ("map", "advice", "bench", "most bits", "strips", "own rate")
+CHANNELS = ("map", "advice", "bench", "most bits", "strips", "scene rate")
 """Users of the worker processes, each with a channel of its own."""
 
 NICENESS = 10  # of the worker processes, so that the window comes first
@@ -44,7 +44,7 @@ class BackgroundRates(QObject):
     """
 
     rate_changed = Signal(object)
-    """The rate of the present scene, an :class:`OwnRate`; None if unknown."""
+    """The rate of the present scene, an :class:`SceneRate`; None if unknown."""
 
     def __init__(
         self, scenes: SceneStore, strips: SliderStrips, may_begin: Callable[[], bool]
@@ -74,10 +74,10 @@ class BackgroundRates(QObject):
         return SliderStripController(self._scenes, self.channel("strips"), self._strips)
 
     @cached_property
-    def own_rate(self) -> "OwnRateController":
-        from occ_gui.detection_map.slider_strip_controller import OwnRateController
+    def scene_rate(self) -> "SceneRateController":
+        from occ_gui.detection_map.slider_strip_controller import SceneRateController
 
-        own = OwnRateController(self._scenes, self.channel("own rate"))
+        own = SceneRateController(self._scenes, self.channel("scene rate"))
         own.changed.connect(self._strips.show_present)
         own.changed.connect(self.rate_changed)
         return own
@@ -86,8 +86,8 @@ class BackgroundRates(QObject):
     def is_idle(self) -> bool:
         if self._start.isActive():
             return False
-        return "own_rate" not in vars(self) or (
-            self.slider_strips.is_idle and self.own_rate.is_idle
+        return "scene_rate" not in vars(self) or (
+            self.slider_strips.is_idle and self.scene_rate.is_idle
         )
 
     def _begin(self) -> None:
@@ -100,14 +100,14 @@ class BackgroundRates(QObject):
 
     def _set_seen(self, seen: bool) -> None:
         self.slider_strips.set_seen(seen)
-        self.own_rate.set_seen(seen)
+        self.scene_rate.set_seen(seen)
 
     def _see_strips(self, seen: bool) -> None:
         if seen:
             self._start.start()
             return
         self._start.stop()
-        if "own_rate" in vars(self):
+        if "scene_rate" in vars(self):
             self._set_seen(False)
 
     def stop(self) -> None:

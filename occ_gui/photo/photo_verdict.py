@@ -7,8 +7,8 @@ from PySide6.QtWidgets import QHBoxLayout, QPushButton, QSizePolicy, QWidget
 
 from occ_gui.photo.match_figures import condition_of
 from occ_gui.photo.match_result import STATES
+from occ_gui.widgets.badge_row import Badge
 from occ_gui.widgets.building import filled, push_button
-from occ_gui.widgets.chip_row import Chip
 from occ_gui.widgets.state_bar import StateBar
 from occ_gui.widgets.state_look import State
 from occ_model.errors import counted, one_line
@@ -96,7 +96,7 @@ class PhotoVerdictBar(StateBar):
         self._outdated = ""
         self._is_applied = True
         self._certain: Mapping[str, float] = {}
-        self._simulation: tuple[Chip, ...] = ()
+        self._simulation: tuple[Badge, ...] = ()
         self._write()
 
     def show_photo(self, photo: Photo | None) -> None:
@@ -138,19 +138,19 @@ class PhotoVerdictBar(StateBar):
 
     def show_simulation(self, state: State, verdict: str) -> None:
         meaning = "What was read from the simulated picture."
-        chips = (Chip("simulation", verdict, meaning, state),)
-        if chips != self._simulation:
-            self._simulation = chips
+        badges = (Badge("simulation", verdict, meaning, state),)
+        if badges != self._simulation:
+            self._simulation = badges
             self._write()
 
     def _write(self) -> None:
         state, (title, *sentences) = self._judge()
-        chips = self._simulation
+        badges = self._simulation
         is_present = self._match is not None and not self._outdated and not self._why_not
         if is_present and not self._is_applied:
             meaning = "The simulation is of another scene. Apply the match to simulate its scene."
-            chips = (Chip("applied", "not applied", meaning, State.DOUBTFUL), *chips)
-        self.show_state(state, title, *sentences, chips=chips)
+            badges = (Badge("applied", "not applied", meaning, State.DOUBTFUL), *badges)
+        self.show_state(state, title, *sentences, badges=badges)
         is_plain = PLAIN_STRIPES in self._why_not
         self.offer_step("It sends a &square wave" if is_plain else "")
 

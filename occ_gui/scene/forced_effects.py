@@ -7,8 +7,8 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QWidget
 
 from occ_gui.core.workspace import FIRST_SETTINGS
+from occ_gui.widgets.badge_row import Badge
 from occ_gui.widgets.building import filled, paragraph, push_button
-from occ_gui.widgets.chip_row import Chip
 from occ_gui.widgets.state_look import State
 from occ_model.errors import counted
 from occ_model.scene.simulation_settings import SimulationSettings, unit_of
@@ -45,7 +45,7 @@ def _tolerance_text(settings: SimulationSettings) -> str:
     return amount if observable == FIRST_SETTINGS.observable else f"{amount} of the {observable}"
 
 
-def accuracy_chip(settings: SimulationSettings, labels: Mapping[str, str]) -> Chip | None:
+def accuracy_badge(settings: SimulationSettings, labels: Mapping[str, str]) -> Badge | None:
     """Return what is always to be seen of the accuracy; None where nothing is left out by hand."""
     by_hand, is_reused = set_by_hand(settings, labels), settings.noise == "reused"
     count = len(settings.force)
@@ -63,7 +63,7 @@ def accuracy_chip(settings: SimulationSettings, labels: Mapping[str, str]) -> Ch
         )
     meanings.append("The mode Effects shows what that changes.")
     state = State.DOUBTFUL if by_hand else State.NEUTRAL
-    return Chip("accuracy", text, "\n".join(meanings), state)
+    return Badge("accuracy", text, "\n".join(meanings), state)
 
 
 class ForcedEffects(QWidget):

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 from PySide6.QtCore import Signal
 
-from occ_gui.detection_map.slider_strip import OwnRate
+from occ_gui.detection_map.slider_strip import SceneRate
 from occ_gui.simulation.snapshot import Reading
 from occ_gui.simulation.verdict import (
     Verdict,
@@ -17,7 +17,7 @@ from occ_gui.simulation.verdict import (
     verdict_on,
 )
 from occ_gui.story.column_facts import READ_BY_ALL, Step, chips_in_exposure
-from occ_gui.widgets.chip_row import Chip
+from occ_gui.widgets.badge_row import Badge
 from occ_gui.widgets.state_bar import StateBar
 from occ_gui.widgets.state_look import State
 from occ_model.results.decoding import PAPER_DECODER
@@ -25,36 +25,36 @@ from occ_model.scene.simulation_settings import TOLERANCE, unit_of
 from occ_model.scene.units import SECOND
 from occ_model.simulation.overexposure import overexposed_text
 
-_COMPUTING = "computing"  # the chip of results that are still to come
+_COMPUTING = "computing"  # key of the badge for results that are still to come
 _READS = 0.99  # fraction of the bits from which a decoder counts as reading
 
 
-def chips_of(reading: Reading, decoder: str) -> Iterator[Chip]:
+def badges_of(reading: Reading, decoder: str) -> Iterator[Badge]:
     """Yield what holds for the results besides the verdict on one decoder's."""
     if not reading.has_picture:  # which has the last word
         meaning = "Read from the column profile or a draft; the exact picture is computed."
-        yield Chip(_COMPUTING, "picture follows", meaning, State.WAITING, stays=True)
+        yield Badge(_COMPUTING, "picture follows", meaning, State.WAITING, stays=True)
     if reading.overexposed:
         text = f"overexposed: {100.0 * reading.overexposed:.2g} %"
-        yield Chip("overexposed", text, overexposed_text(reading.overexposed), State.DOUBTFUL)
+        yield Badge("overexposed", text, overexposed_text(reading.overexposed), State.DOUBTFUL)
     scene = reading.scene
     ratio = scene.camera.exposure_time / scene.transmitter.switching_period
     meaning = (
         "The exposure time over the time that a chip lasts. Above 1 no column sees one chip alone."
     )
-    yield Chip("ratio", f"t / t<sub>LED</sub> = {ratio:.3g}", meaning)
+    yield Badge("ratio", f"t / t<sub>LED</sub> = {ratio:.3g}", meaning)
     if reading.band_undefined:
-        yield Chip("band", "band model ends here", reading.band_undefined)
+        yield Badge("band", "band model ends here", reading.band_undefined)
     yield from _other_decoders(reading, decoder)
     if reading.called_for:
-        yield Chip("left out", "effects left out", left_out_in_words(reading), State.DOUBTFUL)
+        yield Badge("left out", "effects left out", left_out_in_words(reading), State.DOUBTFUL)
 
 
-def computing() -> Chip:
-    return Chip(_COMPUTING, "computing", "The results are computed.", State.WAITING, stays=True)
+def computing_badge() -> Badge:
+    return Badge(_COMPUTING, "computing", "The results are computed.", State.WAITING, stays=True)
 
 
-def of_pictures(rate: OwnRate) -> Chip:
+def rate_badge(rate: SceneRate) -> Badge:
     """Return the success rate of pictures that begin at any time."""
     text = f"of {rate.images} pictures: {100.0 * rate.fraction:.3g} % of bits"
     meaning = (
@@ -66,22 +66,22 @@ def of_pictures(rate: OwnRate) -> Chip:
     state = (
         State.GOOD if rate.fraction >= _READS else State.DOUBTFUL if rate.fraction else State.BAD
     )
-    return Chip("rate", text, meaning, state)
+    return Badge("rate", text, meaning, state)
 
 
-def behind_run(chips: tuple[Chip, ...], pictured: str) -> tuple[Chip, ...]:
+def badges_in_run(badges: tuple[Badge, ...], pictured: str) -> tuple[Badge, ...]:
     """Add the value of the picture, where a running slider is ahead of it.
 
     ``pictured``: that value; empty where it is that of the results.
     """
-    rest = tuple(chip for chip in chips if chip.key != _COMPUTING)
+    rest = tuple(badge for badge in badges if badge.key != _COMPUTING)
     if not pictured:
         return rest
     meaning = "The slider runs ahead of the picture, which is still of this value."
-    return (Chip(_COMPUTING, f"picture: {pictured}", meaning, stays=True), *rest)
+    return (Badge(_COMPUTING, f"picture: {pictured}", meaning, stays=True), *rest)
 
 
-def _other_decoders(reading: Reading, decoder: str) -> list[Chip]:
+def _other_decoders(reading: Reading, decoder: str) -> list[Badge]:
     # Others have read it only where they were chosen before.
     tried = [name for name in (*READ_BY_ALL, decoder) if name in reading.results]
     right = [name for name in tried if is_right(reading.results[name], reading.sent)]
@@ -95,7 +95,7 @@ def _other_decoders(reading: Reading, decoder: str) -> list[Chip]:
         "they are chosen."
     )
     text = f"also read: {names}" if decoder in right else f"read by: {names}"
-    return [Chip("others", text, meaning, State.GOOD)]
+    return [Badge("others", text, meaning, State.GOOD)]
 
 
 AVERAGES_LESSON = "2-past-the-shutter"
@@ -118,7 +118,7 @@ class VerdictBar(StateBar):
         self._run = self._pictured = ""
         self._is_outdated = self._is_named = False
         self._failure = ""
-        self._rate: OwnRate | None = None
+        self._rate: SceneRate | None = None
         self.setAccessibleName("Verdict on the code")
         self._write()
 
@@ -151,7 +151,7 @@ class VerdictBar(StateBar):
             self._failure = ""
             self._write()
 
-    def show_rate(self, rate: OwnRate | None) -> None:
+    def show_rate(self, rate: SceneRate | None) -> None:
         """Show the rate of other pictures next to the verdict on this one; None if unknown."""
         self._rate = rate
         self._write()
@@ -172,14 +172,14 @@ class VerdictBar(StateBar):
             return
         result = result_of(reading, self._decoder)
         verdict = verdict_on(result, reading.sent)
-        chips = tuple(chips_of(reading, result.decoder))
+        badges = tuple(badges_of(reading, result.decoder))
         if self._run:
-            chips = behind_run(chips, self._pictured)
+            badges = badges_in_run(badges, self._pictured)
         state = verdict.state
         if self._is_outdated:
-            state, chips = State.WAITING, (computing(), *chips)
+            state, badges = State.WAITING, (computing_badge(), *badges)
         elif self._rate is not None:
-            chips = (of_pictures(self._rate), *chips)
+            badges = (rate_badge(self._rate), *badges)
         cause = cause_in(reading, result)
         if cause is None:
             # What follows from a failure is no title while its cause is searched for.
@@ -193,7 +193,7 @@ class VerdictBar(StateBar):
             heading = self._heading(f"{unread}: {cause.what}")
             why = [f"{cause.why} {symptom(verdict.reason)}".strip(), cause.why, symptom(cause.why)]
             self._offer(None if self._is_outdated else cause.step)
-        self.show_state(state, heading, *why, chips=chips)
+        self.show_state(state, heading, *why, badges=badges)
 
     def _take_step(self) -> None:
         if self._step is not None:

@@ -7,8 +7,8 @@ from PySide6.QtCore import QEvent, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QPainter, QPaintEvent, QPalette, QResizeEvent
 from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
 
+from occ_gui.widgets.badge_row import Badge, BadgeRow
 from occ_gui.widgets.building import push_button
-from occ_gui.widgets.chip_row import Chip, ChipRow
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.guarded_paint import guarded
 from occ_gui.widgets.state_look import State, StateIcon, colours_of
@@ -39,13 +39,13 @@ class StateBar(QWidget):
             textFormat=Qt.TextFormat.PlainText, wordWrap=True, alignment=Qt.AlignmentFlag.AlignTop
         )
         self._lines = 1
-        self.chips = ChipRow()
+        self.badges = BadgeRow()
         tip = "Changes the scene or the decoder in one step."
         self.step = push_button("", tip, self.step_taken, name="A step that helps")
         self.step.hide()
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         for part in (
-            self.icon, self.title, self.sentence, self.wrapped, self.chips, self.step
+            self.icon, self.title, self.sentence, self.wrapped, self.badges, self.step
         ):  # fmt: skip
             part.setParent(self)
 
@@ -56,7 +56,7 @@ class StateBar(QWidget):
         return QSize(_ICON + 4 * _PADDING, self._heights()[0] + self._heights()[1] + 2 * _MARGIN)
 
     def _heights(self) -> tuple[int, int]:
-        title = max(self.title.fontMetrics().height(), self.chips.sizeHint().height()) + 2
+        title = max(self.title.fontMetrics().height(), self.badges.sizeHint().height()) + 2
         metrics = self.sentence.fontMetrics()
         return title, metrics.height() + (self._lines - 1) * metrics.lineSpacing() + 2
 
@@ -73,14 +73,14 @@ class StateBar(QWidget):
         self._take_lines(text, room)
         first, second = self._heights()
         wanted = self.title.fontMetrics().horizontalAdvance(self._title) + 4
-        chips = self.chips.minimumSizeHint().width() if self.chips.chips else 0
-        title = max(0, min(wanted, room - _PADDING - chips))
+        badges = self.badges.minimumSizeHint().width() if self.badges.badges else 0
+        title = max(0, min(wanted, room - _PADDING - badges))
         self.icon.move(_PADDING, (self.height() - _ICON) // 2)
         self.title.setGeometry(left, _MARGIN, title, first)
         beside = left + title + _PADDING
-        height = self.chips.sizeHint().height()
+        height = self.badges.sizeHint().height()
         top = _MARGIN + (first - height) // 2
-        self.chips.setGeometry(beside, top, max(0, left + room - beside), height)
+        self.badges.setGeometry(beside, top, max(0, left + room - beside), height)
         for label in (self.sentence, self.wrapped):
             label.setGeometry(left, _MARGIN + first, room, second)
         # A widget that is not shown yet gets no resize event.
@@ -125,9 +125,9 @@ class StateBar(QWidget):
         return self.icon.state
 
     def show_state(
-        self, state: State, title: str, *sentences: str, chips: Sequence[Chip] = ()
+        self, state: State, title: str, *sentences: str, badges: Sequence[Badge] = ()
     ) -> None:
-        shown = (state, title, sentences, tuple(chips))
+        shown = (state, title, sentences, tuple(badges))
         if shown == self._shown:
             return
         self._shown = shown
@@ -135,7 +135,7 @@ class StateBar(QWidget):
             self.icon.show_state(state)
             self._take_colours()
         self._title, self._sentences = title, sentences or ("",)
-        self.chips.show_chips(chips)
+        self.badges.show_badges(badges)
         self._place()
         self.setAccessibleDescription(f"{title}. {self._sentences[0]}".strip())
         self.changed.emit()
@@ -159,7 +159,7 @@ class StateBar(QWidget):
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
         super().changeEvent(event)
-        if not hasattr(self, "chips"):
+        if not hasattr(self, "badges"):
             return
         if event.type() == QEvent.Type.PaletteChange:
             self._take_colours()

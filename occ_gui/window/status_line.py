@@ -4,7 +4,7 @@ from PySide6.QtCore import QEvent, QObject, QSize
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QLabel, QSizePolicy, QStatusBar
 
-from occ_gui.widgets.chip_row import Chip, ChipLabel
+from occ_gui.widgets.badge_row import Badge, BadgeLabel
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.plain_text import LONGEST_TEXT
 from occ_gui.widgets.work_bar import WorkBar
@@ -41,7 +41,7 @@ class StatusLine(QStatusBar):
         self.filming = WorkBar("How much of the animation has been written")
         self.pointed, self.timing = _Readout(), _Readout()
         # Of a size that no other text takes from it.
-        self.accuracy = ChipLabel(Chip("accuracy", "", ""))
+        self.accuracy = BadgeLabel(Badge("accuracy", "", ""))
         self.accuracy.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
         self.accuracy.hide()
         self.addWidget(self._sentence, 1)
@@ -78,11 +78,11 @@ class StatusLine(QStatusBar):
         texts = (each.text() for each in self._others if each.isVisible())
         return bool(self._message) and any(self._message in _in_one_line(text) for text in texts)
 
-    def show_accuracy(self, chip: Chip | None) -> None:
+    def show_accuracy(self, badge: Badge | None) -> None:
         """Show what is left out by hand, always and whole; None for nothing."""
-        self.accuracy.setVisible(chip is not None)
-        if chip is not None:
-            self.accuracy.show_chip(chip)
+        self.accuracy.setVisible(badge is not None)
+        if badge is not None:
+            self.accuracy.show_badge(badge)
             self.accuracy.updateGeometry()
 
     def show_plan_change(self, sentence: str) -> None:

@@ -188,7 +188,7 @@ def test_the_mode_of_the_photo_says_first_what_holds_for_the_photo(
     assert not story.verdict.isVisible()
     match = not_none(matched.shell.pane("photo").matching.match)
     assert verdict.heading.startswith(f"Photo: {match.verdict}")
-    chips = {chip.key: chip for chip in verdict.chips.chips}
+    chips = {chip.key: chip for chip in verdict.badges.badges}
     assert (chips["simulation"].text, chips["simulation"].state) == (
         story.verdict.heading,
         story.verdict.state,
@@ -196,7 +196,7 @@ def test_the_mode_of_the_photo_says_first_what_holds_for_the_photo(
     assert story.verdict.heading.startswith("Simulation: ")
     assert "applied" in chips
     user.choose("&Apply to the scene")
-    assert "applied" not in {chip.key for chip in verdict.chips.chips}
+    assert "applied" not in {chip.key for chip in verdict.badges.badges}
     matched.window.modes.switch("explore")
     assert story.verdict.isVisible()
     assert not verdict.isVisible()

@@ -20,9 +20,9 @@ from occ_gui.detection_map import slider_strip_controller, wiring
 from occ_gui.detection_map.colour_map import RATES, to_colours
 from occ_gui.detection_map.map_schedule import MapRequest
 from occ_gui.detection_map.slider_strip_controller import (
-    OWN_IMAGES,
-    own_rate,
-    own_rate_job,
+    SCENE_IMAGES,
+    scene_rate,
+    scene_rate_job,
 )
 from occ_gui.detection_map.slider_strip_controller import RateRequest as Request
 from occ_gui.detection_map.worker import SEED, UNSEEN_PARAMETERS, measure_strip, rate_settings
@@ -123,10 +123,10 @@ def test_six_doors_give_the_same_number(
 ) -> None:
     """Strip, map, limits, both commands of the shell, and banner, asked the same."""
     scene = scene_of(decoder).replace(**UNSEEN_PARAMETERS)
-    settings, images = SimulationSettings(), OWN_IMAGES
+    settings, images = SimulationSettings(), SCENE_IMAGES
     frequency = scene.transmitter.switching_frequency
-    banner = own_rate_job(Request(scene, settings, decoder))
-    rate = not_none(own_rate(do_job(banner, lambda: None).value))
+    banner = scene_rate_job(Request(scene, settings, decoder))
+    rate = not_none(scene_rate(do_job(banner, lambda: None).value))
     wanted = occ.success_rate(scene, images, decoder)
     own_place: dict[str, ParameterValue] = {"switching_frequency": frequency}
     at = ((0, own_place),)
@@ -201,7 +201,7 @@ def test_strip_and_banner_state_the_rate_of_the_study(
     )
     user.wait_until_idle()
     scene, strips = application.store.scene, application.slider_strips.strips
-    own = application.background_rates.own_rate
+    own = application.background_rates.scene_rate
     qtbot.waitUntil(lambda: own.rate is not None)
     rate = occ.success_rate(scene, 20)
     assert 5.0 < rate < 99.0
@@ -210,7 +210,7 @@ def test_strip_and_banner_state_the_rate_of_the_study(
     assert own.rate is not None
     assert own.rate.whole == whole
     assert {round(100.0 * s.present.fraction, 9) for s in strips.values() if s.present} == {rate}
-    shown = {chip.key: chip.text for chip in application.story.verdict.chips.chips}
+    shown = {chip.key: chip.text for chip in application.story.verdict.badges.badges}
     assert shown["rate"] == f"of 20 pictures: {rate:.3g} % of bits"
     strip = strips["iso"]
     assert f"{rate:.3g} % of the bits of 20 pictures" in strip.toolTip()

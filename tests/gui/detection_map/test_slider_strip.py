@@ -114,8 +114,8 @@ def test_nothing_is_measured_while_the_strips_are_not_seen(bench: Bench, qtbot: 
 
 def test_where_a_plug_in_fails_no_rate_is_known() -> None:
     failed, read = (SweepPoint(0, 20, (0,), note, (0,)) for note in ("A plug-in failed.", ""))
-    assert module.own_rate(MeasuredPoints((failed,), 2, 0.0)) is None
-    assert not_none(module.own_rate(MeasuredPoints((read,), 2, 0.0))).fraction == 0.0
+    assert module.scene_rate(MeasuredPoints((failed,), 2, 0.0)) is None
+    assert not_none(module.scene_rate(MeasuredPoints((read,), 2, 0.0))).fraction == 0.0
     assert (module.fraction_of(failed), module.fraction_of(read)) == (None, 0.0)
 
 

@@ -14,9 +14,9 @@ from occ_gui.app import features
 from occ_gui.app.application import Application
 from occ_gui.core.workspace import FIRST_SETTINGS
 from occ_gui.files import preset_controller
-from occ_gui.scene.forced_effects import accuracy_chip, forced_text
+from occ_gui.scene.forced_effects import accuracy_badge, forced_text
 from occ_gui.values.modes import MODES
-from occ_gui.widgets.chip_row import ChipLabel
+from occ_gui.widgets.badge_row import BadgeLabel
 from occ_gui.widgets.state_look import State
 from occ_model.effects.registry import EFFECTS
 from occ_model.scene.preset_file import Preset
@@ -64,12 +64,12 @@ def test_what_is_left_out_by_hand_is_one_chip(
     settings: dict[str, Any], text: str, is_doubtful: bool
 ) -> None:
     labels = {effect.name: effect.label for effect in EFFECTS}
-    chip = not_none(accuracy_chip(replace(FIRST_SETTINGS, **settings), labels))
-    assert chip.text == text
-    assert chip.state is (State.DOUBTFUL if is_doubtful else State.NEUTRAL)
+    badge = not_none(accuracy_badge(replace(FIRST_SETTINGS, **settings), labels))
+    assert badge.text == text
+    assert badge.state is (State.DOUBTFUL if is_doubtful else State.NEUTRAL)
     for effect in settings.get("force", {}):
-        assert labels[effect] in chip.meaning
-    assert accuracy_chip(replace(FIRST_SETTINGS, noise="exact"), labels) is None
+        assert labels[effect] in badge.meaning
+    assert accuracy_badge(replace(FIRST_SETTINGS, noise="exact"), labels) is None
 
 
 def test_it_is_always_on_the_screen(application: Application, user: User) -> None:
@@ -78,7 +78,7 @@ def test_it_is_always_on_the_screen(application: Application, user: User) -> Non
     application.settings.set_tolerance(10.0)
     for effect in ("jpeg", "flicker", "defocus"):
         application.store.force(effect, False)
-    (chip,) = window.statusBar().findChildren(ChipLabel)
+    (badge,) = window.statusBar().findChildren(BadgeLabel)
     for width, height in ((1280, 800), (1024, 700), (1920, 1080)):
         window.resize(width, height)
         for mode in MODES:
@@ -86,12 +86,12 @@ def test_it_is_always_on_the_screen(application: Application, user: User) -> Non
             window.show_message("Switching frequency is '1,000 Hz', which means 1 Hz. " * 9)
             window.pointed.set_full_text("Picture: column 1234, row 1200, camera level 123")
             user.wait_until_idle()
-            assert chip.isVisible()
-            assert chip.chip.text == "tolerance 10 levels · 3 effects by hand · reused noise"
-            assert chip.width() >= chip.sizeHint().width()
-            place = QRect(chip.mapTo(window, chip.rect().topLeft()), chip.size())
+            assert badge.isVisible()
+            assert badge.badge.text == "tolerance 10 levels · 3 effects by hand · reused noise"
+            assert badge.width() >= badge.sizeHint().width()
+            place = QRect(badge.mapTo(window, badge.rect().topLeft()), badge.size())
             assert window.rect().contains(place)
-            assert chip.visibleRegion().boundingRect() == chip.rect()
+            assert badge.visibleRegion().boundingRect() == badge.rect()
     window.modes.switch("explore")
 
 

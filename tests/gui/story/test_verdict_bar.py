@@ -16,7 +16,7 @@ from occ_gui.simulation.jobs import reading_by_profile
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.simulation.verdict import Verdict
 from occ_gui.story.verdict_bar import VerdictBar
-from occ_gui.widgets.chip_row import ChipLabel
+from occ_gui.widgets.badge_row import BadgeLabel
 from occ_gui.widgets.state_look import State
 from occ_model.scene.scene import Scene
 from occ_model.simulation.render import plan_scene
@@ -31,7 +31,7 @@ def bar(qtbot: QtBot) -> VerdictBar:
 
 
 def texts(bar: VerdictBar) -> dict[str, str]:
-    return {chip.key: chip.text for chip in bar.chips.chips}
+    return {chip.key: chip.text for chip in bar.badges.badges}
 
 
 def sent_to(snapshot: Snapshot, **changes: Any) -> Snapshot:
@@ -126,7 +126,7 @@ def test_a_scene_without_a_picture_has_no_verdict(bar: VerdictBar, snapshot_of: 
     bar.show_failure("The panel is behind the camera.")
     assert (bar.state, bar.title.text()) == (State.BAD, "No picture of this scene")
     assert "behind the camera" in bar.accessibleDescription()
-    assert not bar.chips.chips
+    assert not bar.badges.badges
     bar.show_reading(snapshot_of())
     assert bar.state is State.GOOD
 
@@ -176,10 +176,10 @@ def test_that_the_picture_is_not_the_last_word_is_said_however_little_room_there
     for width in (900, 500, 420):
         bar.resize(width, 60)
         bar.show_reading(early)
-        shown = [label for label in bar.findChildren(ChipLabel) if not label.isHidden()]
-        (waiting,) = [label for label in shown if label.chip.key == "computing"]
+        shown = [label for label in bar.findChildren(BadgeLabel) if not label.isHidden()]
+        (waiting,) = [label for label in shown if label.badge.key == "computing"]
         assert waiting.width() >= waiting.sizeHint().width()
-        assert bar.chips.rect().contains(waiting.geometry())
+        assert bar.badges.rect().contains(waiting.geometry())
 
 
 def test_the_verdict_is_that_of_the_chosen_decoder(bar: VerdictBar, small_scene: Scene) -> None:
@@ -189,29 +189,31 @@ def test_the_verdict_is_that_of_the_chosen_decoder(bar: VerdictBar, small_scene:
     assert occ.decode(snapshot.frame.image, scene, decoder="matched").code == 718
     bar.show_reading(snapshot)
     assert bar.state is State.BAD
-    (others,) = [chip for chip in bar.chips.chips if chip.key == "others"]
+    (others,) = [chip for chip in bar.badges.badges if chip.key == "others"]
     assert others.text.startswith("read by: ")
     assert "matched" in others.meaning
     bar.choose_decoder("matched")
     assert bar.state is State.GOOD
-    assert not any("matched" in c.meaning for c in bar.chips.chips if c.key == "others")
+    assert not any("matched" in c.meaning for c in bar.badges.badges if c.key == "others")
 
 
 @pytest.mark.parametrize("width", [900, 400, 230, 120])
-def test_chips_that_do_not_fit_are_counted(bar: VerdictBar, small_scene: Scene, width: int) -> None:
+def test_badges_that_do_not_fit_are_counted(
+    bar: VerdictBar, small_scene: Scene, width: int
+) -> None:
     bar.show()
     bar.show_reading(simulate(small_scene.replace(exposure_time=136e-6)))
-    row = bar.chips
+    row = bar.badges
     row.resize(width, 22)
-    shown = [label for label in row.findChildren(ChipLabel) if not label.isHidden()]
+    shown = [label for label in row.findChildren(BadgeLabel) if not label.isHidden()]
     assert all(label.x() >= 0 for label in shown)
-    hidden = len(row.chips) - sum(label.chip in row.chips for label in shown)
+    hidden = len(row.badges) - sum(label.badge in row.badges for label in shown)
     assert (hidden == 0) == (width == 900)
-    assert any(label.chip.text == f"+ {hidden}" for label in shown) == (hidden > 0)
-    made, chips = len(row.findChildren(ChipLabel)), row.chips
+    assert any(label.badge.text == f"+ {hidden}" for label in shown) == (hidden > 0)
+    made, chips = len(row.findChildren(BadgeLabel)), row.badges
     for some in ((), chips):
-        row.show_chips(some)
-    assert len(row.findChildren(ChipLabel)) == made  # as making them takes long
+        row.show_badges(some)
+    assert len(row.findChildren(BadgeLabel)) == made  # as making them takes long
 
 
 def test_the_simulation_is_named_where_a_photo_is_shown_too(
@@ -259,11 +261,11 @@ def test_what_was_chosen_before_does_not_change_which_decoders_are_named(
 ) -> None:
     snapshot = simulate(small_scene)
     bar.show_reading(snapshot)
-    before = bar.chips.chips
+    before = bar.badges.badges
     matched = snapshot.results["matched"]
     tried_before = with_result(snapshot, replace(matched, decoder="sequence"))
     bar.show_reading(tried_before)
-    assert bar.chips.chips == before
+    assert bar.badges.badges == before
 
 
 def test_the_cause_comes_first_and_its_step_is_a_button(

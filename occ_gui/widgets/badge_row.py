@@ -1,4 +1,4 @@
-"""Row of chips: short rounded labels, each with the icon of its state."""
+"""Row of badges: short rounded labels, each with the icon of its state."""
 
 import math
 from collections.abc import Sequence
@@ -20,7 +20,7 @@ _PADDING = 8
 
 
 @dataclass(frozen=True, slots=True)
-class Chip:
+class Badge:
     key: str
     text: str  # a few words, as HTML with ``sub`` only
     meaning: str
@@ -28,29 +28,29 @@ class Chip:
     stays: bool = False  # whether it is shown however little room there is
 
 
-class ChipLabel(QWidget):
-    def __init__(self, chip: Chip, parent: QWidget | None = None) -> None:
+class BadgeLabel(QWidget):
+    def __init__(self, badge: Badge, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._text = QStaticText()
         self._text.setTextFormat(Qt.TextFormat.RichText)
         option = QTextOption()
         option.setWrapMode(QTextOption.WrapMode.NoWrap)
         self._text.setTextOption(option)
-        self.chip = chip
-        self._take(chip)
+        self.badge = badge
+        self._take(badge)
 
-    def show_chip(self, chip: Chip) -> None:
-        if chip != self.chip:
-            self.chip = chip
-            self._take(chip)
+    def show_badge(self, badge: Badge) -> None:
+        if badge != self.badge:
+            self.badge = badge
+            self._take(badge)
 
-    def _take(self, chip: Chip) -> None:
-        self._text.setText(chip.text)
+    def _take(self, badge: Badge) -> None:
+        self._text.setText(badge.text)
         self._text.prepare(font=self.font())
-        self._left = _PADDING + (0 if chip.state is State.NEUTRAL else _ICON + 4)
-        self.setAccessibleName(plain_text_of(chip.text))
-        self.setAccessibleDescription(chip.meaning)
-        self.setToolTip(in_tool_tip(chip.meaning))
+        self._left = _PADDING + (0 if badge.state is State.NEUTRAL else _ICON + 4)
+        self.setAccessibleName(plain_text_of(badge.text))
+        self.setAccessibleDescription(badge.meaning)
+        self.setToolTip(in_tool_tip(badge.meaning))
         self.update()
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
@@ -66,43 +66,45 @@ class ChipLabel(QWidget):
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        colours = colours_of(self.chip.state, self.palette())
+        colours = colours_of(self.badge.state, self.palette())
         painter.setPen(Qt.PenStyle.NoPen)
         painter.setBrush(colours.paper)
         place = QRectF(self.rect())
         painter.drawRoundedRect(place, place.height() / 2, place.height() / 2)
-        if self.chip.state is not State.NEUTRAL:
+        if self.badge.state is not State.NEUTRAL:
             top = (place.height() - _ICON) / 2
-            draw_state(painter, QRectF(_PADDING, top, _ICON, _ICON), self.chip.state, colours)
+            draw_state(painter, QRectF(_PADDING, top, _ICON, _ICON), self.badge.state, colours)
         painter.setPen(colours.ink)
         height = self._text.size().height()
         painter.drawStaticText(QPointF(self._left, (place.height() - height) / 2), self._text)
 
 
-class ChipRow(QWidget):
-    """Chips in a row at the right; those that do not fit are counted by the last one.
+class BadgeRow(QWidget):
+    """Badges in a row at the right; the last one counts those that do not fit.
 
-    Chips that stay come first.
+    Badges that stay come first.
     """
 
     def __init__(self) -> None:
         super().__init__()
-        self.chips: tuple[Chip, ...] = ()
+        self.badges: tuple[Badge, ...] = ()
         # Labels that are not needed are kept hidden: making and deleting one at each movement of a
         # slider took longer than drawing it.
-        self._labels: list[ChipLabel] = []
-        self._spare: list[ChipLabel] = []
-        self._more = ChipLabel(Chip("more", "", ""), self)
+        self._labels: list[BadgeLabel] = []
+        self._spare: list[BadgeLabel] = []
+        self._more = BadgeLabel(Badge("more", "", ""), self)
         self._more.hide()
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
 
-    def show_chips(self, chips: Sequence[Chip]) -> None:
-        chips = tuple(sorted(chips, key=lambda chip: not chip.stays))
-        if chips == self.chips:
+    def show_badges(self, badges: Sequence[Badge]) -> None:
+        badges = tuple(sorted(badges, key=lambda badge: not badge.stays))
+        if badges == self.badges:
             return
-        self.chips = chips
+        self.badges = badges
         former = [*self._labels, *self._spare]
-        self._labels = [_taken(former, chip) or ChipLabel(chip, self) for chip in self.chips]
+        self._labels = [
+            _take_label(former, badge) or BadgeLabel(badge, self) for badge in self.badges
+        ]
         self._spare = former
         for label in self._spare:
             label.hide()
@@ -119,8 +121,8 @@ class ChipRow(QWidget):
         shown = self._labels[:fitting]
         self._more.setVisible(bool(hidden))
         if hidden:
-            meaning = "\n".join(plain_text_of(label.chip.text) for label in hidden)
-            self._more.show_chip(Chip("more", f"+ {len(hidden)}", meaning))
+            meaning = "\n".join(plain_text_of(label.badge.text) for label in hidden)
+            self._more.show_badge(Badge("more", f"+ {len(hidden)}", meaning))
             shown = [*shown, self._more]
         for label in hidden:
             label.hide()
@@ -142,7 +144,7 @@ class ChipRow(QWidget):
 
     @property
     def _staying(self) -> int:
-        return sum(chip.stays for chip in self.chips)
+        return sum(badge.stays for badge in self.badges)
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         staying = (label.sizeHint().width() + _GAP for label in self._labels[: self._staying])
@@ -153,11 +155,11 @@ def plain_text_of(html: str) -> str:
     return html.replace("<sub>", "_").replace("</sub>", "")
 
 
-def _taken(labels: list[ChipLabel], chip: Chip) -> ChipLabel | None:
-    """Take a label for a chip, preferably one that looks the same; None if none is left."""
+def _take_label(labels: list[BadgeLabel], badge: Badge) -> BadgeLabel | None:
+    """Take a label for a badge, preferably the one with the same key; None if none is left."""
     if not labels:
         return None
-    alike = (place for place, label in enumerate(labels) if label.chip.key == chip.key)
+    alike = (place for place, label in enumerate(labels) if label.badge.key == badge.key)
     label = labels.pop(next(alike, len(labels) - 1))
-    label.show_chip(chip)
+    label.show_badge(badge)
     return label

@@ -24,7 +24,7 @@ class Application(Parts):
         for feature in features(self):
             self.shell.add(feature, self.window)
         # After the panes: what they show comes before what is said of it.
-        self.outdated = OutdatedMarks(self.board, self.simulation, self.window)
+        self.outdated = OutdatedMarks(self.results_store, self.simulation, self.window)
         self.outdated.mark_pane("story", self.shell.pane("story"))
         self.shell.made.connect(self.outdated.mark_pane)
         self.current_pane = CurrentPane(self.window, self.window.docks)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from occ_gui.core.store import Store
 from occ_gui.shell.feature import Draw, Figure, NothingToDraw, later
-from occ_gui.shell.results import Board
+from occ_gui.shell.results import ResultsStore
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.simulation.verdict import cause_in
 from occ_gui.values.photo_choice import MODES, Placement
@@ -92,9 +92,11 @@ def _with_photo(view: "ImageView", opened: "Photo", shown: Snapshot, mode: str, 
     return draw
 
 
-def profile_figure(store: Store, board: Board, about_photo: Callable[[], str]) -> Figure:
+def profile_figure(
+    store: Store, results_store: ResultsStore, about_photo: Callable[[], str]
+) -> Figure:
     def ask(pane: "ProfilePane | None", shown: Snapshot) -> Draw:
-        workspace, photo = store.workspace, board.results.photo_profile
+        workspace, photo = store.workspace, results_store.results.photo_profile
         comparison = None if photo is None else photo.comparison
         whole, enhanced = (0, len(shown.profile)), workspace.is_enhanced
         return later(

@@ -26,7 +26,7 @@ from occ_gui.pins.pin_controller import PinController
 from occ_gui.scene.control_panel import ControlPanel
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Feature, Pane, later
-from occ_gui.shell.results import Board, Results
+from occ_gui.shell.results import Results, ResultsStore
 from occ_gui.shell.shell import Shell
 from occ_gui.simulation.controller import SimulationController
 from occ_gui.simulation.present_results import PresentResults
@@ -82,7 +82,7 @@ def photo(
     scenes: SceneStore,
     photos: PhotoController,
     image: "Callable[[], ImageView]",
-    board: Board,
+    results_store: ResultsStore,
     window: WindowActions,
 ) -> Feature[Any]:
     """Declare the pane; ``image`` returns the view of the picture, where the photo is shown."""
@@ -90,7 +90,7 @@ def photo(
     def make() -> "PhotoPane":
         from occ_gui.photo.pane import PhotoPane
 
-        return PhotoPane(scenes, photos, image(), board, window)
+        return PhotoPane(scenes, photos, image(), results_store, window)
 
     def enabled(workspace: Workspace, results: Results) -> dict[str, bool]:
         has_photo = has_match = results.document is not None
@@ -137,7 +137,9 @@ def photos(pane: "Callable[[], PhotoPane]") -> Feature[Any]:
     )
 
 
-def profile(store: Store, board: Board, about_photo: Callable[[], str]) -> Feature[Any]:
+def profile(
+    store: Store, results_store: ResultsStore, about_photo: Callable[[], str]
+) -> Feature[Any]:
     """Declare the pane; ``about_photo`` returns the caption of a figure with the photo."""
 
     def part(workspace: Workspace, results: Results) -> tuple[object, ...]:
@@ -152,7 +154,7 @@ def profile(store: Store, board: Board, about_photo: Callable[[], str]) -> Featu
         make=later("occ_gui.profile.pane:ProfilePane", store),
         part=part,
         updates_hidden=True,
-        figures=(profile_figure(store, board, about_photo),),
+        figures=(profile_figure(store, results_store, about_photo),),
     )
 
 
@@ -233,7 +235,10 @@ def compare(pins: PinController) -> Feature[Any]:
 
 
 def lessons(
-    scenes: SceneStore, board: Board, controls: ControlPanel, preferences: Preferences
+    scenes: SceneStore,
+    results_store: ResultsStore,
+    controls: ControlPanel,
+    preferences: Preferences,
 ) -> Feature[Any]:
     return Feature(
         name="lessons",
@@ -241,18 +246,18 @@ def lessons(
         places={"lessons": Place("right", is_main=True, width=340)},
         elsewhere="right",
         help="guide.md#follow-a-lesson",
-        make=later("occ_gui.lessons.pane:LessonPane", scenes, board, controls, preferences),
+        make=later("occ_gui.lessons.pane:LessonPane", scenes, results_store, controls, preferences),
     )
 
 
-def video(scenes: SceneStore, board: Board) -> Feature[Any]:
+def video(scenes: SceneStore, results_store: ResultsStore) -> Feature[Any]:
     return Feature(
         name="video",
         title="Video",
         places={"video": Place("right", is_main=True)},
         elsewhere="right",
         help="films.md#watch-a-film",
-        make=later("occ_gui.video.wiring:VideoWiring", scenes, board),
+        make=later("occ_gui.video.wiring:VideoWiring", scenes, results_store),
         enabled=lambda workspace, _: {"close_film": workspace.film.path is not None},
         part=lambda workspace, _: workspace.film,
     )

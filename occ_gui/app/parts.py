@@ -24,7 +24,7 @@ from occ_gui.pins.pin_controller import PinController
 from occ_gui.scene.control_panel import ControlPanel
 from occ_gui.scene.scene_editor import SceneEditor
 from occ_gui.scene.scene_store import SceneStore
-from occ_gui.shell.results import Board
+from occ_gui.shell.results import ResultsStore
 from occ_gui.shell.shell import Shell
 from occ_gui.simulation.controller import SimulationController
 from occ_gui.simulation.present_results import PresentResults
@@ -53,15 +53,15 @@ class Parts(QObject):
         self.present = PresentResults(self.simulation)
         self.controls = _controls()
         self.slider_strips = SliderStrips(self.controls.main_rows())
-        self.board = Board()
-        self.shell = Shell(store, self.board)
+        self.results_store = ResultsStore()
+        self.shell = Shell(store, self.results_store)
         centre = self._middle()
         self.story: StoryView = self.view("story")
         self.window = MainWindow(
             self.controls, centre, self.story, undo_stack=self.store.undo_stack
         )
-        self.messages = StatusMessages(self.window, self.controls, store, self.board)
-        self.photos = PhotoController(store, self.board)
+        self.messages = StatusMessages(self.window, self.controls, store, self.results_store)
+        self.photos = PhotoController(store, self.results_store)
         self.presets = PresetController(self.window, self.store)
         self.files = FileController(
             self.window, self.store, self.photos, self.preferences, self.present.ask

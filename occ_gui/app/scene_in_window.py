@@ -19,7 +19,7 @@ class SceneInWindow(QObject):
     def __init__(self, parts: Parts) -> None:
         super().__init__(parts.window)
         self._parts = parts
-        self.before = BeforeController(parts.store.store, parts.board.show_before)
+        self.before = BeforeController(parts.store.store, parts.results_store.show_before)
         self.news = PlanNews(self)
         self._connect_scene()
         self._connect_simulation()
@@ -48,13 +48,13 @@ class SceneInWindow(QObject):
 
     def _connect_simulation(self) -> None:
         parts, simulation = self._parts, self._parts.simulation
-        self.news.changed.connect(parts.board.show_switched)
+        self.news.changed.connect(parts.results_store.show_switched)
         self.news.changed.connect(self._report_switched)
         # What the pictures are compared with comes before them.
-        for view in (self.before, parts.pins, self.news, parts.board):
+        for view in (self.before, parts.pins, self.news, parts.results_store):
             simulation.snapshot_ready.connect(view.show_snapshot)
-        simulation.reading_shown.connect(parts.board.show_reading)
-        simulation.picture_ready.connect(parts.board.show_picture)
+        simulation.reading_shown.connect(parts.results_store.show_reading)
+        simulation.picture_ready.connect(parts.results_store.show_picture)
         simulation.snapshot_shown.connect(self._on_snapshot)
         simulation.failed_for.connect(parts.messages.say_failure)
         simulation.failed.connect(parts.pins.give_up)

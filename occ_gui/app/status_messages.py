@@ -7,7 +7,7 @@ from PySide6.QtCore import QObject
 
 from occ_gui.core.store import Store
 from occ_gui.scene.control_panel import ControlPanel
-from occ_gui.shell.results import Board
+from occ_gui.shell.results import ResultsStore
 from occ_gui.shell.status import (
     Until,
     make_remark,
@@ -26,19 +26,19 @@ class StatusMessages(QObject):
     """Says sentences, and shows the one that holds of workspace and results."""
 
     def __init__(
-        self, window: MainWindow, controls: ControlPanel, store: Store, board: Board
+        self, window: MainWindow, controls: ControlPanel, store: Store, results_store: ResultsStore
     ) -> None:
         super().__init__(window)
         self._window, self._controls = window, controls
-        self._store, self._board = store, board
+        self._store, self._results_store = store, results_store
         self._shown: tuple[Remark | None, str] = (None, "")
         self._failing: tuple[str, ...] = ()  # the fields with the sentence of a failure
         store.select(lambda workspace: workspace).changed.connect(self._show)
-        board.changed.connect(self._show)
-        board.select(lambda results: results.failure).changed.connect(self._mark)
+        results_store.changed.connect(self._show)
+        results_store.select(lambda results: results.failure).changed.connect(self._mark)
 
     def _show(self) -> None:
-        results = self._board.results
+        results = self._results_store.results
         shown = (results.remark, status_message(self._store.workspace, results))
         if shown != self._shown:
             self._shown = shown
@@ -51,9 +51,9 @@ class StatusMessages(QObject):
             self._controls.show_problem(failure.sentence, failure.parameters)
 
     def say(self, sentence: str, until: Until = next_sentence) -> None:
-        results = self._board.results
+        results = self._results_store.results
         last = make_remark(sentence, until, self._store.workspace, results)
-        self._board.put(replace(results, remark=last))
+        self._results_store.put(replace(results, remark=last))
 
     def note(self, sentence: str) -> None:
         """Show a remark on the present scene, until the next change of scene or settings."""
@@ -63,7 +63,7 @@ class StatusMessages(QObject):
         """Show why a scene has no picture, also at the fields concerned, until the next picture."""
         self.say(sentence, next_picture)
         failure = Failure(sentence, tuple(parameters))
-        self._board.put(replace(self._board.results, failure=failure))
+        self._results_store.put(replace(self._results_store.results, failure=failure))
 
     def say_of_photo(self, sentence: str) -> None:
         """Show why a photo cannot be read, until the next one is."""
@@ -71,7 +71,7 @@ class StatusMessages(QObject):
 
     def accept(self) -> None:
         """Let what was refused go, since something allowed was entered."""
-        last = self._board.results.remark
+        last = self._results_store.results.remark
         if last is not None and last.until is next_change:
-            self._board.put(replace(self._board.results, remark=None))
+            self._results_store.put(replace(self._results_store.results, remark=None))
         self._controls.end_refusals(name for name in PARAMETERS if name not in self._failing)

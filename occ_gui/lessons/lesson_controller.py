@@ -12,7 +12,7 @@ from occ_gui.lessons.answers import LessonAnswers, MatchedPhoto
 from occ_gui.lessons.lesson_view import LessonView
 from occ_gui.photo.shown_photo import find_match
 from occ_gui.scene.scene_store import new_gesture
-from occ_gui.shell.results import Board
+from occ_gui.shell.results import ResultsStore
 from occ_gui.values.photo_choice import PhotoChoice
 from occ_gui.widgets.columns import PACKETS_IN_VIEW
 from occ_gui.widgets.plain_text import LONGEST_TEXT
@@ -48,10 +48,10 @@ class LessonController(QObject):
     report_asked = Signal(Lesson)
 
     def __init__(
-        self, store: Store, board: Board, pane: LessonView, answers: LessonAnswers
+        self, store: Store, results_store: ResultsStore, pane: LessonView, answers: LessonAnswers
     ) -> None:
         super().__init__()
-        self._store, self._board = store, board
+        self._store, self._results_store = store, results_store
         self._pane, self._answers = pane, answers
         self._all = LoadedLessons(())
         self.current: Lesson | None = None
@@ -254,7 +254,7 @@ class LessonController(QObject):
         lesson = self.current
         if lesson is not None:
             self._pane.step.answer_field.show_waiting()
-            results = self._board.results
+            results = self._results_store.results
             name = "" if results.photo is None else one_line(results.photo.path.name)
             found = find_match(results)
             photo = MatchedPhoto(name, None if found is None else found.match)

@@ -19,7 +19,7 @@ from occ_gui.scene.control_panel import ControlPanel
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.spotlight import Spotlight
 from occ_gui.shell.feature import Pane
-from occ_gui.shell.results import Board
+from occ_gui.shell.results import ResultsStore
 from occ_model.errors import OccError, one_line
 from occ_model.results.teaching import AnsweredStep, Lesson
 from occ_model.teaching.lessons import begin_lessons_folder
@@ -90,12 +90,16 @@ class LessonPane(Pane[None]):
     noted = Signal(str)  # the outcome of an action, for as long as the scene stays
 
     def __init__(
-        self, scenes: SceneStore, board: Board, controls: ControlPanel, preferences: Preferences
+        self,
+        scenes: SceneStore,
+        results_store: ResultsStore,
+        controls: ControlPanel,
+        preferences: Preferences,
     ) -> None:
         self.view = pane = LessonView()
         super().__init__(pane)
         self.answers = LessonAnswers()
-        self.controller = LessonController(scenes.store, board, pane, self.answers)
+        self.controller = LessonController(scenes.store, results_store, pane, self.answers)
         self.reports = LessonReports(pane, preferences)
         self.tasks = (self.answers.runner, self.reports.runner)
         self._end = pane.end

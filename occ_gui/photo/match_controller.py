@@ -11,7 +11,7 @@ from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.photo.photo_work import match
 from occ_gui.photo.shown_photo import ShownPhoto
 from occ_gui.scene.scene_store import SceneStore
-from occ_gui.shell.results import Board
+from occ_gui.shell.results import ResultsStore
 from occ_gui.values.photo_choice import MatchChoice
 from occ_gui.values.photo_results import FoundMatch, MatchRequest
 from occ_model.errors import OccError
@@ -54,16 +54,18 @@ def cure_of_match(found: Match) -> Cure:
 class MatchController(QObject):
     failed = Signal(str)  # why a match, its use, or a recorded camera setting is refused
 
-    def __init__(self, scenes: SceneStore, photos: PhotoController, board: Board) -> None:
+    def __init__(
+        self, scenes: SceneStore, photos: PhotoController, results_store: ResultsStore
+    ) -> None:
         super().__init__()
-        self._scenes, self._store, self._board = scenes, scenes.store, board
+        self._scenes, self._store, self._results_store = scenes, scenes.store, results_store
         self._photos = photos
         self.task: Task[MatchRequest, FoundMatch] = Task(
             match, "match of the photo", impatient=True
         )
         self.task.finished.connect(self._take)
         self.task.failed.connect(self._show_refusal)
-        board.select(lambda results: results.photo).changed.connect(self._follow)
+        results_store.select(lambda results: results.photo).changed.connect(self._follow)
 
     def _follow(self) -> None:
         """End the match of the previous photo; start one if it was requested with the new photo."""
@@ -75,11 +77,11 @@ class MatchController(QObject):
 
     @property
     def photo(self) -> Photo | None:
-        return self._board.results.photo
+        return self._results_store.results.photo
 
     @property
     def _part(self) -> ShownPhoto:
-        return ShownPhoto.of(self._store.workspace, self._board.results)
+        return ShownPhoto.of(self._store.workspace, self._results_store.results)
 
     @property
     def match(self) -> Match | None:

@@ -21,7 +21,7 @@ from occ_gui.photo.window_actions import WindowActions
 from occ_gui.picture.image_view import ImageView
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Pane
-from occ_gui.shell.results import Board
+from occ_gui.shell.results import ResultsStore
 from occ_gui.shell.status import make_remark, next_match
 from occ_gui.values.photo_choice import MODES, MatchChoice, Placed, Placement
 from occ_model.results.decoding import Region
@@ -33,18 +33,26 @@ class PhotoPane(Pane[ShownPhoto]):
         scenes: SceneStore,
         photos: PhotoController,
         image: ImageView,
-        board: Board,
+        results_store: ResultsStore,
         window: WindowActions,
     ) -> None:
         self.view = view = PhotoView()
         super().__init__(view)
-        self._image, self._store, self._board, self.photos = image, scenes.store, board, photos
+        self._image, self._store, self._results_store, self.photos = (
+            image,
+            scenes.store,
+            results_store,
+            photos,
+        )
         self.verdict = view.verdict
-        self.matching = MatchController(scenes, photos, board)
-        self.parts = PartEdits(scenes.store, board)
-        self.many = ManyPhotosController(scenes, photos, view.many, board)
-        self.lamps = LampSearch(photos, board)
-        self.works = (stripe_search(scenes.store, board), chip_reading(scenes.store, board))
+        self.matching = MatchController(scenes, photos, results_store)
+        self.parts = PartEdits(scenes.store, results_store)
+        self.many = ManyPhotosController(scenes, photos, view.many, results_store)
+        self.lamps = LampSearch(photos, results_store)
+        self.works = (
+            stripe_search(scenes.store, results_store),
+            chip_reading(scenes.store, results_store),
+        )
         works = (photos.work, self.matching, self.lamps, *self.works)
         self.tasks = (*(work.task for work in works), self.many.runner)
         self.outlines = LampOutlines(image.photo.box)
@@ -71,9 +79,9 @@ class PhotoPane(Pane[ShownPhoto]):
         view.many.save_asked.connect(window.save_table)
 
     def _say_of_match(self, sentence: str) -> None:
-        results = self._board.results
+        results = self._results_store.results
         last = make_remark(sentence, next_match, self._store.workspace, results)
-        self._board.put(replace(results, remark=last))
+        self._results_store.put(replace(results, remark=last))
 
     def _connect_view(self) -> None:
         view, image, photos, matching = self.view, self._image, self.photos, self.matching
@@ -157,7 +165,7 @@ class PhotoPane(Pane[ShownPhoto]):
         last, self._compared = self._compared, comparison_inputs(self._shown)
         if self._compared != last:
             profile = photo_profile(self._shown)
-            self._board.put(replace(self._board.results, photo_profile=profile))
+            self._results_store.put(replace(self._results_store.results, photo_profile=profile))
 
     def _show_part_of_photo(self) -> None:
         lamps, part = self._shown.lamps, self._shown.part
@@ -185,7 +193,7 @@ class PhotoPane(Pane[ShownPhoto]):
         self.photos.edit(lambda choice: choice.with_certain(name, value))
 
     def _place(self, placement: Placement | None) -> None:
-        document = self._board.results.document
+        document = self._results_store.results.document
         if document is not None:
             placed = None if placement is None else Placed(document.source, placement)
             self.photos.edit(lambda choice: replace(choice, placed=placed))

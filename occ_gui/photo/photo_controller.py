@@ -10,7 +10,7 @@ import occ_model as occ
 from occ_gui.background.task import Report, Task
 from occ_gui.core.store import Store
 from occ_gui.shell.result_updater import ResultUpdater
-from occ_gui.shell.results import Board, Results
+from occ_gui.shell.results import Results, ResultsStore
 from occ_gui.values.photo_choice import PhotoChoice, PhotoSource
 from occ_gui.values.photo_results import PhotoDocument
 
@@ -34,22 +34,22 @@ class PhotoController(QObject):
     opened = Signal(object)  # the photo that is shown now, or None
     failed = Signal(str)  # why a photo could not be loaded; the previous one stays
 
-    def __init__(self, store: Store, board: Board) -> None:
+    def __init__(self, store: Store, results_store: ResultsStore) -> None:
         super().__init__()
-        self._store, self._board = store, board
+        self._store, self._results_store = store, results_store
         self._settled = store.workspace.photo
         task: Task[PhotoSource, PhotoDocument] = Task(_read, "reading of the photo", impatient=True)
         self.work = ResultUpdater(
-            store, board, task, lambda workspace, _: workspace.photo.source, _put,
+            store, results_store, task, lambda workspace, _: workspace.photo.source, _put,
             stays=True, keep=KEPT_PHOTOS,
         )  # fmt: skip
         self.work.failed.connect(self._fail)
-        board.select(lambda results: results.photo).changed.connect(self._settle)
-        board.select(lambda results: results.photo).changed.connect(self.opened)
+        results_store.select(lambda results: results.photo).changed.connect(self._settle)
+        results_store.select(lambda results: results.photo).changed.connect(self.opened)
 
     @property
     def path(self) -> Path | None:
-        photo = self._board.results.photo
+        photo = self._results_store.results.photo
         return None if photo is None else photo.path
 
     @property
@@ -58,12 +58,12 @@ class PhotoController(QObject):
 
     @property
     def document(self) -> PhotoDocument | None:
-        return self._board.results.document
+        return self._results_store.results.document
 
     def put(self, document: PhotoDocument) -> None:
         """Store the open photo's document; what was found in it is kept for its next opening."""
         self.work.keep(document.without_work())
-        self._board.put(_put(self._board.results, document))
+        self._results_store.put(_put(self._results_store.results, document))
 
     def edit(self, change: Callable[[PhotoChoice], PhotoChoice]) -> None:
         if self.work.task.is_idle:

@@ -10,7 +10,7 @@ from occ_gui.core.store import Store
 from occ_gui.core.workspace import Workspace
 from occ_gui.photo.shown_photo import Part, ShownPhoto, part_of
 from occ_gui.shell.result_updater import ResultUpdater
-from occ_gui.shell.results import Board, Results
+from occ_gui.shell.results import Results, ResultsStore
 from occ_gui.simulation.snapshot import Reading
 from occ_gui.values.photo_choice import MatchChoice
 from occ_gui.values.photo_results import FoundMatch, MatchRequest, PhotoProfile, StripeSearch
@@ -34,7 +34,9 @@ def _part(workspace: Workspace, results: Results) -> PartOfPhoto | None:
     return None if photo is None else (photo, part_of(workspace.photo, results))
 
 
-def stripe_search(store: Store, board: Board) -> ResultUpdater[PartOfPhoto, StripeSearch]:
+def stripe_search(
+    store: Store, results_store: ResultsStore
+) -> ResultUpdater[PartOfPhoto, StripeSearch]:
     """Make the updater that finds the stripes of a photo or a part of it."""
 
     def search(asked: PartOfPhoto, _report: Report) -> StripeSearch:
@@ -47,12 +49,16 @@ def stripe_search(store: Store, board: Board) -> ResultUpdater[PartOfPhoto, Stri
         return replace(results, stripes=found)
 
     task: Task[PartOfPhoto, StripeSearch] = Task(search, "search for stripes", impatient=True)
-    work = ResultUpdater(store, board, task, _part, put)
-    work.failed.connect(lambda why: board.put(put(board.results, StripeSearch(None, why))))
+    work = ResultUpdater(store, results_store, task, _part, put)
+    work.failed.connect(
+        lambda why: results_store.put(put(results_store.results, StripeSearch(None, why)))
+    )
     return work
 
 
-def chip_reading(store: Store, board: Board) -> ResultUpdater[PartOfPhoto, ChipReading | None]:
+def chip_reading(
+    store: Store, results_store: ResultsStore
+) -> ResultUpdater[PartOfPhoto, ChipReading | None]:
 
     def read(asked: PartOfPhoto, _report: Report) -> ChipReading | None:
         try:
@@ -64,7 +70,7 @@ def chip_reading(store: Store, board: Board) -> ResultUpdater[PartOfPhoto, ChipR
         return replace(results, chips=chips)
 
     task: Task[PartOfPhoto, ChipReading | None] = Task(read, "reading of chips", impatient=True)
-    return ResultUpdater(store, board, task, _part, put)
+    return ResultUpdater(store, results_store, task, _part, put)
 
 
 def find_lamps(photo: Photo, report: Report) -> tuple[Lamp, ...]:

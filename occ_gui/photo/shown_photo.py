@@ -7,7 +7,7 @@ from PySide6.QtCore import QObject
 
 from occ_gui.core.store import Store
 from occ_gui.core.workspace import Workspace
-from occ_gui.shell.results import Board, Results
+from occ_gui.shell.results import Results, ResultsStore
 from occ_gui.simulation.snapshot import ColumnView, Reading
 from occ_gui.values.photo_choice import PhotoChoice, PhotoFrame, Placement
 from occ_gui.values.photo_results import FoundMatch, PhotoDocument, StripeSearch
@@ -178,22 +178,22 @@ _INSET = 4  # the first rectangle leaves out a fraction 1 / _INSET of the photo 
 
 
 class PartEdits(QObject):
-    def __init__(self, store: Store, board: Board) -> None:
+    def __init__(self, store: Store, results_store: ResultsStore) -> None:
         super().__init__()
-        self._store, self._board = store, board
+        self._store, self._results_store = store, results_store
 
     @property
     def part(self) -> Part:
-        return part_of(self._store.workspace.photo, self._board.results)
+        return part_of(self._store.workspace.photo, self._results_store.results)
 
     def choose(self, index: int) -> None:
-        document = self._board.results.document
+        document = self._results_store.results.document
         if document is not None and 0 <= index < len(document.lamps):
             self._match(document.lamps[index])
 
     def draw(self, region: Region) -> None:
         """Match this rectangle, clipped to the photo."""
-        photo = self._board.results.photo
+        photo = self._results_store.results.photo
         if photo is None:
             return
         rows, columns = photo.image.shape
@@ -208,7 +208,7 @@ class PartEdits(QObject):
 
         The first rectangle is that of the chosen lamp, or the middle of the photo.
         """
-        photo = self._board.results.photo
+        photo = self._results_store.results.photo
         if not by_hand or photo is None:
             self.match_whole()
             return
@@ -222,7 +222,7 @@ class PartEdits(QObject):
         self._match(None)
 
     def _match(self, part: Part) -> None:
-        workspace, document = self._store.workspace, self._board.results.document
+        workspace, document = self._store.workspace, self._results_store.results.document
         if document is not None:
             photo = workspace.photo.with_part(document.frame, part)
             self._store.put(replace(workspace, photo=photo))

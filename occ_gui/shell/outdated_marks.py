@@ -6,7 +6,7 @@ from PySide6.QtCore import QObject, Qt, QTimer
 from PySide6.QtWidgets import QWidget
 
 from occ_gui.shell.feature import CodeVerdictView, Pane
-from occ_gui.shell.results import Board, MadeOf, of_picture, of_reading, of_snapshot
+from occ_gui.shell.results import MadeOf, ResultsStore, of_picture, of_reading, of_snapshot
 from occ_gui.simulation.controller import SimulationController
 from occ_gui.simulation.snapshot import Picture
 from occ_gui.values.simulated import SimulationRequest
@@ -32,9 +32,15 @@ class OutdatedMarks(QObject):
     then; the verdicts say which value of the slider they belong to.
     """
 
-    def __init__(self, board: Board, simulation: SimulationController, parent: QObject) -> None:
+    def __init__(
+        self, results_store: ResultsStore, simulation: SimulationController, parent: QObject
+    ) -> None:
         super().__init__(parent)
-        self._board, self._simulation, self._ages = board, simulation, simulation.ages
+        self._results_store, self._simulation, self._ages = (
+            results_store,
+            simulation,
+            simulation.ages,
+        )
         self._verdicts: list[CodeVerdictView] = []
         self._marks: list[tuple[OutdatedMark, MadeOf]] = []
         self._refused_after: tuple[Picture | None] | None = None
@@ -43,7 +49,7 @@ class OutdatedMarks(QObject):
         self._run = ""
         self._settling = QTimer(self, singleShot=True, timerType=Qt.TimerType.PreciseTimer)
         self._settling.timeout.connect(self._update)
-        board.changed.connect(self._update)
+        results_store.changed.connect(self._update)
         simulation.submitted.connect(self._update)
         simulation.failed.connect(self._on_failure)
 
@@ -71,11 +77,11 @@ class OutdatedMarks(QObject):
     def _on_failure(self, _sentence: str) -> None:
         # The failure of an earlier request says nothing about the present one.
         if self._simulation.runner.is_idle:
-            self._refused_after = (self._board.results.picture,)
+            self._refused_after = (self._results_store.results.picture,)
         self._update()
 
     def _update(self) -> None:
-        results, refused = self._board.results, self._refused_after
+        results, refused = self._results_store.results, self._refused_after
         is_refused = refused is not None and refused[0] is results.picture
         text = "of an earlier scene: this one has no picture" if is_refused else "computing…"
         runs = bool(self._run) and not is_refused

@@ -9,7 +9,7 @@ from PySide6.QtCore import QObject, Signal
 from occ_gui.background.task import Request, Result, Task
 from occ_gui.core.store import Store
 from occ_gui.core.workspace import Workspace
-from occ_gui.shell.results import Board, Results
+from occ_gui.shell.results import Results, ResultsStore
 
 
 class ResultUpdater(QObject, Generic[Request, Result]):
@@ -29,7 +29,7 @@ class ResultUpdater(QObject, Generic[Request, Result]):
     def __init__(
         self,
         store: Store,
-        board: Board,
+        results_store: ResultsStore,
         task: Task[Request, Result],
         of: Callable[[Workspace, Results], Request | None],
         put: Callable[[Results, Result | None], Results],
@@ -38,18 +38,18 @@ class ResultUpdater(QObject, Generic[Request, Result]):
         keep: int = 0,
     ) -> None:
         super().__init__()
-        self._store, self._board, self.task = store, board, task
+        self._store, self._results_store, self.task = store, results_store, task
         self._of, self._put, self._stays = of, put, stays
         self._request: Request | None = None
         self._kept: deque[tuple[Request, Result]] = deque(maxlen=keep)
         task.finished.connect(self._take)
         task.failed.connect(self._fail)
         store.select(lambda workspace: workspace).changed.connect(self.update)
-        board.changed.connect(self.update)
+        results_store.changed.connect(self.update)
         self.update()
 
     def update(self) -> None:
-        request = self._of(self._store.workspace, self._board.results)
+        request = self._of(self._store.workspace, self._results_store.results)
         if request == self._request:
             return
         self._request = request
@@ -61,7 +61,7 @@ class ResultUpdater(QObject, Generic[Request, Result]):
             self.task.ask(request)
             self.begun.emit()
         if not self._stays or request is None or kept is not None:
-            self._board.put(self._put(self._board.results, kept))
+            self._results_store.put(self._put(self._results_store.results, kept))
 
     def keep(self, result: Result) -> None:
         """Keep a result of the present request in place of the previous one."""
@@ -72,7 +72,7 @@ class ResultUpdater(QObject, Generic[Request, Result]):
     def _take(self, result: Result) -> None:
         self.keep(result)
         self.ended.emit()
-        self._board.put(self._put(self._board.results, result))
+        self._results_store.put(self._put(self._results_store.results, result))
         self.found.emit(result)
 
     def _fail(self, sentence: str) -> None:

@@ -78,7 +78,7 @@ def of_picture(results: Results) -> SimulationRequest | None:
     return None if results.picture is None else results.picture.request
 
 
-class Board(QObject):
+class ResultsStore(QObject):
     changed = Signal()
 
     def __init__(self) -> None:

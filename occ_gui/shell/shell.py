@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QDockWidget, QVBoxLayout, QWidget
 
 from occ_gui.core.store import Store
 from occ_gui.shell.feature import Draw, Feature, Figure, Pane, Service
-from occ_gui.shell.results import Board
+from occ_gui.shell.results import ResultsStore
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.values.modes import Places, Side
 from occ_gui.widgets.building import filled
@@ -33,16 +33,16 @@ class Shell(QObject):
     said = Signal(str)  # a sentence of one of the features for the status line
     accepted = Signal()  # an allowed value was entered in one of the panes
 
-    def __init__(self, store: Store, board: Board) -> None:
+    def __init__(self, store: Store, results_store: ResultsStore) -> None:
         super().__init__()
-        self._store, self._board = store, board
+        self._store, self._results_store = store, results_store
         self._places: dict[str, _PaneHolder] = {}
         self._unseen: dict[str, Feature[Any]] = {}
         self._services: dict[str, Service] = {}
         self._workspaces = store.select(lambda workspace: workspace)
         self._entries: list[tuple[Feature[Any], Mapping[str, QAction]]] = []
         self._workspaces.changed.connect(self.enable_entries)
-        board.changed.connect(self.enable_entries)
+        results_store.changed.connect(self.enable_entries)
 
     def add(self, feature: Feature[Any], window: DockWindow) -> None:
         if feature.title:
@@ -64,7 +64,7 @@ class Shell(QObject):
     def enable_entries(self) -> None:
         """Enable the menu entries that can be chosen now, once all have been added."""
         for feature, actions in self._entries:
-            enabled = feature.enabled(self._store.workspace, self._board.results)
+            enabled = feature.enabled(self._store.workspace, self._results_store.results)
             for name, is_enabled in enabled.items():
                 actions[name].setEnabled(is_enabled)
 
@@ -77,7 +77,7 @@ class Shell(QObject):
     def _place(self, feature: Feature[Any]) -> "_PaneHolder":
         place = self._places[feature.name] = _PaneHolder(feature, self)
         self._workspaces.changed.connect(place.show_change)
-        self._board.changed.connect(place.show_change)
+        self._results_store.changed.connect(place.show_change)
         return place
 
     def pane(self, name: str) -> Any:
@@ -182,7 +182,7 @@ class _PaneHolder(QWidget):
         """Show the part of the pane, if it is visible and has changed."""
         if self.pane is None or not (self._is_seen or self.feature.updates_hidden):
             return
-        part = self.feature.part(self._shell._store.workspace, self._shell._board.results)
+        part = self.feature.part(self._shell._store.workspace, self._shell._results_store.results)
         if part is not None and part != self._shown:
             self._shown = part
             self.pane.show_part(part)

@@ -10,7 +10,7 @@ import occ_model as occ
 from occ_gui.background.task import Report, Task
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.result_updater import ResultUpdater
-from occ_gui.shell.results import Board
+from occ_gui.shell.results import ResultsStore
 from occ_gui.values.film_choice import FilmChoice, FilmSource
 from occ_gui.video.frame_jobs import FrameRequest, ShownFrame, process_frame
 from occ_model.photo.reading.choices import SCAN_AXES
@@ -116,7 +116,7 @@ class FilmController(QObject):
 
     frame_failed = Signal(str)  # why a frame cannot be shown; the last one stays
 
-    def __init__(self, scenes: SceneStore, board: Board) -> None:
+    def __init__(self, scenes: SceneStore, results_store: ResultsStore) -> None:
         super().__init__()
         self._scenes, self._store = scenes, scenes.store
         self._settled = replace(self.choice, path=None)
@@ -129,12 +129,12 @@ class FilmController(QObject):
         self.player = FilmPlayer(self)
         self.player.wanted.connect(self.show)
         self.opener = ResultUpdater(
-            scenes.store, board, Task(_open, "opening of the film", impatient=True),
+            scenes.store, results_store, Task(_open, "opening of the film", impatient=True),
             lambda workspace, _: workspace.film.source,
             lambda results, film: replace(results, film=film), stays=True, keep=1,
         )  # fmt: skip
         self.opener.failed.connect(self._fail)
-        board.select(lambda results: results.film).changed.connect(self._settle)
+        results_store.select(lambda results: results.film).changed.connect(self._settle)
         self.loader: Task[FrameRequest, ShownFrame] = Task(
             lambda request, _: process_frame(request), "reading of a frame"
         )

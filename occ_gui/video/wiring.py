@@ -11,7 +11,7 @@ from occ_gui.background.file_writer import FileWriter
 from occ_gui.background.task import Report
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Pane
-from occ_gui.shell.results import Board
+from occ_gui.shell.results import ResultsStore
 from occ_gui.values.film_choice import FilmChoice
 from occ_gui.video.film_controller import FilmController
 from occ_gui.video.film_reading import Marks, MarkState, frame_marks
@@ -42,13 +42,13 @@ class VideoWiring(Pane[FilmChoice]):
 
     save_asked = Signal()  # the user writes the simulated film to a file
 
-    def __init__(self, scenes: SceneStore, board: Board) -> None:
+    def __init__(self, scenes: SceneStore, results_store: ResultsStore) -> None:
         view = VideoView()
         super().__init__(view)
         self._scenes = scenes
         self._is_frame_missing = False
         self.view = view
-        self.films = FilmController(scenes, board)
+        self.films = FilmController(scenes, results_store)
         self.readings = ReadingController()
         self.live = LiveController(self.films, self.readings, lambda: scenes.scene)
         self.saving: FileWriter[_FilmToSave] = FileWriter(
@@ -67,7 +67,7 @@ class VideoWiring(Pane[FilmChoice]):
         self.view.form.changed.connect(self._on_recording)
         self.view.form.refused.connect(self.status_message)
         self.view.form.show_scene(scenes.scene)
-        self.films.put(board.results.film)
+        self.films.put(results_store.results.film)
 
     def show_part(self, part: FilmChoice) -> None:
         form = self.view.form

@@ -33,7 +33,7 @@ from occ_gui.scene.control_panel import ControlPanel
 from occ_gui.scene.parameter_rows import QuantityRow
 from occ_gui.scene.scene_editor import SceneEditor
 from occ_gui.shell.feature import Feature
-from occ_gui.shell.results import Board
+from occ_gui.shell.results import ResultsStore
 from occ_gui.shell.shell import Shell
 from occ_gui.simulation.present_results import Use
 from occ_gui.simulation.snapshot import Picture, Snapshot
@@ -71,14 +71,14 @@ class PlainWindow(QMainWindow):
 
 
 class Present:
-    """Gives the results on a board as those of the present scene."""
+    """Gives the results in a store as those of the present scene."""
 
-    def __init__(self, board: Board) -> None:
-        self._board = board
+    def __init__(self, results_store: ResultsStore) -> None:
+        self._results_store = results_store
 
     @property
     def latest(self) -> Snapshot | None:
-        return self._board.results.snapshot
+        return self._results_store.results.snapshot
 
     def ask(self, use: Use) -> None:
         assert self.latest is not None
@@ -86,15 +86,19 @@ class Present:
 
 
 class PaneBench:
-    """Store, board and shell for the features that a test adds; it simulates when it is told."""
+    """Stores and shell for the features that a test adds; it simulates when it is told."""
 
     def __init__(self, qtbot: QtBot, scene: Scene) -> None:
-        self.scenes, self.board, self.window = store_of(scene), Board(), PlainWindow()
+        self.scenes, self.results_store, self.window = (
+            store_of(scene),
+            ResultsStore(),
+            PlainWindow(),
+        )
         self.store, self.settings = self.scenes.store, self.scenes.settings
         self.simulation: Any = SimpleNamespace(runner=Task(lambda *_: None, "no simulation"))
         self.hear_first: list[Callable[[Snapshot], object]] = []
         """Who hears of exact results before the panes."""
-        self.shell, self.said = Shell(self.store, self.board), list[str]()
+        self.shell, self.said = Shell(self.store, self.results_store), list[str]()
         self.shell.said.connect(self.said.append)
         self.settings.refused.connect(self.said.append)
         qtbot.addWidget(self.window, before_close_func=lambda _window: self.stop())
@@ -113,18 +117,18 @@ class PaneBench:
         self.window.docks[name].visibilityChanged.emit(seen)
 
     def simulate(self, **changes: Any) -> Snapshot:
-        """Change the scene, and put its exact results on the board."""
+        """Change the scene, and put its exact results into the store."""
         if changes:
             self.scenes.change(**changes)
         workspace = self.store.workspace
         snapshot = simulated(workspace.scene, workspace.settings)
         for hear in self.hear_first:
             hear(snapshot)
-        self.board.show_picture(
+        self.results_store.show_picture(
             Picture.of(snapshot.frame, workspace.picture_kind, snapshot.request)
         )
-        self.board.show_reading(snapshot)
-        self.board.show_snapshot(snapshot)
+        self.results_store.show_reading(snapshot)
+        self.results_store.show_snapshot(snapshot)
         return snapshot
 
     @cached_property
@@ -137,7 +141,7 @@ class PaneBench:
     @cached_property
     def exporter(self) -> ExportController:
         """What exports the figures of the panes."""
-        present: Any = Present(self.board)
+        present: Any = Present(self.results_store)
         current = CurrentPane(self.window, self.window.docks)
         feature = export(
             self.window, self.shell, present, Preferences(None), lambda: current.name, self.store

@@ -101,7 +101,7 @@ def state_of(application: Application) -> list[object]:
     return [
         application.store.store.workspace,
         application.store.undo_stack.count(),
-        application.board.results.photo,
+        application.results_store.results.photo,
         application.shell.pane("photo").placement,
         application.view("photo").form.choice(),
         application.preferences.files,

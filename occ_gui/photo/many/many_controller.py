@@ -12,7 +12,7 @@ from occ_gui.photo.many.many_view import ManyPhotosView
 from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.photo.photo_work import put_known_values
 from occ_gui.scene.scene_store import SceneStore
-from occ_gui.shell.results import Board
+from occ_gui.shell.results import ResultsStore
 from occ_gui.values.photo_choice import MatchChoice
 from occ_gui.values.photo_results import ListedRows
 from occ_model.errors import OccError
@@ -66,12 +66,12 @@ class ManyPhotosController(QObject):
         scenes: SceneStore,
         photos: PhotoController,
         view: ManyPhotosView,
-        board: Board,
+        results_store: ResultsStore,
         jobs: int | None = None,
     ) -> None:
         super().__init__()
         self.photos = photos
-        self._scenes, self._board = scenes, board
+        self._scenes, self._results_store = scenes, results_store
         self._view, self._jobs = view, jobs
         self._settings: MatchSettings | None = None
         self._found: dict[int, PhotoRow] = {}
@@ -90,7 +90,7 @@ class ManyPhotosController(QObject):
     def show_files(self, paths: tuple[Path, ...]) -> None:
         self.runner.cancel()
         self._found, self.table = {}, None
-        self._board.put(replace(self._board.results, listed=None))
+        self._results_store.put(replace(self._results_store.results, listed=None))
         self._view.show_files(paths)
 
     def start(self, choice: MatchChoice) -> None:
@@ -153,4 +153,4 @@ class ManyPhotosController(QObject):
 
     def _put_rows(self) -> None:
         listed = replace(self._listed, rows=tuple(self._found.values()))
-        self._board.put(replace(self._board.results, listed=listed))
+        self._results_store.put(replace(self._results_store.results, listed=listed))

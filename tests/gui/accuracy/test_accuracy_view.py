@@ -27,7 +27,7 @@ class Bench(PaneBench):
         super().__init__(qtbot, scene)
         self.news = PlanNews()
         self.hear_first.append(self.news.show_snapshot)
-        self.news.changed.connect(self.board.show_switched)
+        self.news.changed.connect(self.results_store.show_switched)
         self.pane: AccuracyPane = self.add(accuracy(self.scenes, self.simulation))
         self.view = self.pane.view
         self.simulate()

@@ -15,7 +15,7 @@ from occ_gui.app.application import Application
 from occ_gui.background.result_age import PAUSE, ResultAges
 from occ_gui.shell.feature import Pane
 from occ_gui.shell.outdated_marks import VERDICT_DELAY, OutdatedMarks
-from occ_gui.shell.results import Board, of_picture, of_reading, of_snapshot
+from occ_gui.shell.results import ResultsStore, of_picture, of_reading, of_snapshot
 from occ_gui.simulation.snapshot import Picture, Snapshot
 from occ_gui.values.simulated import SimulationRequest
 from occ_gui.widgets.outdated_mark import DELAY, OutdatedMark
@@ -114,7 +114,7 @@ class Simulation(QObject):
 
     def __init__(self, first: Snapshot) -> None:
         super().__init__()
-        self.now, self.board = 0.0, Board()
+        self.now, self.results_store = 0.0, ResultsStore()
         self.ages = ResultAges(first.request, lambda: self.now)
 
     def change(self, snapshot: Snapshot) -> None:
@@ -122,9 +122,9 @@ class Simulation(QObject):
         self.submitted.emit()
 
     def deliver(self, snapshot: Snapshot) -> None:
-        self.board.show_picture(Picture.of(snapshot.frame, "camera", snapshot.request))
-        self.board.show_snapshot(snapshot)
-        self.board.show_reading(snapshot)
+        self.results_store.show_picture(Picture.of(snapshot.frame, "camera", snapshot.request))
+        self.results_store.show_snapshot(snapshot)
+        self.results_store.show_reading(snapshot)
 
 
 class Verdict:
@@ -155,8 +155,8 @@ class Drag:
         ]
         self.latest = self.snapshots[0]
         self.simulation, self.verdict = Simulation(self.latest), Verdict()
-        board = self.simulation.board
-        self.outdated = OutdatedMarks(board, self.simulation, pane)  # type: ignore[arg-type]
+        results_store = self.simulation.results_store
+        self.outdated = OutdatedMarks(results_store, self.simulation, pane)  # type: ignore[arg-type]
         shown: Pane[None] = Pane(pane)
         shown.made_of, shown.verdicts = {pane: of_snapshot}, (self.verdict,)
         self.outdated.mark_pane("pane", shown)
@@ -225,7 +225,7 @@ def test_a_run_with_slow_pictures_marks_no_picture_and_tells_its_value(drag: Dra
     assert all(marked[first:])  # results that no verdict tells of are marked, without flicker
     assert all(drag.move(takes=14))  # also where they are soon there again
     drag.move(takes=round(3e3 * DELAY))
-    read = not_none(of_reading(drag.simulation.board.results))
+    read = not_none(of_reading(drag.simulation.results_store.results))
     assert drag.verdict.runs[-1] == (f"ISO speed {read.scene.camera.iso:.4g}", "")
     drag.outdated.follow_run("")
     assert drag.verdict.runs[-1] == ("", "")
@@ -238,6 +238,6 @@ def test_a_picture_behind_the_reading_of_a_run_has_its_own_value(drag: Drag) -> 
     drag.outdated.follow_run("iso")
     later = drag.snapshots[9]
     drag.simulation.change(later)
-    drag.simulation.board.show_reading(later)
+    drag.simulation.results_store.show_reading(later)
     before, after = (s.request.scene.camera.iso for s in (drag.snapshots[0], later))
     assert drag.verdict.runs[-1] == (f"ISO speed {after:.4g}", f"{before:.4g}")

@@ -121,7 +121,7 @@ def test_a_lessons_title_is_text(
     monkeypatch.setattr("occ_gui.lessons.lesson_controller.lessons", lambda: LoadedLessons(hostile))
     view, answers = LessonView(), LessonAnswers()
     qtbot.addWidget(view)
-    controller = LessonController(application.store.store, application.board, view, answers)
+    controller = LessonController(application.store.store, application.results_store, view, answers)
     answers.runner.stop()
     controller.set_seen(True)
     assert plain(view.list.choices[0].text()).startswith(f"{TAG} & co")

@@ -112,7 +112,7 @@ def test_equations_follow_the_scene_only_while_they_are_seen(small_scene: Scene)
 
 def test_a_change_arrives_in_the_equations_that_are_seen(qtbot: QtBot, small_scene: Scene) -> None:
     bench = PaneBench(qtbot, small_scene)
-    plot = bench.add(profile(bench.store, bench.board, str)).view.plot
+    plot = bench.add(profile(bench.store, bench.results_store, str)).view.plot
     text = bench.add(equations_pane(bench.scenes, lambda: plot), seen=False).view.equations
     bench.scenes.change(exposure_time=90e-6)
     assert "90 µs" not in text.toPlainText()

@@ -62,7 +62,7 @@ class Bench(PaneBench):
 
     def __init__(self, qtbot: QtBot, scene: Scene) -> None:
         super().__init__(qtbot, scene)
-        self.plot = self.add(profile(self.store, self.board, str)).view.plot
+        self.plot = self.add(profile(self.store, self.results_store, str)).view.plot
         self.pane: ExplanationPane = self.add(equations(self.scenes, lambda: self.plot))
         self.view = self.pane.view.exposure
         self.simulate()
@@ -149,7 +149,7 @@ def test_the_exposure_follows_the_scene_and_no_column_outside_of_the_picture_is_
     controller.hover(-5)
     assert seen.shown[0] == 0
     controller.hover(10**9)
-    assert seen.shown[0] == len(not_none(seen.board.results.snapshot).profile) - 1
+    assert seen.shown[0] == len(not_none(seen.results_store.results.snapshot).profile) - 1
     seen.simulate(columns=500)
     assert seen.shown[0] == 499
     seen.see("equations", False)
@@ -183,7 +183,7 @@ def test_the_column_shown_first_is_in_the_panels_first_packet(
     qtbot: QtBot, small_scene: Scene
 ) -> None:
     seen = Bench(qtbot, small_scene.replace(panel_width=0.3))
-    snapshot = not_none(seen.board.results.snapshot)
+    snapshot = not_none(seen.results_store.results.snapshot)
     first, above = snapshot.panel_origin
     assert abs(first - above) > snapshot.packet_columns
     assert first < seen.shown[0] < first + snapshot.packet_columns

@@ -45,18 +45,18 @@ class Bench(PaneBench):
 
     def __init__(self, qtbot: QtBot, scene: Scene) -> None:
         super().__init__(qtbot, scene)
-        scenes, store, board = self.scenes, self.store, self.board
-        self.photos = PhotoController(store, board)
+        scenes, store, results_store = self.scenes, self.store, self.results_store
+        self.photos = PhotoController(store, results_store)
         self.files = FileController(
             self.window, scenes, self.photos, Preferences(None), lambda use: None
         )
         self.files.status_message.connect(self.said.append)
         image = self.add(picture(store, str)).view
-        self.profile = self.add(profile(store, board, str)).view
+        self.profile = self.add(profile(store, results_store, str)).view
         for feature in (
             decoding(store), accuracy(scenes, self.simulation), bands(scenes),
             detection_map(scenes, self.background_rates),
-            photo(scenes, self.photos, lambda: image, board, no_actions()),
+            photo(scenes, self.photos, lambda: image, results_store, no_actions()),
         ):  # fmt: skip
             self.shell.add(feature, self.window)
         self.simulate()
@@ -145,7 +145,7 @@ def test_the_photo_is_drawn_beside_the_simulation_and_the_difference_as_it_is_se
     path = tmp_path / "difference.csv"
     assert bench.export("picture", path) == f"Exported difference.csv into {tmp_path}"
     lines = [line for line in path.read_text(encoding="utf-8").splitlines() if line[0] != "#"]
-    photo = not_none(bench.board.results.photo)
+    photo = not_none(bench.results_store.results.photo)
     rows, columns = photo.image.shape
     assert len(lines) == 1 + rows
     assert len(lines[0].split(",")) == 1 + columns

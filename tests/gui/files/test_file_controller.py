@@ -16,7 +16,7 @@ from pytestqt.qtbot import QtBot
 from occ_gui.files.file_controller import FileController
 from occ_gui.files.preferences import Preferences
 from occ_gui.photo.photo_controller import PhotoController
-from occ_gui.shell.results import Board
+from occ_gui.shell.results import ResultsStore
 from occ_gui.simulation.snapshot import Snapshot
 from occ_model.scene.scene import Scene
 
@@ -26,7 +26,7 @@ class Bench:
 
     def __init__(self, scene: Scene) -> None:
         self.store = store_of(scene)
-        self.photos = PhotoController(store_of().store, Board())
+        self.photos = PhotoController(store_of().store, ResultsStore())
         self.preferences = Preferences()
         self.shown: Snapshot | None = None
         self.waiting: list[Callable[[Snapshot], None]] = []

@@ -130,7 +130,7 @@ def test_scene_settings_photo_options_and_layouts_are_there_again_and_layouts_ca
         assert application.store.scene == scene
         assert not application.store.undo_stack.canUndo()
         assert application.settings.settings == settings
-        assert application.board.results.photo is not None
+        assert application.results_store.results.photo is not None
         picture = application.view("picture")
         assert picture.mode.key() == "blend"
         assert picture.switch.key() == picture.picture_kind == "receiver"

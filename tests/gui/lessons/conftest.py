@@ -19,8 +19,8 @@ class Lessons(ControlsBench):
 
     def __init__(self, qtbot: QtBot, scene: Scene) -> None:
         super().__init__(qtbot, scene)
-        self.photos = PhotoController(self.store, self.board)
-        feature = lessons(self.scenes, self.board, self.controls, Preferences(None))
+        self.photos = PhotoController(self.store, self.results_store)
+        feature = lessons(self.scenes, self.results_store, self.controls, Preferences(None))
         self.pane: LessonPane = self.add(feature)
         self.pane.noted.connect(self.said.append)
         self.guide: LessonView = self.pane.view

@@ -1,4 +1,4 @@
-"""A photo on the board, and all that the pane of the photo follows from, without a window."""
+"""A photo in the store, and all that the pane of the photo follows from, without a window."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -13,7 +13,7 @@ from occ_gui.photo.photo_verdict import PhotoSteps
 from occ_gui.photo.photo_view import PhotoView
 from occ_gui.photo.shown_photo import ShownPhoto
 from occ_gui.photo.window_actions import WindowActions
-from occ_gui.shell.results import Board
+from occ_gui.shell.results import ResultsStore
 from occ_gui.simulation.snapshot import Reading
 from occ_gui.values.photo_choice import MatchChoice, PhotoChoice, PhotoSource
 from occ_gui.values.photo_results import FoundMatch, PhotoDocument
@@ -24,13 +24,13 @@ from occ_model.scene.scene import Scene
 
 
 class PhotoBench:
-    """Store and board of a photo that was read."""
+    """The stores of a photo that was loaded."""
 
     def __init__(self, scene: Scene | None = None) -> None:
         self.scenes = store_of(scene)
         self.store = self.scenes.store
-        self.board = Board()
-        self.photos = PhotoController(self.store, self.board)
+        self.results_store = ResultsStore()
+        self.photos = PhotoController(self.store, self.results_store)
         self.photos.work.task.ask = lambda request: None  # type: ignore[method-assign]  # they are read
 
     @property
@@ -39,7 +39,7 @@ class PhotoBench:
 
     @property
     def part(self) -> ShownPhoto:
-        return ShownPhoto.of(self.store.workspace, self.board.results)
+        return ShownPhoto.of(self.store.workspace, self.results_store.results)
 
     def choose(self, **changes: object) -> None:
         photo = replace(self.choice, **changes)  # type: ignore[arg-type]  # fields of its own
@@ -53,15 +53,15 @@ class PhotoBench:
         if photo is not None:
             source = choice.source or PhotoSource(Path(), choice.load_options, 0)
             document = PhotoDocument(photo, source)
-        self.board.put(replace(self.board.results, document=document))
+        self.results_store.put(replace(self.results_store.results, document=document))
 
     def change(self, **changes: object) -> None:
         """Let something else be found in the open photo, or be asked of it."""
-        document = not_none(self.board.results.document)
+        document = not_none(self.results_store.results.document)
         self.photos.put(replace(document, **changes))  # type: ignore[arg-type]  # fields of its own
 
     def show_reading(self, reading: Reading) -> None:
-        self.board.show_reading(reading)
+        self.results_store.show_reading(reading)
 
 
 def no_actions() -> WindowActions:

@@ -43,11 +43,11 @@ class Bench(PhotoBench):
         self.go_on.set()
         self.refusal: tuple[str, ...] = ()
         monkeypatch.setattr(occ, "match_photo", self._match)
-        self.controller = MatchController(self.scenes, self.photos, self.board)
-        self.parts = PartEdits(self.store, self.board)
+        self.controller = MatchController(self.scenes, self.photos, self.results_store)
+        self.parts = PartEdits(self.store, self.results_store)
         self._was_running = False
         self.controller.task.reported.connect(self.events.append)
-        self.board.changed.connect(self._note)
+        self.results_store.changed.connect(self._note)
         self.controller.failed.connect(self.failures.append)
         self._qtbot = qtbot
 
@@ -230,7 +230,7 @@ def test_a_photo_of_the_table_has_its_rows_match_until_it_is_matched_by_itself(
 
     def show_listed(options: LoadOptions) -> None:
         listed = ListedRows((row,), options, 1e4)
-        bench.board.put(replace(bench.board.results, listed=listed))
+        bench.results_store.put(replace(bench.results_store.results, listed=listed))
 
     show_listed(LoadOptions("lines"))
     assert bench.controller.match is None, "read in another way it is not what the table matched"

@@ -48,12 +48,14 @@ class Bench(PhotoBench):
         super().__init__()
         self.picture = show_widget(qtbot, ImageView(), 1200, 400)
         self.box = self.picture.photo.box
-        self.pane = PhotoPane(self.scenes, self.photos, self.picture, self.board, no_actions())
+        self.pane = PhotoPane(
+            self.scenes, self.photos, self.picture, self.results_store, no_actions()
+        )
         qtbot.addWidget(self.pane.widget)
         self.form, self.outlines = self.pane.view.lamps, self.pane.outlines
         self.parts = self.pane.parts
         self.store.select(lambda workspace: workspace).changed.connect(self._show)
-        self.board.changed.connect(self._show)
+        self.results_store.changed.connect(self._show)
         self.show_photo(photo)
 
     def _show(self) -> None:
@@ -131,7 +133,7 @@ def test_a_chosen_lamp_is_kept_as_its_rectangle(bench: Bench, photo: Photo) -> N
 
 
 def test_the_photo_lies_on_the_picture_where_it_is_placed(bench: Bench) -> None:
-    source = not_none(bench.board.results.document).source
+    source = not_none(bench.results_store.results.document).source
     bench.choose(placed=Placed(source, Placement(3.0, 4.0)))
     assert bench.picture.overlay.placement == Placement(3.0, 4.0)
     assert bench.pane.view.placement.column.value() == 3.0
@@ -253,9 +255,9 @@ def test_a_row_of_the_table_says_that_its_photo_was_matched_by_itself_since(
     many.show_row(0, row, 1)
     is_marked = many.rows.data(many.rows.index(0, 0), Qt.ItemDataRole.BackgroundRole) is not None
     assert is_marked, "it is the photo that is open"
-    listed = replace(bench.board.results, listed=ListedRows((row,), LoadOptions(), 1e4))
+    listed = replace(bench.results_store.results, listed=ListedRows((row,), LoadOptions(), 1e4))
     document = not_none(listed.document)
     own = replace(listed, document=replace(document, found=FoundMatch(None, match_with(), 1e4)))
     for results, is_earlier in ((listed, False), (own, True), (listed, False)):
-        bench.board.put(results)
+        bench.results_store.put(results)
         assert ("earlier match" in many.rows.text(0, VERDICT)) == is_earlier

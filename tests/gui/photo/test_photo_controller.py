@@ -13,7 +13,7 @@ from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.photo.photo_controller import PhotoController
-from occ_gui.shell.results import Board
+from occ_gui.shell.results import ResultsStore
 from occ_model.photo.reading.load import Photo, load_photo
 
 PATIENCE_S = 10.0
@@ -30,7 +30,7 @@ class Bench:
         self.go_on.set()
         monkeypatch.setattr(occ, "load_photo", self._read)
         store = store_of().store
-        self.controller = PhotoController(store, Board())
+        self.controller = PhotoController(store, ResultsStore())
         self.controller.opened.connect(self.shown.append)
         self.controller.failed.connect(self.failures.append)
         self._load = load_photo

@@ -55,7 +55,7 @@ class Bench(PhotoBench):
         self.go_on.set()
         self.stripes: Callable[[Photo], Stripes] = stripes_of
         monkeypatch.setattr(photo_work, "find_stripes", self._find)
-        self.work: Any = photo_work.stripe_search(self.store, self.board)
+        self.work: Any = photo_work.stripe_search(self.store, self.results_store)
         self._qtbot = qtbot
 
     def do(self, work: object) -> None:
@@ -78,7 +78,7 @@ class Bench(PhotoBench):
         self._qtbot.waitUntil(lambda: self.work.task.is_idle)
 
     def move(self, placement: Placement | None) -> None:
-        document = not_none(self.board.results.document)
+        document = not_none(self.results_store.results.document)
         self.choose(placed=None if placement is None else Placed(document.source, placement))
 
     def show_match(self, stripes: Stripes, scene: occ.Scene | None = None) -> None:
@@ -262,8 +262,11 @@ def test_a_photo_of_the_pictures_very_size_lies_pixel_on_pixel(
 
 
 def chips_shown(bench: Bench) -> list[ChipReading | None]:
-    bench.do(photo_work.chip_reading(bench.store, bench.board))
-    chips, shown = bench.board.select(lambda results: results.chips), list[ChipReading | None]()
+    bench.do(photo_work.chip_reading(bench.store, bench.results_store))
+    chips, shown = (
+        bench.results_store.select(lambda results: results.chips),
+        list[ChipReading | None](),
+    )
     chips.changed.connect(shown.append)
     return shown
 
@@ -283,7 +286,7 @@ def test_chips_are_those_of_the_part_that_is_matched_and_there_may_be_none(
     bench.show_photo(photo)
     bench.wait()
     assert shown == []
-    PartEdits(bench.store, bench.board).draw(Region(0, 9, 10, 60))
+    PartEdits(bench.store, bench.results_store).draw(Region(0, 9, 10, 60))
     bench.wait()
     assert shown == [of_part]
 
@@ -299,7 +302,7 @@ def test_lamps_are_found_when_asked_for_and_come_back_with_what_was_set(
         return (Lamp(Region(0, 9, 0, 20), np.array([[0, 9, 0, 20]]), 200.0, modulated=False),)
 
     monkeypatch.setattr(occ, "find_lamps", find)
-    search = LampSearch(bench.photos, bench.board)
+    search = LampSearch(bench.photos, bench.results_store)
     bench.do(search)
     bench.show_photo(photo)
     assert searched == []

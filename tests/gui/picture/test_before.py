@@ -184,8 +184,8 @@ def test_a_drag_leaves_its_start_as_a_line_and_as_a_picture(
 ) -> None:
     bench = PaneBench(qtbot, small_scene)
     image = bench.add(picture_pane(bench.store, str)).view
-    curves = bench.add(profile(bench.store, bench.board, str)).view
-    before = BeforeController(bench.store, bench.board.show_before)
+    curves = bench.add(profile(bench.store, bench.results_store, str)).view
+    before = BeforeController(bench.store, bench.results_store.show_before)
     bench.hear_first.append(before.show_snapshot)
     bench.simulate()
     image.before.chosen.setChecked(True)

@@ -292,7 +292,7 @@ class Bench(PaneBench):
     def __init__(self, qtbot: QtBot, scene: Scene) -> None:
         super().__init__(qtbot, scene)
         self.picture: ImageView = self.add(picture(self.store, str)).view
-        self.profile: ProfileView = self.add(profile(self.store, self.board, str)).view
+        self.profile: ProfileView = self.add(profile(self.store, self.results_store, str)).view
         self.frame = self.simulate().frame
 
 

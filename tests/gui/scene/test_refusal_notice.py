@@ -101,7 +101,9 @@ def test_a_scene_without_a_picture_says_so_at_its_fields_and_mending_it_leaves_o
     application.store.change(distance=0.1, yaw=1.2)
     user.wait_until_idle()
     application.controls.show_problem("iso is 0; allowed: 1 to 2.", ("iso",))
-    application.board.put(replace(application.board.results, failure=None))  # there is a picture
+    application.results_store.put(
+        replace(application.results_store.results, failure=None)
+    )  # there is a picture
     assert user.row("iso").notice.text()
     assert user.row("yaw").notice.text() == ""
 

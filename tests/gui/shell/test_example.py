@@ -30,9 +30,9 @@ def test_the_pane_of_the_manual_shows_the_stripes_of_each_picture(
     bench = PaneBench(qtbot, found.scene)
     pane = bench.add(example)
     assert [curve.getData()[0] for curve in pane.curves] == [None, None]
-    bench.board.show_snapshot(found)
+    bench.results_store.show_snapshot(found)
     assert found.results["threshold"].histograms is not None
     for curve, histogram in zip(pane.curves, found.results["threshold"].histograms, strict=True):
         assert np.array_equal(curve.getData()[1], histogram.counts)
-    bench.board.show_snapshot(snapshot_of(switching_frequency=500.0, exposure_time=1e-3))
+    bench.results_store.show_snapshot(snapshot_of(switching_frequency=500.0, exposure_time=1e-3))
     assert pane.made_of == {pane.plot: of_snapshot}

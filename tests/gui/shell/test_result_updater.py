@@ -12,7 +12,7 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.background.task import Report, Task
 from occ_gui.shell.result_updater import ResultUpdater
-from occ_gui.shell.results import Board, Results
+from occ_gui.shell.results import Results, ResultsStore
 
 PATIENCE_S = 10.0
 
@@ -21,16 +21,16 @@ class Bench:
     """A result that depends on the name of the decoder; the test decides when it is ready."""
 
     def __init__(self, qtbot: QtBot, **options: Any) -> None:
-        self.store, self.board = store_of().store, Board()
+        self.store, self.results_store = store_of().store, ResultsStore()
         self.asked: list[str] = []
         self.told: list[object] = []
         self.go_on = threading.Event()
         self.go_on.set()
         self.work = ResultUpdater(
-            self.store, self.board, Task(self._do, "work", impatient=True),
+            self.store, self.results_store, Task(self._do, "work", impatient=True),
             lambda workspace, _: workspace.decoder or None, self._put, **options,
         )  # fmt: skip
-        results = self.board.select(lambda results: results.chips)
+        results = self.results_store.select(lambda results: results.chips)
         results.changed.connect(self.told.append)
         self._qtbot = qtbot
 
@@ -47,7 +47,7 @@ class Bench:
 
     @property
     def result(self) -> object:
-        return self.board.results.chips
+        return self.results_store.results.chips
 
     def choose(self, name: str) -> None:
         self.store.put(replace(self.store.workspace, decoder=name))
@@ -73,7 +73,7 @@ def test_a_result_follows_its_request_and_goes_with_it(bench: Bench) -> None:
     assert (bench.result, bench.told[-1]) == ("OTHER", "OTHER")
     bench.store.put(replace(bench.store.workspace, picture_kind="receiver"))
     told = list(bench.told)
-    bench.board.put(replace(bench.board.results))
+    bench.results_store.put(replace(bench.results_store.results))
     assert (bench.asked, bench.told) == (["threshold", "other"], told)
     bench.choose("")
     assert bench.result is None

@@ -12,7 +12,7 @@ from pytestqt.qtbot import QtBot
 from occ_gui.core.store import Store
 from occ_gui.core.workspace import Workspace
 from occ_gui.shell.feature import Feature, Pane
-from occ_gui.shell.results import Board
+from occ_gui.shell.results import ResultsStore
 from occ_gui.shell.shell import Shell
 from occ_model.scene.scene import Scene
 
@@ -44,9 +44,13 @@ class Bench:
     """A shell with a pane of the ISO speed."""
 
     def __init__(self, qtbot: QtBot) -> None:
-        self.store, self.board, self.window = Store(Workspace(Scene())), Board(), PlainWindow()
+        self.store, self.results_store, self.window = (
+            Store(Workspace(Scene())),
+            ResultsStore(),
+            PlainWindow(),
+        )
         qtbot.addWidget(self.window)
-        self.shell = Shell(self.store, self.board)
+        self.shell = Shell(self.store, self.results_store)
         self.done: list[str] = []
         self.shell.add(
             Feature(
@@ -98,7 +102,7 @@ def test_a_seen_pane_follows_its_part_alone(bench: Bench, snapshot_of: SnapshotO
     bench.put(200.0)
     bench.store.put(replace(bench.store.workspace, frame_rate=24.0))
     snapshot = snapshot_of()
-    bench.board.show_snapshot(snapshot)
+    bench.results_store.show_snapshot(snapshot)
     assert bench.pane.parts[1:] == [(200.0, None), (200.0, snapshot)]
 
 
@@ -114,14 +118,14 @@ def test_a_hidden_pane_is_told_when_it_is_seen_again(bench: Bench) -> None:
 
 
 def test_what_a_pane_cannot_show_is_not_shown(qtbot: QtBot) -> None:
-    window, board = PlainWindow(), Board()
+    window, results_store = PlainWindow(), ResultsStore()
     qtbot.addWidget(window)
-    shell = Shell(Store(Workspace(Scene())), board)
+    shell = Shell(Store(Workspace(Scene())), results_store)
     shell.add(
         Feature(name="x", title="x", help="", make=Noting, part=lambda _, r: r.snapshot), window
     )
     window.docks["x"].visibilityChanged.emit(True)
-    board.changed.emit()
+    results_store.changed.emit()
     assert shell.pane("x").parts == []
 
 

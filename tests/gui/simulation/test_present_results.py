@@ -12,7 +12,7 @@ import occ_model as occ
 from occ_gui.files.file_controller import FileController
 from occ_gui.files.preferences import Preferences
 from occ_gui.photo.photo_controller import PhotoController
-from occ_gui.shell.results import Board
+from occ_gui.shell.results import ResultsStore
 from occ_gui.simulation.present_results import PresentResults
 from occ_gui.simulation.snapshot import Snapshot
 
@@ -58,7 +58,7 @@ def test_a_picture_is_saved_of_the_scene_just_chosen_or_not_at_all(
     bench: Bench, present: PresentResults, said: list[str], tmp_path: Path
 ) -> None:
     path, store = tmp_path / "picture.png", bench.store
-    photos = PhotoController(store.store, Board())
+    photos = PhotoController(store.store, ResultsStore())
     files = FileController(None, store, photos, Preferences(), present.ask)  # type: ignore[arg-type]
     files.status_message.connect(said.append)
     store.change(yaw=1.5, panel_width=50.0)  # behind the camera

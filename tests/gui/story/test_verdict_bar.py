@@ -210,8 +210,8 @@ def test_badges_that_do_not_fit_are_counted(
     hidden = len(row.badges) - sum(label.badge in row.badges for label in shown)
     assert (hidden == 0) == (width == 900)
     assert any(label.badge.text == f"+ {hidden}" for label in shown) == (hidden > 0)
-    made, chips = len(row.findChildren(BadgeLabel)), row.badges
-    for some in ((), chips):
+    made, badges = len(row.findChildren(BadgeLabel)), row.badges
+    for some in ((), badges):
         row.show_badges(some)
     assert len(row.findChildren(BadgeLabel)) == made  # as making them takes long
 

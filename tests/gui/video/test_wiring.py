@@ -13,7 +13,7 @@ from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.scene.scene_store import SceneStore
-from occ_gui.shell.results import Board
+from occ_gui.shell.results import ResultsStore
 from occ_gui.video.film_reading import MarkState
 from occ_gui.video.wiring import VideoWiring
 from occ_gui.widgets.outdated_mark import OutdatedMark
@@ -30,7 +30,7 @@ def scenes(film_scene: Scene) -> SceneStore:
 
 @pytest.fixture
 def pane(qtbot: QtBot, scenes: SceneStore) -> Iterator[VideoWiring]:
-    wiring = VideoWiring(scenes, Board())
+    wiring = VideoWiring(scenes, ResultsStore())
     wiring.view.form.count.setValue(6)
     qtbot.addWidget(wiring.view)
     wiring.view.resize(640, 600)

@@ -19,7 +19,7 @@ from occ_gui.photo.many.many_controller import ManyPhotosController
 from occ_gui.photo.many.many_view import ManyPhotosView
 from occ_gui.photo.many.rows_model import ESTIMATE, EXPOSURE, KNOWN, NOTE, PHOTO, VERDICT
 from occ_gui.photo.photo_controller import PhotoController
-from occ_gui.shell.results import Board
+from occ_gui.shell.results import ResultsStore
 from occ_gui.values.photo_choice import LoadOptions, MatchChoice
 from occ_model.photo.many import match_photos
 from occ_model.photo.many.other_programs import stated_lines
@@ -61,10 +61,10 @@ def table() -> PhotoTable:
 
 def controller_of(view: ManyPhotosView) -> ManyPhotosController:
     """Make a controller on a view, of photos that are read along their lines, in green."""
-    scenes, board = store_of(), Board()
-    photos = PhotoController(scenes.store, board)
+    scenes, results_store = store_of(), ResultsStore()
+    photos = PhotoController(scenes.store, results_store)
     photos.edit(lambda choice: replace(choice, load_options=LoadOptions("lines", "green")))
-    controller = ManyPhotosController(scenes, photos, view, board, jobs=1)
+    controller = ManyPhotosController(scenes, photos, view, results_store, jobs=1)
     show(controller, PATHS)
     return controller
 

@@ -10,8 +10,8 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from occ_gui.accuracy.ways_shown import Way, ways_shown
 from occ_gui.widgets.axes import LogAxis
-from occ_gui.widgets.building import filled, push_button
-from occ_gui.widgets.colours import BAND, NOISE, PHOTO, REGION, SIMULATION, seen_on, thin
+from occ_gui.widgets.building import fill, push_button
+from occ_gui.widgets.colours import BAND, NOISE, PHOTO, REGION, SIMULATION, lighten_for, thin
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.plot import new_plot
 from occ_model.results.accuracy import (
@@ -104,10 +104,10 @@ class AccuracyPlot(QWidget):
         ring = pg.mkPen(palette.color(QPalette.ColorRole.Text), width=1.5)
         self.rings.setPen(ring)
         for part, scatter in self.scatters.items():
-            scatter.setBrush(seen_on(palette, COLOURS[part]))
+            scatter.setBrush(lighten_for(palette, COLOURS[part]))
         for part, line in self.lines.items():
-            line.setPen(self.plot.stroke(thin(seen_on(palette, COLOURS[part]))))
-        of_front = thin(seen_on(palette, COLOURS["effects"]))
+            line.setPen(self.plot.stroke(thin(lighten_for(palette, COLOURS[part]))))
+        of_front = thin(lighten_for(palette, COLOURS["effects"]))
         self.front.setPen(self.plot.stroke(of_front))
         self.front_points.setPen(of_front)
         self.front_ring.setPen(ring)
@@ -117,10 +117,10 @@ class AccuracyPlot(QWidget):
 
     def _write_legend(self, palette: QPalette) -> None:
         entries = [
-            (_GLYPHS[SYMBOLS[part]], seen_on(palette, COLOURS[part]), word)
+            (_GLYPHS[SYMBOLS[part]], lighten_for(palette, COLOURS[part]), word)
             for part, word in zip(ACCURACY_PARTS, _WORDS, strict=True)
         ]
-        entries.append(("+", seen_on(palette, COLOURS["effects"]), "limit"))
+        entries.append(("+", lighten_for(palette, COLOURS["effects"]), "limit"))
         entries.append(("○", palette.color(QPalette.ColorRole.Text), "now"))
         self.legend.setText(
             "&nbsp; ".join(
@@ -162,8 +162,8 @@ class AccuracyPlot(QWidget):
 
     def _lay_out(self) -> None:
         self.fit_button = push_button("Fit", "Show all points.", self._fit_again)
-        head = filled(QHBoxLayout(), (self.title, 1), self.fit_button)
-        filled(QVBoxLayout(self), head, self.legend, (self.plot, 1), margins=0, spacing=2)
+        head = fill(QHBoxLayout(), (self.title, 1), self.fit_button)
+        fill(QVBoxLayout(self), head, self.legend, (self.plot, 1), margins=0, spacing=2)
 
     @property
     def measured(self) -> tuple[AccuracyPoint, ...]:

@@ -14,7 +14,7 @@ from occ_gui.accuracy.plan_changes import switch_sentence
 from occ_gui.accuracy.tolerance_slider import ToleranceSlider, marks_of
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.values.simulated import SimulationRequest
-from occ_gui.widgets.building import filled
+from occ_gui.widgets.building import fill
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
 from occ_model.results.accuracy import Forecast, MeasuredCosts, TimeFractions
@@ -74,12 +74,12 @@ class AccuracyView(QWidget):
         self._lay_out()
 
     def _lay_out(self) -> None:
-        controls = filled(QHBoxLayout(), (self.tolerance, 1), spacing=8)
+        controls = fill(QHBoxLayout(), (self.tolerance, 1), spacing=8)
         for text, control in (("of the", self.observable), ("Noise", self.noise)):
             controls.addWidget(QLabel(text))
             controls.addWidget(control)
-        second = filled(QHBoxLayout(), (self.ends, 1), None, self.panels.tabs, spacing=8)
-        filled(
+        second = fill(QHBoxLayout(), (self.ends, 1), None, self.panels.tabs, spacing=8)
+        fill(
             QVBoxLayout(self),
             controls,
             self.summary,

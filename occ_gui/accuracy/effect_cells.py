@@ -9,7 +9,7 @@ from PySide6.QtGui import QImage, QPainter, QPalette, QPen
 from PySide6.QtWidgets import QStyle, QStyledItemDelegate, QStyleOptionViewItem
 
 from occ_gui.accuracy.effect_rows import ELSE, EffectRow, longest_of
-from occ_gui.widgets.colours import BAND, SIMULATION, seen_on
+from occ_gui.widgets.colours import BAND, SIMULATION, lighten_for
 from occ_gui.widgets.guarded_paint import guarded
 from occ_model.arrays import ByteArray
 
@@ -78,7 +78,7 @@ class TimeCell(_Cell):
         height = min(10, option.rect.height() - 8)
         top = option.rect.center().y() - height // 2
         bar = QRectF(option.rect.left() + _GAP, top, width, height)
-        colour = seen_on(option.palette, BAND if row.effect == ELSE else SIMULATION)
+        colour = lighten_for(option.palette, BAND if row.effect == ELSE else SIMULATION)
         if option.state & QStyle.StateFlag.State_Selected:
             colour = option.palette.color(QPalette.ColorRole.HighlightedText)
         painter.save()
@@ -131,7 +131,7 @@ class ErrorCell(_Cell):
     def paint(self, painter: QPainter, option: QStyleOptionViewItem, index: _Index) -> None:
         super().paint(painter, option, index)
         row, area = self._rows()[index.row()], option.rect
-        colour = seen_on(option.palette, SIMULATION)
+        colour = lighten_for(option.palette, SIMULATION)
         text = option.palette.color(QPalette.ColorRole.Text)
         if option.state & QStyle.StateFlag.State_Selected:
             colour = text = option.palette.color(QPalette.ColorRole.HighlightedText)

@@ -8,9 +8,9 @@ from PySide6.QtWidgets import QSizePolicy, QVBoxLayout, QWidget
 
 from occ_gui.accuracy.effect_cells import image_of
 from occ_gui.accuracy.effect_rows import ELSE, EffectRow
-from occ_gui.widgets.building import filled, paragraph
+from occ_gui.widgets.building import fill, paragraph
 from occ_gui.widgets.guarded_paint import guarded
-from occ_gui.widgets.text_scale import emboldened
+from occ_gui.widgets.text_scale import embolden
 from occ_model.results.accuracy import EffectCrop
 
 _GAP = 8
@@ -76,10 +76,10 @@ class CropPictures(QWidget):
 class EffectDetail(QWidget):
     def __init__(self) -> None:
         super().__init__()
-        self.title = emboldened(paragraph())
+        self.title = embolden(paragraph())
         self.place, self.error, self.reason = (paragraph() for _ in range(3))
         self.pictures = CropPictures()
-        filled(
+        fill(
             QVBoxLayout(self), self.title, (self.pictures, 1), self.place, self.error, self.reason,
             None, margins=(8, 0, 0, 0), spacing=4,
         )  # fmt: skip

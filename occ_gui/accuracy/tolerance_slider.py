@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QSlider, QWidget
 
 from occ_gui.scene.number_edits import QuantityEdit
 from occ_gui.scene.parameter_rows import explain
-from occ_gui.widgets.building import filled
+from occ_gui.widgets.building import fill
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
 from occ_model.results.plan import EffectSet
 from occ_model.scene.parameter_kinds import Quantity
@@ -70,7 +70,7 @@ class ToleranceSlider(QWidget):
         self.field.edited.connect(self._take)
         self.field.refused.connect(self.refused)
         parts = (QLabel("fast"), (self.slider, 1), QLabel("exact"), self.field)
-        filled(QHBoxLayout(self), *parts, margins=0, spacing=8)
+        fill(QHBoxLayout(self), *parts, margins=0, spacing=8)
         self.show_value(TOLERANCE.default)
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name

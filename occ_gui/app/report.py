@@ -11,7 +11,7 @@ from PySide6.QtGui import QFontDatabase, QGuiApplication
 from PySide6.QtWidgets import QDialog, QDialogButtonBox, QPlainTextEdit, QVBoxLayout, QWidget
 
 import occ_model as occ
-from occ_gui.widgets.building import filled, named, paragraph
+from occ_gui.widgets.building import fill, name_widget, paragraph
 from occ_gui.widgets.plain_text import copy_text
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
@@ -57,7 +57,7 @@ def show_report(window: QWidget, text: str) -> None:
     dialog = QDialog(window)
     dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
     dialog.setWindowTitle("Report")
-    shown = named(QPlainTextEdit(text, readOnly=True), "Text of the report")
+    shown = name_widget(QPlainTextEdit(text, readOnly=True), "Text of the report")
     shown.setFont(QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont))
     buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
     copy = buttons.addButton("&Copy", QDialogButtonBox.ButtonRole.ActionRole)
@@ -67,6 +67,6 @@ def show_report(window: QWidget, text: str) -> None:
     )
     # The status line is behind the dialog.
     copy.clicked.connect(lambda: advice.setText(copy_text(text)))
-    filled(QVBoxLayout(dialog), advice, shown, buttons)
+    fill(QVBoxLayout(dialog), advice, shown, buttons)
     dialog.resize(*_SIZE)
     dialog.open()

@@ -8,8 +8,8 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from occ_gui.bands.jobs import ShownBands
 from occ_gui.widgets.axes import LogAxis
-from occ_gui.widgets.building import filled, paragraph
-from occ_gui.widgets.colours import BAND, SIMULATION, seen_on, thin
+from occ_gui.widgets.building import fill, paragraph
+from occ_gui.widgets.colours import BAND, SIMULATION, lighten_for, thin
 from occ_gui.widgets.plot import LineLegend, marker, new_plot
 from occ_model.scene.parameters import quantity
 from occ_model.scene.units import HERTZ, SECOND, Unit
@@ -56,7 +56,7 @@ class DepthPlot(QWidget):
             "or more. White lines: whole numbers of the "
             "lamp's periods. A click takes an exposure."
         )
-        filled(QVBoxLayout(self), (self.plot, 1), self.legend, margins=0)
+        fill(QVBoxLayout(self), (self.plot, 1), self.legend, margins=0)
         self.plot.scene().sigMouseClicked.connect(self._on_click)
 
     def show_depths(self, found: ShownBands) -> None:
@@ -111,7 +111,7 @@ class RiskPlot(QWidget):
             self.plot.plot([], [], pen=None, symbol="o", symbolSize=size) for size in _SIZES
         )
         self.plot.dress_with(
-            lambda palette: self.sines.setSymbolBrush(pg.mkBrush(seen_on(palette, SIMULATION)))
+            lambda palette: self.sines.setSymbolBrush(pg.mkBrush(lighten_for(palette, SIMULATION)))
         )
         self.plot.dress_with(
             lambda palette: self.whole.setSymbolPen(pg.mkPen(palette.text().color(), width=1.5))
@@ -127,7 +127,7 @@ class RiskPlot(QWidget):
             "Lines of IEEE 1789-2015 as lighting makers quote them: its text was not checked."
         )
         legends = ((legend, 0, Qt.AlignmentFlag.AlignLeft) for legend in (lines, points))
-        filled(QVBoxLayout(self), *legends, (self.plot, 1), self.source, margins=0, spacing=2)
+        fill(QVBoxLayout(self), *legends, (self.plot, 1), self.source, margins=0, spacing=2)
 
     def show_flicker(self, found: ShownBands) -> None:
         eye = found.eye

@@ -14,7 +14,7 @@ from PySide6.QtWidgets import (
 
 from occ_gui.bands.bands_plots import DepthPlot, RiskPlot
 from occ_gui.bands.jobs import ShownBands
-from occ_gui.widgets.building import filled, paragraph, read_only
+from occ_gui.widgets.building import fill, make_read_only, paragraph
 from occ_gui.widgets.outdated_mark import OutdatedMark
 from occ_gui.widgets.text_scale import heading_font
 from occ_model.results.bands import SpeedDepth, percent
@@ -43,11 +43,11 @@ class BandsView(QWidget):
         self.map.setMinimumHeight(_LEAST_HEIGHT)
         self.risk = RiskPlot()
         self.risk.setMinimumHeight(_LEAST_HEIGHT)
-        beside = filled(QVBoxLayout(), (self.table, 3), (self.risk, 2))
+        beside = fill(QVBoxLayout(), (self.table, 3), (self.risk, 2))
         self._row = QBoxLayout(QBoxLayout.Direction.LeftToRight)
         self._row.addWidget(self.map, 3)
         self._row.addLayout(beside, 2)
-        filled(QVBoxLayout(self), self.headline, self.sentences, (self._row, 1), margins=8)
+        fill(QVBoxLayout(self), self.headline, self.sentences, (self._row, 1), margins=8)
         self.outdated = OutdatedMark(self)
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
@@ -58,7 +58,7 @@ class BandsView(QWidget):
         self._row.setDirection(direction.TopToBottom if is_narrow else direction.LeftToRight)
 
     def _make_table(self) -> None:
-        self.table = read_only(
+        self.table = make_read_only(
             QTableWidget(0, 4),
             "Depth of the bars at usual shutter speeds",
             "Many cameras keep a power of two for what is written: 1/64 s for 1/60 s. "

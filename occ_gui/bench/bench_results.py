@@ -12,8 +12,8 @@ from PySide6.QtGui import QColor, QPalette
 from PySide6.QtWidgets import QHBoxLayout, QHeaderView, QTableWidget, QTableWidgetItem, QWidget
 
 from occ_gui.widgets.axes import LogAxis
-from occ_gui.widgets.building import filled, read_only
-from occ_gui.widgets.colours import BAND, NOISE, PHOTO, REGION, SIMULATION, seen_on, thin
+from occ_gui.widgets.building import fill, make_read_only
+from occ_gui.widgets.colours import BAND, NOISE, PHOTO, REGION, SIMULATION, lighten_for, thin
 from occ_gui.widgets.plot import Plot, new_plot
 from occ_model.results.bench import BenchBounds, BenchPoint, BenchRequest
 
@@ -83,7 +83,7 @@ class BenchPlots(QWidget):
         self.curves: dict[str, list[_Curve]] = {axis: [] for axis in AXES}
         self.bounds: dict[str, pg.PlotCurveItem] = {}
         self._nulls: list[pg.InfiniteLine] = []
-        row = filled(QHBoxLayout(self), margins=0)
+        row = fill(QHBoxLayout(self), margins=0)
         for axis, (name, bottom) in names.items():
             plot = new_plot(
                 f"{left} {name}", bottom, left, self.palette(), left=LogAxis("left", FLOOR[what])
@@ -104,7 +104,7 @@ class BenchPlots(QWidget):
             null.setPen(thin(palette.color(QPalette.ColorRole.Mid), Qt.PenStyle.DotLine))
         for curves in self.curves.values():
             for number, curve in enumerate(curves):
-                colour = seen_on(palette, COLOURS[number % len(COLOURS)])
+                colour = lighten_for(palette, COLOURS[number % len(COLOURS)])
                 for item in (curve.line, curve.intervals, curve.unseen):
                     item.setPen(thin(colour))
                 curve.seen.setBrush(colour)
@@ -201,7 +201,7 @@ class BenchTable(QTableWidget):
         super().__init__()
         self._places: dict[tuple[str, float, float], int] = {}
         self._decoders: tuple[str, ...] = ()
-        read_only(self, "Table of the bench").setAlternatingRowColors(True)
+        make_read_only(self, "Table of the bench").setAlternatingRowColors(True)
 
     def show_begun(self, request: BenchRequest) -> None:
         self.clear()

@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QStackedWidget, QV
 
 from occ_gui.bench.bench_results import BITS, COLOURS, RATES, SYMBOLS, BenchPlots, BenchTable
 from occ_gui.scene.number_edits import QuantityEdit
-from occ_gui.widgets.building import filled, named, push_button
+from occ_gui.widgets.building import fill, name_widget, push_button
 from occ_gui.widgets.colours import thin
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
@@ -64,7 +64,9 @@ class BenchView(QWidget):
         self.outdated = OutdatedMark(self._pages)
         self.table = BenchTable()
         self.legend = LineLegend()
-        self.state = named(ElidedLabel(how=Qt.TextElideMode.ElideMiddle), "State of the bench")
+        self.state = name_widget(
+            ElidedLabel(how=Qt.TextElideMode.ElideMiddle), "State of the bench"
+        )
         self.work = WorkBar("Places that are measured")
         self.work.cancelled.connect(self.cancelled)
         self._lay_out()
@@ -103,7 +105,9 @@ class BenchView(QWidget):
             box.setChecked(name in chosen)
             box.setToolTip("Measure this decoder.")
             box.toggled.connect(self._emit_choice)
-        self.frame_rate = named(QuantityEdit(FRAME_RATE), FRAME_RATE.label, FRAME_RATE.meaning)
+        self.frame_rate = name_widget(
+            QuantityEdit(FRAME_RATE), FRAME_RATE.label, FRAME_RATE.meaning
+        )
         self.measure = push_button(
             "Measure", "Measure the chosen decoders in the background.", self.asked
         )
@@ -112,12 +116,12 @@ class BenchView(QWidget):
         self.what.chosen.connect(self._show_what)
 
     def _lay_out(self) -> None:
-        head = filled(QHBoxLayout(), (self.code_source, 3), (self.effort, 2), self.measure)
+        head = fill(QHBoxLayout(), (self.code_source, 3), (self.effort, 2), self.measure)
         boxes = (part for box in self.decoders.values() for part in (box, _GAP))
-        second = filled(QHBoxLayout(), *boxes, (None, 1), self.frame_rate, (self.what, 1))
-        self._legend_place = filled(QHBoxLayout(), self.legend, (None, 1))
-        foot = filled(QHBoxLayout(), (self.state, 1), self.work)
-        filled(
+        second = fill(QHBoxLayout(), *boxes, (None, 1), self.frame_rate, (self.what, 1))
+        self._legend_place = fill(QHBoxLayout(), self.legend, (None, 1))
+        foot = fill(QHBoxLayout(), (self.state, 1), self.work)
+        fill(
             QVBoxLayout(self), head, second, (self._pages, 3), self._legend_place, (self.table, 2),
             foot, margins=(4, 2, 4, 2), spacing=2,
         )  # fmt: skip

@@ -7,8 +7,8 @@ from PySide6.QtGui import QPalette
 from PySide6.QtWidgets import QLabel, QSizePolicy, QVBoxLayout, QWidget
 
 from occ_gui.widgets.axes import Axis
-from occ_gui.widgets.building import filled
-from occ_gui.widgets.colours import BAND, SIMULATION, THRESHOLD, seen_on, thin
+from occ_gui.widgets.building import fill
+from occ_gui.widgets.colours import BAND, SIMULATION, THRESHOLD, lighten_for, thin
 from occ_gui.widgets.columns import PACKETS_IN_VIEW
 from occ_gui.widgets.plot import LineLegend, new_plot
 from occ_model.arrays import ByteArray, FloatArray
@@ -53,13 +53,15 @@ class SignalPlot(QWidget):
         self.model = self.plot.add_curve(thin(BAND, dash))
         self.threshold = pg.InfiniteLine(angle=0, pen=thin(THRESHOLD, dash))
         self.chips = pg.BarGraphItem(x0=[], width=[], y0=[], height=[])
-        self.plot.dress_with(lambda palette: self.chips.setOpts(brush=seen_on(palette, SIMULATION)))
+        self.plot.dress_with(
+            lambda palette: self.chips.setOpts(brush=lighten_for(palette, SIMULATION))
+        )
         for item in (self.threshold, self.chips):
             self.plot.addItem(item, ignoreBounds=True)
         self.plot.setMinimumHeight(_LEAST_HEIGHT)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         legend = (self.legend, 0, Qt.AlignmentFlag.AlignLeft)
-        filled(QVBoxLayout(self), legend, (self.plot, 1), margins=0, spacing=0)
+        fill(QVBoxLayout(self), legend, (self.plot, 1), margins=0, spacing=0)
 
     def show_result(self, result: DecodeResult, packet_columns: float) -> None:
         """Show the steps of this result, at first two packets of ``packet_columns`` each."""
@@ -144,11 +146,11 @@ class RunLengthPlot(QWidget):
             self.splits.append(split)
         self.plot.dress_with(self._dress)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
-        filled(QVBoxLayout(self), title, (self.plot, 1), margins=0, spacing=0)
+        fill(QVBoxLayout(self), title, (self.plot, 1), margins=0, spacing=0)
 
     def _dress(self, palette: QPalette) -> None:
         for bars, colour in zip(self.bars, _COLOURS, strict=True):
-            bars.setOpts(brush=seen_on(palette, colour), pen=seen_on(palette, colour))
+            bars.setOpts(brush=lighten_for(palette, colour), pen=lighten_for(palette, colour))
 
     def show_result(self, result: DecodeResult) -> None:
         self.setVisible(result.histograms is not None)

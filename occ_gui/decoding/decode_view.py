@@ -11,9 +11,9 @@ from occ_gui.decoding.bit_strip import BitStrip, PayloadText
 from occ_gui.decoding.decode_steps import RunLengthPlot, SignalPlot
 from occ_gui.simulation.snapshot import Reading
 from occ_gui.simulation.verdict import is_right, left_out_in_words, reason_in, result_of, verdict_on
-from occ_gui.widgets.building import filled, named, paragraph
+from occ_gui.widgets.building import fill, name_widget, paragraph
 from occ_gui.widgets.state_look import State
-from occ_gui.widgets.text_scale import emboldened
+from occ_gui.widgets.text_scale import embolden
 from occ_model.results.decoding import DecodeResult, Location
 
 _MARKS = {State.GOOD: "✓ ", State.NEUTRAL: "", State.WAITING: "… "}
@@ -44,9 +44,9 @@ class DecodeView(QWidget):
         self._is_outdated = False
         self._run = ""
         tip = "Whose result and steps are shown."
-        self.decoders = named(QTabBar(drawBase=False), "Decoder", tip)
+        self.decoders = name_widget(QTabBar(drawBase=False), "Decoder", tip)
         self.decoders.currentChanged.connect(self._choose)
-        self.verdict = emboldened(paragraph())
+        self.verdict = embolden(paragraph())
         self.origin = paragraph(name="What the code was read from")
         self.payload = PayloadText()
         self.strip = BitStrip()
@@ -57,7 +57,7 @@ class DecodeView(QWidget):
         self.signal, self.run_lengths = SignalPlot(), RunLengthPlot()
         texts = (self.origin, self.payload, self.strip, self.reason, self.left_out)
         plots = (self.signal, self.run_lengths)
-        filled(
+        fill(
             QVBoxLayout(self), self.decoders, self.verdict, *texts, self._make_form(),
             *((plot, 1) for plot in plots), None, margins=(6, 4, 6, 4), spacing=4,
         )  # fmt: skip

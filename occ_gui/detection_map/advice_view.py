@@ -15,7 +15,7 @@ from PySide6.QtWidgets import (
 
 from occ_gui.detection_map.advice_sentences import AdviceLine, advice_lines, say_what_holds
 from occ_gui.detection_map.limit_cards import LimitCards
-from occ_gui.widgets.building import filled, named, paragraph, push_button
+from occ_gui.widgets.building import fill, name_widget, paragraph, push_button
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_model.results.advice import Advice
@@ -49,22 +49,24 @@ class AdviceView(QWidget):
             "Ask again", "Search for the limits of the current scene.", self.asked
         )
         self.cancel = push_button("Cancel", "Stop the search.", self.cancelled)
-        self.progress = named(QProgressBar(), "Progress of the search", "Progress of the search.")
-        self.state = named(ElidedLabel(), "State of the search")
+        self.progress = name_widget(
+            QProgressBar(), "Progress of the search", "Progress of the search."
+        )
+        self.state = name_widget(ElidedLabel(), "State of the search")
         self._lay_out()
         self._show_running(False)
 
     def _lay_out(self) -> None:
         row = QHBoxLayout()
-        head = filled(row, self.back, self.again, self.cancel, (self.progress, 1), (self.state, 1))
+        head = fill(row, self.back, self.again, self.cancel, (self.progress, 1), (self.state, 1))
         self.hint = paragraph(
             "Searching: the limits of each decoder appear here as soon as they are found."
         )
         self.content = QWidget()
         column = QVBoxLayout(self.content)
-        self._column = filled(column, self.hint, (None, 1), margins=(0, 0, 4, 0))
+        self._column = fill(column, self.hint, (None, 1), margins=(0, 0, 4, 0))
         scrolled = ScrollPane(self.content, _LEAST)
-        filled(QVBoxLayout(self), head, (scrolled, 1), margins=(4, 2, 4, 2))
+        fill(QVBoxLayout(self), head, (scrolled, 1), margins=(4, 2, 4, 2))
 
     def _show_running(self, running: bool) -> None:
         self.progress.setVisible(running)
@@ -141,7 +143,7 @@ class AdviceView(QWidget):
         font = label.font()
         font.setBold(line.is_title)
         label.setFont(font)
-        layout = filled(QHBoxLayout(row), (label, 1), margins=0)
+        layout = fill(QHBoxLayout(row), (label, 1), margins=0)
         if line.destination is not None:
             button = self._destination(*line.destination, decoder)
             self.destinations[button] = (line.destination[0], label)

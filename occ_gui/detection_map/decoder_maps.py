@@ -18,7 +18,7 @@ from occ_gui.detection_map.colour_map import (
 )
 from occ_gui.detection_map.map_plot import STYLES, MapPlot, Point
 from occ_gui.detection_map.rate_map import LINES, RateMap, TheoryFields
-from occ_gui.widgets.building import filled, named
+from occ_gui.widgets.building import fill, name_widget
 from occ_model.arrays import FloatArray
 from occ_model.results.sweep_request import Shown
 from occ_model.scene.parameters import quantity
@@ -51,7 +51,7 @@ class MapPlots(QWidget):
         self._grid = QGridLayout()
         self._grid.setSpacing(4)
         self._columns = 0
-        filled(QHBoxLayout(self), (self._grid, 1), self.bar, margins=0, spacing=4)
+        fill(QHBoxLayout(self), (self._grid, 1), self.bar, margins=0, spacing=4)
         self._name_plots()
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
@@ -221,7 +221,7 @@ class MapLegend(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self.buttons = {key: self._button(key, *words) for key, words in _LIMITS.items()}
-        filled(QHBoxLayout(self), *self.buttons.values(), (None, 1), margins=0, spacing=2)
+        fill(QHBoxLayout(self), *self.buttons.values(), (None, 1), margins=0, spacing=2)
         self._draw_samples()
 
     def _button(self, key: str, text: str, meaning: str) -> QToolButton:
@@ -229,7 +229,7 @@ class MapLegend(QWidget):
         button = QToolButton(toolButtonStyle=style, autoRaise=True)
         button.setText(text)
         button.setIconSize(_SAMPLE)
-        named(button, text, meaning).setCheckable(True)
+        name_widget(button, text, meaning).setCheckable(True)
         button.setChecked(True)
         button.setEnabled(False)
         button.toggled.connect(lambda shown: self.toggled.emit(key, shown))

@@ -7,7 +7,7 @@ from PySide6.QtGui import QHideEvent, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QWidget
 
 from occ_gui.detection_map.advice_sentences import line_on_highest_frequency
-from occ_gui.widgets.building import filled, named, paragraph, push_button
+from occ_gui.widgets.building import fill, name_widget, paragraph, push_button
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.text_scale import heading_font
 from occ_model.errors import counted
@@ -37,7 +37,7 @@ class LimitCards(QWidget):
     def __init__(self, decoders: Sequence[str]) -> None:
         super().__init__()
         self.cards = {name: LimitCard(name) for name in decoders}
-        row = filled(QHBoxLayout(self), margins=(0, 4, 0, 4), spacing=8)
+        row = fill(QHBoxLayout(self), margins=(0, 4, 0, 4), spacing=8)
         for card in self.cards.values():
             row.addWidget(card, 1)
             card.chosen.connect(self._go)
@@ -231,7 +231,7 @@ class MostBitsCard(QFrame):
         self._failures: list[str] = []
         self._is_running = self._is_outdated = False
         self._state = ""
-        self.text = named(ElidedLabel(), "What carries most bits a second")
+        self.text = name_widget(ElidedLabel(), "What carries most bits a second")
         self.search = push_button(
             "Search",
             "Try line codes, frequencies and numbers of bits at the scene's exposure and "
@@ -247,7 +247,7 @@ class MostBitsCard(QFrame):
             name="Go to what carries most",
         )
         parts = ((self.text, 1), self.search, self.cancel, self.go)
-        filled(QHBoxLayout(self), *parts, margins=(12, 4, 8, 4), spacing=8)
+        fill(QHBoxLayout(self), *parts, margins=(12, 4, 8, 4), spacing=8)
         self._show()
 
     def show_begun(self) -> None:

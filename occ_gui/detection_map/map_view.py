@@ -11,7 +11,7 @@ from occ_gui.detection_map.decoder_maps import MapLegend, MapPlots
 from occ_gui.detection_map.limit_cards import MostBitsCard
 from occ_gui.detection_map.rate_map import MAP_PARAMETERS, PointFacts, RateMap
 from occ_gui.scene.number_edits import QuantityEdit
-from occ_gui.widgets.building import filled, named, push_button
+from occ_gui.widgets.building import fill, name_widget, push_button
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
 from occ_gui.widgets.outdated_mark import OutdatedMark
@@ -38,7 +38,7 @@ class MapView(QWidget):
         self._make_choices(decoders)
         self.plots, self.legend = MapPlots(decoders), MapLegend()
         self.outdated = OutdatedMark(self.plots)
-        self.image_effects = named(
+        self.image_effects = name_widget(
             QCheckBox("image effects"),
             "Image effects",
             "Simulate lens, tilt and JPEG if the scene has them, which is some 20 times slower. "
@@ -50,8 +50,8 @@ class MapView(QWidget):
             "Search for the highest frequency and the exposures at which codes are read.",
             self._show_advice,
         )
-        self.status = named(ElidedLabel(how=Qt.TextElideMode.ElideMiddle), "State of the map")
-        self.left_out = named(ElidedLabel(), "Effects that the map leaves out")
+        self.status = name_widget(ElidedLabel(how=Qt.TextElideMode.ElideMiddle), "State of the map")
+        self.left_out = name_widget(ElidedLabel(), "Effects that the map leaves out")
         self.left_out.hide()
         self.advice = AdviceView(decoders if advised is None else advised)
         self.cards = self.advice.cards
@@ -83,26 +83,26 @@ class MapView(QWidget):
             "Pictures a second, each with another payload; at most as many are counted as can be "
             "read out."
         )
-        self.frame_rate = named(QuantityEdit(FRAME_RATE), FRAME_RATE.label, tip)
+        self.frame_rate = name_widget(QuantityEdit(FRAME_RATE), FRAME_RATE.label, tip)
         self.frame_rate.hide()
 
     def _lay_out(self) -> None:
-        head = filled(
+        head = fill(
             QHBoxLayout(), (self.across, 3), QLabel("×"),  # noqa: RUF001 - the sign for it
             (self.up, 3), (self.what, 2), (self.shown, 2), self.frame_rate,
         )  # fmt: skip
-        self._searches = filled(QHBoxLayout(), (self.most_bits, 1), self.advise)
-        foot = filled(QHBoxLayout(), (self.legend, 1), self.image_effects)
-        self._state = filled(QHBoxLayout(), (self.status, 1))
+        self._searches = fill(QHBoxLayout(), (self.most_bits, 1), self.advise)
+        foot = fill(QHBoxLayout(), (self.legend, 1), self.image_effects)
+        self._state = fill(QHBoxLayout(), (self.status, 1))
         page = QWidget()
-        filled(
+        fill(
             QVBoxLayout(page), self.cards, self._searches, head, (self.plots, 1), foot,
             self.left_out, self._state, margins=(4, 2, 4, 2), spacing=2,
         )  # fmt: skip
         self._pages = QStackedWidget()
         self._pages.addWidget(page)
         self._pages.addWidget(self.advice)
-        filled(QVBoxLayout(self), self._pages, margins=0)
+        fill(QVBoxLayout(self), self._pages, margins=0)
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         super().resizeEvent(event)

@@ -7,7 +7,7 @@ from PySide6.QtCore import QEvent, QObject, QPointF, QSignalBlocker, Qt, Signal
 from PySide6.QtGui import QBrush, QColor, QKeyEvent, QPalette, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QSpinBox, QVBoxLayout, QWidget
 
-from occ_gui.widgets.building import check_box, filled, named, paragraph
+from occ_gui.widgets.building import check_box, fill, name_widget, paragraph
 from occ_gui.widgets.colours import BAND, REGION, SIMULATION, pen_on, thin
 from occ_gui.widgets.columns import KEY_STEPS
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
@@ -101,8 +101,8 @@ class ExposurePlot(QWidget):
         self.sentence.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
         self._make_plot()
         self._make_controls()
-        row = filled(QHBoxLayout(), QLabel("Column"), self.column, self.hold, (None, 1))
-        self._layout = filled(
+        row = fill(QHBoxLayout(), QLabel("Column"), self.column, self.hold, (None, 1))
+        self._layout = fill(
             QVBoxLayout(self), row, self.sentence, (self.plot, 1), margins=(4, 2, 4, 4), spacing=2
         )
 
@@ -138,7 +138,7 @@ class ExposurePlot(QWidget):
         self.plot.setYRange(-0.12, 1.25, padding=0)
 
     def _make_controls(self) -> None:
-        self.column = named(
+        self.column = name_widget(
             QSpinBox(),
             "Column whose exposure is shown",
             "The column of the picture whose exposure is shown. Moving the mouse over the "

@@ -10,7 +10,7 @@ from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Pane
 from occ_gui.shell.results import of_snapshot
 from occ_gui.simulation.snapshot import Snapshot
-from occ_gui.widgets.building import filled
+from occ_gui.widgets.building import fill
 from occ_gui.widgets.plot import Plot
 from occ_model.teaching.light_over_columns import exposure_window
 
@@ -93,7 +93,7 @@ class ExplanationView(QWidget):
         panes.setChildrenCollapsible(False)
         panes.setStretchFactor(0, 3)
         panes.setStretchFactor(1, 2)
-        filled(QVBoxLayout(self), panes, margins=0)
+        fill(QVBoxLayout(self), panes, margins=0)
 
 
 class ExplanationPane(Pane[Snapshot]):

@@ -19,7 +19,7 @@ from PySide6.QtWidgets import (
 from occ_gui.help.help_browser import HelpBrowser
 from occ_gui.help.pages import GUIDE, Section, docs_folder, pages, search, sections
 from occ_gui.shell.feature import Service
-from occ_gui.widgets.building import filled, named
+from occ_gui.widgets.building import fill, name_widget
 
 _SIZE = QSize(960, 720)
 _LIST_WIDTH = 190
@@ -32,13 +32,13 @@ class HelpWindow(QMainWindow):
         super().__init__(parent)
         self._folder = folder
         tip = "The pages of the manual, or what was found in them."
-        self.page_list = named(QListWidget(), "Pages", tip)
+        self.page_list = name_widget(QListWidget(), "Pages", tip)
         self.page_list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self._pages = pages(folder)
         self._sections: list[Section] = []
         tip = "Lists the sections that contain all these words; Enter shows the first."
         self.search_all = _search_field("Search all pages", tip)
-        self.browser = named(HelpBrowser(), "Page")
+        self.browser = name_widget(HelpBrowser(), "Page")
         self.search = _search_field("Find in this page", "Enter finds the next place.")
         self._lay_out()
         self._list(self._pages)
@@ -62,7 +62,7 @@ class HelpWindow(QMainWindow):
         self._add_key(QKeySequence("Ctrl+Shift+F"), self.search_all.setFocus)
         self._add_key(QKeySequence.StandardKey.Cancel, self.close)
         left = QWidget()
-        filled(QVBoxLayout(left), self.search_all, self.page_list, margins=0)
+        fill(QVBoxLayout(left), self.search_all, self.page_list, margins=0)
         parts = QSplitter()
         parts.addWidget(left)
         parts.addWidget(self.browser)
@@ -157,7 +157,7 @@ class HelpWindow(QMainWindow):
 
 
 def _search_field(name: str, tip: str) -> QLineEdit:
-    return named(QLineEdit(placeholderText=name, clearButtonEnabled=True), name, tip)
+    return name_widget(QLineEdit(placeholderText=name, clearButtonEnabled=True), name, tip)
 
 
 class Manual(Service):

@@ -13,7 +13,7 @@ from PySide6.QtWidgets import (
 )
 
 from occ_gui.lessons.step_page import LEAST_SIZE, StepPage, heading, paragraph
-from occ_gui.widgets.building import filled, named, push_button
+from occ_gui.widgets.building import fill, name_widget, push_button
 from occ_gui.widgets.plain_text import in_menu
 from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_model.errors import counted
@@ -37,7 +37,7 @@ class EndPage(QWidget):
             "Save one page with your answers and figures, as PDF.",
             self.report_asked,
         )
-        self.author = named(
+        self.author = name_widget(
             QLineEdit(placeholderText="Your name, for the report", maxLength=_LONGEST_NAME),
             "Your name, as it shall stand on the report",
             "The name that stands on the report; it is kept for the next one.",
@@ -49,11 +49,11 @@ class EndPage(QWidget):
             "Next lesson", "Begin the lesson that follows in the list.", self.next_asked
         )
         content = QWidget()
-        filled(QVBoxLayout(content), self.title, self.answers, None, margins=8, spacing=8)
+        fill(QVBoxLayout(content), self.title, self.answers, None, margins=8, spacing=8)
         # Where the button was that ended the lesson stands one that a second click may press.
         rows = ((self.next,), (self.author,), ((self.report, 1), (self.all, 1)))
-        lines = [filled(QHBoxLayout(), *row, margins=(8, 0, 8, 4), spacing=8) for row in rows]
-        filled(QVBoxLayout(self), (ScrollPane(content, LEAST_SIZE), 1), *lines, margins=0)
+        lines = [fill(QHBoxLayout(), *row, margins=(8, 0, 8, 4), spacing=8) for row in rows]
+        fill(QVBoxLayout(self), (ScrollPane(content, LEAST_SIZE), 1), *lines, margins=0)
 
     def show_answers(
         self, lesson: Lesson, answers: Sequence[CheckedAnswer | None], following: str
@@ -92,9 +92,9 @@ class LessonList(QWidget):
             "Open the folder of lessons of your own; the guide tells how to write one.",
             self.folder_asked,
         )
-        foot = filled(QHBoxLayout(), None, self.folder)
+        foot = fill(QHBoxLayout(), None, self.folder)
         parts = (heading("Lessons"), self.message, self._rows, self.problems, None, foot)
-        filled(QVBoxLayout(self), *parts, margins=8, spacing=8)
+        fill(QVBoxLayout(self), *parts, margins=8, spacing=8)
 
     def show_lessons(
         self,
@@ -137,7 +137,7 @@ class LessonList(QWidget):
         choice.clicked.connect(self._choose)
         self.choices.append(choice)
         box = QWidget()
-        column = filled(QVBoxLayout(box), choice, margins=0, spacing=2)
+        column = fill(QVBoxLayout(box), choice, margins=0, spacing=2)
         if lesson.summary:
             summary = paragraph(lesson.summary)
             summary.setContentsMargins(8, 0, 8, 0)
@@ -166,7 +166,7 @@ class LessonView(QWidget):
         self._pages = QStackedWidget()
         for page in (ScrollPane(self.list, LEAST_SIZE), self.step, self.end):
             self._pages.addWidget(page)
-        filled(QVBoxLayout(self), self._pages, margins=0)
+        fill(QVBoxLayout(self), self._pages, margins=0)
 
     def list_lessons(
         self,

@@ -14,7 +14,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QWidget
 
-from occ_gui.widgets.colours import mixed
+from occ_gui.widgets.colours import mix_colours
 from occ_gui.widgets.guarded_paint import guarded
 from occ_model.results.teaching import RollingShutter
 
@@ -146,7 +146,7 @@ class Drawing:
             passed = min(max(self._now - start, 0.0), shutter.exposure_time)
             bar = QRectF(x, y, width, max(step - 1.0, 1.0))
             filled = QRectF(x, y, width * passed / shutter.exposure_time, bar.height())
-            self.painter.fillRect(filled, mixed(_LIT, _DARK, fraction))
+            self.painter.fillRect(filled, mix_colours(_LIT, _DARK, fraction))
             self.painter.setPen(QPen(outline, 1))
             self.painter.drawRect(bar)
 

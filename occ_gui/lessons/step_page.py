@@ -18,11 +18,11 @@ from PySide6.QtWidgets import (
 
 from occ_gui.explanation.equation_text import EquationText
 from occ_gui.lessons.shutter_animation import ShutterAnimation
-from occ_gui.widgets.building import filled, named, push_button
+from occ_gui.widgets.building import fill, name_widget, push_button
 from occ_gui.widgets.building import paragraph as plain_paragraph
 from occ_gui.widgets.event_filters import leave_undo_to_window
 from occ_gui.widgets.scroll_pane import ScrollPane
-from occ_gui.widgets.text_scale import emboldened
+from occ_gui.widgets.text_scale import embolden
 from occ_model.results.teaching import CheckedAnswer, Equation, Lesson
 from occ_model.scene.parameters import PARAMETERS
 
@@ -46,7 +46,7 @@ def typeset_paragraph() -> QLabel:
 
 
 def heading(text: str = "") -> QLabel:
-    return emboldened(paragraph(text), _HEADING)
+    return embolden(paragraph(text), _HEADING)
 
 
 _LONGEST_ANSWER = 300  # characters of an answer
@@ -63,17 +63,17 @@ class AnswerField(QWidget):
     def __init__(self) -> None:
         super().__init__()
         tip = "Type your answer here before you look at the explanation."
-        self.field = named(QLineEdit(maxLength=_LONGEST_ANSWER), "Your answer", tip)
+        self.field = name_widget(QLineEdit(maxLength=_LONGEST_ANSWER), "Your answer", tip)
         leave_undo_to_window(self.field)
         self.unit = QLabel()
         self.check = push_button("Check", "Compare it with the model (Enter).", self._ask)
         self.field.returnPressed.connect(self._ask)
         self.field.textEdited.connect(self._forget)
-        self.sentence = named(paragraph(), "What the check says")
+        self.sentence = name_widget(paragraph(), "What the check says")
         self._said, self._is_outdated = "", False
-        row = filled(QHBoxLayout(), self.field, self.unit, self.check, spacing=8)
+        row = fill(QHBoxLayout(), self.field, self.unit, self.check, spacing=8)
         # Above the field, which stands at the lower end of the pane: it stays where it is.
-        filled(QVBoxLayout(self), self.sentence, row, margins=0, spacing=4)
+        fill(QVBoxLayout(self), self.sentence, row, margins=0, spacing=4)
 
     def begin(self, unit: str, is_number: bool, before: CheckedAnswer | None) -> None:
         self.unit.setText(unit)
@@ -148,8 +148,8 @@ class StepPage(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self.place, self.goal = paragraph(), heading()
-        self.text, self.question = typeset_paragraph(), emboldened(typeset_paragraph())
-        self.progress = named(QProgressBar(textVisible=False), "Progress of the lesson")
+        self.text, self.question = typeset_paragraph(), embolden(typeset_paragraph())
+        self.progress = name_widget(QProgressBar(textVisible=False), "Progress of the lesson")
         self.progress.setFixedHeight(6)
         self.animation = ShutterAnimation()
         self.animation.setFixedHeight(_ANIMATION_HEIGHT)
@@ -159,7 +159,7 @@ class StepPage(QWidget):
             self.control_asked,
             name="Show the control of this step",
         )
-        self.changed = named(paragraph(), "Your changes of the scene")
+        self.changed = name_widget(paragraph(), "Your changes of the scene")
         self.changed.hide()
         self.action = push_button(
             "", "Do what this step is about.", self.action_asked, name="Do what this step asks for"
@@ -204,7 +204,7 @@ class StepPage(QWidget):
 
     def _lay_out(self) -> None:
         content = QWidget()
-        filled(
+        fill(
             QVBoxLayout(content), self.place, self.progress, self.goal, self.animation, self.text,
             self.control, self.action, self.changed, self.reveal, self.answer, self.equation,
             None, margins=8, spacing=8,
@@ -215,12 +215,12 @@ class StepPage(QWidget):
         # What is asked stays in view, however long the text above it is.
         self.asked = QWidget()
         below = (8, 0, 8, 4)
-        filled(QVBoxLayout(self.asked), self.question, self.answer_field, margins=below, spacing=4)
+        fill(QVBoxLayout(self.asked), self.question, self.answer_field, margins=below, spacing=4)
         rows = [
-            filled(QHBoxLayout(), *((button, 1) for button in buttons), margins=below, spacing=8)
+            fill(QHBoxLayout(), *((button, 1) for button in buttons), margins=below, spacing=8)
             for buttons in ((self.all, self.again), (self.back, self.next))
         ]
-        filled(QVBoxLayout(self), (self._scroll, 1), self.asked, *rows, margins=0, spacing=4)
+        fill(QVBoxLayout(self), (self._scroll, 1), self.asked, *rows, margins=0, spacing=4)
 
     def show_step(self, lesson: Lesson, place: int, before: CheckedAnswer | None) -> None:
         step, count = lesson.steps[place], len(lesson.steps)

@@ -18,7 +18,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from occ_gui.widgets.building import filled, named, push_button, read_only
+from occ_gui.widgets.building import fill, make_read_only, name_widget, push_button
 from occ_gui.widgets.colours import PHOTO, REGION
 from occ_gui.widgets.guarded_paint import guarded
 from occ_model.results.decoding import Region
@@ -61,15 +61,15 @@ class LampForm(QWidget):
         self.whole = push_button(
             "&Whole photo", "Search the whole photo for stripes again.", self.whole_asked
         )
-        self.place = named(QLabel(wordWrap=True), "What is matched")
+        self.place = name_widget(QLabel(wordWrap=True), "What is matched")
         self._make_table()
-        buttons = filled(QHBoxLayout(), self.search, self.by_hand, self.whole, None)
-        filled(QVBoxLayout(self), buttons, self.table, self.place, margins=0, spacing=4)
+        buttons = fill(QHBoxLayout(), self.search, self.by_hand, self.whole, None)
+        fill(QVBoxLayout(self), buttons, self.table, self.place, margins=0, spacing=4)
         self.show_lamps((), None)
         self.show_region(None)
 
     def _make_table(self) -> None:
-        self.table = read_only(
+        self.table = make_read_only(
             QTableWidget(0, 4),
             "Lamps in the photo",
             "The lamps, brightest first: the columns that each one covers, the width of a chip in "

@@ -7,7 +7,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QFontDatabase
 from PySide6.QtWidgets import QGridLayout, QLabel, QToolButton, QVBoxLayout, QWidget
 
-from occ_gui.widgets.building import filled, named, paragraph
+from occ_gui.widgets.building import fill, name_widget, paragraph
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.plain_text import copy_text
 from occ_model.photo.many.other_programs import note_on
@@ -77,7 +77,7 @@ class MatchValues(QWidget):
             # A pattern can be arbitrarily long.
             label = ElidedLabel() if name == "pattern" else paragraph()
             label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-            named(label, title, WHAT_ERRORS_MEAN if name in (*ESTIMATES, "frame") else "")
+            name_widget(label, title, WHAT_ERRORS_MEAN if name in (*ESTIMATES, "frame") else "")
             self.labels[name], self._titled[name] = label, QLabel(title)
             grid.addWidget(self._titled[name], row, 0, Qt.AlignmentFlag.AlignTop)
             grid.addWidget(label, row, 1)
@@ -119,7 +119,7 @@ class PasteLines(QWidget):
         self.note = paragraph(name="What the lines for other programs assume")
         self._grid = _grid()
         self._parts: list[QWidget] = []
-        filled(QVBoxLayout(self), self.why_none, self._grid, self.note, margins=0)
+        fill(QVBoxLayout(self), self.why_none, self._grid, self.note, margins=0)
         self.show_lines({})
 
     def show_lines(self, lines: Mapping[str, str], condition: str = "") -> None:

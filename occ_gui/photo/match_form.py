@@ -11,7 +11,7 @@ from occ_gui.scene.parameter_rows import explain
 from occ_gui.scene.refusal_notice import RefusalNotice
 from occ_gui.scene.scene_store import new_gesture
 from occ_gui.values.photo_choice import KNOWN, MatchChoice
-from occ_gui.widgets.building import check_box, filled, named, paragraph, push_button
+from occ_gui.widgets.building import check_box, fill, name_widget, paragraph, push_button
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
 from occ_model.results.match import counterpart
 from occ_model.scene.parameters import quantity
@@ -57,7 +57,7 @@ class MatchForm(QWidget):
             },
         )
         tip = f"{SQUARE_FREQUENCY.label}\n{SQUARE_FREQUENCY.meaning}"
-        self.square = named(QuantityEdit(SQUARE_FREQUENCY), SQUARE_FREQUENCY.label, tip)
+        self.square = name_widget(QuantityEdit(SQUARE_FREQUENCY), SQUARE_FREQUENCY.label, tip)
         self.estimate = KeyedComboBox(
             "What is estimated",
             "Stripes determine only the product of readout time and switching frequency. One of "
@@ -89,7 +89,7 @@ class MatchForm(QWidget):
         for name in KNOWN:
             declared = quantity(name)
             tip = f"{note}\n\n{explain(declared)}"
-            field = named(QuantityEdit(declared), f"Known: {declared.label}", tip)
+            field = name_widget(QuantityEdit(declared), f"Known: {declared.label}", tip)
             field.edited.connect(lambda value, name=name: self._edit(name, value))
             self.known[name] = field
         self.hint = paragraph()
@@ -147,7 +147,7 @@ class MatchForm(QWidget):
             "Find the settings that explain the photo's stripes.",
             lambda: self.asked.emit(self.choice()),
         )
-        self.progress = named(QProgressBar(), "Progress of the match, in percent")
+        self.progress = name_widget(QProgressBar(), "Progress of the match, in percent")
         self.progress.setRange(0, _STEPS)
         self.cancel = push_button(
             "&Cancel", "Cancel this match; the previous result stays.", self.cancelled
@@ -163,12 +163,12 @@ class MatchForm(QWidget):
         grid.addWidget(self.sent, 0, 1)
         grid.addWidget(self.square, 0, 2)
         grid.addWidget(self.estimate, 2, 1, 1, 2)
-        known = filled(QHBoxLayout(), *self.known.values(), self.certain, None)
+        known = fill(QHBoxLayout(), *self.known.values(), self.certain, None)
         grid.addLayout(known, 3, 1, 1, 2)
         grid.addWidget(self.hint, 4, 1, 1, 2)
         grid.setColumnStretch(1, 1)
-        run = filled(QHBoxLayout(), self.gamma, None, self.start, self.progress, self.cancel)
-        filled(QVBoxLayout(self), grid, run, margins=0, spacing=3)
+        run = fill(QHBoxLayout(), self.gamma, None, self.start, self.progress, self.cancel)
+        fill(QVBoxLayout(self), grid, run, margins=0, spacing=3)
 
     def choice(self) -> MatchChoice:
         """Return the choices, including values that were typed but not yet entered."""

@@ -8,7 +8,7 @@ from PySide6.QtGui import QPalette
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
 
 from occ_gui.photo.match_figures import MatchValues, PasteLines, condition_of, warn_of_stale
-from occ_gui.widgets.building import filled, named, paragraph, push_button
+from occ_gui.widgets.building import fill, name_widget, paragraph, push_button
 from occ_gui.widgets.outdated_mark import DELAY, OutdatedMark
 from occ_gui.widgets.state_look import State, colours_of
 from occ_model.photo.many.other_programs import lines_of_match
@@ -32,7 +32,7 @@ class MatchVerdictView(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self.word = named(QLabel(textFormat=Qt.TextFormat.PlainText), "Verdict on the match")
+        self.word = name_widget(QLabel(textFormat=Qt.TextFormat.PlainText), "Verdict on the match")
         self.word.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         font = self.word.font()
         font.setBold(True)
@@ -43,8 +43,8 @@ class MatchVerdictView(QWidget):
         self.word.setSizePolicy(fixed, fixed)
         self.reasons.setSizePolicy(QSizePolicy.Policy.Preferred, least)
         self._verdict, self._is_outdated = "", False
-        row = filled(QHBoxLayout(), self.word, None)
-        filled(QVBoxLayout(self), row, self.reasons, margins=0, spacing=_MARGIN)
+        row = fill(QHBoxLayout(), self.word, None)
+        fill(QVBoxLayout(self), row, self.reasons, margins=0, spacing=_MARGIN)
 
     def show_verdict(self, verdict: str, reasons: Sequence[str]) -> None:
         """Show a verdict, SURE or DOUBTFUL, with a sentence for each reason."""
@@ -93,12 +93,12 @@ class MatchResult(QWidget):
         self.stale.hide()
         self.cure = paragraph()
         self._make_buttons()
-        filled(
+        fill(
             QVBoxLayout(self),
             # Most photographers want the cure, so it is visible without scrolling.
             self.verdict, self.stale, self.condition, self.cure,
             (self.without_bars, 0, Qt.AlignmentFlag.AlignLeft), self.figures, self.paste,
-            filled(QHBoxLayout(), self.apply, self.save, None), None,
+            fill(QHBoxLayout(), self.apply, self.save, None), None,
             margins=0, spacing=4,
         )  # fmt: skip
 

@@ -3,7 +3,7 @@
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
-from occ_gui.widgets.building import filled, push_button
+from occ_gui.widgets.building import fill, push_button
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
 from occ_gui.widgets.plain_text import LONGEST_TEXT, in_tool_tip
@@ -48,12 +48,12 @@ class PhotoFacts(QWidget):
             {"auto": "automatic", "columns": "by columns", "lines": "by lines"},
         )
         self.scan_axis.chosen.connect(self.scan_axis_chosen)
-        notes = filled(QHBoxLayout(), (self.notes, 1), self.use_settings)
-        choices = filled(
+        notes = fill(QHBoxLayout(), (self.notes, 1), self.use_settings)
+        choices = fill(
             QHBoxLayout(), QLabel("Channel"), (self.channel, 1), QLabel("Scanned"),
             (self.scan_axis, 1),
         )  # fmt: skip
-        filled(QVBoxLayout(self), self.name, self.size_line, notes, choices, margins=0, spacing=3)
+        fill(QVBoxLayout(self), self.name, self.size_line, notes, choices, margins=0, spacing=3)
 
     def show_photo(self, photo: Photo) -> None:
         self.name.set_full_text(photo.path.name)

@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QHBoxLayout, QPushButton, QSizePolicy, QWidget
 from occ_gui.photo.match_figures import condition_of
 from occ_gui.photo.match_result import STATES
 from occ_gui.widgets.badge_row import Badge
-from occ_gui.widgets.building import filled, push_button
+from occ_gui.widgets.building import fill, push_button
 from occ_gui.widgets.state_bar import StateBar
 from occ_gui.widgets.state_look import State
 from occ_model.errors import counted, one_line
@@ -43,7 +43,7 @@ class PhotoSteps(QWidget):
             button = self.buttons[name] = push_button("", meaning, go)
             button.setObjectName("step")
             button.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        filled(QHBoxLayout(self), *self.buttons.values(), margins=(0, 4, 0, 4), spacing=4)
+        fill(QHBoxLayout(self), *self.buttons.values(), margins=(0, 4, 0, 4), spacing=4)
         self.show_state(has_photo=False, match="", is_applied=False)
 
     def show_state(self, *, has_photo: bool, match: str, is_applied: bool) -> None:

@@ -15,7 +15,7 @@ from occ_gui.photo.photo_verdict import EARLIER, PhotoSteps, PhotoVerdictBar
 from occ_gui.photo.placement_form import PlacementForm
 from occ_gui.values.photo_choice import PhotoChoice
 from occ_gui.values.photo_results import FoundMatch
-from occ_gui.widgets.building import filled, paragraph, push_button
+from occ_gui.widgets.building import fill, paragraph, push_button
 from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_model.photo.reading.load import Photo
 from occ_model.results.bands import Cure
@@ -56,7 +56,7 @@ class PhotoView(QWidget):
         self._match: Match | None = None
         self._is_outdated = False
         self._scene: Scene | None = None
-        filled(QVBoxLayout(self), self.steps, self._pages, margins=(4, 0, 4, 0))
+        fill(QVBoxLayout(self), self.steps, self._pages, margins=(4, 0, 4, 0))
         self.result.hide()
         self.many.files_shown.connect(self._show_page)
         self.many.rows_changed.connect(self._show_row)
@@ -76,7 +76,7 @@ class PhotoView(QWidget):
         )
         page, self._samples = QWidget(), QVBoxLayout()
         at_left = Qt.AlignmentFlag.AlignLeft
-        filled(QVBoxLayout(page), text, (button, 0, at_left), self._samples, None)
+        fill(QVBoxLayout(page), text, (button, 0, at_left), self._samples, None)
         return page
 
     def show_samples(self, files: Mapping[str, Path]) -> None:
@@ -91,7 +91,7 @@ class PhotoView(QWidget):
 
     def _make_page(self) -> QWidget:
         page = self._page = QWidget()
-        filled(
+        fill(
             QVBoxLayout(page), self.facts, _line(), self.lamps, _line(), self.form, self.result,
             _line(), self.placement, None, margins=(6, 4, 6, 4), spacing=5,
         )  # fmt: skip

@@ -9,7 +9,7 @@ from occ_gui.scene.number_edits import DecimalEdit
 from occ_gui.scene.parameter_rows import explain
 from occ_gui.scene.refusal_notice import RefusalNotice
 from occ_gui.values.photo_choice import LARGEST_SCALE, LEAST_SCALE, Placement
-from occ_gui.widgets.building import filled, named, push_button
+from occ_gui.widgets.building import fill, name_widget, push_button
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.units import NONE, PIXEL
@@ -89,7 +89,7 @@ class PlacementForm(QWidget):
         self.show_placement(Placement(), by_hand=False)
 
     def _field(self, declared: Quantity, decimals: int) -> DecimalEdit:
-        field = named(_PlaceField(declared, decimals), declared.label, explain(declared))
+        field = name_widget(_PlaceField(declared, decimals), declared.label, explain(declared))
         field.setAlignment(Qt.AlignmentFlag.AlignRight)
         field.valueChanged.connect(self._emit_placement)
         keep_wheel_for_scrolling(field)
@@ -109,8 +109,8 @@ class PlacementForm(QWidget):
             grid.addWidget(QLabel(text), 0, place)
             grid.addWidget(field, 1, place)
             grid.setColumnStretch(place, 1)
-        buttons = filled(QHBoxLayout(), self.by_mouse, self.reset, None)
-        filled(QVBoxLayout(self), grid, buttons, margins=0, spacing=4)
+        buttons = fill(QHBoxLayout(), self.by_mouse, self.reset, None)
+        fill(QVBoxLayout(self), grid, buttons, margins=0, spacing=4)
 
     def show_placement(self, placement: Placement, by_hand: bool) -> None:
         self._placement = placement

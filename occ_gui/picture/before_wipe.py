@@ -6,7 +6,7 @@ from PySide6.QtWidgets import QHBoxLayout, QSlider, QWidget
 
 from occ_gui.picture.averaged_image import AveragedImage
 from occ_gui.simulation.snapshot import Snapshot
-from occ_gui.widgets.building import check_box, filled
+from occ_gui.widgets.building import check_box, fill
 from occ_gui.widgets.colours import BEFORE
 from occ_model.arrays import ByteArray
 from occ_model.results.frame import PICTURES, Frame
@@ -58,7 +58,7 @@ class BeforeWipe(QObject):
         self.slider.valueChanged.connect(self._follow_slider)
         self.slider.hide()
         self.controls = QWidget()
-        filled(QHBoxLayout(self.controls), self.slider, self.chosen, margins=0)
+        fill(QHBoxLayout(self.controls), self.slider, self.chosen, margins=0)
 
     def show_before(self, snapshot: Snapshot) -> None:
         self._frame = snapshot.frame

@@ -14,7 +14,7 @@ from occ_gui.shell.feature import PiecesPane
 from occ_gui.shell.results import of_picture
 from occ_gui.simulation.snapshot import Picture, Reading, Snapshot
 from occ_gui.values.photo_choice import MODES, Placement
-from occ_gui.widgets.building import filled
+from occ_gui.widgets.building import fill
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
 from occ_model.photo.reading.load import Photo
 from occ_model.results.frame import PICTURES, Frame
@@ -71,7 +71,7 @@ class ImageView(QWidget):
         panes.setChildrenCollapsible(False)
         panes.setSizes([500, 500])
         self._make_controls()
-        filled(QVBoxLayout(self), (panes, 1), self._row, margins=4)
+        fill(QVBoxLayout(self), (panes, 1), self._row, margins=4)
         self._arrange()
 
     def _make_switch(self) -> None:
@@ -106,9 +106,7 @@ class ImageView(QWidget):
         self.overlay.difference.set_gain(_FIRST_GAIN)
         self.gain.chosen.connect(self._set_gain)
         self._row = QWidget()
-        filled(
-            QHBoxLayout(self._row), self.mode, (self.opacity, 2), self.gain, (None, 1), margins=0
-        )
+        fill(QHBoxLayout(self._row), self.mode, (self.opacity, 2), self.gain, (None, 1), margins=0)
 
     def _caption(self) -> str:
         frame, mode = self.frame, self._mode

@@ -7,7 +7,7 @@ from PySide6.QtCore import QEvent, QRectF, Qt
 from PySide6.QtWidgets import QGraphicsRectItem, QHBoxLayout, QVBoxLayout, QWidget
 
 from occ_gui.picture.averaged_image import AveragedImage
-from occ_gui.widgets.building import filled
+from occ_gui.widgets.building import fill
 from occ_gui.widgets.colours import REGION
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_model.arrays import ByteArray
@@ -41,7 +41,7 @@ class PicturePane(QWidget):
         self.box.addItem(self._region, ignoreBounds=True)
         self._image: ByteArray | None = None
         self._rows_step = 1
-        layout = filled(QVBoxLayout(self), margins=0, spacing=2)
+        layout = fill(QVBoxLayout(self), margins=0, spacing=2)
         self.caption_row = QHBoxLayout()
         self.caption_row.addWidget(self.caption, 1)
         layout.addLayout(self.caption_row)

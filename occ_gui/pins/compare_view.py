@@ -14,7 +14,7 @@ from PySide6.QtWidgets import (
 
 from occ_gui.pins.pin_controller import DifferenceRow, Pin, PinController, PinnedPair
 from occ_gui.shell.feature import Pane
-from occ_gui.widgets.building import filled, paragraph, push_button, read_only
+from occ_gui.widgets.building import fill, make_read_only, paragraph, push_button
 from occ_gui.widgets.colours import BAND, SIMULATION, thin
 from occ_gui.widgets.columns import PACKETS_IN_VIEW
 from occ_gui.widgets.plain_text import in_tool_tip
@@ -61,7 +61,7 @@ class CompareView(QWidget):
 
     def _make_table(self) -> None:
         tip = "Inputs that differ between A and B, then outputs."
-        self.table = read_only(QTableWidget(0, 3), "Differences between A and B", tip)
+        self.table = make_read_only(QTableWidget(0, 3), "Differences between A and B", tip)
         self.table.setHorizontalHeaderLabels(["Difference", "A", "B"])
         # A row with a long sentence can be higher than the table.
         self.table.setVerticalScrollMode(QAbstractItemView.ScrollMode.ScrollPerPixel)
@@ -94,13 +94,13 @@ class CompareView(QWidget):
 
     def _lay_out(self) -> None:
         buttons = (each[name] for name in ("A", "B") for each in (self.pins, self.returns))
-        row = filled(QHBoxLayout(), *buttons, self.clear, (None, 1), self.legend)
+        row = fill(QHBoxLayout(), *buttons, self.clear, (None, 1), self.legend)
         panes = self._panes = QSplitter(Qt.Orientation.Horizontal)
         panes.addWidget(self.table)
         panes.addWidget(self.plot)
         panes.setChildrenCollapsible(False)
         panes.setSizes([560, 380])
-        filled(QVBoxLayout(self), self.hint, row, (panes, 1), None, margins=(4, 2, 4, 2), spacing=2)
+        fill(QVBoxLayout(self), self.hint, row, (panes, 1), None, margins=(4, 2, 4, 2), spacing=2)
 
     def set_seen(self, seen: bool) -> None:
         self._seen = seen

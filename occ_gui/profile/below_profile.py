@@ -9,7 +9,7 @@ from PySide6.QtGui import QColor, QPainter, QPaintEvent
 from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QToolButton, QVBoxLayout, QWidget
 
 from occ_gui.values.photo_results import PhotoProfile
-from occ_gui.widgets.building import filled
+from occ_gui.widgets.building import fill
 from occ_gui.widgets.chip_cell import draw_chips
 from occ_gui.widgets.colours import PHOTO, THRESHOLD, thin
 from occ_gui.widgets.elided_label import ElidedLabel
@@ -60,7 +60,7 @@ class ResidualPlot(QWidget):
         self._photo: Photo | None = None
         self._limit = _STEPS[0]
         """Limit of the axis; it only grows for the same photo, so that a smaller residual shows."""
-        filled(QVBoxLayout(self), self.numbers, (self.plot, 1), margins=0, spacing=1)
+        fill(QVBoxLayout(self), self.numbers, (self.plot, 1), margins=0, spacing=1)
 
     def _follow(self, _box: pg.ViewBox, columns: tuple[float, float]) -> None:
         self.plot.setXRange(*columns, padding=0)
@@ -118,7 +118,7 @@ class ChipStrip(QWidget):
         self.copy.setFixedWidth(left)
         self.copy.clicked.connect(self._copy)
         self.cells = _Cells(plot)
-        filled(QHBoxLayout(self), self.copy, self.cells, margins=0, spacing=0)
+        fill(QHBoxLayout(self), self.copy, self.cells, margins=0, spacing=0)
         self.hide()
 
     def show_chips(self, reading: ChipReading | None) -> None:

@@ -12,7 +12,7 @@ from occ_gui.profile.below_profile import ChipStrip, ResidualPlot
 from occ_gui.simulation.band_drift import drift_sentence
 from occ_gui.simulation.snapshot import Reading, Snapshot
 from occ_gui.values.photo_results import PhotoProfile
-from occ_gui.widgets.building import check_box, filled, paragraph, push_button
+from occ_gui.widgets.building import check_box, fill, paragraph, push_button
 from occ_gui.widgets.colours import BAND, BEFORE, PHOTO, SIMULATION, THRESHOLD, thin
 from occ_gui.widgets.columns import PACKETS_IN_VIEW, first_periods
 from occ_gui.widgets.plot import LineLegend, new_plot
@@ -114,8 +114,8 @@ class ProfileView(QWidget):
         return button
 
     def _lay_out(self) -> None:
-        row = filled(QHBoxLayout(), self.legend, None, self.enhanced, self._packets, self._panel)
-        layout = self._rows = filled(
+        row = fill(QHBoxLayout(), self.legend, None, self.enhanced, self._packets, self._panel)
+        layout = self._rows = fill(
             QVBoxLayout(self), row, self.reason, (self.plot, 3), margins=4, spacing=2
         )
         self.chips = ChipStrip(self.plot, self._axis_width())

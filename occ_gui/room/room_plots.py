@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from occ_gui.room.jobs import FloorMap, RoomPlan, ShownRoom
 from occ_gui.scene.scene_store import Gestures
-from occ_gui.widgets.building import filled
+from occ_gui.widgets.building import fill
 from occ_gui.widgets.colours import BAND, PHOTO, SIMULATION, pen_on, thin
 from occ_gui.widgets.plot import new_plot
 from occ_model.arrays import FloatArray
@@ -56,7 +56,7 @@ class PlanPlot(QWidget):
         self._follow(self.camera, self.camera_moved)
         self._follow(self.aim, self.aim_moved)
         self.plot.dress_with(self._dress)
-        filled(QVBoxLayout(self), self.plot, margins=0)
+        fill(QVBoxLayout(self), self.plot, margins=0)
 
     def _follow(self, target: pg.TargetItem, moved: SignalInstance) -> None:
         self.plot.addItem(target)
@@ -155,7 +155,7 @@ class PicturePlot(QWidget):
         self.image = pg.ImageItem(axisOrder="row-major")
         self.plot.addItem(self.image)
         self._over: list[pg.GraphicsObject] = []
-        filled(QVBoxLayout(self), self.plot, margins=0)
+        fill(QVBoxLayout(self), self.plot, margins=0)
 
     def show_room(self, shown: ShownRoom) -> None:
         rows, columns = shown.image.shape

@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QComboBox, QDoubleSpinBox, QHBoxLayout, QVBoxLayou
 
 from occ_gui.room.jobs import SIDE, FloorMap, RoomPlan, ShownRoom
 from occ_gui.room.room_plots import PicturePlot, PlanPlot
-from occ_gui.widgets.building import filled, paragraph, push_button
+from occ_gui.widgets.building import fill, paragraph, push_button
 from occ_gui.widgets.text_scale import heading_font
 from occ_model.errors import counted, one_line
 from occ_model.room.locate import RoomReading
@@ -78,12 +78,12 @@ class RoomView(QWidget):
         self.plan, self.picture = PlanPlot(), PicturePlot()
         for plot in (self.plan, self.picture):
             plot.setMinimumHeight(_LEAST_HEIGHT)
-        chosen = filled(
+        chosen = fill(
             QHBoxLayout(), self.rooms, self.open, self.photo, self.close_photo, self.focal_length,
             self.measure, None,
         )  # fmt: skip
-        row = filled(QHBoxLayout(), (self.plan, 1), (self.picture, 1))
-        filled(
+        row = fill(QHBoxLayout(), (self.plan, 1), (self.picture, 1))
+        fill(
             QVBoxLayout(self), chosen, self.headline, self.sentences, (row, 1), paragraph(_LEGEND),
             self.floor,
         )  # fmt: skip

@@ -13,7 +13,7 @@ from occ_gui.scene.parameter_panel import ParameterPage, ParameterPanel
 from occ_gui.scene.parameter_rows import CountRow, ParameterRow, QuantityRow
 from occ_gui.scene.player import Player
 from occ_gui.scene.scene_editor import SceneEditor
-from occ_gui.widgets.building import filled
+from occ_gui.widgets.building import fill
 from occ_gui.widgets.plain_text import LONGEST_TEXT, in_tool_tip
 from occ_model.errors import one_line
 from occ_model.results.teaching import MarkedValue
@@ -106,7 +106,7 @@ class ControlPanel(QWidget):
         for title, page in self._pages.items():
             pages.addTab(page, title)
         above = (QLabel("Preset"), self.preset, self.forced, self.code.title, self.code)
-        filled(QVBoxLayout(self), *above, (pages, 1))
+        fill(QVBoxLayout(self), *above, (pages, 1))
 
     def list_presets(
         self,

@@ -8,12 +8,12 @@ from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QWidget
 
 from occ_gui.core.workspace import FIRST_SETTINGS
 from occ_gui.widgets.badge_row import Badge
-from occ_gui.widgets.building import filled, paragraph, push_button
+from occ_gui.widgets.building import fill, paragraph, push_button
 from occ_gui.widgets.state_look import State
 from occ_model.errors import counted
 from occ_model.scene.simulation_settings import SimulationSettings, unit_of
 
-_MOST_NAMED = 1  # effects switched by hand that a chip names
+_MOST_NAMED = 1  # effects switched by hand that a badge names
 
 
 def switch_text(effect: str, included: bool | None, labels: Mapping[str, str]) -> str:
@@ -80,7 +80,7 @@ class ForcedEffects(QWidget):
             "Let the plan decide on all effects again, within the usual tolerance.",
             self.released,
         )
-        filled(
+        fill(
             QHBoxLayout(self), (self.text, 1), (self.back, 0, Qt.AlignmentFlag.AlignTop), margins=0
         )
         self.hide()

@@ -10,9 +10,9 @@ from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QScrollArea, QVBoxLay
 from occ_gui.scene.parameter_rows import ParameterRow, QuantityRow, explain, row_for
 from occ_gui.scene.player import PlayButton
 from occ_gui.scene.slider_scale import SliderScale
-from occ_gui.widgets.building import filled
+from occ_gui.widgets.building import fill
 from occ_gui.widgets.event_filters import leave_drops_to_window
-from occ_gui.widgets.text_scale import emboldened
+from occ_gui.widgets.text_scale import embolden
 from occ_model.results.teaching import MarkedValue
 from occ_model.scene.parameter_kinds import Parameter, Quantity
 from occ_model.scene.parameters import PARAMETERS
@@ -36,7 +36,7 @@ class ParameterPanel(QWidget):
         self.play_buttons: dict[str, PlayButton] = {}
         self.rows: dict[str, ParameterRow] = {}
         self.labels: dict[str, QLabel] = {}
-        layout = filled(QVBoxLayout(self), margins=_MARGINS, spacing=2)
+        layout = fill(QVBoxLayout(self), margins=_MARGINS, spacing=2)
         for place, name in enumerate(names):
             if place:
                 layout.addSpacing(6)
@@ -78,7 +78,7 @@ class ParameterPanel(QWidget):
 
 
 def _heading(text: str) -> QLabel:
-    label = emboldened(QLabel(text))
+    label = embolden(QLabel(text))
     label.setContentsMargins(0, 8, 0, 4)
     return label
 

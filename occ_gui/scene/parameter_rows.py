@@ -6,7 +6,7 @@ from PySide6.QtWidgets import QComboBox, QGridLayout, QLineEdit, QSlider, QVBoxL
 from occ_gui.scene.number_edits import CountEdit, QuantityEdit
 from occ_gui.scene.refusal_notice import RefusalNotice
 from occ_gui.scene.scene_store import Gestures
-from occ_gui.widgets.building import filled
+from occ_gui.widgets.building import fill
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling, leave_undo_to_window
 from occ_model.errors import ParameterError
 from occ_model.scene.parameter_kinds import (
@@ -285,6 +285,6 @@ def _name(control: QWidget, declared: Parameter) -> None:
 
 
 def _fill(row: ParameterRow, control: QWidget, declared: Parameter) -> None:
-    filled(QVBoxLayout(row), control, margins=0, spacing=1)
+    fill(QVBoxLayout(row), control, margins=0, spacing=1)
     row.notice = RefusalNotice(control)
     _name(control, declared)

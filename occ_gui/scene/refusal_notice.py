@@ -12,7 +12,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QAbstractScrollArea, QApplication, QDockWidget, QLabel, QWidget
 
-from occ_gui.widgets.colours import seen_on
+from occ_gui.widgets.colours import lighten_for
 from occ_gui.widgets.frame_over import FrameOver
 from occ_gui.widgets.guarded_paint import guarded
 
@@ -34,7 +34,9 @@ class RefusalNotice(QLabel):
     def __init__(self, field: QWidget) -> None:
         super().__init__(field)
         self._field = field
-        self._frame = FrameOver(field, field, field.rect, lambda colours: seen_on(colours, _RED))
+        self._frame = FrameOver(
+            field, field, field.rect, lambda colours: lighten_for(colours, _RED)
+        )
         self._frame.hide()
         self.setWordWrap(True)
         self.setTextFormat(Qt.TextFormat.PlainText)
@@ -110,7 +112,7 @@ class RefusalNotice(QLabel):
     def _take_colour(self) -> None:
         paper = QApplication.palette()
         paper.setColor(QPalette.ColorRole.Base, paper.color(self.backgroundRole()))
-        ink = seen_on(paper, _RED)
+        ink = lighten_for(paper, _RED)
         if self.palette().color(self.foregroundRole()) != ink:
             colours = QPalette()  # in which all other colours stay those of the theme
             colours.setColor(self.foregroundRole(), ink)

@@ -9,7 +9,7 @@ from PySide6.QtGui import QFont, QFontMetricsF, QHelpEvent, QPainter, QPaintEven
 from PySide6.QtWidgets import QSizePolicy, QSlider, QStyle, QStyleOptionSlider, QToolTip, QWidget
 
 from occ_gui.widgets.guarded_paint import guarded
-from occ_gui.widgets.text_scale import resized
+from occ_gui.widgets.text_scale import resize_font
 from occ_model.results.teaching import MarkedValue
 from occ_model.scene.parameter_kinds import Quantity
 
@@ -47,7 +47,7 @@ class SliderScale(QWidget):
         return f"{self._quantity.format(mark.value, 3)}: {mark.meaning}"
 
     def text_font(self) -> QFont:
-        return resized(self.font(), _TEXT_SCALE)
+        return resize_font(self.font(), _TEXT_SCALE)
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         return QSize(60, round(QFontMetricsF(self.text_font()).height() + _TICK + 2))

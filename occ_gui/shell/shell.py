@@ -12,7 +12,7 @@ from occ_gui.shell.feature import Draw, Feature, Figure, Pane, Service
 from occ_gui.shell.results import ResultsStore
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.values.modes import Places, Side
-from occ_gui.widgets.building import filled
+from occ_gui.widgets.building import fill
 from occ_gui.widgets.event_filters import leave_drops_to_window
 
 
@@ -148,7 +148,7 @@ class _PaneHolder(QWidget):
         self._is_seen = False
         self._shown: Any = None
         self.pane: Pane[Any] | None = None
-        self._content = filled(QVBoxLayout(self), margins=0)
+        self._content = fill(QVBoxLayout(self), margins=0)
 
     def make_pane(self) -> Pane[Any]:
         if self.pane is None:

@@ -5,7 +5,7 @@ import pyqtgraph as pg
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QGridLayout, QLabel, QSizePolicy, QWidget
 
-from occ_gui.widgets.colours import BAND, SIMULATION, pen_on, seen_on, thin
+from occ_gui.widgets.colours import BAND, SIMULATION, lighten_for, pen_on, thin
 from occ_gui.widgets.plot import LineLegend, new_plot
 from occ_model.results.spectrum import LevelHistogram, Spectrum
 from occ_model.scene.units import HERTZ
@@ -60,7 +60,7 @@ class SpectrumView(QWidget):
         self.histogram.addItem(self.bars, ignoreBounds=True)
         self.histogram.dress_with(
             lambda palette: self.bars.setOpts(
-                brush=seen_on(palette, SIMULATION), pen=pen_on(palette, thin(SIMULATION))
+                brush=lighten_for(palette, SIMULATION), pen=pen_on(palette, thin(SIMULATION))
             )
         )
         self.histogram.setXRange(-2, 257, padding=0)

@@ -7,7 +7,7 @@ from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QPainter, QPaintEvent, QPalette, QPen, QResizeEvent
 from PySide6.QtWidgets import QBoxLayout, QHBoxLayout, QSizePolicy, QWidget
 
-from occ_gui.widgets.building import filled
+from occ_gui.widgets.building import fill
 from occ_gui.widgets.colours import pen_on
 from occ_gui.widgets.guarded_paint import guarded
 
@@ -122,9 +122,9 @@ class LegendLine(QWidget):
     def __init__(self, legend: CurveLegend) -> None:
         super().__init__()
         self._legend = legend
-        self.controls = filled(QHBoxLayout(), (None, 0), spacing=_SPACING)
+        self.controls = fill(QHBoxLayout(), (None, 0), spacing=_SPACING)
         row = QBoxLayout(QBoxLayout.Direction.LeftToRight, self)
-        self._layout = filled(row, (legend, 1), self.controls, margins=0, spacing=_SPACING)
+        self._layout = fill(row, (legend, 1), self.controls, margins=0, spacing=_SPACING)
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         super().resizeEvent(event)

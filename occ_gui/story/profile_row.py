@@ -13,7 +13,7 @@ from occ_gui.story.column_facts import threshold_levels
 from occ_gui.story.curve_lines import DASH, envelope, lines_of
 from occ_gui.story.story_row import StoryRow
 from occ_gui.values.photo_results import PhotoProfile
-from occ_gui.widgets.colours import BAND, PHOTO, SIMULATION, THRESHOLD, mixed, seen_on
+from occ_gui.widgets.colours import BAND, PHOTO, SIMULATION, THRESHOLD, lighten_for, mix_colours
 from occ_gui.widgets.unchanged import are_same
 from occ_model.arrays import FloatArray
 from occ_model.results.decoding import DecodeResult
@@ -150,7 +150,7 @@ class ProfileRow(StoryRow):
         if len(columns) < 2:
             return
         xs, ys = self.xs_of(columns), self.y_of(levels, area)
-        pen = QPen(seen_on(self.palette(), colour), _THIN if crowded else width)
+        pen = QPen(lighten_for(self.palette(), colour), _THIN if crowded else width)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         if dash is not None:
             pen.setCapStyle(Qt.PenCapStyle.FlatCap)
@@ -162,7 +162,7 @@ class ProfileRow(StoryRow):
         if region is None:
             return
         ink, paper = self.colour(QPalette.ColorRole.Text), self.colour(QPalette.ColorRole.Base)
-        shade = mixed(ink, paper, _SHADE)  # opaque, which is filled many times faster
+        shade = mix_colours(ink, paper, _SHADE)  # opaque, which is filled many times faster
         left, right = self.x_of(region.first_column - 0.5), self.x_of(region.last_column - 0.5)
         for low, high in ((area.left(), left), (right, area.right())):
             if low < high:
@@ -185,7 +185,7 @@ class ProfileRow(StoryRow):
         threshold = self.threshold
         if threshold is None:
             return
-        colour = seen_on(self.palette(), THRESHOLD)
+        colour = lighten_for(self.palette(), THRESHOLD)
         low, high = (self.y_of(level, area) for level in threshold)
         painter.setPen(QPen(colour, 1.5, Qt.PenStyle.DashDotLine))
         y = (low + high) / 2
@@ -207,5 +207,5 @@ class ProfileRow(StoryRow):
         place = QPointF(self.x_of(column), self.y_of(float(levels[column]), area))
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         painter.setPen(QPen(self.colour(QPalette.ColorRole.Base), 1.5))
-        painter.setBrush(seen_on(self.palette(), SIMULATION))
+        painter.setBrush(lighten_for(self.palette(), SIMULATION))
         painter.drawEllipse(place, 4.5, 4.5)

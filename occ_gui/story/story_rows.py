@@ -20,7 +20,7 @@ from occ_gui.story.light_row import LightRow
 from occ_gui.story.profile_row import ProfileRow
 from occ_gui.story.stripes_row import StripesRow
 from occ_gui.values.photo_results import PhotoProfile
-from occ_gui.widgets.building import filled, push_button
+from occ_gui.widgets.building import fill, push_button
 from occ_gui.widgets.colours import BAND, PHOTO, SIMULATION, THRESHOLD, thin
 from occ_gui.widgets.columns import PACKETS_IN_VIEW, first_periods
 from occ_model.results.decoding import PAPER_DECODER, DecodeResult
@@ -67,7 +67,7 @@ class StoryRows(QWidget):
         self.stripes = StripesRow(self.axis, self.crosshair)
         self.profile = ProfileRow(self.axis, self.crosshair)
         self.code = CodeRow(self.axis, self.crosshair)
-        layout = filled(QVBoxLayout(self), margins=0, spacing=2)
+        layout = fill(QVBoxLayout(self), margins=0, spacing=2)
         for part, stretch in (
             (self.time, 0), (self.light, 3), (self.stripes, 4), (self._legend_line(), 0),
             (self.profile, 6), (self.code, 0), (self.columns, 0),

@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QStackedWidget, QVBoxLay
 from occ_gui.simulation.snapshot import Picture, Reading
 from occ_gui.story.story_rows import StoryRows
 from occ_gui.story.verdict_bar import VerdictBar
-from occ_gui.widgets.building import filled, named, push_button
+from occ_gui.widgets.building import fill, name_widget, push_button
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
 
@@ -46,10 +46,10 @@ class StoryView(QWidget):
         self._photo_verdict: QWidget | None = None
         self._is_about_photo = False
         self.rows.stripes.thumbnail.clicked.connect(lambda: self.show_whole_picture(True))
-        self.readout = named(ElidedLabel(), "Values at the crosshair")
+        self.readout = name_widget(ElidedLabel(), "Values at the crosshair")
         self.readout.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.rows.values_changed.connect(self.readout.set_full_text)
-        self.measured = named(ElidedLabel(), "Measured between the cursors")
+        self.measured = name_widget(ElidedLabel(), "Measured between the cursors")
         self.measured.setContentsMargins(4, 0, 0, 0)
         self.measured.hide()
         self.rows.measured_changed.connect(self._show_measured)
@@ -58,13 +58,13 @@ class StoryView(QWidget):
         for page in (self.rows, picture):
             self._pages.addWidget(page)
         self._size_by_page()
-        line = filled(
+        line = fill(
             QHBoxLayout(), 4, (_Held(self.readout), 1), self.decoder,
             (self.whole, 0, Qt.AlignmentFlag.AlignRight), margins=0,
         )  # fmt: skip
         for control in (self.picture_kind, *self.rows.ranges.values()):
             self.rows.controls.addWidget(control)
-        self._layout = filled(
+        self._layout = fill(
             QVBoxLayout(self), self.verdict, line, self.measured, (self._pages, 1),
             margins=4, spacing=4,
         )  # fmt: skip

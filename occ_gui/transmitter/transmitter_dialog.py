@@ -13,7 +13,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from occ_gui.widgets.building import filled, paragraph
+from occ_gui.widgets.building import fill, paragraph
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
 
 _FIGURE = QSize(700, 553)  # size of the wiring on the screen, in the proportions of its figure
@@ -41,7 +41,7 @@ class TransmitterDialog(QDialog):
         form.addRow("&Board", self.board)
         form.addRow("Sent", self.facts)
         wiring = (self.wiring, 0, Qt.AlignmentFlag.AlignHCenter)
-        filled(QVBoxLayout(self), form, wiring, self.note, self._make_buttons())
+        fill(QVBoxLayout(self), form, wiring, self.note, self._make_buttons())
 
     def _make_buttons(self) -> QDialogButtonBox:
         buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)

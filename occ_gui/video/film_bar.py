@@ -6,7 +6,7 @@ from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QHBoxLayout, QMenu, QSizePolicy, QVBoxLayout, QWidget
 
 from occ_gui.video.camera import AXES, CameraDevice
-from occ_gui.widgets.building import check_box, filled, named, push_button
+from occ_gui.widgets.building import check_box, fill, name_widget, push_button
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.icons import IconButton
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
@@ -43,11 +43,11 @@ class FilmBar(QWidget):
         )
         self.lock = check_box("Hold exposure", "Keep the camera's exposure as it is now.")
         self.read = push_button("", do=self.read_asked)
-        self.title = named(ElidedLabel(), "Film")
+        self.title = name_widget(ElidedLabel(), "Film")
         self.title.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         left = (self.open, self.camera, self.axis, self.lock, self.close_film)
-        buttons = filled(QHBoxLayout(), *left, None, self.read, margins=0)
-        filled(QVBoxLayout(self), buttons, self.title, margins=0, spacing=4)
+        buttons = fill(QHBoxLayout(), *left, None, self.read, margins=0)
+        fill(QVBoxLayout(self), buttons, self.title, margins=0, spacing=4)
         self.show_film("", is_film=False, is_live=False)
         self.show_reading(False)
 
@@ -105,10 +105,10 @@ class Transport(QWidget):
         self.back = TransportButton("step-back", "Step back", "Show the frame before (Left).")
         self.play = TransportButton("play", "", "")
         self.on = TransportButton("step-on", "Step on", "Show the next frame (Right).")
-        self.place = named(ElidedLabel(), "Frame and time shown")
+        self.place = name_widget(ElidedLabel(), "Frame and time shown")
         self.place.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         parts = (self.back, self.play, self.on, 6, (self.place, 1))
-        filled(QHBoxLayout(self), *parts, margins=0, spacing=2)
+        fill(QHBoxLayout(self), *parts, margins=0, spacing=2)
         self.back.clicked.connect(lambda: self.step_asked.emit(-1))
         self.on.clicked.connect(lambda: self.step_asked.emit(1))
         self.play.clicked.connect(self.play_asked)

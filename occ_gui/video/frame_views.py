@@ -15,7 +15,7 @@ from PySide6.QtWidgets import (
 from occ_gui.picture.picture_pane import PicturePane
 from occ_gui.simulation.snapshot import ColumnView, PictureView
 from occ_gui.story.story_rows import StoryRows
-from occ_gui.widgets.building import filled, named, paragraph
+from occ_gui.widgets.building import fill, name_widget, paragraph
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_model.arrays import ByteArray
 from occ_model.results.decoding import Region
@@ -71,7 +71,7 @@ class FilmPictures(QWidget):
         self.split = QSplitter(Qt.Orientation.Horizontal, childrenCollapsible=False)
         for side in (self._film, self._simulated):
             self.split.addWidget(side)
-        filled(QVBoxLayout(self), self.split, margins=0)
+        fill(QVBoxLayout(self), self.split, margins=0)
 
     def show_film(self, picture: ShownPicture | None, instead: str = "") -> None:
         self._film.show_picture(picture, instead)
@@ -106,11 +106,11 @@ class FrameRows(QWidget):
         super().__init__()
         self.rows = StoryRows()
         self.rows.stripes.thumbnail.clicked.connect(self.picture_asked)
-        self.title = named(ElidedLabel(), "What the rows show")
+        self.title = name_widget(ElidedLabel(), "What the rows show")
         self.title.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         ranges = self.rows.ranges.values()
-        line = filled(QHBoxLayout(), (self.title, 1), *ranges, margins=(4, 0, 4, 0))
-        filled(QVBoxLayout(self), line, (self.rows, 1), margins=(0, 4, 0, 0), spacing=2)
+        line = fill(QHBoxLayout(), (self.title, 1), *ranges, margins=(4, 0, 4, 0))
+        fill(QVBoxLayout(self), line, (self.rows, 1), margins=(0, 4, 0, 0), spacing=2)
         self.show_story(None)
 
     def show_story(self, story: FrameStory | None, instead: str = "") -> None:

@@ -7,7 +7,7 @@ from occ_gui.scene.number_edits import CountEdit, QuantityEdit
 from occ_gui.scene.parameter_rows import explain
 from occ_gui.values.film_choice import FIRST_FRAMES
 from occ_gui.values.film_choice import FRAMES as COUNTS
-from occ_gui.widgets.building import filled, named, paragraph, push_button
+from occ_gui.widgets.building import fill, name_widget, paragraph, push_button
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
 from occ_gui.widgets.work_bar import WorkBar
 from occ_model.errors import OccError
@@ -33,7 +33,7 @@ class RecordingForm(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self.recording = Recording()
-        self.count = named(CountEdit(FRAMES), FRAMES.label, FRAMES.meaning)
+        self.count = name_widget(CountEdit(FRAMES), FRAMES.label, FRAMES.meaning)
         self.count.setValue(FRAMES.default)
         keep_wheel_for_scrolling(self.count)
         self.count.valueChanged.connect(lambda _: self.changed.emit())
@@ -45,7 +45,7 @@ class RecordingForm(QWidget):
         form.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.FieldsStayAtSizeHint)
         form.addRow(FRAMES.label, self.count)
         for declared in DECLARED:
-            field = named(QuantityEdit(declared), declared.label, explain(declared))
+            field = name_widget(QuantityEdit(declared), declared.label, explain(declared))
             self.fields[declared.name] = field
             keep_wheel_for_scrolling(field)
             field.edited.connect(lambda value, name=declared.name: self._take(name, value))
@@ -60,7 +60,7 @@ class RecordingForm(QWidget):
             self.save_asked,
         )
         self.saving = WorkBar("Progress of writing the film")
-        line = filled(QHBoxLayout(), self.save, self.saving, None)
+        line = fill(QHBoxLayout(), self.save, self.saving, None)
         form.addRow(line)
         self.show_recording(self.recording)
 

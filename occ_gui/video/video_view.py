@@ -20,7 +20,7 @@ from occ_gui.video.frame_views import FilmPictures, FrameRows
 from occ_gui.video.mark_look import MarkLegend
 from occ_gui.video.recording_form import RecordingForm
 from occ_gui.video.timeline import Timeline
-from occ_gui.widgets.building import filled, named, paragraph
+from occ_gui.widgets.building import fill, name_widget, paragraph
 from occ_gui.widgets.outdated_mark import OutdatedMark
 from occ_gui.widgets.plain_text import in_tool_tip
 from occ_gui.widgets.scroll_pane import ScrollPane
@@ -42,7 +42,7 @@ class DataView(QWidget):
         super().__init__()
         hint = "What is read from the film appears here."
         field = QPlainTextEdit(readOnly=True, placeholderText=hint, tabChangesFocus=True)
-        self.text = named(field, "What was read")
+        self.text = name_widget(field, "What was read")
         self.text.setMinimumHeight(_LEAST_HEIGHT)
         self.sentences = paragraph(name="What is not sure")
         self.sentences.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
@@ -51,8 +51,8 @@ class DataView(QWidget):
         self._grid.setHorizontalSpacing(12)
         self._grid.setVerticalSpacing(2)
         self._grid.setRowStretch(100, 1)
-        line = filled(QHBoxLayout(), (self.text, 1), self._grid, margins=0, spacing=12)
-        filled(QVBoxLayout(self), (line, 1), self.sentences, margins=(6, 6, 6, 4))
+        line = fill(QHBoxLayout(), (self.text, 1), self._grid, margins=0, spacing=12)
+        fill(QVBoxLayout(self), (line, 1), self.sentences, margins=(6, 6, 6, 4))
         self.show_reading(FilmReading())
 
     def show_reading(self, reading: FilmReading) -> None:
@@ -121,8 +121,8 @@ class VideoView(QWidget):
         self.split.addWidget(self.pages)
         self.split.setStretchFactor(0, 5)
         self.split.setStretchFactor(1, 4)
-        line = filled(QHBoxLayout(), (self.transport, 1), self.legend, margins=0)
-        filled(
+        line = fill(QHBoxLayout(), (self.transport, 1), self.legend, margins=0)
+        fill(
             QVBoxLayout(self), self.bar, self.message, (self.split, 1), line, self.timeline,
             margins=(6, 4, 6, 4), spacing=4,
         )  # fmt: skip

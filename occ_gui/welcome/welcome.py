@@ -8,9 +8,9 @@ from occ_gui.files.file_controller import FileController
 from occ_gui.files.preferences import Preferences
 from occ_gui.shell.feature import Service
 from occ_gui.shell.shell import Shell
-from occ_gui.widgets.building import filled, paragraph
+from occ_gui.widgets.building import fill, paragraph
 from occ_gui.widgets.icons import pixmap
-from occ_gui.widgets.text_scale import emboldened
+from occ_gui.widgets.text_scale import embolden
 from occ_gui.window.main_window import MainWindow
 
 _PICTURE = 96
@@ -23,7 +23,7 @@ class Door(QPushButton):
         super().__init__()
         self._name = picture
         self._picture, self._sentence = QLabel(), QLabel(sentence)
-        self._title = emboldened(QLabel(title), _DOOR_TITLE)
+        self._title = embolden(QLabel(title), _DOOR_TITLE)
         self.setAccessibleName(title)
         self.setAccessibleDescription(sentence)
         labels = (self._picture, self._title, self._sentence)
@@ -31,7 +31,7 @@ class Door(QPushButton):
             label.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
             label.setAlignment(Qt.AlignmentFlag.AlignHCenter)
             label.setWordWrap(label is not self._picture)
-        self._layout = filled(QVBoxLayout(self), *labels, None, margins=16, spacing=8)
+        self._layout = fill(QVBoxLayout(self), *labels, None, margins=16, spacing=8)
         self._draw()
 
     def size_for(self, width: int = _LEAST_SIDE) -> QSize:
@@ -61,7 +61,7 @@ class WelcomeDialog(QDialog):
         super().__init__(parent)
         self.setWindowTitle("Welcome")
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        title = emboldened(QLabel("Light that carries bits"), _TITLE)
+        title = embolden(QLabel("Light that carries bits"), _TITLE)
         about = paragraph(
             "An LED panel blinks a code, a phone's camera photographs it as stripes, and the "
             "code is read back from them. See how this works, and where its limits are."
@@ -85,12 +85,12 @@ class WelcomeDialog(QDialog):
         }
         width = max(door.size_for().width() for door in self.doors.values())
         height = max(door.size_for(width).height() for door in self.doors.values())
-        row = filled(QHBoxLayout(), *self.doors.values(), spacing=16)
+        row = fill(QHBoxLayout(), *self.doors.values(), spacing=16)
         for name, door in self.doors.items():
             door.setFixedSize(width, height)
             door.setProperty("door", name)
             door.clicked.connect(self._choose)
-        filled(QVBoxLayout(self), title, about, row, margins=24, spacing=16)
+        fill(QVBoxLayout(self), title, about, row, margins=24, spacing=16)
 
     def _choose(self) -> None:
         name = self.sender().property("door")

@@ -21,7 +21,7 @@ Part: TypeAlias = QWidget | QLayout | int | tuple[Any, ...] | None
 space; None for a stretch."""
 
 
-def filled(
+def fill(
     layout: Box,
     *parts: Part,
     margins: int | tuple[int, int, int, int] | None = None,
@@ -50,7 +50,7 @@ Widget = TypeVar("Widget", bound=QWidget)
 Table = TypeVar("Table", bound=QTableView)
 
 
-def named(widget: Widget, name: str, tip: str = "") -> Widget:
+def name_widget(widget: Widget, name: str, tip: str = "") -> Widget:
     widget.setAccessibleName(name)
     if tip:
         widget.setToolTip(tip)
@@ -65,7 +65,7 @@ def push_button(
     name: str = "",
 ) -> QPushButton:
     """Make a button; without ``name``, screen readers get its text."""
-    made = named(QPushButton(text), name, tip)
+    made = name_widget(QPushButton(text), name, tip)
     if do is not None:
         made.clicked.connect(do)
     return made
@@ -82,17 +82,17 @@ def check_box(
     return made
 
 
-def read_only(table: Table, name: str, tip: str = "") -> Table:
+def make_read_only(table: Table, name: str, tip: str = "") -> Table:
     """Make a table read-only: it selects whole rows, and the Tab key leaves it."""
     table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
     table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
     table.verticalHeader().hide()
     table.setTabKeyNavigation(False)
-    return named(table, name, tip)
+    return name_widget(table, name, tip)
 
 
 def paragraph(text: str = "", *, name: str = "", is_selectable: bool = False) -> QLabel:
-    label = named(QLabel(text, wordWrap=True, textFormat=Qt.TextFormat.PlainText), name)
+    label = name_widget(QLabel(text, wordWrap=True, textFormat=Qt.TextFormat.PlainText), name)
     if is_selectable:
         label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
     return label

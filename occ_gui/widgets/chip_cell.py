@@ -6,7 +6,7 @@ from functools import cache
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPalette, QPen, QStaticText
 
-from occ_gui.widgets.colours import seen_on
+from occ_gui.widgets.colours import lighten_for
 
 _LEAST_DIGIT_WIDTH = 7.5
 
@@ -52,7 +52,7 @@ def draw_chips(
     within: QRectF | None = None,
 ) -> None:
     """Draw chips; uncertain chips are faded, with digits in the colour of text."""
-    lit = seen_on(palette, colour)
+    lit = lighten_for(palette, colour)
     base, text = (
         palette.color(role) for role in (QPalette.ColorRole.Base, QPalette.ColorRole.Text)
     )

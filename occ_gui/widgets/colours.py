@@ -26,7 +26,7 @@ def contrast(one: QColor, other: QColor) -> float:
     return (light + 0.05) / (dark + 0.05)
 
 
-def seen_on(palette: QPalette, colour: QColor) -> QColor:
+def lighten_for(palette: QPalette, colour: QColor) -> QColor:
     """Lighten a colour to the least contrast on a dark background; keep it on a light one."""
     return QColor(_lighten(palette.color(QPalette.ColorRole.Base).rgba(), colour.rgba()))
 
@@ -42,7 +42,7 @@ def _lighten(paper_rgba: int, ink_rgba: int) -> QColor:
     return ink
 
 
-def mixed(one: QColor, other: QColor, fraction: float) -> QColor:
+def mix_colours(one: QColor, other: QColor, fraction: float) -> QColor:
     """Return the opaque colour that results from one colour over another with this opacity."""
     parts = zip(one.getRgb()[:3], other.getRgb()[:3], strict=True)  # type: ignore[index]
     return QColor(*(round(fraction * a + (1.0 - fraction) * b) for a, b in parts))
@@ -51,7 +51,7 @@ def mixed(one: QColor, other: QColor, fraction: float) -> QColor:
 def pen_on(palette: QPalette, pen: QPen) -> QPen:
     """Return a pen with a colour of sufficient contrast to the palette's background."""
     seen = QPen(pen)
-    seen.setColor(seen_on(palette, pen.color()))
+    seen.setColor(lighten_for(palette, pen.color()))
     return seen
 
 

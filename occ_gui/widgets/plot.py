@@ -10,8 +10,8 @@ from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPalette, QPen, QResize
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QWidget
 
 from occ_gui.widgets.axes import Axis
-from occ_gui.widgets.building import filled
-from occ_gui.widgets.colours import pen_on, seen_on
+from occ_gui.widgets.building import fill
+from occ_gui.widgets.colours import lighten_for, pen_on
 from occ_gui.widgets.event_filters import leave_drops_to_window
 from occ_gui.widgets.guarded_paint import guarded
 
@@ -24,7 +24,7 @@ DrawSample: TypeAlias = Callable[[QPainter, QRectF, QPalette], None]
 class LineLegend(QWidget):
     def __init__(self) -> None:
         super().__init__()
-        self._row = filled(QHBoxLayout(self), margins=0)
+        self._row = fill(QHBoxLayout(self), margins=0)
         self._entries: dict[str, QWidget] = {}
 
     def add_line(self, key: str, pen: QPen, text: str) -> None:
@@ -46,7 +46,7 @@ class LineLegend(QWidget):
     ) -> None:
         entry = QWidget(toolTip=meaning)
         sample = (LegendSample(draw, size), 0, Qt.AlignmentFlag.AlignVCenter)
-        filled(QHBoxLayout(entry), sample, QLabel(text), margins=(0, 0, 6, 0))
+        fill(QHBoxLayout(entry), sample, QLabel(text), margins=(0, 0, 6, 0))
         self._row.addWidget(entry)
         self._entries[key] = entry
 
@@ -160,7 +160,7 @@ def marker(symbol: str, size: float, fill: QColor | None) -> DrawSample:
     def draw(painter: QPainter, place: QRectF, palette: QPalette) -> None:
         ring = QPen(palette.color(QPalette.ColorRole.Text), 1.5 / size)  # scaled below
         painter.setPen(ring if fill is None else pg.mkPen(None))
-        painter.setBrush(pg.mkBrush(None if fill is None else seen_on(palette, fill)))
+        painter.setBrush(pg.mkBrush(None if fill is None else lighten_for(palette, fill)))
         painter.translate(place.center())
         painter.scale(size, size)
         painter.drawPath(Symbols[symbol])

@@ -12,7 +12,7 @@ from occ_gui.widgets.building import push_button
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.guarded_paint import guarded
 from occ_gui.widgets.state_look import State, StateIcon, colours_of
-from occ_gui.widgets.text_scale import emboldened
+from occ_gui.widgets.text_scale import embolden
 
 _ICON = 32
 _TEXT_SCALE = 1.25
@@ -33,7 +33,7 @@ class StateBar(QWidget):
         self._sentences: tuple[str, ...] = ("",)
         self._shown: tuple[object, ...] = ()
         self.icon = StateIcon(_ICON)
-        self.title = emboldened(ElidedLabel(), _TEXT_SCALE)
+        self.title = embolden(ElidedLabel(), _TEXT_SCALE)
         self.sentence = ElidedLabel()
         self.wrapped = QLabel(
             textFormat=Qt.TextFormat.PlainText, wordWrap=True, alignment=Qt.AlignmentFlag.AlignTop

@@ -11,7 +11,7 @@ Label = TypeVar("Label", bound=QLabel)
 _HEADING = 16 / 13  # size of a heading relative to text: 16 pixels if text has 13
 
 
-def resized(font: QFont, factor: float) -> QFont:
+def resize_font(font: QFont, factor: float) -> QFont:
     found = QFont(font)
     if font.pointSizeF() > 0.0:
         found.setPointSizeF(factor * font.pointSizeF())
@@ -21,16 +21,16 @@ def resized(font: QFont, factor: float) -> QFont:
 
 
 def heading_font(font: QFont) -> QFont:
-    found = resized(font, _HEADING)
+    found = resize_font(font, _HEADING)
     found.setBold(True)
     return found
 
 
-def emboldened(label: Label, factor: float = 1.0) -> Label:
+def embolden(label: Label, factor: float = 1.0) -> Label:
     """Make the text of a label bold, and change its size by a factor; return the label."""
     font = label.font()
     font.setBold(True)
     if factor != 1.0:  # a label with a size of its own does not follow the application's size
-        font = resized(font, factor)
+        font = resize_font(font, factor)
     label.setFont(font)
     return label

@@ -5,7 +5,7 @@ from typing import Protocol
 from PySide6.QtCore import QTimer, Signal, SignalInstance
 from PySide6.QtWidgets import QHBoxLayout, QProgressBar, QWidget
 
-from occ_gui.widgets.building import filled, named, push_button
+from occ_gui.widgets.building import fill, name_widget, push_button
 
 _STEPS = 1000
 
@@ -29,13 +29,13 @@ class WorkBar(QWidget):
 
     def __init__(self, what: str, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.progress = named(QProgressBar(), what, what)
+        self.progress = name_widget(QProgressBar(), what, what)
         self.progress.setRange(0, _STEPS)
         self.cancel = push_button("Cancel", "Cancel this work.", self.cancelled)
         self._patience = QTimer(self, singleShot=True)
         self._patience.setInterval(_PATIENCE_MS)
         self._patience.timeout.connect(self.show)
-        filled(QHBoxLayout(self), self.progress, self.cancel, margins=0)
+        fill(QHBoxLayout(self), self.progress, self.cancel, margins=0)
         self.hide()
 
     def follow(self, work: "_Work") -> None:

@@ -23,7 +23,7 @@ from PySide6.QtWidgets import (
 
 from occ_gui.scene.control_panel import ControlPanel
 from occ_gui.scene.parameter_rows import ParameterRow
-from occ_gui.widgets.building import filled, named, paragraph, read_only
+from occ_gui.widgets.building import fill, make_read_only, name_widget, paragraph
 from occ_gui.widgets.plain_text import plain
 from occ_gui.widgets.scroll_pane import bring_into_view
 from occ_gui.window.menus import search_words
@@ -61,15 +61,15 @@ class CommandPalette(QDialog):
         self.chosen: Command | None = None
         field = QLineEdit(placeholderText="A few letters of a command or parameter")
         tip = "Up and down choose, Enter does it, Escape leaves."
-        self.line = named(field, "Words to look for", tip)
+        self.line = name_widget(field, "Words to look for", tip)
         self.line.textChanged.connect(self._filter)
         self.line.installEventFilter(self)
-        self.list = named(QListWidget(), "Commands found")
+        self.list = name_widget(QListWidget(), "Commands found")
         self.list.setUniformItemSizes(True)
         self.list.itemActivated.connect(self._accept_chosen)
         self.list.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self._nothing = QLabel("Nothing by these words.")
-        filled(QVBoxLayout(self), self.line, self.list, self._nothing)
+        fill(QVBoxLayout(self), self.line, self.list, self._nothing)
         self.resize(_WIDTH, _HEIGHT)
         self._filter("")
 
@@ -164,7 +164,7 @@ class ShortcutSheet(QDialog):
         super().__init__(parent)
         self.setWindowTitle("Keyboard shortcuts")
         shown = list(rows)
-        self.table = read_only(QTableWidget(len(shown), 3), "Keyboard shortcuts")
+        self.table = make_read_only(QTableWidget(len(shown), 3), "Keyboard shortcuts")
         self.table.setHorizontalHeaderLabels(["Menu", "Does", "Keys"])
         self.table.setShowGrid(False)
         self.table.setAlternatingRowColors(True)
@@ -180,5 +180,5 @@ class ShortcutSheet(QDialog):
         )
         buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
         buttons.rejected.connect(self.reject)
-        filled(QVBoxLayout(self), self.table, hint, buttons)
+        fill(QVBoxLayout(self), self.table, hint, buttons)
         self.resize(_WIDTH, _HEIGHT)

@@ -3,7 +3,7 @@
 from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtWidgets import QApplication, QWidget
 
-from occ_gui.widgets.text_scale import resized
+from occ_gui.widgets.text_scale import resize_font
 
 SIZES = (100, 115, 130)  # percent of the system's size of text, the normal one first
 
@@ -44,8 +44,8 @@ class TextSize(QObject):
     def _scale_to(self, percent: int) -> None:
         factor = percent / self.percent
         self.percent = percent
-        own = [(widget, resized(widget.font(), factor)) for widget in _with_own_size()]
-        QApplication.setFont(resized(QApplication.font(), factor))
+        own = [(widget, resize_font(widget.font(), factor)) for widget in _with_own_size()]
+        QApplication.setFont(resize_font(QApplication.font(), factor))
         for widget, font in own:
             widget.setFont(font)
 

@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QHBoxLayout, QTableView, QVBoxLayout, QWidget
 
 from occ_gui.photo.many.rows_model import KNOWN, NOTE, PHOTO, PhotoRowsModel
 from occ_gui.photo.match_figures import WHAT_ERRORS_MEAN, PasteLines, condition, warn_of_stale
-from occ_gui.widgets.building import filled, named, paragraph, push_button
+from occ_gui.widgets.building import fill, name_widget, paragraph, push_button
 from occ_gui.widgets.plain_text import copy_text
 from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_gui.widgets.work_bar import WorkBar
@@ -81,17 +81,17 @@ class ManyPhotosView(QWidget):
     def _lay_out(self) -> None:
         """Put the table beside the combined results, because the pane is wide and low."""
         together = QWidget()
-        filled(
+        fill(
             QVBoxLayout(together), self.stale, self.mean, self.exposure, self.frame, self.notes,
             self.paste, None, margins=0,
         )  # fmt: skip
         self._results_pane = ScrollPane(together, _LEAST_RESULTS_SIZE)
         self._results_pane.hide()
-        head = filled(
+        head = fill(
             QHBoxLayout(), (self.title, 1), self.start, self.copy, self.save, self.close_table
         )
-        below = filled(QHBoxLayout(), (self.table, 3), (self._results_pane, 2))
-        filled(QVBoxLayout(self), head, (below, 1), self.work, margins=(4, 0, 4, 4), spacing=4)
+        below = fill(QHBoxLayout(), (self.table, 3), (self._results_pane, 2))
+        fill(QVBoxLayout(self), head, (below, 1), self.work, margins=(4, 0, 4, 4), spacing=4)
 
     def _make_buttons(self) -> None:
         self.start = push_button(
@@ -114,7 +114,7 @@ class ManyPhotosView(QWidget):
         )
 
     def _make_table(self) -> None:
-        self.table = named(QTableView(), "Photos")
+        self.table = name_widget(QTableView(), "Photos")
         self.table.setModel(self.rows)
         self.table.setShowGrid(False)
         self.table.setWordWrap(False)

@@ -7,7 +7,7 @@ from PySide6.QtWidgets import QApplication, QCheckBox, QMainWindow
 from pytestqt.qtbot import QtBot
 
 from occ_gui.profile.profile_view import ProfileView
-from occ_gui.widgets.colours import contrast, pen_on, seen_on
+from occ_gui.widgets.colours import contrast, lighten_for, pen_on
 from occ_gui.window.style_sheet import style_sheet
 from occ_gui.window.theme import ThemeController, palette_of
 from occ_model import colours
@@ -29,10 +29,10 @@ def test_every_curve_can_be_seen_in_the_dark_and_is_that_of_print_in_the_light(
     colour: str,
 ) -> None:
     dark = palette_of("dark")
-    ink = seen_on(dark, QColor(colour))
+    ink = lighten_for(dark, QColor(colour))
     assert contrast(ink, dark.color(QPalette.ColorRole.Base)) >= 4.5
     assert ink.hslHue() == pytest.approx(QColor(colour).hslHue(), abs=2)
-    assert seen_on(palette_of("light"), QColor(colour)) == QColor(colour)
+    assert lighten_for(palette_of("light"), QColor(colour)) == QColor(colour)
 
 
 def test_no_ink_can_be_seen_on_itself_and_the_search_ends() -> None:
@@ -40,7 +40,7 @@ def test_no_ink_can_be_seen_on_itself_and_the_search_ends() -> None:
     for paper in ("#000000", "#7f7f7f", "#ffffff"):
         palette.setColor(QPalette.ColorRole.Base, QColor(paper))
         for ink in ("#000000", "#0000ff", "#7f7f7f", "#ffffff"):
-            assert seen_on(palette, QColor(ink)).isValid()
+            assert lighten_for(palette, QColor(ink)).isValid()
 
 
 def test_only_the_colour_of_a_pen_changes() -> None:
@@ -56,7 +56,7 @@ def test_curves_follow_the_theme(qtbot: QtBot) -> None:
     for theme in ("dark", "light"):
         themes.choose(theme)
         QApplication.processEvents()
-        assert view.simulation.opts["pen"].color() == seen_on(
+        assert view.simulation.opts["pen"].color() == lighten_for(
             palette_of(theme), QColor(colours.SIMULATION)
         )
     themes.choose("system")

@@ -10,12 +10,12 @@ from PySide6.QtWidgets import QApplication, QLabel, QTabWidget, QVBoxLayout, QWi
 from pytestqt.qtbot import QtBot
 
 from occ_gui.widgets.axes import LogAxis
-from occ_gui.widgets.building import filled
+from occ_gui.widgets.building import fill
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
 from occ_gui.widgets.plain_text import in_tool_tip
 from occ_gui.widgets.scroll_pane import ScrollPane, bring_into_view
-from occ_gui.widgets.text_scale import emboldened, resized
+from occ_gui.widgets.text_scale import embolden, resize_font
 from occ_gui.widgets.unchanged import are_same
 
 LONG = "Photo a_name_that_goes_on_and_on_<b>and</b>_on_until_it_ends.png"
@@ -32,7 +32,7 @@ def test_a_text_too_long_is_shown_in_part_and_never_cut_off(label: ElidedLabel, 
     assert label.text() != LONG
     assert "…" in label.text()
     for factor in (1.0, 2.0):
-        label.setFont(resized(label.font(), factor))
+        label.setFont(resize_font(label.font(), factor))
         assert label.fontMetrics().horizontalAdvance(label.text()) <= width
 
 
@@ -56,7 +56,7 @@ def test_a_choice_is_as_wide_as_its_place_or_where_it_is_fixed_as_its_words(qtbo
     wide, fixed = (
         KeyedComboBox("Size", "", {"s": "small"}, **how) for how in ({}, {"is_fixed": True})
     )
-    filled(QVBoxLayout(column), wide, fixed, margins=0)
+    fill(QVBoxLayout(column), wide, fixed, margins=0)
     QApplication.processEvents()
     assert (wide.width(), fixed.width()) == (400, fixed.sizeHint().width())
 
@@ -71,7 +71,7 @@ def same_font_after(qapp: QApplication) -> Iterator[None]:
 def test_a_label_in_bold_alone_follows_the_applications_size(
     qtbot: QtBot, qapp: QApplication, same_font_after: None
 ) -> None:
-    label, larger = (show_widget(qtbot, emboldened(QLabel(), factor)) for factor in (1.0, 1.25))
+    label, larger = (show_widget(qtbot, embolden(QLabel(), factor)) for factor in (1.0, 1.25))
     usual = qapp.font().pointSizeF()
     assert larger.font().pointSizeF() == pytest.approx(1.25 * usual)
     font = qapp.font()

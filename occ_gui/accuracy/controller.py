@@ -5,7 +5,7 @@ from typing import TypeAlias
 from PySide6.QtCore import QObject, QTimer
 
 from occ_gui.accuracy.accuracy_view import AccuracyView
-from occ_gui.accuracy.cost_measurement import CostMeasurement, Measured, SceneCosts
+from occ_gui.accuracy.cost_measurement import CostMeasurement, MeasuredPoint, SceneCosts
 from occ_gui.background.task import Task
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.simulation.controller import SimulationController
@@ -111,7 +111,7 @@ class AccuracyController(QObject):
         self.runner.ask(self._request())
         self._pane.plot.show_study_begun()
 
-    def _show(self, found: SceneCosts | Measured) -> None:
+    def _show(self, found: SceneCosts | MeasuredPoint) -> None:
         if isinstance(found, SceneCosts):
             self._costs = found
             self._pane.show_costs(found)

@@ -46,7 +46,7 @@ class SceneCosts:
 
 
 @dataclass(frozen=True, slots=True)
-class Measured:
+class MeasuredPoint:
     """One point of a study, and the total number of points."""
 
     point: AccuracyPoint
@@ -74,7 +74,7 @@ class CostMeasurement:
             report(costs)
         total = point_count(request.scene, request.settings)
         for point in accuracy(request.scene, request.settings, complete):
-            report(Measured(_as_stated(point, costs), total))
+            report(MeasuredPoint(_as_stated(point, costs), total))
         report(replace(costs, errors=complete.errors))
 
     def _complete_of(self, request: SimulationRequest, timer: StageTimer) -> CompleteSimulation:

@@ -27,13 +27,13 @@ def image_of(pixels: ByteArray) -> QImage:
     return QImage(pixels.tobytes(), columns, rows, columns, QImage.Format.Format_Grayscale8).copy()
 
 
-class _Cell(QStyledItemDelegate):
+class _EffectCell(QStyledItemDelegate):
     def __init__(self, rows: Rows, parent: QObject) -> None:
         super().__init__(parent)
         self._rows = rows
 
 
-class PictureCell(_Cell):
+class PictureCell(_EffectCell):
     def __init__(self, rows: Rows, parent: QObject) -> None:
         super().__init__(rows, parent)
         self._images: dict[int, tuple[object, QImage, QImage]] = {}
@@ -63,7 +63,7 @@ def _fitted(area: QRect, image: QImage) -> QRect:
     return place
 
 
-class TimeCell(_Cell):
+class TimeCell(_EffectCell):
     """Draws a time as a bar, hollow where the effect is left out, and as a number."""
 
     @guarded
@@ -117,7 +117,7 @@ def levels_at(place: float, area: QRect) -> float:
     return levels if fraction < 1.0 else math.inf
 
 
-class ErrorCell(_Cell):
+class ErrorCell(_EffectCell):
     """Draws an effect's error as a dot, with a whisker to the plan's estimate.
 
     The tolerance is a line through all rows; errors beyond it are coloured.

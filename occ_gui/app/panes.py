@@ -30,7 +30,7 @@ from occ_gui.shell.results import Results, ResultsStore
 from occ_gui.shell.shell import Shell
 from occ_gui.simulation.controller import SimulationController
 from occ_gui.simulation.present_results import PresentResults
-from occ_gui.values.modes import Place
+from occ_gui.values.modes import PanePlace
 from occ_gui.widgets.work_bar import WorkBar
 from occ_gui.window.main_window import MainWindow
 
@@ -108,7 +108,7 @@ def photo(
     return Feature(
         name="photo",
         title="Photo",
-        places={"photo": Place("left", is_main=True, width=360)},
+        places={"photo": PanePlace("left", is_main=True, width=360)},
         elsewhere="right",
         help="photos.md",
         make=make,
@@ -131,7 +131,7 @@ def photos(pane: "Callable[[], PhotoPane]") -> Feature[Any]:
     return Feature(
         name="photos",
         title="Photos",
-        places={"photo": Place("bottom")},
+        places={"photo": PanePlace("bottom")},
         help="photos.md#many-photos-one-answer",
         make=lambda: Pane[None](pane().view.many),
     )
@@ -149,7 +149,7 @@ def profile(
     return Feature(
         name="profile",
         title="Column profile",
-        places={"photo": Place("bottom", height=210)},
+        places={"photo": PanePlace("bottom", height=210)},
         help="guide.md#compare-column-profiles",
         make=later("occ_gui.profile.pane:ProfilePane", store),
         part=part,
@@ -163,7 +163,7 @@ def accuracy(scenes: SceneStore, simulation: SimulationController) -> Feature[An
     return Feature(
         name="accuracy",
         title="Accuracy and time",
-        places={"effects": Place("right", is_main=True)},
+        places={"effects": PanePlace("right", is_main=True)},
         help="model.md#accuracy-against-time",
         make=later("occ_gui.accuracy.pane:AccuracyPane", scenes, simulation),
         part=lambda workspace, results: (workspace.settings, results.switched, results.snapshot),
@@ -176,7 +176,7 @@ def detection_map(scenes: SceneStore, background_rates: BackgroundRates) -> Feat
     return Feature(
         name="map",
         title="Detection map",
-        places={"limits": Place("right", is_main=True)},
+        places={"limits": PanePlace("right", is_main=True)},
         help="limits.md#the-detection-map",
         make=later("occ_gui.detection_map.pane:MapPane", scenes, background_rates),
         figures=(map_figure(scenes.store),),
@@ -187,7 +187,7 @@ def bands(scenes: SceneStore) -> Feature[Any]:
     return Feature(
         name="bands",
         title="Bars",
-        places={"limits": Place("right")},
+        places={"limits": PanePlace("right")},
         help="limits.md#no-bars-no-flicker",
         make=later("occ_gui.bands.pane:BandsPane", scenes),
         part=lambda workspace, _: workspace.scene,
@@ -243,7 +243,7 @@ def lessons(
     return Feature(
         name="lessons",
         title="Lessons",
-        places={"lessons": Place("right", is_main=True, width=340)},
+        places={"lessons": PanePlace("right", is_main=True, width=340)},
         elsewhere="right",
         help="guide.md#follow-a-lesson",
         make=later("occ_gui.lessons.pane:LessonPane", scenes, results_store, controls, preferences),
@@ -254,7 +254,7 @@ def video(scenes: SceneStore, results_store: ResultsStore) -> Feature[Any]:
     return Feature(
         name="video",
         title="Video",
-        places={"video": Place("right", is_main=True)},
+        places={"video": PanePlace("right", is_main=True)},
         elsewhere="right",
         help="films.md#watch-a-film",
         make=later("occ_gui.video.wiring:VideoWiring", scenes, results_store),
@@ -267,7 +267,7 @@ def room(store: Store) -> Feature[Any]:
     return Feature(
         name="room",
         title="Room",
-        places={"room": Place("right", is_main=True)},
+        places={"room": PanePlace("right", is_main=True)},
         help="rooms.md",
         make=later("occ_gui.room.pane:RoomPane", store),
         part=lambda workspace, _: workspace.room,
@@ -280,7 +280,7 @@ def bench(scenes: SceneStore, background_rates: BackgroundRates) -> Feature[Any]
     return Feature(
         name="bench",
         title="Bench",
-        places={"limits": Place("right")},
+        places={"limits": PanePlace("right")},
         help="limits.md#the-bench",
         make=lambda: later("occ_gui.bench.pane:BenchPane")(
             scenes, background_rates.channel("bench")

@@ -98,10 +98,12 @@ class ShutterAnimation(QWidget):
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
         if self._shutter is None:
             return
-        Drawing(QPainter(self), self, self._shutter, min(self.moment / (1.0 - _PAUSE), 1.0)).draw()
+        ShutterDrawing(
+            QPainter(self), self, self._shutter, min(self.moment / (1.0 - _PAUSE), 1.0)
+        ).draw()
 
 
-class Drawing:
+class ShutterDrawing:
     def __init__(
         self, painter: QPainter, widget: QWidget, shutter: RollingShutter, moment: float
     ) -> None:

@@ -19,7 +19,7 @@ _CLAUSE_END = re.compile(r"[:;,.](?= |$)")
 
 
 @dataclass(frozen=True, slots=True)
-class Verdict:
+class CodeVerdict:
     # Good where all bits are right, doubtful where some are, bad where none is or no code was read,
     # neutral where none is sent, waiting while a slow decoder reads
     state: State
@@ -100,18 +100,18 @@ def what_was_read(decoded: DecodeResult) -> str:
     return f"Code {decoded.code}"
 
 
-def verdict_on(decoded: DecodeResult, sent: Sequence[int]) -> Verdict:
+def verdict_on(decoded: DecodeResult, sent: Sequence[int]) -> CodeVerdict:
     """Compare a decoder's result with the sent bits, which are empty for a raw pattern."""
     if not sent:
-        return Verdict(State.NEUTRAL, "No code is sent", decoded.failure or "")
+        return CodeVerdict(State.NEUTRAL, "No code is sent", decoded.failure or "")
     if decoded.failure == _AWAITED:
         title = f"Reading by the decoder {decoded.decoder}"
-        return Verdict(State.WAITING, title, decoded.failure)
+        return CodeVerdict(State.WAITING, title, decoded.failure)
     if decoded.code is None:
-        return Verdict(State.BAD, "No code read", decoded.failure or "")
+        return CodeVerdict(State.BAD, "No code read", decoded.failure or "")
     if is_right(decoded, sent):
         title = f"{what_was_read(decoded)} read, all bits right"
-        return Verdict(State.GOOD, title)
+        return CodeVerdict(State.GOOD, title)
     wrong = len(wrong_places(sent, decoded.bits.tolist()))
     title = f"{what_was_read(decoded)} read, {wrong} of {len(sent)} bits wrong"
-    return Verdict(State.BAD if wrong == len(sent) else State.DOUBTFUL, title)
+    return CodeVerdict(State.BAD if wrong == len(sent) else State.DOUBTFUL, title)

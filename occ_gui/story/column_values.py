@@ -75,7 +75,7 @@ def _light(light: float) -> str:
 
 
 @dataclass(frozen=True, slots=True)
-class Measured:
+class CursorDifference:
     columns: float  # from the first to the second, negative where the second is at the left
     time: float  # the same in seconds
     # How much higher the profile is at the second, in grey levels; None outside of it
@@ -83,7 +83,9 @@ class Measured:
     chips: float  # the same time in chips
 
 
-def measure(cursors: MeasureCursors, scene: Scene, profile: FloatArray | None) -> Measured | None:
+def measure(
+    cursors: MeasureCursors, scene: Scene, profile: FloatArray | None
+) -> CursorDifference | None:
     if not cursors.columns:
         return None
     first, second = cursors.columns
@@ -93,10 +95,10 @@ def measure(cursors: MeasureCursors, scene: Scene, profile: FloatArray | None) -
     levels = None
     if profile is not None and all(0 <= place < len(profile) for place in places):
         levels = float(profile[places[1]] - profile[places[0]])
-    return Measured(columns, time, levels, time * scene.transmitter.switching_frequency)
+    return CursorDifference(columns, time, levels, time * scene.transmitter.switching_frequency)
 
 
-def difference_in_words(measured: Measured) -> str:
+def difference_in_words(measured: CursorDifference) -> str:
     parts = [f"1 to 2: {measured.columns:.1f} columns", SECOND.format(measured.time, 4)]
     if measured.levels is not None:
         parts.append(f"{measured.levels:+.1f} levels")

@@ -8,7 +8,7 @@ from PySide6.QtCore import Signal
 from occ_gui.detection_map.slider_strip import SceneRate
 from occ_gui.simulation.snapshot import Reading
 from occ_gui.simulation.verdict import (
-    Verdict,
+    CodeVerdict,
     cause_in,
     is_right,
     left_out_in_words,
@@ -220,7 +220,7 @@ class VerdictBar(StateBar):
         subject = "Simulation of the earlier scene" if self._is_outdated else "Simulation"
         return f"{subject}: {verdict[:1].lower()}{verdict[1:]}"
 
-    def _why(self, verdict: Verdict, reading: Reading) -> list[str]:
+    def _why(self, verdict: CodeVerdict, reading: Reading) -> list[str]:
         if verdict.explanation:
             # What follows a semicolon is left out where it does not fit.
             reason = verdict.reason if reading.causes is None else verdict.explanation
@@ -251,7 +251,7 @@ class VerdictBar(StateBar):
         ]
 
 
-def _left_out(verdict: Verdict, reading: Reading) -> str:
+def _left_out(verdict: CodeVerdict, reading: Reading) -> str:
     """Qualify a good verdict where more is left out than a new window would; else empty."""
     if verdict.state is not State.GOOD or reading.error <= TOLERANCE.default:
         return ""
@@ -262,7 +262,7 @@ def _left_out(verdict: Verdict, reading: Reading) -> str:
     return f" ({amount if math.isfinite(reading.error) else 'an unknown part'} left out)"
 
 
-def _is_averaged(verdict: Verdict, reading: Reading) -> bool:
+def _is_averaged(verdict: CodeVerdict, reading: Reading) -> bool:
     """Return whether a code is read though every column averages several chips."""
     is_good = verdict.state is State.GOOD
     return is_good and bool(reading.band_undefined) and chips_in_exposure(reading.scene) > 1

@@ -33,7 +33,7 @@ MODES: Mapping[str, Mode] = MappingProxyType(
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
+class PanePlace:
     """Where a mode shows a pane at first, as a tab beside the others of that side."""
 
     side: Side
@@ -42,5 +42,5 @@ class Place:
     height: int = 0
 
 
-Places: TypeAlias = Mapping[str, Place]
+Places: TypeAlias = Mapping[str, PanePlace]
 """The places of a pane by mode, in those modes that show it at first."""

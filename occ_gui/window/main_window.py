@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QApplication, QLabel, QMainWindow, QWidget
 
 from occ_gui.scene.control_panel import ControlPanel
 from occ_gui.story.story_view import StoryView
-from occ_gui.values.modes import MODES, PICTURE, Place, Places, Side
+from occ_gui.values.modes import MODES, PICTURE, PanePlace, Places, Side
 from occ_gui.widgets.event_filters import leave_drops_to_window
 from occ_gui.widgets.scroll_pane import bring_into_view
 from occ_gui.window.docks import Dock
@@ -32,12 +32,12 @@ _IN_STORY = ("profile", "decode")  # panes that show in detail what the story sh
 
 
 _CONTROLS = {
-    "explore": Place("left", width=340),
-    "photo": Place("left"),
-    "limits": Place("left", width=340),
-    "effects": Place("left", width=340),
-    "lessons": Place("left", width=320),
-    "video": Place("left", width=340),
+    "explore": PanePlace("left", width=340),
+    "photo": PanePlace("left"),
+    "limits": PanePlace("left", width=340),
+    "effects": PanePlace("left", width=340),
+    "lessons": PanePlace("left", width=320),
+    "video": PanePlace("left", width=340),
 }
 
 

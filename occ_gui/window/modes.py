@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from PySide6.QtCore import QByteArray, QObject, Qt, Signal
 from PySide6.QtWidgets import QDockWidget, QMainWindow
 
-from occ_gui.values.modes import MODES, Place, Places, Side
+from occ_gui.values.modes import MODES, PanePlace, Places, Side
 
 _SIDES = {
     "left": Qt.DockWidgetArea.LeftDockWidgetArea,
@@ -26,7 +26,7 @@ class DeclaredPane:
 class Panes(dict[str, DeclaredPane]):
     """The panes by name, and which of them each mode shows."""
 
-    def shown_in(self, mode: str) -> dict[str, Place]:
+    def shown_in(self, mode: str) -> dict[str, PanePlace]:
         """Return the places in a mode, of each side the main pane first."""
         places = {name: pane.places[mode] for name, pane in self.items() if mode in pane.places}
         return dict(sorted(places.items(), key=lambda item: not item[1].is_main))

@@ -112,7 +112,7 @@ class ManyPhotosController(QObject):
             fit_gamma=choice.fit_gamma,
             scan_axis=options.scan_axis,
             channel=options.channel,
-            known=self._view.rows.given(known),
+            known=self._view.rows.entered_values(known),
         )
         self._found, self._done, self.table = {}, 0, None
         self._listed = ListedRows((), options, float(self._scenes.scene.value(known)))
@@ -125,7 +125,7 @@ class ManyPhotosController(QObject):
         table, settings = self.table, self._settings
         if table is None or settings is None:
             return
-        known = self._view.rows.given(counterpart(settings.estimate))
+        known = self._view.rows.entered_values(counterpart(settings.estimate))
         self._settings = settings = replace(settings, known=known)
         self._done, self.table = len(table.rows) - 1, None
         self._view.show_busy(settings.estimate, settings.scene)

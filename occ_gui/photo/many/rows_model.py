@@ -57,7 +57,7 @@ class PhotoRowsModel(QAbstractTableModel):
     def known(self) -> str:
         return counterpart(self._estimate)
 
-    def given(self, name: str) -> tuple[tuple[int, float], ...]:
+    def entered_values(self, name: str) -> tuple[tuple[int, float], ...]:
         """Return the values of a known parameter entered for single photos, in SI units."""
         return tuple(sorted(self._given.get(name, {}).items()))
 

@@ -16,7 +16,7 @@ import occ_model as occ
 from occ_gui.accuracy import controller as module
 from occ_gui.accuracy import cost_measurement
 from occ_gui.accuracy.controller import AccuracyController
-from occ_gui.accuracy.cost_measurement import CostMeasurement, Measured, SceneCosts
+from occ_gui.accuracy.cost_measurement import CostMeasurement, MeasuredPoint, SceneCosts
 from occ_gui.background.task import Superseded
 from occ_gui.core.workspace import FIRST_SETTINGS
 from occ_gui.simulation.controller import SimulationController
@@ -210,13 +210,13 @@ def reports(tiny: SimulationRequest) -> list[object]:
 def test_the_models_own_study_has_as_many_points_as_it_says_after_the_costs_of_effects(
     tiny: SimulationRequest, reports: list[object]
 ) -> None:
-    points = [m for m in reports if isinstance(m, Measured)]
+    points = [m for m in reports if isinstance(m, MeasuredPoint)]
     assert {point.total for point in points} == {len(points)}
     parts = [point.point.part for point in points]
     assert sum(one != other for one, other in pairwise(parts)) == len(ACCURACY_PARTS) - 1
     kinds = [type(report) for report in reports]
     assert kinds[0] is SceneCosts
-    first = kinds.index(Measured)
+    first = kinds.index(MeasuredPoint)
     before = [r for r in reports[:first] if isinstance(r, SceneCosts)]
     present = [d.effect for d in occ.plan(tiny.scene, 0.0).decisions if d.estimate]
     assert list(before[-1].differences) == present
@@ -281,7 +281,9 @@ def test_all_times_that_are_stated_of_a_scene_are_of_one_measurement(
     stated = costs.of(tiny, TimeFractions.of(frame))
     assert stated.is_comparable
     assert stated.picture.included == set(frame.plan.included)
-    points = [m.point for m in reports if isinstance(m, Measured) and m.point.part == "effects"]
+    points = [
+        m.point for m in reports if isinstance(m, MeasuredPoint) and m.point.part == "effects"
+    ]
     (now,) = [point for point in points if point.current]
     assert now.seconds == stated.picture.seconds
     (bare,) = [fractions for fractions in stated.others if not fractions.included]

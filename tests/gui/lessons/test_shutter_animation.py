@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
-from occ_gui.lessons.shutter_animation import Drawing
+from occ_gui.lessons.shutter_animation import ShutterDrawing
 from occ_model.results.teaching import RollingShutter
 from occ_model.teaching.light_over_columns import rolling_shutter
 
@@ -34,17 +34,17 @@ def moment(request: pytest.FixtureRequest) -> float:
 
 
 @pytest.fixture
-def drawing(widget: QWidget, shutter: RollingShutter, moment: float) -> Drawing:
-    return Drawing(Mock(), widget, shutter, moment)
+def drawing(widget: QWidget, shutter: RollingShutter, moment: float) -> ShutterDrawing:
+    return ShutterDrawing(Mock(), widget, shutter, moment)
 
 
-def filled(drawing: Drawing) -> list[QRectF]:
+def filled(drawing: ShutterDrawing) -> list[QRectF]:
     painter: Any = drawing.painter
     return [call.args[0] for call in painter.fillRect.call_args_list]
 
 
 def test_the_stripes_seen_are_those_of_exposures_that_have_ended(
-    drawing: Drawing, shutter: RollingShutter, moment: float
+    drawing: ShutterDrawing, shutter: RollingShutter, moment: float
 ) -> None:
     drawing.draw_stripes()
     ended = shutter.starts + shutter.exposure_time <= moment * shutter.duration * (1.0 + 1e-9)
@@ -53,7 +53,7 @@ def test_the_stripes_seen_are_those_of_exposures_that_have_ended(
 
 
 def test_the_bar_of_a_column_is_filled_as_far_as_its_exposure_has_gone(
-    drawing: Drawing, widget: QWidget, shutter: RollingShutter, moment: float
+    drawing: ShutterDrawing, widget: QWidget, shutter: RollingShutter, moment: float
 ) -> None:
     drawing.draw_bars()
     gone = np.clip(moment * shutter.duration - shutter.starts, 0.0, shutter.exposure_time)

@@ -14,7 +14,7 @@ from occ_gui.core.workspace import FIRST_SETTINGS
 from occ_gui.simulation.controller import simulate
 from occ_gui.simulation.jobs import reading_by_profile
 from occ_gui.simulation.snapshot import Snapshot
-from occ_gui.simulation.verdict import Verdict
+from occ_gui.simulation.verdict import CodeVerdict
 from occ_gui.story.verdict_bar import VerdictBar
 from occ_gui.widgets.badge_row import BadgeLabel
 from occ_gui.widgets.state_look import State
@@ -344,7 +344,7 @@ def test_a_code_read_beyond_a_period_leads_to_its_lesson(
 def test_the_reason_is_divided_between_heading_and_explanation(
     state: State, reason: str, heading: str, explanation: str | None
 ) -> None:
-    verdict = Verdict(state, "Title", reason)
+    verdict = CodeVerdict(state, "Title", reason)
     assert verdict.heading == heading
     if explanation is not None:
         assert verdict.explanation == explanation

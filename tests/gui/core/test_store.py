@@ -1,4 +1,4 @@
-"""The workspace changes in one place, in steps that are undone without what was set meanwhile."""
+"""The workspace changes in one place; undoing a step keeps what was set since."""
 
 from dataclasses import replace
 
@@ -24,7 +24,7 @@ def iso(store: Store) -> float:
     return store.workspace.scene.camera.iso
 
 
-def test_who_looks_at_a_part_hears_of_its_changes_alone(store: Store) -> None:
+def test_a_selection_announces_only_changes_of_its_part(store: Store) -> None:
     rate = store.select(lambda workspace: workspace.frame_rate)
     rates = collect(rate.changed)
     put_iso(store, 200.0)
@@ -33,7 +33,7 @@ def test_who_looks_at_a_part_hears_of_its_changes_alone(store: Store) -> None:
     assert (rates, rate.value) == ([24.0], 24.0)
 
 
-def test_undoing_a_step_leaves_what_was_set_after_it(store: Store) -> None:
+def test_undoing_a_step_keeps_what_was_set_after_it(store: Store) -> None:
     first = iso(store)
     put_iso(store, 200.0)
     settings = replace(store.workspace.settings, tolerance=7.0)
@@ -46,7 +46,7 @@ def test_undoing_a_step_leaves_what_was_set_after_it(store: Store) -> None:
     assert iso(store) == first
 
 
-def test_a_listener_that_edits_in_turn_puts_its_step_above_the_one_it_heard_of(
+def test_the_step_of_a_listener_comes_after_the_step_that_caused_it(
     store: Store,
 ) -> None:
     first = iso(store)
@@ -62,7 +62,7 @@ def test_a_listener_that_edits_in_turn_puts_its_step_above_the_one_it_heard_of(
     assert scenes == [200.0, first]
 
 
-def test_an_edit_in_answer_to_an_undo_is_a_step_above_what_is_left(store: Store) -> None:
+def test_an_edit_in_response_to_an_undo_is_a_new_step(store: Store) -> None:
     first = iso(store)
     put_iso(store, 200.0)
     scene = store.select(lambda workspace: workspace.scene)
@@ -75,7 +75,7 @@ def test_an_edit_in_answer_to_an_undo_is_a_step_above_what_is_left(store: Store)
 
 
 @pytest.mark.parametrize("is_undo", [False, True])
-def test_listeners_hear_of_changes_in_their_order_and_last_of_the_present_one(
+def test_listeners_hear_of_changes_in_order_the_present_one_last(
     store: Store, is_undo: bool
 ) -> None:
     if is_undo:
@@ -92,10 +92,10 @@ def test_listeners_hear_of_changes_in_their_order_and_last_of_the_present_one(
     else:
         put_iso(store, 200.0)
     assert heard == [200.0, 300.0]
-    assert late == [300.0]  # it looks at what is, and hears nothing twice
+    assert late == [300.0]  # it hears of the present state, and of nothing twice
 
 
-def test_a_step_says_what_it_has_left_before_anybody_hears_of_it(store: Store) -> None:
+def test_a_step_announces_the_state_before_it_first(store: Store) -> None:
     first, told = iso(store), []
     store.step_begun.connect(lambda left: told.append(("left", left.scene.camera.iso)))
     store.select(lambda workspace: workspace.scene).changed.connect(
@@ -122,7 +122,7 @@ def test_a_gesture_that_goes_on_after_an_undo_is_a_step_of_its_own(store: Store)
     assert iso(store) == 200.0
 
 
-def test_a_listener_that_fails_keeps_nobody_from_hearing_later_changes(
+def test_later_changes_are_announced_although_a_listener_failed(
     store: Store, capfd: pytest.CaptureFixture[str]
 ) -> None:
     rate = store.select(lambda workspace: workspace.frame_rate)

@@ -1,4 +1,4 @@
-"""The window starts whatever the files contain that it reads at its start."""
+"""The window starts whatever is in the files that it reads at the start."""
 
 import os
 import stat
@@ -20,7 +20,7 @@ from occ_model.scene.scene import Scene
 
 
 def make_large(path: Path) -> None:
-    """Make a file that has no end, as far as anybody would wait."""
+    """Make a file that never ends when it is read."""
     with path.open("wb") as file:
         file.truncate(2**40)
 
@@ -37,7 +37,7 @@ NO_FILES: dict[str, Damage] = {
 
 
 @pytest.mark.parametrize("kind", NO_FILES)
-def test_what_is_no_file_is_neither_read_nor_keeps_a_session_from_being_written(
+def test_what_is_not_a_file_is_not_read_and_does_not_prevent_the_writing_of_a_session(
     tmp_path: Path, kind: str
 ) -> None:
     NO_FILES[kind](tmp_path / "session-1.json")
@@ -55,7 +55,7 @@ COUNTS = ("9" * 4300, "9" * 5000, "-9", "1e999", "NaN", str(2**53), "true", '"7"
 
 
 @pytest.mark.parametrize("count", COUNTS, ids=[text[:9] for text in COUNTS])
-def test_a_count_that_is_none_keeps_no_session_from_being_written(
+def test_an_invalid_count_does_not_prevent_the_writing_of_a_session(
     tmp_path: Path, count: str
 ) -> None:
     first, second = (KeptSession(Workspace(Scene().replace(iso=iso))) for iso in (111.0, 222.0))
@@ -86,7 +86,7 @@ OTHERS = {
 }
 
 
-def test_what_is_no_session_is_put_aside_beside_what_is_there_and_said(
+def test_a_file_that_is_not_a_session_is_renamed_with_a_sentence(
     qapp: object, tmp_path: Path
 ) -> None:
     path = tmp_path / "session-1.json"
@@ -107,7 +107,7 @@ def test_what_is_no_session_is_put_aside_beside_what_is_there_and_said(
     assert len([*tmp_path.glob("*.unreadable*")]) == len(OTHERS)
 
 
-def test_what_cannot_be_put_aside_is_not_overwritten(
+def test_a_file_that_cannot_be_renamed_is_not_overwritten(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     path = tmp_path / "session-1.json"

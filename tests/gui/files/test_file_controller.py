@@ -1,4 +1,4 @@
-"""Scenes and pictures to files and back; what is refused changes nothing."""
+"""Scenes and pictures are saved and opened; a refused file changes nothing."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
@@ -22,7 +22,7 @@ from occ_model.scene.scene import Scene
 
 
 class Bench:
-    """A controller without a window, and what it says."""
+    """A controller without a window, and its messages."""
 
     def __init__(self, scene: Scene) -> None:
         self.store = store_of(scene)
@@ -79,7 +79,7 @@ def test_a_saved_scene_is_opened_exactly_as_it_was_in_one_step_that_can_be_undon
         (b"format = 99\n", "this version reads format 1"),
     ],
 )
-def test_a_file_that_is_no_scene_is_refused_and_leaves_the_scene(
+def test_a_file_that_is_not_a_scene_is_refused_and_the_scene_stays(
     bench: Bench, tmp_path: Path, small_scene: Scene, content: bytes | None, said: str
 ) -> None:
     path = tmp_path / "wrong.toml"
@@ -229,7 +229,7 @@ def test_several_photos_of_the_dialog_become_a_table_which_is_saved_by_one(
 def test_a_name_without_an_ending_writes_over_no_file(
     bench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The dialog has asked whether to write over the name as it was typed."""
+    """The dialog asked only about the name as it was typed."""
     own = tmp_path / "own.csv"
     own.write_text("mine", encoding="utf-8")
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(tmp_path / "own"), ""))
@@ -284,7 +284,7 @@ def test_only_what_was_opened_or_saved_is_a_recent_file(
 
 
 @pytest.mark.parametrize("folder", ["/" + "a" * 300, "/a" * 4000, "/\x00", "/dev/null/a", "a" * 9])
-def test_a_folder_that_cannot_be_is_not_where_a_dialog_begins(
+def test_a_dialog_does_not_begin_in_an_impossible_folder(
     bench: Bench, tmp_path: Path, folder: str
 ) -> None:
     kept = QSettings(str(tmp_path / "settings.ini"), QSettings.Format.IniFormat)
@@ -299,14 +299,14 @@ def test_a_folder_that_cannot_be_is_not_where_a_dialog_begins(
         assert "is not a file" in bench.status_message[-1]
 
 
-def test_what_is_nothing_usable_is_answered_by_a_sentence(bench: Bench, tmp_path: Path) -> None:
+def test_an_unusable_drop_is_answered_with_a_sentence(bench: Bench, tmp_path: Path) -> None:
     for dropped in ([], [tmp_path]):
         bench.files.open_dropped(dropped)
         assert bench.status_message[-1].endswith("; drop a photo, a film or a scene (.toml).")
         assert ("computer" in bench.status_message[-1]) == (not dropped)
 
 
-def test_a_film_is_known_by_its_content_and_opened_as_one(bench: Bench, tmp_path: Path) -> None:
+def test_a_film_is_recognized_by_its_content(bench: Bench, tmp_path: Path) -> None:
     path = tmp_path / "without an ending"
     path.write_bytes(b"\x00\x00\x00\x18ftypisom")
     asked: list[Path] = []

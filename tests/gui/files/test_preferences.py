@@ -96,7 +96,7 @@ def test_rubbish_is_ignored(file: Path, rubbish: object) -> None:
     assert preferences.folder == ""
 
 
-def test_a_file_that_holds_no_settings_is_as_good_as_none(file: Path, tmp_path: Path) -> None:
+def test_a_file_without_settings_is_like_a_missing_file(file: Path, tmp_path: Path) -> None:
     file.write_bytes(b"\x00\xff[[[=\n%%%")
     preferences = Preferences(settings(file))
     assert preferences.files == ()

@@ -25,7 +25,7 @@ Answer = Callable[[str, bool], None]
 
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Let new windows read the user's own presets from a folder with one file of rubbish."""
+    """Let new windows read the user's own presets from a folder that contains an invalid file."""
     folder = tmp_path / "own"
     folder.mkdir()
     (folder / "rubbish.toml").write_bytes(b"\xff no preset")
@@ -35,7 +35,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 @pytest.fixture(autouse=True)
 def own(folder: Path, application: Application) -> Iterator[Path]:
-    """Let the window list the presets of the folder, and none of them after."""
+    """Let the window list the presets of the folder, and remove them from its list afterwards."""
     application.presets.update()
     yield folder
     for path in folder.iterdir():
@@ -85,7 +85,7 @@ def test_the_window_starts_in_spite_of_rubbish_among_presets(application: Applic
     assert "rubbish.toml cannot be read" in tip
 
 
-def test_whatever_stands_in_a_preset_the_others_can_be_used(
+def test_an_invalid_preset_does_not_affect_the_others(
     application: Application, user: User, own: Path
 ) -> None:
     bad = {
@@ -206,7 +206,7 @@ def test_a_preset_is_named_again_after_a_lesson(application: Application, user: 
     application.presets.load("phone-68us")
     for pattern, named in (
         ("", "Phone, 68 µs"),
-        ("10", "Phone, 68 µs, changed"),  # but two parameters from a lesson's scene
+        ("10", "Phone, 68 µs, changed"),  # two parameters differ from the scene of a lesson
     ):
         application.store.change(pattern=pattern)
         assert (preset.currentText() or preset.placeholderText()) == named

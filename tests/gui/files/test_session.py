@@ -40,7 +40,7 @@ def kept(tmp_path: Path) -> QSettings:
 
 @pytest.fixture
 def start(qtbot: QtBot, small_scene: Scene, tmp_path: Path, kept: QSettings) -> Starting:
-    """Start a window as the command line does, and end it after."""
+    """Start a window as the command line does, and end it afterwards."""
 
     @contextmanager
     def begin(asked: Scene | None = None, fresh: bool = False) -> Iterator[Application]:
@@ -80,7 +80,7 @@ def test_a_room_outlives_a_kill_with_the_steps_of_its_camera(qapp: object, tmp_p
     scene = first.scene.replace(iso=321.0)
     store.put(replace(store.workspace, scene=scene), "iso")
     session.write()
-    file.close()  # with its process: nothing is written any more
+    file.close()  # as when its process ends: nothing more is written
 
     again = SessionFile(tmp_path)
     begun = restore_workspace(
@@ -218,7 +218,7 @@ def test_only_a_command_line_that_names_a_scene_asks_for_one(
 
 
 def crash(folder: Path, scene: Scene) -> None:
-    """Leave behind what a window leaves that does not come to its end."""
+    """Leave the files of a window that crashed."""
     file = SessionFile(folder)
     file.write(KeptSession(Workspace(scene, SimulationSettings(tolerance=7.0))), in_use=True)
     file.close()
@@ -272,7 +272,7 @@ def test_the_session_written_last_is_restored_though_the_clock_was_put_back(
 def kill(
     qtbot: QtBot, application: Application, folder: Path, kept: QSettings
 ) -> Callable[[], None]:
-    """Note what a window has stored; what is returned puts it back, as if it had not ended."""
+    """Remember the files that a window has stored; return a function that restores them."""
     qtbot.waitUntil(lambda: application.is_idle and not application.session.is_due)
     files = {path: path.read_bytes() for path in folder.glob("*.json")}
     values = {key: kept.value(key) for key in kept.allKeys()}
@@ -288,7 +288,7 @@ def kill(
 
 
 def comparison(application: Application) -> list[list[str]]:
-    """Read the table of what differs between A and B, without how long they took."""
+    """Read the table of differences between A and B, without computing times."""
     table = application.shell.pane("compare").view.table
     cells = [
         [item.text() if (item := table.item(row, column)) else "" for column in range(3)]

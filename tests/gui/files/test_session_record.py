@@ -1,4 +1,4 @@
-"""What a window is working on is read as it was written; what cannot be read is as at first."""
+"""The state of a window is read as it was written; parts that are invalid get first values."""
 
 import json
 from dataclasses import fields, replace
@@ -26,7 +26,7 @@ HERE = Path(__file__)
 
 
 def everything_set() -> Workspace:
-    """Return a workspace no field of which has its first value."""
+    """Return a workspace in which no field has its first value."""
     scene = Scene().replace(iso=321.0)
     photo = PhotoChoice(
         HERE, LoadOptions("lines", "green"), parts={PhotoFrame(HERE): Region(1, 20, 3, 40)},
@@ -46,7 +46,7 @@ def everything_set() -> Workspace:
     )  # fmt: skip
 
 
-def test_all_that_is_set_is_there_again(tmp_path: Path) -> None:
+def test_every_setting_is_restored(tmp_path: Path) -> None:
     first, workspace = Workspace(Scene()), everything_set()
     same = [each.name for each in fields(first)
             if getattr(first, each.name) == getattr(workspace, each.name)]  # fmt: skip
@@ -57,7 +57,7 @@ def test_all_that_is_set_is_there_again(tmp_path: Path) -> None:
     again = SessionFile(tmp_path)
     assert again.last == KeptSession(workspace)
     kept = not_none(again.last.workspace.pins[1])
-    assert kept.request.more == ("sequence",)  # by which pins are not told apart
+    assert kept.request.more == ("sequence",)  # not compared between pins
     again.close()
 
 
@@ -85,9 +85,7 @@ DAMAGED: list[tuple[tuple[str, ...], object]] = [
 
 
 @pytest.mark.parametrize(("place", "value"), DAMAGED)
-def test_a_part_that_cannot_be_is_as_at_first_and_no_other_is(
-    place: tuple[str, ...], value: object
-) -> None:
+def test_an_invalid_part_alone_gets_its_first_value(place: tuple[str, ...], value: object) -> None:
     workspace = everything_set()
     first: dict[str, Any] = {
         "room": RoomChoice(),
@@ -160,7 +158,7 @@ def test_a_session_with_numbers_or_lists_that_no_computer_needs_is_left_out(
     assert value in text
     (tmp_path / "session-1.json").write_text(text, "ascii")
     file = SessionFile(tmp_path)
-    kept = file.last  # none where it is no JSON any more
+    kept = file.last  # None if the text is no longer valid JSON
     assert kept is None or kept.workspace.settings == FIRST_SETTINGS
     file.close()
 

@@ -1,4 +1,4 @@
-"""The session is on the disk at all times, a file for each window; a full disk is reported."""
+"""The session is always on disk, in a file for each window; a full disk is reported."""
 
 import itertools
 import json
@@ -106,7 +106,7 @@ def test_the_scene_is_written_a_moment_after_it_was_changed_in_the_file_of_the_s
 
 @contextmanager
 def scene_in_motion(store: SceneStore) -> Iterator[None]:
-    """Change a scene again and again, sooner than any writing waits."""
+    """Change a scene again and again, faster than the session is written."""
     values = itertools.count(100.0)
     moves = QTimer()
     moves.timeout.connect(lambda: store.change(iso=next(values)))
@@ -116,7 +116,7 @@ def scene_in_motion(store: SceneStore) -> Iterator[None]:
     moves.stop()
 
 
-def test_a_scene_that_never_rests_is_written_all_the_same(
+def test_a_scene_that_keeps_changing_is_written_nevertheless(
     begin: Begin,
     scenes: SceneStore,
     tmp_path: Path,

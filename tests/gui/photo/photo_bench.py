@@ -1,4 +1,4 @@
-"""A photo in the store, and all that the pane of the photo follows from, without a window."""
+"""A photo in the stores that the pane of the photo depends on, without a window."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -65,7 +65,7 @@ class PhotoBench:
 
 
 def no_actions() -> WindowActions:
-    """Return what a window does for the pane: nothing."""
+    """Return actions of a window that do nothing."""
     return WindowActions(
         ask_for_photo=lambda: None,
         samples=dict,
@@ -77,13 +77,13 @@ def no_actions() -> WindowActions:
 
 
 def spoken(steps: PhotoSteps) -> list[str]:
-    """Return what a screen reader says of the steps."""
+    """Return what a screen reader says about the steps."""
     faces = [QAccessible.queryAccessibleInterface(button) for button in steps.buttons.values()]
     return [face.text(QAccessible.Text.Name) for face in faces]
 
 
 class LiveView(PhotoView):
-    """A view that shows what is chosen in it, as it does in its pane."""
+    """A view that shows what the user chooses in it, as in its pane."""
 
     def __init__(self) -> None:
         super().__init__()

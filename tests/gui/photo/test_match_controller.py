@@ -1,4 +1,4 @@
-"""A match: asked for in the user's words, cancelled, applied as one step, kept as a preset."""
+"""A match: requested with the user's choices, cancelled, applied as one step, saved as a preset."""
 
 import threading
 from collections.abc import Iterator
@@ -32,7 +32,7 @@ DAY = date(2026, 1, 31)
 
 
 class Bench(PhotoBench):
-    """A controller on a photo, and a model with a given answer."""
+    """A controller with a photo, and a model that returns a given match."""
 
     def __init__(self, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch, scene: Scene) -> None:
         super().__init__(scene)
@@ -115,7 +115,7 @@ def test_a_square_wave_is_two_chips_a_cycle(bench: Bench, small_scene: Scene) ->
     assert asked["scene"] == small_scene.replace(pattern=SQUARE_WAVE, switching_frequency=2469.0)
 
 
-def test_a_square_wave_that_cannot_be_is_refused_with_a_sentence(bench: Bench) -> None:
+def test_an_impossible_square_wave_is_refused_with_a_sentence(bench: Bench) -> None:
     bench.start(sent="square", square_frequency=1e12)
     (sentence,) = bench.failures
     assert sentence.startswith("Switching frequency is ")
@@ -173,7 +173,7 @@ def test_a_match_is_marked_while_another_photo_is_read(bench: Bench) -> None:
     assert bench.age == ""
 
 
-def test_a_cancelled_match_gives_nothing_and_the_last_one_stays(bench: Bench, qtbot: QtBot) -> None:
+def test_a_cancelled_match_has_no_result_and_the_last_one_stays(bench: Bench, qtbot: QtBot) -> None:
     bench.start()
     found = bench.controller.match
     bench.begun.clear()
@@ -208,7 +208,7 @@ def test_another_photo_ends_the_match_and_forgets_what_was_found(
 def test_a_match_comes_back_with_its_photo_and_stays_where_another_is_cancelled(
     bench: Bench, photo: Photo
 ) -> None:
-    """As at the end of a lesson."""
+    """As happens at the end of a lesson."""
     bench.start()
     users, found = bench.store.workspace, bench.part.found
     bench.show_photo(replace(photo))
@@ -263,7 +263,7 @@ def test_applying_puts_what_was_found_into_the_scene_as_one_step(
     assert bench.scenes.scene == small_scene
 
 
-def test_what_the_camera_noted_goes_into_the_scene_as_one_step_or_is_refused_with_a_sentence(
+def test_recorded_camera_settings_are_applied_in_one_step_or_refused_with_a_sentence(
     bench: Bench, photo: Photo, small_scene: Scene
 ) -> None:
     bench.controller.apply_camera_settings()
@@ -313,7 +313,7 @@ def test_a_saved_match_records_values_photo_date_uncertainty_and_the_inputs_it_w
     assert "switching frequency being 10 kHz" in preset_named("sure").sources["readout_time"]
 
 
-def test_a_name_that_cannot_be_is_refused_with_a_sentence(bench: Bench, own: Path) -> None:
+def test_an_invalid_name_is_refused_with_a_sentence(bench: Bench, own: Path) -> None:
     assert not bench.controller.save("mine", "", DAY)
     assert not own.exists(), "there is no match"
     bench.start()

@@ -51,7 +51,7 @@ def test_what_is_known_beside_the_estimate_is_shown(view: LiveView, qtbot: QtBot
     assert not view.form.hint.isVisible()
 
 
-def test_who_chooses_a_square_wave_tells_its_frequency_until_another_choice(
+def test_choosing_a_square_wave_confirms_its_frequency_until_another_choice(
     view: LiveView, qtbot: QtBot
 ) -> None:
     assert not view.form.certain.isChecked()
@@ -68,7 +68,7 @@ def test_who_chooses_a_square_wave_tells_its_frequency_until_another_choice(
     assert not view.form.certain.isChecked()
 
 
-def test_what_is_known_can_be_entered_where_it_is_asked_for(view: LiveView, qtbot: QtBot) -> None:
+def test_a_known_value_can_be_entered_in_the_form(view: LiveView, qtbot: QtBot) -> None:
     view.show_scene(occ.Scene())
     received: list[tuple[str, float]] = []
     view.form.edited.connect(lambda name, value, _: received.append((name, value)))
@@ -90,7 +90,7 @@ def test_a_match_of_outdated_inputs_is_marked(view: LiveView, match: Match) -> N
         assert view.result.stale.isVisible() == stale
     view.show_scene(scene.replace(switching_frequency=1e3))
     assert view.result.stale.text() == "Found with 2 kHz; the scene has 1 kHz now: match again."
-    # Who is certain of the photo's frequency needs not the scene's.
+    # A frequency that is certain for the photo does not depend on the scene's.
     view.confirm({"switching_frequency": 2e3})
     assert not view.result.stale.isVisible()
     view.confirm({"switching_frequency": 3e3})
@@ -146,7 +146,7 @@ def test_a_known_value_is_certain_once_it_is_entered_or_ticked(
     assert view.choice.certain == {}
 
 
-def test_a_refused_known_value_says_why_at_its_field_until_mended(
+def test_a_refused_known_value_says_why_at_its_field_until_it_is_corrected(
     view: LiveView, qtbot: QtBot
 ) -> None:
     view.show_scene(occ.Scene())
@@ -175,7 +175,7 @@ def test_a_refused_known_value_says_why_at_its_field_until_mended(
 
 
 @pytest.mark.parametrize("how", ["another photo", "several photos"])
-def test_what_was_certain_of_one_photo_is_said_to_be_assumed_of_the_next(
+def test_a_value_certain_for_one_photo_is_only_assumed_for_the_next(
     view: LiveView, photo: Photo, qtbot: QtBot, how: str
 ) -> None:
     choose(qtbot, view.form.sent, "square")

@@ -84,7 +84,7 @@ def test_a_match_says_which_shutter_speeds_show_no_bars(view: LiveView, match: M
         "no bars at whole multiples of 520.8 µs. "
         "Set 1/640 s or 1/320 s if the camera keeps what is written, else 1/240 s or 1/120 s."
     )
-    # So short an exposure is all lit or all dark: twice the mean of a lamp that is lit by half.
+    # Such a short exposure is all lit or all dark: twice the mean of a lamp lit half the time.
     depth = f"bars of 200 % of its light at {SECOND.format(match.exposure_time, 3)}, "
     lamp = "This lamp repeats at 1.92 kHz and is lit for 50 % of the time: "
     assert view.result.cure.text() == lamp + depth + rest
@@ -128,7 +128,7 @@ def estimates(view: LiveView) -> list[str]:
     return [view.result.values[name].text() for name in names]
 
 
-def test_what_rests_on_an_assumed_value_says_so_until_it_is_confirmed(
+def test_a_result_that_depends_on_an_assumed_value_says_so_until_it_is_confirmed(
     view: LiveView, photo: Photo, match: Match, qtbot: QtBot
 ) -> None:
     view.show_scene(match.scene.replace(switching_frequency=2e3))
@@ -160,7 +160,7 @@ PLAIN = Alternative("a smooth curve", "", 0.91, 12.34)
 READ = Alternative("chips that were read", "1100", 0.95, -3.21, 7.2e-6, 2e3, 8e-5)
 
 
-def test_a_doubtful_exposure_is_said_beside_what_is_sure(view: LiveView, match: Match) -> None:
+def test_a_doubtful_exposure_is_stated_beside_sure_values(view: LiveView, match: Match) -> None:
     view.result.show_certain({"switching_frequency": 2e3})
     view.show_matched(replace(match, exposure_reasons=REASONS))
     result = view.result
@@ -176,7 +176,7 @@ def test_a_doubtful_exposure_is_said_beside_what_is_sure(view: LiveView, match: 
     assert result.verdict.reasons.text() == "\n".join(f"• {reason}" for reason in REASONS)
 
 
-def test_other_explanations_are_told_with_what_they_rest_on(view: LiveView, match: Match) -> None:
+def test_other_explanations_are_stated_with_their_assumptions(view: LiveView, match: Match) -> None:
     view.show_matched(match)
     assert not view.result.values["alternative"].isVisible()
     view.show_matched(replace(match, alternatives=(READ, PLAIN)))

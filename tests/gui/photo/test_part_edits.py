@@ -1,4 +1,4 @@
-"""What of a photo is matched: a lamp chosen by a click or a row, or a rectangle drawn by hand."""
+"""The part of a photo that is matched: a lamp chosen by a click or a row, or a rectangle."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, replace
@@ -88,7 +88,7 @@ def test_every_lamp_has_an_outline_with_its_number_above_it_and_a_row(bench: Ben
         assert (number.anchor.x(), number.anchor.y()) == (
             0.0,
             1.0,
-        )  # its lower left corner is there
+        )  # its lower left corner
 
 
 def test_a_click_within_a_lamp_chooses_it_and_its_outline_alone_is_thick(bench: Bench) -> None:
@@ -180,7 +180,7 @@ def test_a_drag_with_the_tool_on_draws_the_rectangle(
 def test_a_region_stays_with_another_channel_and_comes_back_with_its_photo(
     bench: Bench, photo: Photo
 ) -> None:
-    """Going through the rows of the table of photos opens one after the other."""
+    """Choosing the rows of the table of photos opens one photo after the other."""
     drawn, other = Region(5, 25, 10, 40), replace(photo, path=Path("other.png"))
     bench.parts.draw(drawn)
     red = replace(photo, channel="red")
@@ -203,7 +203,7 @@ def test_a_region_stays_with_another_channel_and_comes_back_with_its_photo(
 
 
 def photo_in(record: Mapping[str, object]) -> PhotoChoice:
-    """Read what a session that has a scene says of photos."""
+    """Read the settings of photos from a session with a scene."""
     kept = not_none(read_session({"scene": Scene().to_toml()} | dict(record)))
     return kept.workspace.photo
 
@@ -222,7 +222,7 @@ def test_a_damaged_region_is_left_out(form: str, photo: Photo) -> None:
 def test_a_rectangle_by_hand_begins_with_the_chosen_lamp_or_in_the_middle(
     bench: Bench, photo: Photo
 ) -> None:
-    """The middle half of the photo, so that all its corners can be taken hold of."""
+    """The middle half of the photo, so that all its corners can be dragged."""
     rows, columns = photo.image.shape
     bench.parts.set_by_hand(True)
     middle = not_none(bench.choice.rectangle)

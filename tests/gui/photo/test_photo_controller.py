@@ -1,4 +1,4 @@
-"""Photos are read off the window's thread; the last one asked for is the one that stays."""
+"""Photos are loaded outside the window's thread; the photo that was requested last stays."""
 
 import threading
 from collections.abc import Callable, Iterator
@@ -20,7 +20,7 @@ PATIENCE_S = 10.0
 
 
 class Bench:
-    """A controller on a mock view, and a hand on the reading."""
+    """A controller with a mock view; the test decides when a photo is loaded."""
 
     def __init__(self, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) -> None:
         self.shown: list[Photo | None] = []
@@ -94,7 +94,7 @@ def test_a_photo_is_read_shown_and_announced_with_progress_from_start_to_end(
     assert (received[0], received[1], received[-2], received[-1]) == ("begun", 0.0, 1.0, "ended")
 
 
-def test_an_unreadable_photo_says_why_and_the_last_stays(
+def test_an_unreadable_photo_says_why_and_the_last_photo_stays(
     bench: Bench, photo_file: Path, tmp_path: Path
 ) -> None:
     bench.open(photo_file)

@@ -1,4 +1,4 @@
-"""The verdict on the photo says how far it is explained, apart from that on the simulation."""
+"""The verdict on the photo, which is independent of the verdict on the simulation."""
 
 from dataclasses import replace
 
@@ -38,14 +38,14 @@ def test_each_step_on_the_way_to_a_match_has_a_verdict(
     view.show_match_running(True)
     view.verdict.show_ended(REASONS)
     assert (bar.state, bar.heading) == (State.BAD, "Photo: not matched")
-    assert " ".join(REASONS) in bar.accessibleDescription()  # nothing else says them
+    assert " ".join(REASONS) in bar.accessibleDescription()  # they are stated nowhere else
     view.show_matched(match)
     assert (bar.state, bar.heading) == (State.GOOD, "Photo: sure match")
     view.open(None)
     assert bar.heading == "No photo is open"
 
 
-def test_a_sure_match_says_what_was_found_and_on_what_it_rests(
+def test_a_sure_match_says_what_was_found_and_what_it_depends_on(
     view: LiveView, bar: PhotoVerdictBar, match: Match
 ) -> None:
     view.show_matched(match)
@@ -76,7 +76,7 @@ def test_a_match_whose_exposure_is_doubtful_is_not_called_sure_without_saying_so
     assert "sure but for the exposure time" in bar.about()
 
 
-def test_bar_and_figures_rest_on_the_same_value_until_it_is_confirmed(
+def test_bar_and_values_depend_on_the_same_value_until_it_is_confirmed(
     view: LiveView, bar: PhotoVerdictBar, match: Match
 ) -> None:
     for shown in (match, replace(match, pattern="10")):
@@ -126,7 +126,7 @@ def test_a_refusal_of_plain_stripes_has_the_button_that_says_what_they_are(
     assert bar.step.isHidden()
 
 
-def test_a_figure_is_told_the_photo_and_what_its_match_is_worth(
+def test_the_caption_of_a_figure_names_the_photo_and_the_verdict_on_its_match(
     view: LiveView, bar: PhotoVerdictBar, photo: Photo, match: Match
 ) -> None:
     view.open(None)

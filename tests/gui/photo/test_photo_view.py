@@ -39,7 +39,7 @@ def test_without_a_photo_all_a_user_can_press_opens_one_or_a_sample(
         assert opened.args == [path]
 
 
-def test_what_is_known_of_a_photo_is_shown_with_its_units(
+def test_facts_about_a_photo_are_shown_with_their_units(
     view: LiveView, photo: Photo, qtbot: QtBot
 ) -> None:
     facts = view.facts
@@ -71,7 +71,7 @@ def test_every_channel_and_scan_axis_of_the_model_can_be_chosen(
     assert len(received) == 2
 
 
-def test_a_failed_match_is_a_sentence_and_what_was_found_before_stays(
+def test_a_failed_match_gives_a_sentence_and_the_earlier_match_stays(
     view: LiveView, photo: Photo, match: Match
 ) -> None:
     view.open(photo)

@@ -1,4 +1,4 @@
-"""What is worked out of the open photo: lamps, chips, stripes, and how it compares and lies."""
+"""What is computed from the open photo: lamps, chips, stripes, comparison and placement."""
 
 import threading
 from collections.abc import Callable, Iterator
@@ -38,7 +38,7 @@ READING = ChipReading(np.array([1, 0], np.uint8), 9.0, 1.0, 0.0, Region(0, 9, 0,
 
 
 def stripes_of(photo: Photo) -> Stripes:
-    """Take all columns of a photo from the tenth on for stripes."""
+    """Return all columns of a photo from the tenth on as stripes."""
     rows, columns = photo.image.shape
     profile = photo.profile[10:]
     low, high = np.full(len(profile), 40.0), np.full(len(profile), 200.0)
@@ -46,7 +46,7 @@ def stripes_of(photo: Photo) -> Stripes:
 
 
 class Bench(PhotoBench):
-    """A photo, its comparison, and a hand on the search for stripes."""
+    """A photo and its comparison; the test decides when the search for stripes ends."""
 
     def __init__(self, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) -> None:
         super().__init__()
@@ -157,7 +157,7 @@ def test_stripes_are_searched_once_for_all_comparisons(
     assert bench.searched == [photo]
 
 
-def test_where_enhanced_columns_are_looked_at_they_are_compared_each_by_its_own_histogram(
+def test_enhanced_columns_are_compared_after_each_is_enhanced_by_its_own_histogram(
     bench: Bench, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
     snapshot = snapshot_of()
@@ -225,7 +225,7 @@ def test_a_simulation_without_stripes_is_not_compared(
 ) -> None:
     bench.show_photo(photo)
     bench.wait()
-    bench.show_reading(snapshot_of(exposure_time=5.0))  # white from rim to rim
+    bench.show_reading(snapshot_of(exposure_time=5.0))  # white from edge to edge
     assert bench.last.comparison is None
     assert bench.last.sentence == "The simulation has no stripes there to compare."
     bench.show_reading(snapshot_of())
@@ -294,7 +294,7 @@ def test_chips_are_those_of_the_part_that_is_matched_and_there_may_be_none(
 def test_lamps_are_found_when_asked_for_and_come_back_with_what_was_set(
     photo: Photo, monkeypatch: pytest.MonkeyPatch, bench: Bench
 ) -> None:
-    """As at the end of a lesson; asked for again, they are searched again."""
+    """As happens at the end of a lesson; a new request searches again."""
     searched: list[Photo] = []
 
     def find(shown: Photo, _report: object) -> tuple[Lamp, ...]:

@@ -79,7 +79,7 @@ def test_a_result_follows_its_request_and_goes_with_it(bench: Bench) -> None:
     assert bench.result is None
 
 
-def test_work_that_is_not_wanted_any_more_gives_nothing(bench: Bench, qtbot: QtBot) -> None:
+def test_work_that_is_no_longer_needed_has_no_result(bench: Bench, qtbot: QtBot) -> None:
     ended: list[bool] = []
     bench.work.ended.connect(lambda: ended.append(True))
     bench.go_on.clear()

@@ -1,4 +1,4 @@
-"""A declaration is all that the window needs of a pane: it is made when first seen, and asked."""
+"""The window needs only the declaration of a pane, which is made when it is first shown."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -18,7 +18,7 @@ from occ_model.scene.scene import Scene
 
 
 class Noting(Pane[object]):
-    """A pane that notes what it is told."""
+    """A pane that records what it is asked to show."""
 
     def __init__(self) -> None:
         super().__init__(QLabel())
@@ -85,7 +85,7 @@ def bench(qtbot: QtBot) -> Iterator[Bench]:
     bench.shell.stop()
 
 
-def test_a_pane_is_made_when_it_is_first_seen(bench: Bench) -> None:
+def test_a_pane_is_made_when_it_is_first_shown(bench: Bench) -> None:
     bench.see(False)
     bench.put(200.0)
     assert bench.shell.find_pane("iso") is None
@@ -97,7 +97,7 @@ def test_a_pane_is_made_when_it_is_first_seen(bench: Bench) -> None:
     assert bench.shell.pane("iso") is pane
 
 
-def test_a_seen_pane_follows_its_part_alone(bench: Bench, snapshot_of: SnapshotOf) -> None:
+def test_a_visible_pane_follows_only_its_part(bench: Bench, snapshot_of: SnapshotOf) -> None:
     bench.see(True)
     bench.put(200.0)
     bench.store.put(replace(bench.store.workspace, frame_rate=24.0))
@@ -106,7 +106,7 @@ def test_a_seen_pane_follows_its_part_alone(bench: Bench, snapshot_of: SnapshotO
     assert bench.pane.parts[1:] == [(200.0, None), (200.0, snapshot)]
 
 
-def test_a_hidden_pane_is_told_when_it_is_seen_again(bench: Bench) -> None:
+def test_a_hidden_pane_is_updated_when_it_is_shown_again(bench: Bench) -> None:
     bench.see(True)
     bench.see(False)
     bench.put(200.0)

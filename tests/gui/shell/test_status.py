@@ -1,4 +1,4 @@
-"""The status line: what it says follows from workspace and results."""
+"""The sentence of the status line follows from workspace and results."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -27,7 +27,7 @@ SENTENCE = "Iso is 0; allowed: 1 to 2."
 
 
 def states(photo: Photo, snapshot_of: SnapshotOf) -> dict[str, tuple[Workspace, Results]]:
-    """Return a state, and others in each of which one thing differs."""
+    """Return a state, and other states that each differ from it in one thing."""
     source = PhotoSource(Path("a.png"), LoadOptions(), 1)
     document = PhotoDocument(photo, source)
     workspace, results = Workspace(Scene()), Results(document=document)

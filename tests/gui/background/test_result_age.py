@@ -1,4 +1,4 @@
-"""The age of a result counts from when its request ceased to be the present one."""
+"""The age of a result is the time since its request was replaced."""
 
 import math
 
@@ -8,7 +8,7 @@ from occ_gui.background.result_age import PAUSE, ResultAges
 
 
 class Clock:
-    """A clock that is set by hand."""
+    """A clock that the test sets."""
 
     def __init__(self) -> None:
         self.now = 100.0

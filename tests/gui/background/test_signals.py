@@ -171,7 +171,7 @@ def test_workers_that_keep_dying_are_reported(
     assert worker.renewed == 3
 
 
-def test_without_processes_the_work_is_done_all_the_same(qtbot: QtBot) -> None:
+def test_without_processes_the_work_is_done_nevertheless(qtbot: QtBot) -> None:
     def no_processes() -> NoReturn:
         raise OSError(errno.EROFS, os.strerror(errno.EROFS))
 

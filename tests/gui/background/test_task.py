@@ -19,7 +19,7 @@ PATIENCE_S = 10.0
 
 
 class Bench:
-    """Work that can be held up, and a record of what became of it."""
+    """Work that the test can hold up, and a record of its results."""
 
     def __init__(self) -> None:
         self.begun = threading.Event()
@@ -66,7 +66,7 @@ def bench(qtbot: QtBot) -> Iterator[Bench]:
 
 @pytest.fixture
 def finish(qtbot: QtBot, bench: Bench) -> Callable[[], None]:
-    """Let the work go on and wait until nothing is left of it."""
+    """Let the work go on, and wait until it has ended."""
 
     def let_go_and_wait() -> None:
         with qtbot.waitSignal(bench.runner.idle):
@@ -177,7 +177,7 @@ def test_reports_arrive_in_order_and_of_a_run_that_is_replaced_none_that_is_on_i
     def work(request: str, report: TaskReporter) -> None:
         for number in range(3):
             assert allowed.acquire(timeout=PATIENCE_S)
-            report()  # of nothing that would be passed on
+            report()  # without a part, which is not passed on
             report(f"{request} {number}")
             made.append(request)
 
@@ -252,7 +252,7 @@ def test_work_waits_for_the_thread_and_none_begins_after_its_end(qtbot: QtBot) -
 
 @pytest.fixture
 def busy(qtbot: QtBot) -> Iterator[tuple[TaskThread, threading.Event, list[str]]]:
-    """Return a thread at work on what ends with an event, and what it has done."""
+    """Return a thread with work that ends with an event, the event, and what was done."""
     done: list[str] = []
     begun, go_on = threading.Event(), threading.Event()
 

@@ -1,4 +1,4 @@
-"""The bench in the window: what is chosen is measured, drawn, marked where it is old, exported."""
+"""The bench in the window: choices are measured, drawn, marked as outdated, and exported."""
 
 import csv
 from collections.abc import Callable
@@ -39,7 +39,7 @@ def point_of(wrong: int, right: int, exposure: float = 1.0, axis: str = "exposur
 
 
 class Measuring:
-    """A bench of one decoder and few bits, whose jobs are done at once."""
+    """A bench with one decoder and few bits, which does its jobs at once."""
 
     def __init__(self, qtbot: QtBot, scene: Scene, workers: InlineWorkers) -> None:
         self.scenes = store_of(scene)
@@ -101,7 +101,7 @@ def test_what_the_pane_shows_is_what_the_model_measures(measuring: Measuring) ->
 def test_points_of_another_setting_are_marked_until_measured_again(measuring: Measuring) -> None:
     measuring.measure(OF_SCENE)
     assert not measuring.said().startswith("Earlier setting")
-    # A closed setting: neither the ISO speed nor the exposure of the scene is in it.
+    # The setting contains neither the ISO speed nor the exposure of the scene.
     measuring.scenes.change(iso=200.0)
     assert not measuring.said().startswith("Earlier setting")
     measuring.scenes.change(switching_frequency=7e3)
@@ -123,7 +123,7 @@ def test_what_cannot_be_measured_says_why(measuring: Measuring) -> None:
 
 
 class BusyWorkers(InlineWorkers):
-    """Workers that never come to an end."""
+    """Workers that never end."""
 
     def submit(self, job: Job, channel: int, run: int) -> "Future[JobResult]":
         self.jobs.append(job)
@@ -169,7 +169,7 @@ def test_points_are_drawn_where_their_values_are(wrong: int, right: int) -> None
     point = point_of(wrong, right)
     rate, bits = curve_point(point, RATES, 30.0), curve_point(point, BITS, 30.0)
     assert 10.0**rate.high == pytest.approx(point.errors.high)
-    assert (rate.value == rate.value) == bool(wrong)  # not a number without an error
+    assert (rate.value == rate.value) == bool(wrong)  # NaN without an error
     if wrong:
         assert 10.0**rate.value == pytest.approx(point.errors.rate)
     assert 10.0**bits.value == pytest.approx(max(point.errors.bits_a_second(30.0), 1.0))
@@ -216,7 +216,7 @@ def test_a_cell_tells_its_note_and_every_point_is_in_view(measuring: Measuring) 
     ]
     shown = np.concatenate(values)
     above = shown[shown > bench_results.FLOOR[RATES]]
-    assert above.size < shown.size  # an interval that begins at no error goes on below
+    assert above.size < shown.size  # an interval that begins at zero is cut off at the bottom
     for plot in plots.plots.values():
         low, high = plot.viewRange()[1]
         assert above.min() - 0.5 < low < above.min()

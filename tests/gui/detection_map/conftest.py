@@ -1,4 +1,4 @@
-"""The pane of the map without the window around it, with workers that a test chooses."""
+"""The pane of the map without the window, with workers that a test chooses."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -17,7 +17,7 @@ from occ_model.scene.scene import Scene
 
 
 class MapBench(PaneBench):
-    """Map, limits and advice; the pane is hidden until a test shows it."""
+    """Map, limits and advice in a pane that is hidden until a test shows it."""
 
     def __init__(self, qtbot: QtBot, scene: Scene, monkeypatch: pytest.MonkeyPatch) -> None:
         super().__init__(qtbot, scene)

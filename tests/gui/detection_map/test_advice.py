@@ -1,4 +1,4 @@
-"""The advice says in sentences what the model's own search finds, and leads there."""
+"""The advice states in sentences what the model's own search finds, and leads to it."""
 
 import re
 from concurrent.futures import Future
@@ -61,7 +61,7 @@ def found(scene: Scene, decoder: str = "threshold", **_: Any) -> Limits:
 
 
 def advice_on(scene: Scene) -> Advice:
-    """Put limits beside theory: numbers of a scene that is not the one given."""
+    """Compare limits with theory for another scene than the given one."""
     frequencies = TheoryLimits(7353.0, 14706.0, two_packets=3468.0)
     exposures = TheoryLimits(100e-6, 200e-6, saturation=1.17e-3)
     return Advice(found(scene), frequencies, exposures)
@@ -79,7 +79,9 @@ def advised(
     """Ask for advice, and wait for it."""
     map_bench.workers = inline_workers
     monkeypatch.setattr(advice_worker, "limits", found)
-    monkeypatch.setattr(map_bench.pane.map, "set_seen", lambda _: None)  # not looked at here
+    monkeypatch.setattr(
+        map_bench.pane.map, "set_seen", lambda _: None
+    )  # the map is not tested here
     map_bench.see("map")
     map_bench.view.advise.click()
     qtbot.waitUntil(lambda: map_bench.pane.advisor.channel.is_idle)
@@ -205,7 +207,7 @@ def test_a_refusal_of_the_model_is_shown(
 
 
 class Never(InlineWorkers):
-    """Workers that come to no end before their work is abandoned."""
+    """Workers that do not end before their work is abandoned."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -243,7 +245,7 @@ def test_a_search_ends_when_it_is_cancelled_the_scene_changes_or_the_window_stop
     qtbot.waitUntil(lambda: not any(look.isActive() for look in looks))
 
 
-def test_only_limits_that_the_user_asks_for_come_before_the_map(
+def test_only_a_search_that_the_user_starts_comes_before_the_map(
     qtbot: QtBot, map_bench: MapBench
 ) -> None:
     map_bench.workers = never = Never()
@@ -255,7 +257,7 @@ def test_only_limits_that_the_user_asks_for_come_before_the_map(
     assert map_schedule.FINE < in_turn < map_schedule.SURE
 
 
-def test_what_holds_for_every_decoder_is_said_once_below_all(
+def test_sentences_about_every_decoder_are_shown_once_at_the_end(
     view: AdviceView, small_scene: Scene
 ) -> None:
     for decoder in ("threshold", "matched"):
@@ -302,7 +304,9 @@ def test_outdated_advice_is_dimmed_and_leads_only_where_it_still_holds(advised: 
     assert state() == ({False}, [False, False, False])
 
 
-def test_the_buttons_of_the_cards_live_again_when_their_scene_comes_back(advised: MapBench) -> None:
+def test_the_buttons_of_the_cards_are_enabled_again_when_their_scene_returns(
+    advised: MapBench,
+) -> None:
     cards = advised.view.advice.cards.cards.values()
     first = advised.scenes.scene
     advised.scenes.change(iso=200.0)

@@ -1,4 +1,4 @@
-"""Cards of the limits: the advice's highest frequencies, asked for while they are seen."""
+"""Cards of the limits: the highest frequencies of the advice, searched for while visible."""
 
 from dataclasses import replace
 
@@ -23,7 +23,7 @@ def cards(qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) -> LimitCards:
 
 
 def with_end(scene: Scene, end: RangeEnd | None) -> Advice:
-    """Return advice with this upper end of the frequencies."""
+    """Return advice with this upper end of the range of frequencies."""
     limits = advice_on(scene).limits
     (interval,) = limits.frequency.intervals
     found = replace(limits.frequency, intervals=(replace(interval, highest=end),) if end else ())
@@ -68,7 +68,7 @@ def test_go_leads_to_where_every_bit_was_read(cards: LimitCards, small_scene: Sc
     assert told == [("switching_frequency", INSIDE.value, "threshold")]
 
 
-def test_a_search_that_met_no_end_says_so_and_without_a_place_to_go_the_button_rests(
+def test_a_search_without_an_end_says_so_and_without_a_destination_the_button_is_disabled(
     cards: LimitCards, small_scene: Scene
 ) -> None:
     cards.show_advice(with_end(small_scene, RangeEnd(GOOD, None, INSIDE)))

@@ -1,4 +1,4 @@
-"""The map is the sweep's, moves with the scene, and costs nothing while nobody looks."""
+"""The map agrees with a sweep, follows the scene, and costs nothing while it is hidden."""
 
 from collections.abc import Callable, Iterator
 from typing import Any
@@ -109,7 +109,7 @@ def test_a_coarse_map_comes_first_and_no_point_is_measured_again(
     assert len(bench.workers.jobs) == before
 
 
-def test_nothing_is_measured_while_nobody_looks(
+def test_nothing_is_measured_while_the_map_is_hidden(
     bench_of: Callable[..., Bench], qtbot: QtBot
 ) -> None:
     bench = bench_of()
@@ -126,7 +126,7 @@ def test_nothing_is_measured_while_nobody_looks(
     assert len(bench.workers.jobs) == before
 
 
-def test_what_the_map_does_not_depend_on_measures_nothing_anew(
+def test_a_change_that_the_map_does_not_depend_on_measures_nothing(
     bench_of: Callable[..., Bench],
 ) -> None:
     bench = bench_of()
@@ -154,7 +154,7 @@ def test_the_point_at_the_mouse_has_the_interval_of_its_pictures(
 
 
 def test_what_the_model_refuses_is_hatched_and_says_why(bench_of: Callable[..., Bench]) -> None:
-    # A panel as steep as this reaches behind a camera that is near.
+    # A panel that is so steep reaches behind a camera that is close.
     bench = bench_of(yaw=1.0, panel_width=2.0)
     found = bench.look()
     refused = found.find_refused() != 0
@@ -211,7 +211,7 @@ def test_the_pane_follows_the_axes_what_is_shown_and_the_pictures_a_second(
     assert bench.pane.show_bits.call_args.args == ("bits", 12.0)
 
 
-def test_the_limits_of_theory_change_sides_where_theory_says(
+def test_the_theoretical_limits_lie_where_theory_says(
     bench_of: Callable[..., Bench],
 ) -> None:
     bench = bench_of()
@@ -228,7 +228,7 @@ def test_the_limits_of_theory_change_sides_where_theory_says(
 
 @pytest.fixture
 def few_points(bench_of: Callable[..., Bench], monkeypatch: pytest.MonkeyPatch) -> None:
-    """Leave a map few points where a test measures maps that no other one asks for."""
+    """Give maps few points if no other test uses them."""
     monkeypatch.setattr(map_schedule, "SHAPE", (3, 2))
 
 

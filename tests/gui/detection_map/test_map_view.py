@@ -1,4 +1,4 @@
-"""The map's pane: what is drawn where, what a click means, and nothing left when it closes."""
+"""The pane of the map: what is drawn where, what a click does, and how it is closed."""
 
 from collections.abc import Callable
 from typing import Any
@@ -34,7 +34,7 @@ FREQUENCY, DISTANCE = "switching_frequency", "distance"
 
 
 def rates_of(right: dict[int, tuple[int, int]], refused: tuple[int, ...] = ()) -> RateMap:
-    """Return a map of which some points are known."""
+    """Return a map in which some points are known."""
     x_values, y_values = lattice(FREQUENCY, SHAPE[0]), lattice(DISTANCE, SHAPE[1])
     rates = RateMap(FREQUENCY, DISTANCE, x_values, y_values, DECODERS)
     read = [
@@ -101,7 +101,7 @@ def test_a_known_point_fills_its_cells_until_finer_ones_come() -> None:
     assert (x[2, 2], y[2, 2]) == (0, 0)
 
 
-def test_a_click_or_arrows_and_enter_tell_the_cell(qtbot: QtBot, view: MapView) -> None:
+def test_a_click_or_arrow_keys_and_enter_choose_a_cell(qtbot: QtBot, view: MapView) -> None:
     view.show_map(whole((10, 10)))
     plot = view.plots.plots[0]
     picked = collect(view.plots.picked)
@@ -181,7 +181,7 @@ def test_rates_get_evenly_lighter_differences_from_the_middle() -> None:
     assert to_colours(np.full((1, 1), np.nan), 0.0, 1.0, RATES)[0, 0, 3] == 0
 
 
-def test_a_line_runs_where_the_number_is_nothing_closed_round_a_maximum() -> None:
+def test_a_line_lies_where_the_value_is_zero_and_is_closed_around_a_maximum() -> None:
     places = (np.linspace(0.0, 1.0, 8), np.linspace(0.0, 1.0, 5))
     sides = places[0][:, None] + places[1] - 0.9
     (line,) = TheoryFields(places, {"band": sides}).lines()["band"]
@@ -198,7 +198,7 @@ def test_a_line_runs_where_the_number_is_nothing_closed_round_a_maximum() -> Non
 
 @pytest.mark.parametrize("name", MAP_PARAMETERS)
 @pytest.mark.parametrize("most", [3, 8])
-def test_the_numbers_of_an_axis_are_round_and_as_close_as_they_may_be(name: str, most: int) -> None:
+def test_the_numbers_of_an_axis_are_round_and_as_dense_as_allowed(name: str, most: int) -> None:
     """Steps of an even axis are 1, 2 or 5 times a power of ten, and the finer ones too many.
 
     A logarithmic one has one, two and five of each power of ten; or one and three; or one.
@@ -278,7 +278,7 @@ def test_a_map_of_an_earlier_scene_says_so_at_once_and_is_dimmed_later(view: Map
 
 @pytest.fixture
 def rates(view: MapView) -> RateMap:
-    """Show the bits a second of one point, of which one decoder reads the whole payload."""
+    """Show the bits a second of a point at which one decoder reads the whole payload."""
     rates = rates_of({0: (10, 9)})
     view.show_axes(FREQUENCY, DISTANCE)
     view.show_map(rates)
@@ -298,7 +298,7 @@ def test_bits_a_second_are_shown_of_whole_payloads(view: MapView, rates: RateMap
     assert f"{DECODERS[1]} 0 bits a second" in view.status.toolTip()
     view.show_bits("rate", 25.0)
     assert f"{DECODERS[0]} 100 %, 10 of 10 bits" in view.status.toolTip()
-    rates.picture_times = 0.1  # no more pictures are counted than can be read out
+    rates.picture_times = 0.1  # limits the number of pictures a second
     assert rates.bits_a_second(DECODERS[0], 30.0)[0, 0] == pytest.approx(100.0)
 
 
@@ -314,7 +314,7 @@ def test_the_bar_of_bits_goes_from_none_to_the_most_that_are_possible(
     assert bar_numbers(view)[0] == "0"
     assert bar_numbers(view)[-1] == f"{most:,.0f}"
     assert not any(text.startswith(("+", "-")) for text in bar_numbers(view))
-    # A difference has a sign, but for none.
+    # A difference has a sign, except for zero.
     view.what.show_key("difference")
     view.plots.show_what("difference")
     assert bar_numbers(view)[-1] == f"{most:+,.0f}"

@@ -1,4 +1,4 @@
-"""The card of what carries most states the model's own result, and leads to what is read."""
+"""The card of most bits states the model's own result, and leads to a scene that is read."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -20,7 +20,7 @@ from occ_model.scene.scene import Scene
 from occ_model.study.most_bits import DECODERS, VARIED, unvaried
 
 LENGTHS = dict(zip(DECODERS, (112, 185, 40), strict=True))
-"""Bits a picture that the decoders pretend to read."""
+"""Bits per picture that the fake decoders read."""
 
 
 def found_by(decoder: str, scene: Scene, frames: float = 30.0) -> MostBits:

@@ -1,4 +1,4 @@
-"""Behind each main slider lies what a decoder would read along it, in line with its handle."""
+"""Each main slider has a strip that shows what a decoder would read along it."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -37,7 +37,7 @@ Fractions = tuple[float | None, ...]
 
 
 class RecordingStrip:
-    """A strip that keeps what it shows."""
+    """A strip that records what it is asked to show."""
 
     fractions: Fractions = ()
     outdated = False
@@ -96,7 +96,7 @@ def test_a_strip_is_the_success_rate_along_its_slider(bench: Bench) -> None:
         assert fractions[name] == pytest.approx([rate / 100 for rate in rates])
 
 
-def test_nothing_is_measured_while_the_strips_are_not_seen(bench: Bench, qtbot: QtBot) -> None:
+def test_nothing_is_measured_while_the_strips_are_hidden(bench: Bench, qtbot: QtBot) -> None:
     bench.scenes.change(exposure_time=136e-6)
     qtbot.wait(30)
     assert bench.measured() == []
@@ -140,7 +140,7 @@ def test_a_movement_is_measured_once_where_it_ends(bench: Bench) -> None:
     earlier = RateRequest(scenes.scene, scenes.settings.settings, decoder)
     bench.scenes.change(switching_frequency=40e3)
     assert bench.outdated() == {"switching_frequency": False, "iso": True}
-    # It was measured, but too late.
+    # It was measured too late.
     bench.queue.channels[0].results_ready.emit(earlier, [StripPoints("iso", ())])
     assert bench.outdated()["iso"]
     bench.wait_until_idle()

@@ -1,4 +1,4 @@
-"""The run of a slider is written as an animation, off the window's thread."""
+"""The run of a slider is written as an animation, outside the window's thread."""
 
 from pathlib import Path
 
@@ -16,7 +16,7 @@ from occ_model.scene.scene import Scene
 
 
 class Bench(PaneBench):
-    """The export of animations, with its bar."""
+    """The export of animations with its progress bar."""
 
     def __init__(self, qtbot: QtBot, scene: Scene) -> None:
         super().__init__(qtbot, scene)
@@ -49,7 +49,7 @@ def test_the_run_of_a_slider_from_end_to_end_and_back_is_saved(
     assert bench.said[-1] == "Saved run.png"
 
 
-def test_an_animation_is_given_up_at_once_and_leaves_nothing(
+def test_a_cancelled_animation_ends_at_once_and_leaves_no_file(
     bench: Bench, qtbot: QtBot, tmp_path: Path
 ) -> None:
     animation = bench.animation
@@ -63,7 +63,7 @@ def test_an_animation_is_given_up_at_once_and_leaves_nothing(
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_file_that_cannot_be_written_is_told(bench: Bench) -> None:
+def test_a_file_that_cannot_be_written_is_reported(bench: Bench) -> None:
     bench.animation.write(Path("/none/a.gif"), "iso")
     bench.wait_until_idle()
     assert "/none" in bench.said[-1]

@@ -1,4 +1,4 @@
-"""Figures of what is shown, in files that open again, and never half of one."""
+"""Figures are exported to files that can be opened again, each complete or not at all."""
 
 import sys
 from collections.abc import Callable, Iterable
@@ -32,12 +32,12 @@ from occ_model.scene.scene import Scene
 
 @pytest.fixture
 def small_scene() -> Scene:
-    """Return a scene whose picture is written as a table in a moment."""
+    """Return a scene with a picture that is quickly written as a table."""
     return occ.load_preset("phone-68us").replace(rows=120, columns=1728)
 
 
 FIGURES = ("picture", "profile", "decoding-threshold", "decoding-matched")
-"""What there is to export when a window has been opened."""
+"""The figures that can be exported when a window has just been opened."""
 
 
 class Bench(PaneBench):

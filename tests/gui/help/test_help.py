@@ -35,7 +35,7 @@ def manual(qtbot: QtBot) -> HelpWindow:
 
 
 class SystemBrowser(QObject):
-    """Notes the links that the system is asked to open."""
+    """Records the links that the system is asked to open."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -48,7 +48,7 @@ class SystemBrowser(QObject):
 
 @pytest.fixture
 def system() -> Iterator[SystemBrowser]:
-    """Open the links to web pages in place of the system."""
+    """Receive the links to web pages in place of the system."""
     browser = SystemBrowser()
     QDesktopServices.setUrlHandler("https", browser, "open")  # type: ignore[arg-type]  # it takes text
     yield browser
@@ -94,7 +94,7 @@ def test_a_web_page_is_opened_by_the_system_only(
     assert manual.browser.source().fileName() == "limits.md"
 
 
-def test_nothing_is_read_but_files_of_this_computer(manual: HelpWindow) -> None:
+def test_only_files_on_this_computer_are_read(manual: HelpWindow) -> None:
     for url in ("https://example.org/x.png", "http://example.org/x.md", "qrc:/x"):
         for kind in (IMAGE, int(QTextDocument.ResourceType.MarkdownResource.value)):
             assert manual.browser.loadResource(kind, QUrl(url)) is None, url
@@ -147,7 +147,7 @@ def test_keys_begin_a_search_and_close_the_manual(qtbot: QtBot, manual: HelpWind
     assert not manual.isVisible()
 
 
-def test_code_stands_on_a_ground_of_the_theme(manual: HelpWindow) -> None:
+def test_code_has_a_background_of_the_theme(manual: HelpWindow) -> None:
     manual.show_page("model.md")
     for colour in ("#112233", "#ddeeff"):
         palette = QPalette(manual.palette())
@@ -254,7 +254,7 @@ def test_every_section_of_the_manual_is_found_by_its_heading_and_shown_there(qtb
         assert window.windowTitle() == f"Manual: {section.title.partition(':')[0]}"
 
 
-def test_what_is_nowhere_is_said_and_an_empty_search_lists_the_pages_again(qtbot: QtBot) -> None:
+def test_a_search_without_results_says_so_and_an_empty_one_lists_the_pages(qtbot: QtBot) -> None:
     window = add_widget(qtbot, HelpWindow(docs_folder()))
     window.search_all.setText("xylophone")
     assert window.page_list.count() == 1

@@ -1,4 +1,4 @@
-"""An image shows the mean of the pixels that share a pixel of the screen: no false stripes."""
+"""An image shows the mean of the pixels under a screen pixel, without false stripes."""
 
 from collections.abc import Callable
 from typing import Any
@@ -25,7 +25,9 @@ class Screen:
     def __init__(self, qtbot: QtBot, picture: Callable[[pg.GraphicsView], Grey]) -> None:
         self._picture = picture
         self.view = pg.GraphicsView()
-        self.view.setBackground("#0000ff")  # dark in grey: neither black, white nor mean
+        self.view.setBackground(
+            "#0000ff"
+        )  # in grey, this is neither black nor white nor their mean
         self.box = pg.ViewBox(invertY=True, enableMenu=False)
         self.box.setDefaultPadding(0.0)
         self.view.setCentralItem(self.box)
@@ -52,7 +54,7 @@ def fine_stripes() -> Grey:
 
 
 def inner(picture: Grey) -> NDArray[np.int64]:
-    """Leave out the outermost pixels, which the image may cover in part."""
+    """Leave out the outermost pixels, which the image may cover only partly."""
     return picture[2:-2, 2:-2].astype(np.int64)
 
 
@@ -79,7 +81,7 @@ def test_the_mean_is_taken_along_rows_too_and_along_one_axis_while_the_other_is_
     screen.item.set_image(np.ascontiguousarray(fine_stripes.T))
     picture = inner(screen.shown(HEIGHT, 250, QRectF(-0.5, -0.5, HEIGHT, COLUMNS)))
     assert np.abs(picture - 127.5).max() <= 3
-    wide_stripes = fine_stripes[:, np.arange(COLUMNS) // 32]  # of four pixels of the screen
+    wide_stripes = fine_stripes[:, np.arange(COLUMNS) // 32]  # each four screen pixels wide
     screen.item.set_image(np.ascontiguousarray(wide_stripes.T))
     picture = inner(screen.shown(HEIGHT, 250, QRectF(-0.5, -0.5, HEIGHT, COLUMNS)))
     assert set(np.unique(picture).tolist()) == {0, 255}

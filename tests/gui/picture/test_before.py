@@ -1,4 +1,4 @@
-"""What was there before the latest gesture stays to be compared with what is there now."""
+"""The results from before the latest gesture stay for a comparison with the present ones."""
 
 from copy import deepcopy
 from dataclasses import replace
@@ -33,7 +33,7 @@ def store(small_scene: Scene) -> SceneStore:
 
 @pytest.fixture
 def shown() -> list[Snapshot]:
-    """What has been shown as before."""
+    """Records what is shown as before."""
     return []
 
 
@@ -44,7 +44,7 @@ def before(store: SceneStore, shown: list[Snapshot]) -> BeforeController:
 
 @pytest.fixture
 def begun(store: SceneStore, before: BeforeController, snapshot_of: SnapshotOf) -> Begun:
-    """Begin a gesture: what was shown at first, and what is now."""
+    """Begin a gesture; return what was shown at first, and what is shown now."""
     first, second = snapshot_of(), snapshot_of(iso=300.0)
     before.show_snapshot(first)
     store.change(1, iso=300.0)
@@ -90,7 +90,7 @@ def test_a_gesture_that_comes_back_to_where_it_began_goes_on(
     assert shown == [first]
 
 
-def test_a_late_picture_of_the_gestures_start_is_the_one_before(
+def test_a_late_picture_from_the_start_of_the_gesture_is_shown_as_before(
     store: SceneStore, before: BeforeController, shown: list[Snapshot], snapshot_of: SnapshotOf
 ) -> None:
     first, late, now = snapshot_of(), snapshot_of(iso=300.0), snapshot_of(iso=500.0)
@@ -103,7 +103,7 @@ def test_a_late_picture_of_the_gestures_start_is_the_one_before(
     assert shown == [first, first, late]
 
 
-def test_before_the_first_picture_there_is_nothing_before(
+def test_nothing_is_shown_as_before_until_there_is_a_picture(
     store: SceneStore, before: BeforeController, shown: list[Snapshot]
 ) -> None:
     store.change(1, iso=300.0)
@@ -123,7 +123,7 @@ def pane_with_wipe(qtbot: QtBot) -> tuple[PicturePane, BeforeWipe]:
 
 
 def flat(snapshot: Snapshot, level: int) -> Snapshot:
-    """Paint the pictures of a copy of a snapshot all over with one level."""
+    """Return a copy of a snapshot with pictures of a single grey level."""
     painted = deepcopy(snapshot)
     for picture_kind in PICTURES:
         painted.frame.picture(picture_kind)[...] = level

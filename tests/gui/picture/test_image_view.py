@@ -36,7 +36,7 @@ def view(qtbot: QtBot) -> ImageView:
 
 
 def pictures(pane: PicturePane) -> list[AveragedImage]:
-    """Return the pictures that can be seen in a pane, the one below first."""
+    """Return the pictures that are visible in a pane, the lowest one first."""
     items = [item for item in pane.box.childGroup.childItems() if isinstance(item, AveragedImage)]
     return [i for i in items if i.isVisible() and not i.boundingRect().isEmpty()]
 
@@ -187,7 +187,7 @@ def test_fit_shows_both_pictures_whole_and_nothing_before_there_are_any(
         assert pane.box.viewRect().contains(QRectF(-0.5, -0.5, columns, rows))
 
 
-def test_what_a_mode_does_not_need_is_not_there_and_its_choice_is_told(
+def test_controls_that_a_mode_does_not_need_are_hidden_and_its_choice_is_announced(
     view: ImageView, snapshot_of: SnapshotOf, photo: Photo, qtbot: QtBot
 ) -> None:
     view.show_snapshot(snapshot_of())
@@ -309,7 +309,7 @@ def test_the_pointer_reads_the_levels_of_both_pictures(bench: Bench) -> None:
     place = QPoint(view.mapFromScene(pane.box.mapViewToScene(middle)))
     for picture_kind in PICTURES:
         bench.picture.choose_picture(picture_kind)
-        for right in (0, 20, 40):  # faster than a hand: where it stops is read, too
+        for right in (0, 20, 40):  # faster than by hand; the last position is read as well
             point = place + QPoint(right, 0)
             move_mouse(view.viewport(), point)
             at = pane.box.mapSceneToView(QPointF(view.mapToScene(point)))

@@ -1,4 +1,4 @@
-"""A photo on the simulated picture: what each way of showing it draws, and their difference."""
+"""A photo over the simulated picture: what each mode draws, and their difference."""
 
 from collections.abc import Callable
 
@@ -22,7 +22,7 @@ SIDE = 200
 
 
 class Screen:
-    """A picture of one grey level with a photo over it, a pixel of either a pixel of the screen."""
+    """A picture of one grey level with a photo over it, each pixel a pixel of the screen."""
 
     def __init__(self, qtbot: QtBot, picture: Callable[[pg.GraphicsView], Grey]) -> None:
         self._picture = picture
@@ -163,7 +163,7 @@ def drag(screen: Screen, start: tuple[float, float], end: tuple[float, float]) -
 
 @pytest.fixture
 def unhurried(screen: Screen, monkeypatch: pytest.MonkeyPatch) -> Screen:
-    """Let no movement of the mouse be left out, as is done to keep up with a hand."""
+    """Handle every movement of the mouse; usually some are left out to keep up with the hand."""
     monkeypatch.setitem(pg.CONFIG_OPTIONS, "mouseRateLimit", 0)
     return screen
 
@@ -257,7 +257,7 @@ def test_a_large_image_is_averaged_to_within_two_levels() -> None:
 
 @pytest.mark.parametrize("width", [1e-13, 1e-9, 0.5])
 @pytest.mark.parametrize("place", [0.0, 9.999999999999998, 10.0])
-def test_a_grid_at_the_very_edge_has_means_too(place: float, width: float) -> None:
+def test_a_grid_at_the_very_edge_also_has_means(place: float, width: float) -> None:
     image = noise(10, 10)
     grid = QRectF(place, place, width, width)
     means = cell_means(image, QRectF(0, 0, 10, 10), grid, (2, 3))
@@ -265,7 +265,7 @@ def test_a_grid_at_the_very_edge_has_means_too(place: float, width: float) -> No
     assert np.isfinite(means).all()
 
 
-def test_cells_of_a_difference_cover_the_overlap_alone() -> None:
+def test_cells_of_a_difference_cover_only_the_overlap() -> None:
     first = (np.full((40, 60), 90, dtype=np.uint8), QRectF(-0.5, -0.5, 60.0, 40.0))
     second = (np.full((40, 60), 65, dtype=np.uint8), QRectF(29.5, 9.5, 60.0, 40.0))
     found = not_none(difference_cells(first, second, 900))

@@ -1,4 +1,4 @@
-"""Two pinned states: what differs is listed, both are drawn, and either can be gone back to."""
+"""Two pinned scenes: differences are listed, both are drawn, and either can be restored."""
 
 from dataclasses import replace
 
@@ -117,7 +117,7 @@ def test_the_same_state_twice_has_no_differing_inputs_and_a_pin_no_picture(
     )
 
 
-def test_what_cannot_be_done_is_answered_in_a_sentence(pins: PinController) -> None:
+def test_an_impossible_command_is_answered_with_a_sentence(pins: PinController) -> None:
     messages = collect(pins.status_message)
     pins.pin("A")
     pins.go_to("B")
@@ -188,7 +188,7 @@ def test_the_plot_shows_the_first_packets_of_both_up_to_their_brightest_columns(
     assert brightest <= high <= 1.2 * max(brightest, 20.0)
 
 
-def test_a_view_that_is_not_seen_draws_nothing_until_it_is(
+def test_a_hidden_view_draws_nothing_until_it_is_shown(
     view: CompareView, pins: PinController, bare_snapshot_of: SnapshotOf
 ) -> None:
     view.set_seen(False)

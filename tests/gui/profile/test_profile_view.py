@@ -1,4 +1,4 @@
-"""The column profile beside the band model's and a photo's, and what part of it is in view."""
+"""The column profile with that of the band model and of a photo, and the range in view."""
 
 import math
 from dataclasses import replace
@@ -37,7 +37,7 @@ def view(qtbot: QtBot, snapshot: Snapshot) -> ProfileView:
 
 
 def drawn(curve: pg.PlotDataItem) -> tuple[list[float], list[float]]:
-    """Return what a curve has to draw, nothing for an empty one."""
+    """Return the values of a curve; nothing for an empty curve."""
     x, y = curve.getOriginalDataset()
     return ([], []) if x is None else (x.tolist(), y.tolist())
 
@@ -58,7 +58,7 @@ def columns_in_view(view: ProfileView) -> tuple[float, float]:
 
 
 @pytest.mark.parametrize("source", ["profile", "draft"])
-def test_an_early_reading_is_drawn_when_the_pane_is_seen(
+def test_an_early_reading_is_drawn_when_the_pane_is_visible(
     view: ProfileView, snapshot_of: SnapshotOf, source: Source
 ) -> None:
     first, early = snapshot_of(), replace(snapshot_of(exposure_time=68e-6), source=source)
@@ -267,7 +267,7 @@ def test_two_packets_are_in_view_until_the_panel_is_chosen_or_the_plot_is_moved(
     assert columns_in_view(view) == pytest.approx(followed)
 
 
-def test_with_no_panel_in_the_picture_or_at_its_rim_there_is_a_range_to_look_at(
+def test_without_a_panel_or_with_one_at_the_edge_there_is_a_range_in_view(
     view: ProfileView, snapshot_of: SnapshotOf
 ) -> None:
     for changes in ({"columns": 1}, {"distance": 900.0}, {"offset_x": 50.0}):
@@ -325,7 +325,7 @@ def shown(view: ProfileView) -> ProfileView:
 
 
 def edges(view: ProfileView) -> list[float]:
-    """Columns of the plot at which the cells begin, and the end of the last one."""
+    """Return the columns at which the cells begin, and the end of the last cell."""
     (low, high), cells = view.plot.viewRange()[0], view.chips.cells
     box = view.plot.getViewBox().sceneBoundingRect()
     found = cells.rectangles()

@@ -40,7 +40,7 @@ def test_the_strongest_line_of_an_alternating_pattern_is_half_its_frequency(
     assert (view.zeros, view.spectrum.accessibleDescription()) == ([], "")
 
 
-def test_a_bright_panel_is_told_to_lose_light_and_every_grey_level_is_in_view(
+def test_a_bright_panel_is_said_to_lose_light_and_every_grey_level_is_in_view(
     view: SpectrumView, snapshot_of: SnapshotOf
 ) -> None:
     measured(view, snapshot_of(iso=100.0))
@@ -54,7 +54,9 @@ def test_a_bright_panel_is_told_to_lose_light_and_every_grey_level_is_in_view(
     assert high >= 255.5
 
 
-def test_the_pane_follows_the_simulation_while_it_is_seen(qtbot: QtBot, small_scene: Scene) -> None:
+def test_the_pane_follows_the_simulation_while_it_is_visible(
+    qtbot: QtBot, small_scene: Scene
+) -> None:
     bench = PaneBench(qtbot, small_scene)
     curve = bench.add(spectrum()).view.spectrum
     bench.simulate()

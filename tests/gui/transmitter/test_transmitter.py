@@ -1,4 +1,4 @@
-"""The dialog of the transmitter: what the board sends of the present scene, and its files."""
+"""The dialog of the transmitter: what the board sends for the present scene, and its files."""
 
 from collections.abc import Callable, Iterator
 from io import BytesIO
@@ -32,7 +32,7 @@ from occ_model.scene.scene import Scene
 
 @pytest.fixture(autouse=True)
 def undrawn(monkeypatch: pytest.MonkeyPatch, png_of: Callable[[str], bytes]) -> None:
-    """Leave out what takes long: drawing the wiring."""
+    """Replace the drawing of the wiring, which takes long."""
 
     def draw(sent: Transmission) -> WiringDrawing:
         return WiringDrawing(sent, png_of(sent.board.name), sent.board.title)
@@ -109,7 +109,7 @@ def test_it_states_the_frequency_that_is_sent_and_its_error_and_each_control_wha
     assert all(text.textInteractionFlags() & selectable for text in (dialog.facts, dialog.note))
 
 
-def test_another_board_sends_another_frequency_and_is_there_again(
+def test_another_board_sends_another_frequency_and_is_remembered(
     transmitter: TransmitterController, dialog: TransmitterDialog, qtbot: QtBot
 ) -> None:
     choose_board(dialog, "esp32")

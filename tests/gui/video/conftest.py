@@ -12,7 +12,7 @@ from occ_model.scene.scene import Scene
 
 @pytest.fixture
 def film_scene() -> Scene:
-    """Return a scene whose frames are small, and whose code each of them shows."""
+    """Return a scene with small frames, each of which shows the whole code."""
     scene = occ.load_preset("phone-68us")
     return scene.replace(rows=60, columns=1600, readout_time=15e-6, distance=0.8)
 

@@ -1,4 +1,4 @@
-"""Views of a film: what is read stands in order, and recordings are taken as people write them."""
+"""Views of a film: what is read is shown in order, and a recording is entered as users write it."""
 
 import pytest
 from gui.kinds import collect, show_widget
@@ -49,7 +49,7 @@ def test_text_that_grows_keeps_what_is_selected_and_is_followed_where_its_end_is
     assert bar.value() == 7
 
 
-def test_figures_stand_in_their_order_above_what_is_not_sure(view: DataView, qtbot: QtBot) -> None:
+def test_facts_are_shown_in_order_above_the_remarks(view: DataView, qtbot: QtBot) -> None:
     def shown() -> list[str]:
         return [name.text() for name, value in view.rows if value.isVisible()]
 

@@ -1,4 +1,4 @@
-"""Jobs of a film: what is shown of frames and of the reading is what the model says of them."""
+"""Jobs of a film: frames and the reading are shown as the model computes them."""
 
 import math
 from dataclasses import replace
@@ -169,7 +169,7 @@ def test_an_interval_is_written_without_exponents_and_tells_nearly_all_from_all(
     assert error_rate(count, total, "packets")[1] == f"{interval} at 95 %"
 
 
-def test_lost_packets_are_told_from_wrong_bits() -> None:
+def test_lost_packets_are_distinguished_from_wrong_bits() -> None:
     whole = reading(6, 1, 11, wrong=2)
     (sentence,) = sentences_of(known(whole), whole, None)
     assert sentence.startswith("11 of 14 lost packets are not whole in any frame: ")

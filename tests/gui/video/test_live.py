@@ -1,4 +1,4 @@
-"""Live camera: those there are, the newest picture wins, and the device is always released."""
+"""Live camera: cameras are listed, the newest picture wins, and the device is always released."""
 
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -17,7 +17,7 @@ from occ_model.errors import VideoError
 
 
 class FakeCapture:
-    """A camera as OpenCV gives it."""
+    """A fake of OpenCV's camera."""
 
     def __init__(self, *_: object) -> None:
         self.values = {cv2.CAP_PROP_EXPOSURE: 157.0, cv2.CAP_PROP_AUTO_EXPOSURE: 3.0}
@@ -130,7 +130,7 @@ def test_a_camera_is_opened_the_way_its_system_has(
 
 
 def numbered(count: int) -> list[np.ndarray]:
-    """Make pictures of two lines and three columns, each of its own grey level."""
+    """Make pictures of two lines and three columns, each with its own grey level."""
     return [np.full((2, 3), number, dtype=np.uint8) for number in range(count)]
 
 
@@ -256,7 +256,7 @@ def test_the_exposure_is_held_between_two_pictures(start: Start) -> None:
     assert (source.locked, answers) == ([True], [True])
 
 
-def test_what_has_passed_is_not_kept() -> None:
+def test_past_pictures_are_not_kept() -> None:
     video = LiveVideo(ListedSource(numbered(1)))
     with pytest.raises(VideoError, match="is not kept"):
         video.frame(0)

@@ -1,4 +1,4 @@
-"""Timeline and player: every frame can be reached, states differ by shape, a film keeps time."""
+"""Timeline and player: every frame can be reached, states differ in shape, and time is kept."""
 
 import numpy as np
 import pytest
@@ -99,7 +99,7 @@ def test_frames_whose_times_jump_are_shown_for_their_own_time_only(
     assert times[list(ends)].tolist() == [times.min(), times.max()]
 
 
-def test_no_film_is_no_trouble(qtbot: QtBot) -> None:
+def test_a_missing_film_causes_no_error(qtbot: QtBot) -> None:
     timeline = show_widget(qtbot, Timeline())
     qtbot.keyClick(timeline, Qt.Key.Key_End)
     qtbot.mouseClick(timeline, LEFT)
@@ -135,7 +135,7 @@ def test_ticks_are_apart_and_their_numbers_differ(span: float, width: int) -> No
 
 
 class Clock(QElapsedTimer):
-    """A clock that is set by hand."""
+    """A clock that the test sets."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -191,7 +191,7 @@ def test_it_plays_on_from_the_frame_that_was_sought_and_a_step_stops_it(player: 
     assert player.index == 29
 
 
-def test_at_the_end_it_begins_anew(player: FilmPlayer) -> None:
+def test_at_the_end_it_starts_again(player: FilmPlayer) -> None:
     player.seek(29)
     player.play()
     assert player.index == 0

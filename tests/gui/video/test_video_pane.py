@@ -27,7 +27,7 @@ def application(application: Application, film_scene: Scene) -> Application:
 
 
 def film_in(application: Application) -> Path | None:
-    """Return the film that is open, or will be when the pane is first shown."""
+    """Return the film that is open, or that will be opened when the pane is first shown."""
     return application.store.store.workspace.film.path
 
 

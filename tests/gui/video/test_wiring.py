@@ -1,4 +1,4 @@
-"""The pane of the films: it shows, plays and reads a film, and what a camera sees."""
+"""The pane of films shows, plays and reads a film, and reads live from a camera."""
 
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -105,9 +105,7 @@ def test_a_reading_of_an_earlier_scene_is_marked(
     assert mark.isHidden()
 
 
-def test_a_recording_that_the_scene_cannot_have_is_a_sentence(
-    pane: VideoWiring, wait: Wait
-) -> None:
+def test_an_impossible_recording_is_refused_with_a_sentence(pane: VideoWiring, wait: Wait) -> None:
     pane.view.form.fields["frame_rate"].edited.emit(1000.0)
     wait()
     assert pane.view.pictures.shown == (False, False)
@@ -155,7 +153,7 @@ def test_cameras_are_looked_for_when_their_menu_opens(
     assert not menu.actions()[0].isEnabled()
 
 
-def test_the_simulated_film_is_saved_and_given_up(
+def test_the_simulated_film_is_saved_or_cancelled(
     pane: VideoWiring, wait: Wait, tmp_path: Path, film_scene: Scene
 ) -> None:
     said = collect(pane.status_message)

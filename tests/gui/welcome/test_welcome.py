@@ -1,4 +1,4 @@
-"""Three doors lead a new user into the program, once and whenever they are asked for."""
+"""The welcome page offers three ways to begin, at the first start and from the menu."""
 
 from pathlib import Path
 from typing import Any, cast
@@ -17,8 +17,11 @@ from occ_gui.welcome.welcome import Welcome
 from occ_model.scene.scene import Scene
 
 
-def test_the_page_comes_by_itself_only_once(qtbot: QtBot, small_scene: Scene) -> None:
-    bench, files = PaneBench(qtbot, small_scene), cast("Any", None)  # which no door asks for
+def test_the_page_appears_by_itself_only_once(qtbot: QtBot, small_scene: Scene) -> None:
+    bench, files = (
+        PaneBench(qtbot, small_scene),
+        cast("Any", None),
+    )  # not used by the choices that are tried
     page: Welcome = bench.add(
         welcome(cast("Any", bench.window), bench.shell, Preferences(None), files)
     )

@@ -25,7 +25,7 @@ def test_the_contrast_is_that_of_published_examples(one: str, other: str, ratio:
 
 
 @pytest.mark.parametrize("colour", CURVES)
-def test_every_curve_can_be_seen_in_the_dark_and_is_that_of_print_in_the_light(
+def test_curves_are_visible_in_the_dark_theme_and_have_the_colours_of_print_in_the_light_one(
     colour: str,
 ) -> None:
     dark = palette_of("dark")

@@ -1,4 +1,4 @@
-"""Undo in a field takes back what is being typed, or else the scene's last step."""
+"""Undo in a field reverts what is being typed, or else the last step of the scene."""
 
 import pytest
 from gui.pane_bench import ControlsBench
@@ -14,7 +14,7 @@ CTRL = Qt.KeyboardModifier.ControlModifier
 
 @pytest.fixture
 def bench(qtbot: QtBot, small_scene: Scene) -> ControlsBench:
-    """Return controls in a window with the entry that undoes."""
+    """Return controls in a window with an undo entry."""
     bench = ControlsBench(qtbot, small_scene)
     undo = bench.scenes.undo_stack.createUndoAction(bench.window)
     undo.setShortcut(QKeySequence.StandardKey.Undo)
@@ -49,7 +49,7 @@ def test_undo_after_entering_a_value_restores_the_scene(
         assert bench.scenes.scene == small_scene, name
 
 
-def test_undo_while_typing_takes_back_the_letters_alone(qtbot: QtBot, bench: ControlsBench) -> None:
+def test_undo_while_typing_reverts_only_the_typed_text(qtbot: QtBot, bench: ControlsBench) -> None:
     bench.scenes.change(iso=200.0)
     field = bench.row("iso").field
     field.setFocus()

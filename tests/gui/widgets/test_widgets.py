@@ -1,4 +1,4 @@
-"""Small widgets: labels, panes that scroll, bars of a state, and what is drawn of them."""
+"""Small widgets: labels, scroll panes and combo boxes, and the comparison of drawn values."""
 
 from collections.abc import Iterator
 

@@ -126,7 +126,7 @@ class MatchController(QObject):
         part = document.requested.part
         found = document.found or FoundMatch(part, None, 0.0)
         self._photos.put(replace(document, requested=None, found=found.with_refusal(reasons, part)))
-        self.failed.emit(reasons[0])  # the bar with the verdict shows all of them
+        self.failed.emit(reasons[0])  # the verdict bar contains it, even in its short form
 
     def apply_camera_settings(self) -> None:
         """Apply the settings that the camera recorded to the scene, as one undo step."""

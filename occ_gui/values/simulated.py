@@ -15,7 +15,7 @@ LEAST_DRAFT_STEP = 4
 class SimulationRequest:
     scene: Scene
     settings: SimulationSettings
-    # Two requests that differ only in what follows have the same results.
+    # Not compared: neither the kind of picture nor the step of a draft changes the results
     picture_kind: str = field(default=PICTURES[0], compare=False)
     # A draft simulates one of this many rows of the picture
     draft_step: int = field(default=LEAST_DRAFT_STEP, compare=False)

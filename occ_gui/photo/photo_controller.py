@@ -17,7 +17,7 @@ from occ_gui.values.photo_results import PhotoDocument
 KEPT_PHOTOS = 3  # photos kept to be shown again at once: two of a lesson, and the user's own
 
 
-def _read(source: PhotoSource, report: Report) -> PhotoDocument:
+def _load(source: PhotoSource, report: Report) -> PhotoDocument:
     report(0.0)
     axis, channel = source.load_options.scan_axis, source.load_options.channel
     photo = occ.load_photo(source.path, axis, channel=channel, progress=report)
@@ -38,7 +38,7 @@ class PhotoController(QObject):
         super().__init__()
         self._store, self._results_store = store, results_store
         self._settled = store.workspace.photo
-        task: Task[PhotoSource, PhotoDocument] = Task(_read, "reading of the photo", impatient=True)
+        task: Task[PhotoSource, PhotoDocument] = Task(_load, "loading of the photo", impatient=True)
         self.work = ResultUpdater(
             store, results_store, task, lambda workspace, _: workspace.photo.source, _put,
             stays=True, keep=KEPT_PHOTOS,

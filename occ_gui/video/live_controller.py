@@ -17,7 +17,7 @@ from occ_gui.video.camera import (
     find_cameras,
 )
 from occ_gui.video.film_controller import FilmController
-from occ_gui.video.reading_controller import ReadingController
+from occ_gui.video.reading_controller import FilmReader
 from occ_model.arrays import ByteArray
 from occ_model.errors import OccError, VideoError
 from occ_model.results.video import Video, VideoFrame
@@ -166,7 +166,7 @@ class LiveController(QObject):
     _answered = Signal(bool, bool)
 
     def __init__(
-        self, films: FilmController, readings: ReadingController, scene: Callable[[], Scene]
+        self, films: FilmController, readings: FilmReader, scene: Callable[[], Scene]
     ) -> None:
         super().__init__()
         self._films, self._readings, self._scene = films, readings, scene

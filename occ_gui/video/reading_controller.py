@@ -177,7 +177,7 @@ def _explain_losses(known: FilmProgress, whole: VideoReading) -> str:
     return text + " The bit error rate counts only bits of packets in view."
 
 
-class ReadingController(QObject):
+class FilmReader(QObject):
     """Reads one film at a time; the result grows while the film is read."""
 
     changed = Signal()  # more has been read, the reading has ended, or there is another film

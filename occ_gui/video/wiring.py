@@ -17,7 +17,7 @@ from occ_gui.video.film_controller import FilmController
 from occ_gui.video.film_reading import Marks, MarkState, frame_marks
 from occ_gui.video.frame_jobs import ShownFrame
 from occ_gui.video.live_controller import LiveController
-from occ_gui.video.reading_controller import ReadingController
+from occ_gui.video.reading_controller import FilmReader
 from occ_gui.video.video_view import VideoView
 from occ_model.errors import OccError, counted, one_line
 from occ_model.results.video import USUAL_RATE, Video
@@ -49,7 +49,7 @@ class VideoWiring(Pane[FilmChoice]):
         self._is_frame_missing = False
         self.view = view
         self.films = FilmController(scenes, results_store)
-        self.readings = ReadingController()
+        self.readings = FilmReader()
         self.live = LiveController(self.films, self.readings, lambda: scenes.scene)
         self.saving: FileWriter[_FilmToSave] = FileWriter(
             _save, "writing of the film", self.view.form.saving,

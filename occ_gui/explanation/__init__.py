@@ -1,1 +1,1 @@
-"""The equations with their numbers, and the exposure of one column."""
+"""The equations with the numbers of the present scene, and the exposure of one column."""

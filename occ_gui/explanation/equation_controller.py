@@ -1,4 +1,4 @@
-"""Controller of the equations: their current numbers, and which parameters have just changed."""
+"""Controller of the equations: their present numbers, and the parameters that have just changed."""
 
 from collections.abc import Callable, Sequence
 
@@ -13,7 +13,7 @@ _NAMES = tuple(name for names in GROUPS.values() for name in names)
 
 
 class EquationController(QObject):
-    """Shows the equations with the scene, and what has changed, while they are visible."""
+    """Shows the equations with the numbers of the scene, and what has changed, while visible."""
 
     def __init__(
         self, scenes: SceneStore, show: Callable[[Sequence[Equation], frozenset[str]], None]

@@ -8,10 +8,10 @@ from PySide6.QtWidgets import QFrame, QTextBrowser
 
 from occ_model.results.teaching import Equation, Term
 
-HIGHLIGHT_MS = 1500  # milliseconds that a term stays marked after one of its parameters has changed
+HIGHLIGHT_MS = 1500  # milliseconds for which a term is marked after one of its parameters changes
 
 _MARK = "background-color:#F7D774; color:#000000; font-weight:600; text-decoration:underline;"
-"""Style of marked terms: colour, weight and underline, so that colour-blind readers see it."""
+"""Style of marked terms, with weight and underline so that it does not depend on colour alone."""
 
 _RAISED = re.compile(r"(<su[bp]>.*?</su[bp]>)")
 _SYMBOL = re.compile(r"[A-Za-zγ]+")  # noqa: RUF001 - the equation's own letter
@@ -53,14 +53,14 @@ class EquationText(QTextBrowser):
         bar.setValue(place)  # setHtml scrolls to the top
 
     def _paragraphs(self, equation: Equation, changed: frozenset[str]) -> str:
-        symbols = _joined(((_in_italics(t.text), t) for t in equation.symbols), changed)
-        numbers = _joined(((_base_in_italics(t.text), t) for t in equation.numbers), changed)
+        symbols = _join_terms(((_set_italics(t.text), t) for t in equation.symbols), changed)
+        numbers = _join_terms(((_set_base_italics(t.text), t) for t in equation.numbers), changed)
         source = equation.source
         if source.startswith("("):
             source = f"equation {source}"
-        # The sentence that says why a result is undefined is not a value.
+        # A sentence that says why a result is undefined is not set as a value.
         sign = "" if equation.result.startswith("undefined") else "= "
-        meaning = _base_in_italics(equation.meaning)
+        meaning = _set_base_italics(equation.meaning)
         return (
             f"<p style='margin:0'>{meaning} <small>[{source}]</small></p>"
             f"<p style='margin:1px 0 0 14px'>= {symbols}</p>"
@@ -69,7 +69,7 @@ class EquationText(QTextBrowser):
         )
 
 
-def _in_italics(text: str) -> str:
+def _set_italics(text: str) -> str:
     """Set the letters of quantities in italics, but not their indices and exponents."""
     parts = _RAISED.split(text)
     return "".join(
@@ -77,12 +77,12 @@ def _in_italics(text: str) -> str:
     )
 
 
-def _base_in_italics(text: str) -> str:
-    """Set only letters with an index in italics, in a text of words or numbers."""
+def _set_base_italics(text: str) -> str:
+    """Set only letters with an index in italics, as the rest of the text is words or numbers."""
     return _BASE.sub(r"<i>\g<0></i>", text)
 
 
-def _joined(terms: Iterable[tuple[str, Term]], changed: frozenset[str]) -> str:
+def _join_terms(terms: Iterable[tuple[str, Term]], changed: frozenset[str]) -> str:
     text, tight = "", True
     for html, term in terms:
         if not (tight or html.startswith(")")):

@@ -1,4 +1,4 @@
-"""Exposure of one column, which is picked in the plot of the profile, on the LED's waveform."""
+"""Exposure of one column on the LED's waveform; the column is chosen in the plot of the profile."""
 
 import numpy as np
 import pyqtgraph as pg
@@ -26,7 +26,7 @@ class ColumnPicker(QObject):
     hovered = Signal(int)
     clicked = Signal(int)
 
-    stepped = Signal(int)  # the number of columns to move on, negative to the left
+    stepped = Signal(int)  # the number of columns to move to the right; negative to the left
 
     released = Signal()
 
@@ -51,7 +51,7 @@ class ColumnPicker(QObject):
         self.marker.setVisible(active)
 
     def show_column(self, column: int, held: bool) -> None:
-        """Mark a column by a dashed line, or by a solid line if it is held."""
+        """Mark a column with a dashed line, or with a solid line if it is held."""
         self._held = held
         self._dress(self._plot.palette())
         self.marker.setValue(column)
@@ -78,7 +78,7 @@ class ColumnPicker(QObject):
         return int(round(self._box.mapSceneToView(place).x()))  # noqa: RUF046 - it has no type
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
-        """Move from column to column by the arrow keys, and release the held one by Escape."""
+        """Move from column to column with the arrow keys, and release a held column with Escape."""
         if self._active and event.type() == QEvent.Type.KeyPress and isinstance(event, QKeyEvent):
             key = Qt.Key(event.key())
             if key in KEY_STEPS:
@@ -112,7 +112,7 @@ class ExposurePlot(QWidget):
             self._fit_height()
 
     def _fit_height(self) -> None:
-        """Ask for the height of all lines of the sentence: a splitter counts too few of them."""
+        """Reserve the height of all lines of the sentence, as a splitter reserves too little."""
         needed = self._layout.minimumHeightForWidth(self.width())
         self.setMinimumHeight(max(needed, 0))  # -1 without a sentence
 

@@ -1,4 +1,4 @@
-"""The pane of the equations: it explains the scene, and the exposure of a column."""
+"""The pane of the equations, which explains the scene and the exposure of a column."""
 
 from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtWidgets import QSplitter, QVBoxLayout, QWidget
@@ -18,7 +18,7 @@ from occ_model.teaching.light_over_columns import exposure_window
 class ExposureController(QObject):
     """Keeps the chosen column, held or under the mouse, and computes its exposure while visible."""
 
-    held = Signal(int)  # the column that the user has chosen, until another is
+    held = Signal(int)  # the column that the user has chosen and that stays chosen
 
     def __init__(self, pane: ExposurePlot, mark: ColumnPicker) -> None:
         super().__init__()
@@ -74,7 +74,7 @@ class ExposureController(QObject):
         if snapshot is None or not self._seen:
             return
         profile = snapshot.frame.profile
-        if self._column is None:  # in the first packet, which the profile shows
+        if self._column is None:  # start in the first packet, which the profile shows
             self._column = int(snapshot.panel_origin[0] + snapshot.packet_columns / 2)
         self._column = min(max(self._column, 0), len(profile) - 1)
         self._pane.show_column(self._column, len(profile), self._held)
@@ -100,7 +100,7 @@ class ExplanationPane(Pane[Snapshot]):
     def __init__(self, scenes: SceneStore, plot: Plot) -> None:
         self.view = view = ExplanationView()
         super().__init__(view)
-        # It shows a level; the equations need no picture.
+        # The exposure plot shows a level of the picture; the equations need no picture.
         self.made_of = {view.exposure: of_snapshot}
         self.picker = ColumnPicker(plot)
         self._equations = EquationController(scenes, view.equations.show_equations)

@@ -1,4 +1,4 @@
-"""The equations with the current numbers, and the marks on what has just changed."""
+"""The equations with the present numbers, and the marks on terms that have just changed."""
 
 import re
 
@@ -92,7 +92,7 @@ def test_where_the_band_model_is_undefined_a_sentence_says_so(
     assert "= 200 µs / 8 µs\n= 25 columns" in view.toPlainText()
 
 
-def test_equations_follow_the_scene_only_while_they_are_seen(small_scene: Scene) -> None:
+def test_equations_follow_the_scene_only_while_they_are_visible(small_scene: Scene) -> None:
     store, shown = store_of(small_scene), list[object]()
     controller = EquationController(store, lambda *what: shown.append(what))
     store.change(iso=200.0)

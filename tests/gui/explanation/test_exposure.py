@@ -58,7 +58,7 @@ def test_a_column_in_the_dark_has_no_time_on_and_what_is_not_drawn_is_named(
 
 
 class Bench(PaneBench):
-    """The equations beside the profile, in which their column is picked."""
+    """The equations beside the profile in which their column is chosen."""
 
     def __init__(self, qtbot: QtBot, scene: Scene) -> None:
         super().__init__(qtbot, scene)
@@ -159,7 +159,7 @@ def test_the_exposure_follows_the_scene_and_no_column_outside_of_the_picture_is_
     assert seen.shown[0] == 5
 
 
-def test_a_column_that_is_held_stays_until_it_is_let_go(seen: Bench) -> None:
+def test_a_held_column_stays_until_it_is_released(seen: Bench) -> None:
     controller = seen.pane.exposure
     controller.hover(10)
     controller.click(20)

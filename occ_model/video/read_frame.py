@@ -9,6 +9,7 @@ from occ_model.arrays import BoolArray, ByteArray, FloatArray
 from occ_model.camera.enhancement import Enhancement
 from occ_model.photo.chips.edges import Edges, chip_numbers, coherence, lattice_at
 from occ_model.receiver.decode import decode
+from occ_model.receiver.decoder import has_short_chips, with_short_chips
 from occ_model.receiver.decoders import read_with
 from occ_model.receiver.light import in_light
 from occ_model.receiver.signal import column_means
@@ -143,7 +144,8 @@ def _timing(
         return None, result.failure or "The decoder gives no chips, which joining frames needs."
     lattice = first_lattice(result, signal, before, scene)
     if lattice is None:
-        return None, result.failure or "Too few stripes to see chips."
+        failure = result.failure or "The stripes show no regular chips."
+        return None, with_short_chips(failure, scene)
     timing = fit_timing(light, lattice)
     if timing is None or timing.unexplained > _MAX_UNEXPLAINED:
         return None, "The stripes do not follow the chips that were read."
@@ -187,6 +189,7 @@ def first_lattice(
 ) -> ChipLattice | None:
     """Place the chips of a decoder on a regular lattice; None where it found none.
 
+    There is none either of chips shorter than a column, or of an exposure longer than all columns.
     ``before``: how many columns of the signal lie before the result's region. The scene's exposure
     time and switching frequency are a first guess.
     """
@@ -199,12 +202,15 @@ def first_lattice(
     rising = result.chips[edges] == 1
     step, offsets = _regular(places, numbers, rising)
     if step <= 0.0 or np.abs(offsets).max() > _MAX_EDGE_ERROR:
+        if has_short_chips(scene):
+            return None
         expected = scene.camera.readout_time * scene.transmitter.switching_frequency
         kinds = Edges(places[rising], places[~rising])
         step = _most_coherent(kinds, expected)
         numbers = np.rint(np.concatenate(chip_numbers(kinds, lattice_at(kinds, step))))
         places = np.concatenate([kinds.rising, kinds.falling])
-    if step * len(signal) > MOST_CHIPS:  # far more than columns can show
+    # Far more than columns can show, or an exposure longer than they all take.
+    if not exposure <= step * len(signal) <= MOST_CHIPS:
         return None
     # The middle of an exposure at a column is where its chip is read.
     middle = float(np.mean(numbers - places * step))

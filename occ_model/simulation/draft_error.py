@@ -21,6 +21,8 @@ from occ_model.camera.coverage import column_spans
 from occ_model.camera.photometry import WHITE
 
 _BLOCK = 8  # rows of a part, those of a block of a JPEG file, whose errors are correlated
+_MOST_EXPOSURES = 16
+_DIFFERENCES = 30  # of exposures, of as many blocks of columns, that tell their variance
 _FEWEST_PARTS = 2  # fewest parts whose differences tell how much they vary
 _BLUR_REACH = 4.0  # reach of a blurred rim into the panel, in standard deviations
 _DEVIATIONS_ADDED = 5.0  # standard deviations that are added to the estimate of an error
@@ -51,9 +53,9 @@ class DraftedMeans:
     stretch: float  # Mean number of the image's levels for each level of the camera's picture
 
 
-ExposeRows: TypeAlias = Callable[[NDArray[np.bool_]], Mapping[str, FloatArray]]
-"""Exposes the marked rows, shape (rows,), of the whole picture a few times with other noise, and
-returns column means by name, each of shape (times, columns)."""
+ExposeRows: TypeAlias = Callable[[NDArray[np.bool_], int], Mapping[str, FloatArray]]
+"""Exposes the marked rows, shape (rows,), of the whole picture so many times with other noise, or
+once without any, and returns column means by name, each of shape (times, columns)."""
 
 
 def draft_errors(
@@ -66,11 +68,16 @@ def draft_errors(
     guard = math.ceil(_BLUR_REACH * panel.blur / panel.rows.step)
     short = seen & ((last - guard) // _BLOCK + -(first + guard) // _BLOCK < _FEWEST_PARTS)
     shown = _mark_rows(whole[0][short], whole[1][short], panel.size[0])
-    exposed = expose(shown) if short.any() else {}
+    exposed = expose(shown, _exposures(int(short.sum()))) if short.any() else {}
     return {
         name: _estimate_error(panel, own, (first, last, guard), seen, short, exposed.get(name))
         for name, own in means.items()
     }
+
+
+def _exposures(columns: int) -> int:
+    """Return how often columns are exposed: few of them more often, to know how they differ."""
+    return min(_MOST_EXPOSURES, 1 + math.ceil(_DIFFERENCES * _BLOCK / columns))
 
 
 def _mark_rows(first: IndexArray, last: IndexArray, rows: int) -> NDArray[np.bool_]:

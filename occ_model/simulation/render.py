@@ -32,8 +32,6 @@ from occ_model.simulation.draft_error import DraftedMeans, draft_errors
 from occ_model.simulation.pixels import Pictures, PixelExposure
 from occ_model.simulation.stage_timer import StageTimer
 
-_EXPOSURES_OF_FEW_ROWS = 16  # for a draft's error, with different noise
-
 
 def render(
     scene: Scene,
@@ -164,7 +162,7 @@ def render_plan(
         camera_image = partial(np.asarray, made.camera_image)
         if rows_step > 1:
             means = describe_draft(made, columns, enhancement)
-            expose = partial(_expose_rows, view, chosen, columns, enhancement, seed)
+            expose = partial(_expose_rows, view, chosen, columns, enhancement, seed=seed)
             errors = partial(draft_errors, exposure.drafted_panel(rows), means, expose)
     return Frame(
         scene=scene,
@@ -198,15 +196,17 @@ def _expose_rows(
     chosen: Plan,
     columns: Columns,
     enhancement: Enhancement,
-    seed: int,
     shown: NDArray[np.bool_],
+    times: int,
+    *,
+    seed: int,
 ) -> dict[str, FloatArray]:
     """Expose some rows of the whole picture a few times with other noise; return column means."""
     blocks = split_into_blocks(range(view.scene.camera.rows))
     bands = [rows for rows in blocks if shown[rows.start : rows.stop].any()]
     exposure = PixelExposure(view, chosen, columns, StageTimer(), bands, panel_only=True)
-    times = _EXPOSURES_OF_FEW_ROWS if effects_planned(chosen, NoiseEffect) else 1
-    made = (exposure.pictures(enhancement, seed + 1 + k, "reused") for k in range(times))
+    seeds = range(seed + 1, seed + 1 + (times if effects_planned(chosen, NoiseEffect) else 1))
+    made = (exposure.pictures(enhancement, other, "reused") for other in seeds)
     # Only one picture at a time is in memory.
     profiles, signals = zip(*((one.profile, one.signal) for one in made), strict=True)
     return {"profile": np.array(profiles), "signal": np.array(signals)}

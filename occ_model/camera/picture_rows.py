@@ -28,11 +28,15 @@ from occ_model.camera.row_interpolation import (
 from occ_model.scene.scene import Camera
 
 BLOCK_ROWS = 64  # rows that are computed at once, a whole number of blocks of a JPEG file
+_JPEG_ROWS = 8
+_BLOCK_PIXELS = 2**22  # most pixels that are computed at once, where rows are very long
 
 
-def split_into_blocks(rows: range) -> list[range]:
+def split_into_blocks(rows: range, columns: int) -> list[range]:
     """Split rows, or every k-th row, of a picture into blocks that are computed at once."""
-    return [rows[start : start + BLOCK_ROWS] for start in range(0, len(rows), BLOCK_ROWS)]
+    fitting = _BLOCK_PIXELS // columns // _JPEG_ROWS * _JPEG_ROWS
+    height = min(max(fitting, _JPEG_ROWS), BLOCK_ROWS)
+    return [rows[start : start + height] for start in range(0, len(rows), height)]
 
 
 def split_at(band: range, rows: Sequence[int]) -> list[range]:

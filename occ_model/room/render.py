@@ -75,7 +75,7 @@ class RoomFrame:
         rows, columns = image.shape
         for shown in self.lamps:
             enhancement = Enhancement(shown.profile, method)
-            for band in split_into_blocks(range(rows)):
+            for band in split_into_blocks(range(rows), columns):
                 covered = Coverage(shown.outline, rows, columns, shown.blur).rows(band) >= 0.5
                 camera = self.camera_image[band.start : band.stop]
                 own = image[band.start : band.stop]
@@ -178,7 +178,7 @@ def _composed(
         for view, own in zip(views, columns, strict=True)
     ]
     timer.end_stage("optics")
-    bands = split_into_blocks(range(camera.rows))
+    bands = split_into_blocks(range(camera.rows), camera.columns)
     if all(panel.optics.is_plain for panel in panels) and camera.jpeg_quality == 0:
         level = [view.region for view in views if view.sides]
         ends = [end for own in level for end in (own.first_row, own.last_row)]

@@ -87,7 +87,7 @@ class PixelExposure:
         self._limits = effects_planned(plan, PixelEffect)
         self._noises = effects_planned(plan, NoiseEffect)
         self._files = effects_planned(plan, FileEffect)
-        self._bands = bands or split_into_blocks(range(scene.camera.rows))
+        self._bands = bands or split_into_blocks(range(scene.camera.rows), scene.camera.columns)
         height = sum(len(band) for band in self._bands)
         self._shape = (height, scene.camera.columns)
         for file in self._files:

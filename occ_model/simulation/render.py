@@ -155,7 +155,12 @@ def render_plan(
         camera_image = partial(paint, to_bytes(profile), corners, rows, around)
     else:
         exposure = PixelExposure(
-            view, chosen, columns, timer, split_into_blocks(rows), panel_only=rows_step > 1
+            view,
+            chosen,
+            columns,
+            timer,
+            split_into_blocks(rows, scene.camera.columns),
+            panel_only=rows_step > 1,
         )
         made = exposure.pictures(enhancement, seed, noise, heartbeat)
         image, profile, signal = made.image, made.profile, made.signal
@@ -202,7 +207,7 @@ def _expose_rows(
     seed: int,
 ) -> dict[str, FloatArray]:
     """Expose some rows of the whole picture a few times with other noise; return column means."""
-    blocks = split_into_blocks(range(view.scene.camera.rows))
+    blocks = split_into_blocks(range(view.scene.camera.rows), view.scene.camera.columns)
     bands = [rows for rows in blocks if shown[rows.start : rows.stop].any()]
     exposure = PixelExposure(view, chosen, columns, StageTimer(), bands, panel_only=True)
     seeds = range(seed + 1, seed + 1 + (times if effects_planned(chosen, NoiseEffect) else 1))
@@ -237,7 +242,7 @@ def observe(
         return np.asarray(view.region.crop(image).mean(axis=0, dtype=np.float64), dtype=np.float32)
     columns = expose_columns(view, chosen, timer)
     seen = range(view.region.first_row, view.region.last_row)
-    blocks = split_into_blocks(range(scene.camera.rows))
+    blocks = split_into_blocks(range(scene.camera.rows), scene.camera.columns)
     bands = [rows for rows in blocks if rows[0] < seen.stop and rows[-1] >= seen.start]
     exposure = PixelExposure(view, chosen, columns, timer, bands)
     return exposure.observe(chosen.observable, seed, noise)

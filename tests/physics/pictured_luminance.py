@@ -17,5 +17,8 @@ def pictured_luminance(scene: Scene, effect: OpticsEffect) -> np.ndarray:
     panel = panel_values(scene, light)
     around = np.broadcast_to(surroundings_values(scene, light), panel.shape)
     rows = PictureRows(scene.camera, [LitPanel(optics, panel)], around)
-    parts = [rows.of(place).values for place in split_into_blocks(range(scene.camera.rows))]
+    parts = [
+        rows.of(place).values
+        for place in split_into_blocks(range(scene.camera.rows), scene.camera.columns)
+    ]
     return luminance_of(np.concatenate(parts), scene.camera)

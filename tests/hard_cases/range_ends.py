@@ -101,6 +101,11 @@ def _frame(scene: Scene) -> occ.Frame:
     return occ.render(scene)
 
 
+@lru_cache(maxsize=1)
+def _film() -> occ.Video:
+    return occ.render_video(base(), 2)
+
+
 def _command(name: str, scene: Scene) -> None:
     with TemporaryDirectory() as folder:
         path = Path(folder, "scene.toml")
@@ -159,6 +164,7 @@ def questions() -> dict[str, Callable[[Scene], object]]:
         "teaching": _teaching,
         **quantities,
         "film": lambda scene: list(islice(occ.render_video(scene, 3), 3)),
+        "read a film": lambda scene: occ.decode_video(_film(), scene),
         **{f"sketch {each}": partial(occ.transmitter_sketch, board=each) for each in BOARDS},
     }
 

@@ -132,13 +132,8 @@ def _of_cells(values: FloatArray, cells: int) -> FloatArray:
     return np.asarray(np.clip(means, 0.0, 1.0))
 
 
-_MOST_PIXELS = 4000  # of a cell that count: of more, there are too many sets for a float
-
-
 def _more_than(least: float, fraction: FloatArray, pixels: int) -> FloatArray:
     """Return the probability that a cell has more than a fraction of bright pixels."""
-    pixels = min(pixels, _MOST_PIXELS)
-    too_few = np.zeros_like(fraction)
-    for count in range(math.floor(least * pixels) + 1):
-        too_few += math.comb(pixels, count) * fraction**count * (1.0 - fraction) ** (pixels - count)
-    return np.clip(1.0 - too_few, 0.0, 1.0)
+    from scipy.special import bdtrc  # slow to import
+
+    return np.asarray(bdtrc(math.floor(least * pixels), pixels, fraction))

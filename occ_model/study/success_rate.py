@@ -8,6 +8,7 @@ from functools import lru_cache
 import numpy as np
 
 from occ_model.arrays import ByteArray
+from occ_model.camera.projection import check_size
 from occ_model.effects.paper_view import paper_view_of
 from occ_model.effects.plan import signal_plan
 from occ_model.effects.registry import NAMES
@@ -195,6 +196,7 @@ def observe_picture(pictures: _Pictures, chosen: Plan, image: int) -> Observatio
 
 
 def check_rate(scene: Scene, settings: RateSettings) -> None:
+    check_size(scene.camera)
     check_count("images", settings.images, 1, MOST_IMAGES)
     check_seed(settings.seed)
     check_choice("path", settings.path, SIGNAL_PATHS)

@@ -13,7 +13,7 @@ from occ_model.receiver.signal import locate
 from occ_model.results.decoding import Region
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
-from occ_model.study.drawn_region import BrightFractions
+from occ_model.study.drawn_region import BrightFractions, _more_than
 from occ_model.study.observation import read_profile
 
 SETTINGS = SimulationSettings(observable="signal")
@@ -127,6 +127,14 @@ def test_the_drawn_rectangle_is_the_one_found_among_pixels(panel: float, around:
     error = np.sqrt((drawn.var(axis=0) + found.var(axis=0)) / TRIALS)
     # A cell, of 3 pixels, holds more bright pixels at its end than chance alone puts there.
     assert np.all(np.abs(drawn.mean(axis=0) - found.mean(axis=0)) <= 4.0 * error + 1.5)
+
+
+@pytest.mark.parametrize("pixels", [1, 9, 400, 170_000])
+def test_a_cell_of_any_size_has_more_bright_pixels_by_the_binomial_law(pixels: int) -> None:
+    fraction = np.array([0.0, 0.1, 0.3, 1.0])
+    found = _more_than(0.2, fraction, pixels)
+    drawn = np.random.default_rng(1).binomial(pixels, fraction, (20_000, 4)) > 0.2 * pixels
+    assert found == pytest.approx(drawn.mean(axis=0), abs=0.015)
 
 
 def test_a_dark_noisy_picture_is_read_by_a_study_as_by_its_pictures() -> None:

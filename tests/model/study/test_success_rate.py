@@ -112,6 +112,13 @@ def test_a_panel_outside_the_picture_is_never_read(scene: Scene) -> None:
     assert occ.success_rate(scene.replace(offset_x=50.0), 2) == 0.0
 
 
+def test_a_scene_with_too_large_a_picture_has_no_success_rate(scene: Scene) -> None:
+    large = scene.replace(rows=100_000, columns=1_000_000)
+    for study in (occ.success_rate, occ.bit_error_rate):
+        with pytest.raises(occ.ProjectionError, match="100000 million pixels; allowed"):
+            study(large)
+
+
 def test_a_raw_pattern_has_no_success_rate(scene: Scene) -> None:
     with pytest.raises(occ.ParameterError, match="raw pattern"):
         occ.success_rate(scene.replace(pattern="0110"))

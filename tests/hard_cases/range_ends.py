@@ -12,7 +12,7 @@ import resource
 import sys
 import time
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import redirect_stdout
+from contextlib import redirect_stderr, redirect_stdout
 from dataclasses import asdict, dataclass, field
 from functools import lru_cache, partial
 from itertools import combinations, islice, product
@@ -110,8 +110,10 @@ def _command(name: str, scene: Scene) -> None:
     with TemporaryDirectory() as folder:
         path = Path(folder, "scene.toml")
         path.write_text(scene.to_toml(), encoding="utf-8")
-        with redirect_stdout(io.StringIO()) as written:
-            assert main([name, "--scene", str(path)]) == 0
+        with redirect_stdout(io.StringIO()) as written, redirect_stderr(io.StringIO()) as refused:
+            status = main([name, "--scene", str(path)])
+    if status:
+        raise occ.OccError(refused.getvalue().strip())
     assert written.getvalue()
 
 

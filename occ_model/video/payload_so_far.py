@@ -138,8 +138,8 @@ def why_not_read(soft: SoftFrame | None, joined: Joined, period: SentPeriod) -> 
 def _why_incomplete(joined: Joined, period: SentPeriod) -> str:
     unseen = ~joined.known
     text = (
-        f"{int(unseen.sum())} of {period.length} chips were in no frame: they fell into the gap "
-        "each time, or the film is too short."
+        f"{int(unseen.sum())} of {period.length} chips were in no frame whose place in the packet "
+        "is known; a longer film may show them."
     )
     if period.parts > 1:
         missing = np.flatnonzero(unseen.reshape(period.parts, -1).any(axis=1))

@@ -7,6 +7,7 @@ import numpy as np
 
 from occ_model.arrays import BoolArray, ByteArray, FloatArray
 from occ_model.camera.enhancement import Enhancement
+from occ_model.camera.photometry import WHITE
 from occ_model.photo.chips.edges import Edges, chip_numbers, coherence, lattice_at
 from occ_model.receiver.decode import decode
 from occ_model.receiver.decoder import has_short_chips, with_short_chips
@@ -27,6 +28,7 @@ _MAX_DARK = 6.0  # most dark chips in a row at an end of the panel: more than an
 _MOTION_MARGIN = 0.5  # chips by which the panel may have moved since those frames
 _ROUNDING_CHIPS = 1e-6  # chips of rounding that do not cut a chip off
 
+_WHITE_MEAN = WHITE - 1.0  # grey level of a column's mean from which it counts as white
 _MIN_EDGES = 4  # fewest edges between chips that show a lattice
 _MAX_EDGE_ERROR = 0.3  # chips off the lattice from which an edge shows that chips were miscounted
 
@@ -46,6 +48,7 @@ class TimedFrame:
     step_error: float = 0.0
     # Why the frame by itself has no payload, as of a single picture; None where it has
     problem: str | None = None
+    white: float = 0.0  # Fraction of the panel's columns that are white in the camera's picture
 
     @property
     def is_read(self) -> bool:
@@ -95,6 +98,7 @@ class FrameReader:
         reading = FrameReading(frame.index, frame.time, result.region)
         if result.region is None:
             return TimedFrame(replace(reading, failure=result.failure))
+        white = 0.0 if result.signal is None else float(np.mean(result.signal >= _WHITE_MEAN))
         region = self._with_dark_ends(result.region, scene)
         light = in_light(column_means(frame.image, region), scene).values
         before = result.region.first_column - region.first_column
@@ -103,10 +107,10 @@ class FrameReader:
             tried.append(self._of_enhanced(frame, result.region, region, light))
         timing, problem = min(tried, key=lambda one: 1.0 if one[0] is None else one[0].unexplained)
         if timing is None:
-            return TimedFrame(replace(reading, failure=problem), problem=problem)
+            return TimedFrame(replace(reading, failure=problem), problem=problem, white=white)
         after = region.last_column - result.region.last_column
         timed = _timed(reading, region, (before > 0, after > 0), timing)
-        return replace(timed, problem=problem)
+        return replace(timed, problem=problem, white=white)
 
     def _of_enhanced(
         self, frame: VideoFrame, found: Region, region: Region, light: FloatArray

@@ -19,6 +19,7 @@ from occ_model.results.video_reading import FilmProgress, VideoReading
 from occ_model.scene.argument_checks import check_count, is_number
 from occ_model.scene.payload import form_of, payload_of_bits
 from occ_model.scene.scene import Scene, check_scene
+from occ_model.simulation.overexposure import overexposed_text
 from occ_model.transmitter.packet import code_of
 from occ_model.video.clock import MOST_READOUT_TOLERANCE, READOUT_TOLERANCE
 from occ_model.video.frame_times import FrameTimes
@@ -191,6 +192,8 @@ class VideoReader:
         self._read_on()
         soft = self._soft_frame()
         failure = self._failure(soft)
+        if failure is not None:
+            failure += self._overexposed()
         bits = soft.framed.bits if soft is not None and failure is None else np.empty(0, np.uint8)
         times, clock = placed.times(), placed.clock
         if placed.placed == 0 and placed.columns:
@@ -214,6 +217,11 @@ class VideoReader:
             if number is None or times is None or placed.clock is None
             else times.elapsed(number),
         )
+
+    def _overexposed(self) -> str:
+        """State that the frames are overexposed, where they are: it need not be why."""
+        white = float(np.mean([frame.white for frame in self._placed.frames] or [0.0]))
+        return f" {overexposed_text(white)}" if white else ""
 
     def _problems(self, times: FrameTimes | None) -> tuple[str, ...]:
         """Report irregular times of frames that do not determine a clock."""

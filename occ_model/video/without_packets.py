@@ -111,7 +111,7 @@ class WithoutPackets:
         )
         if len(seen) >= _MIN_SAME_FRACTION * count:
             return text
-        return f"{text} They are in {len(seen)} of {count} frames only: it is sent in bursts."
+        return f"{text} They are in {len(seen)} of {count} frames only."
 
     @property
     def may_be_packets(self) -> bool:
@@ -130,8 +130,8 @@ class WithoutPackets:
         lasts = self._looks[-1].time - self._looks[0].time
         return (
             f"Whole frames are bright or dark: {int(bright.sum())} of {len(levels)} are bright, "
-            f"and that changes {counted(changes, 'time')} in {SECOND.format(lasts, 3)}. So the "
-            "lamp blinks more slowly than a frame is read out, and no frame shows stripes of it."
+            f"and that changes {counted(changes, 'time')} in {SECOND.format(lasts, 3)}. No frame "
+            "shows stripes that repeat."
         )
 
 

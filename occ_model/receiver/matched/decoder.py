@@ -103,8 +103,8 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
     gap = _widest_gap(counts) / BINS_PER_CHIP
     if gap > _WIDEST_GAP:
         unseen = (
-            f"All columns together see a packet at places up to {gap:.2g} chips apart: the codes "
-            "cannot be distinguished."
+            f"Not every chip is seen: all columns together see a packet at places up to {gap:.2g} "
+            "chips apart."
         )
         return replace(result, failure=with_short_chips(unseen, scene))
     read = _best_code(result, _fold(signal, starts, counts), templates, scene)

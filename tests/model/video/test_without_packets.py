@@ -1,5 +1,7 @@
 """A film without packets is described: a square wave and its clock, bursts, frames that blink."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -58,10 +60,20 @@ def test_a_square_wave_or_pulse_tells_its_clock(chips: str, chip_rate: float) ->
     assert 0.0 < readout.error < 0.005 * READOUT
 
 
+def test_a_film_that_is_not_read_and_is_overexposed_says_so() -> None:
+    frames = [stripes(number, "10", 2345.0) for number in range(8)]
+    dim, bright = read(frames), read([4.0 * frame for frame in frames])
+    assert "Overexposed" not in dim.failure
+    assert bright.failure.startswith("The lamp sends a plain square wave or pulse")
+    assert re.search(r" Overexposed: [3-5]\d % of the panel's columns are white", bright.failure)
+
+
 def test_stripes_in_some_frames_are_bursts() -> None:
     square, dark = stripes(0, "10", 2345.0), np.full(COLUMNS, 30.0)
     found = read([square if number // 3 % 2 else dark for number in range(12)])
-    assert "They are in 6 of 12 frames only: it is sent in bursts." in found.failure
+    # The lamp may be out of sight in the others.
+    assert "They are in 6 of 12 frames only. " in found.failure
+    assert "burst" not in found.failure
     assert found.clock is None
 
 
@@ -70,6 +82,12 @@ def test_whole_frames_that_blink_are_described() -> None:
     assert found.failure.startswith(
         "Whole frames are bright or dark: 4 of 10 are bright, and that changes 4 times"
     )
+    # A global shutter shows a fast lamp alike, and so does one that is switched by hand.
+    assert found.failure.endswith(
+        "No frame shows stripes that repeat. Packets as the scene sends them are in none of the "
+        "frames."
+    )
+    assert "slow" not in found.failure
 
 
 def test_a_pattern_that_repeats_is_no_square_wave() -> None:

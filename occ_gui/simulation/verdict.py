@@ -8,13 +8,12 @@ from occ_gui.simulation.snapshot import ColumnView, Reading
 from occ_gui.widgets.state_look import State
 from occ_model.errors import one_line
 from occ_model.results.decoding import DecodeResult
-from occ_model.study.cause.cause import Cause
+from occ_model.study.cause.cause import Cause, symptom
 
 _LONGEST_PAYLOAD = 24  # characters of a payload that a title shows
 
 _AWAITED = "This decoder takes longer: it reads the picture now."
 
-_SYMPTOM_END = re.compile(r"[:;.](?= |$)")
 _CLAUSE_END = re.compile(r"[:;,.](?= |$)")
 
 
@@ -85,12 +84,6 @@ def reason_in(reading: ColumnView, decoded: DecodeResult) -> str:
     if cause is None:
         return failure
     return f"{cause} {symptom(failure)}".rstrip()
-
-
-def symptom(failure: str) -> str:
-    """Return the start of a failure, without what it might come from and what might help."""
-    first = _SYMPTOM_END.split(failure, maxsplit=1)[0]
-    return f"{first}." if first else ""
 
 
 def what_was_read(decoded: DecodeResult) -> str:

@@ -13,7 +13,6 @@ from occ_gui.simulation.verdict import (
     is_right,
     left_out_in_words,
     result_of,
-    symptom,
     verdict_on,
 )
 from occ_gui.story.column_facts import READ_BY_ALL, Step, chips_in_exposure
@@ -24,6 +23,7 @@ from occ_model.results.decoding import PAPER_DECODER
 from occ_model.scene.simulation_settings import TOLERANCE, unit_of
 from occ_model.scene.units import SECOND
 from occ_model.simulation.overexposure import overexposed_text
+from occ_model.study.cause.cause import symptom
 
 _COMPUTING = "computing"  # key of the badge for results that are still to come
 _READS = 0.99  # fraction of the bits from which a decoder counts as reading

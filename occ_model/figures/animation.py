@@ -27,7 +27,7 @@ from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.simulation.band_model import band_profile
 from occ_model.simulation.render import render_with
-from occ_model.study.cause.cause import cause_of
+from occ_model.study.cause.cause import cause_of, symptom
 from occ_model.video.file.write import check_film_path, write_frames
 
 ENDINGS = (".gif", ".mp4", ".png")  # GIF, MP4 (MPEG-4), animated PNG
@@ -111,7 +111,7 @@ def _describe_read(result: DecodeResult, scene: Scene, settings: SimulationSetti
     if scene.transmitter.pattern or tuple(result.bits.tolist()) == scene.transmitter.payload_bits:
         return read
     cause = cause_of(scene, result.decoder, settings)
-    return read if cause is None else f"{cause.what}: {in_sentence(read)}"
+    return read if cause is None else f"{cause.what}: {in_sentence(symptom(read))}"
 
 
 class AnimatedFigure:

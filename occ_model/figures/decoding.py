@@ -16,8 +16,9 @@ from occ_model.figures.window_panes import caption, write_caption
 from occ_model.results.decoding import DecodeResult
 from occ_model.scene.parameter_kinds import in_sentence
 from occ_model.scene.scene import Scene
-from occ_model.study.cause.cause import Cause
+from occ_model.study.cause.cause import Cause, symptom
 
+_ABOVE_LEGEND = 20  # points from the axes to the title
 _LONGEST_PAYLOAD = 40  # characters of a payload that the title shows
 
 _SIGNAL: dict[str, Any] = {"color": colours.SIMULATION, "linestyle": "-"}
@@ -32,7 +33,9 @@ _SPLITS: tuple[dict[str, Any], ...] = (
 def decode_drawing(scene: Scene, result: DecodeResult, cause: Cause | None = None) -> Drawing:
     """Draw the steps of decoding, up to the code or to the step that failed; the cause is named."""
     message = result.failure or f"{_describe_read(result)} read by the {result.decoder} decoder"
-    message = printable(message if cause is None else f"{cause.what}: {in_sentence(message)}")
+    if cause is not None:
+        message = f"{cause.what[:1].upper()}{cause.what[1:]}: {in_sentence(symptom(message))}"
+    message = printable(message)
 
     def draw() -> Figure:
         figure = Figure(figsize=(7.2, 4.2))
@@ -42,7 +45,7 @@ def decode_drawing(scene: Scene, result: DecodeResult, cause: Cause | None = Non
             _draw_folded(lower, result.folded, result.model)
         else:
             _draw_runs(lower, result)
-        upper.set_title(message, fontsize=8, loc="left", parse_math=False)
+        upper.set_title(message, fontsize=8, loc="left", pad=_ABOVE_LEGEND, parse_math=False)
         write_caption(figure, scene)
         return figure
 

@@ -5,6 +5,7 @@ again by the same decoder. One that is enough by itself is the cause; where none
 are needed together. Where nothing that is taken out makes it readable, no cause is stated.
 """
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -34,6 +35,15 @@ class Cause:
 
     def __str__(self) -> str:
         return f"{self.what[:1].upper()}{self.what[1:]}. {self.why}"
+
+
+_SYMPTOM_END = re.compile(r"[:;.](?= |$)")
+
+
+def symptom(failure: str) -> str:
+    """Return the start of a failure, without what it might come from and what might help."""
+    first = _SYMPTOM_END.split(failure, maxsplit=1)[0]
+    return f"{first}." if first else ""
 
 
 def cause_of(

@@ -11,8 +11,10 @@ from matplotlib.figure import Figure
 import occ_model as occ
 from occ_model.figures.decoding import decode_drawing
 from occ_model.figures.drawing import ENDINGS, Drawing, house_style, write_all
+from occ_model.figures.page import fit_texts
 from occ_model.figures.window_panes import picture_drawing, profile_drawing
 from occ_model.scene.provenance import Provenance, scene_inside
+from occ_model.study.cause.cause import cause_of
 
 SCENE = occ.load_preset("phone-68us").replace(rows=60, panel_height=2.0)
 FRAME = occ.render(SCENE)
@@ -123,3 +125,17 @@ def test_an_unknown_ending_is_refused_before_any_writing(tmp_path: Path) -> None
     with pytest.raises(occ.OutputError, match=r"figure\.doc does not have the ending"):
         drawing.write(tmp_path / "figure.doc", provenance(drawing))
     assert not list(tmp_path.iterdir())
+
+
+def test_a_decoding_figure_names_the_cause_first_and_its_title_lies_above_the_legend() -> None:
+    scene = occ.load_preset("phone-136us").replace(rows=200, iso=12800.0)
+    read = occ.decode(occ.render(scene).image, scene)
+    drawing = decode_drawing(scene, read, cause_of(scene, "threshold"))
+    assert ", Overexposed: the first two headers are " in drawing.title
+    assert "misread" not in drawing.title
+    with house_style():
+        figure = drawing.draw()
+        fit_texts(figure)
+    axes = figure.axes[0]
+    title = next(text for text in axes.get_children() if "Overexposed" in str(text))
+    assert not title.get_window_extent().overlaps(axes.get_legend().get_window_extent())

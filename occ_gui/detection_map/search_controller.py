@@ -210,7 +210,7 @@ class MostBitsController(SearchController):
 
     def _request(self) -> MostBitsRequest:
         workspace = self._scenes.store.workspace
-        return MostBitsRequest(most_bits.unvaried(workspace.scene), workspace.frame_rate)
+        return MostBitsRequest(most_bits.reset_searched(workspace.scene), workspace.frame_rate)
 
     def start(self) -> None:
         """Search at the exposure and the distance of the present scene."""

@@ -15,7 +15,7 @@ from occ_model.room.photo import read_room_photo
 from occ_model.room.render import render_room
 from occ_model.room.room import Room
 from occ_model.room.view import aim_of, room_outline, seen_outline
-from occ_model.study.room_map import RoomMapRequest, RoomPoint, floor_under, room_map
+from occ_model.study.room_map import RoomMapRequest, RoomPoint, places_under, room_map
 
 _WIDTH = 900
 """Columns of the picture that is shown: area means, as a coarser one would show false stripes."""
@@ -93,6 +93,6 @@ def _small(image: ByteArray) -> ByteArray:
 
 
 def map_room(room: Room, report: Callable[[float], object]) -> FloorMap:
-    request = RoomMapRequest(room, *floor_under(room, SIDE))
+    request = RoomMapRequest(room, *places_under(room, SIDE))
     found = room_map(request, progress=lambda done, total, _: report(done / total))
     return FloorMap(request, found)

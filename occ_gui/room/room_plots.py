@@ -137,7 +137,7 @@ class PlanPlot(QWidget):
             [
                 {
                     "pos": found.request.place(point.index),
-                    "brush": brushes[bool(point.sure)],
+                    "brush": brushes[bool(point.sure_places)],
                     "size": 9,
                 }
                 for point in found.points

@@ -167,7 +167,7 @@ _ANGLES = ("yaw", "pitch", "roll")
 
 def _floor(found: FloorMap) -> str:
     points = found.points
-    sure = [point for point in points if point.sure]
+    sure = [point for point in points if point.sure_places]
     named, shown, wrong = (
         sum(getattr(point, count) for point in points) for count in ("named", "shown", "wrong")
     )

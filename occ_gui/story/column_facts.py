@@ -4,7 +4,7 @@ The rows draw it; they compute nothing themselves.
 """
 
 from occ_model.receiver.decoders import QUICK_DECODERS as READ_BY_ALL
-from occ_model.study.cause.suspect import Step
+from occ_model.study.cause.suspect import Remedy
 from occ_model.teaching.light_over_columns import chips_in_exposure, light_over_columns
 from occ_model.teaching.packet_fields import (
     PacketField,
@@ -17,7 +17,7 @@ from occ_model.teaching.packet_fields import (
 __all__ = [
     "READ_BY_ALL",
     "PacketField",
-    "Step",
+    "Remedy",
     "chips_in_exposure",
     "light_over_columns",
     "packet_fields",

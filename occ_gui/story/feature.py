@@ -13,7 +13,7 @@ from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Feature, PiecesPane
 from occ_gui.shell.results import Results, of_picture, of_reading
 from occ_gui.simulation.controller import SimulationController
-from occ_gui.story.column_facts import Step
+from occ_gui.story.column_facts import Remedy
 from occ_gui.story.story_view import StoryView
 from occ_model.receiver.decoders import decoders
 
@@ -63,7 +63,7 @@ class StoryPane(PiecesPane):
         store, is_enhanced = self._scenes.store, picture_kind == "receiver"
         store.put(replace(store.workspace, picture_kind=picture_kind, is_enhanced=is_enhanced))
 
-    def _take(self, step: Step) -> None:
+    def _take(self, step: Remedy) -> None:
         if step.decoder:
             self.choose_decoder(step.decoder)
         else:

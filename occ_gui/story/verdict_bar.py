@@ -15,7 +15,7 @@ from occ_gui.simulation.verdict import (
     result_of,
     verdict_on,
 )
-from occ_gui.story.column_facts import READ_BY_ALL, Step, chips_in_exposure
+from occ_gui.story.column_facts import READ_BY_ALL, Remedy, chips_in_exposure
 from occ_gui.widgets.badge_row import Badge
 from occ_gui.widgets.state_bar import StateBar
 from occ_gui.widgets.state_look import State
@@ -105,12 +105,12 @@ AVERAGES_LESSON = "2-past-the-shutter"
 class VerdictBar(StateBar):
     """The verdict on the code that is read from the simulated picture."""
 
-    step_chosen = Signal(object)  # the user takes the step that helps, a :class:`Step`
+    step_chosen = Signal(object)  # the user takes the step that helps, a :class:`Remedy`
     lesson_wanted = Signal(str)  # the user asks for the lesson on what is shown, by its name
 
     def __init__(self) -> None:
         super().__init__()
-        self._step: Step | None = None
+        self._step: Remedy | None = None
         self._lesson = ""
         self.step_taken.connect(self._take_step)
         self._reading: Reading | None = None
@@ -192,7 +192,7 @@ class VerdictBar(StateBar):
             unread = "No code" if result.code is None else verdict.title
             heading = self._heading(f"{unread}: {cause.what}")
             why = [f"{cause.why} {symptom(verdict.reason)}".strip(), cause.why, symptom(cause.why)]
-            self._offer(None if self._is_outdated else cause.step)
+            self._offer(None if self._is_outdated else cause.remedy)
         self.show_state(state, heading, *why, badges=badges)
 
     def _take_step(self) -> None:
@@ -201,7 +201,7 @@ class VerdictBar(StateBar):
         elif self._lesson:
             self.lesson_wanted.emit(self._lesson)
 
-    def _offer(self, step: Step | None) -> None:
+    def _offer(self, step: Remedy | None) -> None:
         self._step, self._lesson = step, ""
         self.offer_step(step.label if step else "")
         self.step.setToolTip("Changes the scene or the decoder in one step.")

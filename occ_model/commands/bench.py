@@ -12,7 +12,7 @@ from occ_model.receiver.decoders import decoders
 from occ_model.results.bench import BenchPoint, BenchRequest
 from occ_model.results.bit_errors import FRAMES_A_SECOND
 from occ_model.study.bench.bench import bench, bench_scene, check_bench
-from occ_model.study.bench.data_set import SampleReading, load_samples, read_samples
+from occ_model.study.bench.data_set import DataSetReading, load_pictures, read_pictures
 from occ_model.study.bit_error_rate import check_frame_rate
 
 _DEFAULT_REQUEST = BenchRequest()
@@ -103,11 +103,11 @@ def _table_lines(points: tuple[BenchPoint, ...], frames_a_second: float) -> list
 
 
 def _read_data_set(table: Path, names: tuple[str, ...], scheme: str) -> int:
-    samples = load_samples(table)
+    pictures = load_pictures(table)
     line_code = scheme.partition("/")[0]
-    with progress_bar(total=len(samples), unit=" pictures", leave=False, delay=0.5) as bar:
+    with progress_bar(total=len(pictures), unit=" pictures", leave=False, delay=0.5) as bar:
         readings = tuple(
-            read_samples(samples, names, line_code, lambda done, _all: bar.update(done - bar.n))
+            read_pictures(pictures, names, line_code, lambda done, _all: bar.update(done - bar.n))
         )
     print("picture                      exposure  rows  decoder     chips  correlation  wrong")
     for reading in readings:
@@ -115,13 +115,13 @@ def _read_data_set(table: Path, names: tuple[str, ...], scheme: str) -> int:
     return 0
 
 
-def _format_reading(reading: SampleReading) -> str:
-    sample = reading.sample
+def _format_reading(reading: DataSetReading) -> str:
+    picture = reading.picture
     correlation = "" if reading.correlation is None else f"{reading.correlation:.4f}"
     wrong = "" if reading.wrong_chips is None else f"{reading.wrong_chips:.2g}"
     return (
-        f"{one_line(sample.path.name)[-28:]:<28} {sample.exposure / sample.symbol:8.2f}  "
-        f"{sample.symbol / sample.sampling:4.1f}  {reading.decoder:<11} {reading.chips:5}  "
+        f"{one_line(picture.path.name)[-28:]:<28} {picture.exposure / picture.symbol:8.2f}  "
+        f"{picture.symbol / picture.sampling:4.1f}  {reading.decoder:<11} {reading.chips:5}  "
         f"{correlation:>11}  {wrong or reading.failure or ''}"
     )
 

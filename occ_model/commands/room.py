@@ -36,7 +36,7 @@ from occ_model.study.room_map import (
     RoomMapRequest,
     RoomMapText,
     RoomPoint,
-    floor_under,
+    places_under,
     room_map,
 )
 from occ_model.study.sweep.sweep import Progress
@@ -153,7 +153,7 @@ def _render_with_settings(room: Room, settings: SimulationSettings) -> RoomFrame
 
 def _request_of(options: argparse.Namespace) -> RoomMapRequest:
     room = _room_of(options)
-    places = floor_under(room, options.side)
+    places = places_under(room, options.side)
     return RoomMapRequest(room, *places, options.images, options.seed, options.tolerance)
 
 
@@ -175,10 +175,10 @@ def _run_map(options: argparse.Namespace) -> int:
     pictures = request.points * request.images
     sure, named, wrong, shown = (
         sum(getattr(point, count) for point in points)
-        for count in ("sure", "named", "wrong", "shown")
+        for count in ("sure_places", "named", "wrong", "shown")
     )
-    errors = [point.error for point in points if point.sure]
-    median = f", in the median {1e3 * float(np.median(errors)):.3g} mm off" if errors else ""
+    errors = [point.error for point in points if point.sure_places]
+    median = f", median error {1e3 * float(np.median(errors)):.3g} mm" if errors else ""
     print(
         f"{one_line(str(options.out))}: {counted(request.points, 'place')}, "
         f"{counted(pictures, 'picture')}: {named} of {shown} whole lamps named, "
@@ -204,9 +204,9 @@ def _run_codes(options: argparse.Namespace) -> int:
         print(
             f"{one.bits:4} {one.codes:8} {one.chips:6} {one.columns:8.0f} {one.packets:8.2f} "
             f"{one.distance:9} {one.named:5}/{one.whole:<4} {one.misread:7} "
-            f"{one.named_wrongly(options.lamps):14.2g}"
+            f"{one.expected_mix_ups(options.lamps):14.2g}"
         )
-    gains = [one.named - one.named_wrongly(options.lamps) for one in found]
+    gains = [one.named - one.expected_mix_ups(options.lamps) for one in found]
     best = found[gains.index(max(gains))]
     print(
         f"Of these, {best.bits} bits serve {counted(options.lamps, 'lamp')} best: {best.named} of "

@@ -38,7 +38,7 @@ from occ_model.results.sweep_request import (
 )
 from occ_model.scene.argument_checks import check_choice, check_count
 from occ_model.scene.simulation_settings import TOLERANCE
-from occ_model.study.sweep.request_check import checked_request
+from occ_model.study.sweep.request_check import build_request
 from occ_model.study.sweep.sweep import Progress, run_sweep
 
 BOTH, ALL = "both", "all"
@@ -119,7 +119,7 @@ def _run(options: argparse.Namespace) -> int:
         options.fps,
     )
     # All arguments are checked before a cluster is contacted or minutes of work begin.
-    request = checked_request(scene, axes, settings)
+    request = build_request(scene, axes, settings)
     check_count("jobs", options.jobs, 1, MOST_JOBS)
     if options.plot:
         _check_plot(options.plot, len(axes))

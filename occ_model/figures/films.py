@@ -12,7 +12,7 @@ from occ_model.errors import counted
 from occ_model.figures.drawing import Drawing, write_all
 from occ_model.scene.provenance import Provenance
 from occ_model.scene.units import HERTZ
-from occ_model.study.film_study import FilmPoint, FilmRequest, grid_of
+from occ_model.study.film_study import FilmPoint, FilmRequest, group_points
 
 _HEADER = (
     "switching frequency (Hz)", "gap (fraction of a frame)", "payload (bits)", "packet (chips)",
@@ -56,7 +56,7 @@ def films_drawing(points: Sequence[FilmPoint]) -> Drawing:
 def _draw(points: Sequence[FilmPoint]) -> Figure:
     figure = Figure(figsize=(7.6, 3.6))
     received, carried = figure.subplots(1, 2)
-    for number, ((frequency, bits), line) in enumerate(grid_of(points).items()):
+    for number, ((frequency, bits), line) in enumerate(group_points(points).items()):
         style: dict[str, Any] = {
             "color": _COLOURS[number % len(_COLOURS)],
             "marker": _MARKERS[number // len(_COLOURS) % len(_MARKERS)],

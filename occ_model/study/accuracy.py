@@ -1,9 +1,9 @@
 """Measure the time and the error of each simulation method for a scene.
 
-Five comparisons: samples of the exposure with its closed form; effects added one by one with all
-of them; the profile path with the image path; drafts with the whole picture; reused noise with
-noise drawn for each pixel. All errors are RMS, in the unit of the plan: levels of the stretched
-profile, or margins of a decision.
+There are five comparisons: samples of the exposure with its closed form, effects added one by one
+with all of them, the profile path with the image path, drafts with the whole picture, and reused
+noise with noise drawn for each pixel. All errors are RMS in the unit of the plan: levels of the
+stretched profile, or margins of a decision.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -35,10 +35,10 @@ from occ_model.study.effect_differences import CompleteSimulation, plan_of_effec
 from occ_model.study.observation import panel_span
 from occ_model.transmitter.packet import sent_chips
 
-SAMPLES = tuple(2**power for power in range(13))  # samples of an exposure
+SAMPLES = tuple(2**power for power in range(13))  # numbers of samples of an exposure
 DRAFT_STEPS = (4, 16, 64)  # row steps of the drafts
 _MIN_DRAFT_ROWS = 4  # minimum number of the panel's rows in a draft
-_EXACT_COLUMNS = 97  # columns whose reference exposure is computed in rational arithmetic
+_EXACT_COLUMNS = 97  # number of columns whose reference is computed in rational arithmetic
 Result = TypeVar("Result")
 
 _ENOUGH_SECONDS = 0.15
@@ -57,7 +57,7 @@ def accuracy(
     settings
         The current settings, by default ``SimulationSettings()``.
     complete
-        The complete simulation with the observable and seed of the settings, if already available.
+        The complete simulation with the observable and the seed of the settings, if available.
 
     Raises
     ------
@@ -70,7 +70,7 @@ def accuracy(
     check_seed(settings.seed)
     check_size(scene.camera)
     chosen = plan(scene, settings.tolerance, settings.observable, settings.force)
-    points = _points(scene, settings, chosen, complete)
+    points = _measure_points(scene, settings, chosen, complete)
     return (replace(point, unit=chosen.unit) for point in points)
 
 
@@ -83,22 +83,22 @@ def point_count(scene: Scene, settings: SimulationSettings | None = None) -> int
     return len(SAMPLES) + 1 + len(complete.included) + 2 + paths + drafts + noise
 
 
-def _points(
+def _measure_points(
     scene: Scene,
     settings: SimulationSettings,
     chosen: Plan,
     complete: CompleteSimulation | None,
 ) -> Iterator[AccuracyPoint]:
-    yield from _integration(scene, chosen.stretch)
+    yield from _measure_integration(scene, chosen.stretch)
     complete = complete or CompleteSimulation(scene, settings.observable, settings.seed)
-    yield from _ladder(scene, settings, chosen, complete)
-    yield from _paths(scene, settings, chosen)
-    yield from _drafts(scene, settings, chosen)
-    yield from _noise_sources(scene, settings, chosen.stretch)
+    yield from _measure_added_effects(scene, settings, chosen, complete)
+    yield from _measure_paths(scene, settings, chosen)
+    yield from _measure_drafts(scene, settings, chosen)
+    yield from _measure_noise_sources(scene, settings, chosen.stretch)
 
 
-def _integration(scene: Scene, stretch: float) -> Iterator[AccuracyPoint]:
-    """Compare sampled and closed-form exposures with rational arithmetic."""
+def _measure_integration(scene: Scene, stretch: float) -> Iterator[AccuracyPoint]:
+    """Compare sampled and closed-form exposures with exact rational arithmetic."""
     columns = scene.camera.columns
     some = np.unique(np.linspace(0, columns - 1, _EXACT_COLUMNS).astype(np.int64))
     truth = _profile(scene, exact_lit_fraction(scene, some))
@@ -107,10 +107,10 @@ def _integration(scene: Scene, stretch: float) -> Iterator[AccuracyPoint]:
         return rms(_profile(scene, lit[some]) - truth) * stretch
 
     for samples in SAMPLES:
-        seconds, lit = timed(partial(sampled_lit_fraction, scene, samples))
+        seconds, lit = time_shortest(partial(sampled_lit_fraction, scene, samples))
         name = f"{samples} sample{'s' if samples > 1 else ''}"
         yield AccuracyPoint("integration", name, seconds, error(lit))
-    seconds, lit = timed(partial(lit_fraction, scene))
+    seconds, lit = time_shortest(partial(lit_fraction, scene))
     yield AccuracyPoint("integration", CLOSED_FORM, seconds, error(lit))
 
 
@@ -118,19 +118,19 @@ def _profile(scene: Scene, lit: FloatArray) -> FloatArray:
     return saturate(panel_values(scene, ColumnLight(lit, np.ones(1))))
 
 
-def _ladder(
+def _measure_added_effects(
     scene: Scene, settings: SimulationSettings, chosen: Plan, complete: CompleteSimulation
 ) -> Iterator[AccuracyPoint]:
-    """Add the effects one by one, the largest estimate first."""
+    """Add the effects one by one, in falling order of their estimates."""
     by_estimate = sorted(chosen.decisions, key=lambda decision: -decision.estimate)
     steps = [decision.effect for decision in by_estimate if decision.effect in complete.effects]
     for count in range(len(steps) + 1):
         name = f"+ {_label(chosen, steps[count - 1])}" if count else "paper's model"
-        yield _rung(scene, name, steps[:count], settings, complete)
-    yield _rung(scene, "this plan", chosen.included, settings, complete, current=True)
+        yield _measure_effects(scene, name, steps[:count], settings, complete)
+    yield _measure_effects(scene, "this plan", chosen.included, settings, complete, current=True)
 
 
-def _rung(
+def _measure_effects(
     scene: Scene,
     name: str,
     effects: Sequence[str],
@@ -140,7 +140,7 @@ def _rung(
     current: bool = False,
 ) -> AccuracyPoint:
     error = complete.error_of(effects)
-    seconds, _ = timed(partial(_rendered, scene, frozenset(effects), settings))
+    seconds, _ = time_shortest(partial(_render, scene, frozenset(effects), settings))
     return AccuracyPoint("effects", name, seconds, error, current, tuple(effects))
 
 
@@ -148,32 +148,36 @@ def _label(chosen: Plan, effect: str) -> str:
     return next(d.label for d in chosen.decisions if d.effect == effect)
 
 
-def _rendered(scene: Scene, effects: frozenset[str], settings: SimulationSettings) -> object:
+def _render(scene: Scene, effects: frozenset[str], settings: SimulationSettings) -> object:
     force = dict.fromkeys(sorted(effects), True)
     return render(scene, tolerance=np.inf, seed=settings.seed, force=force, noise=settings.noise)
 
 
-def _observed(scene: Scene, chosen: Plan, settings: SimulationSettings) -> Pixels:
+def _observe(scene: Scene, chosen: Plan, settings: SimulationSettings) -> Pixels:
     return observe(scene, chosen, seed=settings.seed, noise=settings.noise)
 
 
-def _paths(scene: Scene, settings: SimulationSettings, chosen: Plan) -> Iterator[AccuracyPoint]:
-    """Compare the profile path and the image path with the profile of all effects."""
+def _measure_paths(
+    scene: Scene, settings: SimulationSettings, chosen: Plan
+) -> Iterator[AccuracyPoint]:
+    """Compare the profile path and the image path with the profile that has all effects."""
     region = paper_view_of(scene).region
     seen = slice(region.first_column, region.last_column)
-    truth = _observed(scene, plan(scene, 0.0, "profile"), settings)
-    seconds, columns = timed(lambda: expose_columns(paper_view_of(scene), chosen))
+    truth = _observe(scene, plan(scene, 0.0, "profile"), settings)
+    seconds, columns = time_shortest(lambda: expose_columns(paper_view_of(scene), chosen))
     error = rms(columns.profile[seen] - truth) * chosen.stretch
     if panel_span(scene) is not None:
         yield AccuracyPoint("path", "profile path", seconds, error)
     by_image = plan_of_effects(scene, "profile", chosen.included)
-    difference = _observed(scene, by_image, settings) - truth
-    seconds, _ = timed(partial(_rendered, scene, frozenset(chosen.included), settings))
+    difference = _observe(scene, by_image, settings) - truth
+    seconds, _ = time_shortest(partial(_render, scene, frozenset(chosen.included), settings))
     yield AccuracyPoint("path", "image path", seconds, rms(difference) * chosen.stretch)
 
 
-def _drafts(scene: Scene, settings: SimulationSettings, chosen: Plan) -> Iterator[AccuracyPoint]:
-    """Compare the profiles of drafts with that of the picture with all effects."""
+def _measure_drafts(
+    scene: Scene, settings: SimulationSettings, chosen: Plan
+) -> Iterator[AccuracyPoint]:
+    """Compare the profiles of drafts with that of the complete picture."""
     steps = draft_steps(scene)
     if not steps:
         return
@@ -186,21 +190,21 @@ def _drafts(scene: Scene, settings: SimulationSettings, chosen: Plan) -> Iterato
         work = partial(
             render, scene, tolerance=np.inf, seed=seed, force=force, noise=noise, rows_step=step
         )
-        seconds, frame = timed(work)
+        seconds, frame = time_shortest(work)
         error = rms(frame.profile[seen] - truth) * chosen.stretch
         yield AccuracyPoint("draft", f"draft 1/{step}", seconds, error)
 
 
 def draft_steps(scene: Scene) -> tuple[int, ...]:
-    """Return the row steps that leave enough of the panel's rows."""
+    """Return the row steps that leave enough rows of the panel."""
     rows = paper_view_of(scene).region.rows
     return tuple(step for step in DRAFT_STEPS if step * _MIN_DRAFT_ROWS <= rows)
 
 
-def _noise_sources(
+def _measure_noise_sources(
     scene: Scene, settings: SimulationSettings, stretch: float
 ) -> Iterator[AccuracyPoint]:
-    """Compare the standard deviation of each noise source with that of the sensor."""
+    """Compare the standard deviation of each kind of noise with that of the sensor."""
     complete = plan(scene, 0.0, "image")
     noises = effects_planned(complete, NoiseEffect)
     if not noises:
@@ -211,18 +215,18 @@ def _noise_sources(
     wanted = rms(NoiseSpread(noises, scene)(still))
     for source in NOISE_SOURCES:
         own = SimulationSettings(seed=settings.seed, noise=source)
-        size = rms(_observed(scene, noisy, own) - still)
-        seconds, _ = timed(partial(_rendered, scene, names, own))
+        size = rms(_observe(scene, noisy, own) - still)
+        seconds, _ = time_shortest(partial(_render, scene, names, own))
         name = {"exact": "drawn for each pixel", "reused": "reused plane"}[source]
         error = abs(size - wanted) * stretch
         yield AccuracyPoint("noise", name, seconds, error)
 
 
-def timed(work: Callable[[], Result]) -> tuple[float, Result]:
-    """Return the shortest time of a few runs, and the result; slow work runs less often."""
+def time_shortest(work: Callable[[], Result]) -> tuple[float, Result]:
+    """Return the shortest time of several runs, and the result; slow work runs fewer times."""
     best, spent = np.inf, 0.0
     for _ in range(_REPEATS):
-        forget_exposures()  # as of a new scene
+        forget_exposures()  # as for a new scene
         start = perf_counter()
         result = work()
         seconds = perf_counter() - start

@@ -1,4 +1,4 @@
-"""Measure the bit error rate of random payloads, each in its own picture."""
+"""Measure the bit error rate with random payloads, each in a picture of its own."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -22,7 +22,7 @@ from occ_model.study.theory import panel_readout_time
 from occ_model.transmitter.packet import code_of, sent_chips
 
 MOST_BITS = 100_000_000  # maximum number of bits of a measurement
-_PLANNED_PAYLOADS = 3  # payloads whose pictures are planned: what any calls for is simulated
+_PLANNED_PAYLOADS = 3  # payloads whose plans decide which effects are simulated for all
 
 
 def bit_error_rate(  # noqa: PLR0913 - a study's settings, most of them optional
@@ -38,9 +38,9 @@ def bit_error_rate(  # noqa: PLR0913 - a study's settings, most of them optional
 ) -> BitErrors:
     """Measure the fraction of bits that a decoder reads wrongly.
 
-    Random payloads of the scene's length are sent, each in its own picture with a random start
+    Random payloads of the scene's length are sent, each in a picture of its own with a random start
     time and noise. All bits of an unread or rejected payload count as wrong, as in
-    :func:`occ_model.success_rate`, of which this is the complement.
+    :func:`occ_model.success_rate`, whose complement this is.
 
     Parameters
     ----------
@@ -49,13 +49,13 @@ def bit_error_rate(  # noqa: PLR0913 - a study's settings, most of them optional
     decoder
         The decoder's name.
     bits
-        Minimum number of bits; whole payloads are sent.
+        Minimum number of bits; only whole payloads are sent.
     seed
         Seed of the payloads, the start times and the noise.
     tolerance, force, path
         As for :func:`occ_model.success_rate`.
     heartbeat
-        Called before each picture; what it raises ends the measurement.
+        Called before each picture; an exception from it ends the measurement.
 
     Raises
     ------
@@ -83,7 +83,7 @@ def bit_error_rate(  # noqa: PLR0913 - a study's settings, most of them optional
 
 
 def _shared_plan(scene: Scene, settings: RateSettings, root: np.random.Generator) -> Plan | None:
-    """Return the common effects of all pictures, None where they differ."""
+    """Return a plan for all pictures; None if each picture needs its own."""
     transmitter = scene.transmitter
     packet = len(sent_chips(transmitter)) * transmitter.switching_period
     if panel_readout_time(scene) < packet:
@@ -95,14 +95,14 @@ def _shared_plan(scene: Scene, settings: RateSettings, root: np.random.Generator
 
 
 def with_payload(scene: Scene, bits: Sequence[int]) -> Scene:
-    """Return the scene that sends these bits, as a code where it sends a code."""
+    """Return the scene sending these bits, as a code if it sends a code."""
     if scene.transmitter.payload:
         return scene.replace(payload="bits:" + "".join(map(str, bits)))
     return scene.replace(code=code_of(bits))
 
 
 def bit_errors_of(scene: Scene, decoder: str, wrong: Sequence[int], right: int) -> BitErrors:
-    """Return the result for the wrong bits of each picture and ``right`` accepted pictures."""
+    """Return the result for the wrong bits by picture and the number of correct pictures."""
     length, camera = scene.transmitter.payload_length, scene.camera
     low, high = error_interval(wrong, length)
     right_low, right_high = wilson_interval(right, len(wrong))
@@ -122,12 +122,12 @@ def bit_errors_of(scene: Scene, decoder: str, wrong: Sequence[int], right: int) 
 
 
 def error_interval(wrong: Sequence[int], length: int) -> tuple[float, float]:
-    """Return the 95 % interval of a bit error rate whose bits fail together in pictures.
+    """Return the 95 % interval of a bit error rate if the bits of a picture fail together.
 
-    Wilson's interval for the effective number of independent bits: bits / D, with the design effect
-    D = s^2 / (p (1 - p) / length) and s^2 the variance of the pictures' own rates (L. Kish, Survey
-    Sampling, 1965). Where all or no bits are wrong, D is unknown and each picture counts as one
-    bit.
+    This is Wilson's interval for the effective number of independent bits, bits / D, with the
+    design effect D = s^2 / (p (1 - p) / length) and s^2 the variance of the pictures' own rates (L.
+    Kish, Survey Sampling, 1965). If all bits or none are wrong, D is unknown and each picture
+    counts as one bit.
     """
     pictures, errors = len(wrong), sum(wrong)
     rate = errors / (pictures * length)
@@ -140,14 +140,14 @@ def error_interval(wrong: Sequence[int], length: int) -> tuple[float, float]:
 
 
 def _interval(rate: float, bits: int) -> tuple[float, float]:
-    """Return Wilson's interval of a rate among a number of bits, whole errors on either side."""
+    """Return Wilson's interval of a rate of this many bits, errors rounded outwards."""
     low, _ = wilson_interval(math.floor(rate * bits), bits)
     _, high = wilson_interval(math.ceil(rate * bits), bits)
     return low, high
 
 
 def check_frame_rate(scene: Scene, frames_a_second: float) -> None:
-    """Raise for an invalid frame rate, or one at which a picture is not read out in time."""
+    """Refuse an invalid frame rate, or one at which a picture cannot be read out in time."""
     most = 1.0 / (scene.camera.columns * scene.camera.readout_time)
     is_number = isinstance(frames_a_second, int | float) and not isinstance(frames_a_second, bool)
     if not is_number or not 0.0 < frames_a_second <= most:

@@ -1,9 +1,8 @@
-"""Compare lengths of code for many lamps: number of codes, their distance, and what is read.
+"""Compare code lengths for many lamps: number of codes, their distance, and what is read.
 
-A longer code leaves most of its words unused, so that a misread one is rarely another lamp's, but a
-picture shows fewer of its longer packets. A room has at most 200 lamps; the others of a larger
-building are taken into account by counting, not by simulation.
-
+A longer code leaves most of its words unused, so a misread code is rarely that of another lamp, but
+a picture shows fewer of its longer packets. A room has at most 200 lamps; the other lamps of a
+larger building are not simulated but counted.
 """
 
 from collections.abc import Sequence
@@ -23,23 +22,22 @@ from occ_model.study.room_map import RoomMapRequest, room_map
 from occ_model.study.sweep.sweep import Progress
 from occ_model.transmitter.packet import sent_chips
 
-MOST_CODES = 4096  # lamps beyond which codes are not compared with each other
-_EXTRA_BITS = (0, 2, 4)  # bits beyond the minimum for a code of each lamp's own
+MOST_CODES = 4096  # maximum number of lamps, whose codes are compared in pairs
+_EXTRA_BITS = (0, 2, 4)  # bits beyond the minimum that gives each lamp its own code
 
 
 @dataclass(frozen=True, slots=True)
 class CodeLength:
-    """Result for one length of code."""
+    """Result for one code length."""
 
-    # Of a code, and of its packet
+    # Bits of a code, and chips of its packet
     bits: int
     chips: int
-    columns: float  # Columns of a picture that one packet takes
-    packets: float  # Packets that a whole lamp shows in the median
-    # Chips in which two lamps' packets differ at the least, at any shift of one against the other
+    columns: float  # Columns that one packet takes in a picture
+    packets: float  # Median number of packets that a lamp shows that is whole in the picture
+    # Minimum number of chips in which two lamps' packets differ, at any shift between them
     distance: int
-    # Lamps whole in the pictures, those of them named correctly, and those whose code was read
-    # wrongly
+    # Number of lamps that are whole in the pictures, of those named correctly, and of codes misread
     whole: int
     named: int
     misread: int
@@ -48,8 +46,8 @@ class CodeLength:
     def codes(self) -> int:
         return 1 << self.bits
 
-    def named_wrongly(self, lamps: int) -> float:
-        """Return the expected number of lamps misread as another one, by uniform codes."""
+    def expected_mix_ups(self, lamps: int) -> float:
+        """Return the expected number of lamps misread as another, if misread codes are uniform."""
         return self.misread * (lamps - 1) / (self.codes - 1)
 
 
@@ -62,12 +60,12 @@ def code_lengths(
     jobs: int = 1,
     progress: Progress | None = None,
 ) -> tuple[CodeLength, ...]:
-    """Compare lengths of codes, by default the shortest for so many lamps, and 2 and 4 bits more.
+    """Compare code lengths, by default the shortest for this many lamps, and 2 and 4 bits more.
 
-    The lamps' codes are drawn at random among all of a length, those of the room among them; its
-    lamps are read in pictures over its floor. A packet's chips, columns and distance are those of
-    the first lamp's line code and framing. Raises ParameterError: a length has fewer codes than
-    there are lamps, or an argument is out of range.
+    The lamps' codes, including those of the room, are drawn at random from all codes of a length.
+    The lamps of the room are read in pictures taken over its floor. A packet's chips, columns and
+    distance are those of the first lamp's line code and framing. Raises ParameterError if a length
+    has fewer codes than there are lamps, or an argument is out of range.
     """
     room = request.room
     check_count("lamps", lamps, max(len(room.lamps), 2), MOST_CODES)
@@ -77,12 +75,12 @@ def code_lengths(
         if 2**length < lamps:
             raise ParameterError.of("bits", f"{length}", f"from {(lamps - 1).bit_length()}",
                                     condition=f"for {counted(lamps, 'lamp')}")  # fmt: skip
-    found, shown = [], _shown_columns(request)
+    found, shown = [], _median_columns(request)
     for number, length in enumerate(lengths):
-        sent = _codes(length, lamps, request.seed)
-        own = _sending(room, length, sent)
+        sent = _draw_codes(length, lamps, request.seed)
+        own = _send_codes(room, length, sent)
         asked = replace(request, room=own)
-        reported = progress and partial(scaled_progress, progress, number, len(lengths))
+        reported = progress and partial(report_progress, progress, number, len(lengths))
         points = room_map(asked, executor=executor, jobs=jobs, progress=reported)
         whole, named, misread = (
             sum(getattr(point, count) for point in points)
@@ -98,20 +96,20 @@ def code_lengths(
     return tuple(found)
 
 
-def scaled_progress(
+def report_progress(
     progress: Progress, number: int, lengths: int, done: int, points: int, left: float
 ) -> None:
     there, total = number * points + done, lengths * points
     progress(there, total, left * (total - there) / max(points - done, 1))
 
 
-def _codes(bits: int, lamps: int, seed: int) -> IndexArray:
+def _draw_codes(bits: int, lamps: int, seed: int) -> IndexArray:
     random = np.random.default_rng([seed, bits])
     return random.choice(2**bits, lamps, replace=False).astype(np.int64)
 
 
-def _sending(room: Room, bits: int, sent: IndexArray) -> Room:
-    """Return the room whose lamps send the first of some codes, and no payload or pattern."""
+def _send_codes(room: Room, bits: int, sent: IndexArray) -> Room:
+    """Return the room with its lamps sending the first of the codes, without payload or pattern."""
     own: dict[str, int | str] = {"bits": bits, "payload": "", "pattern": ""}
     lamps = tuple(
         replace(lamp, transmitter=lamp.transmitter.replaced({**own, "code": int(code)}))
@@ -127,7 +125,7 @@ def _chips(room: Room, sent: IndexArray) -> ByteArray:
 
 
 def least_distance(packets: ByteArray) -> int:
-    """Return the least number of chips in which two packets, shape (packets, chips), differ."""
+    """Return the minimum number of chips in which two packets, shape (packets, chips), differ."""
     signs, chips = 2.0 * packets - 1.0, int(packets.shape[1])
     most = -float(chips)
     for shift in range(chips):
@@ -137,8 +135,8 @@ def least_distance(packets: ByteArray) -> int:
     return round((chips - most) / 2.0)
 
 
-def _shown_columns(request: RoomMapRequest) -> float:
-    """Return the columns of a whole lamp in the median over the places; 0 without one."""
+def _median_columns(request: RoomMapRequest) -> float:
+    """Return the median number of columns of a whole lamp over all places; 0 without any."""
     camera = request.room.scene.camera
     columns = []
     for index in range(request.points):

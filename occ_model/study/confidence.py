@@ -1,4 +1,4 @@
-"""Wilson's confidence interval of a success rate, by trials or by pictures."""
+"""Compute Wilson's confidence interval of a success rate, from trials or from pictures."""
 
 import math
 from collections.abc import Sequence
@@ -8,51 +8,53 @@ from occ_model.errors import ParameterError, shown
 from occ_model.results.limits import Trial
 from occ_model.scene.argument_checks import check_count, is_number
 
-_MAX_TRIALS = 2**53  # largest number up to which a float holds every whole number
+_MAX_TRIALS = 2**53  # up to here a float represents every whole number
 
 
 def wilson_interval(successes: int, trials: int, level: float = 0.95) -> tuple[float, float]:
     """Return Wilson's confidence interval of a success rate.
 
-    It holds every rate p whose expected count lies within z standard deviations of the count s of
-    n trials, |s - n p| <= z sqrt(n p (1 - p)). Its ends solve the equation:
+    It contains every rate p whose expected count lies within z standard deviations of the count s
+    in n trials, |s - n p| <= z sqrt(n p (1 - p)). Its ends solve the equation:
 
     p = (2 s + z^2 -+ z sqrt(z^2 + 4 s (n - s) / n)) / (2 (n + z^2)),
 
-    with z the normal deviate that the probability ``level`` lies within (E. B. Wilson, "Probable
-    inference, the law of succession, and statistical inference", J. Amer. Statist. Assoc. 22,
-    1927). Unlike s / n and its standard error it is not empty where all trials or none succeeded.
+    where a standard normal deviate lies within -z and z with the probability ``level`` (E. B.
+    Wilson, "Probable inference, the law of succession, and statistical inference", J. Amer.
+    Statist. Assoc. 22, 1927). Unlike an interval of s / n and its standard error, it is not empty
+    when all trials or none succeed.
 
     Parameters
     ----------
     successes
         Number of trials that succeeded, s.
     level
-        Fraction of such intervals that hold the true rate, between 0 and 1.
+        Fraction of such intervals that contain the true rate, between 0 and 1.
 
     Returns
     -------
     low, high : float
-        From 0 to 1: exactly 0 where none succeeded, exactly 1 where all did.
+        From 0 to 1: exactly 0 if none succeeded, exactly 1 if all did.
 
     Raises
     ------
     ParameterError
-        There are no trials or more than 2^53, more successes than trials, or no such level.
+        There are no trials or more than 2^53, more successes than trials, or the level is out of
+        range.
     """
     check_count("trials", trials, 1, _MAX_TRIALS)
     check_count("successes", successes, 0, int(trials))
-    # From the tail, which keeps its digits where the level is next to 1.
-    z = -NormalDist().inv_cdf((1.0 - _checked(level)) / 2.0)
+    # Computed from the tail, which keeps its digits when the level is close to 1.
+    z = -NormalDist().inv_cdf((1.0 - _check_level(level)) / 2.0)
     return _interval(int(successes), int(trials) - int(successes), z)
 
 
 def interval_of_pictures(right: int, sent: int, pictures: int) -> tuple[float, float]:
-    """Return the 95 % interval of the fraction of right bits, in percent; not a number of no bits.
+    """Return the 95 % interval of the fraction of correct bits in percent; NaN without bits.
 
-    A picture's bits are read together or not at all, so that pictures are the trials: it is
-    Wilson's interval of as many successes as their fractions of right bits add up to. Where
-    pictures are read in part the rate scatters less, and the interval is wider than need be.
+    A picture's bits are read together or not at all, so the pictures are the trials: this is
+    Wilson's interval for the sum of their fractions of correct bits. If pictures are read in part,
+    the rate scatters less and the interval is wider than necessary.
     """
     if not sent:
         return math.nan, math.nan
@@ -61,11 +63,11 @@ def interval_of_pictures(right: int, sent: int, pictures: int) -> tuple[float, f
     return 100.0 * low, 100.0 * high
 
 
-TWO_SIDED = NormalDist().inv_cdf(0.975)  # standard normal deviate that 95 % lie within
+TWO_SIDED = NormalDist().inv_cdf(0.975)  # standard normal deviate of a two-sided 95 % interval
 
 
 def trial_of(value: float, counts: Sequence[int], bits: int) -> Trial:
-    """Count what was read at a value of a parameter."""
+    """Return the trial at a value of a parameter, from the counts of correct bits by image."""
     right, sent = sum(counts), len(counts) * bits
     low, high = interval_of_pictures(right, sent, len(counts))
     return Trial(value, right, sent, low, high, len(counts), list(counts).count(bits))
@@ -74,13 +76,13 @@ def trial_of(value: float, counts: Sequence[int], bits: int) -> Trial:
 def _interval(won: float, lost: float, z: float) -> tuple[float, float]:
     middle = 2 * won + z * z
     root = z * math.sqrt(z * z + 4 * won * lost / (won + lost))
-    # The product of both ends is (s / n) s / (n + z^2): a quotient loses no digits near 0.
+    # The product of both ends is (s / n) s / (n + z^2), and a quotient loses no digits near 0.
     low = 2 * won * won / (won + lost) / (middle + root) if won else 0.0
     high = (middle + root) / (2.0 * (won + lost + z * z)) if lost else 1.0
     return low, high
 
 
-def _checked(level: object) -> float:
+def _check_level(level: object) -> float:
     fraction = float(level) if is_number(level) and 0 < level < 1 else 0.0
     if not 0.0 < fraction < 1.0:
         raise ParameterError.of("level", shown(level), "a number between 0 and 1")

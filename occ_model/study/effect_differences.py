@@ -1,4 +1,4 @@
-"""What leaving an effect out of the complete simulation changes, looks like, and costs."""
+"""Measure what omitting an effect from the complete simulation changes, shows and saves."""
 
 from collections.abc import Iterable, Mapping
 from functools import lru_cache
@@ -19,13 +19,13 @@ from occ_model.scene.simulation_settings import NoiseSource, Observable, Simulat
 from occ_model.simulation.render import observe, render_plan
 from occ_model.simulation.stage_timer import StageTimer
 
-_SAMPLES = 2**16  # maximum number of samples kept of a change
-_VISIBLE_CHANGE = 0.05  # RMS in grey levels below which a change of the panel's pixels is not seen
-_SIZE_PER_MARGIN = 16  # the panel's size in margins
+_SAMPLES = 2**16  # maximum number of samples of a change that are kept
+_VISIBLE_CHANGE = 0.05  # RMS in grey levels below which a change of the panel's pixels is invisible
+_SIZE_PER_MARGIN = 16  # size of the panel divided by that of a margin
 
 
 class CompleteSimulation:
-    """The simulation of a scene with all its effects, and what has been compared with it."""
+    """The simulation of a scene with all its effects, and the comparisons with it."""
 
     def __init__(
         self, scene: Scene, observable: Observable, seed: int = 1, timer: StageTimer | None = None
@@ -34,54 +34,55 @@ class CompleteSimulation:
         complete = plan(scene, 0.0, observable)
         self._stretch = complete.stretch
         self.effects = complete.included  # the names of all effects of the scene
-        self._seen = self._simulated(self.effects, observable, timer)
-        self._bare = self._simulated((), "image", timer)
+        self._seen = self._simulate(self.effects, observable, timer)
+        self._bare = self._simulate((), "image", timer)
         size = self._seen.size
-        self._places = np.arange(size) if size <= _SAMPLES else _some(size)
+        self._places = np.arange(size) if size <= _SAMPLES else _draw_places(size)
         self._differences: dict[str, EffectDifference] = {}
         self._errors = {frozenset(self.effects): 0.0}
 
     @property
     def errors(self) -> Mapping[frozenset[str], float]:
-        """The errors measured until now, by the effects of the scene that are included."""
+        """The errors measured so far, by the scene's effects that are included."""
         return dict(self._errors)
 
     def without(self, effect: str, timer: StageTimer | None = None) -> EffectDifference:
-        """Measure what leaving out one of the effects changes."""
+        """Measure what omitting one of the effects changes."""
         if effect not in self._differences:
-            self._differences[effect] = self._difference(effect, timer)
+            self._differences[effect] = self._measure_difference(effect, timer)
         return self._differences[effect]
 
     def error_of(self, effects: Iterable[str], timer: StageTimer | None = None) -> float:
-        """Measure the error of a simulation with these effects, in levels."""
+        """Measure the error of a simulation with only these effects, in levels."""
         included = frozenset(self.effects) & frozenset(effects)
         if included not in self._errors:
-            seen = self._simulated(included, self._observable, timer)
+            seen = self._simulate(included, self._observable, timer)
             self._errors[included] = rms(self._seen - seen) * self._stretch
         return self._errors[included]
 
-    def _difference(self, effect: str, timer: StageTimer | None) -> EffectDifference:
+    def _measure_difference(self, effect: str, timer: StageTimer | None) -> EffectDifference:
         others = frozenset(self.effects) - {effect}
-        difference = (self._seen - self._simulated(others, self._observable, timer)).ravel()
+        difference = (self._seen - self._simulate(others, self._observable, timer)).ravel()
         error = rms(difference) * self._stretch
         self._errors[others] = error
         change = difference[self._places].astype(np.float64) * self._stretch
-        # Of a change that few pixels show, a sample may have too many or too few.
+        # Restore the RMS, because few pixels may change and the sample may miss or overrepresent
+        # them.
         change *= error / max(rms(change), np.finfo(float).tiny)
-        alone, bare = self._alone(effect, timer)
-        crop, icon = telling_crop(alone, bare), telling_crop(alone, bare, ICON)
+        alone, bare = self._render_alone(effect, timer)
+        crop, icon = choose_crop(alone, bare), choose_crop(alone, bare, ICON)
         return EffectDifference(effect, error, change, crop, icon)
 
-    def _alone(self, effect: str, timer: StageTimer | None) -> tuple[Pixels, Pixels]:
-        """Return the paper's model with one effect, and without it: noise and file hide many."""
-        alone = self._simulated((effect,), "image", timer)
+    def _render_alone(self, effect: str, timer: StageTimer | None) -> tuple[Pixels, Pixels]:
+        """Return the paper's model with and without an effect: noise and JPEG would hide many."""
+        alone = self._simulate((effect,), "image", timer)
         if rms(alone - self._bare) >= _VISIBLE_CHANGE:
             return alone, self._bare
-        # It may move the panel's outline outwards.
-        return self._with_margin((effect,), timer), self._with_margin((), timer)
+        # The effect may move the panel's outline outwards.
+        return self._render_with_margin((effect,), timer), self._render_with_margin((), timer)
 
-    def _with_margin(self, effects: Iterable[str], timer: StageTimer | None) -> Pixels:
-        """Return the camera's pixels of the panel and a little of its surroundings."""
+    def _render_with_margin(self, effects: Iterable[str], timer: StageTimer | None) -> Pixels:
+        """Return the camera's pixels of the panel and of a margin around it."""
         view = paper_view_of(self._scene)
         chosen = plan_of_effects(self._scene, "image", effects)
         frame = render_plan(view, chosen, seed=self._seed, timer=timer)
@@ -94,7 +95,7 @@ class CompleteSimulation:
         )
         return frame.camera_image[rows, columns].astype(np.float32)
 
-    def _simulated(
+    def _simulate(
         self, effects: Iterable[str], observable: Observable, timer: StageTimer | None
     ) -> Pixels:
         chosen = plan_of_effects(self._scene, observable, effects)
@@ -102,7 +103,7 @@ class CompleteSimulation:
 
 
 def plan_of_effects(scene: Scene, observable: Observable, effects: Iterable[str]) -> Plan:
-    """Return a plan that includes these effects and no other."""
+    """Return a plan that includes exactly these effects."""
     return plan(scene, np.inf, observable, dict.fromkeys(sorted(effects), True))
 
 
@@ -110,46 +111,46 @@ def rms(values: Pixels | FloatArray) -> float:
     return float(np.sqrt(np.mean(np.square(values.ravel(), dtype=np.float64))))
 
 
-def _some(size: int) -> NDArray[np.int64]:
+def _draw_places(size: int) -> NDArray[np.int64]:
     return np.random.default_rng(0).integers(0, size, _SAMPLES)
 
 
-CROP = (64, 112)  # rows and columns of a crop that is looked at closely
-ICON = (16, 40)  # rows and columns of a crop in a line of a table
+CROP = (64, 112)  # rows and columns of a crop for close inspection
+ICON = (16, 40)  # rows and columns of a crop for the line of a table
 _MIN_KEPT_FRACTION = 0.7
-"""Fraction of a difference that averaging must keep for the averaged panel to show it."""
+"""Minimum fraction of a difference that averaging keeps if the averaged panel is shown."""
 
-_CLIPPED_PERCENT = 1.0  # of the pixels at either end that the stretching to the full range may clip
+_CLIPPED_PERCENT = 1.0  # % of pixels at either end that stretching to the full range may clip
 _MAX_AMPLIFIED = 256
 _MIDDLE_GREY = 128.0
 
 
-def telling_crop(with_effect: Pixels, without: Pixels, most: tuple[int, int] = CROP) -> EffectCrop:
+def choose_crop(with_effect: Pixels, without: Pixels, most: tuple[int, int] = CROP) -> EffectCrop:
     """Choose the crop of the panel's bounding rectangle that shows a difference best.
 
     A difference that varies slowly is shown on the whole panel, reduced by averaging areas. A fine
-    one would be averaged away: it is shown in real pixels, where it is largest.
+    one would be averaged away and is shown at full resolution where it is largest.
     """
     difference = with_effect - without
     size = (min(most[0], len(difference)), min(most[1], difference.shape[1]))
-    small = _averaged(difference, size)
+    small = _average(difference, size)
     is_averaged = rms(small) >= _MIN_KEPT_FRACTION * rms(difference)
     if is_averaged:
-        shown = [_averaged(with_effect, size), _averaged(without, size), small]
+        shown = [_average(with_effect, size), _average(without, size), small]
     else:
-        place = _largest(difference, size)
+        place = _largest_window(difference, size)
         shown = [values[place] for values in (with_effect, without, difference)]
-    one, other = _stretched(shown[0], shown[1])
+    one, other = _stretch(shown[0], shown[1])
     factor = _amplification(shown[2])
     amplified = np.clip(_MIDDLE_GREY + factor * shown[2], 0.0, WHITE)
     return EffectCrop(one, other, amplified.astype(np.uint8), factor, is_averaged)
 
 
-def _averaged(values: Pixels, size: tuple[int, int]) -> Pixels:
+def _average(values: Pixels, size: tuple[int, int]) -> Pixels:
     return np.asarray(cv2.resize(values, size[::-1], interpolation=cv2.INTER_AREA), np.float32)
 
 
-def _largest(difference: Pixels, size: tuple[int, int]) -> tuple[slice, slice]:
+def _largest_window(difference: Pixels, size: tuple[int, int]) -> tuple[slice, slice]:
     """Return the window in which the difference's mean square is largest."""
     sums = cv2.integral(np.square(difference), sdepth=cv2.CV_64F)
     rows, columns = size
@@ -160,8 +161,8 @@ def _largest(difference: Pixels, size: tuple[int, int]) -> tuple[slice, slice]:
     return slice(int(row), int(row) + rows), slice(int(column), int(column) + columns)
 
 
-def _stretched(one: Pixels, other: Pixels) -> tuple[ByteArray, ByteArray]:
-    """Stretch both pictures in the same way."""
+def _stretch(one: Pixels, other: Pixels) -> tuple[ByteArray, ByteArray]:
+    """Stretch the grey levels of both pictures in the same way."""
     both: FloatArray = np.stack((one, other)).astype(np.float64)
     low, high = np.percentile(both, (_CLIPPED_PERCENT, 100.0 - _CLIPPED_PERCENT))
     grey = np.clip((both - low) * (WHITE / max(high - low, 1.0)), 0.0, WHITE).astype(np.uint8)
@@ -169,7 +170,7 @@ def _stretched(one: Pixels, other: Pixels) -> tuple[ByteArray, ByteArray]:
 
 
 def _amplification(difference: Pixels) -> int:
-    """Return the largest power of two that leaves the difference within the range of grey."""
+    """Return the largest power of two that keeps the difference within the grey levels."""
     largest = float(np.percentile(np.abs(difference), 100.0 - _CLIPPED_PERCENT))
     factor = 1
     while factor < _MAX_AMPLIFIED and 2 * factor * largest < _MIDDLE_GREY:
@@ -179,11 +180,11 @@ def _amplification(difference: Pixels) -> int:
 
 def forecast(scene: Scene, settings: SimulationSettings, costs: MeasuredCosts) -> Forecast:
     chosen = plan_with(scene, settings)
-    seconds = _seconds(chosen.included, costs)
+    seconds = _add_seconds(chosen.included, costs)
     force = tuple(sorted(settings.force.items()))
-    ways = _known_ways(scene, settings.observable, force, settings.noise)
+    ways = _effect_sets_cached(scene, settings.observable, force, settings.noise)
     forced = frozenset(name for name, on in force if on)
-    times = tuple(_seconds(tuple(way.effects | forced), costs) for way in ways)
+    times = tuple(_add_seconds(tuple(way.effects | forced), costs) for way in ways)
     present = frozenset(d.effect for d in chosen.decisions if d.estimate)
     included = present & frozenset(chosen.included)
     if included == present or included in costs.errors:
@@ -197,17 +198,17 @@ def forecast(scene: Scene, settings: SimulationSettings, costs: MeasuredCosts) -
 
 
 @lru_cache(maxsize=4)
-def _known_ways(
+def _effect_sets_cached(
     scene: Scene, observable: Observable, force: tuple[tuple[str, bool], ...], noise: NoiseSource
 ) -> tuple[EffectSet, ...]:
-    """Return the sets of effects that a plan chooses among, cached without the tolerance."""
+    """Return the sets of effects from which a plan chooses, cached without the tolerance."""
     return effect_sets_of(
         scene, SimulationSettings(observable=observable, force=dict(force), noise=noise)
     )
 
 
-def _seconds(included: tuple[str, ...], costs: MeasuredCosts) -> float | None:
-    """Add up the times of effects and of everything else, as each was last measured."""
+def _add_seconds(included: tuple[str, ...], costs: MeasuredCosts) -> float | None:
+    """Add up the last measured times of the effects and of everything else."""
     rows_differ = any(effect.name in included and effect.kind != "column" for effect in EFFECTS)
     measured = (costs.picture, *costs.others)
     rest = [fractions for fractions in measured if fractions.rows_differ == rows_differ]

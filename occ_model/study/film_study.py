@@ -1,12 +1,12 @@
-"""Measure how many packets films carry: over frequency, gap and packet length.
+"""Measure how many packets of a film are received, over frequency, gap and packet length.
 
-Each point is a film that is simulated and read; beside it stands the fraction of packets that
-frames show whole, counted in exact arithmetic. The difference is what the receiver costs.
+For each point a film is simulated and read. The fraction of packets that frames show whole is
+counted in exact arithmetic beside it; the difference is the loss of the receiver.
 
-The example of CamComSim, a published simulator of films, is one of these films: a frame of 33.3 ms
-with a gap of 0.2, 8,000 chips a second, packets of 8 bits of header and 16 of payload in Manchester
-code after 4 chips of start, repeated (``vlc-citi-lab/camcomsim``, ``simu_params_template.json``).
-Its 52 chips are those of 24 bits behind the header 1 1 1 0.
+One of these films is the example of CamComSim, a published simulator of films: frames of 33.3 ms
+with a gap of 0.2, 8,000 chips per second, and repeated packets of 4 start chips, 8 bits of header
+and 16 of payload in Manchester code (``vlc-citi-lab/camcomsim``, ``simu_params_template.json``).
+Its 52 chips are the same as those of 24 bits after the header 1 1 1 0.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -83,42 +83,42 @@ class FilmPoint:
     gap: float
     bits: int
     packet_chips: int
-    # Packets sent while the film ran, those read right, and those that exact counting finds whole
-    # in a frame
+    # Packets sent during the film, those read correctly, and those that are whole in a frame by
+    # exact counting
     packets: int
     read: int
     counted: int
-    # Fraction of packets that frames show whole, on average over the time of the start
+    # Fraction of packets that frames show whole, averaged over the start time
     on_average: float
-    bits_per_second: float  # Bits of the payload in the packets read, a second, repeats included
-    # Seconds after which the whole payload was joined; None where it was not
+    bits_per_second: float  # Payload bits per second in the packets read, repeats included
+    # Seconds until the whole payload was joined; None if it never was
     complete_at: float | None
-    is_right: bool  # Whether the joined payload is the one that was sent
-    failure: str | None  # Why the scene could not be filmed or read; None otherwise
-    faults: str = ""  # How often a plug-in has failed; empty where none has
+    is_right: bool  # Whether the joined payload equals the one that was sent
+    failure: str | None  # Why the scene could not be filmed or read; None if it could
+    faults: str = ""  # How often a plug-in failed; empty if none did
 
     @property
     def reception(self) -> float:
-        """Fraction of the packets that were read right; 0 where none was sent."""
+        """Fraction of the packets that were read correctly; 0 if none was sent."""
         return self.read / self.packets if self.packets else 0.0
 
     @property
     def counted_reception(self) -> float:
-        """Fraction of the packets that counting finds whole in a frame."""
+        """Fraction of the packets that are whole in a frame, by exact counting."""
         return self.counted / self.packets if self.packets else 0.0
 
 
 def film_study(
     request: FilmRequest, heartbeat: Callable[[], object] = lambda: None
 ) -> Iterator[FilmPoint]:
-    """Measure one film after the other: gaps fastest, then frequencies, then bits."""
+    """Measure one film after another; gaps vary fastest, then frequencies, then bits."""
     places = product(request.bits, request.frequencies, request.gaps)
     for number, (bits, frequency, gap) in enumerate(places):
         scene = request.scene_at(frequency, gap, bits, request.seed + number)
-        yield _measured(request, scene, gap, heartbeat)
+        yield _measure_film(request, scene, gap, heartbeat)
 
 
-def _measured(
+def _measure_film(
     request: FilmRequest, scene: Scene, gap: float, heartbeat: Callable[[], object]
 ) -> FilmPoint:
     recording = Recording(frame_rate=request.frame_rate)
@@ -131,7 +131,7 @@ def _measured(
     period = SentPeriod(scene.transmitter)
     timing = _timing(scene)
     length = period.part_length
-    # Without a packet in any frame the number sent follows from the clock alone.
+    # If no frame shows a packet, the number sent still follows from the clock.
     sent = len(reading.packets)
     return FilmPoint(
         frequency=scene.transmitter.switching_frequency,
@@ -140,7 +140,7 @@ def _measured(
         packet_chips=length,
         packets=sent,
         read=reading.read,
-        counted=_counted(video, timing, length),
+        counted=_count_whole(video, timing, length),
         on_average=float(
             packets_received_on_average(timing, 1 / Fraction(request.frame_rate), length)
         ),
@@ -161,22 +161,22 @@ def _timing(scene: Scene) -> ShutterTiming:
     return ShutterTiming.of(scene, (span.first_column, span.last_column))
 
 
-def _counted(video: SimulatedVideo, timing: ShutterTiming, length: int) -> int:
-    """Count the packets that the frames of a film show whole."""
+def _count_whole(video: SimulatedVideo, timing: ShutterTiming, length: int) -> int:
+    """Count the packets that are whole in a frame of the film."""
     starts = (video.start_of(number) for number in range(video.frame_count or 0))
     return sum(timing.whole_packets(start, length) for start in starts)
 
 
 def scene_of_films(scene: Scene) -> Scene:
-    """Return a scene whose panel fills the picture, of few rows: films of it take little time."""
+    """Return a scene whose panel fills a picture of few rows: its films take little time."""
     return scene.replace(
         rows=48, columns=1080, distance=0.4, panel_width=2.0, panel_height=2.0, yaw=0.0, pitch=0.0,
         roll=0.0, offset_x=0.0, offset_y=0.0,
     )  # fmt: skip
 
 
-def grid_of(points: Sequence[FilmPoint]) -> dict[tuple[float, int], list[FilmPoint]]:
-    """Return the points of each frequency and number of bits, in the order of the gap."""
+def group_points(points: Sequence[FilmPoint]) -> dict[tuple[float, int], list[FilmPoint]]:
+    """Group the points by frequency and number of bits, each group in order of the gap."""
     found: dict[tuple[float, int], list[FilmPoint]] = {}
     for point in points:
         found.setdefault((point.frequency, point.bits), []).append(point)
@@ -190,11 +190,11 @@ PACKET_CHIPS = 4 + 2 * (8 + 16)
 
 _EXPOSURE = 25e-6  # a fifth of a chip, assumed: the example states no exposure time
 _STEP = Fraction(1, 10_000)  # time step of the published simulator in seconds
-_ERRORS = Fraction(1, 100)  # fraction of the packets in view that it loses
+_ERRORS = Fraction(1, 100)  # fraction of the packets in view that this simulator loses
 
 
 def example_request(frames: int = 333, seed: int = 1) -> FilmRequest:
-    """Return the example as a film of frames, whose starts within a packet repeat after 65."""
+    """Return the example as a film; the frames' starts within a packet repeat after 65 frames."""
     scene = scene_of_films(Scene()).replace(
         line_code="manchester", framing="paper", exposure_time=_EXPOSURE, iso=800.0
     )
@@ -210,11 +210,11 @@ def example_request(frames: int = 333, seed: int = 1) -> FilmRequest:
 
 
 def published_rule() -> Fraction:
-    """Return the fraction of packets that the published simulator's own rule receives.
+    """Return the fraction of packets received according to the rule of the published simulator.
 
-    It states no figure. Its rule: the time in view is rounded up to whole milliseconds, a packet is
-    received where it starts early enough to end before, and one in a hundred of those is lost.
-    Starts are spread evenly over a frame, as each is shifted by up to 0.9 ms at random.
+    Its authors state no result. By its rule the time in view is rounded up to whole milliseconds, a
+    packet is received if it ends within this time, and one in a hundred of these is lost. The
+    starts are spread evenly over a frame because each is shifted at random by up to 0.9 ms.
     """
     frame = round(FRAME_PERIOD / _STEP)
     view = -(-(FRAME_PERIOD * (1 - GAP)) // Fraction(1, 1000)) * 10

@@ -1,8 +1,8 @@
-"""The limits between which decoders read a scene: of switching frequency and exposure time.
+"""Find the ranges of switching frequency and exposure time in which decoders read a scene.
 
-Each is searched by itself, see :mod:`occ_model.study.working_range`, and does not depend on the
-other: two processes find the same answer in half of the time. All decoders read the same pictures,
-so that one process searches along one parameter for all of them.
+The two searches, see :mod:`occ_model.study.working_range`, are independent: two processes find the
+same answer in half the time. All decoders read the same pictures, so one process searches along a
+parameter for all of them.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -27,7 +27,7 @@ from occ_model.study import theory
 from occ_model.study.cause.cause import cause_of
 from occ_model.study.cause.timing import reads_two_headers
 from occ_model.study.success_rate import check_rate
-from occ_model.study.sure_ends import images_about_an_end, pairs_of, sure_end, with_ends
+from occ_model.study.sure_ends import images_about_an_end, pairs_of, replace_ends, sure_end
 from occ_model.study.working_range import READ_RATE, expected_images, working_range
 
 if TYPE_CHECKING:
@@ -48,35 +48,36 @@ def limits(  # noqa: PLR0913 - a study's settings, most of them optional
     path: SignalPath = "auto",
     jobs: int = 1,
     heartbeat: Heartbeat = lambda: None,
-    progress: Callable[[float, str], object] = lambda _fraction, _what: None,
+    progress: Callable[[float, str], object] = lambda _fraction, _describe_search: None,
 ) -> Limits:
     """Find the switching frequencies and the exposure times at which a decoder reads a scene.
 
-    Each answer is a list of intervals: success need not fall steadily, and beyond a null stripes
-    come back. A gap narrower than a step of ``STEP`` can be missed. The outermost ends and those of
-    the scene's own interval are found by bisection, and each end is confirmed by images that have
-    not chosen it. A bisected end has a 95 % interval, see :mod:`occ_model.study.sure_ends`.
+    Each answer is a list of intervals, because the success rate need not fall steadily: stripes
+    come back beyond a null. A gap narrower than a step of ``STEP`` can be missed. The outermost
+    ends and those of the scene's own interval are found by bisection, and each end is confirmed
+    with images that were not used to find it. A bisected end has a 95 % interval, see
+    :mod:`occ_model.study.sure_ends`.
 
     Parameters
     ----------
     decoder
         The decoder's name.
     rate
-        Success rate in percent from which it counts as reading, above 0.
+        Smallest success rate in percent at which the scene counts as read; above 0.
     images
-        Images at each value: the more of them, the narrower the confidence interval of each end.
+        Images at each value; more of them narrow the confidence interval of each end.
     seed
         Seed of each value's start times and noise.
     tolerance, force, path
-        As for :func:`occ_model.success_rate`. The profile path takes a second, a sample of the rows
-        some ten, whole images minutes.
+        As for :func:`occ_model.success_rate`. A search takes about a second on the profile path,
+        about ten with a sample of the rows, and minutes with whole images.
     jobs
-        Processes that search, two at most; the answer does not depend on their number.
+        Number of processes, two at most; the answer does not depend on it.
     heartbeat
-        Called before each image, or some times a second while other processes search; what it
-        raises ends the search.
+        Called before each image, or several times a second while other processes search; an
+        exception from it ends the search.
     progress
-        Called with the completed fraction of the search, from 0 to 1, and its present object.
+        Called with the completed fraction of the search, from 0 to 1, and what is being searched.
 
     Raises
     ------
@@ -97,10 +98,10 @@ def limits_of(
     *,
     jobs: int = 1,
     heartbeat: Heartbeat = lambda: None,
-    progress: Callable[[float, str], object] = lambda _fraction, _what: None,
+    progress: Callable[[float, str], object] = lambda _fraction, _describe_search: None,
 ) -> tuple[Limits, ...]:
     """Find the limits of several decoders, as :func:`limits` does for each of them."""
-    wanted = _checked(rate)
+    wanted = _check_wanted_rate(rate)
     check_count("jobs", jobs, 1, MOST_PROCESSES)
     asked = []
     for decoder in settings.decoders:
@@ -109,14 +110,15 @@ def limits_of(
         asked += [(scene, name, wanted, own) for name in SEARCHED]
     usual = len(asked) * usual_images(settings.images, wanted)
     with ExitStack() as stack:
-        ways = _Ways(stack, jobs, usual, heartbeat, progress)
-        searched = list(ways.answers(working_range, asked, (1,) * len(SEARCHED)))
+        runner = _SearchRunner(stack, jobs, usual, heartbeat, progress)
+        searched = list(runner.run(working_range, asked, (1,) * len(SEARCHED)))
         pairs = [(one, pairs_of(each)) for one, each in zip(asked, searched, strict=True)]
-        # The slowest decoder, which is the last, first: nothing else waits for it then.
-        again = [(*one, pair) for one, several in pairs for pair in several][::-1]
-        ends = iter(list(ways.answers(sure_end, again, (MOST_PROCESSES,)))[::-1])
+        # Start with the slowest decoder, which is the last, so that nothing waits for it at the
+        # end.
+        end_searches = [(*one, pair) for one, several in pairs for pair in several][::-1]
+        ends = iter(list(runner.run(sure_end, end_searches, (MOST_PROCESSES,)))[::-1])
         ranges = [
-            with_ends(each, list(islice(ends, len(several))))
+            replace_ends(each, list(islice(ends, len(several))))
             for each, (_, several) in zip(searched, pairs, strict=True)
         ]
     progress(1.0, "")
@@ -128,7 +130,7 @@ def limits_of(
 
 
 SEARCHED = ("switching_frequency", "exposure_time")  # the parameters whose limits are searched
-MOST_PROCESSES = 2  # processes that search: one along each parameter
+MOST_PROCESSES = 2  # one for each parameter
 _POLL_SECONDS = 0.1  # between two polls of other processes
 
 
@@ -137,8 +139,8 @@ def usual_images(images: int, rate: float) -> int:
     return expected_images(images) + images_about_an_end(rate)
 
 
-class _Ways:
-    """Work is done in other processes, or here where these cannot be had or are lost."""
+class _SearchRunner:
+    """Runs searches in other processes, or in this one if they cannot be started or die."""
 
     def __init__(
         self,
@@ -153,10 +155,10 @@ class _Ways:
         self._pools: list[ProcessPool] = []
         self._read = 0
 
-    def answers(
+    def run(
         self, work: Callable[..., _Answer], asked: Sequence[tuple[Any, ...]], counts: Sequence[int]
     ) -> Iterator[_Answer]:
-        """Yield the answers to requests, which pools of so many processes take in turn."""
+        """Yield the results for the arguments, which pools of ``counts`` processes take in turn."""
         from occ_model.parallel.process_pool import ProcessPool
 
         done = 0
@@ -173,39 +175,39 @@ class _Ways:
             for each, future in zip(asked, futures, strict=False):
                 while not future.done():
                     wait([future], timeout=_POLL_SECONDS)
-                    self._look(self._read + sum(pool.counted(0) for pool in self._pools), each)
-                yield _value_of(future.result())
+                    self._report(self._read + sum(pool.counted(0) for pool in self._pools), each)
+                yield _unwrap_result(future.result())
                 done += 1
         for each in asked[done:]:
             yield work(*each, partial(self._on_image, each))
 
     def _on_image(self, asked: tuple[Any, ...]) -> None:
         self._read += 1
-        self._look(self._read, asked)
+        self._report(self._read, asked)
 
-    def _look(self, read: int, asked: tuple[Any, ...]) -> None:
+    def _report(self, read: int, asked: tuple[Any, ...]) -> None:
         self._heartbeat()
-        self._progress(min(read / self._usual, 0.99), _what(asked))
+        self._progress(min(read / self._usual, 0.99), _describe_search(asked))
 
 
-def _value_of(result: JobResult) -> Any:
+def _unwrap_result(result: JobResult) -> Any:
     if result.error is not None:
         raise result.error
     return result.value
 
 
-def _what(asked: tuple[Any, ...]) -> str:
+def _describe_search(asked: tuple[Any, ...]) -> str:
     return f"{PARAMETERS[asked[1]].in_sentence}, {asked[3].decoders[0]} decoder"
 
 
-def _checked(rate: object) -> float:
+def _check_wanted_rate(rate: object) -> float:
     if not is_number(rate) or not 0.0 < rate <= 100.0:
         raise ParameterError.of("rate", f"{shown(rate)} %", "above 0 % to 100 %")
     return float(rate)
 
 
 def advice_of(limits: Limits) -> Advice:
-    """Return the limits found by trial, those of theory, and why the scene itself is not read."""
+    """Return the limits found by simulation and by theory, and why the scene itself is not read."""
     scene, period = limits.scene, limits.scene.transmitter.switching_period
     reads_two = reads_two_headers(scene, limits.decoder)
     frequencies = TheoryLimits(

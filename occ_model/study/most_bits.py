@@ -1,8 +1,9 @@
 """Search for the line code, switching frequency and payload that carry most bits a second.
 
-A picture shows some chips of the panel. For each line code and frequency, payloads are tried that
-fill them, or half or a quarter of them: more repetitions make up for noise. The combinations are
-tried in order of the bits that they would carry. So the first one that is read is the best of them.
+A picture shows a certain number of the panel's chips. For each line code and frequency, payloads
+are tried that fill all of them, half of them or a quarter: more repetitions make up for noise. The
+combinations are tried in falling order of the bits that they would carry, so the first one that is
+read is the best.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -27,18 +28,18 @@ from occ_model.study.theory import is_panel_in_picture, panel_readout_time
 from occ_model.transmitter.registry import LINE_CODES
 from occ_model.transmitter.scheme import scheme_of
 
-_TRIED_LINE_CODES = ("manchester", "4b6b", "8b10b")  # of codes as short, only the better known
-DECODERS = ("threshold", "equalizer", "sequence")  # read payloads of any length, the quickest first
+_TRIED_LINE_CODES = ("manchester", "4b6b", "8b10b")  # only the better known of equally short codes
+DECODERS = ("threshold", "equalizer", "sequence")  # for payloads of any length, fastest first
 
-VARIED = (  # the parameters that the search chooses; its result depends on all others
+VARIED = (  # the parameters that the search chooses; its result depends on all the others
     "pattern", "line_code", "framing", "preamble", "error_correction", "payload",
     "switching_frequency",
 )  # fmt: skip
 
 _FRAMING = "preamble"
 
-_FREQUENCY_RATIO = 1.15  # of neighbouring frequencies
-_FILLED_FRACTIONS = (0.95, 0.5, 0.25)  # of a picture's chips that a payload's period takes
+_FREQUENCY_RATIO = 1.15  # ratio of neighbouring frequencies
+_FILLED_FRACTIONS = (0.95, 0.5, 0.25)  # of a picture's chips, taken by one payload period
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,7 +59,7 @@ def most_bits(
     heartbeat: Heartbeat = lambda: None,
     progress: Callable[[str, int, int], object] = lambda _decoder, _done, _all: None,
 ) -> tuple[MostBits, ...]:
-    """Find what carries most at a scene's exposure and distance.
+    """Find the combination that carries most bits at a scene's exposure time and distance.
 
     Parameters
     ----------
@@ -67,18 +68,18 @@ def most_bits(
     frames_a_second
         Pictures a second, each of which shows another payload.
     pictures
-        Pictures that all bits must be read of.
+        Number of pictures of which all bits must be read.
     seed
         Seed of payloads, start times and noise.
     heartbeat
-        Called before each picture; what it raises ends the search.
+        Called before each picture; an exception from it ends the search.
     progress
-        Called with a decoder, the number of combinations tried with it, and of all of them.
+        Called with a decoder, the number of combinations tried with it, and their total number.
 
     Returns
     -------
     tuple of MostBits
-        One a decoder.
+        One result for each decoder.
 
     Raises
     ------
@@ -97,9 +98,11 @@ def most_bits(
     for name in decoders:
         settings = RateSettings(1, (name,), seed)
         with Faults().counting() as faults:
-            place, sent = _first_read(scene, candidates, settings, pictures, (heartbeat, progress))
+            place, sent = _find_first_read(
+                scene, candidates, settings, pictures, (heartbeat, progress)
+            )
         bits = 0 if sent is None else candidates[place].bits
-        failure = None if sent is not None else _why(scene, candidates, settings)
+        failure = None if sent is not None else _explain_failure(scene, candidates, settings)
         found.append(
             MostBits(
                 name, sent, pictures, bits * frames_a_second, frames_a_second, place, failure,
@@ -109,14 +112,14 @@ def most_bits(
     return tuple(found)
 
 
-def unvaried(scene: Scene) -> Scene:
-    """Return a scene without what the search chooses: equal ones have the same result."""
+def reset_searched(scene: Scene) -> Scene:
+    """Return a scene with the searched parameters reset: equal scenes have the same result."""
     frequency = quantity("switching_frequency").default
-    return _sending(scene, _TRIED_LINE_CODES[0], 1, frequency).replace(code=0, start_time=0.0)
+    return _send_zeros(scene, _TRIED_LINE_CODES[0], 1, frequency).replace(code=0, start_time=0.0)
 
 
 def example_of(found: MostBits, seed: int = 1) -> Scene | None:
-    """Return the scene that carries most with a payload like those it was tried with."""
+    """Return the scene that carries most bits, with a random payload of the length tried."""
     if found.scene is None:
         return None
     length = found.scene.transmitter.payload_length
@@ -124,15 +127,15 @@ def example_of(found: MostBits, seed: int = 1) -> Scene | None:
     return with_payload(found.scene, bits.tolist())
 
 
-def _why(scene: Scene, candidates: Sequence[_Candidate], settings: RateSettings) -> str:
+def _explain_failure(scene: Scene, candidates: Sequence[_Candidate], settings: RateSettings) -> str:
     if not panel_readout_time(scene) and not is_panel_in_picture(scene):
         return "No column of the picture shows the panel."
     if not candidates:
         return "The picture shows too few chips of the panel for any payload; come closer."
-    least = candidates[-1]  # that is read most easily
+    least = candidates[-1]  # the one that is read most easily
     (decoder,) = settings.decoders
     cause = cause_of(
-        _sending(scene, least.line_code, least.bits, least.frequency),
+        _send_zeros(scene, least.line_code, least.bits, least.frequency),
         decoder,
         SimulationSettings(seed=settings.seed),
     )
@@ -141,42 +144,42 @@ def _why(scene: Scene, candidates: Sequence[_Candidate], settings: RateSettings)
 
 
 def candidate_codes(scene: Scene) -> list[_Candidate]:
-    """Return what is tried, what carries most first; of equals the slowest first."""
+    """Return the combinations to try, most bits first, and among equals the lowest frequency."""
     seen = panel_readout_time(scene)
     found = {
         _Candidate(line_code, frequency, bits)
         for line_code in _TRIED_LINE_CODES
         for frequency in _frequencies(scene)
         for filled in _FILLED_FRACTIONS
-        if (bits := _bits_in(line_code, filled * seen * frequency)) > 0
+        if (bits := _count_bits(line_code, filled * seen * frequency)) > 0
     }
     return sorted(found, key=lambda one: (-one.bits, one.frequency, one.line_code))
 
 
 def _frequencies(scene: Scene) -> list[float]:
-    """Return switching frequencies up to one chip a column."""
+    """Return switching frequencies up to that of one chip per column."""
     low = quantity("switching_frequency").slider[0]
     high = 1.0 / scene.camera.readout_time
     count = max(1, int(np.log(high / low) / np.log(_FREQUENCY_RATIO)))
     return [low * _FREQUENCY_RATIO**place for place in range(count + 1)]
 
 
-def _bits_in(line_code: str, chips: float) -> int:
-    """Return the bits of a payload of at most so many chips."""
+def _count_bits(line_code: str, chips: float) -> int:
+    """Return the number of bits in the longest payload that fits in so many chips."""
     code = LINE_CODES.get(line_code)
-    overhead = scheme_of(_sending(Scene(), line_code, 1, 1e3).transmitter).length
+    overhead = scheme_of(_send_zeros(Scene(), line_code, 1, 1e3).transmitter).length
     blocks = int((chips - overhead) // code.block_chips)
     return min(MAX_PAYLOAD_BITS, max(0, blocks) * code.block_bits)
 
 
-def _sending(scene: Scene, line_code: str, bits: int, frequency: float) -> Scene:
+def _send_zeros(scene: Scene, line_code: str, bits: int, frequency: float) -> Scene:
     return scene.replace(
         pattern="", line_code=line_code, framing=_FRAMING, preamble="", error_correction="none",
         payload="bits:" + "0" * bits, switching_frequency=frequency,
     )  # fmt: skip
 
 
-def _first_read(
+def _find_first_read(
     scene: Scene,
     candidates: Sequence[_Candidate],
     settings: RateSettings,
@@ -187,16 +190,16 @@ def _first_read(
     (decoder,) = settings.decoders
     for place, one in enumerate(candidates):
         progress(decoder, place, len(candidates))
-        sent = _sending(scene, one.line_code, one.bits, one.frequency)
-        if all(_read(sent, settings, pictures, heartbeat)):
+        sent = _send_zeros(scene, one.line_code, one.bits, one.frequency)
+        if all(_read_pictures(sent, settings, pictures, heartbeat)):
             return place, sent
     return len(candidates), None
 
 
-def _read(
+def _read_pictures(
     sent: Scene, settings: RateSettings, pictures: int, heartbeat: Heartbeat
 ) -> Iterator[bool]:
-    """Yield whether all bits of each picture are right, and accepted."""
+    """Yield for each picture whether all bits are correct and accepted."""
     length = sent.transmitter.payload_length
     random = np.random.default_rng(settings.seed)
     for _ in range(pictures):

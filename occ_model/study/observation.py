@@ -1,10 +1,10 @@
-"""The column means that a decoder reads, computed without a whole image.
+"""Compute the column means that a decoder reads, without a whole image.
 
-The profile path: a level panel shows the same column values in each of its rows, so that a column's
-mean is known without its pixels. Noise passes through the enhancement as it does in each pixel, by
-its distribution, and is averaged over the rows. Where rows differ, a sample of them is simulated.
-The verdict of every decoder thus follows in milliseconds at any size of the picture; the picture
-itself confirms it later.
+The profile path: all rows of a level panel have the same values, so a column's mean is known
+without simulating its pixels. The distribution of the noise is passed through the enhancement, as
+each pixel would be, and averaged over the rows. Where rows differ, a sample of them is simulated.
+The result of every decoder is thus known within milliseconds, whatever the size of the picture; the
+picture itself confirms it later.
 """
 
 from collections.abc import Sequence
@@ -35,13 +35,13 @@ from occ_model.study.noisy_columns import NoisyColumns
 
 
 def panel_span(scene: Scene) -> Region | None:
-    """Return the panel's rectangle, empty without a panel in view; None for another outline."""
+    """Return the panel's rectangle, empty if no panel is in view; None for any other outline."""
     return _span_of(panel_corners(scene).tobytes(), scene.camera.rows, scene.camera.columns)
 
 
 @lru_cache(maxsize=32)
 def _span_of(corners: bytes, rows: int, columns: int) -> Region | None:
-    """Return the rectangle, cached for the lines of a map, which have the same poses."""
+    """Return the rectangle, cached because the lines of a map share their poses."""
     first, last = row_spans(np.frombuffer(corners).reshape(-1, 2), rows, columns)
     lit = np.flatnonzero(last > first)
     if lit.size == 0:
@@ -51,12 +51,14 @@ def _span_of(corners: bytes, rows: int, columns: int) -> Region | None:
     return Region(int(lit[0]), int(lit[0]) + lit.size, int(first[lit[0]]), int(last[lit[0]]))
 
 
-_LENS_SHIFT_PART = 50  # a lens may move the panel by one in so many of the larger side
+_LENS_SHIFT_PART = 50  # a lens shifts the panel by at most the larger side divided by this
 
 
 _SEEDS = 2**32
 
-_MAX_EXPECTED_BRIGHT = 0.01  # pixels outside the panel as bright as its brightest: negligible
+_MAX_EXPECTED_BRIGHT = (
+    0.01  # negligible number of pixels beside the panel as bright as its brightest
+)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -64,8 +66,8 @@ class Observation:
     """The signal that a decoder reads."""
 
     signal: FloatArray | ByteArray  # Shape (columns of the region,): mean grey level of each column
-    # The rectangle of the image that the signal is the mean of; None where the image shows no
-    # panel, and the signal is a whole row
+    # The rectangle of the image over which the signal is averaged; None if the image shows no panel
+    # and the signal is a whole row
     region: Region | None
 
     def read(self, scene: Scene, decoder: str) -> DecodeResult:
@@ -80,9 +82,9 @@ def observe(
     random: np.random.Generator,
     path: SignalPath = "auto",
 ) -> Observation | None:
-    """Simulate what a decoder reads of a picture; None where no panel is found in it.
+    """Simulate the signal that a decoder reads from a picture; None if no panel is found in it.
 
-    ``span``: that of :func:`panel_span`, None where pixels are simulated in any case.
+    ``span``: the result of :func:`panel_span`; None if pixels must be simulated in any case.
     """
     if span is not None and "image" not in plan.kinds:
         return observe_profile(view, span, plan, random)
@@ -92,7 +94,7 @@ def observe(
         )
     scene, seed = view.scene, int(random.integers(_SEEDS))
     sample = None if path == "image" else sample_picture(view, plan, seed)
-    if sample is not None and shows_region(sample, view):
+    if sample is not None and is_region_known(sample, view):
         return observe_sample(sample, scene, plan, random)
     picture = render_plan(view, plan, seed=seed).image
     found = locate(picture, scene.receiver.bright_fraction)
@@ -106,8 +108,9 @@ def observe_profile(
 ) -> Observation:
     """Compute the column means that every decoder reads, without the image.
 
-    The region is drawn as it is found in the image: see :mod:`occ_model.study.drawn_region`.
-    ``span``: that of :func:`panel_span`, which is the same at any start time.
+    The region is drawn at random with the distribution of the one found in images: see
+    :mod:`occ_model.study.drawn_region`. ``span``: the result of :func:`panel_span`, which is the
+    same at any start time.
     """
     columns = expose_columns(view, plan)
     if span.columns == 0:
@@ -118,11 +121,13 @@ def observe_profile(
         region = noisy.draw_region(random)
         return Observation(noisy.means(region, random), region)
     panel, around = enhancement(columns.profile), to_bytes(columns.around)
-    return _without_noise(view.scene, span, panel, around)
+    return _observe_without_noise(view.scene, span, panel, around)
 
 
-def _without_noise(scene: Scene, span: Region, panel: ByteArray, around: ByteArray) -> Observation:
-    """Return the means of the rectangle that a receiver finds in a picture without noise."""
+def _observe_without_noise(
+    scene: Scene, span: Region, panel: ByteArray, around: ByteArray
+) -> Observation:
+    """Return the column means of the rectangle that a receiver finds in a picture without noise."""
     rows, seen = scene.camera.rows, slice(span.first_column, span.last_column)
     counts = np.bincount(around, minlength=256) * rows
     counts += np.bincount(panel[seen], minlength=256) * span.rows
@@ -140,10 +145,10 @@ def _without_noise(scene: Scene, span: Region, panel: ByteArray, around: ByteArr
     return Observation(fractions * panel[columns] + (1.0 - fractions) * around[columns], region)
 
 
-def shows_region(sample: SampledPicture, view: PaperView) -> bool:
-    """Return whether a sample of the rows shows which region is found in the whole picture.
+def is_region_known(sample: SampledPicture, view: PaperView) -> bool:
+    """Return whether the whole picture's region is known from a sample of its rows.
 
-    Noise beside the panel must nowhere be expected to be as bright as its brightest pixels.
+    Noise beside the panel must nowhere be expected to be as bright as the panel's brightest pixels.
     """
     scene, image = view.scene, sample.image
     found = locate(image, scene.receiver.bright_fraction)
@@ -167,13 +172,13 @@ def shows_region(sample: SampledPicture, view: PaperView) -> bool:
 def observe_sample(
     sample: SampledPicture, scene: Scene, plan: Plan, random: np.random.Generator
 ) -> Observation | None:
-    """Return the column means of a whole picture from a sample; None where no panel is found."""
+    """Estimate the column means of a whole picture from a sample; None if no panel is found."""
     found = locate(sample.image, scene.receiver.bright_fraction)
     if found is None:
         return None
     signal = column_means(sample.image, found.region)
     if "noise" in plan.kinds:
-        # Of neighbouring rows: they differ by noise alone.
+        # Neighbouring rows differ only by noise.
         pairs = np.diff(found.region.crop(sample.image).astype(np.float32), axis=0)[::2]
         variance = np.mean(pairs**2, axis=0, dtype=np.float64) / 2.0
         rows = max(found.region.rows * sample.rows_each, 1.0)
@@ -183,12 +188,12 @@ def observe_sample(
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ProfileReading:
-    """What decoders read of a scene, without its picture."""
+    """What decoders read from a scene, without its picture."""
 
-    plan: Plan  # The effects that are simulated: those that a decoder's signal calls for
-    corners: FloatArray  # Shape (4, 2): the panel's corners in the image, each as (column, row)
-    # Shape (columns,): means of the panel's pixels in each column, before the receiver's
-    # enhancement and after it, in grey levels; also in columns that do not show the panel
+    plan: Plan  # The simulated effects: those that a decoder's signal needs
+    corners: FloatArray  # Shape (4, 2): the panel's corners in the image as (column, row)
+    # Shape (columns,): mean of the panel's pixels in each column in grey levels, before and after
+    # the receiver's enhancement; computed also for columns that do not show the panel
     profile: FloatArray
     signal: FloatArray
     results: dict[str, DecodeResult]  # by decoder
@@ -200,7 +205,7 @@ def read_profile(
     decoders: Sequence[str] = QUICK_DECODERS,
     view: PaperView | None = None,
 ) -> ProfileReading | None:
-    """Read a scene by the profile path, planned for the signal; None where pixels are needed."""
+    """Read a scene on the profile path, planned for the signal; None if pixels are needed."""
     check_size(scene.camera)
     span = panel_span(scene)
     if span is None:
@@ -211,15 +216,15 @@ def read_profile(
     view = view or paper_view_of(scene)
     columns = expose_columns(view, chosen)
     random = np.random.default_rng(settings.seed)
-    profile, signal, observed = _column_means(scene, columns, chosen, span, random)
+    profile, signal, observed = _draw_column_means(scene, columns, chosen, span, random)
     results = {decoder: observed.read(scene, decoder) for decoder in decoders}
     return ProfileReading(chosen, view.corners, profile, signal, results)
 
 
-def _column_means(
+def _draw_column_means(
     scene: Scene, columns: Columns, chosen: Plan, span: Region, random: np.random.Generator
 ) -> tuple[FloatArray, FloatArray, Observation]:
-    """Return the means before and after enhancement, and what of them a decoder reads."""
+    """Return the means before and after the enhancement, and the part that a decoder reads."""
     profile = columns.profile.copy()
     enhancement = Enhancement(profile, scene.model.enhancement)
     enhanced = enhancement(profile)
@@ -228,13 +233,17 @@ def _column_means(
         return profile, signal, Observation(to_bytes(columns.around), None)
     seen = slice(span.first_column, span.last_column)
     if "noise" not in chosen.kinds:
-        return profile, signal, _without_noise(scene, span, enhanced, to_bytes(columns.around))
+        return (
+            profile,
+            signal,
+            _observe_without_noise(scene, span, enhanced, to_bytes(columns.around)),
+        )
     noisy = NoisyColumns(scene, columns, chosen, span, enhancement)
     region = noisy.draw_region(random)
     profile[seen], signal[seen] = noisy.plain_means(span), noisy.means(span, random)
     if (region.first_row, region.last_row) == (span.first_row, span.last_row) and (
         span.first_column <= region.first_column and region.last_column <= span.last_column
-    ):  # what is drawn is what is read
+    ):  # the region read lies within the panel, so its means are those already drawn
         means = signal[region.first_column : region.last_column]
     else:
         means = noisy.means(region, random)

@@ -7,13 +7,13 @@ import numpy as np
 from occ_model.results.sweep import SweepTable
 from occ_model.results.sweep_request import RateSettings, SweepRequest
 from occ_model.scene.presets import load_preset
-from occ_model.study.sweep.request_check import checked_request
+from occ_model.study.sweep.request_check import build_request
 
 FREQUENCIES = tuple(2000.0 * step for step in range(1, 11))  # 2 to 20 kHz (II.A)
 DISTANCES = tuple(round(0.6 + 0.2 * step, 1) for step in range(8))  # 60 to 200 cm (II.A)
 IMAGES = 5  # for each frequency, exposure time and distance (II.A)
 
-DEVICES = {  # the presets of each device, its lowest exposure time first
+DEVICES = {  # the presets of each device, the shorter exposure time first
     "phone": ("phone-68us", "phone-136us"),
     "tablet": ("tablet-61us", "tablet-122us"),
 }
@@ -22,17 +22,17 @@ DEVICES = {  # the presets of each device, its lowest exposure time first
 def grid_request(
     preset: str, decoders: Sequence[str], images: int = IMAGES, seed: int = 1
 ) -> SweepRequest:
-    """Request the sweep over all frequencies and distances of the paper's experiment."""
+    """Return the request for a sweep over all frequencies and distances of the experiment."""
     axes = {"switching_frequency": FREQUENCIES, "distance": DISTANCES}
-    return checked_request(load_preset(preset), axes, RateSettings(images, tuple(decoders), seed))
+    return build_request(load_preset(preset), axes, RateSettings(images, tuple(decoders), seed))
 
 
 def last_and_first_unread(
     table: SweepTable, decoder: str, readable: float = 60.0
 ) -> tuple[float | None, float | None]:
-    """Find the last frequency in Hz that is read at some distance, and the one after it, if any.
+    """Find the highest frequency in Hz that is read at some distance, and the next one, if any.
 
-    They are steps of the grid: detection ceases somewhere around them.
+    Both are steps of the grid; detection ceases somewhere around them.
 
     ``readable``: success rate in percent from which a distance counts as read.
     """

@@ -13,19 +13,19 @@ _RATE = Unit("Hz/s")
 
 
 def film_facts(known: FilmProgress, whole: VideoReading | None) -> tuple[Fact, ...]:
-    """List the facts of a film that is being read; ``whole``: the last reading of all frames."""
+    """List the facts about a film being read; ``whole``: the last reading of all frames."""
     facts = [
         Fact(
             "placed",
             "Frames placed",
             f"{known.placed} of {known.frames}",
-            meaning="Frames whose place in what is sent over and over is known.",
+            meaning="Frames whose place in the repeated packets is known.",
         ),
         Fact(
             "known",
             "Packet known",
             f"{100.0 * known.known:.0f} %",
-            meaning="Fraction of the chips of a period that are known, those of a header included.",
+            meaning="Fraction of the chips of a period that are known, including a header's.",
         ),
     ]
     if whole is not None:
@@ -37,7 +37,7 @@ def film_facts(known: FilmProgress, whole: VideoReading | None) -> tuple[Fact, .
 
 
 def packet_facts(reading: VideoReading) -> Iterator[Fact]:
-    """List how many packets and bits arrived; nothing where none can be counted."""
+    """List how many packets and bits were received; nothing if they cannot be counted."""
     after = reading.complete_after
     if after is not None:
         yield Fact(
@@ -45,7 +45,7 @@ def packet_facts(reading: VideoReading) -> Iterator[Fact]:
             "Payload complete",
             f"after {SECOND.format(after, 4)}",
             f"{len(reading.bits) / after:.4g} bits a second",
-            "How long the film had run by the end of the frame that completed it.",
+            "Time of the film at the end of the frame that completed it.",
         )
     if not reading.packets:
         return
@@ -54,15 +54,15 @@ def packet_facts(reading: VideoReading) -> Iterator[Fact]:
         "Packets",
         f"{reading.read} read, {reading.lost} lost",
         f"{len(reading.packets)} sent, {reading.doubled} doubled",
-        "Of those sent; one that no frame shows whole is lost.",
+        "A packet that no frame shows whole is lost.",
     )
     yield Fact(
         "net_rate",
         "Net rate",
         f"{reading.net_bits_per_second:.4g} bit/s",
         "repeats within a frame counted once",
-        "Bits that were wanted and arrived: repeats of a packet within a frame count once, as if "
-        "every frame showed another payload.",
+        "Payload bits received per second; repeats of a packet within a frame count once, as if "
+        "every frame showed a new payload.",
     )
     (counts,) = reading.rates(1)
     yield Fact(
@@ -83,16 +83,16 @@ def packet_facts(reading: VideoReading) -> Iterator[Fact]:
 
 
 def clock_facts(clock: Clock) -> Iterator[Fact]:
-    """List what a film shows of the clocks of the camera and of the transmitter."""
+    """List what a film shows about the clocks of the camera and of the transmitter."""
     doubt = "" if clock.is_sure else ", not sure"
     for key, label, unit, measured, mark, meaning in (
         (
             "frequency", "Frequency", HERTZ, clock.switching_frequency, doubt,
-            "Switching frequency by the clock that states the frames' times.",
+            "Switching frequency measured by the clock that gives the frames' times.",
         ),
         (
             "readout_time", "Readout time", SECOND, clock.readout_time, doubt,
-            "From one column to the next, without any LED that is known.",
+            "Time from one column to the next, measured without a known LED.",
         ),
         (
             "gap", "Gap", SECOND, clock.gap, doubt,
@@ -108,19 +108,19 @@ def clock_facts(clock: Clock) -> Iterator[Fact]:
         yield Fact(key, label, text, meaning=meaning)
     if clock.drift is not None:
         text = _RATE.format_estimate(clock.drift.value, clock.drift.error)
-        meaning = "How the switching frequency changes while the film runs."
+        meaning = "Change of the switching frequency during the film."
         yield Fact("drift", "Drift", text, meaning=meaning)
     yield Fact(
         "frame_starts",
         "Frame jitter",
         SECOND.format(clock.timing_noise, 4),
-        f"off the times stated, root mean square of {clock.frames} frames",
-        "How far the frames begin from the times that are stated for them.",
+        f"root mean square of {clock.frames} frames",
+        "Deviation of the frames' starts from their stated times.",
     )
 
 
 def error_rate(count: int, total: int, what: str) -> tuple[str, str]:
-    """Format an error rate in percent with its 95 % interval, to the digits that it allows."""
+    """Format an error rate in percent with its 95 % interval, with as many digits as it allows."""
     fraction = count / total
     deviation = _PERCENT * math.sqrt(fraction * (1.0 - fraction) / total)
     decimals = max(0, -math.floor(math.log10(deviation))) if deviation else 0
@@ -132,7 +132,7 @@ def error_rate(count: int, total: int, what: str) -> tuple[str, str]:
 
 
 def _percent(fraction: float) -> str:
-    """Format a fraction in percent, to two digits of its distance from 0 or 100 %."""
+    """Format a fraction in percent, with two digits of its distance from 0 or 100 %."""
     nearest = _PERCENT * min(fraction, 1.0 - fraction)
     decimals = max(0, 1 - math.floor(math.log10(nearest))) if nearest > 0.0 else 0
     return f"{_PERCENT * fraction:.{decimals}f}"

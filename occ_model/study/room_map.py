@@ -21,7 +21,7 @@ from occ_model.room.room import Room
 from occ_model.scene.argument_checks import check_count, check_seed
 from occ_model.scene.simulation_settings import TOLERANCE
 from occ_model.study.sweep.sweep import Progress, measure_study
-from occ_model.study.sweep.workers import Work
+from occ_model.study.sweep.workers import StudyWork
 from occ_model.version import __version__
 
 MOST_PLACES = 10_000
@@ -29,15 +29,15 @@ MOST_PLACES = 10_000
 _TITLE = "# Lamps read and place found over the floor"
 _FORMAT = 2
 _START_TIME_SPREAD = 0.1  # seconds over which the start of each picture is drawn at random
-_LAMP_MARGIN = 20.0  # pixels around a lamp's rectangle within which a reading is attributed to it
+_LAMP_MARGIN = 20.0  # pixels around a lamp's rectangle within which a code read is attributed to it
 
 
 @dataclass(frozen=True, slots=True)
 class RoomMapRequest:
-    """A map over a floor: at each place the camera is as the room says otherwise."""
+    """A map over a floor: the room's camera is moved to each place."""
 
     room: Room  # The room
-    # Places in x and y, in metres
+    # Places along x and along y, in metres
     across: tuple[float, ...]
     along: tuple[float, ...]
     images: int = 1  # Pictures at each place, each with another start time and noise
@@ -64,19 +64,18 @@ class RoomPoint:
     """Results of the pictures at one place."""
 
     index: int  # The place's number
-    # Lamps whole in the pictures, and those of them that were named correctly, in all pictures
-    # together
+    # In all pictures together: lamps that are whole, and those of them that were named correctly
     shown: int
     named: int
-    # Lamps, also of those that are cut, whose code was read, and is not the one that they send
+    # Lamps, whole or cut, whose code was read but is not the one they send
     misread: int
-    wrong: int  # Those of them that were so named as another lamp of the room
-    sure: int  # Pictures whose place was sure
-    # Root mean square of the distances from the true place, and of the stated errors, of sure
-    # places, in metres; not a number without one
+    wrong: int  # Those of them that were named as another lamp of the room
+    sure_places: int  # Pictures from which the place was found with certainty
+    # Root mean square, over the sure places, of the distance from the true place and of the stated
+    # error, in metres; NaN without a sure place
     error: float
     stated: float
-    note: str  # Why there is no picture, or no sure place; the first reason
+    note: str  # The first reason why there is no picture or no sure place
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,8 +84,8 @@ class _MeasuredPlaces:
     seconds: float
 
 
-def floor_under(room: Room, count: int) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """Return evenly spaced places below a room's lamps, ``count`` a side; 1: their middle."""
+def places_under(room: Room, count: int) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """Return evenly spaced places under a room's lamps, ``count`` per side; 1: their middle."""
     check_count("places on a side", count, 1, MOST_PLACES)
     sides = []
     for places in ([lamp.x for lamp in room.lamps], [lamp.y for lamp in room.lamps]):
@@ -97,7 +96,7 @@ def floor_under(room: Room, count: int) -> tuple[tuple[float, ...], tuple[float,
 
 
 def measure_place(request: RoomMapRequest, index: int, heartbeat: Heartbeat) -> RoomPoint:
-    """Measure one place; an error of the model becomes its note."""
+    """Measure one place; a refusal of the model becomes its note."""
     x, y = request.place(index)
     counts = np.zeros(4, dtype=np.int64)
     errors: list[tuple[float, float]] = []
@@ -112,7 +111,7 @@ def measure_place(request: RoomMapRequest, index: int, heartbeat: Heartbeat) -> 
             reading = read_room(frame.camera_image, room)
         except OccError as refusal:
             return RoomPoint(index, 0, 0, 0, 0, 0, math.nan, math.nan, join_lines(str(refusal)))
-        counts += _counts(frame, reading)
+        counts += _count_lamps(frame, reading)
         if reading.is_sure and reading.located is not None:
             found, camera = reading.located.place, room.camera
             apart = (found.x - camera.x, found.y - camera.y, found.z - camera.z)
@@ -126,8 +125,8 @@ def measure_place(request: RoomMapRequest, index: int, heartbeat: Heartbeat) -> 
     return RoomPoint(index, shown, named, misread, wrong, len(errors), error, stated, note)
 
 
-def _counts(frame: RoomFrame, reading: RoomReading) -> tuple[int, int, int, int]:
-    """Count as :class:`RoomPoint` does: shown, named, misread and wrong."""
+def _count_lamps(frame: RoomFrame, reading: RoomReading) -> tuple[int, int, int, int]:
+    """Return the counts of a :class:`RoomPoint`: shown, named, misread and wrong."""
     named = misread = wrong = 0
     for read in reading.lamps:
         there = [one for one in frame.lamps if _is_at(one.region, read)]
@@ -156,7 +155,7 @@ def measure_places(
 
 
 class RoomMapText:
-    """Text of a map's places: one row each."""
+    """The text form of a map's places, one row each."""
 
     what, title, lines_a_point = "map of a room", _TITLE, 1
 
@@ -185,32 +184,32 @@ class RoomMapText:
     def text(self, point: RoomPoint) -> str:
         return csv_row((
             *self._request.place(point.index), self._request.images, point.shown, point.named,
-            point.misread, point.wrong, point.sure, point.error, point.stated, point.note,
+            point.misread, point.wrong, point.sure_places, point.error, point.stated, point.note,
         ))  # fmt: skip
 
     def read(self, lines: Sequence[str], number: int) -> RoomPoint | None:
         """Parse a place; the caller checks it by writing it again.
 
-        None where it is no row of this map. A count or an error that cannot be, in the line of this
-        number, raises ParameterError.
+        Returns None if it is no row of this map. Raises ParameterError if a count or an error in
+        this line is impossible.
         """
         try:
             (line,) = lines
             x, y, _, *counts, error, stated, note = next(csv.reader([line], strict=True))
             across = [repr(place) for place in self._request.across].index(x)
             along = [repr(place) for place in self._request.along].index(y)
-            seen, named, misread, wrong, sure = counts
+            seen, named, misread, wrong, sure_places = counts
         except (ValueError, StopIteration, csv.Error):
             return None
         images, camera = self._request.images, self._request.room.scene.camera
         lamps = images * len(self._request.room.lamps)
-        pixels = images * camera.rows * camera.columns  # more than there can be lamps, known or not
+        pixels = images * camera.rows * camera.columns  # no picture shows more lamps than pixels
         whole = read_count("whole lamps", seen, 0, lamps, number)
-        places = read_count("sure places", sure, 0, images, number)
+        places = read_count("sure places", sure_places, 0, images, number)
         return RoomPoint(
             across * len(self._request.along) + along,
             whole,
-            read_count("named rightly", named, 0, whole, number),
+            read_count("named correctly", named, 0, whole, number),
             read_count("misread", misread, 0, pixels, number),
             read_count("named wrongly", wrong, 0, lamps, number),
             places,
@@ -221,7 +220,7 @@ class RoomMapText:
 
 
 def _read_distance(name: str, text: str, is_known: bool, line: int) -> float:
-    """Parse a distance in metres, not a number where none is known."""
+    """Parse a distance in metres; NaN if none is known."""
     try:
         distance = float(text) if text else math.nan
     except ValueError:
@@ -248,7 +247,7 @@ def room_map(
         return sorted(found, key=lambda point: point.index)
 
     measure_study(
-        Work("map", measure_places, lambda indices: (request, tuple(indices))), text,
+        StudyWork("map", measure_places, lambda indices: (request, tuple(indices))), text,
         range(request.points), found.append,
         lambda: [text.header, *map(text.text, in_order())],
         executor=executor, jobs=jobs, progress=progress, results=results,

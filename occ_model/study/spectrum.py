@@ -1,4 +1,4 @@
-"""Measure a picture: the spectrum of its profile, beside the exposure's, and its levels."""
+"""Compute the spectrum of a picture's profile with the exposure's, and its level histogram."""
 
 import cv2
 import numpy as np
@@ -15,8 +15,8 @@ _MAX_NULLS = 100
 def profile_spectrum(profile: FloatArray, scene: Scene) -> Spectrum:
     """Compute the spectrum of a profile of at least 8 columns.
 
-    The mean is taken off, and a Hann window fades out both ends, so that a profile that does not
-    hold whole periods has clean lines. The response is that of a box of the exposure's length
+    The mean is subtracted, and a Hann window fades out both ends, so that a profile without a whole
+    number of periods has clean lines too. The response is that of a box as long as the exposure
     (arXiv 2602.08474).
     """
     values = np.asarray(profile, dtype=np.float64)

@@ -26,7 +26,7 @@ from occ_model.study.observation import Observation, observe, panel_span
 from occ_model.transmitter.packet import sent_chips
 
 _KEPT_PICTURES = 512
-"""Pictures whose decoder inputs are kept: those of a search, for the next decoder."""
+"""Number of pictures whose signals are kept for the next decoder: those of a search."""
 _NO_PANEL = "No panel found: the picture has one grey level."
 
 
@@ -44,9 +44,9 @@ def success_rate(
 
     SR = correct bits / (images x bits) x 100, the paper's definition. The images differ in start
     time, evenly distributed over one packet, and in noise. An image in which no bits are read, or
-    whose bits the decoder does not accept, counts with none right. The effects are planned for the
-    signal, which a decoder reads; where column means follow without pixels, planning takes longer
-    than all effects do, and none is left out.
+    whose bits the decoder rejects, counts as having none correct. The effects are planned for the
+    signal, which is what a decoder reads. Where the column means are computed without pixels,
+    planning would take longer than all effects do, so none is omitted.
 
     Parameters
     ----------
@@ -59,11 +59,11 @@ def success_rate(
     tolerance, force
         As for :func:`occ_model.plan`.
     path
-        ``"image"``: simulate every image whole. ``"profile"``: decode its column means without it,
-        which needs rows that differ by noise at most: a level panel, and no image effect in the
-        plan. ``"rows"``: a sample of the rows, from which the column means follow. ``"auto"``: the
-        profile wherever that holds, a sample of the rows elsewhere, and the whole image where noise
-        beside the panel is as bright as its brightest pixels.
+        ``"image"``: simulate every image as a whole. ``"profile"``: compute the column means
+        without an image, which requires that rows differ by noise alone: a level panel, and no
+        image effect in the plan. ``"rows"``: estimate the column means from a sample of the rows.
+        ``"auto"``: the profile if possible, otherwise a sample of the rows, but the whole image if
+        noise beside the panel is as bright as its brightest pixels.
 
     Returns
     -------
@@ -77,21 +77,21 @@ def success_rate(
     ProjectionError
         The scene has no picture.
     PluginError
-        A plug-in has failed in some images: that is no rate of the decoder.
+        A plug-in failed in some images, so the rate would not be that of the decoder.
     """
     settings = RateSettings(images, (decoder,), seed, tolerance, force or {}, path)
     check_rate(scene, settings)
     with Faults().counting() as faults:
-        (correct,), _ = right_and_whole(scene, settings)
+        (correct,), _ = count_right_and_whole(scene, settings)
     if str(faults):
         raise PluginError(str(faults))
     return 100.0 * correct / (images * scene.transmitter.payload_length)
 
 
-def right_and_whole(
+def count_right_and_whole(
     scene: Scene, settings: RateSettings, heartbeat: Heartbeat = lambda: None
 ) -> tuple[tuple[int, ...], tuple[int, ...]]:
-    """Count right bits by decoder, all from the same images, and images without a wrong bit."""
+    """Count the correct bits, and the images without a wrong bit, of each decoder."""
     correct, whole = [0] * len(settings.decoders), [0] * len(settings.decoders)
     length = scene.transmitter.payload_length
     for counts in right_bits_of_images(scene, settings, heartbeat):
@@ -102,14 +102,14 @@ def right_and_whole(
 
 
 def plan_of_images(scenes: Sequence[Scene], settings: RateSettings) -> Plan:
-    """Choose the effects of images that differ in phase and code alone."""
+    """Choose the effects of images that differ only in phase and code."""
     own = SimulationSettings(settings.tolerance, "signal", settings.force)
-    return signal_plan(scenes, own, needs_pixels=_span(scenes[0], settings.path) is None)
+    return signal_plan(scenes, own, needs_pixels=_span_of_path(scenes[0], settings.path) is None)
 
 
 @lru_cache(maxsize=4)
-def _span(scene: Scene, path: SignalPath) -> Region | None:
-    """Return the rectangle that the panel fills, None where pixels are simulated in any case."""
+def _span_of_path(scene: Scene, path: SignalPath) -> Region | None:
+    """Return the rectangle that the panel fills; None if pixels must be simulated in any case."""
     return panel_span(scene) if path in ("auto", "profile") else None
 
 
@@ -119,25 +119,27 @@ def right_bits_of_images(
     heartbeat: Heartbeat = lambda: None,
     chosen: Plan | None = None,
 ) -> Iterator[tuple[int, ...]]:
-    """Count the bits that each decoder reads correctly, image by image, whatever follows.
+    """Yield the number of bits that each decoder reads correctly, image by image.
 
-    ``chosen``: the effects to simulate, by default those that the scene's own signal calls for.
+    ``chosen``: the effects to simulate, by default those that the scene's own signal needs.
     """
     sent = np.array(scene.transmitter.payload_bits, dtype=np.uint8)
     force = tuple(sorted(settings.force.items()))
-    pictures = _Pictures(scene, settings.seed, settings.tolerance, force, settings.path)
+    pictures = _StudyPictures(scene, settings.seed, settings.tolerance, force, settings.path)
     for image in range(settings.images):
         heartbeat()
         observed = (
-            _kept(pictures, image) if chosen is None else observe_picture(pictures, chosen, image)
+            _observe_cached(pictures, image)
+            if chosen is None
+            else observe_picture(pictures, chosen, image)
         )
-        read = _read(scene, observed, settings.decoders)
-        yield tuple(_right_bits(seen, sent) for seen in read)
+        read = _read_by_decoders(scene, observed, settings.decoders)
+        yield tuple(_count_right_bits(seen, sent) for seen in read)
 
 
 @dataclass(frozen=True, slots=True)
-class _Pictures:
-    """What the pictures of a study depend on, which does not include the decoders."""
+class _StudyPictures:
+    """All that the pictures of a study depend on, which excludes the decoders."""
 
     scene: Scene
     seed: int
@@ -151,18 +153,18 @@ class _Pictures:
 
 
 @lru_cache(maxsize=4)
-def _plan(pictures: _Pictures) -> Plan:
-    """Choose the effects of all pictures, which differ in phase and noise alone."""
+def _plan_cached(pictures: _StudyPictures) -> Plan:
+    """Choose the effects of all pictures, which differ only in phase and noise."""
     return plan_of_images([pictures.scene], pictures.settings)
 
 
 @lru_cache(maxsize=_KEPT_PICTURES)
-def _kept(pictures: _Pictures, image: int) -> Observation | None:
-    return observe_picture(pictures, _plan(pictures), image)
+def _observe_cached(pictures: _StudyPictures, image: int) -> Observation | None:
+    return observe_picture(pictures, _plan_cached(pictures), image)
 
 
-def _right_bits(seen: DecodeResult, sent: ByteArray) -> int:
-    """Count the bits that are right and accepted: with a failure, such as uncertainty, none are."""
+def _count_right_bits(seen: DecodeResult, sent: ByteArray) -> int:
+    """Count the correct bits; none count if the decoder rejects them, for example as uncertain."""
     if seen.failure is not None or seen.bits.size != sent.size:
         return 0
     return int(np.count_nonzero(seen.bits == sent))
@@ -170,11 +172,11 @@ def _right_bits(seen: DecodeResult, sent: ByteArray) -> int:
 
 @lru_cache(maxsize=256)
 def _seed_of(seed: int, image: int) -> np.random.SeedSequence:
-    """Return the seed of an image: that of the generator of ``seed``'s child, at every point."""
+    """Return the seed of an image, a child of ``seed`` that is the same at every point."""
     return np.random.SeedSequence(seed, spawn_key=(image,))
 
 
-def _read(
+def _read_by_decoders(
     scene: Scene, observed: Observation | None, decoders: Sequence[str]
 ) -> list[DecodeResult]:
     if observed is None:
@@ -182,17 +184,17 @@ def _read(
     return [observed.read(scene, decoder) for decoder in decoders]
 
 
-def observe_picture(pictures: _Pictures, chosen: Plan, image: int) -> Observation | None:
-    """Simulate what a decoder reads of one picture; None where no panel is found in it."""
+def observe_picture(pictures: _StudyPictures, chosen: Plan, image: int) -> Observation | None:
+    """Simulate the signal that a decoder reads from a picture; None if no panel is found in it."""
     scene, path = pictures.scene, pictures.path
     stream = np.random.default_rng(_seed_of(pictures.seed, image))
     transmitter = scene.transmitter
     duration = len(sent_chips(transmitter)) * transmitter.switching_period
     changes = {"start_time": float(stream.uniform(0.0, duration))}
-    if scene.surroundings.flicker_depth:  # the mains keep no time with the packets
+    if scene.surroundings.flicker_depth:  # the mains are not synchronous with the packets
         changes["flicker_phase"] = float(stream.uniform(-math.pi, math.pi))
     view = paper_view_of(scene.replace(**changes))
-    return observe(view, _span(scene, path), chosen, stream, path)
+    return observe(view, _span_of_path(scene, path), chosen, stream, path)
 
 
 def check_rate(scene: Scene, settings: RateSettings) -> None:

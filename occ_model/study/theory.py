@@ -1,7 +1,7 @@
-"""The limits of reading that follow from single equations, to compare a simulation with.
+"""Compute the limits of reading that follow from single equations, for comparison.
 
-They take account of neither noise nor decoders. They mark where the picture changes in kind, not
-where reading stops: a matched decoder reads far beyond the null.
+They ignore noise and decoders. They mark where the character of the picture changes, not where
+reading stops: a matched decoder reads far beyond the null.
 """
 
 import math
@@ -15,13 +15,13 @@ from occ_model.results.bit_errors import FRAMES_A_SECOND
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.packet import sent_chips
 
-_BOUND_BINS = 2**14  # frequencies at which the bound of the rate is summed up
+_BOUND_BINS = 2**14  # frequencies over which the bound of the rate is summed
 
 
 def band_model_frequency(scene: Scene) -> float:
-    """Return the frequency in Hz from which the band model is undefined: t_LED = t, f = 1/t.
+    """Return the frequency in Hz above which the band model is undefined: t_LED = t, f = 1/t.
 
-    Beyond it no column shows one state alone: h_c = (t_LED - t) / t_r is negative (II.B).
+    Above it no column shows a single state: h_c = (t_LED - t) / t_r is negative (II.B).
     """
     return 1.0 / scene.camera.exposure_time
 
@@ -29,17 +29,18 @@ def band_model_frequency(scene: Scene) -> float:
 def null_frequency(scene: Scene) -> float:
     """Return the frequency in Hz at which an alternating pattern has no stripes: f = 2/t.
 
-    An exposure of t = 2 t_LED collects the same light wherever it starts: the first null of sinc(t
-    f / 2), the exposure's response to the square wave's fundamental f/2.
+    An exposure of t = 2 t_LED collects the same light whenever it starts. This is the first null of
+    sinc(t f / 2), the exposure's response to the square wave's fundamental f/2.
     """
     return 2.0 / scene.camera.exposure_time
 
 
 def alternating_swing(scene: Scene) -> float:
-    """Return the fraction of their full swing that alternating chips keep in the columns.
+    """Return the fraction of its full swing that alternating light keeps in the columns.
 
-    1 up to an exposure of one chip; beyond, the light of whole pairs is the same wherever they
-    start, and only the rest t mod 2 t_LED swings: min(c mod 2, 2 - c mod 2) / c with c = t / t_LED.
+    It is 1 up to an exposure of one chip. In longer ones whole pairs of chips give the same light
+    whenever they start, and only the remainder t mod 2 t_LED swings: min(c mod 2, 2 - c mod 2) / c
+    with c = t / t_LED.
     """
     chips = scene.camera.exposure_time * scene.transmitter.switching_frequency
     rest = math.fmod(chips, 2.0)
@@ -47,14 +48,14 @@ def alternating_swing(scene: Scene) -> float:
 
 
 def panel_readout_time(scene: Scene) -> float:
-    """Return the readout time of the columns that show the panel, in seconds; 0 without any."""
+    """Return the readout time in seconds of the columns that show the panel; 0 if none does."""
     camera = scene.camera
     region = region_of(panel_corners(scene), camera.rows, camera.columns)
     return 0.0 if region is None else region.columns * camera.readout_time
 
 
 def is_panel_in_picture(scene: Scene) -> bool:
-    """Return whether the middle of the panel lies within the picture, however small it is."""
+    """Return whether the panel's centre lies within the picture, even if the panel is tiny."""
     middle, size = panel_corners(scene).mean(axis=0), (scene.camera.columns, scene.camera.rows)
     return bool(np.all((middle >= 0.0) & (middle < size)))
 
@@ -62,9 +63,9 @@ def is_panel_in_picture(scene: Scene) -> bool:
 def two_packets_frequency(scene: Scene) -> float | None:
     """Return the frequency in Hz below which no two packets fit the panel's image, or None.
 
-    The columns that show the panel are read out within t_r times their number; two packets of L
-    chips take 2 L / f: f = 2 L / (t_r x columns). The paper's decoder needs two headers, and so a
-    packet and a header at the least, two packets to find them wherever a packet starts.
+    The readout of the columns that show the panel takes t_r times their number, and two packets of
+    L chips last 2 L / f: f = 2 L / (t_r x columns). The paper's decoder needs two headers. A packet
+    and a header can therefore suffice, but only two packets do wherever a packet starts.
     """
     seen = panel_readout_time(scene)
     return 2.0 * len(sent_chips(scene.transmitter)) / seen if seen else None
@@ -73,8 +74,8 @@ def two_packets_frequency(scene: Scene) -> float | None:
 def row_rate_frequency(scene: Scene) -> float:
     """Return the highest frequency in Hz that columns can show: f = 1/(2 t_r), half the row rate.
 
-    Of anything faster they show an alias. Chips that alternate at a switching frequency f have the
-    frequency f/2, so that 1/t_r is its limit.
+    Anything faster appears as an alias. Chips that alternate at a switching frequency f have the
+    frequency f/2, so the limit of f is 1/t_r.
     """
     return 1.0 / (2.0 * scene.camera.readout_time)
 
@@ -82,23 +83,23 @@ def row_rate_frequency(scene: Scene) -> float:
 def gaussian_rate_bound(
     scene: Scene, signal_to_noise: float, frames_a_second: float = FRAMES_A_SECOND
 ) -> float:
-    """Bound the bits a second that light of Gaussian levels can carry to the columns.
+    """Return an upper bound of the bits per second that light of Gaussian levels carries.
 
     C = fps N t_r x integral from 0 to 1/(2 t_r) of log2(1 + S(F) sinc^2(F t) / N_0) dF, with the
     light's power spectrum S water-filled: mu - N_0 / sinc^2(F t) where that is above 0, its
     integral the light's power (R. G. Gallager, Information Theory and Reliable Communication, 1968,
-    section 8.3). N t_r is the part of a second's pictures in which columns are read out; of the
-    light in the gap nothing is seen. A lamp with two levels and a limited switching frequency
-    carries less. ``signal_to_noise``: the light's variance over that of a column's noise.
+    section 8.3). fps N t_r is the fraction of time in which columns are read out; light in the gaps
+    is not seen. A lamp with two levels and a limited switching frequency carries less.
+    ``signal_to_noise``: the variance of the light divided by that of a column's noise.
     """
     camera = scene.camera
     half_rate = row_rate_frequency(scene)
-    # In the middle of each bin: at a null itself nothing passes.
+    # In the middle of each bin, because nothing passes at a null itself.
     frequency = (np.arange(_BOUND_BINS) + 0.5) * (half_rate / _BOUND_BINS)
     passed = np.sinc(frequency * camera.exposure_time) ** 2
     noise = 1.0 / half_rate  # of variance 1
     levels = np.sort(noise / np.maximum(passed, np.finfo(float).tiny))
-    # Of the k best frequencies: the level that fills them with the whole power.
+    # For the k best frequencies: the level to which the whole power fills them.
     count = np.arange(1, _BOUND_BINS + 1)
     filled = (signal_to_noise * _BOUND_BINS / half_rate + np.cumsum(levels)) / count
     used = int(np.count_nonzero(filled > levels))
@@ -116,6 +117,6 @@ def saturation_exposure(scene: Scene) -> float:
     brightest = float(luminance_levels(scene)[1])
     if not brightest:
         return math.inf
-    # Of one exposure time the luminance that is white; the product of both is what saturates.
+    # White is a fixed product of luminance and exposure time.
     white = float(luminance_of(np.array([WHITE]), scene.camera)[0])
     return scene.camera.exposure_time * white / brightest

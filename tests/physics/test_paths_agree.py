@@ -7,7 +7,7 @@ from physics.paths import compare_paths, significance
 
 import occ_model as occ
 from occ_model.results.sweep_request import RateSettings
-from occ_model.study.success_rate import right_and_whole
+from occ_model.study.success_rate import count_right_and_whole
 
 IN_DOUBT = (50, 105, 150, 160, 182)  # scenes where a rate of one of the decoders is in doubt
 SETTLED = (1, 2, 3)  # others
@@ -43,7 +43,7 @@ def test_a_study_s_rate_is_that_of_pictures(frequency: float) -> None:
         switching_frequency=frequency,
     )
     by_study = occ.success_rate(scene, images=20)
-    (read,), _ = right_and_whole(scene, RateSettings(20, ("threshold",), 99, path="image"))
+    (read,), _ = count_right_and_whole(scene, RateSettings(20, ("threshold",), 99, path="image"))
     assert abs(by_study - 100.0 * read / (20 * scene.transmitter.bits)) <= 10.0
 
 
@@ -66,7 +66,7 @@ def test_a_sample_of_the_rows_has_the_rate_of_whole_pictures(frequency: float) -
     rates = {
         path: np.array(
             [
-                right_and_whole(scene, RateSettings(1, ("threshold",), seed, path=path))[0]
+                count_right_and_whole(scene, RateSettings(1, ("threshold",), seed, path=path))[0]
                 for seed in range(amount(6, 12))
             ]
         )

@@ -1,1 +1,1 @@
-"""The bench: bit error rates of schemes and decoders over exposure and noise."""
+"""The benchmark: bit error rates of schemes and decoders over exposure and noise."""

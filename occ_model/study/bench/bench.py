@@ -1,9 +1,9 @@
-"""Measure bit error rates over exposure and noise, of any scheme and decoder.
+"""Measure bit error rates of any scheme and decoder over exposure and noise.
 
-Rows integrate the chips over their exposure and have independent noise, nothing else. The settings
-are those of the published benchmark of rolling-shutter equalizers: exposures of one to seven
-symbols, four to seven rows a symbol, Manchester (C. Jurado-Verdu et al., Opt. Express 29:22973,
-2021). A symbol is a chip.
+The model is bare: rows integrate the chips over their exposure and have independent noise. The
+settings are those of the published benchmark of rolling-shutter equalizers: exposures of one to
+seven symbols, four to seven rows per symbol, Manchester code (C. Jurado-Verdu et al., Opt. Express
+29:22973, 2021). A symbol is a chip.
 """
 
 import math
@@ -28,7 +28,7 @@ from occ_model.study.bit_error_rate import MOST_BITS, bit_errors_of, with_payloa
 from occ_model.study.theory import gaussian_rate_bound
 from occ_model.transmitter.scheme import scheme_of
 
-_DARK, _SWING = 40.0, 160.0  # grey levels, lamp off and by how much on: 10 dB of noise fits
+_DARK, _SWING = 40.0, 160.0  # grey levels: lamp off, and its swing; leaves room for noise of 10 dB
 _ROWS_A_SYMBOL = (1.0, 100.0)
 _LONGEST_EXPOSURE = 100.0
 _MAX_DECIBELS = 100.0
@@ -49,7 +49,7 @@ def bench(
 def measure_bench_point(
     request: BenchRequest, place: BenchPlace, heartbeat: Heartbeat = lambda: None
 ) -> tuple[BenchPoint, ...]:
-    """Measure one point of a checked request: a result for each decoder, independent of others."""
+    """Measure one point of a checked request, independent of the others, for each decoder."""
     scheme, _, exposure, ratio = place
     scene = bench_scene(request, scheme, exposure)
     names = request.decoders or decoders()
@@ -68,19 +68,19 @@ def measure_bench_point(
         for name in names:
             with faults[name].counting():
                 read = decode(signal, sent, name)
-            # Rejected bits count in the rate, as theory decides every bit, but not as a payload
-            # read.
+            # Rejected bits count in the rate, since theory decides every bit, but the payload does
+            # not count as read.
             is_whole = read.bits.size == length
             wrong[name].append(int((read.bits != bits).sum()) if is_whole else length)
             right[name] += read.failure is None and not wrong[name][-1]
             notes[name] = notes[name] or read.failure or ""
     return tuple(
-        BenchPoint(*place, _errors(scene, name, wrong[name], right[name], found), found or note)
+        BenchPoint(*place, _bit_errors(scene, name, wrong[name], right[name], found), found or note)
         for (name, note), found in zip(notes.items(), map(str, faults.values()), strict=True)
     )
 
 
-def _errors(scene: Scene, decoder: str, wrong: list[int], right: int, faults: str) -> BitErrors:
+def _bit_errors(scene: Scene, decoder: str, wrong: list[int], right: int, faults: str) -> BitErrors:
     errors = bit_errors_of(scene, decoder, wrong, right)
     # Every row sees the light.
     return replace(errors, picture_time=errors.readout_time, faults=faults)
@@ -91,18 +91,18 @@ def check_bench(request: BenchRequest) -> None:
         decoder_named(name)
     check_count("bits", request.bits, 1, MOST_BITS)
     check_seed(request.seed)
-    _check("rows a symbol", request.rows_a_symbol, *_ROWS_A_SYMBOL)
+    _check_range("rows a symbol", request.rows_a_symbol, *_ROWS_A_SYMBOL)
     for exposure in (*request.exposures, request.at_exposure):
-        _check("exposure in symbols", exposure, 1e-3, _LONGEST_EXPOSURE)
+        _check_range("exposure in symbols", exposure, 1e-3, _LONGEST_EXPOSURE)
     for ratio in (*request.decibels, request.at_decibels):
-        _check("signal-to-noise ratio in dB", ratio, -_MAX_DECIBELS, _MAX_DECIBELS)
+        _check_range("signal-to-noise ratio in dB", ratio, -_MAX_DECIBELS, _MAX_DECIBELS)
     for scheme in request.schemes:
         scene = bench_scene(request, scheme)
-        _ = scheme_of(scene.transmitter).length  # raises where its parts are incompatible
+        _ = scheme_of(scene.transmitter).length  # raises if its parts are incompatible
 
 
 def bench_scene(request: BenchRequest, scheme: str, exposure: float = 1.0) -> Scene:
-    """Return the scene of a point, whose rows are its columns; ``exposure`` in symbols."""
+    """Return the scene of a point, with rows as its columns; ``exposure`` in symbols."""
     line_code, _, framing = scheme.partition("/")
     symbol = request.rows_a_symbol * request.readout_time
     check_count("payload_bits", request.payload_bits, 1, MAX_PAYLOAD_BITS)
@@ -122,7 +122,7 @@ def bench_scene(request: BenchRequest, scheme: str, exposure: float = 1.0) -> Sc
 
 
 def bench_signal(scene: Scene, decibels: float, random: np.random.Generator) -> FloatArray:
-    """Return the grey levels of the rows, with their noise, shape (columns,)."""
+    """Return the grey levels of the rows with noise, shape (columns,)."""
     deviation = _SWING * math.sqrt(0.25 / 10.0 ** (decibels / 10.0))
     lit = lit_fraction(scene)
     return _DARK + _SWING * lit + deviation * random.standard_normal(len(lit))
@@ -132,22 +132,23 @@ def _period(scene: Scene) -> float:
     return scheme_of(scene.transmitter).length * scene.transmitter.switching_period
 
 
-def _check(what: str, value: float, low: float, high: float) -> None:
+def _check_range(what: str, value: float, low: float, high: float) -> None:
     if not low <= value <= high:
         raise ParameterError.of(what, shown(value), f"{low:g} to {high:g}")
 
 
 _CURVE_POINTS = 31
 
-_NULL_EXPOSURE = 2.0  # first null of alternating chips, in symbols; the others are its multiples
+_NULL_EXPOSURE = 2.0  # first null of alternating chips in symbols; the others are multiples
 
 
 def bench_bounds(request: BenchRequest, heartbeat: Heartbeat = lambda: None) -> BenchBounds:
     """Compute the theoretical bounds along both axes of a request.
 
-    The nulls are those of alternating chips, the fastest wave of each line code: its frequency is
-    f/2, and |sinc(t f / 2)| vanishes where the exposure lasts an even number of symbols. The most
-    bits are :func:`occ_model.study.theory.gaussian_rate_bound`, which no scheme changes.
+    The nulls are those of alternating chips, the fastest wave of each line code. Its frequency is
+    f/2, and |sinc(t f / 2)| vanishes if the exposure lasts an even number of symbols. The bound of
+    the bits is :func:`occ_model.study.theory.gaussian_rate_bound`, which does not depend on the
+    scheme.
     """
 
     def bound(exposure: float, decibels: float) -> float:
@@ -155,7 +156,7 @@ def bench_bounds(request: BenchRequest, heartbeat: Heartbeat = lambda: None) -> 
         scene = bench_scene(request, request.schemes[0], exposure)
         return gaussian_rate_bound(scene, 10.0 ** (decibels / 10.0), frames_a_second=1.0)
 
-    exposures, ratios = _between(request.exposures), _between(request.decibels)
+    exposures, ratios = _sample_range(request.exposures), _sample_range(request.decibels)
     longest = max(request.exposures, default=0.0)
     return BenchBounds(
         tuple(_NULL_EXPOSURE * number for number in range(1, int(longest / _NULL_EXPOSURE) + 1)),
@@ -166,8 +167,8 @@ def bench_bounds(request: BenchRequest, heartbeat: Heartbeat = lambda: None) -> 
     )
 
 
-def _between(values: tuple[float, ...]) -> tuple[float, ...]:
-    """Return places from the least to the largest of some values."""
+def _sample_range(values: tuple[float, ...]) -> tuple[float, ...]:
+    """Return equally spaced values from the smallest to the largest of some values."""
     if not values:
         return ()
     return tuple(np.linspace(min(values), max(values), _CURVE_POINTS).tolist())

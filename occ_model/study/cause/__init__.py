@@ -1,1 +1,1 @@
-"""Why a picture is not read, found by taking what may be wrong out of its scene."""
+"""Find why a picture is not read, by removing possible faults from its scene."""

@@ -1,8 +1,8 @@
-"""Why a picture is not read: that in the scene without which it would be read.
+"""Find why a picture is not read: the part of the scene without which it would be read.
 
-Each suspect is taken out of the scene by itself, all else left as it is, and the picture is read
-again by the same decoder. One that is enough by itself is the cause; where none is, those are that
-are needed together. Where nothing that is taken out makes it readable, no cause is stated.
+Each suspected cause is removed from the scene by itself, with all else unchanged, and the same
+decoder reads the picture again. If removing one is enough, it is the cause; otherwise the causes
+are those that must be removed together. If removing all of them does not help, no cause is stated.
 """
 
 import re
@@ -19,18 +19,18 @@ from occ_model.receiver.decoders import DECODERS
 from occ_model.results.sweep_request import SignalPath
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
-from occ_model.study.cause.suspect import Attempt, Step, Suspect
-from occ_model.study.cause.suspects import refusal_of, suspected
+from occ_model.study.cause.suspect import Attempt, Remedy, Suspect
+from occ_model.study.cause.suspects import list_suspects, refusal_of
 from occ_model.study.observation import observe, panel_span
 
 
 @dataclass(frozen=True, slots=True)
 class Cause:
-    """What is wrong, in a few words; why, in a sentence; and a remedy, if any."""
+    """What is wrong in a few words, why in a sentence, and a remedy, if any."""
 
     what: str
     why: str
-    step: Step | None = None
+    remedy: Remedy | None = None
     is_overexposed: bool = False
 
     def __str__(self) -> str:
@@ -52,42 +52,46 @@ def cause_of(
     settings: SimulationSettings | None = None,
     heartbeat: Heartbeat = lambda: None,
 ) -> Cause | None:
-    """Find why a decoder does not read a scene's picture; None where it reads it, or none is found.
+    """Find why a decoder does not read a scene's picture; None if it does, or no cause is found.
 
-    A raw pattern has none, and for plug-ins and pictures of very many columns it is not searched.
-    ``heartbeat``: called before each reading. Raises ProjectionError: the scene has no picture.
+    There is none for a raw pattern, and no search for plug-ins and pictures of very many columns.
+    ``heartbeat``: called before each reading. Raises ProjectionError if the scene has no picture.
     """
     is_searched = decoder in DECODERS and scene.camera.columns <= _MOST_COLUMNS
     if scene.transmitter.pattern or not is_searched:
         return None
-    search = _Search(Attempt(scene, decoder, settings or SimulationSettings()), heartbeat)
-    return search.cause()
+    search = _CauseSearch(Attempt(scene, decoder, settings or SimulationSettings()), heartbeat)
+    return search.find()
 
 
-_MOST_COLUMNS = 100_000  # of a picture: one of more takes seconds to read, many times
-_MOST_PIXELS = 40_000_000  # of a picture that is simulated as a whole
-_DRAWS = 3  # of the noise, one of which must leave the picture unread
+_MOST_COLUMNS = 100_000  # of a picture: with more, each of many readings takes seconds
+_MOST_PIXELS = 40_000_000  # of a picture to be simulated as a whole
+_DRAWS = 3  # of the noise; with one of them the picture must not be read
 
 
-class _Search:
+class _CauseSearch:
     def __init__(self, attempt: Attempt, heartbeat: Heartbeat) -> None:
         self._attempt, self._heartbeat = attempt, heartbeat
         self._path: SignalPath = "auto"
 
-    def cause(self) -> Cause | None:
+    def find(self) -> Cause | None:
         refusal = refusal_of(self._attempt)
         if refusal is not None:
-            return self._cause([refusal])
+            return self._state_cause([refusal])
         if not self._is_unread():
             return None
-        suspects = suspected(self._attempt)
-        alone = next((one for one in suspects if self._reads_without([one])), None)
+        suspects = list_suspects(self._attempt)
+        alone = next((one for one in suspects if self._is_read_without([one])), None)
         if alone is not None:
-            return self._cause([alone])
-        return self._cause(self._needed(suspects)) if self._reads_without(suspects) else None
+            return self._state_cause([alone])
+        return (
+            self._state_cause(self._find_needed(suspects))
+            if self._is_read_without(suspects)
+            else None
+        )
 
     def _is_unread(self) -> bool:
-        """Look for noise with which the picture is not read; in doubt whole pictures tell."""
+        """Look for noise with which the picture is not read, if necessary in whole pictures."""
         settings = self._attempt.settings
         camera = self._attempt.scene.camera
         is_small = camera.rows * camera.columns <= _MOST_PIXELS
@@ -95,34 +99,34 @@ class _Search:
         for self._path in paths:
             for seed in range(settings.seed, settings.seed + _DRAWS):
                 self._attempt = replace(self._attempt, settings=replace(settings, seed=seed))
-                if not self._reads(self._attempt):
+                if not self._is_read(self._attempt):
                     return True
         return False
 
-    def _needed(self, suspects: Sequence[Suspect]) -> list[Suspect]:
-        """Return those of several suspects that are all needed, the last left out first."""
+    def _find_needed(self, suspects: Sequence[Suspect]) -> list[Suspect]:
+        """Return the suspects that must be removed together, dropping the last ones first."""
         needed = list(suspects)
         for one in reversed(suspects):
             rest = [other for other in needed if other is not one]
-            if rest and self._reads_without(rest):
+            if rest and self._is_read_without(rest):
                 needed = rest
         return needed
 
-    def _cause(self, needed: Sequence[Suspect]) -> Cause:
+    def _state_cause(self, needed: Sequence[Suspect]) -> Cause:
         first, *others = needed
         why = first.why
         if others:
-            why += f" Beside that: {', '.join(one.what for one in others)}."
-        rest = self._without(others)
-        step = next((s for s in first.steps if rest and self._reads(s.taken(rest))), None)
-        return Cause(first.what, why, step, first.is_overexposed)
+            why += f" In addition: {', '.join(one.what for one in others)}."
+        rest = self._remove(others)
+        remedy = next((s for s in first.remedies if rest and self._is_read(s.apply(rest))), None)
+        return Cause(first.what, why, remedy, first.is_overexposed)
 
-    def _reads_without(self, suspects: Sequence[Suspect]) -> bool:
-        attempt = self._without(suspects)
-        return attempt is not None and self._reads(attempt)
+    def _is_read_without(self, suspects: Sequence[Suspect]) -> bool:
+        attempt = self._remove(suspects)
+        return attempt is not None and self._is_read(attempt)
 
-    def _without(self, suspects: Sequence[Suspect]) -> Attempt | None:
-        """Take some suspects out of the scene; None where a parameter's range does not allow it."""
+    def _remove(self, suspects: Sequence[Suspect]) -> Attempt | None:
+        """Remove some suspects from the scene; None if a parameter's range does not allow it."""
         attempt = self._attempt
         try:
             for suspect in suspects:
@@ -131,7 +135,7 @@ class _Search:
             return None
         return attempt
 
-    def _reads(self, attempt: Attempt | None) -> bool:
+    def _is_read(self, attempt: Attempt | None) -> bool:
         """Return whether the decoder reads all bits of the picture."""
         if attempt is None:
             return False

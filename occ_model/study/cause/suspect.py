@@ -1,4 +1,4 @@
-"""What is tried, what may be wrong in it, and what helps."""
+"""An attempt to read a picture, what may be wrong with it, and remedies."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
@@ -10,41 +10,42 @@ from occ_model.scene.simulation_settings import SimulationSettings
 
 @dataclass(frozen=True, slots=True)
 class Attempt:
-    """A scene that a decoder tries to read from its picture."""
+    """A scene and the decoder that tries to read its picture."""
 
     scene: Scene
     decoder: str
     settings: SimulationSettings
 
-    def changed(self, **changes: ParameterValue) -> "Attempt":
+    def change(self, **changes: ParameterValue) -> "Attempt":
         return replace(self, scene=self.scene.replace(**changes))
 
-    def lit_anew(self, factor: float) -> "Attempt":
-        """Multiply the lamp's and all other light."""
+    def scale_light(self, factor: float) -> "Attempt":
+        """Multiply the light of the lamp and all other light by a factor."""
         scene = self.scene
-        return self.changed(
+        return self.change(
             luminance=factor * scene.transmitter.luminance,
             illuminance=factor * scene.surroundings.illuminance,
         )
 
 
 @dataclass(frozen=True, slots=True)
-class Step:
+class Remedy:
     """A remedy: parameters to change, in SI units, or another decoder."""
 
     label: str
     changes: Mapping[str, ParameterValue] = field(default_factory=dict)
     decoder: str = ""
 
-    def taken(self, attempt: Attempt) -> Attempt:
-        changed = attempt.changed(**self.changes)
+    def apply(self, attempt: Attempt) -> Attempt:
+        changed = attempt.change(**self.changes)
         return replace(changed, decoder=self.decoder or attempt.decoder)
 
 
 @dataclass(frozen=True, slots=True)
 class Suspect:
-    what: str  # In a few words, such as a title ends with
-    why: str  # A sentence of facts about the scene
-    take_out: Callable[[Attempt], Attempt]  # Leaves all else as it is, as far as that can be
-    steps: tuple[Step, ...] = ()  # Remedies, of which the first that helps is offered
+    what: str  # A few words that can end a title
+    why: str  # A sentence with facts about the scene
+    # Removes it, and leaves all else unchanged as far as possible
+    take_out: Callable[[Attempt], Attempt]
+    remedies: tuple[Remedy, ...] = ()  # Remedies; the first that helps is offered
     is_overexposed: bool = False

@@ -1,4 +1,4 @@
-"""What can keep a picture from being read, and the scene without it."""
+"""List what can keep a picture from being read, and the scene without it."""
 
 import math
 from dataclasses import replace
@@ -11,24 +11,28 @@ from occ_model.scene.parameter_kinds import in_sentence
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 from occ_model.study import theory
-from occ_model.study.cause.brightness import darkness, other_light, overexposure
-from occ_model.study.cause.suspect import Attempt, Step, Suspect
+from occ_model.study.cause.brightness import (
+    suspect_darkness,
+    suspect_other_light,
+    suspect_overexposure,
+)
+from occ_model.study.cause.suspect import Attempt, Remedy, Suspect
 from occ_model.study.cause.timing import (
     compared_bits,
     exposure_in_chips,
-    few_chips,
-    few_columns,
-    long_exposure,
-    narrow_chips,
+    suspect_few_chips,
+    suspect_few_columns,
+    suspect_long_exposure,
+    suspect_narrow_chips,
 )
 from occ_model.transmitter.scheme import scheme_of
 
-_FULL_WELL = "full-well"  # the effect's name: a full pixel is overexposed
-_MILD_EXPOSURE = 1.8  # chips up to which decoders usually read
+_FULL_WELL = "full-well"  # name of the effect by which full pixels are overexposed
+_MILD_EXPOSURE = 1.8  # exposure in chips up to which decoders usually read
 
 
 def refusal_of(attempt: Attempt) -> Suspect | None:
-    """Return what a decoder cannot read whatever the picture shows; None where there is none."""
+    """Return why a decoder cannot read the scene, whatever the picture shows; None if it can."""
     scene = attempt.scene
     if not theory.panel_readout_time(scene):
         is_there = theory.is_panel_in_picture(scene)
@@ -43,30 +47,35 @@ def refusal_of(attempt: Attempt) -> Suspect | None:
         "too many bits to compare",
         f"The matched decoder compares all payloads, of up to {compared} bits; this has {bits}.",
         lambda one: replace(one, decoder="sequence"),
-        (Step("Try the sequence decoder", decoder="sequence"),),
+        (Remedy("Try the sequence decoder", decoder="sequence"),),
     )
 
 
-def suspected(attempt: Attempt) -> list[Suspect]:
-    """List what may be wrong in a scene, the light first and what is often no fault last."""
+def list_suspects(attempt: Attempt) -> list[Suspect]:
+    """List what may be wrong in a scene: light first, and last what is often harmless."""
     scene = attempt.scene
-    enhanced, exposed, effects = _enhanced(scene), long_exposure(scene), _simulated(attempt)
+    enhanced, exposed, effects = (
+        _suspect_enhancement(scene),
+        suspect_long_exposure(scene),
+        _effects_by_name(attempt),
+    )
     is_mild = exposure_in_chips(scene) < _MILD_EXPOSURE
-    # To undo the exposure is what these decoders are for.
+    # These decoders are made to undo the exposure.
     undoes = attempt.decoder in ("equalizer", "sequence")
     found = [
-        overexposure(scene, full_pixels=_FULL_WELL in effects), darkness(scene), other_light(scene),
-        _small_panel(scene), narrow_chips(scene), few_chips(attempt), enhanced if undoes else None,
+        suspect_overexposure(scene, full_pixels=_FULL_WELL in effects), suspect_darkness(scene),
+        suspect_other_light(scene), _suspect_small_panel(scene), suspect_narrow_chips(scene),
+        suspect_few_chips(attempt), enhanced if undoes else None,
         None if is_mild else exposed,
-        *(_effect(one) for name, one in effects.items() if name != _FULL_WELL),
-        exposed if is_mild else None, few_columns(scene),
+        *(_suspect_effect(one) for name, one in effects.items() if name != _FULL_WELL),
+        exposed if is_mild else None, suspect_few_columns(scene),
         None if undoes else enhanced,
     ]  # fmt: skip
     return [one for one in found if one is not None]
 
 
-def _simulated(attempt: Attempt) -> dict[str, Effect]:
-    """Return the effects that the picture is simulated with, by name."""
+def _effects_by_name(attempt: Attempt) -> dict[str, Effect]:
+    """Return the effects with which the picture is simulated, by name."""
     scene, settings = attempt.scene, attempt.settings
     is_bare = settings.tolerance == math.inf
     return {
@@ -76,16 +85,18 @@ def _simulated(attempt: Attempt) -> dict[str, Effect]:
     }
 
 
-def _effect(effect: Effect) -> Suspect:
+def _suspect_effect(effect: Effect) -> Suspect:
     def switch_off(one: Attempt) -> Attempt:
         force = {**one.settings.force, effect.name: False}
         return replace(one, settings=replace(one.settings, force=force))
 
-    return Suspect(in_sentence(effect.label), "Without it the code would be read.", switch_off)
+    return Suspect(
+        in_sentence(effect.label), "Without this effect the code would be read.", switch_off
+    )
 
 
-def _small_panel(scene: Scene) -> Suspect | None:
-    """Suspect a panel that covers less of the picture than marks it for the receiver."""
+def _suspect_small_panel(scene: Scene) -> Suspect | None:
+    """Suspect a panel that covers less of the picture than the receiver marks."""
     camera = scene.camera
     panel = region_of(panel_corners(scene), camera.rows, camera.columns)
     if panel is None:
@@ -97,20 +108,20 @@ def _small_panel(scene: Scene) -> Suspect | None:
     value = max(float(f"{0.5 * fraction:.2g}"), quantity("bright_fraction").low)
     return Suspect(
         "the panel is not found",
-        f"The brightest {100.0 * wanted:.3g} % of the pixels mark it, but it covers "
-        f"{100.0 * fraction:.2g} % of the picture: pixels beside it are marked as well.",
-        lambda one: one.changed(bright_fraction=value),
-        (Step(f"Mark the brightest {100.0 * value:.2g} %", {"bright_fraction": value}),),
+        f"The receiver marks the brightest {100.0 * wanted:.3g} % of the pixels, but the panel "
+        f"covers {100.0 * fraction:.2g} % of the picture: pixels beside it are marked as well.",
+        lambda one: one.change(bright_fraction=value),
+        (Remedy(f"Mark the brightest {100.0 * value:.2g} %", {"bright_fraction": value}),),
     )
 
 
-def _enhanced(scene: Scene) -> Suspect | None:
+def _suspect_enhancement(scene: Scene) -> Suspect | None:
     enhancement = scene.model.enhancement
     if enhancement == "none":
         return None
     return Suspect(
         f"enhanced by {enhancement}",
-        "A level tells less of the light then: without that the code would be read.",
-        lambda one: one.changed(enhancement="none"),
-        (Step("Enhance nothing", {"enhancement": "none"}),),
+        "Enhanced levels say less about the light; without enhancement the code would be read.",
+        lambda one: one.change(enhancement="none"),
+        (Remedy("Turn off enhancement", {"enhancement": "none"}),),
     )

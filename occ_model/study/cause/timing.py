@@ -1,4 +1,4 @@
-"""Suspects of the timing: chips, exposure and columns against each other."""
+"""Suspected causes in the timing: of chips, exposure and columns relative to each other."""
 
 import math
 
@@ -10,30 +10,30 @@ from occ_model.scene.parameters.light import MAX_BITS
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import HERTZ, SECOND
 from occ_model.study import theory
-from occ_model.study.cause.suspect import Attempt, Step, Suspect
+from occ_model.study.cause.suspect import Attempt, Remedy, Suspect
 from occ_model.transmitter.scheme import scheme_of
 
-_FEW_COLUMNS = 3.0  # columns of a chip below which they may be too few
-_COLUMNS_OF_A_CHIP = 5.0  # of a chip that is taken out of that suspicion
-_SHORT_EXPOSURE = 0.5  # chips that an exposure covers which leaves each of them alone
-_NEAR = 0.1  # of the null's frequency, within which a scene is near to it
-_MARGIN = 1.15  # factor by which more is seen than is needed
-_MOST_COLUMNS = 20_000  # of a picture that is made wide enough
+_FEW_COLUMNS = 3.0  # columns per chip below which they may be too few
+_COLUMNS_OF_A_CHIP = 5.0  # columns per chip that are certainly enough
+_SHORT_EXPOSURE = 0.5  # exposure in chips that is short enough to show each chip alone
+_NEAR = 0.1  # fraction of the null's frequency within which a scene is near it
+_MARGIN = 1.15  # factor by which a remedy shows more than is needed
+_MOST_COLUMNS = 20_000  # of a picture that is widened
 
 
-def narrow_chips(scene: Scene) -> Suspect | None:
+def suspect_narrow_chips(scene: Scene) -> Suspect | None:
     columns = columns_of_chip(scene)
     if columns >= 1.0:
         return None
     return Suspect(
         "chips are narrower than a column",
-        f"A chip lasts {columns:.2g} columns: not every chip has a column of its own.",
+        f"A chip lasts {columns:.2g} columns, so not every chip has a column of its own.",
         _read_out_faster,
-        (_frequency(theory.row_rate_frequency(scene)),),
+        (_frequency_remedy(theory.row_rate_frequency(scene)),),
     )
 
 
-def few_columns(scene: Scene) -> Suspect | None:
+def suspect_few_columns(scene: Scene) -> Suspect | None:
     columns = columns_of_chip(scene)
     if not 1.0 <= columns < _FEW_COLUMNS:
         return None
@@ -43,13 +43,13 @@ def few_columns(scene: Scene) -> Suspect | None:
 
 
 def _read_out_faster(one: Attempt) -> Attempt:
-    """Read out more columns to a chip, and as many chips."""
+    """Read out more columns per chip, and the same number of chips."""
     more = _COLUMNS_OF_A_CHIP / columns_of_chip(one.scene)
-    return _widened(one.changed(readout_time=one.scene.camera.readout_time / more), more)
+    return _widen(one.change(readout_time=one.scene.camera.readout_time / more), more)
 
 
-def _widened(one: Attempt, factor: float) -> Attempt:
-    """Make the panel wider, and the picture as far as that needs, with the same pixels a metre."""
+def _widen(one: Attempt, factor: float) -> Attempt:
+    """Widen the panel, and the picture as far as necessary, at the same pixels per metre."""
     scene = one.scene
     camera, corners = scene.camera, panel_corners(scene)[:, 0]
     centre, half = float(corners.mean()), float(corners.max() - corners.min()) / 2.0
@@ -57,26 +57,26 @@ def _widened(one: Attempt, factor: float) -> Attempt:
     columns = math.ceil(max(camera.columns, min(reached, camera.columns * factor)))
     if columns > _MOST_COLUMNS:
         raise PARAMETERS["columns"].refuse(f"is {columns}", f"up to {_MOST_COLUMNS}")
-    # The equivalent focal length is that of the whole picture's diagonal.
+    # The equivalent focal length refers to the diagonal of the whole picture.
     before, after = (math.hypot(camera.rows, number) for number in (camera.columns, columns))
-    return one.changed(
+    return one.change(
         columns=columns,
         panel_width=scene.transmitter.panel_width * factor,
         equivalent_focal_length=camera.equivalent_focal_length * before / after,
     )
 
 
-def _frequency(value: float) -> Step:
+def _frequency_remedy(value: float) -> Remedy:
     value = float(f"{value:.3g}")
-    return Step(f"Set {HERTZ.format(value)}", {"switching_frequency": value})
+    return Remedy(f"Set {HERTZ.format(value)}", {"switching_frequency": value})
 
 
 def reads_two_headers(scene: Scene, decoder: str) -> bool:
-    """Return whether a decoder needs two headers of a scene's packets; others read a single one."""
+    """Return whether a decoder needs two headers of a scene's packets instead of one packet."""
     return decoder in ("threshold", "equalizer") and scheme_of(scene.transmitter).ends_by_header
 
 
-def few_chips(attempt: Attempt) -> Suspect | None:
+def suspect_few_chips(attempt: Attempt) -> Suspect | None:
     scene = attempt.scene
     sent = scene.transmitter
     packets = 2 if reads_two_headers(scene, attempt.decoder) else 1
@@ -89,14 +89,14 @@ def few_chips(attempt: Attempt) -> Suspect | None:
     room = f"The panel's image has room for {whole_chips(shown)} of the {needed} chips of"
     why = f"{room} a packet."
     if packets == 2:
-        why = f"{room} two packets, and so not for both headers in every picture."
+        why = f"{room} two packets, so not every picture shows both headers."
     return Suspect(
         "too few chips in view",
         why,
-        lambda one: _widened(one, more),
+        lambda one: _widen(one, more),
         (
-            _frequency(sent.switching_frequency * more),
-            Step(f"Come to {quantity('distance').format(nearer)}", {"distance": nearer}),
+            _frequency_remedy(sent.switching_frequency * more),
+            Remedy(f"Come to {quantity('distance').format(nearer)}", {"distance": nearer}),
         ),
     )
 
@@ -105,8 +105,8 @@ def exposure_in_chips(scene: Scene) -> float:
     return scene.camera.exposure_time * scene.transmitter.switching_frequency
 
 
-def long_exposure(scene: Scene) -> Suspect | None:
-    """Suspect an exposure in which no column sees a chip alone."""
+def suspect_long_exposure(scene: Scene) -> Suspect | None:
+    """Suspect an exposure during which no column sees a single chip."""
     sent = scene.transmitter
     chips = exposure_in_chips(scene)
     if chips <= 1.0:
@@ -125,33 +125,33 @@ def long_exposure(scene: Scene) -> Suspect | None:
     short = float(f"{_SHORT_EXPOSURE * sent.switching_period:.3g}")
     return Suspect(
         what,
-        f"An exposure covers {chips:.3g} chips, and leaves {swing:.2g} % of the swing of chips "
-        "that alternate.",
-        _exposed_shortly,
-        (*_whole_packets(scene), _exposing(scene, short)),
+        f"An exposure covers {chips:.3g} chips and leaves {swing:.2g} % of the swing of "
+        "alternating chips.",
+        _expose_shortly,
+        (*_decoder_remedies(scene), _exposure_remedy(scene, short)),
     )
 
 
-def _exposed_shortly(one: Attempt) -> Attempt:
-    """Expose for less than a chip, with as much more light."""
+def _expose_shortly(one: Attempt) -> Attempt:
+    """Expose for less than a chip, with proportionally more light."""
     exposure = one.scene.camera.exposure_time
     short = _SHORT_EXPOSURE * one.scene.transmitter.switching_period
-    return one.changed(exposure_time=short).lit_anew(exposure / short)
+    return one.change(exposure_time=short).scale_light(exposure / short)
 
 
-def _exposing(scene: Scene, exposure: float) -> Step:
-    """Return the step to an exposure time, at the same brightness as far as the slider of ISO."""
+def _exposure_remedy(scene: Scene, exposure: float) -> Remedy:
+    """Return a remedy by exposure time, at the same brightness as far as ISO's slider allows."""
     low, high = quantity("iso").slider
     iso = scene.camera.iso * scene.camera.exposure_time / exposure
     changes = {"exposure_time": exposure, "iso": float(f"{min(max(iso, low), high):.3g}")}
-    return Step(f"Expose for {SECOND.format(exposure)}", changes)
+    return Remedy(f"Expose for {SECOND.format(exposure)}", changes)
 
 
-def _whole_packets(scene: Scene) -> tuple[Step, ...]:
-    """Return the decoders that compare whole packets in place of single chips."""
+def _decoder_remedies(scene: Scene) -> tuple[Remedy, ...]:
+    """Return remedies by decoders that compare whole packets instead of single chips."""
     is_compared = scheme_of(scene.transmitter).bits <= compared_bits(scene)
     names = ("matched", "sequence") if is_compared else ("sequence",)
-    return tuple(Step(f"Try the {name} decoder", decoder=name) for name in names)
+    return tuple(Remedy(f"Try the {name} decoder", decoder=name) for name in names)
 
 
 def compared_bits(scene: Scene) -> int:

@@ -1,4 +1,4 @@
-"""Points of a sweep: measured in this process or as a worker's job, and counted for the table."""
+"""Measure the points of a sweep, here or as a worker's job, and collect them for the table."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -15,7 +15,7 @@ from occ_model.results.sweep_request import RateSettings, SweepPoint, SweepReque
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.scene import Scene
 from occ_model.study.confidence import interval_of_pictures
-from occ_model.study.success_rate import check_rate, right_and_whole
+from occ_model.study.success_rate import check_rate, count_right_and_whole
 
 PointValues: TypeAlias = tuple[int, dict[str, ParameterValue]]  # a point's index and varied values
 
@@ -34,12 +34,12 @@ def measure_point(
     values: dict[str, ParameterValue],
     heartbeat: Heartbeat = lambda: None,
 ) -> SweepPoint:
-    """Measure one point; an error of the model, or a plug-in's faults, become the point's note."""
+    """Measure one point; a refusal of the model or a plug-in's faults become its note."""
     try:
         at = scene.replace(**values)
         check_rate(at, settings)
         with Faults().counting() as faults:
-            right, whole = right_and_whole(at, settings, heartbeat)
+            right, whole = count_right_and_whole(at, settings, heartbeat)
     except OccError as refusal:
         none = (0,) * len(settings.decoders)
         return SweepPoint(index, 0, none, join_lines(str(refusal)), none)
@@ -58,12 +58,12 @@ def measure_points(
 
 
 def rate_intervals(point: SweepPoint, images: int) -> list[tuple[float, float]]:
-    """Return the 95 % interval of each decoder's rate in percent, not a number without a rate."""
+    """Return the 95 % interval of each decoder's rate in percent; NaN without a rate."""
     return [interval_of_pictures(right, point.sent, images) for right in point.right]
 
 
-class Counts:
-    """The counts so far, a few bytes a point."""
+class SweepCounts:
+    """The counts so far, in a few bytes per point."""
 
     def __init__(self, request: SweepRequest) -> None:
         self._request = request

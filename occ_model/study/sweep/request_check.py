@@ -1,4 +1,4 @@
-"""Check the arguments of a sweep before any work starts, and make its request."""
+"""Check the arguments of a sweep before any work starts, and build its request."""
 
 import math
 import os
@@ -22,7 +22,7 @@ from occ_model.scene.scene import Scene
 from occ_model.study.success_rate import check_rate
 
 
-def checked_request(scene: Scene, axes: object, settings: RateSettings) -> SweepRequest:
+def build_request(scene: Scene, axes: object, settings: RateSettings) -> SweepRequest:
     check_rate(scene, settings)
     FRAME_RATE.check(settings.frames_a_second)
     if not isinstance(axes, Mapping) or not axes:
@@ -33,7 +33,7 @@ def checked_request(scene: Scene, axes: object, settings: RateSettings) -> Sweep
         raise ParameterError(f"{len(axes)} parameters are varied; allowed: at most {MOST_AXES}.")
     checked: dict[str, tuple[ParameterValue, ...]] = {}
     for name, values in axes.items():
-        checked[str(name)] = _axis(name, values)
+        checked[str(name)] = _check_axis(name, values)
         check_points(checked)
     return SweepRequest(scene, checked, settings)
 
@@ -57,7 +57,7 @@ def processes_for(jobs: int, points: int) -> int:
 
 
 def decoders_of(decoder: object) -> tuple[str, ...]:
-    """Return the names of the decoders, from one name or several."""
+    """Return the names of the decoders, given one name or several."""
     known = ", ".join(DECODERS)
     if isinstance(decoder, str):
         return (decoder,)
@@ -71,7 +71,7 @@ def decoders_of(decoder: object) -> tuple[str, ...]:
     return tuple(decoder)
 
 
-def _axis(name: str, values: object) -> tuple[ParameterValue, ...]:
+def _check_axis(name: str, values: object) -> tuple[ParameterValue, ...]:
     parameter = parameter_named(name)
     if name == "pattern":
         raise ParameterError("pattern cannot be varied: a raw pattern holds no code to be read.")
@@ -83,12 +83,12 @@ def _axis(name: str, values: object) -> tuple[ParameterValue, ...]:
     for value in values:
         own = parameter.check(value)
         if isinstance(parameter, Choice):
-            own = str(own)  # an array's strings are not plain ones
+            own = str(own)  # strings of an array are not plain ones
         if own in checked:
             text = parameter.format(own)  # type: ignore[arg-type]
             raise parameter.refuse(f"is {text} twice", "values that differ")
         checked[own] = None
-        if len(checked) > MOST_POINTS:  # such as values that never end
+        if len(checked) > MOST_POINTS:  # for example an endless iterator
             raise parameter.refuse("has too many values", f"at most {MOST_POINTS:,}")
     if not checked:
         raise parameter.refuse("has no values to vary over", f"one or more, {parameter.allowed}")

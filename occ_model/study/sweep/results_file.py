@@ -1,8 +1,8 @@
 """The CSV file to which a study appends its results, and from which it can be continued.
 
-Each point is written at once, in one piece, so that the file survives the end of the program. Only
-the study that began a file can continue it: the file's comment lines hold all that determines the
-numbers, and are compared with those that the study would write.
+Each point is written at once and in one piece, so that the file stays valid if the program is
+stopped. Only the study that began a file can continue it: the file's comment lines contain all that
+determines the numbers, and are compared with those that the study would write.
 """
 
 import os
@@ -17,14 +17,14 @@ from occ_model.errors import OutputError, ParameterError, one_line, shown
 from occ_model.files.locking import locked
 from occ_model.files.writing import check_replaceable, write_whole
 
-_LONGEST_LINE = 100_000  # bytes of a line; ours have some hundred
+_LONGEST_LINE = 100_000  # bytes of a line; usual ones have some hundred
 _SYNC_SECONDS = 2.0  # maximum seconds of work lost by a power cut
 
 
 class Indexed(Protocol):
     @property
     def index(self) -> int:
-        """Its number, from 0."""
+        """Number of the point, from 0."""
 
 
 Point = TypeVar("Point", bound=Indexed)
@@ -37,16 +37,17 @@ class TableText(Protocol[Point]):
 
     title: str  # start of the header of every such table
 
-    header: str  # all that determines the numbers, and the names of the columns
+    header: str  # all that determines the numbers, and the column names
 
     points: int  # number of points of the whole study
 
     lines_a_point: int
 
     def read(self, lines: Sequence[str], number: int) -> Point | None:
-        """Parse a point from its lines, of which the first has this number.
+        """Parse a point from its lines; ``number``: the line number of the first.
 
-        None where they are not of this study; ParameterError where a count cannot be.
+        Returns None if they do not belong to this study. Raises ParameterError if a count is
+        impossible.
         """
 
     def text(self, point: Point) -> str:
@@ -56,8 +57,8 @@ class TableText(Protocol[Point]):
 class ResultsFile(Generic[Point]):
     """A CSV file of one study, open and locked within its context.
 
-    On entering it raises OutputError, and leaves the file unchanged: it is not a regular file,
-    cannot be written, is in use by another study, or holds something else than this one.
+    Entering raises OutputError and leaves the file unchanged if it is not a regular file, cannot be
+    written, is in use by another study, or contains anything else than this study.
     """
 
     def __init__(self, path: Path, table: TableText[Point]) -> None:
@@ -70,7 +71,7 @@ class ResultsFile(Generic[Point]):
         self._synced = monotonic()
 
     def __enter__(self) -> Self:
-        self._file = self._opened()
+        self._file = self._open_locked()
         try:
             self._check_header()
         except BaseException:
@@ -86,8 +87,8 @@ class ResultsFile(Generic[Point]):
     ) -> None:
         self._file.close()
 
-    def _opened(self) -> BinaryIO:
-        """Open and lock the file; where it was replaced before it was locked, open the new one."""
+    def _open_locked(self) -> BinaryIO:
+        """Open and lock the file; if it was replaced before it was locked, open the new one."""
         while True:
             check_replaceable(self._path)
             try:
@@ -107,7 +108,7 @@ class ResultsFile(Generic[Point]):
             file.close()
 
     def _check_header(self) -> None:
-        """Refuse a file of anything else; complete the header of a file that was just begun."""
+        """Refuse a file with other contents; complete the header of a file that was just begun."""
         there = self._file.read(len(self._header))
         if there == self._header:
             return
@@ -117,22 +118,22 @@ class ResultsFile(Generic[Point]):
             return
         if not there.startswith(self._table.title.encode("utf-8")):
             raise OutputError(
-                f"{self._name} holds no results of a {self._table.what}; name another file."
+                f"{self._name} contains no results of a {self._table.what}; name another file."
             )
         wanted = self._header.decode("utf-8").splitlines()
         found = there.decode("utf-8", errors="replace").splitlines()
-        last = len(found) - 1  # may be cut: only as many bytes as this header has were read
+        last = len(found) - 1  # may be cut, since only as many bytes as this header has were read
         for place, (mine, other) in enumerate(zip(wanted, found, strict=False)):
             if mine != other and not (place == last and mine.startswith(other)):
                 raise OutputError(
-                    f"{self._name} holds the results of another {self._table.what}: it says "
-                    f"{shown(_short(other))} where this one has {shown(_short(mine))}; name "
+                    f"{self._name} contains the results of another {self._table.what}: it says "
+                    f"{shown(_shorten(other))} where this one has {shown(_shorten(mine))}; name "
                     "another file."
                 )
         raise OutputError(f"{self._name} was changed by another program; name another file.")
 
-    def points_there(self) -> Iterator[Point]:
-        """Read the points that the file holds, before any is appended; cut off half of one."""
+    def read_points(self) -> Iterator[Point]:
+        """Read the points in the file before any is appended; cut off an incomplete last one."""
         height = self._table.lines_a_point
         seen = bytearray(self._table.points)
         whole, line_number = len(self._header), self._header.count(b"\n")
@@ -150,13 +151,13 @@ class ResultsFile(Generic[Point]):
                     point = self._table.read(rows_of_point, line_number + 1)
                 except ParameterError as impossible:
                     raise OutputError(
-                        f"{self._name}, {impossible} Mend or remove the line, or name another file."
+                        f"{self._name}, {impossible} Correct or remove the line, or name another "
+                        "file."
                     ) from None
                 if point is None or seen[point.index] or self._text(point) != text:
                     raise OutputError(
-                        f"{self._name} holds something else in line {line_number + 1}: it is no "
-                        f"new row of this {self._table.what}; mend or remove it, or name another "
-                        "file."
+                        f"Line {line_number + 1} of {self._name} is not a new row of this "
+                        f"{self._table.what}; correct or remove it, or name another file."
                     )
                 seen[point.index] = 1
                 whole, line_number = whole + len(text), line_number + height
@@ -173,13 +174,13 @@ class ResultsFile(Generic[Point]):
         self._write(self._text(point), keep=self._file.tell())
 
     def finish(self, lines: Iterable[str]) -> None:
-        """Rewrite the complete table in the order of the axes, unless it is in that order."""
+        """Rewrite the complete table in the order of the axes, unless it already is."""
         try:
             os.fsync(self._file.fileno())
         except OSError as error:
             raise self._unwritable(error) from None
         if not self._in_order:
-            # Where there is no space for a second file the first stays: it is as complete.
+            # Without space for a second file the first one stays, which is as complete.
             with suppress(OutputError):
                 write_whole(self._path, "".join(lines).encode("utf-8"))
 
@@ -191,7 +192,7 @@ class ResultsFile(Generic[Point]):
         self._last = point.index
 
     def _write(self, text: bytes, keep: int) -> None:
-        """Write at the end; where that fails, cut the file back to its length before."""
+        """Write at the end; if that fails, cut the file back to its length before."""
         try:
             left = memoryview(text)
             while left:
@@ -200,7 +201,7 @@ class ResultsFile(Generic[Point]):
                 os.fsync(self._file.fileno())
                 self._synced = monotonic()
         except OSError as error:
-            # Where this fails too, the incomplete line is cut off when the sweep is continued.
+            # If this fails too, the incomplete line is cut off when the study is continued.
             with suppress(OSError):
                 self._file.truncate(keep)
             raise self._unwritable(error) from None
@@ -212,6 +213,6 @@ class ResultsFile(Generic[Point]):
 _BINARY = getattr(os, "O_BINARY", 0)
 
 
-def _short(line: str) -> str:
+def _shorten(line: str) -> str:
     text = line.lstrip("# ")
     return text if len(text) <= 60 else f"{text[:57]}..."

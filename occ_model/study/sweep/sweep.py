@@ -22,13 +22,13 @@ from occ_model.scene.argument_checks import check_count
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import TOLERANCE
-from occ_model.study.sweep.points import Counts, PointValues, measure_points, rate_intervals
-from occ_model.study.sweep.request_check import checked_request, decoders_of, processes_for
+from occ_model.study.sweep.points import PointValues, SweepCounts, measure_points, rate_intervals
+from occ_model.study.sweep.request_check import build_request, decoders_of, processes_for
 from occ_model.study.sweep.results_file import Point, ResultsFile, TableText
-from occ_model.study.sweep.workers import Work, measure_anywhere
+from occ_model.study.sweep.workers import StudyWork, measure_anywhere
 
-Progress: TypeAlias = Callable[[int, int, float], object]  # points done, of all, seconds left
-BEAT = 0.2  # seconds between two calls of the progress while a point takes long
+Progress: TypeAlias = Callable[[int, int, float], object]  # points done, all points, seconds left
+BEAT = 0.2  # seconds between calls of the progress during a long point
 
 
 def sweep(  # noqa: PLR0913 - a study's settings, most of them optional
@@ -49,17 +49,17 @@ def sweep(  # noqa: PLR0913 - a study's settings, most of them optional
 ) -> SweepTable:
     """Measure the success rate at all combinations of some parameters' values.
 
-    A point's rate is ``success_rate(scene.replace(**point), images, decoder, seed)``: all points
-    have the same seed, and so start times at the same fractions of a packet.
+    A point's rate is ``success_rate(scene.replace(**point), images, decoder, seed)``. All points
+    have the same seed, and therefore start times at the same fractions of a packet.
 
     Parameters
     ----------
     scene
-        The scene, which gives the parameters that are not varied.
+        The scene, with the values of the parameters that are not varied.
     axes
-        The values of each parameter that is varied, by name and in SI units.
+        The values of each varied parameter, by name and in SI units.
     decoder
-        A decoder's name, or several: they read the same images.
+        A decoder's name, or several, which read the same images.
     seed
         Seed of the start times and the noise.
     executor, jobs, progress, results
@@ -67,21 +67,22 @@ def sweep(  # noqa: PLR0913 - a study's settings, most of them optional
     path, tolerance, force
         As for :func:`occ_model.success_rate`.
     frames_a_second
-        Images a second by which bits a second are counted, or as many as can be read out.
+        Images per second from which the bits per second are computed; limited by the readout.
 
     Returns
     -------
     SweepTable
-        In the order of the axes. A point whose scene the model refuses has a note and no rate.
+        The results in the order of the axes. A point whose scene the model refuses has a note and
+        no rate.
 
     Raises
     ------
     ParameterError, OutputError
-        An argument is not allowed, or as for :func:`run_sweep`.
+        An argument is not allowed, or the results file cannot be used.
     """
     names = decoders_of(decoder)
     settings = RateSettings(images, names, seed, tolerance, force or {}, path, frames_a_second)
-    request = checked_request(scene, axes, settings)
+    request = build_request(scene, axes, settings)
     return run_sweep(request, executor=executor, jobs=jobs, progress=progress, results=results)
 
 
@@ -96,18 +97,18 @@ def run_sweep(
     """Measure a sweep that has been requested.
 
     ``executor``: any executor of ``concurrent.futures`` whose workers can import this package, such
-    as ``ProcessPoolExecutor(2)`` or, with dask, ``client.get_executor()``. When it breaks, this
-    process finishes the sweep, with a ``RuntimeWarning``. Without one, ``jobs`` processes are
-    started, and again where they die, at most one a point and a few a core; with one job, or with a
-    ``RuntimeWarning`` where the system cannot start processes, the sweep runs in this process.
-    The module that calls this must not do so when it is imported
-    (``if __name__ == "__main__":``). ``progress``: called after each point, and several times a
-    second while a point takes longer, with the points done, of all, and seconds left (not a number
-    at first). Whatever it raises ends the sweep and is passed on; the CSV file ``results`` keeps
-    what is done. Where it holds a part of this same sweep, also one that was killed, only the
+    as ``ProcessPoolExecutor(2)`` or, with dask, ``client.get_executor()``. If it breaks, this
+    process finishes the sweep and issues a ``RuntimeWarning``. Without an executor, ``jobs``
+    processes are started, at most one per point and a few per core, and replaced if they die. With
+    one job, the sweep runs in this process, and also, with a ``RuntimeWarning``, if the system
+    cannot start processes. The calling module must not call this when it is imported (``if __name__
+    == "__main__":``). ``progress``: called after each point, and several times a second during a
+    long point, with the points done, all points, and the seconds left (NaN at first). An exception
+    from it ends the sweep and is passed on. ``results``: a CSV file to which each point is written
+    at once. If it contains a part of this same sweep, even of one that was killed, only the
     remainder is measured; a complete file is in the order of the axes.
     """
-    counts = Counts(request)
+    counts = SweepCounts(request)
     measure_study(
         work_of(request), _SweepText(request), request.in_order_of_work(), counts.enter,
         lambda: counts.table().csv(),
@@ -116,16 +117,16 @@ def run_sweep(
     return counts.table()
 
 
-def work_of(request: SweepRequest) -> Work[SweepPoint]:
+def work_of(request: SweepRequest) -> StudyWork[SweepPoint]:
     def arguments(indices: Iterable[int]) -> tuple[Scene, RateSettings, tuple[PointValues, ...]]:
         values = tuple((index, request.values(index)) for index in indices)
         return request.scene, request.settings, values
 
-    return Work("sweep", measure_points, arguments)
+    return StudyWork("sweep", measure_points, arguments)
 
 
 def measure_study(  # noqa: PLR0913 - what a study is, and how it is measured
-    work: Work[Point],
+    work: StudyWork[Point],
     table: TableText[Point],
     order: Iterable[int],
     enter: Callable[[Point], object],
@@ -136,32 +137,32 @@ def measure_study(  # noqa: PLR0913 - what a study is, and how it is measured
     progress: Progress | None,
     results: str | Path | None,
 ) -> None:
-    """Measure the points of a study, in some order, that a results file does not hold yet.
+    """Measure the points of a study that its results file does not contain yet, in a given order.
 
-    ``enter``: takes each point, also those of the file; ``whole``: the lines of all of them in the
-    order of the study. See :func:`run_sweep`.
+    ``enter``: called with each point, including those of the file. ``whole``: returns the lines of
+    all points in the order of the study. For the other arguments see :func:`run_sweep`.
     """
     check_count("jobs", jobs, 1, MOST_JOBS)
-    clock, there = Clock(table.points, progress), bytearray(table.points)
+    reporter, there = SweepProgress(table.points, progress), bytearray(table.points)
     with ExitStack() as stack:
         file = (
             stack.enter_context(ResultsFile(Path(results), table)) if results is not None else None
         )
         if file is not None:
-            for point in file.points_there():
+            for point in file.read_points():
                 there[point.index] = True
                 enter(point)
-            clock.start(sum(there))
+            reporter.start(sum(there))
         todo = (index for index in order if not there[index])
         jobs = processes_for(jobs, table.points - sum(there))
-        points = measure_anywhere(work, todo, executor, jobs, clock.show_life)
-        # Closed here, whatever ends it: workers that are not closed would go on.
+        points = measure_anywhere(work, todo, executor, jobs, reporter.report_if_due)
+        # Closed here in every case, because workers that are not closed would go on.
         stack.enter_context(closing(points))
         for point in points:
             if file is not None:
                 file.append(point)
             enter(point)
-            clock.count()
+            reporter.count_point()
         if file is not None:
             file.finish(whole())
 
@@ -180,7 +181,7 @@ class _SweepText:
         return point_text(self._request, point, intervals)
 
 
-class Clock:
+class SweepProgress:
     """Measures the progress of a sweep and its time left, and reports both."""
 
     def __init__(self, total: int, progress: Progress | None) -> None:
@@ -193,18 +194,18 @@ class Clock:
         self._done = self._found = found
         self._started = self._told = perf_counter()
         if found:
-            self._tell()
+            self._report()
 
-    def count(self) -> None:
+    def count_point(self) -> None:
         self._done += 1
-        self._tell()
+        self._report()
 
-    def show_life(self) -> None:
-        """Report the progress again where the last report was long ago."""
+    def report_if_due(self) -> None:
+        """Report the progress again if the last report was long ago."""
         if perf_counter() - self._told >= BEAT:
-            self._tell()
+            self._report()
 
-    def _tell(self) -> None:
+    def _report(self) -> None:
         self._told = perf_counter()
         if self._progress is None:
             return

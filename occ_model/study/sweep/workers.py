@@ -1,4 +1,4 @@
-"""Workers of a study: they measure its points, and this process completes it where they die."""
+"""Measure the points of a study by workers, or in this process if they die."""
 
 import warnings
 from collections.abc import Callable, Generator, Iterable, Iterator
@@ -21,33 +21,35 @@ from occ_model.parallel.job import (
 from occ_model.parallel.results import results_of
 from occ_model.study.sweep.results_file import Point
 
-_JOB_SECONDS = 0.1  # seconds of a job: long against sending it, short against anybody's patience
-_WAIT = 0.2  # seconds for the futures of an executor that breaks to end
-_UNKNOWN_WORKERS = 32  # assumed of an executor that does not say how many it has
+_JOB_SECONDS = 0.1  # duration of a job: long compared to sending it, short for a waiting user
+_WAIT = 0.2  # seconds given to the futures of a breaking executor to end
+_UNKNOWN_WORKERS = 32  # assumed for an executor that does not give the number
 
 
 @dataclass(frozen=True, slots=True)
-class Work(Generic[Point]):
+class StudyWork(Generic[Point]):
     """The points of a study as jobs."""
 
-    what: str  # What the study is called: a sweep
-    # The function of a job, which takes its arguments and a heartbeat and returns an object with
-    # the ``points`` and the ``seconds`` that they took; its module is what a worker process needs
+    what: str  # Name of the study, such as a sweep
+    # The function of a job, called with its arguments and a heartbeat; returns an object with the
+    # ``points`` and the ``seconds`` that they took. A worker process imports its module
     function: Callable[..., Any]
-    arguments: Callable[[Iterable[int]], tuple[Any, ...]]  # Of a job of some points
+    arguments: Callable[[Iterable[int]], tuple[Any, ...]]  # Arguments of a job of some points
 
     def job(self, indices: Iterable[int]) -> Job:
         return Job(self.function, self.arguments(indices))
 
-    def here(self, indices: Iterable[int], heartbeat: Heartbeat) -> Generator[Point, None, None]:
+    def measure_here(
+        self, indices: Iterable[int], heartbeat: Heartbeat
+    ) -> Generator[Point, None, None]:
         for index in indices:
             yield from self.function(*self.arguments((index,)), heartbeat).points
 
 
 class GivenExecutor:
-    """An executor that belongs to the caller: it is neither renewed nor closed."""
+    """An executor that belongs to the caller and is neither renewed nor closed."""
 
-    # Each kind of executor has its own exceptions for workers that died.
+    # Each kind of executor has its own exceptions for dead workers.
     lost_by: tuple[type[Exception], ...] = (Exception,)
 
     def __init__(self, executor: Executor) -> None:
@@ -69,8 +71,9 @@ class GivenExecutor:
         return 0
 
     def renew(self) -> None:
-        """Withdraw the jobs that have not begun."""
-        # An executor that breaks ends its futures one by one; one withdrawn meanwhile confuses it.
+        """Cancel the jobs that have not begun."""
+        # A breaking executor ends its futures one by one; cancelling one in the meantime confuses
+        # it.
         wait(list(self._futures), timeout=_WAIT)
         for future in list(self._futures):
             future.cancel()
@@ -81,17 +84,17 @@ class GivenExecutor:
 
 
 def measure_anywhere(
-    work: Work[Point],
+    work: StudyWork[Point],
     todo: Iterator[int],
     executor: Executor | None,
     jobs: int,
     heartbeat: Heartbeat,
 ) -> Generator[Point, None, None]:
-    """Measure points by an executor, by so many processes, or here."""
+    """Measure points by an executor, by a number of processes, or in this process."""
     if executor is not None:
         return measure_by(GivenExecutor(executor), work, todo, heartbeat)
     if jobs > 1:
-        # Importing what starts processes takes time.
+        # Imported here because the import takes time.
         from occ_model.parallel.process_pool import ProcessPool
 
         try:
@@ -103,22 +106,22 @@ def measure_anywhere(
                 RuntimeWarning,
                 stacklevel=3,
             )
-    return work.here(todo, heartbeat)
+    return work.measure_here(todo, heartbeat)
 
 
 def measure_by(
-    workers: Workers, work: Work[Point], indices: Iterator[int], heartbeat: Heartbeat
+    workers: Workers, work: StudyWork[Point], indices: Iterator[int], heartbeat: Heartbeat
 ) -> Generator[Point, None, None]:
-    """Measure points by workers, in the order in which they are ready.
+    """Measure points by workers and yield them in the order in which they are ready.
 
-    A bounded number of jobs is in flight. When workers die, their points are measured again, by new
-    ones or here: a point depends on nothing but itself.
+    A limited number of jobs is in progress at a time. If workers die, their points are measured
+    again by new ones or here, since a point does not depend on other points.
     """
     sent: dict[int, None] = {}
     seconds_a_point = 0.0
 
     def jobs() -> Iterator[Job]:
-        # One point a job until their time is known.
+        # One point per job until the time of a point is known.
         while chosen := tuple(
             islice(indices, max(1, int(_JOB_SECONDS / seconds_a_point)) if seconds_a_point else 1)
         ):
@@ -138,4 +141,4 @@ def measure_by(
             RuntimeWarning,
             stacklevel=2,
         )
-    yield from work.here(chain(sent, indices), heartbeat)
+    yield from work.measure_here(chain(sent, indices), heartbeat)

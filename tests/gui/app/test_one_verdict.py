@@ -35,7 +35,7 @@ from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.study import working_range as module
-from occ_model.study.success_rate import right_and_whole, right_bits_of_images
+from occ_model.study.success_rate import count_right_and_whole, right_bits_of_images
 from occ_model.study.sweep.points import measure_points
 from occ_model.study.theory import null_frequency
 from occ_model.study.working_range import working_range
@@ -206,7 +206,7 @@ def test_strip_and_banner_state_the_rate_of_the_study(
     rate = occ.success_rate(scene, 20)
     assert 5.0 < rate < 99.0
     # Some pictures are read in part: bits a second count whole ones, which the banner tells, too.
-    (whole,) = right_and_whole(scene, RateSettings(20, ("threshold",), SEED))[1]
+    (whole,) = count_right_and_whole(scene, RateSettings(20, ("threshold",), SEED))[1]
     assert own.rate is not None
     assert own.rate.whole == whole
     assert {round(100.0 * s.present.fraction, 9) for s in strips.values() if s.present} == {rate}

@@ -287,7 +287,7 @@ def test_the_map_is_that_of_the_study_and_goes_with_the_turn_that_it_is_of(
             qtbot.waitUntil(lambda: "Map of the floor" in view.floor.text())
             found = map_room(pane.room, lambda _: None)
             assert found.points
-            sure = sum(bool(point.sure) for point in found.points)
+            sure = sum(bool(point.sure_places) for point in found.points)
             assert f"{sure} of {len(found.points)} places determined" in view.floor.text()
             assert said[-1] == "Measuring the floor: 100 %"
             view.plan.camera.setPos(0.5, 0.5)

@@ -274,7 +274,7 @@ def test_the_cause_comes_first_and_its_step_is_a_button(
     chosen = collect(bar.step_chosen)
     bar.show_reading(snapshot_of(exposure_time=136e-6, switching_frequency=20e3))
     assert bar.title.text() == "No code: beyond the null at 14.7 kHz"
-    assert "leaves 26 % of the swing of chips that alternate." in bar.accessibleDescription()
+    assert "leaves 26 % of the swing of alternating chips." in bar.accessibleDescription()
     assert bar.step.text() == "Try the matched decoder"
     bar.step.click()
     assert [step.decoder for step in chosen] == ["matched"]

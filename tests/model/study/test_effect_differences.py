@@ -12,10 +12,10 @@ from occ_model.scene.simulation_settings import OBSERVABLES, Observable, Simulat
 from occ_model.study.effect_differences import (
     CROP,
     CompleteSimulation,
+    choose_crop,
     forecast,
     plan_of_effects,
     rms,
-    telling_crop,
 )
 
 
@@ -57,7 +57,7 @@ def test_crops_stretch_both_pictures_alike_and_say_the_amplification() -> None:
     other = one.copy()
     checks = np.where(np.indices(CROP).sum(axis=0) % 2, 3.0, -3.0)
     other[100:164, 200:312] -= checks
-    crop = telling_crop(one, other)
+    crop = choose_crop(one, other)
     assert crop.with_effect.shape == crop.without.shape == crop.difference.shape == CROP
     assert not crop.is_averaged
     np.testing.assert_allclose(crop.difference, 128 + checks * crop.amplification, atol=1)
@@ -70,7 +70,7 @@ def test_crops_stretch_both_pictures_alike_and_say_the_amplification() -> None:
 
 def test_a_slow_change_is_shown_on_the_whole_panel() -> None:
     ramp = np.linspace(0.0, 20.0, 900, dtype=np.float32)[None, :] + np.zeros((700, 1), np.float32)
-    crop = telling_crop(100.0 + ramp, np.full_like(ramp, 100.0))
+    crop = choose_crop(100.0 + ramp, np.full_like(ramp, 100.0))
     assert crop.is_averaged
     assert (np.diff(crop.difference[0].astype(int)) >= 0).all()
     assert crop.difference[0, -1] == pytest.approx(128 + 20 * crop.amplification, abs=2)

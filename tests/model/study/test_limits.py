@@ -30,10 +30,10 @@ from occ_model.study.observation import panel_span
 from occ_model.study.sure_ends import (
     OUTSIDE,
     PICTURES,
+    count_until_refuted,
     images_to_be_sure,
     pairs_of,
     sure_end,
-    until_refuted,
 )
 from occ_model.study.working_range import END_RATIO, FEW_IMAGES, STEP
 
@@ -359,7 +359,7 @@ def test_a_rate_that_is_reached_is_refuted_in_one_of_forty_studies_at_most() -> 
     def refuted(rate: float, studies: int) -> list[int]:
         """Return how many images each study took that refutes 99 %."""
         read = (np.where(random.random(OUTSIDE) < rate, 10, 0).tolist() for _ in range(studies))
-        found = [until_refuted(counts, 10, 0.99) for counts in read]
+        found = [count_until_refuted(counts, 10, 0.99) for counts in read]
         return [len(one) for one in found if one is not None]
 
     studies = amount(400, 2000)

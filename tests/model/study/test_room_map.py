@@ -18,9 +18,9 @@ from occ_model.study.code_length import (
     CodeLength,
     code_lengths,
     least_distance,
-    scaled_progress,
+    report_progress,
 )
-from occ_model.study.room_map import RoomMapRequest, RoomMapText, RoomPoint, floor_under, room_map
+from occ_model.study.room_map import RoomMapRequest, RoomMapText, RoomPoint, places_under, room_map
 from occ_model.transmitter.packet import sent_chips
 
 
@@ -30,9 +30,9 @@ def test_a_place_counts_what_its_picture_tells_and_far_away_there_is_nothing() -
     assert near.shown == 8
     assert near.named == 8
     assert near.wrong == 0
-    assert near.sure == 2
+    assert near.sure_places == 2
     assert near.error < 6.0 * near.stated < 0.2
-    assert (far.shown, far.named, far.sure) == (0, 0, 0)
+    assert (far.shown, far.named, far.sure_places) == (0, 0, 0)
     assert math.isnan(far.error)
     assert far.note.startswith("No lamp was found")
 
@@ -102,7 +102,7 @@ def test_a_map_that_was_killed_goes_on_and_is_the_same(tmp_path: Path) -> None:
     [
         (3, "-1", "whole lamps is '-1'; allowed: 0 to 2."),
         (3, "9" * 400, f"whole lamps is {shown('9' * 400)}; allowed: 0 to 2."),
-        (4, "3", "named rightly is '3'; allowed: 0 to 2."),
+        (4, "3", "named correctly is '3'; allowed: 0 to 2."),
         (5, "nan", f"misread is 'nan'; allowed: 0 to {2 * 240 * 320}."),
         (6, "5", "named wrongly is '5'; allowed: 0 to 2."),
         (7, "1", "error (m) is ''; allowed: numbers from 0 m."),
@@ -123,7 +123,7 @@ def test_counts_of_a_map_that_cannot_be_are_refused_with_line_and_value(
     with pytest.raises(occ.OutputError) as refused:
         room_map(request, results=path)
     assert str(refused.value).startswith(f"{path}, line {line}: ")
-    assert str(refused.value).endswith(f"{said} Mend or remove the line, or name another file.")
+    assert str(refused.value).endswith(f"{said} Correct or remove the line, or name another file.")
 
 
 def test_the_command_measures_a_room_file_with_other_settings(
@@ -143,12 +143,12 @@ def test_the_command_measures_a_room_file_with_other_settings(
 
 
 def test_the_floor_is_that_below_the_lamps() -> None:
-    assert floor_under(small_room(), 3) == ((0.0, 0.6, 1.2), (0.0, 0.6, 1.2))
-    assert floor_under(small_room(1), 3) == ((0.0,), (0.0,))
+    assert places_under(small_room(), 3) == ((0.0, 0.6, 1.2), (0.0, 0.6, 1.2))
+    assert places_under(small_room(1), 3) == ((0.0,), (0.0,))
 
 
 def test_a_single_place_is_in_the_middle_of_the_floor() -> None:
-    assert floor_under(small_room(), 1) == ((0.6,), (0.6,))
+    assert places_under(small_room(), 1) == ((0.6,), (0.6,))
 
 
 def test_a_tolerance_is_refused_in_the_words_of_every_other_one() -> None:
@@ -202,8 +202,8 @@ def test_lengths_are_those_of_codes_whatever_the_lamps_send_now() -> None:
 
 def test_a_misread_code_is_another_lamp_s_as_often_as_codes_are_used() -> None:
     found = CodeLength(12, 28, 100.0, 3.0, 2, whole=50, named=40, misread=9)
-    assert found.named_wrongly(1024) == pytest.approx(9 * 1023 / 4095)
-    assert found.named_wrongly(1) == 0.0
+    assert found.expected_mix_ups(1024) == pytest.approx(9 * 1023 / 4095)
+    assert found.expected_mix_ups(1) == 0.0
 
 
 def test_a_length_with_fewer_codes_than_lamps_is_refused() -> None:
@@ -228,5 +228,5 @@ def test_the_command_says_which_length_serves_best(
 
 def test_progress_is_that_of_all_lengths() -> None:
     said: list[tuple[int, int, float]] = []
-    scaled_progress(lambda *one: said.append(one), 1, 3, 2, 4, 5.0)
+    report_progress(lambda *one: said.append(one), 1, 3, 2, 4, 5.0)
     assert said == [(6, 12, 15.0)]

@@ -48,7 +48,7 @@ def test_rate_is_the_fraction_of_right_bits_and_only_accepted_payloads_are_whole
     given = itertools.cycle(results)
     offered(x=lambda *_: next(given))
     asked = scene.replace(code=718)
-    assert module.right_and_whole(asked, RateSettings(5, ("x",))) == ((17,), (1,))
+    assert module.count_right_and_whole(asked, RateSettings(5, ("x",))) == ((17,), (1,))
     assert occ.success_rate(asked, 5, "x") == pytest.approx(100 * 17 / 50)
 
 
@@ -158,9 +158,9 @@ def test_another_decoder_reads_the_same_pictures_without_simulating_them_again(
     at = scene.replace(distance=1.0371)
     rates = [occ.success_rate(at, 3, decoder, seed=81) for decoder in ("threshold", "matched")]
     assert len(simulated) == 3
-    module._kept.cache_clear()
+    module._observe_cached.cache_clear()
     settings = RateSettings(3, ("threshold", "matched"), 81)
-    right = module.right_and_whole(at, settings)[0]
+    right = module.count_right_and_whole(at, settings)[0]
     assert rates == [100.0 * each / 30 for each in right]
     occ.success_rate(at, 3, seed=82)
     assert len(simulated) == 9

@@ -18,9 +18,9 @@ from occ_model.photo.many.other_programs import lines_to_paste
 from occ_model.results.photo_table import csv_text
 from occ_model.results.sweep import csv_row
 from occ_model.results.sweep_request import RateSettings, SweepPoint, SweepRequest
-from occ_model.study.bench.data_set import COLUMNS, load_samples, read_samples
+from occ_model.study.bench.data_set import COLUMNS, load_pictures, read_pictures
 from occ_model.study.confidence import interval_of_pictures
-from occ_model.study.sweep.request_check import checked_request
+from occ_model.study.sweep.request_check import build_request
 from occ_model.study.sweep.sweep import run_sweep
 
 
@@ -29,7 +29,7 @@ def _sweep() -> tuple[SweepRequest, bytes]:
     """A small sweep and its complete table; at its first points the model refuses the scene."""
     scene = occ.load_preset("phone-136us").replace(yaw=1.3, rows=20, panel_height=0.01)
     axes = {"distance": [0.1, 1.0, 1.8], "switching_frequency": [4e3, 15e3]}
-    request = checked_request(scene, axes, RateSettings(1, ("threshold", "matched"), 3))
+    request = build_request(scene, axes, RateSettings(1, ("threshold", "matched"), 3))
     with TemporaryDirectory() as folder:
         path = Path(folder, "results.csv")
         run_sweep(request, results=path)
@@ -99,10 +99,10 @@ def _samples(chance: Random, folder: Path) -> list[str]:
         table = made.damaged(chance, table)
     path = folder / chance.choice(("table.csv", "ta\x1bble\n", "é" * 80))
     path.write_bytes(made.encoded(chance, table))
-    samples = load_samples(path)
+    samples = load_pictures(path)
     failures = []
-    for reading in read_samples(samples[:2], ("threshold",)):
-        assert 0.0 < reading.sample.symbol < np.inf
+    for reading in read_pictures(samples[:2], ("threshold",)):
+        assert 0.0 < reading.picture.symbol < np.inf
         failures += [reading.failure] if reading.failure else []
     return failures
 

@@ -10,7 +10,7 @@ from occ_model.camera.exposure import lit_fraction
 from occ_model.errors import OccError
 from occ_model.results.bench import BenchRequest
 from occ_model.study.bench.bench import bench_scene
-from occ_model.study.bench.data_set import load_samples, read_samples
+from occ_model.study.bench.data_set import load_pictures, read_pictures
 
 TICK = 1e-7
 FIELDS = "sample_uuid,relative_path,dims,tclk,sampling_ticks,exposure_ticks,txsymbol_ticks"
@@ -40,24 +40,24 @@ def make_data_set(folder: Path, ratios: tuple[float, ...]) -> Path:
 
 
 def test_pictures_and_times_are_those_of_the_table(tmp_path: Path) -> None:
-    first, second = load_samples(make_data_set(tmp_path, (1.0, 3.5)))
+    first, second = load_pictures(make_data_set(tmp_path, (1.0, 3.5)))
     assert first.path == (tmp_path / "images" / "0.png").resolve()
     assert second.symbol / second.sampling == pytest.approx(5.0)
     assert second.exposure / second.symbol == pytest.approx(3.5)
 
 
 def test_the_chips_of_every_picture_explain_it(tmp_path: Path) -> None:
-    samples = load_samples(make_data_set(tmp_path, (1.0, 3.5, 6.0)))
-    for reading in read_samples(samples, ("sequence",)):
+    samples = load_pictures(make_data_set(tmp_path, (1.0, 3.5, 6.0)))
+    for reading in read_pictures(samples, ("sequence",)):
         assert reading.chips >= 210
         assert reading.correlation > 0.99
         assert reading.wrong_chips < 0.02
 
 
 def test_progress_counts_pictures(tmp_path: Path) -> None:
-    samples = load_samples(make_data_set(tmp_path, (1.0, 2.0)))
+    samples = load_pictures(make_data_set(tmp_path, (1.0, 2.0)))
     seen: list[tuple[int, int]] = []
-    found = list(read_samples(samples, ("threshold",), progress=lambda *now: seen.append(now)))
+    found = list(read_pictures(samples, ("threshold",), progress=lambda *now: seen.append(now)))
     assert [reading.decoder for reading in found] == ["threshold"] * 2
     assert seen == [(0, 2), (1, 2), (2, 2)]
 
@@ -81,11 +81,11 @@ def test_a_table_that_cannot_be_used_says_where(
     table = make_data_set(tmp_path, (1.0,))
     table.write_text(table.read_text("utf-8").replace(*changed), encoding="utf-8")
     with pytest.raises(OccError, match=words):
-        load_samples(table)
+        load_pictures(table)
 
 
 def test_a_missing_picture_is_named(tmp_path: Path) -> None:
-    samples = load_samples(make_data_set(tmp_path, (1.0,)))
+    samples = load_pictures(make_data_set(tmp_path, (1.0,)))
     samples[0].path.unlink()
     with pytest.raises(OccError, match=r"0\.png"):
-        list(read_samples(samples, ("sequence",)))
+        list(read_pictures(samples, ("sequence",)))

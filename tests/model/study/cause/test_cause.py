@@ -47,14 +47,14 @@ def test_the_step_that_is_offered_helps(changes: dict[str, Any], decoder: str, w
     assert cause is not None
     assert cause.what == what
     assert cause.is_overexposed == (what == "overexposed")
-    if cause.step is None:
+    if cause.remedy is None:
         assert what == "shot and read noise"  # of this scene, whatever the decoder
         return
-    helped = scene.replace(**cause.step.changes)
-    again = cause_of(helped, cause.step.decoder or decoder)
+    helped = scene.replace(**cause.remedy.changes)
+    again = cause_of(helped, cause.remedy.decoder or decoder)
     assert again is None or again.what != what
-    if "Beside that" not in cause.why:
-        assert occ.success_rate(helped, 3, cause.step.decoder or decoder) == 100.0
+    if "In addition" not in cause.why:
+        assert occ.success_rate(helped, 3, cause.remedy.decoder or decoder) == 100.0
 
 
 def test_overexposure_is_no_cause_where_the_picture_is_read_or_fails_without_it() -> None:
@@ -80,7 +80,7 @@ def test_the_null_is_named_with_the_distance_from_it(frequency: float, what: str
     scene = occ.load_preset("phone-136us").replace(**SMALL, switching_frequency=frequency)
     cause = cause_of(scene, "threshold")
     assert cause.what == what
-    assert cause.step.decoder == "matched"
+    assert cause.remedy.decoder == "matched"
     # The same frequency is no cause where it is read.
     assert cause_of(scene, "matched") is None
 
@@ -93,8 +93,10 @@ def test_a_panel_too_small_for_the_brightest_pixels_is_not_found(enhancement: st
     assert occ.decode(picture, scene).code is None
     cause = cause_of(scene, "threshold")
     assert cause.what == "the panel is not found"
-    assert cause.why.startswith("The brightest 5 % of the pixels mark it, but it covers 0.065 %")
-    helped = scene.replace(**cause.step.changes)
+    assert cause.why.startswith(
+        "The receiver marks the brightest 5 % of the pixels, but the panel covers 0.065 %"
+    )
+    helped = scene.replace(**cause.remedy.changes)
     assert occ.decode(picture, helped).code == scene.transmitter.code
     assert cause_of(scene.replace(panel_height=0.08), "threshold") is None
 
@@ -108,8 +110,8 @@ def test_chips_are_called_needed_only_where_no_picture_is_read_with_fewer() -> N
     assert occ.decode(occ.render(unread).image, unread).code is None
     cause = cause_of(unread, "threshold")
     assert cause.why == (
-        "The panel's image has room for 33 of the 48 chips of two packets, and so not for both "
-        "headers in every picture."
+        "The panel's image has room for 33 of the 48 chips of two packets, so not every "
+        "picture shows both headers."
     )
     assert cause_of(far, "matched") is None
     less = cause_of(far.replace(distance=9.0), "matched")
@@ -147,7 +149,7 @@ def test_a_panel_that_no_column_shows_is_out_of_the_picture_or_too_small(
     changes: dict[str, Any], what: str
 ) -> None:
     cause = cause_of(occ.load_preset("phone-68us").replace(**SMALL, **changes), "threshold")
-    assert (cause.what, cause.step) == (what, None)
+    assert (cause.what, cause.remedy) == (what, None)
 
 
 def test_an_effect_is_named_where_it_alone_spoils_the_picture() -> None:
@@ -163,7 +165,7 @@ def test_what_is_needed_together_is_named_together() -> None:
         assert occ.success_rate(scene.replace(**alone), 3, "threshold") < 50.0
     cause = cause_of(scene, "threshold")
     assert cause.what == "overexposed"
-    assert cause.why.endswith("Beside that: too few chips in view.")
+    assert cause.why.endswith("In addition: too few chips in view.")
 
 
 def test_more_bits_than_the_matched_decoder_compares_are_left_to_the_sequence_decoder() -> None:
@@ -173,7 +175,7 @@ def test_more_bits_than_the_matched_decoder_compares_are_left_to_the_sequence_de
     assert occ.success_rate(scene, 3, "matched") == 0.0
     cause = cause_of(scene, "matched")
     assert cause.what == "too many bits to compare"
-    assert occ.success_rate(scene, 3, cause.step.decoder) == 100.0
+    assert occ.success_rate(scene, 3, cause.remedy.decoder) == 100.0
 
 
 def without(cause: str, scene: Scene) -> list[Scene]:
@@ -201,7 +203,7 @@ def without(cause: str, scene: Scene) -> list[Scene]:
         "chips of": slower,
         "noise": [light(64.0, iso=max(camera.iso / 64.0, 1.0)), scene.replace(read_noise=0.0)],
         "enhanced": [scene.replace(enhancement="none")],
-        "elsewhere": [scene.replace(luminance=30.0 * scene.transmitter.luminance)],
+        "other sources": [scene.replace(luminance=30.0 * scene.transmitter.luminance)],
     }
     (found,) = (scenes for key, scenes in ways.items() if key in cause)
     return found
@@ -236,7 +238,7 @@ def test_without_its_first_cause_a_random_picture_is_read() -> None:
         if is_read(scene, decoder):
             continue
         cause = cause_of(scene, decoder)
-        if cause is None or "Beside that" in cause.why:
+        if cause is None or "In addition" in cause.why:
             continue
         asked += 1
         if not any(is_read(other, decoder) for other in without(cause.what, scene)):

@@ -148,7 +148,7 @@ def test_the_file_of_another_sweep_is_refused_and_left_as_it_is(
 ) -> None:
     path = tmp_path / "r.csv"
     path.write_bytes(whole)
-    with pytest.raises(occ.OutputError, match=f"holds the results of another sweep.*{words}"):
+    with pytest.raises(occ.OutputError, match=f"contains the results of another sweep.*{words}"):
         run(scene, path, **others)
     assert path.read_bytes() == whole
 
@@ -186,7 +186,7 @@ def test_lines_of_another_origin_are_refused_and_kept(
 ) -> None:
     path = tmp_path / "r.csv"
     path.write_bytes(change(whole))
-    with pytest.raises(occ.OutputError, match=r"holds something else in line \d+"):
+    with pytest.raises(occ.OutputError, match=r"Line \d+ of .* is not a new row of this sweep"):
         run(scene, path)
     assert path.read_bytes() == change(whole)
 
@@ -233,7 +233,7 @@ def test_counts_that_cannot_be_are_refused_with_line_and_value(
     with pytest.raises(occ.OutputError) as refused:
         run(scene, path)
     assert str(refused.value) == (
-        f"{path}, line {place + 1}: {said} Mend or remove the line, or name another file."
+        f"{path}, line {place + 1}: {said} Correct or remove the line, or name another file."
     )
     assert path.read_bytes() == content
 
@@ -252,7 +252,7 @@ def test_a_path_that_is_no_file_for_results_is_refused(scene: Scene, tmp_path: P
     foreign = tmp_path / "foreign.csv"
     foreign.write_text("a,b\n1,2\n")
     for path, words in (
-        (foreign, "holds no results of a sweep; name another file"),
+        (foreign, "contains no results of a sweep; name another file"),
         (tmp_path, "is a folder"),
         (Path(os.devnull), "is a device"),
         (tmp_path / "no" / "r.csv", "name a file in a folder that is there"),

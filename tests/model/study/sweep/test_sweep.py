@@ -16,7 +16,7 @@ from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
 from occ_model.study.confidence import interval_of_pictures
 from occ_model.study.success_rate import right_bits_of_images
-from occ_model.study.sweep.request_check import checked_request
+from occ_model.study.sweep.request_check import build_request
 
 BOTH = ("threshold", "matched")
 AXES = {"switching_frequency": [3e3, 14.65e3, 15e3, 25e3], "distance": [0.6, 1.4, 1.9]}
@@ -78,7 +78,7 @@ def test_any_kind_of_parameter_can_be_varied(scene: Scene) -> None:
 
 def test_each_point_is_visited_once_grouped_by_code_templates(scene: Scene) -> None:
     axes = {"distance": [1.0, 2.0], "switching_frequency": [4e3, 5e3, 6e3], "iso": [50.0, 80.0]}
-    request = checked_request(scene, axes, RateSettings(1, BOTH))
+    request = build_request(scene, axes, RateSettings(1, BOTH))
     order = list(request.in_order_of_work())
     assert sorted(order) == list(range(12))
     frequencies = [request.values(index)["switching_frequency"] for index in order]

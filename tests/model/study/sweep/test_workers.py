@@ -169,7 +169,7 @@ def test_an_error_of_the_model_itself_is_passed_on_from_a_worker(
     def fail(*_: object) -> None:
         raise ZeroDivisionError("a bug")
 
-    monkeypatch.setattr(points, "right_and_whole", fail)
+    monkeypatch.setattr(points, "count_right_and_whole", fail)
     with ThreadPoolExecutor(1) as executor, pytest.raises(ZeroDivisionError, match="a bug"):
         occ.sweep(scene, AXES, executor=executor)
 

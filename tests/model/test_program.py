@@ -31,7 +31,7 @@ def test_interruptions_are_answered_before_slow_imports() -> None:
     )
     loaded = {name for name in done.stdout.split() if name.startswith("occ_model")}
     assert loaded == {
-        "occ_model", "occ_model.version", "occ_model.cli", "occ_model.program", "occ_model.errors",
+        "occ_model", "occ_model.cli", "occ_model.program", "occ_model.errors",
     }  # fmt: skip
     assert {"numpy", "cv2", "argparse"} & set(done.stdout.split()) == set()
 

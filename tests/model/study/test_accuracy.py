@@ -1,4 +1,4 @@
-"""Laws of the accuracy study, and its command."""
+"""Laws of the accuracy study and of its command."""
 
 import csv
 from pathlib import Path
@@ -35,11 +35,11 @@ def points() -> list[AccuracyPoint]:
     return list(accuracy(small("phone-136us-real")))
 
 
-def of(points: list[AccuracyPoint], part: str) -> list[AccuracyPoint]:
+def select_part(points: list[AccuracyPoint], part: str) -> list[AccuracyPoint]:
     return [point for point in points if point.part == part]
 
 
-def test_every_part_is_measured_and_counted_before(points: list[AccuracyPoint]) -> None:
+def test_the_count_before_measuring_is_that_of_all_parts(points: list[AccuracyPoint]) -> None:
     assert list(dict.fromkeys(point.part for point in points)) == list(ACCURACY_PARTS)
     assert len(points) == point_count(small("phone-136us-real"))
     assert all(point.seconds > 0.0 for point in points)
@@ -48,24 +48,26 @@ def test_every_part_is_measured_and_counted_before(points: list[AccuracyPoint]) 
 @pytest.mark.parametrize(
     "preset", ["phone-68us", pytest.param("tablet-122us", marks=pytest.mark.whole)]
 )
-def test_points_are_counted_right_where_effects_are_few(preset: str) -> None:
+def test_points_are_counted_correctly_if_there_are_few_effects(preset: str) -> None:
     scene = small(preset).replace(gain_variation=0.0)
     settings = SimulationSettings(tolerance=np.inf)
     assert len(list(accuracy(scene, settings))) == point_count(scene, settings)
 
 
-def test_the_closed_form_is_exact_and_samples_err_by_1_over_n(points: list[AccuracyPoint]) -> None:
-    *samples, closed = of(points, "integration")
+def test_the_closed_form_is_exact_and_the_error_of_n_samples_is_1_over_n(
+    points: list[AccuracyPoint],
+) -> None:
+    *samples, closed = select_part(points, "integration")
     assert closed.error < 1e-9
     assert len(samples) == len(SAMPLES) == 13
     errors = np.array([point.error for point in samples])
-    # Each sample decides over 1/n of the exposure: its error falls in proportion, on the average.
+    # Each sample represents 1/n of the exposure, so the error falls in proportion on average.
     slope = np.polyfit(np.log(SAMPLES), np.log(errors), 1)[0]
     assert slope == pytest.approx(-1.0, abs=0.15)
 
 
-def test_the_ladder_ends_at_the_complete_simulation(points: list[AccuracyPoint]) -> None:
-    *ladder, current = of(points, "effects")
+def test_the_last_added_effect_gives_the_complete_simulation(points: list[AccuracyPoint]) -> None:
+    *ladder, current = select_part(points, "effects")
     assert ladder[0].name == "paper's model"
     assert ladder[0].error > 1.0
     decisions = occ.plan(small("phone-136us-real")).decisions
@@ -76,7 +78,7 @@ def test_the_ladder_ends_at_the_complete_simulation(points: list[AccuracyPoint])
 
 
 @pytest.mark.parametrize("tolerance", [pytest.param(0.0, marks=pytest.mark.whole), 5.0])
-def test_the_present_setting_is_marked_exactly_once(tolerance: float) -> None:
+def test_the_current_setting_is_marked_exactly_once(tolerance: float) -> None:
     scene, settings = small("phone-136us-real"), SimulationSettings(tolerance, noise="reused")
     (current,) = [point for point in accuracy(scene, settings) if point.current]
     assert set(current.effects) == set(occ.plan(scene, tolerance).included)
@@ -84,7 +86,7 @@ def test_the_present_setting_is_marked_exactly_once(tolerance: float) -> None:
 
 def test_both_noise_sources_have_the_sensors_noise() -> None:
     scene = small("phone-68us")
-    drawn, reused = of(list(accuracy(scene)), "noise")
+    drawn, reused = select_part(list(accuracy(scene)), "noise")
     region = paper_view_of(scene).region
     size = sum(decision.estimate for decision in occ.plan(scene).decisions)
     # The standard error of the root mean square of n numbers is its 1 / sqrt(2 n).
@@ -127,7 +129,7 @@ def test_the_command_prints_the_table_and_writes_the_figure(
         assert "tolerance 2 levels of the image" in str(picture.info["Description"])
 
 
-def test_the_plan_is_given_in_words(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_plan_is_printed_in_words(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["plan", "--off", "sensor-noise", "--tolerance", "0.1"]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert len(lines) == 10

@@ -1,4 +1,4 @@
-"""Laws of the bit error rate, its interval, and the bits a second that follow."""
+"""Laws of the bit error rate, its interval, and the resulting bits per second."""
 
 from typing import Any
 
@@ -17,14 +17,14 @@ from occ_model.study.theory import gaussian_rate_bound, row_rate_frequency
 SCENE = occ.load_preset("phone-136us").replace(rows=60, enhancement="none")
 
 
-def test_no_bit_is_wrong_where_every_code_is_read() -> None:
+def test_no_bit_is_wrong_if_every_code_is_read() -> None:
     found = occ.bit_error_rate(SCENE.replace(switching_frequency=8e3), bits=95)
     assert (found.bits, found.errors, found.pictures, found.pictures_right) == (100, 0, 10, 10)
     assert found.low == 0.0
     assert found.rate == 0.0
 
 
-def test_all_bits_are_wrong_where_nothing_is_read() -> None:
+def test_all_bits_are_wrong_if_nothing_is_read() -> None:
     far = SCENE.replace(switching_frequency=2e3, distance=4.0)
     found = occ.bit_error_rate(far, "matched", bits=50)
     assert found.rate == found.high == 1.0
@@ -41,7 +41,7 @@ def test_a_rate_above_a_half_is_explained(luminance: float) -> None:
     assert table_rows([point], 30.0)[0][-1] == point.explanation
 
 
-def test_same_seed_same_errors() -> None:
+def test_the_same_seed_gives_the_same_errors() -> None:
     at = SCENE.replace(switching_frequency=12.5e3)
     found = [occ.bit_error_rate(at, bits=200, seed=seed) for seed in (3, 3, 4)]
     assert found[0] == found[1]
@@ -50,7 +50,7 @@ def test_same_seed_same_errors() -> None:
 
 
 def plans_of(scene: Scene, bits: int, monkeypatch: pytest.MonkeyPatch) -> list[Plan]:
-    """Return the plans that each picture of a measurement is simulated with."""
+    """Return the plan with which each picture of a measurement is simulated."""
     used: list[Plan] = []
     whole = success_rate.observe_picture
 
@@ -63,7 +63,7 @@ def plans_of(scene: Scene, bits: int, monkeypatch: pytest.MonkeyPatch) -> list[P
     return used
 
 
-def test_pictures_of_whole_packets_are_simulated_with_what_any_payload_calls_for(
+def test_pictures_of_whole_packets_are_simulated_with_every_effect_that_a_payload_needs(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     scene = occ.load_preset("phone-136us-real").replace(rows=60, switching_frequency=14.1e3)
@@ -90,7 +90,7 @@ def test_any_payload_is_sent_in_its_own_length(payload: str) -> None:
 
 
 def test_errors_and_success_rate_are_complements() -> None:
-    # The same counting by two ways: one payload, over many start times.
+    # Two ways to count the same: one payload, over many start times.
     at = SCENE.replace(switching_frequency=12.5e3, bits=2, code=0)
     wrong = occ.bit_error_rate(at, bits=100, seed=2).rate
     right = [occ.success_rate(at.replace(code=code), images=13, seed=code) for code in range(4)]
@@ -98,7 +98,7 @@ def test_errors_and_success_rate_are_complements() -> None:
 
 
 @pytest.mark.parametrize(("length", "fraction"), [(1, 0.02), (10, 0.1), (10, 0.02), (64, 0.3)])
-def test_intervals_hold_where_bits_of_a_picture_fail_together(length: int, fraction: float) -> None:
+def test_intervals_hold_if_bits_of_a_picture_fail_together(length: int, fraction: float) -> None:
     random = np.random.default_rng(length)
     rate, held, trials = fraction / 2.0, 0, 400
     for _ in range(trials):
@@ -106,7 +106,7 @@ def test_intervals_hold_where_bits_of_a_picture_fail_together(length: int, fract
         wrong = np.where(lost, random.binomial(length, 0.5, 200), 0)
         low, high = error_interval(wrong.tolist(), length)
         held += low <= rate <= high
-    # 95 % asked for; the variance of few failed pictures is itself uncertain.
+    # 95 % is nominal; the variance of few failed pictures is itself uncertain.
     assert held / trials > 0.91
 
 
@@ -117,11 +117,11 @@ def test_independent_bits_have_wilsons_interval() -> None:
     assert (low, high) == pytest.approx(near, rel=0.01)
 
 
-def test_no_wrong_bit_counts_as_one_trial_a_picture() -> None:
+def test_without_a_wrong_bit_each_picture_counts_as_one_trial() -> None:
     assert error_interval([0] * 40, 100) == (0.0, occ.wilson_interval(0, 40)[1])
 
 
-def test_net_bits_a_second_are_whole_payloads_in_time() -> None:
+def test_net_bits_per_second_are_whole_payloads_over_time() -> None:
     found = bit_errors_of(SCENE, "x", [0, 0, 3, 0], 3)
     assert found.bits_a_picture == 7.5
     assert found.bits_a_second(20.0) == 150.0
@@ -137,13 +137,13 @@ def test_a_raw_pattern_has_no_bit_errors() -> None:
 
 @pytest.mark.parametrize("decibels", [0.0, 20.0, 40.0])
 @pytest.mark.parametrize("exposure", [20e-6, 136e-6, 1e-3])
-def test_rate_bound_is_the_integral_of_the_water_filling(decibels: float, exposure: float) -> None:
+def test_the_rate_bound_is_the_water_filling_integral(decibels: float, exposure: float) -> None:
     scene = Scene().replace(exposure_time=exposure)
     half, power = row_rate_frequency(scene), 10.0 ** (decibels / 10.0)
 
     grid = np.linspace(0.0, half, 40_001)
     noise = 1.0 / half / np.maximum(np.sinc(grid * exposure) ** 2, 1e-300)
-    # The power fills the frequencies of the least noise up to one level.
+    # The power fills the frequencies with the lowest noise up to one level.
     least = np.sort(noise)
     levels = (power / grid[1] + np.cumsum(least)) / np.arange(1, len(least) + 1)
     level = levels[levels > least][-1]
@@ -152,7 +152,7 @@ def test_rate_bound_is_the_integral_of_the_water_filling(decibels: float, exposu
     assert gaussian_rate_bound(scene, power, 30.0) == pytest.approx(bits * seconds, rel=1e-3)
 
 
-def test_without_exposure_the_bound_is_shannons() -> None:
+def test_the_bound_of_a_short_exposure_is_shannons() -> None:
     scene = Scene().replace(exposure_time=1e-9)
     seconds = 30.0 * scene.camera.columns * scene.camera.readout_time
     expected = row_rate_frequency(scene) * np.log2(1.0 + 100.0) * seconds

@@ -1,4 +1,4 @@
-"""Laws of the interval round a rate; hard_cases/test_statistics.py has it in higher precision."""
+"""Laws of the interval of a rate; hard_cases/test_statistics.py checks it in high precision."""
 
 from fractions import Fraction
 from typing import Any
@@ -9,7 +9,7 @@ import pytest
 from occ_model.study.confidence import interval_of_pictures, wilson_interval
 
 
-def test_numbers_of_other_types_are_numbers() -> None:
+def test_numbers_of_other_types_are_accepted() -> None:
     others: list[tuple[Any, Any, Any]] = [
         (np.int32(3), np.uint8(10), np.float64(0.9)),
         (3, 10, Fraction(9, 10)),
@@ -19,7 +19,7 @@ def test_numbers_of_other_types_are_numbers() -> None:
 
 
 @pytest.mark.parametrize("fraction", [0.02, 0.1, 0.37, 0.5, 0.8, 0.9, 0.95, 0.98])
-def test_the_interval_of_pictures_holds_where_bits_of_a_picture_fail_together(
+def test_the_interval_of_pictures_holds_if_bits_of_a_picture_fail_together(
     fraction: float,
 ) -> None:
     random = np.random.default_rng(3)
@@ -31,6 +31,6 @@ def test_the_interval_of_pictures_holds_where_bits_of_a_picture_fail_together(
         near, far = (100.0 * end for end in wilson_interval(10 * whole, 200))
         wide += near <= 100.0 * fraction <= far
     assert 0.90 <= held / 800 <= 0.995
-    # Counted by bits it would not hold: the test's own power.
+    # Counted by bits it would not hold, so the test can fail.
     assert wide / 800 < 0.9
     assert interval_of_pictures(200, 200, 20)[0] == pytest.approx(83.89, abs=0.01)

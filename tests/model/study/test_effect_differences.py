@@ -1,4 +1,4 @@
-"""Laws of what leaving an effect out changes, and of the forecast that is made from it."""
+"""Laws of what omitting an effect changes, and of the forecast based on it."""
 
 from dataclasses import replace
 
@@ -40,7 +40,7 @@ def test_a_measured_error_is_within_its_effects_limit(scene: Scene, observable: 
             assert complete.without(decision.effect).error <= decision.limit, decision.effect
 
 
-def test_leaving_out_one_effect_is_the_error_of_the_others(
+def test_the_change_by_one_effect_is_the_error_of_the_others(
     scene: Scene, differences: dict[str, EffectDifference]
 ) -> None:
     complete = CompleteSimulation(scene, "image")
@@ -51,7 +51,7 @@ def test_leaving_out_one_effect_is_the_error_of_the_others(
     assert complete.error_of(complete.effects) == 0.0
 
 
-def test_crops_stretch_both_pictures_alike_and_say_the_amplification() -> None:
+def test_crops_stretch_both_pictures_equally_and_state_the_amplification() -> None:
     random = np.random.default_rng(5)
     one = random.uniform(40.0, 60.0, (300, 400)).astype(np.float32)
     other = one.copy()
@@ -65,7 +65,7 @@ def test_crops_stretch_both_pictures_alike_and_say_the_amplification() -> None:
     inside = (np.minimum(crop.with_effect, crop.without) > 0) & (
         np.maximum(crop.with_effect, crop.without) < 255
     )
-    assert np.ptp(np.abs(both[inside])) <= 1  # one stretching for both
+    assert np.ptp(np.abs(both[inside])) <= 1  # both are stretched in the same way
 
 
 def test_a_slow_change_is_shown_on_the_whole_panel() -> None:
@@ -96,7 +96,7 @@ def test_a_forecast_of_the_measured_plan_is_its_own_time(scene: Scene) -> None:
     assert found.seconds == pytest.approx(measured.seconds, rel=1e-12)
 
 
-def test_a_forecast_adds_what_is_switched_and_knows_what_it_does_not(
+def test_a_forecast_adds_switched_effects_and_gives_none_if_one_is_not_measured(
     scene: Scene, differences: dict[str, EffectDifference]
 ) -> None:
     complete = TimeFractions.of(occ.render(scene, tolerance=0.0, noise="reused"))
@@ -113,7 +113,7 @@ def test_a_forecast_adds_what_is_switched_and_knows_what_it_does_not(
     assert known.seconds == pytest.approx(bare.seconds, rel=1e-12)
 
 
-def test_a_forecast_takes_an_error_that_was_measured_as_a_whole(scene: Scene) -> None:
+def test_a_forecast_uses_an_error_that_was_measured_for_the_same_effects(scene: Scene) -> None:
     fractions = TimeFractions.of(occ.render(scene, tolerance=0.0))
     off = SimulationSettings(0.0, force={"jpeg": False, "flicker": False})
     included = frozenset(occ.plan(scene, 0.0, force=off.force).included)
@@ -123,7 +123,7 @@ def test_a_forecast_takes_an_error_that_was_measured_as_a_whole(scene: Scene) ->
     assert (found.error, found.is_measured) == (0.0, True)
 
 
-def test_changes_that_do_not_influence_each_other_add_up(scene: Scene) -> None:
+def test_independent_changes_add_up(scene: Scene) -> None:
     plain = scene.replace(jpeg_quality=100, gain_variation=0.0, enhancement="none")
     complete = CompleteSimulation(plain, "profile")
     left_out = ("led-edges", "flicker")

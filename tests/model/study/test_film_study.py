@@ -1,4 +1,4 @@
-"""Packets that films carry, beside counting by hand in exact arithmetic."""
+"""Packets that films carry, compared with exact counting."""
 
 from fractions import Fraction
 from pathlib import Path
@@ -25,7 +25,7 @@ TIMING = ShutterTiming(Fraction(8000), Fraction(0), Fraction(1, 40_000), 0, 1000
 def packets_received(
     timing: ShutterTiming, frame_period: Fraction, length: int, start: Fraction
 ) -> Fraction:
-    """Return the fraction of packets that a film without end shows whole, exactly.
+    """Return the exact fraction of packets that an endless film shows whole.
 
     The starts of frames within a packet repeat after b frames, with f T / length = a / b.
 
@@ -47,33 +47,33 @@ def test_a_view_of_whole_chips_shows_them_all_and_no_more() -> None:
     assert TIMING.whole_packets(Fraction(1, 8000), 201) == 0
 
 
-def test_counting_every_start_gives_the_mean_over_the_time_of_the_start() -> None:
+def test_counting_over_all_starts_gives_the_mean_over_the_start_time() -> None:
     period = Fraction(1, 30)
     by_start = [
         packets_received(TIMING, period, 50, Fraction(start, 8000 * 30)) for start in range(50 * 30)
     ]
     mean = sum(by_start, Fraction(0)) / len(by_start)
-    # Starts that begin a chip see it whole: a step of 1/30 chip counts them once more.
+    # A start at the edge of a chip shows it whole, so steps of 1/30 chip count it once more.
     assert float(mean) == pytest.approx(
         float(packets_received_on_average(TIMING, period, 50)), abs=1e-3
     )
 
 
-def test_a_frame_shows_whole_the_chips_that_are_not_cut_off() -> None:
+def test_a_frame_shows_the_chips_whole_that_are_not_cut_off() -> None:
     assert TIMING.whole_chips(Fraction(0)) == (0, 200)
     # The second frame starts with chip 266 2/3.
     assert TIMING.whole_chips(Fraction(1, 30)) == (267, 466)
 
 
-def test_the_published_example_is_received_as_counting_says() -> None:
+def test_the_published_example_is_received_as_counted() -> None:
     request = example_request(frames=33)
     (point,) = film_study(request)
     assert point.packet_chips == PACKET_CHIPS == 52
     assert point.is_right
     assert point.reception == pytest.approx(point.counted_reception, abs=0.02)
-    # By hand: (26.64 ms - 6.5 ms) / 33.3 ms on average over the start.
+    # By hand: (26.64 ms - 6.5 ms) / 33.3 ms on average over the start time.
     by_hand = (Fraction(8, 10) * FRAME_PERIOD - Fraction(PACKET_CHIPS, 8000)) / FRAME_PERIOD
-    # The exposure, 25 us, is longer than the readout time by a hundred-thousandth of a frame.
+    # The exposure of 25 us exceeds the readout time by a hundred-thousandth of a frame.
     assert point.on_average == pytest.approx(float(by_hand), abs=2e-5)
     assert point.reception == pytest.approx(float(by_hand), abs=0.02)
 

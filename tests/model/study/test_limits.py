@@ -1,4 +1,4 @@
-"""Laws of the advisor, and of the limits that theory gives."""
+"""Laws of the limits found by simulation, and of those of theory."""
 
 import math
 import re
@@ -41,14 +41,16 @@ SCENE = Scene()
 
 
 Decoding = Callable[[Callable[[float, int, int], float]], "Counter[tuple[float, int]]"]
-"""Takes the fraction of bits that are right, by frequency, number of the image, and seed."""
+"""Called with the fraction of correct bits as a function of frequency, image number and seed."""
 
 
 @pytest.fixture
 def decoding(monkeypatch: pytest.MonkeyPatch) -> Decoding:
-    """Stand in for all decoding, and count the images read, by frequency and seed."""
+    """Replace all decoding, and count the images read by frequency and seed."""
 
-    def reads(fraction: Callable[[float, int, int], float]) -> "Counter[tuple[float, int]]":
+    def replace_decoding(
+        fraction: Callable[[float, int, int], float],
+    ) -> "Counter[tuple[float, int]]":
         read: Counter[tuple[float, int]] = Counter()
 
         def right_bits_of_images(
@@ -63,16 +65,16 @@ def decoding(monkeypatch: pytest.MonkeyPatch) -> Decoding:
         monkeypatch.setattr(module, "right_bits_of_images", right_bits_of_images)
         return read
 
-    return reads
+    return replace_decoding
 
 
-def within(*ranges: tuple[float, float]) -> Callable[[float, int, int], float]:
-    """All bits are right between these frequencies, half of them elsewhere."""
+def correct_within(*ranges: tuple[float, float]) -> Callable[[float, int, int], float]:
+    """Return a decoding with all bits correct in these ranges, and half of them elsewhere."""
     return lambda frequency, *_: 1.0 if any(a <= frequency <= b for a, b in ranges) else 0.5
 
 
-def searched(scene: Scene, name: str = "switching_frequency", **how: Any) -> WorkingRange:
-    """Search along one parameter, without the confidence of its ends, which takes far longer."""
+def search_range(scene: Scene, name: str = "switching_frequency", **how: Any) -> WorkingRange:
+    """Search along one parameter, without the intervals of its ends, which take far longer."""
     settings = RateSettings(how.get("images", 3), ("threshold",), how.get("seed", 1))
     return module.working_range(scene, name, 90.0, settings)
 
@@ -89,7 +91,7 @@ def test_both_ends_of_an_interval_are_found_to_the_stated_ratio(
     decoding: Decoding, low: float, ratio: float, own: float
 ) -> None:
     high = low * ratio
-    decoding(within((low, high)))
+    decoding(correct_within((low, high)))
     found = occ.limits(SCENE.replace(switching_frequency=own), images=1).frequency
     for range_end, truth in ((found.lowest, low), (found.highest, high)):
         works, fails = ends(range_end)
@@ -102,11 +104,11 @@ def test_both_ends_of_an_interval_are_found_to_the_stated_ratio(
 
 
 @pytest.mark.parametrize("own", [700.0, 5e3, 40e3])
-def test_ranges_are_lists_of_intervals_and_both_ends_of_the_scenes_own_are_exact(
+def test_ranges_are_lists_of_intervals_and_both_ends_of_the_scenes_own_one_are_exact(
     decoding: Decoding, own: float
 ) -> None:
     truth = [(600.0, 1e3), (2e3, 8e3), (25e3, 60e3)]
-    decoding(within(*truth))
+    decoding(correct_within(*truth))
     found = occ.limits(SCENE.replace(switching_frequency=own), images=1).frequency
     assert len(found.intervals) == len(truth)
     assert len(found.gaps) == 2
@@ -123,8 +125,8 @@ def test_ranges_are_lists_of_intervals_and_both_ends_of_the_scenes_own_are_exact
     assert found.highest is found.intervals[-1].highest
 
 
-def test_the_images_that_confirm_an_end_have_not_chosen_it(decoding: Decoding) -> None:
-    # By the images that choose, reading ends at 12 kHz; by any others, at 11 kHz.
+def test_an_end_is_confirmed_by_images_that_were_not_used_to_choose_it(decoding: Decoding) -> None:
+    # Reading ends at 12 kHz in the images used to choose the end, and at 11 kHz in all others.
     decoding(lambda frequency, _, seed: frequency <= (12e3 if seed == 1 else 11e3))
     range_end = occ.limits(SCENE, images=20).frequency.highest
     works, fails = ends(range_end)
@@ -132,8 +134,8 @@ def test_the_images_that_confirm_an_end_have_not_chosen_it(decoding: Decoding) -
     assert (range_end.works.whole, range_end.fails.whole) == (20, 0)
 
 
-def test_a_range_that_reaches_the_search_limit_says_so(decoding: Decoding) -> None:
-    decoding(within((0.0, math.inf)))
+def test_a_range_that_reaches_the_search_limit_states_it(decoding: Decoding) -> None:
+    decoding(correct_within((0.0, math.inf)))
     found = occ.limits(SCENE.replace(switching_frequency=3e6), images=1)
     assert found.frequency.searched == (500.0, 3e6)
     assert found.highest_frequency == 3e6
@@ -144,8 +146,8 @@ def test_a_range_that_reaches_the_search_limit_says_so(decoding: Decoding) -> No
     assert (found.shortest_exposure, found.longest_exposure) == found.exposure.searched
 
 
-def test_where_nothing_is_read_a_sentence_says_so(decoding: Decoding) -> None:
-    decoding(within())
+def test_if_nothing_is_read_a_sentence_states_it(decoding: Decoding) -> None:
+    decoding(correct_within())
     found = occ.limits(SCENE, "matched", rate=75.0, images=2)
     assert found.highest_frequency is found.shortest_exposure is found.longest_exposure is None
     assert found.frequency.failure == (
@@ -158,20 +160,20 @@ def test_where_nothing_is_read_a_sentence_says_so(decoding: Decoding) -> None:
 
 def test_the_papers_decoder_reads_from_two_packets_to_the_null() -> None:
     scene = occ.load_preset("phone-136us")
-    found = searched(scene, images=1)
+    found = search_range(scene, images=1)
     works, fails = ends(found.highest)
     null = theory.null_frequency(scene)
-    # Before the null the equalization of what is left of the stripes raises the noise.
+    # Below the null, equalizing the weak stripes amplifies the noise.
     assert 0.95 * null < works < fails < 1.01 * null
     least = theory.two_packets_frequency(scene)
     assert 0.7 * least < found.lowest.value < 1.1 * least
-    longest = searched(scene, "exposure_time", images=1).highest
+    longest = search_range(scene, "exposure_time", images=1).highest
     assert longest.value == pytest.approx(2.0 / scene.transmitter.switching_frequency, rel=0.03)
 
 
-def test_an_edge_rests_on_success_rates_that_can_be_had_again() -> None:
+def test_an_end_rests_on_reproducible_success_rates() -> None:
     scene = occ.load_preset("phone-136us")
-    range_end = searched(scene, images=2, seed=5).highest
+    range_end = search_range(scene, images=2, seed=5).highest
     for trial in (range_end.works, range_end.fails):
         at = scene.replace(switching_frequency=trial.value)
         assert occ.success_rate(at, 2, seed=module.other_seed(5)) == trial.rate
@@ -179,7 +181,7 @@ def test_an_edge_rests_on_success_rates_that_can_be_had_again() -> None:
     assert range_end.fails.rate < 90.0 <= range_end.works.rate
 
 
-def test_values_are_given_up_where_no_further_image_can_mend_them(decoding: Decoding) -> None:
+def test_a_value_is_given_up_once_further_images_cannot_reach_the_rate(decoding: Decoding) -> None:
     read = decoding(lambda frequency, *_: frequency < 20e3)
     range_end = occ.limits(SCENE, images=20).frequency.highest
     by_frequency: Counter[float] = Counter()
@@ -187,19 +189,19 @@ def test_values_are_given_up_where_no_further_image_can_mend_them(decoding: Deco
         by_frequency[frequency] += images
     far = {images for frequency, images in by_frequency.items() if frequency > 21e3}
     assert far == {1}
-    # What is reported rests on all images: no result has ended its own count.
+    # What is reported rests on all images: no count has been stopped by its own result.
     assert min(by_frequency[value] for value in ends(range_end)) >= 20
     assert range_end.fails.sent == range_end.works.sent == 200
 
 
-def test_an_end_that_more_images_refute_is_moved(decoding: Decoding) -> None:
+def test_an_end_that_more_images_contradict_is_moved(decoding: Decoding) -> None:
     # Beyond 11 kHz every tenth image is not read.
     decoding(lambda frequency, image, _: frequency <= 11e3 or image % 10 != 9)
     works, fails = ends(occ.limits(SCENE, images=20).frequency.highest)
     assert works <= 11e3 < fails
 
 
-def test_each_end_is_read_in_all_images_where_the_first_ones_mislead(decoding: Decoding) -> None:
+def test_each_end_is_read_in_all_images_even_if_the_first_ones_mislead(decoding: Decoding) -> None:
     decoding(lambda frequency, image, _: 2e3 <= frequency <= 10e3 or image < FEW_IMAGES)
     found = occ.limits(SCENE.replace(switching_frequency=5e3), images=20).frequency
     for range_end, truth in ((found.lowest, 2e3), (found.highest, 10e3)):
@@ -208,47 +210,47 @@ def test_each_end_is_read_in_all_images_where_the_first_ones_mislead(decoding: D
         assert (range_end.works.images, range_end.works.rate) == (20, 100.0)
 
 
-def test_the_command_says_the_bits_a_second_that_arrive(
+def test_the_command_states_the_bits_received_per_second(
     decoding: Decoding, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    decoding(within((0.0, 20e3)))
+    decoding(correct_within((0.0, 20e3)))
     scene = ["--set", "columns=1000", "--set", "readout_time=40us", "--set", "bits=16"]
     command = ["limits", *scene, "--decoder", "threshold", "--images", "1", "--jobs", "1"]
-    # The columns of a picture take 40 ms: there are no more than 25 a second.
+    # The readout of a picture's columns takes 40 ms, so there are at most 25 pictures per second.
     for frames_a_second, bits in ((10, 160), (60, 400)):
         assert main([*command, "--fps", str(frames_a_second)]) == 0
         assert capsys.readouterr().out.splitlines()[2].endswith(f" {bits}")
 
 
-def without_own(read: "Counter[tuple[float, int]]") -> "Counter[tuple[float, int]]":
-    """Leave out the scene's own frequency, at which all exposures are read, too."""
+def omit_own_frequency(read: "Counter[tuple[float, int]]") -> "Counter[tuple[float, int]]":
+    """Omit the scene's own frequency, at which all exposure times are read as well."""
     own = SCENE.transmitter.switching_frequency
     return Counter({at: images for at, images in read.items() if at[0] != own})
 
 
 def test_no_image_of_a_value_is_simulated_twice(decoding: Decoding) -> None:
-    # A rate that falls slowly: all are in doubt.
+    # The rate falls slowly, so all values are uncertain.
     read = decoding(lambda frequency, image, _: image >= (frequency - 10e3) / 2e3)
     occ.limits(SCENE, rate=60.0, images=20)
-    assert max(without_own(read).values()) == 20
+    assert max(omit_own_frequency(read).values()) == 20
 
 
-def test_few_images_are_believed_where_the_rate_falls_at_once(decoding: Decoding) -> None:
+def test_few_images_suffice_if_the_rate_falls_abruptly(decoding: Decoding) -> None:
     read = decoding(lambda frequency, *_: 4e3 <= frequency <= 20e3)
     occ.limits(SCENE, images=20)
-    images = list(without_own(read).values())
-    # At each end: the coarse value, the end twice, and the value beyond.
+    images = list(omit_own_frequency(read).values())
+    # All images at each end: the coarse value, the end with both seeds, and the value beyond.
     assert images.count(20) <= 8
     sure = images_to_be_sure(99.0)
     assert {*images} <= {1, FEW_IMAGES, PICTURES, 20, sure}
     assert images.count(sure) == 2
 
 
-def test_two_processes_find_the_limits_that_one_finds(
+def test_two_processes_find_the_same_limits_as_one(
     decoding: Decoding, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("occ_model.parallel.process_pool.ProcessPool", PickledJobs)
-    decoding(within((2e3, 20e3)))
+    decoding(correct_within((2e3, 20e3)))
     said: list[tuple[float, str]] = []
     alone = occ.limits(SCENE, rate=60.0, images=2, seed=7)
     both = occ.limits(
@@ -259,8 +261,8 @@ def test_two_processes_find_the_limits_that_one_finds(
     assert said[-1] == (1.0, "")
 
 
-def test_progress_rises_from_0_to_1_and_says_what_is_searched(decoding: Decoding) -> None:
-    decoding(within((0.0, 20e3)))
+def test_progress_rises_from_0_to_1_and_states_what_is_searched(decoding: Decoding) -> None:
+    decoding(correct_within((0.0, 20e3)))
     said: list[tuple[float, str]] = []
     occ.limits(SCENE, images=20, progress=lambda fraction, what: said.append((fraction, what)))
     fractions = [fraction for fraction, _ in said]
@@ -268,21 +270,21 @@ def test_progress_rises_from_0_to_1_and_says_what_is_searched(decoding: Decoding
     assert fractions[-1] == 1.0
     assert len(said) > 60
     assert said[0][1] == "switching frequency, threshold decoder"
-    searched = [what for _, what in said[:-1]]
-    assert searched.index("exposure time, threshold decoder") > 20
+    search_range = [what for _, what in said[:-1]]
+    assert search_range.index("exposure time, threshold decoder") > 20
 
 
-def test_for_a_scene_too_slow_the_answer_lies_above_it() -> None:
-    """The tablet at 2 kHz and 2 m: too few packets fit the picture."""
+def test_for_a_scene_that_is_too_slow_the_range_lies_above_it() -> None:
+    """The tablet at 2 kHz and 2 m, where too few packets fit into the picture."""
     slow = occ.load_preset("tablet-122us").replace(switching_frequency=2e3, distance=2.0)
     assert occ.success_rate(slow, 3) < 99.0
-    found = searched(slow, images=1)
+    found = search_range(slow, images=1)
     assert found.lowest.value > 2e3 * STEP
     assert found.highest.value == pytest.approx(theory.null_frequency(slow), rel=0.03)
 
 
-def test_advice_holds_both_ends_found_and_the_limits_of_theory(decoding: Decoding) -> None:
-    decoding(within((0.0, 20e3)))
+def test_advice_contains_both_ends_found_and_the_limits_of_theory(decoding: Decoding) -> None:
+    decoding(correct_within((0.0, 20e3)))
     found = occ.limits(SCENE, images=1)
     advice = advice_of(found)
     lowest = advice.limits.frequency.lowest
@@ -292,7 +294,7 @@ def test_advice_holds_both_ends_found_and_the_limits_of_theory(decoding: Decodin
     assert advice.frequency.null == theory.null_frequency(SCENE)
     assert advice.frequency.two_packets == theory.two_packets_frequency(SCENE)
     assert advice.frequency.saturation is None
-    # Exposed as long as theory allows, the scene's own frequency is the limit of theory.
+    # At the longest exposure that theory allows, the scene's own frequency is theory's limit.
     exposures = advice.exposure
     for exposure, limit in (
         (exposures.band_model, theory.band_model_frequency),
@@ -304,21 +306,21 @@ def test_advice_holds_both_ends_found_and_the_limits_of_theory(decoding: Decodin
 
 
 @pytest.mark.parametrize("rate", [50.0, 90.0, 99.0, 99.5])
-def test_as_few_images_as_show_a_rate_are_asked_for(rate: float) -> None:
+def test_no_more_images_are_requested_than_prove_a_rate(rate: float) -> None:
     images = images_to_be_sure(rate)
     assert interval_of_pictures(images, images, images)[0] >= rate
     assert interval_of_pictures(images - 1, images - 1, images - 1)[0] < rate
 
 
-def test_no_number_of_images_shows_that_all_are_read(decoding: Decoding) -> None:
+def test_no_number_of_images_proves_that_all_are_read(decoding: Decoding) -> None:
     assert (images_to_be_sure(100.0), images_to_be_sure(99.9)) == (0, 0)
-    decoding(within((0.0, 20e3)))
+    decoding(correct_within((0.0, 20e3)))
     range_end = occ.limits(SCENE, rate=100.0).frequency.highest
     assert (range_end.inside, range_end.interval) == (None, None)
 
 
-def falls() -> Callable[[float, int, int], float]:
-    """From 10 kHz on less than 99 % is read: more images are missed with the frequency's log."""
+def falling_rate() -> Callable[[float, int, int], float]:
+    """Return a decoding that loses 1 % at 10 kHz, and more with the frequency's logarithm."""
 
     @cache
     def misses(frequency: float, seed: int) -> list[bool]:
@@ -329,8 +331,8 @@ def falls() -> Callable[[float, int, int], float]:
     return lambda frequency, image, seed: 1.0 - misses(frequency, seed)[image]
 
 
-def test_the_stated_interval_of_an_end_holds_it(decoding: Decoding) -> None:
-    decoding(falls())
+def test_the_stated_interval_of_an_end_contains_it(decoding: Decoding) -> None:
+    decoding(falling_rate())
     found = []
     for seed in range(amount(80, 200)):
         settings = RateSettings(20, ("threshold",), seed)
@@ -341,11 +343,11 @@ def test_the_stated_interval_of_an_end_holds_it(decoding: Decoding) -> None:
     assert len(intervals) >= 0.99 * len(found)
     held = sum(low <= 10e3 <= high for low, high in intervals)
     assert 0.92 * len(found) <= held <= 0.99 * len(found)
-    # 381 images that are surely read and 200 that surely are not lie 2 to 5 % apart.
+    # The value with 381 images read and the one that fails in 200 are 2 to 5 % apart.
     assert np.median([high / low for low, high in intervals]) < 1.018
-    # The last values that twenty images call read are no such ends: they lie beyond the true one.
+    # The last values that twenty images accept are not the ends: they lie beyond the true one.
     assert sum(end.works.value > 10e3 for end in found) > 0.3 * len(found)
-    # No place states an end that its own interval refutes.
+    # No stated end lies outside its own interval.
     assert all(end.interval is None or min(end.interval) <= end.value <= max(end.interval)
                for end in found)  # fmt: skip
     refuted = [end for end in found if end.value != end.works.value]
@@ -353,23 +355,23 @@ def test_the_stated_interval_of_an_end_holds_it(decoding: Decoding) -> None:
     assert all(end_text("switching_frequency", end).startswith("at ") for end in refuted)
 
 
-def test_a_rate_that_is_reached_is_refuted_in_one_of_forty_studies_at_most() -> None:
+def test_a_rate_that_is_reached_is_rejected_in_at_most_one_of_forty_studies() -> None:
     random = np.random.default_rng(4711)
 
-    def refuted(rate: float, studies: int) -> list[int]:
-        """Return how many images each study took that refutes 99 %."""
+    def count_refuting_images(rate: float, studies: int) -> list[int]:
+        """Return how many images each study took that rejects 99 %."""
         read = (np.where(random.random(OUTSIDE) < rate, 10, 0).tolist() for _ in range(studies))
         found = [count_until_refuted(counts, 10, 0.99) for counts in read]
         return [len(one) for one in found if one is not None]
 
     studies = amount(400, 2000)
     most = studies * 0.025
-    assert 0.1 * most < len(refuted(0.99, studies)) < most + 3.0 * math.sqrt(most)
-    assert len(refuted(0.95, 200)) > 140
-    assert np.median(refuted(0.5, 200)) <= 4  # they lack half of the bits
+    assert 0.1 * most < len(count_refuting_images(0.99, studies)) < most + 3.0 * math.sqrt(most)
+    assert len(count_refuting_images(0.95, 200)) > 140
+    assert np.median(count_refuting_images(0.5, 200)) <= 4  # half of their bits are missing
 
 
-def test_what_the_heartbeat_raises_ends_the_search() -> None:
+def test_an_exception_from_the_heartbeat_ends_the_search() -> None:
     def stop() -> None:
         raise KeyboardInterrupt
 
@@ -377,7 +379,7 @@ def test_what_the_heartbeat_raises_ends_the_search() -> None:
         occ.limits(SCENE, heartbeat=stop)
 
 
-def test_two_packets_just_fill_the_panels_columns_at_their_limit() -> None:
+def test_at_its_limit_two_packets_just_fill_the_panels_columns() -> None:
     scene = occ.load_preset("tablet-122us")
     frequency = theory.two_packets_frequency(scene)
     span = panel_span(scene)
@@ -397,7 +399,7 @@ def test_the_lit_panel_is_just_white_at_saturation_exposure() -> None:
 def test_the_command_answers_with_one_table_of_all_decoders(
     decoding: Decoding, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    decoding(within((0.0, 2e3), (4e3, 14e3)))
+    decoding(correct_within((0.0, 2e3), (4e3, 14e3)))
     assert main(["limits", "--preset", "phone-136us", "--images", "2", "--jobs", "1"]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert lines[1].split("  ")[0] == "decoder"
@@ -415,10 +417,10 @@ def test_the_command_answers_with_one_table_of_all_decoders(
     assert lines[-1].endswith("; above 1.17 ms, columns that are lit throughout are white.")
 
 
-def test_the_commands_table_and_its_sentences_state_the_same_ends(
+def test_the_commands_table_and_sentences_state_the_same_ends(
     decoding: Decoding, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """Where reading is lost slowly, more images move an end that the search has found."""
+    """If the rate falls slowly, more images move an end that the search has found."""
 
     def read_more_rarely(frequency: float, image: int, seed: int) -> float:
         lost = (frequency / 40e3) ** 2
@@ -443,14 +445,14 @@ def test_the_command_fails_where_nothing_is_read(capsys: pytest.CaptureFixture[s
 
 def test_the_bits_of_a_payload_are_counted_as_sent() -> None:
     scene = SCENE.replace(payload="text:Hi", line_code="manchester", framing="preamble")
-    end = searched(scene, images=1).highest
+    end = search_range(scene, images=1).highest
     assert (end.works.right, end.works.sent) == (16, 16)
 
 
-def test_what_was_read_at_the_scenes_own_values_is_said_of_its_own_code(
+def test_the_rate_at_the_scenes_own_values_is_that_of_its_own_code(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """Few images are believed: a range without a gap can hold a value at which one is misread."""
+    """Few images are enough to accept a value, so a range can contain one that is misread once."""
     own = occ.load_preset("phone-68us").replace(code=5)
 
     def once_wrong(scene: Scene, settings: RateSettings, heartbeat: object) -> Iterator[tuple[int]]:

@@ -1,7 +1,7 @@
-"""The manual's table of limits is what the search finds.
+"""The manual's table of limits contains what the search finds.
 
-A row of each preset and each decoder is searched again: all of them take minutes, those with a lens
-many, and ``python tests/benchmarks/limits.py`` prints them.
+One row for each preset and each decoder is searched again. All rows take minutes, those with a lens
+many; ``python tests/benchmarks/limits.py`` prints them.
 """
 
 import re

@@ -1,4 +1,4 @@
-"""The scheme that carries most is read, and what carries more is not."""
+"""The scheme that is found is read, and schemes that would carry more bits are not."""
 
 from collections.abc import Callable
 from functools import partial
@@ -15,7 +15,7 @@ from occ_model.study.most_bits import VARIED, candidate_codes, example_of, reset
 FAR = occ.load_preset("phone-136us").replace(rows=60, enhancement="none", distance=3.0)
 
 
-def test_what_carries_most_is_tried_first() -> None:
+def test_the_combination_that_carries_most_is_tried_first() -> None:
     bits = [one.bits for one in candidate_codes(FAR)]
     assert bits == sorted(bits, reverse=True)
     assert len(bits) > 50
@@ -37,7 +37,7 @@ def test_the_scene_found_is_read_and_its_bits_are_counted() -> None:
     assert f"bits:{''.join(map(str, read.bits))}" == example.transmitter.payload
 
 
-def test_bits_that_the_decoder_does_not_accept_carry_nothing(
+def test_bits_that_the_decoder_rejects_carry_nothing(
     offered: Callable[..., None],
 ) -> None:
     def read(failure: str | None, _: object, scene: Scene) -> DecodeResult:
@@ -65,17 +65,17 @@ def test_a_panel_too_far_away_carries_nothing() -> None:
     assert "come closer" in (found.failure or "")
 
 
-def test_a_panel_out_of_the_picture_does_not_come_into_it_by_coming_closer() -> None:
+def test_coming_closer_is_not_advised_if_the_panel_is_out_of_the_picture() -> None:
     (found,) = occ.most_bits(FAR.replace(offset_x=50.0), ("threshold",), pictures=1)
     assert found.failure == "No column of the picture shows the panel."
 
 
-def test_of_an_overexposed_scene_that_is_said_first() -> None:
+def test_overexposure_is_stated_first() -> None:
     (found,) = occ.most_bits(FAR.replace(iso=6400.0, illuminance=30e3), ("threshold",), pictures=1)
     assert (found.failure or "").startswith("Overexposed. Even the dark panel would have the level")
 
 
-def test_the_command_says_what_carries_most(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_command_states_what_carries_most(capsys: pytest.CaptureFixture[str]) -> None:
     words = ["--set", "rows=60", "--set", "distance=3", "--set", "enhancement=none"]
     assert main(["most-bits", *words, "--decoder", "threshold", "--pictures", "2"]) == 0
     head, found, theory = capsys.readouterr().out.splitlines()

@@ -1,4 +1,4 @@
-"""What is read without pixels is what the picture shows: column means, region and verdicts."""
+"""Column means, region and results computed without pixels equal those of the picture."""
 
 import math
 
@@ -27,7 +27,7 @@ def small(preset: str, **changes: float) -> Scene:
 
 
 @pytest.mark.parametrize("preset", PRESETS)
-def test_the_profile_is_that_of_the_picture_but_for_noise(preset: str) -> None:
+def test_the_profile_equals_the_pictures_except_for_noise(preset: str) -> None:
     scene = small(preset, iso=800.0)
     reading = read_profile(scene, SETTINGS)
     frame = occ.render(scene, observable="signal")
@@ -50,7 +50,7 @@ def test_noise_that_is_cut_off_at_white_darkens_the_mean() -> None:
 
 
 @pytest.mark.parametrize("preset", PRESETS)
-def test_without_noise_everything_is_exactly_the_pictures(preset: str) -> None:
+def test_without_noise_everything_equals_the_picture_exactly(preset: str) -> None:
     scene = small(preset)
     reading = read_profile(scene, BARE)
     frame = occ.render(scene, tolerance=math.inf)
@@ -66,7 +66,7 @@ def test_without_noise_everything_is_exactly_the_pictures(preset: str) -> None:
 @pytest.mark.parametrize(
     "changes", [{"roll": 0.2}, {"jpeg_quality": 80}, {"vignetting_exponent": 4.0}]
 )
-def test_where_rows_differ_the_profile_says_nothing(changes: dict[str, float]) -> None:
+def test_if_rows_differ_the_profile_path_is_not_used(changes: dict[str, float]) -> None:
     assert read_profile(small("phone-68us", **changes), SETTINGS) is None
 
 
@@ -77,15 +77,15 @@ def test_a_panel_out_of_the_picture_is_not_read() -> None:
 
 
 @pytest.mark.parametrize("tolerance", [0.0, 1.0, 20.0])
-def test_a_reading_simulates_all_that_the_scene_has_as_a_study_does(tolerance: float) -> None:
+def test_a_reading_simulates_all_effects_of_the_scene_like_a_study(tolerance: float) -> None:
     scene = small("phone-136us", switching_frequency=14.6e3)
     reading = read_profile(scene, SimulationSettings(tolerance, observable="profile"))
     assert reading.plan.included == occ.plan(scene, 0.0).included
     assert occ.plan(scene, 20.0, "profile").included != reading.plan.included
 
 
-def test_a_picture_too_large_to_be_made_is_not_read_by_its_profile() -> None:
-    """Nothing is said of a picture that the program refuses to show."""
+def test_a_picture_too_large_to_be_rendered_is_not_read_by_its_profile() -> None:
+    """The program states nothing about a picture that it refuses to show."""
     scene = occ.load_preset("phone-136us").replace(rows=100_000, columns=20_000)
     with pytest.raises(occ.ProjectionError, match="million pixels; allowed: up to"):
         read_profile(scene, SETTINGS)
@@ -96,8 +96,8 @@ SPAN = Region(60, 320, 303, 800)
 TRIALS = amount(8, 25)
 
 
-def of_pixels(panel: float, around: float, random: np.random.Generator) -> Region:
-    """Draw pixels of two levels, bright with these probabilities, and locate the panel in them."""
+def locate_in_pixels(panel: float, around: float, random: np.random.Generator) -> Region:
+    """Draw random pixels of two levels with these probabilities, and locate the panel in them."""
     image = (random.random((ROWS, COLUMNS)) < around).astype(np.uint8)
     seen = image[SPAN.first_row : SPAN.last_row, SPAN.first_column : SPAN.last_column]
     seen[:] = random.random(seen.shape) < panel
@@ -115,30 +115,32 @@ def edges(region: Region) -> NDArray[np.float64]:
     ("panel", "around"),
     [(1.0, 0.0), (0.5, 1e-4), (0.3, 0.003), (0.3, 0.01), (0.02, 0.02), (0.05, 0.0), (1e-3, 1e-6)],
 )
-def test_the_drawn_rectangle_is_the_one_found_among_pixels(panel: float, around: float) -> None:
+def test_the_drawn_rectangle_has_the_distribution_of_the_one_found_in_pixels(
+    panel: float, around: float
+) -> None:
     fractions = BrightFractions(ROWS, SPAN, np.full(COLUMNS, panel), np.full(COLUMNS, around))
     drawn, found = (
         np.array([edges(make(np.random.default_rng([start, trial]))) for trial in range(TRIALS)])
         for start, make in (
             (1, fractions.draw_region),
-            (2, lambda random: of_pixels(panel, around, random)),
+            (2, lambda random: locate_in_pixels(panel, around, random)),
         )
     )
     error = np.sqrt((drawn.var(axis=0) + found.var(axis=0)) / TRIALS)
-    # A cell, of 3 pixels, holds more bright pixels at its end than chance alone puts there.
+    # A cell of 3 pixels has more bright pixels at its end than chance alone would give.
     assert np.all(np.abs(drawn.mean(axis=0) - found.mean(axis=0)) <= 4.0 * error + 1.5)
 
 
 @pytest.mark.parametrize("pixels", [1, 9, 400, 170_000])
-def test_a_cell_of_any_size_has_more_bright_pixels_by_the_binomial_law(pixels: int) -> None:
+def test_bright_pixels_in_a_cell_of_any_size_follow_the_binomial_law(pixels: int) -> None:
     fraction = np.array([0.0, 0.1, 0.3, 1.0])
     found = _more_than(0.2, fraction, pixels)
     drawn = np.random.default_rng(1).binomial(pixels, fraction, (20_000, 4)) > 0.2 * pixels
     assert found == pytest.approx(drawn.mean(axis=0), abs=0.015)
 
 
-def test_a_dark_noisy_picture_is_read_by_a_study_as_by_its_pictures() -> None:
-    # Its brightest 5 % of pixels lie everywhere, and so does the region.
+def test_a_study_reads_a_dark_noisy_scene_as_its_pictures_are_read() -> None:
+    # The brightest 5 % of pixels are everywhere, and so is the region.
     scene = occ.load_preset("phone-136us").replace(
         line_code="manchester", framing="preamble", payload="hex:5a5a5a5a5a5a5a5a",
         switching_frequency=15e3, enhancement="none", distance=1.0, rows=200, luminance=150.0,

@@ -1,4 +1,4 @@
-"""Maps over a floor and lengths of codes count what pictures show; a stopped map goes on."""
+"""Maps over a floor and code lengths count what pictures show; a stopped map is continued."""
 
 import dataclasses
 import math
@@ -24,7 +24,7 @@ from occ_model.study.room_map import RoomMapRequest, RoomMapText, RoomPoint, pla
 from occ_model.transmitter.packet import sent_chips
 
 
-def test_a_place_counts_what_its_picture_tells_and_far_away_there_is_nothing() -> None:
+def test_a_place_counts_what_its_picture_shows_which_is_nothing_far_away() -> None:
     request = RoomMapRequest(small_room(), (0.6, 40.0), (0.6,), images=2)
     near, far = room_map(request)
     assert near.shown == 8
@@ -37,7 +37,7 @@ def test_a_place_counts_what_its_picture_tells_and_far_away_there_is_nothing() -
     assert far.note.startswith("No lamp was found")
 
 
-def test_a_lamp_that_has_another_s_name_is_counted_as_wrong(
+def test_a_lamp_given_another_ones_name_is_counted_as_wrong(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     room = small_room()
@@ -54,7 +54,7 @@ def test_a_lamp_that_has_another_s_name_is_counted_as_wrong(
     assert (point.shown, point.named, point.misread, point.wrong) == (4, 0, 0, 4)
 
 
-def test_lamps_that_are_cut_are_none_of_the_whole_ones_that_were_named() -> None:
+def test_cut_lamps_do_not_count_as_whole_lamps_named() -> None:
     (point,) = room_map(
         RoomMapRequest(small_room().replace(x=0.6, y=0.6), (1.25,), (0.6,), images=2)
     )
@@ -65,7 +65,7 @@ def test_lamps_that_are_cut_are_none_of_the_whole_ones_that_were_named() -> None
     assert point.named <= point.shown == 2 * whole
 
 
-def test_a_code_that_no_lamp_there_sends_is_counted_as_misread(
+def test_a_code_that_no_lamp_at_the_place_sends_is_counted_as_misread(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     room = small_room(1)
@@ -80,7 +80,7 @@ def test_a_code_that_no_lamp_there_sends_is_counted_as_misread(
     assert (point.shown, point.named, point.misread, point.wrong) == (1, 0, 1, 0)
 
 
-def test_a_map_that_was_killed_goes_on_and_is_the_same(tmp_path: Path) -> None:
+def test_a_killed_map_is_continued_with_the_same_result(tmp_path: Path) -> None:
     request = RoomMapRequest(small_room(1), (0.0, 0.6), (0.0, 0.3))
     path = tmp_path / "map.csv"
     whole = room_map(request, results=path)
@@ -110,7 +110,7 @@ def test_a_map_that_was_killed_goes_on_and_is_the_same(tmp_path: Path) -> None:
         (8, "0.5", "error (m) is '0.5'; allowed: nothing, without a sure place."),
     ],
 )
-def test_counts_of_a_map_that_cannot_be_are_refused_with_line_and_value(
+def test_impossible_counts_of_a_map_are_refused_with_line_and_value(
     tmp_path: Path, cell: int, value: str, said: str
 ) -> None:
     room = small_room(1, rows=240, columns=320)
@@ -142,7 +142,7 @@ def test_the_command_measures_a_room_file_with_other_settings(
     assert "another map of a room" in capsys.readouterr().err
 
 
-def test_the_floor_is_that_below_the_lamps() -> None:
+def test_the_places_are_under_the_lamps() -> None:
     assert places_under(small_room(), 3) == ((0.0, 0.6, 1.2), (0.0, 0.6, 1.2))
     assert places_under(small_room(1), 3) == ((0.0,), (0.0,))
 
@@ -151,7 +151,7 @@ def test_a_single_place_is_in_the_middle_of_the_floor() -> None:
     assert places_under(small_room(), 1) == ((0.6,), (0.6,))
 
 
-def test_a_tolerance_is_refused_in_the_words_of_every_other_one() -> None:
+def test_a_tolerance_is_refused_in_the_same_words_as_elsewhere() -> None:
     with pytest.raises(occ.ParameterError, match=r"tolerance is nan levels; allowed: from 0"):
         RoomMapRequest(small_room(1), (0.0,), (0.0,), tolerance=math.nan)
 
@@ -159,7 +159,7 @@ def test_a_tolerance_is_refused_in_the_words_of_every_other_one() -> None:
 ROOM = small_room(2, turned=0.0, camera=Place(z=-0.2))
 
 
-def test_the_least_distance_is_that_of_the_nearest_pair_at_the_nearest_shift() -> None:
+def test_the_least_distance_is_that_of_the_closest_pair_at_its_closest_shift() -> None:
     sent = occ.Scene().transmitter.replaced({"code": 0, "bits": 4})
     packets = np.array([sent_chips(sent.replaced({"code": code})) for code in range(16)])
     by_hand = min(
@@ -173,7 +173,7 @@ def test_the_least_distance_is_that_of_the_nearest_pair_at_the_nearest_shift() -
     assert least_distance(np.array([packets[3], np.roll(packets[3], 5)])) == 0
 
 
-def test_lamps_are_read_as_long_as_a_packet_is_shown() -> None:
+def test_lamps_are_read_as_long_as_a_packet_is_in_view() -> None:
     short, long = code_lengths(RoomMapRequest(ROOM, (0.6,), (0.0,), 2), 64, (6, 15))
     assert (short.bits, short.codes, short.chips) == (6, 64, 16)
     assert short.columns == pytest.approx(16 / 8e3 / 36e-6)
@@ -182,7 +182,7 @@ def test_lamps_are_read_as_long_as_a_packet_is_shown() -> None:
     assert long.packets < 2.0
 
 
-def test_a_place_without_a_picture_has_no_lamp_that_is_whole() -> None:
+def test_a_place_without_a_picture_has_no_whole_lamp() -> None:
     request = RoomMapRequest(ROOM.replace(z=2.3, pitch=0.9), (0.6,), (0.0,))
     (point,) = room_map(request)
     (found,) = code_lengths(request, 64, (6,))
@@ -190,7 +190,7 @@ def test_a_place_without_a_picture_has_no_lamp_that_is_whole() -> None:
     assert (found.whole, found.packets) == (point.shown, 0.0) == (0, 0.0)
 
 
-def test_lengths_are_those_of_codes_whatever_the_lamps_send_now() -> None:
+def test_code_lengths_do_not_depend_on_what_the_lamps_send_now() -> None:
     lamps = [replace(lamp, transmitter=lamp.transmitter.replaced({"payload": "bits:1100"}))
              for lamp in ROOM.lamps]  # fmt: skip
     sending = replace(ROOM, lamps=tuple(lamps))
@@ -200,7 +200,7 @@ def test_lengths_are_those_of_codes_whatever_the_lamps_send_now() -> None:
     assert found[0].distance > 0
 
 
-def test_a_misread_code_is_another_lamp_s_as_often_as_codes_are_used() -> None:
+def test_a_misread_code_is_another_lamps_in_proportion_to_the_codes_used() -> None:
     found = CodeLength(12, 28, 100.0, 3.0, 2, whole=50, named=40, misread=9)
     assert found.expected_mix_ups(1024) == pytest.approx(9 * 1023 / 4095)
     assert found.expected_mix_ups(1) == 0.0
@@ -211,7 +211,7 @@ def test_a_length_with_fewer_codes_than_lamps_is_refused() -> None:
         code_lengths(RoomMapRequest(ROOM, (0.6,), (0.0,)), 1024, (9,))
 
 
-def test_the_command_says_which_length_serves_best(
+def test_the_command_states_which_length_is_best(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     path = tmp_path / "room.toml"

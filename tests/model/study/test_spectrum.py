@@ -1,4 +1,4 @@
-"""The spectrum of a profile has the amplitudes of its sines, and the zeros of the response."""
+"""The spectrum of a profile has its sines' amplitudes and the response's zeros."""
 
 import numpy as np
 import pytest
@@ -35,7 +35,7 @@ def test_an_alternating_pattern_is_damped_as_the_response_says(frequency: float)
     assert damped == pytest.approx(one.response[place] / other.response[place], rel=1e-3)
 
 
-def test_the_zeros_are_where_the_response_is_nothing() -> None:
+def test_the_zeros_are_where_the_response_vanishes() -> None:
     scene = occ.load_preset("phone-136us")
     found = profile_spectrum(np.zeros(3000), scene)
     assert found.zeros[0] == pytest.approx(1 / 136e-6)
@@ -44,7 +44,7 @@ def test_the_zeros_are_where_the_response_is_nothing() -> None:
     assert len(found.zeros) == int(0.5 / 8e-6 * 136e-6)
 
 
-def test_the_fractions_of_a_histogram_add_up_and_tell_what_is_clipped() -> None:
+def test_the_fractions_of_a_histogram_add_up_and_show_what_is_clipped() -> None:
     image = np.array([[0, 0, 7, 255], [255, 9, 9, 255]], dtype=np.uint8)
     found = level_histogram(image)
     assert found.fractions.sum() == pytest.approx(1.0)

@@ -1,4 +1,4 @@
-"""Laws of the success rate, and of the two ways to measure it."""
+"""Laws of the success rate and of the two ways to measure it."""
 
 import itertools
 import math
@@ -20,19 +20,19 @@ from occ_model.study.observation import observe_profile, panel_span
 
 @pytest.fixture
 def scene() -> Scene:
-    """A phone whose sensor has few rows, so that whole images are cheap."""
+    """Return a phone whose sensor has few rows, so that whole images are fast."""
     return occ.load_preset("phone-136us").replace(rows=250, panel_height=0.05, distance=1.0)
 
 
-def test_same_seed_same_rate_other_seed_other_images() -> None:
-    # Far enough for two headers to fit only where the start time is kind.
+def test_the_same_seed_gives_the_same_rate_and_another_seed_other_images() -> None:
+    # So far away that two headers fit only at some start times.
     far = occ.load_preset("phone-136us").replace(switching_frequency=4e3, distance=1.8)
     found = [occ.success_rate(far, 3, seed=seed) for seed in (1, 1, 2, 3, 4, 5)]
     assert found[0] == found[1]
     assert len(set(found)) > 1
 
 
-def test_rate_is_the_fraction_of_right_bits_and_only_accepted_payloads_are_whole(
+def test_the_rate_is_the_fraction_of_correct_bits_and_only_accepted_payloads_are_whole(
     scene: Scene, offered: Callable[..., None]
 ) -> None:
     sent = np.array([1, 0, 1, 1, 0, 0, 1, 1, 1, 0], dtype=np.uint8)
@@ -62,7 +62,7 @@ def test_profile_path_and_image_path_give_the_same_rate(
     assert by_image == occ.success_rate(at, 2, decoder, seed=7, path="profile")
 
 
-def test_profile_path_sees_the_region_that_the_image_shows(scene: Scene) -> None:
+def test_the_profile_path_finds_the_region_of_the_image(scene: Scene) -> None:
     random = np.random.default_rng(1)
     for distance in (0.5, 1.0, 2.5):
         at = scene.replace(distance=distance)
@@ -73,7 +73,7 @@ def test_profile_path_sees_the_region_that_the_image_shows(scene: Scene) -> None
         assert by_profile.region == found.region
 
 
-def test_the_profile_path_sees_the_images_signal_with_noise(scene: Scene) -> None:
+def test_the_profile_path_has_the_images_signal_with_noise(scene: Scene) -> None:
     noisy = {"sensor-noise": True}
     chosen = occ.plan(scene, tolerance=np.inf, force=noisy)
     random = np.random.default_rng(2)
@@ -86,7 +86,7 @@ def test_the_profile_path_sees_the_images_signal_with_noise(scene: Scene) -> Non
     means = image[rows, columns].mean(axis=0)
     spread = image[rows, columns].std(axis=0) / np.sqrt(region.rows)
     deviation = (means - by_profile.signal) / np.sqrt(2 * np.maximum(spread, 0.05) ** 2)
-    # Two independent draws of the same distribution: deviations of mean 0 and variance 1 or less.
+    # Two independent draws from one distribution: deviations with mean 0 and variance at most 1.
     assert abs(deviation.mean()) < 5 / np.sqrt(len(deviation))
     assert 0.5 < deviation.std() < 1.1
 
@@ -124,7 +124,7 @@ def test_a_raw_pattern_has_no_success_rate(scene: Scene) -> None:
         occ.success_rate(scene.replace(pattern="0110"))
 
 
-def test_study_without_pixels_simulates_all_that_the_scene_has(
+def test_a_study_without_pixels_simulates_all_effects_of_the_scene(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     def refuse(*_: object) -> object:

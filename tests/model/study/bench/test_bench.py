@@ -1,4 +1,4 @@
-"""The bench measures what it says, and finds what closed forms know."""
+"""The benchmark measures what it states, and agrees with closed forms."""
 
 from dataclasses import replace
 
@@ -33,7 +33,7 @@ def test_a_symbol_lasts_as_many_rows_as_asked(rows: float) -> None:
 
 
 @pytest.mark.parametrize("decibels", [5.0, 20.0])
-def test_noise_is_the_chips_variance_over_the_ratio(decibels: float) -> None:
+def test_the_noise_variance_is_the_chips_variance_divided_by_the_ratio(decibels: float) -> None:
     scene = bench_scene(BenchRequest(payload_bits=64), "manchester")
     noise = bench_signal(scene, decibels, np.random.default_rng(1))
     clean = bench_signal(scene, 200.0, np.random.default_rng(1))
@@ -42,7 +42,7 @@ def test_noise_is_the_chips_variance_over_the_ratio(decibels: float) -> None:
     assert float(np.var(noise - clean)) == pytest.approx(expected, rel=0.1)
 
 
-def test_beyond_two_symbols_only_the_new_detectors_read() -> None:
+def test_for_exposures_above_two_symbols_only_the_new_detectors_read() -> None:
     points = {(p.errors.decoder, p.exposure, p.axis): p for p in bench(SMALL)}
     for decoder in SMALL.decoders:
         assert points[decoder, 0.5, "exposure"].errors.errors == 0
@@ -70,14 +70,14 @@ def test_a_row_of_the_table_has_every_column() -> None:
     assert all(0.0 <= row[8] <= row[7] <= row[9] <= 1.0 for row in rows)  # type: ignore[operator]
 
 
-def test_progress_reaches_all_points() -> None:
+def test_progress_counts_up_to_all_points() -> None:
     seen: list[tuple[int, int]] = []
     bench(SMALL, lambda done, of: seen.append((done, of)))
     assert seen == [(0, 3), (1, 3), (2, 3), (3, 3)]
 
 
-def test_the_bench_and_the_bit_error_rate_count_alike() -> None:
-    # The same question by two ways: a scene without noise that every decoder reads.
+def test_the_bench_and_the_bit_error_rate_count_the_same_errors() -> None:
+    # Two ways to answer the same question, for a scene without noise that every decoder reads.
     scene = bench_scene(BenchRequest(payload_bits=64), "manchester").replace(rows=40, distance=0.3)
     by_scene = occ.bit_error_rate(scene, "sequence", 128)
     by_bench = bench(BenchRequest(decoders=("sequence",), exposures=(1.0,), decibels=(), bits=128,
@@ -86,7 +86,7 @@ def test_the_bench_and_the_bit_error_rate_count_alike() -> None:
     assert (by_scene.low, by_scene.high) == (by_bench[0].errors.low, by_bench[0].errors.high)
 
 
-def test_bits_that_are_not_accepted_count_in_the_rate_but_are_no_payload_a_second(
+def test_rejected_bits_count_in_the_rate_but_not_as_payload_per_second(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     from occ_model.study.bench import bench as module
@@ -139,7 +139,7 @@ def test_no_decoder_carries_more_than_the_bound() -> None:
         assert low <= point.errors.bits_a_second(30.0) <= high <= 30.0 * least
 
 
-def test_a_figure_of_more_pictures_than_can_be_read_out_is_refused() -> None:
+def test_a_figure_with_more_pictures_per_second_than_can_be_read_out_is_refused() -> None:
     request = BenchRequest(exposures=(), decibels=())
     assert bench_drawing(request, (), 36.0).name == "bench"
     with pytest.raises(ParameterError, match=r"frames_a_second is 40\.0"):

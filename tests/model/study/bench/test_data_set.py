@@ -1,4 +1,4 @@
-"""A data set of the published layout, made here: its pictures are found, read and measured."""
+"""The pictures of a generated data set with the published layout are found, read and measured."""
 
 from pathlib import Path
 
@@ -24,7 +24,7 @@ def make_data_set(folder: Path, ratios: tuple[float, ...]) -> Path:
         scene = bench_scene(BenchRequest(payload_bits=100), "manchester", ratio)
         bits = "".join(map(str, random.integers(0, 2, 100)))
         lit = lit_fraction(scene.replace(payload=f"bits:{bits}", columns=1080))
-        # Light as a camera writes it, in rows, with noise.
+        # Light as a camera stores it, in rows, with noise.
         levels = 255.0 * (0.05 + 0.8 * lit) ** (1.0 / scene.camera.gamma)
         noisy = levels[:, None] + random.normal(0.0, 2.0, (1080, 40))
         picture = np.repeat(np.clip(np.rint(noisy), 0, 255).astype(np.uint8)[..., None], 3, axis=2)
@@ -46,7 +46,7 @@ def test_pictures_and_times_are_those_of_the_table(tmp_path: Path) -> None:
     assert second.exposure / second.symbol == pytest.approx(3.5)
 
 
-def test_the_chips_of_every_picture_explain_it(tmp_path: Path) -> None:
+def test_the_chips_read_explain_every_picture(tmp_path: Path) -> None:
     samples = load_pictures(make_data_set(tmp_path, (1.0, 3.5, 6.0)))
     for reading in read_pictures(samples, ("sequence",)):
         assert reading.chips >= 210
@@ -75,7 +75,7 @@ def test_progress_counts_pictures(tmp_path: Path) -> None:
         ((f",{TICK},", ",1e-320,"), r"line 2: times of \[.*\] s; allowed"),
     ],
 )
-def test_a_table_that_cannot_be_used_says_where(
+def test_the_refusal_of_a_table_names_the_line(
     tmp_path: Path, changed: tuple[str, str], words: str
 ) -> None:
     table = make_data_set(tmp_path, (1.0,))

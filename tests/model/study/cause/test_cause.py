@@ -1,4 +1,4 @@
-"""The cause that is named is that of the scene, and the step that is offered helps."""
+"""The cause that is stated is the scene's, and the remedy that is offered helps."""
 
 import math
 from typing import Any
@@ -40,7 +40,7 @@ NULL = "the null at 14.7 kHz"
         ),
     ],
 )  # fmt: skip
-def test_the_step_that_is_offered_helps(changes: dict[str, Any], decoder: str, what: str) -> None:
+def test_the_remedy_that_is_offered_helps(changes: dict[str, Any], decoder: str, what: str) -> None:
     scene = occ.load_preset("phone-136us").replace(**SMALL, **changes)
     assert occ.success_rate(scene, 3, decoder) < 100.0
     cause = cause_of(scene, decoder)
@@ -57,7 +57,7 @@ def test_the_step_that_is_offered_helps(changes: dict[str, Any], decoder: str, w
         assert occ.success_rate(helped, 3, cause.remedy.decoder or decoder) == 100.0
 
 
-def test_overexposure_is_no_cause_where_the_picture_is_read_or_fails_without_it() -> None:
+def test_overexposure_is_not_the_cause_if_the_picture_is_read_or_fails_without_it() -> None:
     white = occ.load_preset("phone-136us").replace(**SMALL, iso=6400.0)
     assert occ.column_profile(white).max() == 255.0
     assert cause_of(white, "threshold") is None
@@ -76,18 +76,18 @@ def test_overexposure_is_no_cause_where_the_picture_is_read_or_fails_without_it(
         (20e3, f"beyond {NULL}"),
     ],
 )
-def test_the_null_is_named_with_the_distance_from_it(frequency: float, what: str) -> None:
+def test_the_null_is_stated_with_the_distance_from_it(frequency: float, what: str) -> None:
     scene = occ.load_preset("phone-136us").replace(**SMALL, switching_frequency=frequency)
     cause = cause_of(scene, "threshold")
     assert cause.what == what
     assert cause.remedy.decoder == "matched"
-    # The same frequency is no cause where it is read.
+    # The same frequency is not a cause where the picture is read.
     assert cause_of(scene, "matched") is None
 
 
 @pytest.mark.parametrize("enhancement", ["equalization", "none"])
 def test_a_panel_too_small_for_the_brightest_pixels_is_not_found(enhancement: str) -> None:
-    """Stripes are plain to see, and the receiver takes the whole picture for the panel."""
+    """Stripes are clearly visible, but the receiver takes the whole picture for the panel."""
     scene = occ.load_preset("phone-68us").replace(panel_height=0.002, enhancement=enhancement)
     picture = occ.render(scene, noise="reused").image
     assert occ.decode(picture, scene).code is None
@@ -101,8 +101,8 @@ def test_a_panel_too_small_for_the_brightest_pixels_is_not_found(enhancement: st
     assert cause_of(scene.replace(panel_height=0.08), "threshold") is None
 
 
-def test_chips_are_called_needed_only_where_no_picture_is_read_with_fewer() -> None:
-    """At 5 m the 33 chips in view hold both headers in some pictures, and a packet in all."""
+def test_chips_are_stated_as_needed_only_if_no_picture_is_read_with_fewer() -> None:
+    """At 5 m the 33 chips in view contain both headers in some pictures, and a packet in all."""
     far = occ.load_preset("phone-136us").replace(distance=5.0)
     assert 0.0 < occ.success_rate(far, 20, "threshold") < 100.0
     assert occ.success_rate(far, 3, "matched") == 100.0
@@ -119,7 +119,7 @@ def test_chips_are_called_needed_only_where_no_picture_is_read_with_fewer() -> N
     assert occ.success_rate(far.replace(distance=9.0), 5, "matched") == 0.0
 
 
-def test_two_headers_are_called_needed_only_by_framings_that_need_them() -> None:
+def test_two_headers_are_stated_as_needed_only_for_framings_that_need_them() -> None:
     scene = occ.load_preset("phone-68us")
     assert reads_two_headers(scene, "threshold")
     assert not reads_two_headers(scene, "matched")
@@ -133,7 +133,7 @@ def test_a_scene_that_is_read_has_no_cause() -> None:
     assert cause_of(occ.load_preset("phone-136us").replace(pattern="10"), "threshold") is None
 
 
-def test_no_cause_is_stated_where_nothing_that_is_taken_out_makes_it_readable() -> None:
+def test_no_cause_is_stated_if_removing_everything_does_not_make_it_readable() -> None:
     dark = occ.load_preset("phone-136us").replace(**SMALL, luminance=0.0)
     assert cause_of(dark, "threshold") is None
 
@@ -152,14 +152,14 @@ def test_a_panel_that_no_column_shows_is_out_of_the_picture_or_too_small(
     assert (cause.what, cause.remedy) == (what, None)
 
 
-def test_an_effect_is_named_where_it_alone_spoils_the_picture() -> None:
+def test_an_effect_is_stated_if_it_alone_spoils_the_picture() -> None:
     scene = occ.load_preset("phone-68us").replace(**SMALL, edge_time=300e-6)
     cause = cause_of(scene, "threshold")
     assert cause.what == "LED rise and fall"
     assert occ.success_rate(scene, 3, "threshold", force={"led-edges": False}) == 100.0
 
 
-def test_what_is_needed_together_is_named_together() -> None:
+def test_causes_that_are_needed_together_are_stated_together() -> None:
     scene = occ.load_preset("phone-136us").replace(**SMALL, iso=12800.0, distance=9.0)
     for alone in ({"iso": 400.0}, {"distance": 1.2}):
         assert occ.success_rate(scene.replace(**alone), 3, "threshold") < 50.0
@@ -178,8 +178,8 @@ def test_more_bits_than_the_matched_decoder_compares_are_left_to_the_sequence_de
     assert occ.success_rate(scene, 3, cause.remedy.decoder) == 100.0
 
 
-def without(cause: str, scene: Scene) -> list[Scene]:
-    """Return the scene without a cause, taken out by other means than the program's own."""
+def remove_cause(cause: str, scene: Scene) -> list[Scene]:
+    """Return the scene without a cause, in several versions made independently of the program."""
     camera, lit = scene.camera, float(level_values(scene)[1])
     frequency = scene.transmitter.switching_frequency
 
@@ -210,7 +210,7 @@ def without(cause: str, scene: Scene) -> list[Scene]:
 
 
 def unread_scene(random: np.random.Generator) -> tuple[Scene, str]:
-    """Choose settings at which one thing or another is often wrong."""
+    """Choose settings at which something is often wrong."""
     scene = occ.load_preset(str(random.choice(["phone-68us", "phone-136us", "tablet-61us"])))
     changes: dict[str, Any] = {"rows": 200, "start_time": float(random.uniform(0.0, 2e-3))}
     for name, low, high in (
@@ -230,7 +230,7 @@ def is_read(scene: Scene, decoder: str) -> bool:
 
 
 def test_without_its_first_cause_a_random_picture_is_read() -> None:
-    """Of whole pictures, with the cause taken out in another way; those of one cause alone."""
+    """Checked on whole pictures with a single cause, which is removed independently."""
     random = np.random.default_rng(5)
     wrong, asked = [], 0
     while asked < amount(15, 150):
@@ -241,6 +241,6 @@ def test_without_its_first_cause_a_random_picture_is_read() -> None:
         if cause is None or "In addition" in cause.why:
             continue
         asked += 1
-        if not any(is_read(other, decoder) for other in without(cause.what, scene)):
+        if not any(is_read(other, decoder) for other in remove_cause(cause.what, scene)):
             wrong.append((cause, decoder, scene))
     assert len(wrong) <= 0.1 * asked

@@ -1,4 +1,4 @@
-"""Laws of a sweep's file: what is written stays, and is continued by its own sweep alone."""
+"""Laws of a sweep's file: what is written stays, and only the same sweep continues it."""
 
 import csv
 import errno
@@ -26,55 +26,55 @@ def scene() -> Scene:
     return occ.load_preset("phone-136us").replace(**REFUSED)
 
 
-def run(scene: Scene, file: Path | None, **others: object) -> SweepTable:
+def run_sweep(scene: Scene, file: Path | None, **others: object) -> SweepTable:
     settings = {"axes": AXES, "images": 1, "decoder": BOTH, "seed": 3, **others}
     return occ.sweep(scene, results=file, **settings)  # type: ignore[arg-type]
 
 
 @pytest.fixture(scope="module")
 def table(scene: Scene) -> SweepTable:
-    found = run(scene, None)
+    found = run_sweep(scene, None)
     assert len(found.notes) == 2
     return found
 
 
 @pytest.fixture(scope="module")
-def whole(table: SweepTable) -> bytes:
-    """What a complete file holds."""
+def complete_file(table: SweepTable) -> bytes:
+    """Return the contents of a complete file."""
     return "".join(table.csv()).encode()
 
 
 @pytest.fixture
-def measured(monkeypatch: pytest.MonkeyPatch) -> list[int]:
-    """Which points were measured."""
+def measured_points(monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """Record the indices of the points that are measured."""
     indices: list[int] = []
     real = points.measure_point
 
-    def spy(scene: Scene, settings: object, index: int, *others: object) -> object:
+    def record(scene: Scene, settings: object, index: int, *others: object) -> object:
         indices.append(index)
         return real(scene, settings, index, *others)  # type: ignore[arg-type]
 
-    monkeypatch.setattr(points, "measure_point", spy)
+    monkeypatch.setattr(points, "measure_point", record)
     return indices
 
 
-def header_size(whole: bytes) -> int:
+def header_size(complete_file: bytes) -> int:
     return (
-        whole.index(b"\ndistance (m),")
-        + whole[whole.index(b"\ndistance (m),") + 1 :].index(b"\n")
+        complete_file.index(b"\ndistance (m),")
+        + complete_file[complete_file.index(b"\ndistance (m),") + 1 :].index(b"\n")
         + 2
     )
 
 
 def test_the_file_is_the_table_in_order_with_its_scene(
-    scene: Scene, table: SweepTable, whole: bytes, tmp_path: Path
+    scene: Scene, table: SweepTable, complete_file: bytes, tmp_path: Path
 ) -> None:
     path = tmp_path / "r.csv"
-    assert run(scene, path) == table
-    assert path.read_bytes() == whole
+    assert run_sweep(scene, path) == table
+    assert path.read_bytes() == complete_file
     table.to_csv(tmp_path / "t.csv")
-    assert (tmp_path / "t.csv").read_bytes() == whole
-    lines = whole.decode().splitlines()
+    assert (tmp_path / "t.csv").read_bytes() == complete_file
+    lines = complete_file.decode().splitlines()
     comments = "\n".join(line[2:] for line in lines if line.startswith("#"))
     assert Scene.from_toml(comments[comments.index("format = 1\n") :]) == scene
     assert f"occ_model {occ.__version__}" in comments
@@ -86,48 +86,56 @@ def test_the_file_is_the_table_in_order_with_its_scene(
 
 
 def test_a_complete_file_is_read_and_nothing_is_measured(
-    scene: Scene, table: SweepTable, whole: bytes, tmp_path: Path, measured: list[int]
+    scene: Scene,
+    table: SweepTable,
+    complete_file: bytes,
+    tmp_path: Path,
+    measured_points: list[int],
 ) -> None:
     path = tmp_path / "r.csv"
-    path.write_bytes(whole)
+    path.write_bytes(complete_file)
     counts: list[int] = []
-    assert run(scene, path, progress=lambda done, *_: counts.append(done)) == table
-    assert measured == []
+    assert run_sweep(scene, path, progress=lambda done, *_: counts.append(done)) == table
+    assert measured_points == []
     assert counts == [6]
-    assert path.read_bytes() == whole
+    assert path.read_bytes() == complete_file
 
 
-def test_a_truncated_file_is_continued_with_what_is_missing(
-    scene: Scene, table: SweepTable, whole: bytes, tmp_path: Path, measured: list[int]
+def test_a_truncated_file_is_completed_with_the_missing_points(
+    scene: Scene,
+    table: SweepTable,
+    complete_file: bytes,
+    tmp_path: Path,
+    measured_points: list[int],
 ) -> None:
-    path, begin = tmp_path / "r.csv", header_size(whole)
+    path, begin = tmp_path / "r.csv", header_size(complete_file)
     cuts = {
         0,
         1,
         begin - 1,
         begin,
         begin + 1,
-        len(whole) - 1,
-        *range(begin, len(whole), amount(211, 61)),
+        len(complete_file) - 1,
+        *range(begin, len(complete_file), amount(211, 61)),
     }
     for cut in sorted(cuts):
-        path.write_bytes(whole[:cut])
-        measured.clear()
-        assert run(scene, path) == table
-        assert path.read_bytes() == whole
-        there = whole[begin:cut].count(b"\n") // len(BOTH)
-        assert sorted(measured) == list(range(there, 6))
+        path.write_bytes(complete_file[:cut])
+        measured_points.clear()
+        assert run_sweep(scene, path) == table
+        assert path.read_bytes() == complete_file
+        there = complete_file[begin:cut].count(b"\n") // len(BOTH)
+        assert sorted(measured_points) == list(range(there, 6))
 
 
-def test_rows_in_any_order_are_continued_and_put_in_order(
-    scene: Scene, table: SweepTable, whole: bytes, tmp_path: Path
+def test_a_file_with_rows_in_any_order_is_continued_and_sorted(
+    scene: Scene, table: SweepTable, complete_file: bytes, tmp_path: Path
 ) -> None:
-    path, begin = tmp_path / "r.csv", header_size(whole)
-    lines = whole[begin:].splitlines(keepends=True)
+    path, begin = tmp_path / "r.csv", header_size(complete_file)
+    lines = complete_file[begin:].splitlines(keepends=True)
     points = [b"".join(lines[first : first + 2]) for first in range(0, len(lines), 2)]
-    path.write_bytes(whole[:begin] + points[4] + points[0] + points[5])
-    assert run(scene, path) == table
-    assert path.read_bytes() == whole
+    path.write_bytes(complete_file[:begin] + points[4] + points[0] + points[5])
+    assert run_sweep(scene, path) == table
+    assert path.read_bytes() == complete_file
 
 
 @pytest.mark.parametrize(
@@ -143,30 +151,30 @@ def test_rows_in_any_order_are_continued_and_put_in_order(
         ({"path": "image"}, "path auto"),
     ],
 )
-def test_the_file_of_another_sweep_is_refused_and_left_as_it_is(
-    scene: Scene, whole: bytes, tmp_path: Path, others: dict[str, object], words: str
+def test_the_file_of_another_sweep_is_refused_and_unchanged(
+    scene: Scene, complete_file: bytes, tmp_path: Path, others: dict[str, object], words: str
 ) -> None:
     path = tmp_path / "r.csv"
-    path.write_bytes(whole)
+    path.write_bytes(complete_file)
     with pytest.raises(occ.OutputError, match=f"contains the results of another sweep.*{words}"):
-        run(scene, path, **others)
-    assert path.read_bytes() == whole
+        run_sweep(scene, path, **others)
+    assert path.read_bytes() == complete_file
 
 
 def test_another_scene_or_format_is_another_sweep(
-    scene: Scene, whole: bytes, tmp_path: Path
+    scene: Scene, complete_file: bytes, tmp_path: Path
 ) -> None:
     path = tmp_path / "r.csv"
-    path.write_bytes(whole)
+    path.write_bytes(complete_file)
     with pytest.raises(occ.OutputError, match=r"'iso = 100.0' where this one has 'iso = 200.0'"):
-        run(scene.replace(iso=200.0), path)
-    path.write_bytes(whole.replace(b"\n", b"\r\n"))
+        run_sweep(scene.replace(iso=200.0), path)
+    path.write_bytes(complete_file.replace(b"\n", b"\r\n"))
     with pytest.raises(occ.OutputError, match="was changed by another program"):
-        run(scene, path)
-    newer = whole.replace(b"# format 3 of", b"# format 4 of")
+        run_sweep(scene, path)
+    newer = complete_file.replace(b"# format 3 of", b"# format 4 of")
     path.write_bytes(newer)
     with pytest.raises(occ.OutputError, match="format 4"):
-        run(scene, path)
+        run_sweep(scene, path)
     assert path.read_bytes() == newer
 
 
@@ -181,14 +189,14 @@ def test_another_scene_or_format_is_another_sweep(
         lambda text: text + b"1" * 100_000,
     ],
 )
-def test_lines_of_another_origin_are_refused_and_kept(
-    scene: Scene, whole: bytes, tmp_path: Path, change: Callable[[bytes], bytes]
+def test_foreign_lines_are_refused_and_kept(
+    scene: Scene, complete_file: bytes, tmp_path: Path, change: Callable[[bytes], bytes]
 ) -> None:
     path = tmp_path / "r.csv"
-    path.write_bytes(change(whole))
+    path.write_bytes(change(complete_file))
     with pytest.raises(occ.OutputError, match=r"Line \d+ of .* is not a new row of this sweep"):
-        run(scene, path)
-    assert path.read_bytes() == change(whole)
+        run_sweep(scene, path)
+    assert path.read_bytes() == change(complete_file)
 
 
 RIGHT, SENT, READ = 5, 6, 10  # the cells of a row with two axes
@@ -216,39 +224,41 @@ HUGE = "9" * 5000
         ({READ: "-1"}, "images read whole is '-1'; allowed: 0 to 1."),
     ],
 )
-def test_counts_that_cannot_be_are_refused_with_line_and_value(
-    scene: Scene, whole: bytes, tmp_path: Path, cells: dict[int, str], said: str
+def test_impossible_counts_are_refused_with_line_and_value(
+    scene: Scene, complete_file: bytes, tmp_path: Path, cells: dict[int, str], said: str
 ) -> None:
-    lines = whole.decode().splitlines()
+    lines = complete_file.decode().splitlines()
     place = next(n for n, line in enumerate(lines) if line.startswith("1.0,15000.0,matched,"))
     row = lines[place].split(",")
     assert (row[RIGHT], row[SENT], row[READ]) == ("10", "10", "1")
     for cell, count in cells.items():
         row[cell] = count
-    if cells.keys() == {RIGHT} and cells[RIGHT] in ("11", "9"):  # what follows from it agrees
+    if cells.keys() == {RIGHT} and cells[RIGHT] in ("11", "9"):  # the values derived from it agree
         row[7] = repr(10.0 * int(cells[RIGHT]))
     path = tmp_path / "r.csv"
     content = "\n".join([*lines[:place], ",".join(row), *lines[place + 1 :], ""]).encode()
     path.write_bytes(content)
     with pytest.raises(occ.OutputError) as refused:
-        run(scene, path)
+        run_sweep(scene, path)
     assert str(refused.value) == (
         f"{path}, line {place + 1}: {said} Correct or remove the line, or name another file."
     )
     assert path.read_bytes() == content
 
 
-def test_a_count_of_a_varied_payload_is_that_of_its_own_bits(scene: Scene, tmp_path: Path) -> None:
+def test_counts_with_a_varied_payload_are_limited_by_its_own_bits(
+    scene: Scene, tmp_path: Path
+) -> None:
     path, axes = tmp_path / "r.csv", {"distance": [1.0], "bits": [10, 12]}
-    found = run(scene, path, axes=axes)
+    found = run_sweep(scene, path, axes=axes)
     assert found.sent.tolist() == [[10, 12]]
-    assert run(scene, path, axes=axes) == found
+    assert run_sweep(scene, path, axes=axes) == found
     path.write_bytes(path.read_bytes().replace(b",12,100.0,", b",10,100.0,"))
     with pytest.raises(occ.OutputError, match=r"sent bits is '10'; allowed: 12\."):
-        run(scene, path, axes=axes)
+        run_sweep(scene, path, axes=axes)
 
 
-def test_a_path_that_is_no_file_for_results_is_refused(scene: Scene, tmp_path: Path) -> None:
+def test_a_path_that_cannot_hold_results_is_refused(scene: Scene, tmp_path: Path) -> None:
     foreign = tmp_path / "foreign.csv"
     foreign.write_text("a,b\n1,2\n")
     for path, words in (
@@ -259,15 +269,15 @@ def test_a_path_that_is_no_file_for_results_is_refused(scene: Scene, tmp_path: P
         (foreign / "r.csv", "cannot be written: Not a directory"),
     ):
         with pytest.raises(occ.OutputError, match=words):
-            run(scene, path)
+            run_sweep(scene, path)
     assert foreign.read_text() == "a,b\n1,2\n"
 
 
 @pytest.mark.parametrize("space", [0, 1, 3, 4.5])
-def test_a_full_disk_is_a_sentence_and_keeps_what_was_written(
+def test_a_full_disk_gives_a_sentence_and_keeps_what_was_written(
     scene: Scene,
     table: SweepTable,
-    whole: bytes,
+    complete_file: bytes,
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
     space: float,
@@ -285,17 +295,17 @@ def test_a_full_disk_is_a_sentence_and_keeps_what_was_written(
     with monkeypatch.context() as patch:
         patch.setattr(os, "write", write)
         with pytest.raises(occ.OutputError, match="cannot be written: No space left on device"):
-            run(scene, path)
+            run_sweep(scene, path)
     kept = path.read_bytes()
     assert kept == b"" or kept.endswith(b"\n")
-    assert kept.count(b"\n") == (0 if space < 1 else whole[: header_size(whole)].count(b"\n")) + (
-        2 * max(0, int(space) - 1 - (space == 4.5))
-    )
-    assert run(scene, path) == table
+    assert kept.count(b"\n") == (
+        0 if space < 1 else complete_file[: header_size(complete_file)].count(b"\n")
+    ) + (2 * max(0, int(space) - 1 - (space == 4.5)))
+    assert run_sweep(scene, path) == table
 
 
 def test_two_sweeps_on_one_file_are_refused(
-    scene: Scene, table: SweepTable, whole: bytes, tmp_path: Path
+    scene: Scene, table: SweepTable, complete_file: bytes, tmp_path: Path
 ) -> None:
     path = tmp_path / "r.csv"
     refusals: list[str] = []
@@ -303,31 +313,31 @@ def test_two_sweeps_on_one_file_are_refused(
     def second(done: int, *_: object) -> None:
         if done == 2:
             with pytest.raises(occ.OutputError) as refusal:
-                run(scene, path)
+                run_sweep(scene, path)
             refusals.append(str(refusal.value))
 
-    assert run(scene, path, progress=second) == table
+    assert run_sweep(scene, path, progress=second) == table
     assert refusals == [
         f"{path} is being written by another sweep; wait for it, or name another file."
     ]
-    assert path.read_bytes() == whole
+    assert path.read_bytes() == complete_file
 
 
-def test_a_link_is_followed(scene: Scene, whole: bytes, tmp_path: Path) -> None:
+def test_a_link_is_followed(scene: Scene, complete_file: bytes, tmp_path: Path) -> None:
     link, path = tmp_path / "link.csv", tmp_path / "r.csv"
     link.symlink_to(path)
-    run(scene, link)
+    run_sweep(scene, link)
     assert link.is_symlink()
-    assert path.read_bytes() == whole
+    assert path.read_bytes() == complete_file
 
 
 def test_results_are_not_appended_to_a_write_protected_file(
-    scene: Scene, whole: bytes, tmp_path: Path
+    scene: Scene, complete_file: bytes, tmp_path: Path
 ) -> None:
     path = tmp_path / "r.csv"
-    part = whole[: header_size(whole)]
+    part = complete_file[: header_size(complete_file)]
     path.write_bytes(part)
     path.chmod(0o444)
     with pytest.raises(occ.OutputError, match=r"r\.csv is write-protected; name another file"):
-        run(scene, path)
+        run_sweep(scene, path)
     assert path.read_bytes() == part

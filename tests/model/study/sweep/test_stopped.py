@@ -1,6 +1,7 @@
-"""A sweep that is killed goes on; an interruption is one line and leaves no process.
+"""A killed sweep can be continued; an interruption prints one line and leaves no process.
 
-``OCC_INTERRUPTS=200`` interrupts a command as often; every day it is once, with ``--whole`` five.
+``OCC_INTERRUPTS=200`` interrupts each command 200 times; by default it is once, with ``--whole``
+five times.
 """
 
 import os
@@ -34,7 +35,9 @@ if __name__ == "__main__":
 
 
 @pytest.mark.whole
-def test_what_kill_9_leaves_is_continued_at_once_and_ends_alike(tmp_path: Path) -> None:
+def test_a_sweep_killed_by_signal_9_can_be_continued_at_once_with_the_same_result(
+    tmp_path: Path,
+) -> None:
     program, path, whole = (tmp_path / name for name in ("sweep.py", "r.csv", "whole.csv"))
     program.write_text(SLOW)
     own: dict[str, Callable[[Path, int], SweepTable]] = {}
@@ -63,7 +66,7 @@ def wait_for(happened: Callable[[], bool]) -> None:
 
 
 _LATEST = 1.6
-"""Seconds after which the last moment is: workers are at work then."""
+"""Time of the last interruption in seconds, when the workers are busy."""
 
 MODULE = "occ_model.cli"
 
@@ -78,19 +81,19 @@ EVERYDAY = {("render", 1), ("workers", MOMENTS - 1)}
 @pytest.mark.parametrize(
     ("command", "place"),
     [
-        # Every day each is interrupted once: a picture at its start, a sweep while workers are.
+        # By default each is interrupted once: a picture at its start, a sweep while workers run.
         pytest.param(*each, marks=() if each in EVERYDAY else pytest.mark.whole)
         for each in product(COMMANDS, range(MOMENTS))
     ],
 )
-def test_an_interruption_is_one_line_and_leaves_no_process(
+def test_an_interruption_prints_one_line_and_leaves_no_process(
     tmp_path: Path, command: str, place: int
 ) -> None:
     words = COMMANDS[command].format(folder=tmp_path).split()
     code, error = interrupted(MODULE, words, _LATEST * (place / MOMENTS) ** 2)
-    text = re.sub(r"[^\n]*\r", "", error)  # the bar, drawn over itself
+    text = re.sub(r"[^\n]*\r", "", error)  # the progress bar, which is redrawn in place
     lines = [line for line in text.splitlines() if line.strip()]
-    if code == 0:  # it was done before
+    if code == 0:  # it finished earlier
         assert command == "render"
         return
     assert (code, len([line for line in lines if line.startswith("occ-model: ")])) == (130, 1)
@@ -99,6 +102,6 @@ def test_an_interruption_is_one_line_and_leaves_no_process(
     assert kept <= {"x.png", "r.csv"}
 
 
-def test_a_command_that_ignores_interruptions_goes_on_doing_so(tmp_path: Path) -> None:
+def test_a_command_started_to_ignore_interruptions_still_does(tmp_path: Path) -> None:
     words = ["render", "--set", "rows=60", "-o", str(tmp_path / "x.png")]
     assert interrupted(MODULE, words, 0.1, signal.SIG_IGN) == (0, "")

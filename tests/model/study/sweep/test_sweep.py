@@ -1,4 +1,4 @@
-"""Laws of the sweep: each point stands by itself."""
+"""Laws of the sweep: each point is independent of the others."""
 
 import os
 from contextlib import suppress
@@ -29,19 +29,19 @@ def scene() -> Scene:
 
 @pytest.fixture(scope="module")
 def table(scene: Scene) -> SweepTable:
-    """The sweep in this process, which all others must give again."""
+    """Run the sweep in this process; all other ways must give the same table."""
     return occ.sweep(scene, AXES, 3, BOTH, 7)
 
 
-def test_every_point_can_be_had_again_by_itself(scene: Scene, table: SweepTable) -> None:
+def test_every_point_can_be_measured_again_by_itself(scene: Scene, table: SweepTable) -> None:
     assert len(table.rows) == 4 * 3 * 2
     for row in table.rows:
         alone = occ.success_rate(scene.replace(**row.point), 3, row.decoder, 7)
         assert alone == row.rate
-    assert len({row.rate for row in table.rows}) > 2  # it is no table of one number
+    assert len({row.rate for row in table.rows}) > 2  # the table has different numbers
 
 
-def test_rates_stand_where_their_axes_say(table: SweepTable) -> None:
+def test_rates_are_placed_by_their_axes(table: SweepTable) -> None:
     for decoder in BOTH:
         rates, (low, high) = table.rates(decoder), table.intervals(decoder)
         assert rates.shape == low.shape == high.shape == (4, 3)
@@ -55,7 +55,7 @@ def test_rates_stand_where_their_axes_say(table: SweepTable) -> None:
         table.rates("psychic")
 
 
-def test_the_order_of_axes_transposes_the_table_only(scene: Scene, table: SweepTable) -> None:
+def test_the_order_of_axes_only_transposes_the_table(scene: Scene, table: SweepTable) -> None:
     turned = occ.sweep(scene, dict(reversed(AXES.items())), 3, BOTH, 7)
     for decoder in BOTH:
         np.testing.assert_array_equal(turned.rates(decoder).T, table.rates(decoder))
@@ -85,7 +85,7 @@ def test_each_point_is_visited_once_grouped_by_code_templates(scene: Scene) -> N
     assert frequencies == [4e3] * 4 + [5e3] * 4 + [6e3] * 4
 
 
-def test_what_the_model_refuses_is_a_row_with_a_sentence(scene: Scene) -> None:
+def test_a_scene_that_the_model_refuses_is_a_row_with_a_sentence(scene: Scene) -> None:
     axes = {"distance": [0.1, 1.0], "yaw": [0.0, 1.2]}
     found = occ.sweep(scene.replace(rows=60, panel_height=0.01), axes, 1)
     refused = found.rows[1]
@@ -113,7 +113,7 @@ def test_a_scene_with_a_raw_pattern_is_refused(scene: Scene) -> None:
 
 def test_the_profile_path_gives_the_table_of_the_image_path(scene: Scene) -> None:
     few = scene.replace(rows=96, panel_height=0.02)
-    # Each path draws noise of its own, which decides where the stripes are about to vanish.
+    # Each path draws its own noise, which decides the result where the stripes almost vanish.
     quiet = {"sensor-noise": False, "fixed-pattern": False}
     for preset in (few, few.replace(flicker_depth=0.3, edge_time=2e-6)):
         profile, image = (
@@ -157,7 +157,7 @@ def test_as_many_parameters_are_varied_as_an_array_has_axes() -> None:
     assert occ.sweep(start, most, 1).rates().shape == (1,) * MOST_AXES
 
 
-def test_bits_a_second_count_the_images_of_which_every_bit_is_read() -> None:
+def test_bits_per_second_count_the_images_of_which_every_bit_is_read() -> None:
     scene = occ.load_preset("phone-136us").replace(switching_frequency=3.3e3)
     table = occ.sweep(scene, {"distance": [0.6, 1.2]}, images=6, frames_a_second=20.0)
     for place, distance in enumerate((0.6, 1.2)):
@@ -168,7 +168,7 @@ def test_bits_a_second_count_the_images_of_which_every_bit_is_read() -> None:
     assert 0.0 < table.bits_a_second()[1] < table.bits_a_second()[0] == 200.0
 
 
-def test_no_more_pictures_count_than_can_be_read_out() -> None:
+def test_pictures_per_second_are_limited_by_the_readout() -> None:
     scene = occ.load_preset("phone-68us").replace(rows=100)
     table = occ.sweep(scene, {"readout_time": [8e-6, 20e-6]}, images=1, frames_a_second=30.0)
     columns = scene.camera.columns

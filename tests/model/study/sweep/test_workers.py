@@ -1,4 +1,4 @@
-"""Laws of a sweep's workers: whoever measures, dies or cannot be started, the table is the same."""
+"""Laws of a sweep's workers: the table does not depend on who measures, dies or cannot start."""
 
 import errno
 import gc
@@ -37,12 +37,12 @@ def scene() -> Scene:
 
 @pytest.fixture(scope="module")
 def table(scene: Scene) -> SweepTable:
-    """The sweep in this process, which all others must give again."""
+    """Run the sweep in this process; all other ways must give the same table."""
     return occ.sweep(scene, AXES, 3, BOTH, 7)
 
 
 def kill_once(killed: list[int]) -> Callable[[int, int, float], None]:
-    """Make a progress that kills one worker after the first point."""
+    """Return a progress callback that kills one worker after the first point."""
 
     def progress(done: int, _total: int, _left: float) -> None:
         if done and not killed:
@@ -78,10 +78,10 @@ def test_threads_give_the_same_table(scene: Scene, table: SweepTable) -> None:
         assert occ.sweep(scene, AXES, 3, BOTH, 7, executor=executor) == table
 
 
-def test_a_long_path_of_the_temporary_folder_costs_no_workers(
+def test_a_long_path_of_the_temporary_folder_does_not_prevent_workers(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    """The path of a server's socket in it would not fit: each process is started anew."""
+    """A server's socket does not fit into such a path, so each process is started anew."""
     for folder in (Path("/tmp"), tmp_path / ("t" * 80)):
         monkeypatch.setattr(tempfile, "tempdir", str(folder))
         method = process_context([]).get_start_method()
@@ -120,10 +120,10 @@ if __name__ == "__main__":
 
 
 @pytest.mark.whole
-def test_a_cluster_gives_the_same_table_also_where_a_worker_dies(
+def test_a_cluster_gives_the_same_table_even_if_a_worker_dies(
     tmp_path: Path, table: SweepTable
 ) -> None:
-    # In a process of its own: its workers import the main program, and it warns of what it likes.
+    # In a separate process, because its workers import the main program and it issues warnings.
     program = tmp_path / "cluster.py"
     program.write_text(DASK.replace("AXES", repr(AXES)))
     done = subprocess.run(
@@ -154,9 +154,7 @@ def test_when_a_given_executor_breaks_this_process_finishes(
     assert len(submitted) >= 3
 
 
-def test_when_an_executor_takes_no_work_this_process_does_it(
-    scene: Scene, table: SweepTable
-) -> None:
+def test_if_an_executor_takes_no_work_this_process_does_it(scene: Scene, table: SweepTable) -> None:
     executor = ThreadPoolExecutor(1)
     executor.shutdown()
     with pytest.warns(RuntimeWarning, match="workers are gone"):
@@ -175,11 +173,11 @@ def test_an_error_of_the_model_itself_is_passed_on_from_a_worker(
 
 
 class EnoughError(Exception):
-    """Whoever watches has seen enough."""
+    """The progress callback ends the sweep."""
 
 
 @pytest.mark.parametrize("kind", [None, ThreadPoolExecutor])
-def test_what_progress_raises_ends_the_sweep_and_pending_work(
+def test_an_exception_from_progress_ends_the_sweep_and_pending_work(
     scene: Scene, kind: type[ThreadPoolExecutor] | None
 ) -> None:
     futures: list[Future[JobResult]] = []
@@ -203,7 +201,7 @@ def test_what_progress_raises_ends_the_sweep_and_pending_work(
         assert len(futures) < 20
 
 
-def test_a_slow_point_gives_signs_of_life_from_image_to_image(
+def test_a_slow_point_reports_progress_from_image_to_image(
     scene: Scene, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     from occ_model.study.sweep import sweep as module
@@ -215,7 +213,7 @@ def test_a_slow_point_gives_signs_of_life_from_image_to_image(
 
 
 def refuse_semaphores(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let the system behave as where /dev/shm cannot be written to."""
+    """Make the system behave as if /dev/shm were not writable."""
 
     def refuse(*_: object, **__: object) -> None:
         raise OSError(errno.EROFS, os.strerror(errno.EROFS))
@@ -234,7 +232,7 @@ def test_without_processes_the_sweep_runs_here_and_says_so(
     assert sentence.endswith("); this one does the sweep alone.")
 
 
-def test_what_a_given_executor_has_done_is_not_kept() -> None:
+def test_results_of_a_given_executor_are_not_kept() -> None:
     with ThreadPoolExecutor(1) as executor:
         given = GivenExecutor(executor)
         done = weakref.ref(given.submit(Job(len, ("",)), 0, 1))

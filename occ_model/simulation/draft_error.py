@@ -110,7 +110,7 @@ def _estimate_error(
     rim += swing * np.minimum(4.0 * panel.blur / np.maximum(step * (last - first), 1), 1.0)
     if exposed is not None:
         variance[short], rim[short] = _compare_with_all_rows(
-            exposed[:, panel.columns], means, short
+            exposed[:, panel.columns], means, short, rounding
         )
     count = max(len(means) / _BLOCK, 1.0)
     margin = 1.0 + _DEVIATIONS_ADDED / math.sqrt(2.0 * count)
@@ -119,13 +119,15 @@ def _estimate_error(
 
 
 def _compare_with_all_rows(
-    exposed: FloatArray, means: FloatArray, short: NDArray[np.bool_]
+    exposed: FloatArray, means: FloatArray, short: NDArray[np.bool_], rounding: float
 ) -> tuple[FloatArray, FloatArray]:
     """Return the variance of short columns' means in the picture, and the draft's difference."""
     own = exposed[:, short]
-    times = len(own)
-    noise = own.var(axis=0, ddof=1) * (1.0 + 1.0 / times) if times > 1 else np.zeros(own.shape[1])
-    return noise, np.abs(means[short] - own.mean(axis=0))
+    times, off = len(own), np.abs(means[short] - own.mean(axis=0))
+    if times == 1:  # without noise all exposures are alike
+        return np.zeros(len(off)), off
+    # By chance all exposures may lie on the same side of a file's step, and the picture beyond.
+    return own.var(axis=0, ddof=1) * (1.0 + 1.0 / times), np.hypot(off, rounding)
 
 
 def _count_rows_before(places: IndexArray, rows: range) -> IndexArray:

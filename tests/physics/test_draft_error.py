@@ -197,18 +197,19 @@ def test_only_whole_parts_within_the_panel_count() -> None:
 def test_columns_of_few_rows_are_compared_with_all_of_them() -> None:
     columns, high = 40, ROWS * STEP
     outline = np.array([[0.0, 0.0], [columns, 0.0], [columns, 9.0], [0.0, 9.0]]) - 0.5
-    panel = DraftedPanel(
-        range(0, high, STEP), slice(0, columns), outline, (high, columns), 0.0, 0.0
-    )  # fmt: skip
     image = np.full((ROWS, columns), 100, dtype=np.uint8)
     drafted = DraftedMeans(image, np.full(columns, 100.0), np.array([100.0]), 1.0)
     random = np.random.default_rng(2)
 
-    def stated(deviation: float) -> float:
+    def stated(deviation: float, rounding: float = 0.0, most: int = 400) -> float:
+        panel = DraftedPanel(
+            range(0, high, STEP), slice(0, columns), outline, (high, columns), 0.0, rounding
+        )
+
         def exposed(shown: np.ndarray, times: int) -> dict[str, np.ndarray]:
             assert times == 7  # six differences of five blocks of columns
             assert np.flatnonzero(shown).tolist() == list(range(9))
-            return {"profile": 93.0 + deviation * random.standard_normal((400, columns))}
+            return {"profile": 93.0 + deviation * random.standard_normal((most, columns))}
 
         return draft_errors(panel, {"profile": drafted}, exposed)["profile"]
 
@@ -216,6 +217,9 @@ def test_columns_of_few_rows_are_compared_with_all_of_them() -> None:
     margin = 1.0 + 5.0 / math.sqrt(2.0 * columns / 8)
     other = 2.0 * math.sqrt(1.0 + 1.0 / STEP)
     assert stated(2.0) == pytest.approx(7.0 + margin * other, rel=0.05)
+    # A file's step that all exposures lie on the same side of; without noise the picture does, too.
+    assert stated(0.0, rounding=3.0) == pytest.approx(math.hypot(7.0, 3.0))
+    assert stated(0.0, rounding=3.0, most=1) == pytest.approx(7.0)
 
 
 def test_of_an_even_white_that_the_lens_darkens_the_error_is_not_stated_as_none() -> None:

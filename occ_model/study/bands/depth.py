@@ -29,7 +29,8 @@ _NO_DEPTH = Depth(0.0, 0.0)
 
 _HARMONICS_PER_CHIP = 4  # harmonics of the code that are searched; higher ones are below a quarter
 _ROUNDING_DEPTH = 1e-12
-_WINDOW_BINS = 1.5  # of a spectrum behind a Hann window, within which a sine lies from its peak
+_PADDING = 4  # times that a spectrum is finer than its columns tell apart
+_WINDOW_BINS = 0.75  # of unpadded columns, within which a sine lies from its peak
 
 
 def band_depth(scene: Scene) -> BandDepth:
@@ -91,7 +92,8 @@ def _column_light(scene: Scene) -> ColumnLight:
     light = ColumnLight.of(scene)
     for effect in effects_named(NAMES, LightEffect):
         light = effect.apply(scene, light)
-    return light
+    # Of a dark column rounding would otherwise leave some light, and bars of it.
+    return replace(light, lit=np.where(light.lit > _ROUNDING_DEPTH, light.lit, 0.0))
 
 
 def _extremes(scene: Scene, exposed: ExposedLight) -> FloatArray:
@@ -162,8 +164,8 @@ def _strongest_part(scene: Scene, light: FloatArray) -> tuple[float, float]:
     flicker the strongest near it is the exact one.
     """
     count = len(light)
-    spectrum = np.abs(np.fft.rfft((light - light.mean()) * np.hanning(count)))
-    peak = int(spectrum.argmax()) / count
+    spectrum = np.abs(np.fft.rfft((light - light.mean()) * np.hanning(count), _PADDING * count))
+    peak = int(spectrum.argmax()) / (_PADDING * count)
     frequencies, steps, amplitudes = _parts(scene)
     near = np.abs(np.abs(steps) - peak) < _WINDOW_BINS / count
     best = int(np.where(near, amplitudes * _swing_of_columns(steps, count), 0.0).argmax())

@@ -138,6 +138,17 @@ def test_what_is_black_shows_no_bars_however_deep_they_are() -> None:
     assert "black" in found.sentence
 
 
+def test_columns_in_the_dark_have_no_bars_by_rounding() -> None:
+    # The ramps' integrals leave some 1e-17 of the light in exposures that end before it.
+    scene = _pulses(
+        7, 1, 200.0 / 7, 5e-5, columns=100, readout_time=8e-6, edge_time=7.5e-3, start_time=0.0293
+    )
+    found = occ.band_depth(scene)
+    assert occ.column_profile(scene.replace(edge_time=0.0)).max() == 0.0
+    assert (found.columns, found.pixel, found.period) == (Depth(0, 0), Depth(0, 0), math.inf)
+    assert "black" in found.sentence
+
+
 _FEWEST_SAMPLES = 400  # within an exposure, and in each period and edge
 
 

@@ -83,7 +83,7 @@ class HeldWorker:
     def abandon(self, channel: int, run: int) -> None:
         self.abandoned.append((channel, run))
 
-    def counted(self, counter: int) -> int:
+    def count_heartbeats(self, counter: int) -> int:
         return 0
 
     def renew(self) -> None:

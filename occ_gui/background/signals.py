@@ -157,7 +157,7 @@ class WorkQueue(QObject):
 
     def count_of(self, counter: int) -> int:
         workers = self.workers
-        return 0 if workers is None else workers.counted(counter)
+        return 0 if workers is None else workers.count_heartbeats(counter)
 
     def stop(self) -> None:
         if self._stopped:

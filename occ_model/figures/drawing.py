@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from occ_model import colours
 from occ_model.errors import OutputError, one_line
 from occ_model.figures.page import fit_texts
-from occ_model.files.writing import make_folder, write_whole, written_whole
+from occ_model.files.writing import make_folder, write_atomically, write_whole
 from occ_model.scene.provenance import Provenance
 from occ_model.scene.simulation_settings import SimulationSettings, unit_of
 
@@ -131,7 +131,7 @@ def write_all(
                         if path.suffix == ".csv"
                         else encode_figure(figure, figure_format(path), origin)
                     )
-                    stack.enter_context(written_whole(path)).write_bytes(content)
+                    stack.enter_context(write_atomically(path)).write_bytes(content)
                     written.append(path)
     return written
 

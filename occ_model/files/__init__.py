@@ -1,1 +1,1 @@
-"""Files: read within bounds, written complete or not at all, and those of the package."""
+"""Reading of files within bounds, complete or no writing, and the files of the package."""

@@ -1,7 +1,7 @@
 """Recognize the kind of a film's file by its first bytes, never by its name.
 
-FFmpeg also understands playlists and lists of files, which name further files and network
-addresses to open. Only files that hold their own pictures are let through to it.
+FFmpeg also opens playlists and lists of files, which name further files and network addresses. Only
+files that contain their own pictures are therefore passed to it.
 """
 
 from dataclasses import dataclass
@@ -15,21 +15,20 @@ from occ_model.files.reading import BoundedFile, read_start
 @dataclass(frozen=True, slots=True)
 class Container:
     name: str
-    reader: Literal["opencv", "pillow"]  # What reads it: OpenCV with its FFmpeg, or Pillow
-    # The frames' times are whole multiples of this, in seconds; None where each file has a step of
-    # its own
+    reader: Literal["opencv", "pillow"]  # OpenCV with its FFmpeg, or Pillow
+    # The frames' times are multiples of this, in seconds; None if each file has its own step
     time_step: float | None = None
-    # Whether it states how many frames it holds; else that is estimated from its length
-    counts: bool = True
+    # Whether it states its number of frames, which is otherwise estimated from the duration
+    states_frame_count: bool = True
 
 
 _MP4 = Container("MP4 or MOV", "opencv")
 _AVI = Container("AVI", "opencv")
-_MATROSKA = Container("MKV or WebM", "opencv", 1e-3, counts=False)
+_MATROSKA = Container("MKV or WebM", "opencv", 1e-3, states_frame_count=False)
 _GIF = Container("GIF", "pillow", 1e-2)
 _PNG = Container("animated PNG", "pillow")
 
-_BOXES = (b"ftyp", b"moov", b"mdat", b"wide", b"free", b"skip", b"pnot")  # first in MP4 and MOV
+_BOXES = (b"ftyp", b"moov", b"mdat", b"wide", b"free", b"skip", b"pnot")  # the first in MP4 and MOV
 FIRST_BYTES = 16  # number of bytes that identify the kind
 
 
@@ -44,7 +43,7 @@ def container_of(path: Path, start: bytes) -> Container:
 
 
 def kind_of_film(start: bytes) -> Container | None:
-    """Recognize a film by the first bytes of its file; None where it is none."""
+    """Recognize a film by the first bytes of its file; None if it is not a film."""
     if start[4:8] in _BOXES:
         return _MP4
     if start[:4] == b"RIFF" and start[8:12] == b"AVI ":
@@ -59,14 +58,14 @@ def kind_of_film(start: bytes) -> Container | None:
 
 
 HEIC_BRANDS = (b"heic", b"heix", b"heim", b"heis", b"hevc", b"hevx", b"hevm", b"hevs")
-HEIF_BRANDS = (b"mif1", b"msf1")  # of HEIC and of AVIF
-_PICTURES = (*HEIC_BRANDS, *HEIF_BRANDS, b"avif", b"avis", b"crx ")  # the last is Canon's CR3
+HEIF_BRANDS = (b"mif1", b"msf1")  # common to HEIC and AVIF
+_PICTURES = (*HEIC_BRANDS, *HEIF_BRANDS, b"avif", b"avis", b"crx ")  # the last one is Canon's CR3
 
 
 def is_film(path: Path) -> bool:
-    """Whether a file holds a film, by its content; not whether it can be read.
+    """Return whether a file contains a film, by its content; it may still be unreadable.
 
-    A GIF or PNG file of one picture is none.
+    A GIF or PNG file of a single picture is not a film.
     """
     try:
         start = read_start(path, FIRST_BYTES)
@@ -77,11 +76,11 @@ def is_film(path: Path) -> bool:
         return False
     if kind.reader == "opencv":
         return not (start[4:8] == b"ftyp" and start[8:12] in _PICTURES)
-    # Slow to import, and only needed for these.
+    # Slow to import, and needed only for these.
     from PIL import Image
 
     try:
         with BoundedFile(path) as file, Image.open(file, formats=("GIF", "PNG")) as picture:
             return bool(getattr(picture, "is_animated", False))
-    except Exception:  # noqa: BLE001 - whoever opens it says what is wrong with it
+    except Exception:  # noqa: BLE001 - opening it will state the error
         return False

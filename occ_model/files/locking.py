@@ -1,4 +1,4 @@
-"""Locks on open files, which end with the process that holds them."""
+"""Lock open files until they are closed or the process ends."""
 
 import os
 import sys
@@ -12,7 +12,7 @@ if sys.platform == "win32":
     import msvcrt
 
     _FAR = 2**40
-    """A byte beyond any file's end: the bytes of the file itself stay readable by others."""
+    """Position of a byte beyond any file's end, so that others can still read the file."""
 
     def take_lock(file: BinaryIO) -> None:
         place = file.tell()
@@ -29,8 +29,8 @@ else:
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
 
 
-def locked(file: BinaryIO) -> bool | None:
-    """Lock a file until closed; False if another has locked it, None where there are no locks."""
+def lock(file: BinaryIO) -> bool | None:
+    """Lock a file until it is closed; return False if another has, None if locks do not exist."""
     try:
         take_lock(file)
     except OSError as error:
@@ -40,7 +40,7 @@ def locked(file: BinaryIO) -> bool | None:
 
 
 def _close_in_child() -> None:
-    """Close the parent's locked files: a forked worker that outlives it must hold no lock."""
+    """Close the parent's locked files, so that a forked worker that outlives it holds no lock."""
     for file in list(_open_here):
         os.close(file.fileno())
 

@@ -1,4 +1,4 @@
-"""Read the user's files: whole, of a bounded size, and only regular files."""
+"""Read the user's files if they are regular and of a bounded size."""
 
 import errno
 import io
@@ -8,14 +8,14 @@ from pathlib import Path
 
 from occ_model.errors import SceneFileError, one_line
 
-LARGEST_TEXT = 1_000_000  # bytes allowed in a scene, preset or lesson; ours have a few thousand
+LARGEST_TEXT = 1_000_000  # bytes of a scene, preset or lesson; usual ones have a few thousand
 
-MOST_READS = 1_000_000  # of a file by its decoder; one in Python takes some seconds for them
-MOST_BYTES_ONE_BY_ONE = 4_000_000  # of a file that a decoder may read byte by byte, as that of QOI
+MOST_READS = 1_000_000  # by the decoder of a file, which take a few seconds in Python
+MOST_BYTES_ONE_BY_ONE = 4_000_000  # of a file that a decoder may read byte by byte, as for QOI
 
 _NO_FILE = "it is a device, pipe or socket"
 
-# Flags that a system lacks it does not need: Windows has no pipes among its files.
+# A system without a flag does not need it; for example, Windows has no pipes among its files.
 _FLAGS = (
     os.O_RDONLY
     | getattr(os, "O_NONBLOCK", 0)
@@ -25,52 +25,53 @@ _FLAGS = (
 
 
 def read_bytes(path: Path, largest: int) -> bytes:
-    """Read a regular file of at most so many bytes.
+    """Read a regular file of at most ``largest`` bytes.
 
-    A pipe is not waited for and a device is not read: the kind checked is that of the open file,
-    not of whatever has the name by then.
+    Pipes are not waited for and devices are not read. The kind is checked after opening, so that
+    the file cannot be replaced in between.
     """
     content = read_start(path, largest + 1)
     if len(content) > largest:
-        raise _unreadable(path, f"it has more than {largest:,} bytes")
+        raise _refuse(path, f"it has more than {largest:,} bytes")
     return content
 
 
 def read_start(path: Path, count: int) -> bytes:
-    """Read the first bytes of a regular file, as :func:`read_bytes` does a whole one."""
+    """Read the first bytes of a regular file, with the checks of :func:`read_bytes`."""
     try:
         descriptor = os.open(path, _FLAGS)
     except OSError as error:
-        raise _failed(path, error) from None
-    except ValueError as error:  # a name that no file can have
-        raise _unreadable(path, reason_of(error)) from None
+        raise _refuse_error(path, error) from None
+    except ValueError as error:  # an impossible name
+        raise _refuse(path, reason_of(error)) from None
     try:
         _check_kind(path, os.fstat(descriptor).st_mode)
         chunks, left = [], count
-        # A file may hold more, or less, than its size says.
+        # A file may contain more or fewer bytes than its stated size.
         while left > 0 and (chunk := os.read(descriptor, left)):
             chunks.append(chunk)
             left -= len(chunk)
     except OSError as error:
-        raise _failed(path, error) from None
+        raise _refuse_error(path, error) from None
     finally:
         os.close(descriptor)
     return b"".join(chunks)
 
 
 def read_text(path: Path, largest: int = LARGEST_TEXT) -> str:
-    """Read a regular file of text in UTF-8, without the byte order mark that some editors write."""
+    """Read a text file in UTF-8, without the byte order mark that some editors write."""
     try:
         return read_bytes(path, largest).decode("utf-8-sig")
     except UnicodeDecodeError:
-        raise _unreadable(path, "it is not text in UTF-8") from None
+        raise _refuse(path, "it is not text in UTF-8") from None
 
 
 class BoundedFile(io.BufferedReader):
-    """A file whose decoder goes from part to part as the file says, but not for ever.
+    """A file that its decoder can read only in a limited number of steps.
 
-    Whatever blocks, chunks, segments or directories a file states, each step is a read. One too
-    many raises SceneFileError, and so does every later one, should a decoder suppress the first.
+    A decoder follows the blocks, chunks, segments or directories that a file states, possibly
+    without end, but each step is a read. Every read above the limit raises SceneFileError, because
+    a decoder may suppress the first one.
     """
 
     def __init__(self, path: Path) -> None:
@@ -82,29 +83,29 @@ class BoundedFile(io.BufferedReader):
     def read(self, size: int | None = -1, /) -> bytes:
         self._reads += 1
         if self._reads > self._most:
-            raise _unreadable(self._path, f"it is in more than {self._most:,} parts")
+            raise _refuse(self._path, f"it is in more than {self._most:,} parts")
         return super().read(size)
 
 
 def _check_kind(path: Path, mode: int) -> None:
     if stat.S_ISDIR(mode):
-        raise _unreadable(path, "it is a folder")
+        raise _refuse(path, "it is a folder")
     if not stat.S_ISREG(mode):
-        raise _unreadable(path, _NO_FILE)
+        raise _refuse(path, _NO_FILE)
 
 
-def _failed(path: Path, error: OSError) -> SceneFileError:
-    if error.errno == errno.ENXIO:  # a socket, or a device that is not there
-        return _unreadable(path, _NO_FILE)
-    return _unreadable(path, reason_of(error))
+def _refuse_error(path: Path, error: OSError) -> SceneFileError:
+    if error.errno == errno.ENXIO:  # a socket, or a missing device
+        return _refuse(path, _NO_FILE)
+    return _refuse(path, reason_of(error))
 
 
 def reason_of(error: OSError | ValueError) -> str:
-    """Explain why a path cannot be opened; Python refuses impossible names by ValueError."""
+    """Explain why a path cannot be opened; Python raises ValueError for impossible names."""
     if isinstance(error, OSError):
         return error.strerror or str(error)
     return "no file can have this name"
 
 
-def _unreadable(path: Path, reason: str) -> SceneFileError:
+def _refuse(path: Path, reason: str) -> SceneFileError:
     return SceneFileError(f"{one_line(str(path))} cannot be read: {one_line(reason)}.")

@@ -1,4 +1,4 @@
-"""Find the files that come with the package, wherever it is imported from, and the user's own."""
+"""Find the files of the package, wherever it is imported from, and the user's own files."""
 
 import atexit
 import os
@@ -6,12 +6,12 @@ from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:  # slow to import, and only needed where the package is in an archive
+if TYPE_CHECKING:  # slow to import, and needed only if the package is in an archive
     from importlib.resources.abc import Traversable
 
 
 def resource_names(folder: str, ending: str) -> tuple[str, ...]:
-    """List the names of a folder's files with an ending, without it, sorted."""
+    """List the sorted names of a folder's files that have an ending, without the ending."""
     names = (entry.name for entry in find_resource(folder).iterdir())
     return tuple(sorted(name.removesuffix(ending) for name in names if name.endswith(ending)))
 
@@ -21,7 +21,7 @@ def resource_text(*parts: str) -> str:
 
 
 def resource_path(*parts: str) -> Path:
-    """Return the path of a resource; a package in an archive has a copy until the program ends."""
+    """Return the path of a resource; from an archive it is a copy until the program ends."""
     resource = find_resource(*parts)
     return resource if isinstance(resource, Path) else _copy_of(parts)
 
@@ -46,7 +46,7 @@ def _copy_of(parts: tuple[str, ...]) -> Path:
 
 @lru_cache
 def _folder_of_copies() -> str:
-    # Only needed where the package is in an archive.
+    # Needed only if the package is in an archive.
     import shutil
     import tempfile
 
@@ -70,14 +70,14 @@ def user_folder(variable: str, name: str) -> Path:
     folder = os.environ.get(variable)
     if folder:
         return Path(folder)
-    # Not needed where the folder is named.
+    # Not needed if the folder is given.
     from platformdirs import user_config_path
 
     return user_config_path("occ-explorer", appauthor=False) / name
 
 
 def files_in(folder: Path, ending: str) -> list[Path]:
-    """List the files in a folder that have an ending, readable or not, but no hidden ones."""
+    """List the files in a folder that have an ending, readable or not, except hidden ones."""
     try:
         return sorted(p for p in folder.glob(f"*{ending}") if not p.name.startswith("."))
     except (OSError, ValueError):  # it is missing, unreadable, or cannot exist

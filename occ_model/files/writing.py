@@ -1,4 +1,4 @@
-"""Write files, complete or not at all, and images in the format of their ending."""
+"""Write files completely or not at all, and images in the format of their ending."""
 
 import os
 import re
@@ -14,10 +14,10 @@ from typing import Any, BinaryIO
 
 from occ_model.arrays import ByteArray
 from occ_model.errors import OutputError, one_line
-from occ_model.files.locking import locked
+from occ_model.files.locking import lock
 from occ_model.files.reading import reason_of
 
-_FORMATS = {  # those that can hold any grey picture, by the file's ending
+_FORMATS = {  # formats that can contain any grey picture, by the file's ending
     ".png": "PNG",
     ".jpg": "JPEG",
     ".jpeg": "JPEG",
@@ -27,18 +27,18 @@ _FORMATS = {  # those that can hold any grey picture, by the file's ending
     ".bmp": "BMP",
 }
 
-PICTURE_ENDINGS = tuple(_FORMATS)  # endings of the files that pictures can be written to
+PICTURE_ENDINGS = tuple(_FORMATS)  # endings of files to which pictures can be written
 
 LONGEST_SIDE = {"JPEG": 65_500, "WEBP": 16_383}
-"""Largest side in pixels that a format's encoder takes; libjpeg's is below the format's own."""
+"""Largest side in pixels that an encoder accepts; libjpeg's limit is below that of JPEG."""
 
 
 def write_whole(path: Path, content: bytes, *, is_private: bool = False) -> None:
-    """Write a file, complete or not at all; a link is followed, and permissions are kept.
+    """Write a file completely or not at all; follow links and keep permissions.
 
-    ``is_private``: as for :func:`written_whole`.
+    ``is_private``: as for :func:`write_atomically`.
     """
-    with written_whole(path, is_private=is_private) as temporary:
+    with write_atomically(path, is_private=is_private) as temporary:
         temporary.write_bytes(content)
 
 
@@ -46,13 +46,13 @@ def write_image(path: Path, image: ByteArray, description: str = "") -> None:
     """Write a grey image in the format of the file's ending.
 
     ``description`` becomes the text ``Description`` of a PNG file, the EXIF tag
-    ``ImageDescription`` of other formats; BMP files hold no texts.
+    ``ImageDescription`` of other formats; BMP files contain no texts.
     """
-    write_whole(path, _encoded(path, image, description))
+    write_whole(path, _encode(path, image, description))
 
 
 def check_image_path(path: Path) -> None:
-    """Refuse a path that no image can be written to, before the image is made."""
+    """Refuse a path to which no image can be written, before the image is made."""
     check_replaceable(path)
     _format_of(path)
 
@@ -69,26 +69,27 @@ def _format_of(path: Path) -> str:
 
 
 def check_replaceable(path: Path) -> int | None:
-    """Refuse a path that no file can be written to; return the permissions of the file there."""
+    """Refuse a path to which no file can be written; return the existing file's permissions."""
     try:
         mode = path.stat().st_mode
     except FileNotFoundError:
         folder = path.resolve().parent
         if not folder.is_dir():
             raise OutputError(
-                f"{one_line(str(path))} cannot be written: name a file in a folder that is there."
+                f"{one_line(str(path))} cannot be written: its folder does not exist; name one "
+                "that does."
             ) from None
         if not os.access(folder, os.W_OK | os.X_OK):
-            raise _unwritable(path, PermissionError(EACCES, os.strerror(EACCES))) from None
+            raise _refuse(path, PermissionError(EACCES, os.strerror(EACCES))) from None
         return None
-    except (OSError, ValueError) as error:  # a ValueError where no path can be so
-        raise _unwritable(path, error) from None
+    except (OSError, ValueError) as error:  # ValueError: an impossible path
+        raise _refuse(path, error) from None
     name = one_line(str(path))
     if stat.S_ISDIR(mode):
         raise OutputError(f"{name} is a folder; name a file to write to.")
     if not stat.S_ISREG(mode):
         raise OutputError(f"{name} is a device, pipe or socket; name a regular file to write to.")
-    # The administrator may write to any file, but its protection counts all the same.
+    # Write protection is respected even if the administrator may write to any file.
     if not mode & _ANY_WRITE or not os.access(path, os.W_OK):
         raise OutputError(f"{name} is write-protected; name another file, or allow writing to it.")
     return stat.S_IMODE(mode)
@@ -99,37 +100,39 @@ _PRIVATE = stat.S_IRUSR | stat.S_IWUSR
 _ANY_WRITE = stat.S_IWUSR | stat.S_IWGRP | stat.S_IWOTH
 
 
-def _unwritable(path: Path, error: OSError | ValueError) -> OutputError:
+def _refuse(path: Path, error: OSError | ValueError) -> OutputError:
     return OutputError(f"{one_line(str(path))} cannot be written: {reason_of(error)}.")
 
 
 @contextmanager
-def written_whole(path: Path, *, is_private: bool = False) -> Iterator[Path]:
-    """Return a temporary file beside the path, which replaces it unless an exception is raised.
+def write_atomically(path: Path, *, is_private: bool = False) -> Iterator[Path]:
+    """Yield a temporary file beside the path, which replaces it unless an exception is raised.
 
-    ``is_private``: nobody else may read it, whatever the permissions of the file there are.
+    ``is_private``: nobody else may read it, whatever the permissions of an existing file.
     """
     permissions = check_replaceable(path)
     try:
-        with _replacement(path.resolve(), _PRIVATE if is_private else permissions) as temporary:
+        with _open_replacement(
+            path.resolve(), _PRIVATE if is_private else permissions
+        ) as temporary:
             yield temporary
     except OSError as error:
-        raise _unwritable(path, error) from None
+        raise _refuse(path, error) from None
 
 
 @contextmanager
-def _replacement(path: Path, permissions: int | None) -> Iterator[Path]:
+def _open_replacement(path: Path, permissions: int | None) -> Iterator[Path]:
     _remove_leftovers(path.parent)
-    temporary, file = _begun(path, 0o666 if permissions is None else _PRIVATE)
+    temporary, file = _create_temporary(path, 0o666 if permissions is None else _PRIVATE)
     with file:
         try:
-            if permissions is None:  # those of any new file, which the process's umask leaves
+            if permissions is None:  # those of a new file, according to the process's umask
                 permissions = stat.S_IMODE(os.fstat(file.fileno()).st_mode)
-            # Nobody else can read it before it is whole, also where the program is killed by then.
+            # Nobody else can read it before it is complete, even if the program is killed.
             make_private(temporary)
             yield temporary
             temporary.chmod(permissions)
-            if sys.platform == "win32":  # an open file cannot be moved or removed there
+            if sys.platform == "win32":  # Windows cannot move or remove an open file
                 file.close()
             temporary.replace(path)
         except BaseException:  # leave no half-written file, whatever happens
@@ -139,31 +142,31 @@ def _replacement(path: Path, permissions: int | None) -> Iterator[Path]:
 
 
 _TEMPORARY = re.compile(r"\.occ-[0-9a-f]{16}(\..*)?", re.DOTALL)
-"""Names of temporary files, which have the ending of what they become."""
+"""Names of temporary files, which have the ending of the final file."""
 
 
-def _begun(path: Path, mode: int) -> tuple[Path, BinaryIO]:
-    """Make a temporary file, which is locked as long as it is being written."""
+def _create_temporary(path: Path, mode: int) -> tuple[Path, BinaryIO]:
+    """Create a temporary file that is locked while it is being written."""
     while True:
         temporary = path.with_name(f".occ-{token_hex(8)}{path.suffix}")
         descriptor = os.open(temporary, os.O_RDWR | os.O_CREAT | os.O_EXCL, mode)
         file = os.fdopen(descriptor, "r+b", buffering=0)
-        if locked(file) is not False and temporary.exists():
+        if lock(file) is not False and temporary.exists():
             return temporary, file
-        file.close()  # another writer took it for left over before it was locked
+        file.close()  # another writer took it for a leftover before it was locked
 
 
 def _remove_leftovers(folder: Path) -> None:
-    """Remove the temporary files of writers that were killed: those that are no longer locked."""
+    """Remove the temporary files of killed writers, which are no longer locked."""
     with suppress(OSError), os.scandir(folder) as entries:
         for entry in entries:
             if _TEMPORARY.fullmatch(entry.name) and entry.is_file(follow_symlinks=False):
                 with suppress(OSError), Path(entry).open("r+b", buffering=0) as file:
-                    if locked(file):
+                    if lock(file):
                         Path(entry).unlink()
 
 
-def _encoded(path: Path, image: ByteArray, description: str) -> bytes:
+def _encode(path: Path, image: ByteArray, description: str) -> bytes:
     format_name = _format_of(path)
     longest = LONGEST_SIDE.get(format_name)
     if longest is not None and max(image.shape) > longest:
@@ -171,7 +174,7 @@ def _encoded(path: Path, image: ByteArray, description: str) -> bytes:
             f"{one_line(path.name)} cannot be encoded as {format_name}: the picture has "
             f"{image.shape[1]:,} x {image.shape[0]:,} pixels; allowed: at most {longest:,} a side."
         )
-    # Pillow is slow to import, and only needed when a file is really written.
+    # Pillow is slow to import, and needed only when a file is actually written.
     from PIL import Image
 
     buffer = BytesIO()
@@ -202,7 +205,7 @@ def _notes(format_name: str, description: str) -> dict[str, Any]:
 
 
 def make_folder(folder: Path, *, is_private: bool = False) -> None:
-    """Make a folder unless it is there; ``is_private``: nobody else may look into a new one."""
+    """Create a folder unless it exists; ``is_private``: nobody else may look into a new one."""
     try:
         folder.mkdir(mode=0o700 if is_private else 0o777, parents=True, exist_ok=True)
     except (OSError, ValueError) as error:
@@ -210,7 +213,7 @@ def make_folder(folder: Path, *, is_private: bool = False) -> None:
 
 
 def make_private(path: Path) -> None:
-    """Let nobody else read or write a regular file, where the disk has permissions."""
+    """Let nobody else read or write a regular file, if the file system has permissions."""
     with suppress(OSError):
         if stat.S_ISREG(path.lstat().st_mode):
             path.chmod(_PRIVATE)

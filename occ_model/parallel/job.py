@@ -1,4 +1,4 @@
-"""Jobs: calls that workers make, and what workers and receivers of results must be able to do."""
+"""Jobs for workers, and the interfaces of workers and of the receivers of their results."""
 
 import traceback
 from collections.abc import Callable, MutableSequence
@@ -8,20 +8,19 @@ from typing import Any, Protocol, TypeAlias
 
 from occ_model.errors import OccError
 
-Heartbeat: TypeAlias = Callable[[], object]  # called by long work; ends it by raising
-CHANNELS = 8  # most channels to the same workers, and most counters of heartbeats
+Heartbeat: TypeAlias = Callable[[], object]  # called by long work, which an exception from it ends
+CHANNELS = 8  # maximum number of channels to the same workers, and of heartbeat counters
 
 NO_PROCESSES = (OSError, ImportError, NotImplementedError)
-"""Raised where the system cannot start processes: no semaphores (a /dev/shm that cannot be written
-to), no memory or files left for one more."""
+"""Raised if the system cannot start processes, which need semaphores, memory and open files."""
 
 
-class Abandoned(Exception):  # noqa: N818 - no error: the result is no longer wanted
+class Abandoned(Exception):  # noqa: N818 - not an error
     """Ends a job whose result is no longer wanted."""
 
 
 class WorkersLostError(OccError):
-    """Workers ended ``times`` in a row without a result, and no others could replace them."""
+    """Workers ended ``times`` times in a row without a result, or could not be replaced."""
 
     def __init__(self, reason: str, times: int) -> None:
         super().__init__(f"Processes in the background ended {times} times without a result.")
@@ -30,20 +29,21 @@ class WorkersLostError(OccError):
 
 @dataclass(frozen=True, slots=True)
 class Job:
-    # A function of some module. It takes a Heartbeat after the arguments and must not need Qt.
+    # A module's function, called with the arguments and a Heartbeat; it must not need Qt
     function: Callable[..., Any]
     arguments: tuple[Any, ...]
-    counter: int = 0  # The counter that the job's heartbeats are added to
-    rank: int = 0  # Of all jobs that wait, those of the lowest rank go first
-    # Whether the job is done, once its run has come to it, in spite of a newer run
+    counter: int = 0  # The counter of the job's heartbeats
+    rank: int = 0  # Of all waiting jobs, those of the lowest rank begin first
+    # Whether the job, once made, is completed even if a newer run is requested
     uninterruptible: bool = False
 
 
 @dataclass(frozen=True, slots=True)
 class JobResult:
-    """A job's value, or its error, or neither where it was abandoned.
+    """A job's value, or its error, or neither if it was abandoned.
 
-    An error is a value here, so that an exception of a future is always the workers' own.
+    An error of a job is returned as a value, so an exception of a future is always the workers'
+    own.
     """
 
     value: Any = None
@@ -54,10 +54,10 @@ class JobResult:
 class Workers(Protocol):
     """Processes or threads that do jobs."""
 
-    count: int  # how many jobs they do at a time
+    count: int  # number of jobs they do at a time
 
     lost_by: tuple[type[Exception], ...]
-    """Exceptions of a future, or raised by ``submit``, that mean that workers ended."""
+    """Exceptions of a future or of ``submit`` that mean that workers have died."""
 
     def submit(self, job: Job, channel: int, run: int) -> "Future[JobResult]":
         """Queue a job that belongs to a run of a channel."""
@@ -65,29 +65,29 @@ class Workers(Protocol):
     def abandon(self, channel: int, run: int) -> None:
         """End the jobs of all runs of a channel that are earlier than ``run``."""
 
-    def counted(self, counter: int) -> int:
+    def count_heartbeats(self, counter: int) -> int:
         """Return the number of heartbeats in a counter."""
 
     def renew(self) -> None:
-        """Replace workers that ended."""
+        """Replace workers that have died."""
 
     def close(self) -> None:
-        """End the workers, also in the middle of a job."""
+        """End the workers, even in the middle of a job."""
 
 
-class Listener(Protocol):
-    """Receives what becomes of runs; called where the scheduler runs."""
+class RunListener(Protocol):
+    """Receives the results and ends of runs; called in the scheduler's thread."""
 
     def take_results(self, run: int, results: list[Any]) -> None:
-        """Receive results of a run: one, or those of all uninterruptible jobs in a row."""
+        """Receive results of a run: one, or those of a sequence of uninterruptible jobs."""
 
     def take_end(self, run: int, error: Exception | None) -> None:
-        """Note that no more results of a run come, and why, unless all were given."""
+        """Note that a run has ended; ``error``: why, if results are missing."""
 
     def note_lost_workers(self, run: int, missing: Exception | None) -> None:
-        """Note that others repeat the jobs of lost workers.
+        """Note that other workers repeat the jobs of workers that died.
 
-        ``missing``: why no processes can be started, where the fallback does the jobs.
+        ``missing``: why no processes can be started, if the fallback does the jobs.
         """
 
 
@@ -97,12 +97,12 @@ def do_job(job: Job, heartbeat: Heartbeat) -> JobResult:
         return JobResult(job.function(*job.arguments, heartbeat))
     except Abandoned:
         return JobResult(is_abandoned=True)
-    except Exception as error:  # noqa: BLE001 - raised or logged where the result is wanted
+    except Exception as error:  # noqa: BLE001 - raised or logged by the receiver of the result
         return JobResult(error=error)
 
 
 def do_job_apart(job: Job, heartbeat: Heartbeat = lambda: None) -> JobResult:
-    """Do a job in another process; an error keeps its traceback as a note."""
+    """Do a job in a worker process; an error keeps its traceback as a note."""
     result = do_job(job, heartbeat)
     if result.error is not None:
         # A traceback cannot be sent to another process.
@@ -110,14 +110,14 @@ def do_job_apart(job: Job, heartbeat: Heartbeat = lambda: None) -> JobResult:
     return result
 
 
-def counting_heartbeat(
+def make_heartbeat(
     job: Job,
     channel: int,
     run: int,
     first_runs: MutableSequence[int],
     counts: MutableSequence[int],
 ) -> Heartbeat:
-    """Make a heartbeat that counts itself and ends a job of a run before ``first_runs``."""
+    """Return a heartbeat that counts its calls and ends jobs of runs before ``first_runs``."""
 
     def heartbeat() -> None:
         if first_runs[channel] > run:

@@ -1,4 +1,4 @@
-"""Process pool: worker processes that do jobs, and are replaced when they die."""
+"""A pool of worker processes, which do jobs and are replaced when they die."""
 
 import os
 import signal
@@ -17,17 +17,17 @@ from occ_model.parallel.job import (
     NO_PROCESSES,
     Job,
     JobResult,
-    counting_heartbeat,
     do_job_apart,
+    make_heartbeat,
 )
 
-EXIT_SECONDS = 0.2  # seconds that processes get to end by themselves
+EXIT_SECONDS = 0.2  # seconds that processes have to end by themselves
 
 
 class ProcessPool:
-    """Processes that live until the pool is closed, and are started by the first job.
+    """Processes that are started by the first job and run until the pool is closed.
 
-    ``preload``: a module that is imported once for all, where possible. ``niceness``: as
+    ``preload``: a module that is imported once for all processes if possible. ``niceness``: as for
     :func:`os.nice`.
     """
 
@@ -38,7 +38,7 @@ class ProcessPool:
         self._niceness = niceness
         check_open_files(count)
         self._context = _RecordingContext(process_context([__name__, preload]))
-        # Without locks: a process that dies while it holds one would stop the others.
+        # Without locks, because a process that dies while holding one would block the others.
         self._first_runs = self._context.RawArray("q", CHANNELS)
         self._counts = self._context.RawArray("q", CHANNELS)
         self._executor = self.start()
@@ -47,25 +47,25 @@ class ProcessPool:
         self._context.processes.clear()
         shared = (self._first_runs, self._counts, self._niceness)
         context: Any = self._context
-        with worker_start():
+        with prepare_start():
             return ProcessPoolExecutor(self.count, context, _begin, shared)
 
     @property
     def processes(self) -> list[int]:
-        return [process.pid for process in self.started()]
+        return [process.pid for process in self.started_processes()]
 
-    def started(self) -> list[Any]:
+    def started_processes(self) -> list[Any]:
         return [process for process in self._context.processes if process.pid is not None]
 
     def submit(self, job: Job, channel: int, run: int) -> "Future[JobResult]":
         """Queue a job; the first one starts the processes."""
-        with worker_start():
+        with prepare_start():
             return self._executor.submit(_work, job, channel, run)
 
     def abandon(self, channel: int, run: int) -> None:
         self._first_runs[channel] = run
 
-    def counted(self, counter: int) -> int:
+    def count_heartbeats(self, counter: int) -> int:
         return int(self._counts[counter])
 
     def renew(self) -> None:
@@ -73,20 +73,21 @@ class ProcessPool:
         self._executor = self.start()
 
     def close(self) -> None:
-        with interrupts_held():
-            # It returns when all processes have ended, and some of them must be killed for that. It
-            # waits for them alone: of two that wait for a process one misses its exit code.
+        with delay_interrupts():
+            # This shutdown returns when all processes have ended, for which some may have to be
+            # killed. Nothing else waits for them, because of two waiters one would miss the exit
+            # code.
             shutdown = Thread(target=self._executor.shutdown, kwargs={"cancel_futures": True})
             shutdown.start()
             shutdown.join(EXIT_SECONDS)
             if shutdown.is_alive():
-                for process in self.started():
+                for process in self.started_processes():
                     process.kill()
             shutdown.join()
 
 
 class _RecordingContext:
-    """A context of :mod:`multiprocessing` that keeps the processes that are made with it."""
+    """A context of :mod:`multiprocessing` that records the processes made with it."""
 
     def __init__(self, context: Any) -> None:
         self._context = context
@@ -101,7 +102,7 @@ class _RecordingContext:
         return process
 
 
-_shared: dict[str, Any] = {}  # in a worker: the numbers shared with the process that started it
+_shared: dict[str, Any] = {}  # in a worker: the numbers shared with its parent process
 
 
 def _begin(first_runs: Any, counts: Any, niceness: int) -> None:
@@ -112,7 +113,7 @@ def _begin(first_runs: Any, counts: Any, niceness: int) -> None:
 
 
 def _work(job: Job, channel: int, run: int) -> JobResult:
-    heartbeat = counting_heartbeat(job, channel, run, _shared["first_runs"], _shared["counts"])
+    heartbeat = make_heartbeat(job, channel, run, _shared["first_runs"], _shared["counts"])
     return do_job_apart(job, heartbeat)
 
 
@@ -120,18 +121,17 @@ _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "VECLI
 """Environment variables that limit the threads of linear algebra."""
 
 _LONGEST_FOLDER = 70
-"""Bytes of a temporary folder's path. The path of a server's socket in it is 32 bytes longer, and
-may have at most 103 bytes on macOS and 107 on Linux."""
+"""Maximum bytes of the temporary folder's path; a socket's is longer by 32 and limited to 103."""
 
 
 _FILES_OF_SERVER, _FILES_OF_WORKER = 16, 4
-"""Files that processes need open, with twice as many for each as it was seen to need."""
+"""Open files that the processes need, with twice the number that was observed."""
 
 
 def process_context(preload: Sequence[str]) -> Any:
-    """Choose how processes are started; ``preload``: what they import, if possible only once."""
-    # A process forked from one with threads copies locks that no thread will ever release. So it
-    # is forked from a server without threads, or started anew where there is no such server.
+    """Choose how processes are started; ``preload``: modules to import, if possible only once."""
+    # A process forked from one with threads copies locks that no thread will ever release. It is
+    # therefore forked from a server without threads, or started anew if there is no such server.
     has_server = "forkserver" in get_all_start_methods() and _socket_path_fits()
     method = "forkserver" if has_server else "spawn"
     context: Any = get_context(method)
@@ -141,11 +141,11 @@ def process_context(preload: Sequence[str]) -> Any:
 
 
 def check_open_files(workers: int) -> None:
-    """Refuse to start processes that would die half-way, as this one may open too few files."""
+    """Refuse to start processes that would die half-way because of the limit of open files."""
     opened: list[int] = []
     try:
         for _ in range(_FILES_OF_SERVER + _FILES_OF_WORKER * workers):
-            opened.append(os.open(os.devnull, os.O_RDONLY))  # noqa: PERF401 - closed also half-way
+            opened.append(os.open(os.devnull, os.O_RDONLY))  # noqa: PERF401 - closed even half-way
     except OSError as error:
         raise OSError(f"{workers} of them need more open files than are allowed") from error
     finally:
@@ -157,24 +157,25 @@ def _socket_path_fits() -> bool:
     """Return whether the path of a server's socket in the temporary folder is short enough."""
     try:
         return len(os.fsencode(tempfile.gettempdir())) <= _LONGEST_FOLDER
-    except OSError:  # there is none that can be written to
+    except OSError:  # there is no writable one
         return False
 
 
 @contextmanager
-def worker_start() -> Iterator[None]:
+def prepare_start() -> Iterator[None]:
     """Prepare the start of workers within the context.
 
-    They do linear algebra in one thread, and Ctrl-C never reaches them. In this process it is
-    answered when all are started: an interrupted start would leave workers that nothing ends.
+    They do linear algebra in one thread, and Ctrl-C never reaches them. This process handles Ctrl-C
+    only after all workers have started, because an interrupted start would leave workers that
+    nothing ends.
     """
-    with interrupts_held(), _interrupts_blocked(), _single_threads():
+    with delay_interrupts(), _block_interrupts(), _limit_threads():
         yield
 
 
 @contextmanager
-def interrupts_held() -> Iterator[None]:
-    """Answer Ctrl-C at the end of the context; it only ever reaches the main thread."""
+def delay_interrupts() -> Iterator[None]:
+    """Delay Ctrl-C to the end of the context; it only ever reaches the main thread."""
     handler = signal.getsignal(signal.SIGINT)
     if threading.current_thread() is not threading.main_thread() or not callable(handler):
         yield
@@ -190,8 +191,8 @@ def interrupts_held() -> Iterator[None]:
 
 
 @contextmanager
-def _interrupts_blocked() -> Iterator[None]:
-    """Block Ctrl-C in processes started meanwhile, which inherit this thread's signal mask."""
+def _block_interrupts() -> Iterator[None]:
+    """Block Ctrl-C in processes started within the context, which inherit this thread's mask."""
     if sys.platform == "win32":
         yield
         return
@@ -204,15 +205,15 @@ def _interrupts_blocked() -> Iterator[None]:
 
 
 def _start_resource_tracker() -> None:
-    """Start Python's process that removes the semaphores of a program that was ended by force.
+    """Start Python's process that removes the semaphores of a program that was killed.
 
-    The first worker would start it, and that would unblock Ctrl-C again; and it would warn of each
-    semaphore on standard error.
+    Otherwise the first worker would start it, which would unblock Ctrl-C again, and it would print
+    a warning about each semaphore.
     """
     from multiprocessing import resource_tracker
 
     quiet = "ignore:resource_tracker:UserWarning"
-    sys.warnoptions.append(quiet)  # what Python's own processes are started with
+    sys.warnoptions.append(quiet)  # options with which Python starts its own processes
     try:
         resource_tracker.ensure_running()
     finally:
@@ -220,8 +221,8 @@ def _start_resource_tracker() -> None:
 
 
 @contextmanager
-def _single_threads() -> Iterator[None]:
-    """Limit linear algebra to one thread in processes started meanwhile."""
+def _limit_threads() -> Iterator[None]:
+    """Limit linear algebra to one thread in processes started within the context."""
     before = {name: os.environ.get(name) for name in _THREADS}
     os.environ.update(dict.fromkeys(_THREADS, "1"))
     try:
@@ -235,14 +236,14 @@ def _single_threads() -> Iterator[None]:
 
 
 def begin_worker() -> None:
-    """Prepare a worker: only its parent ends it, also by its own end."""
-    # Ctrl-C reaches all processes of a terminal; the parent answers it for all.
+    """Prepare a worker so that only its parent ends it, if necessary by ending itself."""
+    # Ctrl-C reaches all processes of a terminal; the parent handles it for all.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=_end_with_parent, daemon=True).start()
 
 
 def _end_with_parent() -> None:
-    """End when the parent has ended, also where it was killed and could not end its workers."""
+    """End this process when the parent has ended, even if it was killed."""
     parent = parent_process()
     if parent is not None:
         parent.join()

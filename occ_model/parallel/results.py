@@ -1,4 +1,4 @@
-"""Do jobs by workers, and yield their results here as they become ready."""
+"""Have workers do jobs, and yield their results in this process as they become ready."""
 
 from collections.abc import Callable, Generator, Iterator
 from typing import Any
@@ -17,33 +17,33 @@ def results_of(
 ) -> Generator[Any, None, None]:
     """Yield the results of jobs in the order in which they are ready; then end the workers.
 
-    A bounded number of jobs is in flight: each is made only when it is needed. ``start`` and
-    ``fallback`` are as of a :class:`Scheduler`. What a job raises is raised here, and
-    WorkersLostError where workers end again and again.
+    Each job is made only when it is needed, so that a limited number is in progress. ``start`` and
+    ``fallback`` are as for a :class:`Scheduler`. An exception of a job is raised here, and
+    WorkersLostError if workers die again and again.
     """
-    ready = _Results()
+    ready = _ResultListener()
     scheduler = Scheduler(start, fallback)
     scheduler.put(Run(0, 1, jobs, ready))
     try:
         while not ready.is_ended:
             heartbeat()
             scheduler.step(_BEAT)
-            yield from ready.taken()
+            yield from ready.take()
     finally:
         scheduler.end_workers()
     if ready.error is not None:
         raise ready.error
 
 
-class _Results:
-    """Listens to one run."""
+class _ResultListener:
+    """Receives the results of one run."""
 
     def __init__(self) -> None:
         self._results: list[Any] = []
         self.is_ended = False
         self.error: Exception | None = None
 
-    def taken(self) -> list[Any]:
+    def take(self) -> list[Any]:
         results, self._results = self._results, []
         return results
 
@@ -54,4 +54,4 @@ class _Results:
         self.is_ended, self.error = True, error
 
     def note_lost_workers(self, _run: int, _missing: Exception | None) -> None:
-        """Do nothing: the work goes on."""
+        """Do nothing, as the work goes on."""

@@ -1,4 +1,4 @@
-"""Scheduler: decides which job goes to the workers next, and reports the results."""
+"""A scheduler, which decides which job goes to the workers next and reports the results."""
 
 from collections import deque
 from collections.abc import Callable, Iterator
@@ -13,41 +13,42 @@ from occ_model.parallel.job import (
     NO_PROCESSES,
     Job,
     JobResult,
-    Listener,
+    RunListener,
     Workers,
     WorkersLostError,
     reason_of,
 )
 
-_JOBS_PER_WORKER = 2  # jobs in flight for each worker: one at work, and the next
-_MAX_LOST_WORKERS = 3  # how often workers may end one after the other without a result
+_JOBS_PER_WORKER = 2  # jobs sent to each worker: the current one and the next
+_MAX_LOST_WORKERS = 3  # how often in a row workers may die without a result
 
 
 @dataclass(eq=False, slots=True)
 class Run:
-    """Work of a channel, which does its newest run only."""
+    """Work of a channel, which does only its newest run."""
 
     channel: int
-    number: int  # Later runs of a channel have higher ones
-    coming: Iterator[Job]  # Each job is taken where the scheduler runs, when it is needed
-    listener: Listener
-    waiting: deque[Job] = field(default_factory=deque)  # The next one, and those that workers lost
+    number: int  # Later runs of a channel have higher numbers
+    coming: Iterator[Job]  # Each job is made in the scheduler's thread when it is needed
+    listener: RunListener
+    waiting: deque[Job] = field(default_factory=deque)  # The next job, and those of dead workers
     unreported: list[Any] = field(default_factory=list)
 
 
 class Scheduler:
     """Keeps workers busy with the jobs of several channels.
 
-    Of all jobs that wait, one of the lowest rank goes first; of equal ranks, one of the run that
-    began first. While an uninterruptible job is under way, no job of a higher rank begins: it
-    would delay what somebody waits for. Each channel does its newest run only: a newer one takes
-    the place of the older at once, or when the older has completed its uninterruptible jobs.
+    Of all waiting jobs, one of the lowest rank begins first; of equal ranks, one of the run that
+    began first. While an uninterruptible job waits or is being done, no job of a higher rank
+    begins, because it would delay a result that is waited for. Each channel does only its newest
+    run, which replaces an older one at once, or as soon as the older one has completed its
+    uninterruptible jobs.
 
-    :meth:`put`, :meth:`cancel` and :meth:`close` may be called from any thread; they leave a
-    message for :meth:`step` or :meth:`run`, in one thread.
+    :meth:`put`, :meth:`cancel` and :meth:`close` may be called from any thread. They leave a
+    message for :meth:`step` or :meth:`run`, which are called from a single thread.
 
-    ``start`` starts the workers at the first job; ``fallback`` replaces processes where none can be
-    started, else the runs fail.
+    ``start`` starts the workers at the first job. ``fallback`` makes other workers if no processes
+    can be started; without it the runs fail.
     """
 
     def __init__(
@@ -70,11 +71,11 @@ class Scheduler:
         self._inbox.put(lambda: self._cancel(channel, run))
 
     def close(self) -> None:
-        """Let :meth:`run` end after the messages that wait."""
+        """Let :meth:`run` end after the waiting messages."""
         self._inbox.put(None)
 
     def run(self) -> None:
-        """Answer messages until the scheduler is closed; then end the workers."""
+        """Handle messages until the scheduler is closed; then end the workers."""
         try:
             while self.step():
                 pass
@@ -82,7 +83,7 @@ class Scheduler:
             self.end_workers()
 
     def step(self, timeout: float | None = None) -> bool:
-        """Answer a message after at most ``timeout`` seconds; return whether more may come."""
+        """Wait ``timeout`` seconds for a message and handle it; return whether more may come."""
         try:
             message = self._inbox.get(timeout=timeout)
         except Empty:
@@ -90,7 +91,7 @@ class Scheduler:
         if message is None:
             return False
         message()
-        self._fill()
+        self._send_jobs()
         return True
 
     def end_workers(self) -> None:
@@ -131,29 +132,29 @@ class Scheduler:
             self.workers.abandon(channel, number)
 
     def _advance(self, run: Run) -> None:
-        """Make the run's next job where it is time, and end the run where there is none."""
+        """Make the run's next job if none is waiting, and end the run if there is none."""
         try:
             if not run.waiting:
                 run.waiting.extend(islice(run.coming, 1))
         except Exception as error:  # noqa: BLE001 - an error in one must not stop others
             self._fail(run, error)
             return
-        if not self._under_way(run):
+        if not self._unfinished_jobs(run):
             del self._runs[run.channel]
             run.listener.take_end(run.number, None)
 
-    def _under_way(self, run: Run) -> list[Job]:
-        """Return the jobs that wait or are with workers."""
+    def _unfinished_jobs(self, run: Run) -> list[Job]:
+        """Return the jobs that wait or are being done."""
         return [*run.waiting, *(job for owner, job in self._in_flight.values() if owner is run)]
 
     def _has_uninterruptible(self, run: Run, below: float = inf) -> bool:
-        """Return whether a job of a rank below this is under way that must be completed."""
-        return any(job.uninterruptible and job.rank < below for job in self._under_way(run))
+        """Return whether an uninterruptible job of a rank below this waits or is being done."""
+        return any(job.uninterruptible and job.rank < below for job in self._unfinished_jobs(run))
 
-    def _fill(self) -> None:
-        """Send jobs until there are enough in flight."""
-        while (run := self._next()) is not None:
-            workers = self.workers or self._new_workers(run)
+    def _send_jobs(self) -> None:
+        """Send jobs until the workers have enough."""
+        while (run := self._choose_run()) is not None:
+            workers = self.workers or self._start_workers(run)
             if workers is None:
                 continue
             if len(self._in_flight) >= _JOBS_PER_WORKER * workers.count:
@@ -170,9 +171,9 @@ class Scheduler:
                 continue
             self._in_flight[future] = (run, job)
             self._advance(run)
-            future.add_done_callback(lambda done: self._inbox.put(lambda: self._land(done)))
+            future.add_done_callback(lambda done: self._inbox.put(lambda: self._take_back(done)))
 
-    def _new_workers(self, run: Run) -> Workers | None:
+    def _start_workers(self, run: Run) -> Workers | None:
         try:
             self.workers = self._start()
         except NO_PROCESSES as error:
@@ -185,7 +186,7 @@ class Scheduler:
             self._fail(run, error)
         return self.workers
 
-    def _next(self) -> Run | None:
+    def _choose_run(self) -> Run | None:
         """Choose the run whose job goes next."""
         ready = (
             run
@@ -199,16 +200,16 @@ class Scheduler:
         would_delay = any(self._has_uninterruptible(run, rank) for run in self._runs.values())
         return None if would_delay else chosen
 
-    def _land(self, future: "Future[JobResult]") -> None:
+    def _take_back(self, future: "Future[JobResult]") -> None:
         workers = self.workers
         if future not in self._in_flight or workers is None:
-            return  # workers ended, and its job was given to others
+            return  # its worker died, and the job was given to others
         try:
             result = future.result()
         except workers.lost_by as error:
             self._recover(workers, error)
             return
-        except Exception as error:  # noqa: BLE001 - such as arguments that cannot be sent
+        except Exception as error:  # noqa: BLE001 - for example, arguments that cannot be sent
             result = JobResult(error=error)
         run, _ = self._in_flight.pop(future)
         self._losses = 0
@@ -234,7 +235,7 @@ class Scheduler:
         self._begin_pending(run.channel)
 
     def _recover(self, workers: Workers, error: Exception) -> None:
-        """Replace workers that ended, and put back the jobs that they had."""
+        """Replace workers that died, and put their jobs back."""
         for future, (run, job) in reversed(list(self._in_flight.items())):
             if not _has_result(future):
                 del self._in_flight[future]
@@ -256,5 +257,5 @@ class Scheduler:
 
 
 def _has_result(future: "Future[JobResult]") -> bool:
-    """Return whether a job came back before its worker ended."""
+    """Return whether a job was completed before its worker died."""
     return future.done() and not future.cancelled() and future.exception() is None

@@ -175,7 +175,9 @@ class _SearchRunner:
             for each, future in zip(asked, futures, strict=False):
                 while not future.done():
                     wait([future], timeout=_POLL_SECONDS)
-                    self._report(self._read + sum(pool.counted(0) for pool in self._pools), each)
+                    self._report(
+                        self._read + sum(pool.count_heartbeats(0) for pool in self._pools), each
+                    )
                 yield _unwrap_result(future.result())
                 done += 1
         for each in asked[done:]:

@@ -208,7 +208,7 @@ class VideoFile(Video):
         stated = self.frame_count
         if stated is None or frames >= stated or frames > len(self._times):
             return
-        if self._container.counts:
+        if self._container.states_frame_count:
             self._problem = (
                 f"{self._shown} holds {frames} of the {stated} frames that it states: it may be "
                 "cut off or damaged."

@@ -60,7 +60,7 @@ class InlineWorkers:
     def abandon(self, channel: int, run: int) -> None:
         pass
 
-    def counted(self, counter: int) -> int:
+    def count_heartbeats(self, counter: int) -> int:
         return 0
 
     def renew(self) -> None:

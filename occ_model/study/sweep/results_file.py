@@ -14,7 +14,7 @@ from types import TracebackType
 from typing import BinaryIO, Generic, Protocol, Self, TypeVar
 
 from occ_model.errors import OutputError, ParameterError, one_line, shown
-from occ_model.files.locking import locked
+from occ_model.files.locking import lock
 from occ_model.files.writing import check_replaceable, write_whole
 
 _LONGEST_LINE = 100_000  # bytes of a line; usual ones have some hundred
@@ -96,7 +96,7 @@ class ResultsFile(Generic[Point]):
                 file = os.fdopen(descriptor, "r+b", buffering=0)
             except OSError as error:
                 raise self._unwritable(error) from None
-            if locked(file) is False:
+            if lock(file) is False:
                 file.close()
                 raise OutputError(
                     f"{self._name} is being written by another {self._table.what}; wait for it, or "

@@ -66,7 +66,7 @@ class GivenExecutor:
     def abandon(self, channel: int, run: int) -> None:
         """Do nothing: these workers share no memory with this process."""
 
-    def counted(self, counter: int) -> int:  # noqa: ARG002
+    def count_heartbeats(self, counter: int) -> int:  # noqa: ARG002
         """Return 0: these workers share no memory with this process."""
         return 0
 

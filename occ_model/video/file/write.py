@@ -18,7 +18,7 @@ import cv2
 
 from occ_model.arrays import ByteArray
 from occ_model.errors import OutputError, ParameterError, one_line
-from occ_model.files.writing import written_whole
+from occ_model.files.writing import write_atomically
 from occ_model.results.video import USUAL_RATE, Video
 from occ_model.scene.provenance import Provenance
 from occ_model.video.file.animated_pictures import write_gif, write_png
@@ -60,7 +60,7 @@ def write_frames(path: Path, pictures: Iterable[ByteArray], rate: float, note: s
                 )
             yield picture
 
-    with written_whole(path) as temporary:
+    with write_atomically(path) as temporary:
         count = _WRITERS[ending](temporary, checked(), rate, note)
         if count == 0:
             raise OutputError(f"{name} is not written: the film has no frames.")

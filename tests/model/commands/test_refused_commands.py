@@ -76,11 +76,11 @@ NO_SCENE = "does not have the ending of a scene file; use .toml."
 NO_TABLE = "does not have the ending of a table; use .csv."
 
 WRITING = {
-    "render -o missing/out.png": "missing/out.png cannot be written: name a file in a folder ",
+    "render -o missing/out.png": "missing/out.png cannot be written: its folder does not exist",
     "render -o folder.png": "folder.png is a folder; name a file to write to.",
     "render -o out.xyz": "out.xyz does not have the ending of an image format; use .png, ",
     "film -o film.avi": "film.avi does not have the ending of a film",
-    "match 0.png p.png --out nowhere/x.csv": "name a file in a folder that is there",
+    "match 0.png p.png --out nowhere/x.csv": "its folder does not exist; name one that does",
     "match 0.png p.png --out folder.csv": "name a file to write to",
     "figures --out p.png/new": "cannot be made",
     "transmit -o p.png": "cannot be made",

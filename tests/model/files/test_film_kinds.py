@@ -1,4 +1,4 @@
-"""A film is told from a picture by what its file holds, whatever its name."""
+"""A film is distinguished from a picture by the contents of its file, whatever its name."""
 
 from pathlib import Path
 
@@ -12,9 +12,7 @@ PICTURES = [Image.fromarray(np.full((4, 6), 40 * n, dtype=np.uint8)) for n in ra
 
 
 @pytest.mark.parametrize("kind", ["GIF", "PNG"])
-def test_a_picture_that_moves_is_a_film_and_one_that_stands_is_none(
-    tmp_path: Path, kind: str
-) -> None:
+def test_an_animated_picture_is_a_film_and_a_still_one_is_not(tmp_path: Path, kind: str) -> None:
     path = tmp_path / "picture"
     PICTURES[0].save(path, kind, save_all=True, append_images=PICTURES[1:], duration=40)
     assert is_film(path)
@@ -42,7 +40,7 @@ def test_a_picture_that_moves_is_a_film_and_one_that_stands_is_none(
         (b"", False),
     ],
 )
-def test_the_first_bytes_tell_films_from_photos(
+def test_the_first_bytes_distinguish_films_from_photos(
     tmp_path: Path, start: bytes, expected: bool
 ) -> None:
     path = tmp_path / "file"

@@ -1,4 +1,4 @@
-"""Pictures in files of every format that is written."""
+"""Pictures are written to files of every supported format."""
 
 from pathlib import Path
 
@@ -19,7 +19,7 @@ IMAGE = np.random.default_rng(7).integers(0, 256, (13, 21), dtype=np.uint8)
     [("png", "PNG"), ("tif", "TIFF"), ("tiff", "TIFF"), ("bmp", "BMP"), ("PNG", "PNG")],
 )
 @given(image=arrays.arrays(np.uint8, arrays.array_shapes(min_dims=2, max_dims=2, max_side=9)))
-def test_a_lossless_format_gives_the_pixels_back(
+def test_a_lossless_format_returns_the_same_pixels(
     tmp_path_factory: pytest.TempPathFactory, ending: str, format_name: str, image: np.ndarray
 ) -> None:
     path = tmp_path_factory.mktemp("lossless") / f"picture.{ending}"
@@ -33,7 +33,7 @@ def test_a_lossless_format_gives_the_pixels_back(
     ("ending", "format_name"),
     [("jpg", "JPEG"), ("jpeg", "JPEG"), ("JPG", "JPEG"), ("webp", "WEBP")],
 )
-def test_a_lossy_format_gives_the_picture_back(
+def test_a_lossy_format_returns_a_similar_picture(
     tmp_path: Path, ending: str, format_name: str
 ) -> None:
     image = np.tile(np.linspace(0, 255, 200).astype(np.uint8), (50, 1))
@@ -45,7 +45,7 @@ def test_a_lossy_format_gives_the_picture_back(
 
 
 @pytest.mark.parametrize("ending", ["jpg", "tif", "webp", "bmp"])
-def test_formats_other_than_png_hold_a_description_as_exif_where_they_can(
+def test_other_formats_than_png_store_a_description_as_exif_if_they_can(
     tmp_path: Path, ending: str
 ) -> None:
     path = tmp_path / f"picture.{ending}"

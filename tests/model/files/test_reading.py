@@ -1,4 +1,4 @@
-"""Files of the user's are read if they are regular files of a bounded size, and refused if not."""
+"""Regular files of a bounded size are read, and all others are refused."""
 
 import os
 import socket
@@ -28,7 +28,7 @@ def make_link_to_device(path: Path) -> None:
 
 def make_socket(path: Path) -> None:
     with socket.socket(socket.AF_UNIX) as listener:
-        # A socket's path is short, whatever the folder of the tests.
+        # A socket's path must be short, whatever the folder of the tests.
         folder = os.open(path.parent, os.O_RDONLY)
         try:
             listener.bind(f"/proc/self/fd/{folder}/{path.name}")
@@ -52,24 +52,24 @@ def test_a_file_is_read_whole_up_to_the_limit(tmp_path: Path) -> None:
     assert str(refused.value) == f"{path} cannot be read: it has more than 2,999,999 bytes."
 
 
-def test_reading_stops_at_the_limit_where_the_size_is_unknown(
+def test_reading_stops_at_the_limit_if_the_size_is_unknown(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     path = tmp_path / "endless"
     path.touch()
     asked: list[int] = []
 
-    def endless(_descriptor: int, count: int) -> bytes:
+    def read_endlessly(_descriptor: int, count: int) -> bytes:
         asked.append(count)
         return bytes(count)
 
-    monkeypatch.setattr(os, "read", endless)
+    monkeypatch.setattr(os, "read", read_endlessly)
     with pytest.raises(SceneFileError, match="more than"):
         read_bytes(path, 5_000_000)
     assert sum(asked) == 5_000_001
 
 
-def test_a_text_loses_its_byte_order_mark_and_nothing_else(tmp_path: Path) -> None:
+def test_a_text_loses_only_its_byte_order_mark(tmp_path: Path) -> None:
     path = tmp_path / "text"
     path.write_text("µ\r\nx", encoding="utf-8-sig", newline="")
     assert read_text(path) == "µ\r\nx"
@@ -80,7 +80,7 @@ def test_a_text_loses_its_byte_order_mark_and_nothing_else(tmp_path: Path) -> No
 
 @posix
 @limited
-def test_what_is_no_regular_file_is_refused_at_once(
+def test_anything_but_a_regular_file_is_refused_at_once(
     tmp_path: Path, make: Callable[[Path], None]
 ) -> None:
     path = tmp_path / "thing"
@@ -96,7 +96,7 @@ def test_a_folder_is_refused_as_one(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("name", ["a\0b", "a" * 5000, "missing\n\x1b[31m"])
-def test_a_name_that_no_file_has_is_refused_in_one_line(tmp_path: Path, name: str) -> None:
+def test_an_impossible_name_is_refused_in_one_line(tmp_path: Path, name: str) -> None:
     with pytest.raises(SceneFileError) as refused:
         read_bytes(tmp_path / name, 10)
     assert str(refused.value).isprintable()
@@ -118,7 +118,7 @@ def test_no_file_stays_open(tmp_path: Path) -> None:
 @posix
 @limited
 @pytest.mark.parametrize("ending", [".toml", *ENDINGS])
-def test_every_reader_of_scenes_refuses_what_is_no_regular_file(
+def test_every_reader_of_scenes_refuses_anything_but_a_regular_file(
     tmp_path: Path, make: Callable[[Path], None], ending: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     path = tmp_path / f"scene{ending}"
@@ -136,6 +136,6 @@ def test_a_scene_beyond_the_limit_is_refused_before_it_is_read(tmp_path: Path) -
     text = Scene().to_toml()
     path.write_text(text + "#" * (LARGEST_TEXT - len(text)))
     assert read_scene_file(path) == Scene()
-    os.truncate(path, 10**12)  # a hole, which takes no room on the disk
+    os.truncate(path, 10**12)  # a hole, which takes no disk space
     with pytest.raises(SceneFileError, match="more than 1,000,000 bytes"):
         read_scene_file(path)

@@ -1,4 +1,4 @@
-"""The files that come with the package are found wherever it is imported from."""
+"""The files of the package are found wherever it is imported from."""
 
 import subprocess
 import sys
@@ -17,10 +17,10 @@ ROOT = Path(occ.__file__).parent.parent
 
 @pytest.fixture(scope="module")
 def archive(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Put the package into an archive, with its resources inside as a wheel has them."""
+    """Pack the package into an archive with its resources inside, as in a wheel."""
     path = tmp_path_factory.mktemp("archive") / "occ.zip"
     with zipfile.PyZipFile(str(path), "w") as packed:
-        packed.writepy(str(ROOT / "occ_model"))  # compiled already
+        packed.writepy(str(ROOT / "occ_model"))  # already compiled
         packed.write(ROOT / "occ_model" / "__init__.pyi", "occ_model/__init__.pyi")
         for folder in ("docs", "lessons", "photos", "pictures", "presets", "rooms"):
             for file in sorted((ROOT / "resources" / folder).rglob("*.*")):
@@ -28,7 +28,7 @@ def archive(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
-def test_all_that_an_archive_holds_is_found_in_it(archive: Path) -> None:
+def test_all_resources_in_an_archive_are_found(archive: Path) -> None:
     """Presets and lessons are read; photos and pages are copied until the program ends."""
     program = f"""
 import sys
@@ -63,7 +63,7 @@ sys.exit(main(["presets"]))
 
 
 TOOLS = {"packaging", "site"}
-"""Folders that make something of the project, and which no running program reads."""
+"""Folders used to build the project, which the running program does not read."""
 
 
 def test_a_wheel_has_every_folder_of_resources_inside() -> None:

@@ -1,4 +1,4 @@
-"""Files are written whole or not at all."""
+"""Files are written completely or not at all."""
 
 import errno
 import os
@@ -22,7 +22,7 @@ from occ_model.files.writing import (
 IMAGE = np.random.default_rng(7).integers(0, 256, (13, 21), dtype=np.uint8)
 
 
-def full_disk(*_arguments: object, **_options: object) -> NoReturn:
+def raise_disk_full(*_arguments: object, **_options: object) -> NoReturn:
     raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
 
@@ -30,23 +30,23 @@ def interrupt(*_arguments: object, **_options: object) -> NoReturn:
     raise KeyboardInterrupt
 
 
-def half_written(path: Path, content: bytes) -> NoReturn:
+def write_half(path: Path, content: bytes) -> NoReturn:
     with path.open("wb") as file:
         file.write(content[: len(content) // 2])
-    full_disk()
+    raise_disk_full()
 
 
 STEPS: dict[str, tuple[object, str, object]] = {
-    "open": (os, "open", full_disk),
-    "write": (Path, "write_bytes", half_written),
-    "chmod": (Path, "chmod", full_disk),
-    "replace": (Path, "replace", full_disk),
+    "open": (os, "open", raise_disk_full),
+    "write": (Path, "write_bytes", write_half),
+    "chmod": (Path, "chmod", raise_disk_full),
+    "replace": (Path, "replace", raise_disk_full),
 }
 
 
 @pytest.fixture(params=STEPS)
 def full(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """Let the disk be full at each step of writing in turn."""
+    """Make the disk full at each step of writing in turn."""
     monkeypatch.setattr(*STEPS[request.param])
     yield
     monkeypatch.undo()
@@ -54,7 +54,7 @@ def full(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> Ite
 
 @pytest.mark.parametrize("before", [None, b"something longer than what comes"])
 @pytest.mark.parametrize("content", [b"", b"x", bytes(range(256)) * 1000])
-def test_a_file_holds_exactly_what_was_to_be_written(
+def test_a_file_contains_exactly_what_was_written(
     tmp_path: Path, before: bytes | None, content: bytes
 ) -> None:
     path = tmp_path / "file.bin"
@@ -93,7 +93,7 @@ def a_pipe(path: Path) -> None:
 
 def a_socket(path: Path) -> None:
     with socket.socket(socket.AF_UNIX) as end:
-        end.bind(path.name)  # a socket's whole path may be too long
+        end.bind(path.name)  # the socket's full path may be too long
 
 
 def a_link_to_a_device(path: Path) -> None:
@@ -114,7 +114,7 @@ def a_link_to_itself(path: Path) -> None:
     path.symlink_to(path)
 
 
-def nothing(_path: Path) -> None:
+def make_nothing(_path: Path) -> None:
     pass
 
 
@@ -133,11 +133,15 @@ PROTECTED = "is write-protected; name another file, or allow writing to it"
         ("x.png", a_protected_file, PROTECTED),
         ("x.png", a_link_to_a_protected_file, PROTECTED),
         ("x.png", a_link_to_itself, f"cannot be written: {os.strerror(errno.ELOOP)}"),
-        ("no/x.png", nothing, "cannot be written: name a file in a folder that is there"),
-        ("x" * 300, nothing, f"cannot be written: {os.strerror(errno.ENAMETOOLONG)}"),
+        (
+            "no/x.png",
+            make_nothing,
+            "cannot be written: its folder does not exist; name one that does",
+        ),
+        ("x" * 300, make_nothing, f"cannot be written: {os.strerror(errno.ENAMETOOLONG)}"),
     ],
 )
-def test_what_cannot_be_replaced_by_a_file_is_refused_and_stays(
+def test_what_a_file_cannot_replace_is_refused_and_unchanged(
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
     write: Callable[[Path], object],
@@ -159,9 +163,7 @@ def test_what_cannot_be_replaced_by_a_file_is_refused_and_stays(
 
 
 @pytest.mark.parametrize("there", [True, False], ids=["present", "missing"])
-def test_a_symbolic_link_stays_and_the_file_it_names_is_written(
-    tmp_path: Path, there: bool
-) -> None:
+def test_a_symbolic_link_is_kept_and_its_target_is_written(tmp_path: Path, there: bool) -> None:
     (tmp_path / "elsewhere").mkdir()
     target = tmp_path / "elsewhere" / "file.bin"
     if there:
@@ -177,12 +179,12 @@ def test_a_symbolic_link_stays_and_the_file_it_names_is_written(
     assert list(target.parent.iterdir()) == [target]
 
 
-def test_a_folder_that_takes_no_files_is_known_before_the_work(
+def test_a_read_only_folder_is_refused_before_the_work(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     path = tmp_path / "file.png"
     assert check_replaceable(path) is None
-    # The administrator, as whom tests may run, may write to any folder.
+    # Tests may run as administrator, who may write to any folder.
     monkeypatch.setattr(os, "access", lambda where, _mode: Path(where) != tmp_path)
     with pytest.raises(OutputError) as refused:
         check_replaceable(path)
@@ -190,7 +192,7 @@ def test_a_folder_that_takes_no_files_is_known_before_the_work(
 
 
 @pytest.mark.parametrize("mask", [0o022, 0o077, 0o002])
-def test_a_new_file_has_the_permissions_that_new_files_get(tmp_path: Path, mask: int) -> None:
+def test_a_new_file_has_default_permissions(tmp_path: Path, mask: int) -> None:
     before = os.umask(mask)
     try:
         write_whole(tmp_path / "file.bin", b"x")
@@ -214,12 +216,12 @@ def test_a_file_that_is_being_written_is_private(
     seen: list[tuple[int, int]] = []
     plain_write = Path.write_bytes
 
-    def watched_write(name: Path, content: bytes) -> int:
+    def write_and_check(name: Path, content: bytes) -> int:
         status = name.stat()
         seen.append((stat.S_IMODE(status.st_mode), status.st_size))
         return plain_write(name, content)
 
-    monkeypatch.setattr(Path, "write_bytes", watched_write)
+    monkeypatch.setattr(Path, "write_bytes", write_and_check)
     write_whole(path, b"secret")
     monkeypatch.undo()
     assert seen == [(0o600, 0)]
@@ -228,7 +230,7 @@ def test_a_file_that_is_being_written_is_private(
 
 
 @pytest.mark.parametrize("name", [b"caf\xe9.png", b"\xff\xfe.png", b"name\nline.png"])
-def test_a_name_that_is_no_text_is_written_to_and_shown(tmp_path: Path, name: bytes) -> None:
+def test_a_name_that_is_not_valid_text_is_written_to_and_shown(tmp_path: Path, name: bytes) -> None:
     path = tmp_path / os.fsdecode(name)
     write_image(path, IMAGE)
     assert [os.fsencode(file.name) for file in tmp_path.iterdir()] == [name]
@@ -239,7 +241,7 @@ def test_a_name_that_is_no_text_is_written_to_and_shown(tmp_path: Path, name: by
     str(refused.value).encode()
 
 
-def test_a_path_that_no_file_can_have_is_refused_in_a_sentence(tmp_path: Path) -> None:
+def test_an_impossible_path_is_refused_in_a_sentence(tmp_path: Path) -> None:
     with pytest.raises(
         OutputError, match=r"a\\x00b cannot be written: no file can have this name\."
     ):

@@ -1,4 +1,4 @@
-"""A scheduler with one held worker, driven step by step, and all that it reports."""
+"""Drive a scheduler step by step with one controlled worker, and record its reports."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -12,13 +12,13 @@ from occ_model.parallel.scheduler import Run, Scheduler
 
 
 def jobs(rank: int, *values: Any, whole: bool = False) -> tuple[Job, ...]:
-    """Make jobs that give these values; ``whole``: they are uninterruptible."""
+    """Make jobs that return these values; ``whole``: they are uninterruptible."""
     return tuple(Job(echo, (value,), rank=rank, uninterruptible=whole) for value in values)
 
 
 @dataclass
-class Listener:
-    """Writes down what becomes of a channel's runs."""
+class RecordingListener:
+    """Records the results and ends of a channel's runs."""
 
     bench: "Bench"
     channel: int
@@ -38,7 +38,7 @@ class Listener:
 
 
 class Bench:
-    """Drives a scheduler: everything happens at a call, nothing by itself."""
+    """Drives a scheduler in which everything happens on a call and nothing by itself."""
 
     def __init__(
         self, worker: Workers | None = None, start: Callable[[], Workers] | None = None, **how: Any
@@ -52,12 +52,12 @@ class Bench:
 
     @property
     def sent(self) -> list[Any]:
-        """What the worker was sent so far, in order."""
+        """The jobs sent to the worker so far, in order."""
         return list(self.worker.sent)
 
     @property
     def results(self) -> list[Any]:
-        """All results that were reported, in order."""
+        """All reported results, in order."""
         return [result for _, _, results in self.reports for result in results]
 
     def ask(self, channel: int, number: int, *groups: tuple[Job, ...]) -> None:
@@ -65,18 +65,18 @@ class Bench:
         self.ask_for(channel, number, chain(*groups))
 
     def ask_for(self, channel: int, number: int, coming: Iterator[Job]) -> None:
-        """Make a request whose jobs come one by one."""
-        self.scheduler.put(Run(channel, number, coming, Listener(self, channel)))
+        """Make a request whose jobs are made one by one."""
+        self.scheduler.put(Run(channel, number, coming, RecordingListener(self, channel)))
         self.settle()
 
     def finish(self, number: int = 1) -> None:
-        """Let the worker do some jobs, one after the other."""
+        """Let the worker do some jobs, one after another."""
         for _ in range(number):
             self.worker.finish()
             self.settle()
 
     def finish_all(self) -> None:
-        """Let the worker do all that it is sent."""
+        """Let the worker do all jobs sent to it."""
         for _ in range(100):
             if not self.worker.held:
                 return
@@ -84,6 +84,6 @@ class Bench:
         raise AssertionError("The work never ends.")
 
     def settle(self) -> None:
-        """Let the scheduler answer all messages."""
+        """Let the scheduler handle all messages."""
         for _ in range(20):
             assert self.scheduler.step(0.0)

@@ -1,4 +1,4 @@
-"""No process of ours listens anywhere: not those of sweeps and films."""
+"""No process of the program listens on a network socket, not even for sweeps and films."""
 
 import os
 import signal
@@ -33,8 +33,8 @@ if __name__ == "__main__":
 
 
 @contextmanager
-def at_work(folder: Path, *words: str) -> Iterator[tuple[int, str]]:
-    """Run the program up to the line that it prints; give its session and the line."""
+def run_program(folder: Path, *words: str) -> Iterator[tuple[int, str]]:
+    """Run the program up to the line that it prints; yield its session and the line."""
     path = folder / "at_work.py"
     path.write_text(WORK, encoding="utf-8")
     with subprocess.Popen(
@@ -48,7 +48,7 @@ def at_work(folder: Path, *words: str) -> Iterator[tuple[int, str]]:
                 os.killpg(running.pid, signal.SIGKILL)
 
 
-def test_a_door_that_is_open_is_seen(tmp_path: Path) -> None:
+def test_an_open_socket_is_detected(tmp_path: Path) -> None:
     here = os.getpid()
     assert not [door for door in doors(here) if "00000000" in door]
     with socket.socket() as listener, socket.socket(socket.AF_UNIX) as local:
@@ -60,9 +60,9 @@ def test_a_door_that_is_open_is_seen(tmp_path: Path) -> None:
         assert {f"tcp 00000000:{port}", f"unix @{tmp_path.name}"} <= {*doors(here)}
 
 
-def test_what_is_at_work_listens_nowhere(tmp_path: Path) -> None:
-    # The program, its decoder, its two workers and the server that they are forked from.
-    with at_work(tmp_path, str(tmp_path / "film.mkv")) as (session, said):
+def test_working_processes_listen_nowhere(tmp_path: Path) -> None:
+    # The program, its decoder, its two workers and the server from which they are forked.
+    with run_program(tmp_path, str(tmp_path / "film.mkv")) as (session, said):
         assert said == "at work"
         assert len(processes_of(session)) >= 5
         assert [door for process in processes_of(session) for door in doors(process)] == []

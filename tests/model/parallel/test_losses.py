@@ -1,4 +1,4 @@
-"""Workers that die and jobs that fail: nothing is lost, done twice or charged to others."""
+"""Workers die and jobs fail, but nothing is lost, done twice or blamed on other requests."""
 
 import errno
 from collections.abc import Iterator
@@ -32,11 +32,11 @@ def test_a_dead_worker_loses_no_job_and_repeats_no_delivered_one(bench: Bench) -
     assert bench.errors == []
 
 
-def test_a_result_that_came_before_its_worker_died_is_kept(bench: Bench) -> None:
+def test_a_result_returned_before_its_worker_died_is_kept(bench: Bench) -> None:
     bench.ask(MAP, 1, jobs(0, *"abc"))
     (_, lost), (_, kept) = bench.worker.held
     bench.worker.held.clear()
-    # Both before the scheduler hears of either.
+    # Both happen before the scheduler handles either.
     lost.set_exception(BrokenExecutor("It was killed."))
     kept.set_result(JobResult("b"))
     bench.settle()
@@ -57,7 +57,7 @@ def test_jobs_in_flight_are_repeated_in_order_for_each_request(bench: Bench) -> 
     assert bench.results == ["m", "s", "t"]
 
 
-def test_a_request_that_has_ended_hears_of_no_loss(bench: Bench) -> None:
+def test_an_ended_request_is_not_told_of_a_loss(bench: Bench) -> None:
     bench.ask(MAP, 1, jobs(0, "a"))
     bench.finish_all()
     bench.ask(STRIPS, 1, jobs(0, "s"))
@@ -94,7 +94,7 @@ def test_a_job_refused_by_a_dead_worker_is_sent_again(bench: Bench) -> None:
     assert bench.results == ["a", "b", "c"]
 
 
-def test_workers_that_keep_dying_fail_all_requests_but_the_next(bench: Bench) -> None:
+def test_workers_that_keep_dying_fail_all_current_requests_but_not_later_ones(bench: Bench) -> None:
     bench.ask(MAP, 1, jobs(0, "a"))
     bench.ask(STRIPS, 1, jobs(1, "s"))
     for _ in range(3):
@@ -112,7 +112,7 @@ def test_workers_that_keep_dying_fail_all_requests_but_the_next(bench: Bench) ->
     assert bench.results == ["b"]
 
 
-def test_a_result_in_between_makes_up_for_the_losses_before(bench: Bench) -> None:
+def test_a_result_in_between_resets_the_count_of_losses(bench: Bench) -> None:
     bench.ask(MAP, 1, jobs(0, *"abcdef"))
     for _ in range(5):
         bench.worker.die()
@@ -121,24 +121,24 @@ def test_a_result_in_between_makes_up_for_the_losses_before(bench: Bench) -> Non
     assert bench.errors == []
 
 
-def test_without_workers_the_request_fails_or_the_fallback_works() -> None:
-    def none() -> NoReturn:
+def test_without_workers_the_request_fails_or_the_fallback_is_used() -> None:
+    def start_none() -> NoReturn:
         raise OSError(errno.EROFS, "no semaphores")
 
-    alone = Bench(start=none)
+    alone = Bench(start=start_none)
     alone.ask(MAP, 1, jobs(0, "a"))
     assert [(run, str(error)) for _, run, error in alone.errors] == [
         (1, "[Errno 30] no semaphores")
     ]
     fallback = HeldWorker()
-    helped = Bench(fallback, start=none, fallback=lambda: fallback)
+    helped = Bench(fallback, start=start_none, fallback=lambda: fallback)
     helped.ask(MAP, 1, jobs(0, "a", "b", "c"))
     helped.finish_all()
     assert helped.results == ["a", "b", "c"]
     assert helped.notices == [("missing", MAP, 1)]
 
 
-def test_the_fallback_continues_where_workers_cannot_be_renewed() -> None:
+def test_the_fallback_continues_if_workers_cannot_be_replaced() -> None:
     class Last(HeldWorker):
         def renew(self) -> None:
             raise NotImplementedError
@@ -162,7 +162,7 @@ def test_the_fallback_continues_where_workers_cannot_be_renewed() -> None:
     assert alone.sent == ["a"]
 
 
-def test_a_job_that_raises_fails_its_own_request_only(bench: Bench) -> None:
+def test_a_job_that_raises_fails_only_its_own_request(bench: Bench) -> None:
     bench.ask(MAP, 1, (Job(fail, ("luck",)), *jobs(0, "never", "no")))
     bench.ask(STRIPS, 1, jobs(1, "s", "t"))
     bench.finish_all()
@@ -174,7 +174,7 @@ def test_a_job_that_raises_fails_its_own_request_only(bench: Bench) -> None:
     assert bench.worker.renewed == 0
 
 
-def test_behind_a_request_that_fails_the_newer_one_is_done(bench: Bench) -> None:
+def test_after_a_failed_request_the_newer_one_is_done(bench: Bench) -> None:
     bench.ask(MAP, 1, (Job(fail, ("luck",), uninterruptible=True), *jobs(0, "a", whole=True)))
     bench.ask(MAP, 2, jobs(0, "x"))
     bench.finish_all()
@@ -190,13 +190,13 @@ def test_an_error_of_an_abandoned_request_is_not_reported(bench: Bench) -> None:
     assert bench.results == ["x"]
 
 
-def failing() -> Iterator[Job]:
+def fail_after_one() -> Iterator[Job]:
     yield from jobs(0, "a")
     raise ZeroDivisionError("a mistake")
 
 
-def test_jobs_that_cannot_be_made_fail_their_own_request_only(bench: Bench) -> None:
-    bench.ask_for(MAP, 1, failing())
+def test_jobs_that_cannot_be_made_fail_only_their_own_request(bench: Bench) -> None:
+    bench.ask_for(MAP, 1, fail_after_one())
     bench.ask(STRIPS, 1, jobs(0, "s"))
     bench.finish_all()
     assert [(run, repr(error)) for _, run, error in bench.errors] == [
@@ -205,7 +205,7 @@ def test_jobs_that_cannot_be_made_fail_their_own_request_only(bench: Bench) -> N
     assert bench.results == ["s"]
 
 
-def test_a_job_that_cannot_be_sent_fails_its_own_request_only() -> None:
+def test_a_job_that_cannot_be_sent_fails_only_its_own_request() -> None:
     class Picky(HeldWorker):
         def submit(self, job: Job, channel: int, run: int) -> "Future[JobResult]":
             if channel == MAP:
@@ -220,7 +220,7 @@ def test_a_job_that_cannot_be_sent_fails_its_own_request_only() -> None:
     assert bench.results == ["s"]
 
 
-def test_a_start_that_fails_by_a_mistake_fails_the_request_only() -> None:
+def test_an_unexpected_error_at_the_start_fails_only_the_request() -> None:
     worker, mistakes = HeldWorker(), [ValueError("a mistake")]
 
     def start() -> Any:
@@ -236,7 +236,7 @@ def test_a_start_that_fails_by_a_mistake_fails_the_request_only() -> None:
     assert bench.results == ["b"]
 
 
-def test_an_abandoned_result_counts_for_nothing(bench: Bench) -> None:
+def test_an_abandoned_result_is_ignored(bench: Bench) -> None:
     bench.ask(MAP, 1, jobs(0, "a", "b"))
     _, future = bench.worker.held.pop(0)
     future.set_result(JobResult(is_abandoned=True))
@@ -246,7 +246,7 @@ def test_an_abandoned_result_counts_for_nothing(bench: Bench) -> None:
     assert bench.ended == [(MAP, 1)]
 
 
-def test_ending_withdraws_jobs_and_ends_the_workers(bench: Bench) -> None:
+def test_ending_cancels_jobs_and_ends_the_workers(bench: Bench) -> None:
     bench.ask(MAP, 4, jobs(0, "a", "b"))
     futures = [future for _, future in bench.worker.held]
     bench.scheduler.close()
@@ -256,7 +256,7 @@ def test_ending_withdraws_jobs_and_ends_the_workers(bench: Bench) -> None:
     assert bench.worker.closed == 1
 
 
-def test_no_worker_is_started_before_there_is_a_job(bench: Bench) -> None:
+def test_workers_are_started_by_the_first_job(bench: Bench) -> None:
     bench.ask(MAP, 1, jobs(0))
     assert bench.scheduler.workers is None
     bench.scheduler.close()

@@ -1,4 +1,4 @@
-"""Which job goes next and when results are reported, with one held worker and two channels."""
+"""Which job is next and when results are reported, with one controlled worker and two channels."""
 
 from collections.abc import Iterator
 from typing import Any
@@ -17,9 +17,13 @@ def bench() -> Bench:
     return Bench()
 
 
-BUSY = (STRIPS, 1, jobs(9, "busy", "busy too"))  # all that the worker takes: the next has to wait
+BUSY = (
+    STRIPS,
+    1,
+    jobs(9, "busy", "busy too"),
+)  # all that the worker takes
 
-# By law: the requests, each a channel, its number and its jobs; the jobs sent; the runs that end.
+# For each law: the requests as channel, number and jobs; the jobs sent; the runs that end.
 ORDERS: dict[str, tuple[list[Any], str, list[tuple[int, int]]]] = {
     "the lowest rank first": (
         [BUSY, (MAP, 1, jobs(5, "m", "n")), (STRIPS, 2, jobs(1, "s", "t"))],
@@ -75,7 +79,7 @@ def test_jobs_are_sent_in_order(bench: Bench, law: str) -> None:
     assert bench.results[-1] == bench.sent[-1]
 
 
-# By law: the requests, and the jobs sent after so many were done.
+# For each law: the requests, and the jobs sent after a number of them were done.
 STEPS: dict[str, tuple[list[Any], dict[int, str]]] = {
     "a job begins while those before it run": (
         [(MAP, 1, jobs(8, "a"), jobs(1, "b"))], {0: "a, b"},
@@ -108,7 +112,7 @@ STEPS: dict[str, tuple[list[Any], dict[int, str]]] = {
 
 
 @pytest.mark.parametrize("law", STEPS)
-def test_so_many_jobs_are_sent_after_some_are_done(bench: Bench, law: str) -> None:
+def test_the_number_of_jobs_sent_grows_with_the_jobs_done(bench: Bench, law: str) -> None:
     requests, sent = STEPS[law]
     for request in requests:
         bench.ask(*request)
@@ -124,19 +128,19 @@ def test_jobs_are_made_only_when_they_are_needed(bench: Bench, workers: int) -> 
     bench.worker.count = workers
     made: list[int] = []
 
-    def endless() -> Iterator[Job]:
+    def make_endless_jobs() -> Iterator[Job]:
         for number in range(1000):
             made.append(number)
             yield Job(echo, (number,))
 
-    bench.ask_for(MAP, 1, endless())
-    begun = 2 * workers + 1  # two of each worker are in flight, and one waits
+    bench.ask_for(MAP, 1, make_endless_jobs())
+    begun = 2 * workers + 1  # two for each worker are sent, and one waits
     assert len(made) == begun
     bench.finish(10)
     assert len(made) == begun + 10
 
 
-def test_abandoned_work_delays_nothing(bench: Bench) -> None:
+def test_abandoned_work_does_not_delay_other_work(bench: Bench) -> None:
     bench.ask(MAP, 1, jobs(0, "coarse", whole=True))
     bench.ask(STRIPS, 1, jobs(3, "strip"))
     assert bench.sent == ["coarse"]
@@ -145,8 +149,8 @@ def test_abandoned_work_delays_nothing(bench: Bench) -> None:
     assert bench.sent == ["coarse", "strip"]
 
 
-def test_only_an_old_requests_uninterruptible_jobs_go_on(bench: Bench) -> None:
-    # The jobs that fill the gap are more urgent: only that they are superseded holds them back.
+def test_only_uninterruptible_jobs_of_an_old_request_are_continued(bench: Bench) -> None:
+    # The jobs that would fill the gap are more urgent, and are held back only as superseded ones.
     bench.ask(MAP, 1, jobs(2, "a", whole=True), jobs(0, "b", "c"))
     assert bench.sent == ["a", "b"]
     bench.ask(MAP, 2, jobs(2, "x"))
@@ -166,7 +170,7 @@ def test_a_newer_request_replaces_a_running_one_at_once(bench: Bench) -> None:
     assert bench.results == ["x"]
 
 
-def test_a_cancelled_request_ends_and_the_one_behind_it_too(bench: Bench) -> None:
+def test_cancelling_ends_a_request_and_the_waiting_one(bench: Bench) -> None:
     bench.ask(MAP, 1, jobs(0, "a", "b", "c", whole=True))
     bench.ask(MAP, 2, jobs(0, "x"))
     bench.scheduler.cancel(MAP, 3)
@@ -181,7 +185,7 @@ def test_a_cancelled_request_ends_and_the_one_behind_it_too(bench: Bench) -> Non
     assert bench.ended == [(MAP, 3)]
 
 
-def test_the_request_behind_one_that_is_cancelled_alone_begins(bench: Bench) -> None:
+def test_a_waiting_request_begins_if_only_the_one_before_is_cancelled(bench: Bench) -> None:
     bench.ask(MAP, 1, jobs(0, "a", "b", "c", whole=True))
     bench.ask(MAP, 2, jobs(0, "x"))
     bench.scheduler.cancel(MAP, 2)
@@ -191,7 +195,7 @@ def test_the_request_behind_one_that_is_cancelled_alone_begins(bench: Bench) -> 
     assert bench.results == ["x"]
 
 
-def test_cancelling_earlier_requests_leaves_the_one_at_work(bench: Bench) -> None:
+def test_cancelling_earlier_requests_leaves_the_current_one(bench: Bench) -> None:
     bench.ask(MAP, 2, jobs(0, "a", "b", "c", whole=True))
     bench.ask(MAP, 3, jobs(0, "x"))
     bench.scheduler.cancel(MAP, 2)
@@ -199,7 +203,7 @@ def test_cancelling_earlier_requests_leaves_the_one_at_work(bench: Bench) -> Non
     assert bench.results == ["a", "b", "c", "x"]
 
 
-def test_a_request_without_jobs_ends_at_once_on_busy_workers(bench: Bench) -> None:
+def test_a_request_without_jobs_ends_at_once_even_if_workers_are_busy(bench: Bench) -> None:
     bench.ask(*BUSY)
     bench.ask(MAP, 1)
     assert bench.ended == [(MAP, 1)]
@@ -214,7 +218,9 @@ def test_the_end_is_reported_once_after_all_results(bench: Bench) -> None:
     assert bench.ended == [(MAP, 1)]
 
 
-def test_results_of_uninterruptible_jobs_are_reported_together_others_at_once(bench: Bench) -> None:
+def test_results_of_uninterruptible_jobs_are_reported_together_and_others_at_once(
+    bench: Bench,
+) -> None:
     bench.ask(MAP, 1, jobs(0, *"abc", whole=True), jobs(0, *"de"))
     bench.finish_all()
     assert [results for *_, results in bench.reports] == [["a", "b", "c"], ["d"], ["e"]]

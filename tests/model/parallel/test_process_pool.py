@@ -1,4 +1,4 @@
-"""Worker processes: they do jobs, count heartbeats, are replaced when they die, and all end."""
+"""Worker processes do jobs, count heartbeats, are replaced when they die, and all end."""
 
 import errno
 import os
@@ -37,7 +37,7 @@ def open_files() -> int:
     return sum(1 for _ in Path("/proc/self/fd").iterdir())
 
 
-def test_no_process_is_started_where_too_few_files_may_be_open() -> None:
+def test_no_process_is_started_if_too_few_files_may_be_open() -> None:
     resource = pytest.importorskip("resource")
     before = resource.getrlimit(resource.RLIMIT_NOFILE)
     open_now = open_files()
@@ -71,7 +71,7 @@ def test_an_error_keeps_the_traceback_of_its_process(pool: ProcessPool) -> None:
     params=[lambda: ProcessPool(2, "worker_calls"), WorkerThread], ids=["pool", "thread"]
 )
 def workers(request: pytest.FixtureRequest) -> Iterator[Workers]:
-    """Processes, or the thread that does their work where the system cannot start any."""
+    """Provide processes, or the thread that replaces them if the system cannot start any."""
     workers = request.param()
     yield workers
     workers.close()
@@ -79,8 +79,8 @@ def workers(request: pytest.FixtureRequest) -> Iterator[Workers]:
 
 def test_an_abandoned_job_ends_at_its_next_heartbeat(workers: Workers) -> None:
     endless = workers.submit(Job(count_for_ever, (), 3), 1, 1)
-    wait_until(lambda: workers.counted(3) > 0)
-    assert workers.counted(2) == 0
+    wait_until(lambda: workers.count_heartbeats(3) > 0)
+    assert workers.count_heartbeats(2) == 0
     workers.abandon(0, 2)
     assert not endless.done()
     workers.abandon(1, 2)
@@ -90,30 +90,30 @@ def test_an_abandoned_job_ends_at_its_next_heartbeat(workers: Workers) -> None:
     assert result(workers.submit(Job(echo, ("other",)), 2, 1)).value == "other"
 
 
-def test_each_counter_holds_the_heartbeats_of_its_jobs_and_no_others(workers: Workers) -> None:
-    """A job's heart beats once as it begins, so that one that takes no time is seen too."""
+def test_each_counter_counts_the_heartbeats_of_its_own_jobs(workers: Workers) -> None:
+    """Each job begins with a heartbeat, so that even a very short one is counted."""
     for counter, numbers in ((5, (3, 4)), (0, (7,)), (CHANNELS - 1, (0,))):
         for number in numbers:
             assert result(workers.submit(Job(count_to, (number,), counter), 0, 1)).value == number
-    counted = {counter: workers.counted(counter) for counter in range(CHANNELS)}
+    counted = {counter: workers.count_heartbeats(counter) for counter in range(CHANNELS)}
     assert counted == {**dict.fromkeys(range(CHANNELS), 0), 5: 9, 0: 8, CHANNELS - 1: 1}
 
 
-def test_closing_a_thread_abandons_its_job_and_those_that_wait() -> None:
+def test_closing_a_thread_abandons_its_current_and_waiting_jobs() -> None:
     thread = WorkerThread()
     endless, waiting = (
         thread.submit(Job(*each), 0, 1) for each in ((count_for_ever, (), 3), (echo, ("late",)))
     )
-    wait_until(lambda: thread.counted(3) > 0)
+    wait_until(lambda: thread.count_heartbeats(3) > 0)
     thread.close()
     assert result(endless).is_abandoned
     assert waiting.cancelled()
 
 
-def test_closing_ends_the_processes_in_the_middle_of_a_job(pool: ProcessPool) -> None:
+def test_closing_ends_processes_in_the_middle_of_a_job(pool: ProcessPool) -> None:
     for counter in (3, 4):
         pool.submit(Job(count_for_ever, (), counter), 0, 1)
-    wait_until(lambda: pool.counted(3) > 0 and pool.counted(4) > 0)
+    wait_until(lambda: pool.count_heartbeats(3) > 0 and pool.count_heartbeats(4) > 0)
     processes = pool.processes
     assert len(processes) == 2
     pool.close()
@@ -135,7 +135,7 @@ def test_a_killed_process_is_replaced_and_its_jobs_repeated(pool: ProcessPool) -
     assert set(bench.results) & set(pool.processes)
 
 
-def test_a_thread_takes_over_where_processes_cannot_be_replaced(
+def test_a_thread_takes_over_if_processes_cannot_be_replaced(
     pool: ProcessPool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def no_processes() -> NoReturn:
@@ -153,7 +153,7 @@ def test_a_thread_takes_over_where_processes_cannot_be_replaced(
     assert len(bench.results) == 12
 
 
-def test_arguments_that_cannot_be_sent_fail_their_request_only(pool: ProcessPool) -> None:
+def test_arguments_that_cannot_be_sent_fail_only_their_request(pool: ProcessPool) -> None:
     bench = Bench(pool)
     bench.ask(0, 1, (Job(echo, (lambda: None,)),))
     bench.ask(1, 1, (Job(echo, ("sent",)),))

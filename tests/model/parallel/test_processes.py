@@ -1,4 +1,4 @@
-"""How worker processes are started and ended, and Ctrl-C meanwhile."""
+"""Start and end of worker processes, with Ctrl-C in between."""
 
 import signal
 import threading
@@ -8,10 +8,10 @@ import pytest
 from worker_calls import echo
 
 from occ_model.parallel.job import Job
-from occ_model.parallel.process_pool import ProcessPool, interrupts_held
+from occ_model.parallel.process_pool import ProcessPool, delay_interrupts
 
 
-def test_ctrl_c_is_answered_at_the_end() -> None:
+def test_ctrl_c_is_handled_at_the_end() -> None:
     answered: list[int] = []
 
     def answer(number: int, _frame: FrameType | None) -> None:
@@ -19,25 +19,25 @@ def test_ctrl_c_is_answered_at_the_end() -> None:
 
     before = signal.signal(signal.SIGINT, answer)
     try:
-        with interrupts_held():
+        with delay_interrupts():
             signal.raise_signal(signal.SIGINT)
             assert answered == []
         assert answered == [signal.SIGINT]
         assert signal.getsignal(signal.SIGINT) is answer
-        with interrupts_held():
+        with delay_interrupts():
             pass
         assert answered == [signal.SIGINT]
     finally:
         signal.signal(signal.SIGINT, before)
 
 
-def test_another_thread_holds_nothing() -> None:
-    """Only the main thread may set what answers a signal."""
+def test_another_thread_does_not_delay_ctrl_c() -> None:
+    """Only the main thread may set signal handlers."""
     before = signal.getsignal(signal.SIGINT)
     seen: list[object] = []
 
     def hold() -> None:
-        with interrupts_held():
+        with delay_interrupts():
             seen.append(signal.getsignal(signal.SIGINT))
 
     thread = threading.Thread(target=hold)
@@ -47,12 +47,12 @@ def test_another_thread_holds_nothing() -> None:
 
 
 def test_idle_workers_end_by_themselves_and_are_not_killed(monkeypatch: pytest.MonkeyPatch) -> None:
-    # As long as it takes on a machine that is busy.
+    # However long it takes on a busy machine.
     monkeypatch.setattr("occ_model.parallel.process_pool.EXIT_SECONDS", 60.0)
     pool = ProcessPool(2, "worker_calls")
     try:
         assert pool.submit(Job(echo, ("done",)), 0, 1).result(20.0).value == "done"
-        started = pool.started()
+        started = pool.started_processes()
     finally:
         pool.close()
     assert started

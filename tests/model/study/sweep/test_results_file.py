@@ -265,7 +265,7 @@ def test_a_path_that_cannot_hold_results_is_refused(scene: Scene, tmp_path: Path
         (foreign, "contains no results of a sweep; name another file"),
         (tmp_path, "is a folder"),
         (Path(os.devnull), "is a device"),
-        (tmp_path / "no" / "r.csv", "name a file in a folder that is there"),
+        (tmp_path / "no" / "r.csv", "its folder does not exist; name one that does"),
         (foreign / "r.csv", "cannot be written: Not a directory"),
     ):
         with pytest.raises(occ.OutputError, match=words):

@@ -431,7 +431,7 @@ def test_a_film_without_a_rate_states_no_length_that_it_could_end_before(
     rate: float | None, is_whole: bool
 ) -> None:
     film = SimpleNamespace(
-        frame_count=100, frame_rate=rate, _container=SimpleNamespace(counts=False),
+        frame_count=100, frame_rate=rate, _container=SimpleNamespace(states_frame_count=False),
         _times=[0.0, 0.01, 0.02], _first_time=0.0, _problem=None, _shown="film.mkv",
     )  # fmt: skip
     VideoFile._note_end(film, 3)  # type: ignore[arg-type]

@@ -1,10 +1,9 @@
-"""Results of the model for the story: light, packets, threshold, readers, what helps to read.
+"""Results of the model for the story: light, packets, threshold, readers.
 
 The rows draw it; they compute nothing themselves.
 """
 
 from occ_model.receiver.decoders import QUICK_DECODERS as READ_BY_ALL
-from occ_model.study.cause.suspect import Remedy
 from occ_model.teaching.light_over_columns import chips_in_exposure, light_over_columns
 from occ_model.teaching.packet_fields import (
     PacketField,
@@ -17,7 +16,6 @@ from occ_model.teaching.packet_fields import (
 __all__ = [
     "READ_BY_ALL",
     "PacketField",
-    "Remedy",
     "chips_in_exposure",
     "light_over_columns",
     "packet_fields",

@@ -13,9 +13,9 @@ from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Feature, PiecesPane
 from occ_gui.shell.results import Results, of_picture, of_reading
 from occ_gui.simulation.controller import SimulationController
-from occ_gui.story.column_facts import Remedy
 from occ_gui.story.story_view import StoryView
 from occ_model.receiver.decoders import decoders
+from occ_model.results.cause import Remedy
 
 _REST_MS = 250  # milliseconds from the first picture to the look for further decoders
 

@@ -15,15 +15,14 @@ from occ_gui.simulation.verdict import (
     result_of,
     verdict_on,
 )
-from occ_gui.story.column_facts import READ_BY_ALL, Remedy, chips_in_exposure
+from occ_gui.story.column_facts import READ_BY_ALL, chips_in_exposure
 from occ_gui.widgets.badge_row import Badge
 from occ_gui.widgets.state_bar import StateBar
 from occ_gui.widgets.state_look import State
+from occ_model.results.cause import Remedy, overexposed_text, symptom
 from occ_model.results.decoding import PAPER_DECODER
 from occ_model.scene.simulation_settings import TOLERANCE, unit_of
 from occ_model.scene.units import SECOND
-from occ_model.simulation.overexposure import overexposed_text
-from occ_model.study.cause.cause import symptom
 
 _COMPUTING = "computing"  # key of the badge for results that are still to come
 _READS = 0.99  # fraction of the bits from which a decoder counts as reading

@@ -22,12 +22,12 @@ from occ_model.program import EXIT_FAILURE
 from occ_model.receiver.decode import decode
 from occ_model.receiver.decoders import DECODERS
 from occ_model.receiver.signal import white_fraction
+from occ_model.results.cause import overexposed_text
 from occ_model.results.decoding import PAPER_DECODER, DecodeResult
 from occ_model.results.video import Video
 from occ_model.results.video_reading import FilmProgress, VideoReading
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import SECOND
-from occ_model.simulation.overexposure import overexposed_text
 from occ_model.study.cause.cause import cause_of
 from occ_model.study.reading_facts import clock_facts, error_rate, packet_facts
 from occ_model.video.clock import MOST_READOUT_TOLERANCE, READOUT_TOLERANCE

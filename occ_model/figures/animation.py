@@ -18,6 +18,7 @@ from occ_model.figures.drawing import BAND, SIMULATION, house_style
 from occ_model.figures.page import break_lines
 from occ_model.files.writing import check_replaceable
 from occ_model.receiver.decode import decode
+from occ_model.results.cause import symptom
 from occ_model.results.decoding import PAPER_DECODER, DecodeResult
 from occ_model.results.frame import Frame
 from occ_model.scene.parameter_kinds import Quantity, in_sentence
@@ -27,7 +28,7 @@ from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.simulation.band_model import band_profile
 from occ_model.simulation.render import render_with
-from occ_model.study.cause.cause import cause_of, symptom
+from occ_model.study.cause.cause import cause_of
 from occ_model.video.file.write import check_film_path, write_frames
 
 ENDINGS = (".gif", ".mp4", ".png")  # GIF, MP4 (MPEG-4), animated PNG

@@ -13,10 +13,10 @@ from occ_model.arrays import FloatArray
 from occ_model.errors import one_line, printable
 from occ_model.figures.drawing import THRESHOLD, Drawing
 from occ_model.figures.window_panes import caption, write_caption
+from occ_model.results.cause import Cause, symptom
 from occ_model.results.decoding import DecodeResult
 from occ_model.scene.parameter_kinds import in_sentence
 from occ_model.scene.scene import Scene
-from occ_model.study.cause.cause import Cause, symptom
 
 _ABOVE_LEGEND = 20  # points from the axes to the title
 _LONGEST_PAYLOAD = 40  # characters of a payload that the title shows

@@ -28,8 +28,3 @@ def overexposed_fraction(
     seen = profile[max(0, round(left)) : max(0, round(right) + 1)]
     limit = saturation_value(scene) if "full-well" in plan else WHITE
     return float(np.mean(seen >= limit - _ROUNDING)) if seen.size else 0.0
-
-
-def overexposed_text(fraction: float) -> str:
-    """Return the sentence on the fraction of the panel's columns that are overexposed."""
-    return f"Overexposed: {100.0 * fraction:.2g} % of the panel's columns are white, or full."

@@ -132,8 +132,19 @@ def _of_cells(values: FloatArray, cells: int) -> FloatArray:
     return np.asarray(np.clip(means, 0.0, 1.0))
 
 
+_MOST_SUMMED = 1000  # pixels of a cell, of which there are more sets than a float holds
+
+
 def _more_than(least: float, fraction: FloatArray, pixels: int) -> FloatArray:
     """Return the probability that a cell has more than a fraction of bright pixels."""
-    from scipy.special import bdtrc  # slow to import
+    most = math.floor(least * pixels)
+    if pixels > _MOST_SUMMED:
+        from scipy.special import bdtrc  # slow to import: not for pictures of usual sizes
 
-    return np.asarray(bdtrc(math.floor(least * pixels), pixels, fraction))
+        return np.asarray(bdtrc(most, pixels, fraction))
+    dark = 1.0 - fraction
+    too_few = sum(
+        math.comb(pixels, count) * fraction**count * dark ** (pixels - count)
+        for count in range(most + 1)
+    )
+    return np.clip(1.0 - too_few, 0.0, 1.0)

@@ -10,9 +10,10 @@ from occ_model.camera.photometry import (
     panel_values,
     saturation_value,
 )
+from occ_model.results.cause import Remedy
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
-from occ_model.study.cause.suspect import Attempt, Remedy, Suspect
+from occ_model.study.cause.suspect import Attempt, Suspect
 
 _TARGET = 200.0  # grey level of the lit panel at which a remedy aims
 _FULL_FRACTION = 0.8  # fraction of a full pixel's level to aim at if that is below the target

@@ -5,9 +5,8 @@ decoder reads the picture again. If removing one is enough, it is the cause; oth
 are those that must be removed together. If removing all of them does not help, no cause is stated.
 """
 
-import re
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -16,34 +15,13 @@ from occ_model.effects.plan import signal_plan
 from occ_model.errors import OccError
 from occ_model.parallel.job import Heartbeat
 from occ_model.receiver.decoders import DECODERS
+from occ_model.results.cause import Cause
 from occ_model.results.sweep_request import SignalPath
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
-from occ_model.study.cause.suspect import Attempt, Remedy, Suspect
+from occ_model.study.cause.suspect import Attempt, Suspect
 from occ_model.study.cause.suspects import list_suspects, refusal_of
 from occ_model.study.observation import observe, panel_span
-
-
-@dataclass(frozen=True, slots=True)
-class Cause:
-    """What is wrong in a few words, why in a sentence, and a remedy, if any."""
-
-    what: str
-    why: str
-    remedy: Remedy | None = None
-    is_overexposed: bool = False
-
-    def __str__(self) -> str:
-        return f"{self.what[:1].upper()}{self.what[1:]}. {self.why}"
-
-
-_SYMPTOM_END = re.compile(r"[:;.](?= |$)")
-
-
-def symptom(failure: str) -> str:
-    """Return the start of a failure, without what it might come from and what might help."""
-    first = _SYMPTOM_END.split(failure, maxsplit=1)[0]
-    return f"{first}." if first else ""
 
 
 def cause_of(
@@ -118,7 +96,7 @@ class _CauseSearch:
         if others:
             why += f" In addition: {', '.join(one.what for one in others)}."
         rest = self._remove(others)
-        remedy = next((s for s in first.remedies if rest and self._is_read(s.apply(rest))), None)
+        remedy = next((s for s in first.remedies if rest and self._is_read(rest.apply(s))), None)
         return Cause(first.what, why, remedy, first.is_overexposed)
 
     def _is_read_without(self, suspects: Sequence[Suspect]) -> bool:

@@ -1,8 +1,9 @@
 """An attempt to read a picture, what may be wrong with it, and remedies."""
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 
+from occ_model.results.cause import Remedy
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
@@ -19,6 +20,10 @@ class Attempt:
     def change(self, **changes: ParameterValue) -> "Attempt":
         return replace(self, scene=self.scene.replace(**changes))
 
+    def apply(self, remedy: Remedy) -> "Attempt":
+        changed = self.change(**remedy.changes)
+        return replace(changed, decoder=remedy.decoder or self.decoder)
+
     def scale_light(self, factor: float) -> "Attempt":
         """Multiply the light of the lamp and all other light by a factor."""
         scene = self.scene
@@ -26,19 +31,6 @@ class Attempt:
             luminance=factor * scene.transmitter.luminance,
             illuminance=factor * scene.surroundings.illuminance,
         )
-
-
-@dataclass(frozen=True, slots=True)
-class Remedy:
-    """A remedy: parameters to change, in SI units, or another decoder."""
-
-    label: str
-    changes: Mapping[str, ParameterValue] = field(default_factory=dict)
-    decoder: str = ""
-
-    def apply(self, attempt: Attempt) -> Attempt:
-        changed = attempt.change(**self.changes)
-        return replace(changed, decoder=self.decoder or attempt.decoder)
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,6 +7,7 @@ from occ_model.camera.projection import panel_corners
 from occ_model.effects.effect import Effect
 from occ_model.effects.paper_view import region_of
 from occ_model.effects.registry import EFFECTS
+from occ_model.results.cause import Remedy
 from occ_model.scene.parameter_kinds import in_sentence
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
@@ -16,7 +17,7 @@ from occ_model.study.cause.brightness import (
     suspect_other_light,
     suspect_overexposure,
 )
-from occ_model.study.cause.suspect import Attempt, Remedy, Suspect
+from occ_model.study.cause.suspect import Attempt, Suspect
 from occ_model.study.cause.timing import (
     compared_bits,
     exposure_in_chips,

@@ -5,12 +5,13 @@ import math
 from occ_model.camera.projection import panel_corners
 from occ_model.receiver.decoder import columns_of_chip, whole_chips
 from occ_model.receiver.matched.templates import MOST_BITS
+from occ_model.results.cause import Remedy
 from occ_model.scene.parameters import PARAMETERS, quantity
 from occ_model.scene.parameters.light import MAX_BITS
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import HERTZ, SECOND
 from occ_model.study import theory
-from occ_model.study.cause.suspect import Attempt, Remedy, Suspect
+from occ_model.study.cause.suspect import Attempt, Suspect
 from occ_model.transmitter.scheme import scheme_of
 
 _FEW_COLUMNS = 3.0  # columns per chip below which they may be too few

@@ -16,15 +16,16 @@ from occ_model.camera.row_memory import MEMORY
 from occ_model.effects.effect import Cost, OpticsEffect
 from occ_model.effects.optics_effects import blur_of
 from occ_model.errors import ProjectionError
-from occ_model.scene.scene import Lens, Scene
+from occ_model.scene.scene import Camera, Lens, Scene
 
 _PARTS = 64  # fewest straight parts into which each edge of the panel is divided
 _MOST_PARTS = 1024  # most parts
 _CURVE_TOLERANCE = 0.01  # largest distance in pixels of a straight part from the curve
 _DIRECTIONS = 64  # directions in which to search for a fold of the image
 
-_ITERATIONS = 40  # of the inverse distortion; each leaves a few percent of the error before
-_MOST_OFF = 1e-6  # largest error of the inverse, in focal lengths
+_MOST_STEPS = 30  # of the inverse distortion; 14 were enough for 22,000 lenses of all kinds
+_ROUNDING = 1e-15  # of the picture's half diagonal: an inverse cannot be more exact
+_LARGEST_OFF = 1e-12  # largest error of the inverse, of the picture's half diagonal
 
 _RADII = np.linspace(0.0, 4.0, 129)[1:]
 """Radii at which to search for a fold, in multiples of the picture's corner and of the needed
@@ -72,18 +73,46 @@ def distort(rays: FloatArray, lens: Lens) -> FloatArray:
 def undistort(points: FloatArray, scene: Scene) -> FloatArray:
     """Return points of the picture, (column, row), where a lens without distortion shows them.
 
-    Points without an inverse are returned unchanged. OpenCV's ``undistortPoints`` stops after five
-    iterations, which left errors of up to 3.5 pixels at k1 = -0.25.
+    The result is exact to rounding, by Newton's method from the picture's middle. A point beyond
+    the picture may have no such place: it becomes not a number.
+
+    Raises
+    ------
+    ProjectionError
+        The lens folds the picture before its corners.
     """
     lens, camera = scene.lens, scene.camera
     if not lens.distorts:
         return points
-    rays = straight = image_rays(points, camera)
-    for _ in range(_ITERATIONS):
-        straight = straight - (distort(straight, lens) - rays)
-    off = np.abs(distort(straight, lens) - rays)
-    found = np.isfinite(off) & (off < _MOST_OFF)
-    return image_points(np.where(found, straight, rays), camera)
+    corner = _corner_radius(camera)
+    radius = _find_visible_rays(lens, corner, corner).radius
+    rays = image_rays(points, camera)
+    straight = np.zeros_like(rays)
+    for _ in range(_MOST_STEPS):
+        off = rays - distort(straight, lens)
+        if np.abs(off).max(initial=0.0) <= _ROUNDING * corner:
+            break
+        along_x, along_y, across = _slopes(straight, lens)
+        area = along_x * along_y - across * across
+        x, y = off[..., 0] / area, off[..., 1] / area
+        straight = straight + np.stack([along_y * x - across * y, along_x * y - across * x], -1)
+        # Within this radius the lens does not fold.
+        far = np.hypot(straight[..., 0], straight[..., 1])
+        straight *= np.minimum(1.0, radius / np.maximum(far, radius))[..., None]
+    off = np.abs(rays - distort(straight, lens)).max(axis=-1, keepdims=True)
+    return image_points(np.where(off <= _LARGEST_OFF * corner, straight, np.nan), camera)
+
+
+def undistort_frame(scene: Scene) -> FloatArray:
+    """Return where a lens without distortion shows the picture's rim, in order round it.
+
+    The shape is (points, 2), (column, row) of each; ProjectionError as for :func:`undistort`.
+    """
+    right, bottom = scene.camera.columns - 1.0, scene.camera.rows - 1.0
+    rim = np.array([[0.0, 0.0], [right, 0.0], [right, bottom], [0.0, bottom]])
+    if not scene.lens.distorts:
+        return rim
+    return undistort(subdivide(rim, np.full(4, _PARTS)), scene)
 
 
 def _outlines(scene: Scene, corners: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -98,7 +127,7 @@ def _trace_outlines(scene: Scene, corners: FloatArray) -> tuple[FloatArray, Floa
     camera = scene.camera
     rays = image_rays(corners, camera)
     focal = camera.focal_length_pixels
-    corner = (math.hypot(camera.rows, camera.columns) / 2 + 1.0) / focal
+    corner = _corner_radius(camera)
     needed = corner + 4.0 * blur_of(scene) / focal
     view = _find_visible_rays(scene.lens, corner, needed)
     if np.hypot(*rays.T).max() > view.radius:
@@ -113,6 +142,11 @@ def _trace_outlines(scene: Scene, corners: FloatArray) -> tuple[FloatArray, Floa
     far = np.maximum(needed / np.hypot(*bent[beyond].T), 1.0)
     bent[beyond] *= far[:, None]
     return image_points(rays, camera), image_points(bent, camera)
+
+
+def _corner_radius(camera: Camera) -> float:
+    """Return how far a pixel beyond the picture's corner is from its middle, in focal lengths."""
+    return (math.hypot(camera.rows, camera.columns) / 2 + 1.0) / camera.focal_length_pixels
 
 
 def _count_parts(rays: FloatArray, scene: Scene) -> IndexArray:
@@ -142,12 +176,17 @@ def _find_visible_rays(lens: Lens, corner: float, needed: float) -> _VisibleRays
     If the lens folds the image before that radius, they end at the fold; a fold before the
     picture's ``corner`` is a ProjectionError.
     """
+    if needed > corner:
+        _find_visible_rays(lens, corner, corner)  # whether it is refused is no matter of the blur
     angle = 2.0 * math.pi * np.arange(_DIRECTIONS) / _DIRECTIONS
     circle = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
     radii = np.union1d(_RADII * corner, _RADII * needed)
     rays = radii[:, None, None] * circle
-    folded = np.asarray((_area_scale(rays, lens) <= 0.0).any(axis=1))
-    far = np.hypot(*np.moveaxis(distort(rays, lens), -1, 0)).min(axis=1)
+    bent = distort(rays, lens)
+    # A circle that is pictured inside out, on the other side of the middle, was folded before.
+    turned = (bent * rays).sum(axis=-1) <= 0.0
+    folded = np.asarray((turned | (_area_scale(rays, lens) <= 0.0)).any(axis=1))
+    far = np.hypot(*np.moveaxis(bent, -1, 0)).min(axis=1)
     last = int(np.argmax(far >= needed)) if (far >= needed).any() else len(radii) - 2
     if folded[: last + 2].any():
         last = int(np.argmax(folded)) - 2
@@ -166,14 +205,21 @@ def _find_visible_rays(lens: Lens, corner: float, needed: float) -> _VisibleRays
 
 def _area_scale(rays: FloatArray, lens: Lens) -> FloatArray:
     """Return the magnification of area at each ray; it is 0 or less where the picture folds."""
+    along_x, along_y, across = _slopes(rays, lens)
+    return along_x * along_y - across * across
+
+
+def _slopes(rays: FloatArray, lens: Lens) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return the derivatives of :func:`distort`: x by x, y by y, and either by the other."""
     x, y = rays[..., 0], rays[..., 1]
     square = x * x + y * y
     k1, k2, p1, p2 = lens.radial_k1, lens.radial_k2, lens.tangential_p1, lens.tangential_p2
     radial, slope = 1.0 + square * (k1 + k2 * square), 2.0 * (k1 + 2.0 * k2 * square)
-    along_x = radial + slope * x * x + 2.0 * p1 * y + 6.0 * p2 * x
-    along_y = radial + slope * y * y + 2.0 * p2 * x + 6.0 * p1 * y
-    across = slope * x * y + 2.0 * p1 * x + 2.0 * p2 * y
-    return np.asarray(along_x * along_y - across * across)
+    return (
+        radial + slope * x * x + 2.0 * p1 * y + 6.0 * p2 * x,
+        radial + slope * y * y + 2.0 * p2 * x + 6.0 * p1 * y,
+        slope * x * y + 2.0 * p1 * x + 2.0 * p2 * y,
+    )
 
 
 def clip_polygon(polygon: FloatArray, window: FloatArray) -> FloatArray:

@@ -14,7 +14,7 @@ from hard_cases.laws import cases, record
 from hard_cases.references import GEOMETRY, POSES, decades, lenses, poses, signed_decades
 from occ_model.camera.optics import Optics
 from occ_model.camera.projection import MAX_PIXELS, image_rays
-from occ_model.effects.distortion import Distortion, distort
+from occ_model.effects.distortion import Distortion, distort, undistort
 from occ_model.effects.optics_effects import blur_of
 from occ_model.scene.scene import Scene
 
@@ -73,6 +73,29 @@ def test_the_bent_outline_lies_on_the_curve_that_opencv_projects(
     record("distorted edges against OpenCV, px", "k to 10, p to 1", error, 0.02)
 
 
+@cases(lens=lenses(), focal=decades(0.002, 0.2))
+def test_a_lens_that_is_not_refused_has_an_exact_inverse_everywhere(
+    lens: dict[str, float], focal: float
+) -> None:
+    scene = Scene().replace(rows=600, columns=800, equivalent_focal_length=focal, **lens)
+    row, column = np.mgrid[0:600:23j, 0:800:29j] - 0.5
+    points = np.stack([column, row], axis=-1)
+    try:
+        Distortion().apply(scene, Optics(occ.panel_corners(scene)))
+    except occ.ProjectionError:
+        with pytest.raises(occ.ProjectionError, match="nearer to 0"):
+            undistort(points, scene)
+        return
+    straight = undistort(points, scene)
+    there = opencv_places(image_rays(straight.reshape(-1, 2), scene.camera), scene)
+    error = float(np.abs(there - points.reshape(-1, 2)).max())
+    record("the inverse of a lens against OpenCV, px", "k to 10, p to 1", error, 1e-9)
+    # It is the one before any fold: neighbours in the picture are neighbours without distortion.
+    across, down = np.diff(straight, axis=1)[:-1], np.diff(straight, axis=0)[:, :-1]
+    area = across[..., 0] * down[..., 1] - across[..., 1] * down[..., 0]
+    record("a lens's inverse turned inside out", "k to 10, p to 1", float((area <= 0).any()), 0.0)
+
+
 @cases(lens=lenses(), x=signed_decades(1e-9, 1e3), y=signed_decades(1e-9, 1e3))
 def test_browns_equation_is_that_of_forty_digits(
     lens: dict[str, float], x: float, y: float
@@ -115,6 +138,13 @@ def test_any_pose_and_lens_gives_a_picture_or_a_sentence(
         bounds = all(math.isfinite(decision.estimate) for decision in frame.plan.decisions)
         error = 0.0 if finite and bounds else 1.0
     record("a picture or a sentence, and no number that is none", f"{POSES}, any lens", error, 0.0)
+
+
+def test_a_fold_between_two_of_the_circles_that_are_searched_is_refused() -> None:
+    # It folds at 0.32 focal lengths and turns inside out at 0.55; the corners are at 9.5.
+    scene = Scene().replace(rows=600, columns=800, equivalent_focal_length=0.00228, radial_k1=-3.32)
+    with pytest.raises(occ.ProjectionError, match="folds the picture"):
+        occ.render(scene, tolerance=0, force=GEOMETRY)
 
 
 HUGE: dict[str, dict[str, int]] = {

@@ -9,7 +9,7 @@ import numpy as np
 
 from occ_model.arrays import FloatArray
 from occ_model.camera.projection import image_points, image_rays, rotation_of
-from occ_model.effects.distortion import part_inside
+from occ_model.effects.distortion import part_inside, undistort_frame
 from occ_model.effects.optics_effects import blur_of
 from occ_model.effects.paper_view import PaperView, paper_view_of, region_of
 from occ_model.errors import ParameterError, ProjectionError, one_line
@@ -18,7 +18,6 @@ from occ_model.scene.scene import Pose, Scene
 
 _DISC_CORNERS = 96  # of a disc's polygon, which lies within 0.06 % of the radius of the circle
 _MIN_DEPTH = 1e-3  # depth in metres before which nothing is seen
-_MAX_LENS_SHIFT = 0.15  # fraction of the picture's size by which a lens may move what it shows
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -88,12 +87,14 @@ def angles_of(turned: FloatArray) -> tuple[float, float, float]:
 def lamps_in_view(room: Room) -> tuple[LampView, ...]:
     """Return the lamps whose front any pixel can show, in the room's order.
 
-    Raises ProjectionError: one is partly behind the camera, or turned by 90 degrees or more.
+    Raises ProjectionError: one is partly behind the camera, or turned by 90 degrees or more; or the
+    lens folds the picture.
     """
-    return tuple(seen for lamp in room.lamps if (seen := _seen(room, lamp)) is not None)
+    frame = undistort_frame(room.scene)
+    return tuple(seen for lamp in room.lamps if (seen := _seen(room, lamp, frame)) is not None)
 
 
-def _seen(room: Room, lamp: RoomLamp) -> LampView | None:
+def _seen(room: Room, lamp: RoomLamp, frame: FloatArray) -> LampView | None:
     turned = rotation(room.camera)
     own = [room.camera.x, room.camera.y, room.camera.z]
     placed = (room_outline(lamp) - own) @ turned
@@ -103,14 +104,14 @@ def _seen(room: Room, lamp: RoomLamp) -> LampView | None:
         return None
     camera = room.scene.camera
     corners = image_points(before[:, :2] / before[:, 2:], camera)
-    slack = _MAX_LENS_SHIFT * max(camera.rows, camera.columns) if room.scene.lens.distorts else 0.0
+    first, size = frame.min(axis=0), np.ptp(frame, axis=0) + 1.0
     try:
         scene = lamp_scene(room, lamp)
-        slack += 4.0 * blur_of(scene)
+        slack = 4.0 * blur_of(scene) * size.max() / max(camera.rows, camera.columns)
     except ParameterError:
-        scene = None
-    rows, columns = int(camera.rows + 2 * slack), int(camera.columns + 2 * slack)
-    if region_of(corners + slack, rows, columns) is None:
+        scene, slack = None, 0.0
+    columns, rows = np.ceil(size + 2.0 * slack).astype(int).tolist()
+    if region_of(corners - first + slack, rows, columns) is None:
         return None
     if scene is None or placed[:, 2].min() < _MIN_DEPTH:
         raise ProjectionError(
@@ -129,15 +130,16 @@ def _seen(room: Room, lamp: RoomLamp) -> LampView | None:
 
 
 def seen_outline(room: Room, height: float) -> FloatArray:
-    """Return the corners, x and y, of the part of a plane at some height that the camera sees.
+    """Return the outline, x and y, of the part of a plane at some height that the camera sees.
 
-    Empty where no whole picture of it is above the camera.
+    Empty where no whole picture of it is above the camera, or the lens folds the picture.
     """
     camera, place = room.scene.camera, room.camera
-    right, bottom = camera.columns - 1.0, camera.rows - 1.0
-    corners = np.array([[0.0, 0.0], [right, 0.0], [right, bottom], [0.0, bottom]])
-    rays = image_rays(corners, camera)
-    turned = np.column_stack([rays, np.ones(4)]) @ rotation(place).T
+    try:
+        rays = image_rays(undistort_frame(room.scene), camera)
+    except ProjectionError:
+        return np.empty((0, 2))
+    turned = np.column_stack([rays, np.ones(len(rays))]) @ rotation(place).T
     above = height - place.z
     if above <= 0.0 or turned[:, 2].min() <= _MIN_DEPTH:
         return np.empty((0, 2))

@@ -5,13 +5,16 @@ from typing import Any
 
 import numpy as np
 import pytest
+from small_rooms import small_room
 
 import occ_model as occ
 from occ_model.camera.photometry import luminance_of
+from occ_model.camera.projection import image_rays
+from occ_model.effects.distortion import undistort
 from occ_model.effects.plan import plan_of
 from occ_model.room.render import render_room
 from occ_model.room.room import Place, Room, RoomLamp
-from occ_model.room.view import lamps_in_view
+from occ_model.room.view import lamps_in_view, seen_outline
 from occ_model.scene.simulation_settings import SimulationSettings
 
 SMALL = {"rows": 600, "columns": 800}
@@ -40,6 +43,24 @@ def test_a_lamp_out_of_the_picture_changes_nothing() -> None:
     for place in ({"x": 30.0}, {"z": -2.0}, {"pitch": 0.0, "x": -5.0}):
         made = render_room(_beside(alone, **place), seed=3)
         np.testing.assert_array_equal(made.camera_image, render_room(alone, seed=3).camera_image)
+
+
+def test_a_lamp_that_only_the_lens_brings_into_the_picture_is_drawn_and_bounded() -> None:
+    camera = Place(z=0.0)
+    lens = {"equivalent_focal_length": 0.0181, "radial_k1": -0.25, "radial_k2": 0.03}
+    room = small_room(1, camera=camera, illuminance=0.0, **lens)
+    corner = np.array([740.0, 490.0])
+    x, y = image_rays(undistort(corner, room.scene), room.scene.camera) * 2.6
+    lamp = dataclasses.replace(room.lamps[0], x=float(x) + 0.4, y=float(y) + 0.35, roll=0.0)
+    frame = occ.render_room(room.replace(lamps=(lamp,)))
+    (shown,) = frame.lamps
+    assert np.hypot(*(shown.outline - corner).T).min() < 0.1
+    lit = np.argwhere(frame.camera_image > 40)
+    assert lit.min(axis=0) == pytest.approx(corner[::-1], abs=12)  # a chip may be dark there
+    # What the camera sees of the lamps' plane ends at its picture's corners.
+    seen = seen_outline(room, 2.6)
+    x, y = image_rays(undistort(np.array([767.0, 511.0]), room.scene), room.scene.camera) * 2.6
+    assert np.hypot(*(seen - [x, y]).T).min() < 1e-9
 
 
 def test_far_from_another_lamp_a_pixel_is_that_of_the_lamps_own_scene() -> None:

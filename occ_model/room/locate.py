@@ -10,8 +10,10 @@ from numpy.typing import NDArray
 
 from occ_model.arrays import FloatArray
 from occ_model.camera.projection import image_rays
+from occ_model.effects.distortion import undistort
 from occ_model.errors import ParameterError, counted
-from occ_model.room.edges import Edge, EdgeFinder
+from occ_model.room.edge_lines import Edge
+from occ_model.room.edges import find_edges
 from occ_model.room.pose_fit import LampEdges, Located
 from occ_model.room.reading import ReadLamp, check_picture, find_and_name
 from occ_model.room.room import Room, RoomLamp
@@ -27,6 +29,11 @@ _MAX_MEAN_SQUARE = 4.0  # in standard errors squared; above it a place does not 
 _MAX_ANCHORS = 3  # maximum number of lamps whose corners are starting values
 _MAX_EXCLUDED_EDGES = 3  # maximum edges left out, one after the other, where no place explains all
 _ONE_LAMP = "Only one lamp determines the place: it can be farther off than the stated errors."
+
+_LOOSE = (
+    "The edges that were measured determine the place so loosely that it can be farther off than "
+    "the stated errors."
+)
 
 _PLACE_TOLERANCE = 1e-3  # metres and radians within which two places are the same
 
@@ -87,14 +94,13 @@ def read_room(image: NDArray[Any], room: Room, focal_share: float = 0.0) -> Room
     picture = check_picture(image, room)
     lamps = find_and_name(picture, room)
     by_name = {lamp.name: lamp for lamp in room.lamps}
-    finder = EdgeFinder(picture, room)
     measured = []
     for read in lamps:
         lamp = by_name.get(read.name or "")
         if lamp is None or lamp.shape != "rectangle":
             continue
-        corners = quadrilateral(read.hull)
-        edges = finder.edges(lamp, corners)
+        corners = quadrilateral(undistort(read.hull, room.scene))
+        edges = find_edges(picture, room, lamp, corners)
         measured.append(_Measured(lamp, corners, edges, read.is_cut))
     whole = [(by_name[one.name], one) for one in lamps if one.name and not one.is_cut]
     found, why = _located(measured, room, len(lamps), _start_of_centres(whole, room), focal_share)
@@ -156,7 +162,8 @@ def _located(
         if one.deviations <= limit and not any(_is_same(one, other) for other in kept):
             kept.append(one)
     if len(kept) == 1:
-        return kept, (_ONE_LAMP,) if len(measured) == 1 else ()
+        why = (_ONE_LAMP,) if len(measured) == 1 else ()
+        return kept, why if kept[0].is_linear else (*why, _LOOSE)
     return kept, (
         f"{len(kept)} places explain the picture alike: a panel looks the same when it is turned, "
         "and a small one when it is tilted the other way. More lamps would resolve it.",
@@ -189,7 +196,7 @@ def _start_of_centres(whole: Sequence[tuple[RoomLamp, ReadLamp]], room: Room) ->
         return []
     centres = np.array([[lamp.x, lamp.y, lamp.z] for lamp, _ in whole])
     seen = np.array([(read.hull.min(axis=0) + read.hull.max(axis=0)) / 2.0 for _, read in whole])
-    rays = image_rays(seen, room.scene.camera)
+    rays = image_rays(undistort(seen, room.scene), room.scene.camera)
     found, vector, move = cv2.solvePnP(
         centres[:, None, :], rays[:, None, :], np.eye(3), None, flags=cv2.SOLVEPNP_SQPNP
     )

@@ -9,7 +9,7 @@ import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray
 from occ_model.camera.projection import image_points, rotations
-from occ_model.room.edges import Edge
+from occ_model.room.edge_lines import Edge
 from occ_model.room.room import Place, Room, RoomLamp
 from occ_model.room.view import angles_of, room_outline
 from occ_model.scene.scene import Camera
@@ -17,6 +17,8 @@ from occ_model.scene.scene import Camera
 _ROUNDS = 12  # rounds of the refinement; it ends sooner where a step is negligible
 _MIN_DEPTH = 1e-6  # metres before the camera from which a corner is seen
 _DIFFERENCE = 1e-6  # step of each coordinate, in metres or radians, for its numerical derivative
+_CHECKED_ERRORS = 2.0  # how far from the place the errors are checked, in errors
+_MAX_GROWTH = 2.0  # of the deviations there, relative to what the errors say, and its inverse
 _MAX_CONDITION_NUMBER = 1e14  # condition number from which some parameters are undetermined
 
 
@@ -43,6 +45,7 @@ class Located:
     freedom: int
     focal_length: float = 0.0
     focal_error: float = 0.0
+    is_linear: bool = True
 
     @property
     def errors(self) -> FloatArray:
@@ -114,7 +117,7 @@ class LampEdges:
         sides = self._sides(numbers)
         found = None if sides is None else self._deviations(numbers[None], sides)
         place = None if found is None else _place(numbers)
-        if found is None or place is None:
+        if sides is None or found is None or place is None:
             return None
         off = found[0]
         total, freedom = float(off @ off), len(off) - len(numbers)
@@ -124,8 +127,21 @@ class LampEdges:
         if self.focal_share:
             error = focal * math.sqrt(covariance[6, 6])
             focal *= 1.0 + float(numbers[6])
-        located = Located(place, covariance[:6, :6], total, freedom, focal, error)
+        is_linear = self._is_linear(numbers, sides, inverse, total)
+        located = Located(place, covariance[:6, :6], total, freedom, focal, error, is_linear)
         return located, (off[: 2 * len(self.lamp)] ** 2).reshape(-1, 2).sum(axis=1)
+
+    def _is_linear(
+        self, numbers: FloatArray, sides: IndexArray, inverse: FloatArray, least: float
+    ) -> bool:
+        """Whether deviations grow as far as a few errors as the errors say, in all directions."""
+        sizes, axes = np.linalg.eigh(inverse)
+        steps = _CHECKED_ERRORS * np.sqrt(np.maximum(sizes, 0.0))[:, None] * axes.T
+        found = self._deviations(numbers + np.vstack([steps, -steps]), sides)
+        if found is None:
+            return False
+        growth = (np.square(found).sum(axis=1) - least) / _CHECKED_ERRORS**2
+        return bool(growth.min() > 1.0 / _MAX_GROWTH and growth.max() < _MAX_GROWTH)
 
     def _outlines_at(self, numbers: FloatArray) -> FloatArray | None:
         """Return corners in the picture, shape (places, lamps, 4, 2); None behind the camera."""
@@ -140,12 +156,19 @@ class LampEdges:
         return image_points(rays, self.camera)
 
     def _sides(self, numbers: FloatArray) -> IndexArray | None:
-        """Return the side of its lamp that each edge is, from a place; None where none is seen."""
+        """Return the side of its lamp that each edge is, from a place; None where none is seen.
+
+        It is the nearest of those that have the lamp on the same hand.
+        """
         outlines = self._outlines_at(numbers[None])
         if outlines is None:
             return None
-        off = _off(outlines[0][self.lamp], self.points)
-        return np.asarray(np.argmin(np.abs(off).max(axis=-1), axis=-1))
+        own = outlines[0][self.lamp]
+        off = np.abs(_off(own, self.points)).max(axis=-1)
+        along = np.einsum(
+            "esk,ek->es", np.roll(own, -1, axis=-2) - own, self.points[:, 1] - self.points[:, 0]
+        )
+        return np.asarray(np.argmin(np.where(along > 0.0, off, np.inf), axis=-1))
 
     def _deviations(self, numbers: FloatArray, sides: IndexArray) -> FloatArray | None:
         """Return edges' distances from places', and the focal length's, in standard errors."""

@@ -60,6 +60,11 @@ def lamp_scene(room: Room, lamp: RoomLamp) -> Scene:
         place = [lamp.x - camera.x, lamp.y - camera.y, lamp.z - camera.z]
         x, y, z = (rotation(camera).T @ place).tolist()
     pose = Pose(distance=z, offset_x=x, offset_y=y, yaw=angles[0], pitch=angles[1], roll=angles[2])
+    return dataclasses.replace(sent_scene(room, lamp), pose=pose)
+
+
+def sent_scene(room: Room, lamp: RoomLamp) -> Scene:
+    """Return the room's scene with a lamp's light, at the room's time, and with any pose."""
     scene = room.scene
     width, height = lamp.size
     surroundings = scene.surroundings
@@ -72,7 +77,6 @@ def lamp_scene(room: Room, lamp: RoomLamp) -> Scene:
         scene,
         surroundings=surroundings,
         transmitter=lamp.transmitter.replaced({"panel_width": width, "panel_height": height}),
-        pose=pose,
         model=scene.model.replaced({"start_time": scene.model.start_time + lamp.start_time}),
     )
 

@@ -1,21 +1,41 @@
-"""The error stated of an edge's line is that of its points' scatter, alike or not."""
+"""Edges of lamps are where their errors say, however the lens and the sensor change their light."""
+
+from typing import Any
 
 import numpy as np
 import pytest
 from amount import amount
+from small_rooms import small_room
 
-from occ_model.room.edges import _BLOCK, _Line, _variance_ratio
+import occ_model as occ
+from occ_model.camera.enhancement import Enhancement
+from occ_model.camera.photometry import (
+    ColumnLight,
+    luminance_levels,
+    luminance_of,
+    panel_values,
+    saturate,
+)
+from occ_model.effects.light_effects import LedEdges
+from occ_model.room.edge_lines import _BLOCK, Course, Line, estimate_variance_ratio
+from occ_model.room.edges import find_edges
+from occ_model.room.lamp_light import LampLight
+from occ_model.room.render import RoomFrame
+from occ_model.room.room import Place, Room
+from occ_model.room.seen_light import SeenLight, find_enhancement
+from occ_model.room.view import lamp_scene, sent_scene
+from occ_model.scene.scene import Scene
 
 _POINTS = 640
-_SLOPE, _MIDDLE = 0.03, 250.0
+_ENDS = np.array([[0.0, 250.0], [_POINTS - 1.0, 270.0]])
 
 
-def line(random: np.random.Generator, reach: int) -> _Line:
+def line(random: np.random.Generator, reach: int) -> Line:
     """Return a line through points whose errors are means over so many neighbours."""
     noise = random.normal(size=_POINTS + reach - 1)
     errors = 0.2 * np.convolve(noise, np.full(reach, reach**-0.5), mode="valid")
-    x = np.arange(_POINTS, dtype=np.float64)
-    return _Line(0, True, x, _MIDDLE + _SLOPE * x + errors, np.zeros((2, 2)))
+    course = Course.of(_ENDS, Scene().replace(rows=500, columns=_POINTS))
+    return Line(course, errors, np.zeros((2, 2)))
 
 
 def cut(reach: int) -> float:
@@ -34,12 +54,106 @@ def test_a_line_is_as_far_off_as_the_scatter_within_blocks_tells(reach: int) -> 
     squares, rooms = [], amount(30, 150)
     for _ in range(rooms):
         lines = [line(random, reach) for _ in range(4)]
-        alike = _variance_ratio(lines)
+        alike = estimate_variance_ratio(lines)
         for each in lines:
             edge = each.edge(alike)
-            true = _MIDDLE + _SLOPE * edge.points[:, 0]
-            off = (edge.points[:, 1] - true) * edge.normal[1]
+            off = (edge.points - _ENDS) @ edge.normal
             squares.append(off @ np.linalg.solve(edge.covariance, off) / 2.0)
     # The mean square of 1,200 numbers scatters by 4 %.
     assert np.mean(squares) == pytest.approx(cut(reach), rel=0.12 * np.sqrt(150 / rooms))
     assert cut(reach) < 1.5
+
+
+WHITE = {"iso": 1600.0, "exposure_time": 100e-6}
+NOISY = {"iso": 400.0, "read_noise": 20.0, "gain_variation": 0.02, "edge_time": 10e-6}
+LENSES: list[dict[str, Any]] = [
+    {},
+    WHITE,
+    {"point_spread": 4.0, **NOISY},
+    {"point_spread": 3.0, "radial_k1": 0.2, **WHITE},
+    {"radial_k1": -0.1, "point_spread": 0.6, "iso": 200.0},
+]
+_CAMERA = Place(x=0.45, y=0.6, z=-0.9, yaw=0.1, pitch=-0.1, roll=0.4)
+
+
+def _bent(**settings: Any) -> Room:
+    return small_room(
+        4, apart=1.3, camera=_CAMERA, rows=1152, columns=1152, readout_time=24e-6, **settings
+    )
+
+
+def _corners(room: Room) -> dict[str, np.ndarray]:
+    """Return where a lens without distortion shows the corners of each lamp."""
+    return {lamp.name: occ.panel_corners(lamp_scene(room, lamp)) for lamp in room.lamps}
+
+
+def _deviations(frame: RoomFrame, image: np.ndarray) -> np.ndarray:
+    """Return how far edges are inside the true ones, in their errors, begun at rough corners."""
+    random, room = np.random.default_rng(5), frame.room
+    found = []
+    for name, corners in _corners(room).items():
+        (lamp,) = (one for one in room.lamps if one.name == name)
+        rough = corners + random.uniform(-4.0, 4.0, corners.shape)
+        for edge in find_edges(image, room, lamp, rough):
+            starts, ends = corners, np.roll(corners, -1, axis=0)
+            along = (ends - starts) / np.hypot(*(ends - starts).T)[:, None]
+            side = (along @ (edge.points[1] - edge.points[0])).argmax()
+            off = (edge.points - starts[side]) @ [-along[side, 1], along[side, 0]]
+            found.append(np.linalg.solve(np.linalg.cholesky(edge.covariance), off))
+    return np.array(found)
+
+
+@pytest.mark.parametrize("settings", LENSES)
+def test_edges_are_where_their_errors_say_in_both_pictures(settings: dict[str, Any]) -> None:
+    frame = occ.render_room(_bent(**settings), seed=3)
+    for image in (frame.camera_image, frame.image):
+        off = _deviations(frame, image)
+        assert len(off) >= 10  # of 16
+        assert np.abs(off).max() < 4.5
+        assert 0.2 < np.square(off).mean() < 2.0
+        # None is further inside, or outside, than by chance; a lamp's edges share an error.
+        assert abs(off[:, 0].mean()) < 4.0 / np.sqrt(len(off) / 2.0)
+
+
+@pytest.mark.parametrize("light", [0.0, 300.0, 1500.0, 3600.0])
+@pytest.mark.parametrize("settings", [{}, WHITE, NOISY])
+def test_pixels_seem_to_have_the_light_that_is_expected_of_noise_and_of_the_enhancement(
+    settings: dict[str, Any], light: float
+) -> None:
+    room = small_room(1, rows=300, columns=400, **settings)
+    scene = sent_scene(room, room.lamps[0])
+    panel = scene.replace(
+        pattern="1", luminance=light, distance=0.1, enhancement="none", edge_time=0.0
+    )
+    image = occ.render(panel, tolerance=0.0, seed=2).camera_image
+    true = light + luminance_levels(scene)[0]
+    values = panel_values(scene, ColumnLight.of(scene))
+    curve = Enhancement(saturate(values), "equalization").curve
+    plain, enhanced = SeenLight(scene), SeenLight(scene, (curve, values))
+    for expected, pixels in (
+        (plain.inside, plain.of(image)),
+        (enhanced.inside, enhanced.of(curve[image])),
+        (enhanced.outside, enhanced.of(image)),
+    ):
+        error = 5.0 * pixels.std() / np.sqrt(image.size)
+        assert pixels.mean() == pytest.approx(float(expected(true)), abs=error, rel=2e-3)
+
+
+@pytest.mark.parametrize("settings", [{}, WHITE, NOISY])
+def test_a_lamps_light_is_known_in_columns_that_show_none_of_it(settings: dict[str, Any]) -> None:
+    room = _bent(**settings)
+    frame = occ.render_room(room, seed=3)
+    lamp = room.lamps[1]
+    scene = lamp_scene(room, lamp)
+    values = panel_values(scene, LedEdges().apply(scene, ColumnLight.of(scene)))
+    true = luminance_of(values, scene.camera) - luminance_levels(scene)[0]
+    corners = _corners(room)[lamp.name]
+    centre = np.rint(corners.mean(axis=0)).astype(int)
+    near = slice(int(corners[:, 0].min()) - 60, int(corners[:, 0].max()) + 60)
+    for image in (frame.camera_image, frame.image):
+        middle = image[centre[1] - 40 : centre[1] + 40, centre[0] - 40 : centre[0] + 40].ravel()
+        seen = SeenLight(scene, find_enhancement(lamp, room, middle))
+        own = LampLight.of(image, corners, lamp, seen, 7).light
+        off = (own - true)[near] / true.max()
+        assert np.abs(off).max() < 0.1  # of the few rows at an end
+        assert np.sqrt(np.square(off).mean()) < 0.02

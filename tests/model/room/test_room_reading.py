@@ -9,10 +9,11 @@ from small_rooms import small_room
 
 import occ_model as occ
 from occ_model.room import locate
-from occ_model.room.edges import Edge
-from occ_model.room.pose_fit import Located
+from occ_model.room.edge_lines import Edge
+from occ_model.room.pose_fit import LampEdges, Located
 from occ_model.room.reading import _longest_gap
 from occ_model.room.room import Place, Room, RoomLamp
+from occ_model.room.view import lamp_scene
 from occ_model.study.room_map import RoomMapRequest, room_map
 
 
@@ -70,6 +71,85 @@ def test_the_place_lies_within_its_stated_error_and_no_lamp_is_named_wrongly(see
     deviation = _off(reading.located.place, room.camera) / reading.located.errors
     assert np.abs(deviation).max() < 4.5
     assert reading.located.errors[:2].max() < 0.02
+
+
+def _at(room: str, place: str, **settings: float) -> Room:
+    x, y, z, yaw, pitch, roll = map(float, place.split())
+    angles = dict(zip(("yaw", "pitch", "roll"), np.radians([yaw, pitch, roll]), strict=True))
+    return occ.load_room(room).with_sent(**settings).replace(x=x, y=y, z=z, **angles)
+
+
+SMALL = {"rows": 1536, "columns": 1152, "readout_time": 24e-6}
+BLURRED = {"point_spread": 5.0, "read_noise": 20.0, "gain_variation": 0.02, "edge_time": 10e-6}
+BENT = {
+    "inverse": _at(
+        "office", "1.932 -1.386 1.556 9.80 -18.39 -82.96", **SMALL, exposure_time=40e-6,
+        iso=1600, equivalent_focal_length=0.015, radial_k1=0.4,
+    ),
+    "sides": _at(
+        "hall", "11.519 -6.646 0.725 -14.84 -22.23 -122.9", rows=2304, columns=1728,
+        readout_time=16e-6, exposure_time=40e-6, equivalent_focal_length=0.015, radial_k1=0.1,
+    ),
+    "blur": _at(
+        "hall", "1.4872 -6.6133 1.2369 -15.371 22.412 68.749", **SMALL, exposure_time=100e-6,
+        iso=400, radial_k1=0.03, **BLURRED,
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", BENT)
+def test_a_place_behind_a_lens_that_bends_and_blurs_lies_within_its_stated_error(name: str) -> None:
+    room = BENT[name]
+    reading = occ.read_room(occ.render_room(room).camera_image, room)
+    assert reading.is_sure, reading.reasons
+    assert (np.abs(_off(reading.located.place, room.camera)) < 4.5 * reading.located.errors).all()
+    assert reading.located.errors[:3].max() < 0.03
+
+
+@pytest.mark.parametrize("enhancement", ["equalization", "stretch"])
+@pytest.mark.parametrize("blur", [0.0, 2.5])
+def test_both_pictures_of_a_frame_tell_the_same_place(enhancement: str, blur: float) -> None:
+    room = _room(2, 9).replace(enhancement=enhancement, point_spread=blur, radial_k1=0.05)
+    frame = occ.render_room(room, seed=2)
+    found = []
+    for image in (frame.camera_image, frame.image):
+        reading = occ.read_room(image, room)
+        assert reading.is_sure, reading.reasons
+        off = _off(reading.located.place, room.camera)
+        assert (np.abs(off) < 4.5 * reading.located.errors).all()
+        assert reading.located.errors[:2].max() < 0.03
+        found.append(reading.located)
+    assert (frame.camera_image != frame.image).any()
+    apart = np.abs(_off(found[0].place, found[1].place))
+    assert (apart < 4.0 * np.maximum(found[0].errors, found[1].errors)).all()
+
+
+def _exact(room: Room, wanted: dict[str, tuple[int, ...]], error: float = 0.05) -> LampEdges:
+    """Return some sides of lamps as edges that are measured exactly where they are."""
+    measured = []
+    for lamp in room.lamps:
+        corners = occ.panel_corners(lamp_scene(room, lamp))
+        sides = [(corners[side], corners[(side + 1) % 4]) for side in wanted.get(lamp.name, ())]
+        measured.append((lamp, [Edge(np.array(ends), error**2 * np.eye(2)) for ends in sides]))
+    return LampEdges.of(measured, room, 0.0)
+
+
+def test_an_edge_is_a_side_that_has_the_lamp_on_the_same_hand() -> None:
+    room = small_room(2, turned=0.0, camera=Place(x=0.4, z=0.0, roll=0.3))
+    edges = _exact(room, {"L0": (0, 1, 3), "L1": (1, 3)})
+    # From a lamp's height beside the place, the first side is where the third one is expected.
+    start = np.array([0.4, 0.7, 0.0, 0.0, 0.0, 0.3])
+    located, _ = edges.fitted(start)
+    assert located.place.y == pytest.approx(0.0, abs=1e-6)
+    assert located.deviations == pytest.approx(0.0, abs=1e-6)
+
+
+def test_errors_too_large_for_a_linear_law_are_said_to_be() -> None:
+    room = small_room(2, turned=0.0, camera=Place(x=0.4, z=0.0, roll=0.3))
+    start = np.array([0.4, 0.0, 0.0, 0.0, 0.0, 0.3])
+    sides = {"L0": (0, 2, 3), "L1": (0, 2)}
+    assert _exact(room, sides).fitted(start)[0].is_linear
+    assert not _exact(room, sides, error=5.0).fitted(start)[0].is_linear
 
 
 def test_only_what_the_lamps_send_counts_and_not_the_rooms_own_transmitter() -> None:
@@ -205,7 +285,7 @@ def test_a_place_that_one_lamp_tells_is_not_sure(monkeypatch: pytest.MonkeyPatch
     room = _room(5, 1)
     there = Located(room.camera, np.eye(6), 1.0, 2)
     corners = np.array([[0.0, 0.0], [9.0, 0.0], [9.0, 9.0], [0.0, 9.0]])
-    edge = Edge(0, corners[:2], np.array([0.0, 1.0]), np.eye(2))
+    edge = Edge(corners[:2], np.eye(2))
     measured = [locate._Measured(room.lamps[0], corners, [edge] * 4, is_cut=False)]
     monkeypatch.setattr(locate, "_explanations", lambda *_: [there])
     places, reasons = locate._located(measured, room, 1, ())

@@ -21,8 +21,9 @@ from occ_model.camera.coverage import column_spans
 from occ_model.camera.photometry import WHITE
 
 _BLOCK = 8  # rows of a part, those of a block of a JPEG file, whose errors are correlated
-_MOST_EXPOSURES = 16
+_MOST_EXPOSURES = 16  # of columns with few rows
 _DIFFERENCES = 30  # of exposures, of as many blocks of columns, that tell their variance
+_BLOCKS_BEYOND = 4  # blocks of columns that may lie beyond a step that no exposure has passed
 _FEWEST_PARTS = 2  # fewest parts whose differences tell how much they vary
 _BLUR_REACH = 4.0  # reach of a blurred rim into the panel, in standard deviations
 _DEVIATIONS_ADDED = 5.0  # standard deviations that are added to the estimate of an error
@@ -126,8 +127,10 @@ def _compare_with_all_rows(
     times, off = len(own), np.abs(means[short] - own.mean(axis=0))
     if times == 1:  # without noise all exposures are alike
         return np.zeros(len(off)), off
-    # By chance all exposures may lie on the same side of a file's step, and the picture beyond.
-    return own.var(axis=0, ddof=1) * (1.0 + 1.0 / times), np.hypot(off, rounding)
+    # By chance all exposures may lie on the same side of a file's step, and the picture beyond: in
+    # a few blocks, since of many some would have lain there.
+    beyond = rounding * math.sqrt(min(_BLOCKS_BEYOND * _BLOCK / len(off), 1.0))
+    return own.var(axis=0, ddof=1) * (1.0 + 1.0 / times), np.hypot(off, beyond)
 
 
 def _count_rows_before(places: IndexArray, rows: range) -> IndexArray:

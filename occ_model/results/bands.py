@@ -8,10 +8,12 @@ from occ_model.scene.units import HERTZ, SECOND
 
 NO_BARS_DEPTH = 0.01  # peak-to-peak depth relative to the mean below which there are no bars
 
+ROUNDING_DEPTH = 1e-9  # depth up to which bars are rounding errors
+
 
 def percent(fraction: float) -> str:
     """Write a depth in percent, rounding errors as 0."""
-    return f"{100.0 * fraction:.3g} %" if fraction > 1e-9 else "0 %"
+    return f"{100.0 * fraction:.3g} %" if fraction > ROUNDING_DEPTH else "0 %"
 
 
 @dataclass(frozen=True, slots=True)

@@ -18,7 +18,7 @@ from occ_model.effects.effect import LightEffect
 from occ_model.effects.light_effects import depth_in_exposure
 from occ_model.effects.registry import NAMES, effects_named
 from occ_model.errors import ParameterError, shown
-from occ_model.results.bands import BandDepth, Depth
+from occ_model.results.bands import ROUNDING_DEPTH, BandDepth, Depth
 from occ_model.scene.scene import Scene
 from occ_model.study.bands.exposed_light import ExposedLight, exposed_light
 from occ_model.transmitter.packet import sent_chips
@@ -28,7 +28,7 @@ _BLACK = 0.5  # grey levels that a file rounds to 0
 _NO_DEPTH = Depth(0.0, 0.0)
 
 _HARMONICS_PER_CHIP = 4  # harmonics of the code that are searched; higher ones are below a quarter
-_ROUNDING_DEPTH = 1e-12
+_ROUNDING_LIGHT = 1e-12  # part of a column's exposure that is lit by rounding errors
 _PADDING = 4  # times that a spectrum is finer than its columns tell apart
 _WINDOW_BINS = 0.75  # of unpadded columns, within which a sine lies from its peak
 
@@ -53,7 +53,7 @@ def band_depth(scene: Scene) -> BandDepth:
     dark, bright = luminance_levels(scene)
     of_columns = dark * columns.ambient + (bright - dark) * columns.lit
     frequency, period = 0.0, math.inf
-    if _depth(of_columns).peak_to_peak > _ROUNDING_DEPTH:
+    if _depth(of_columns).peak_to_peak > ROUNDING_DEPTH:
         frequency, period = _strongest_part(scene, of_columns)
     values = panel_values(scene, columns)
     pixels = np.minimum(saturate(values), saturation_value(scene))
@@ -93,7 +93,7 @@ def _column_light(scene: Scene) -> ColumnLight:
     for effect in effects_named(NAMES, LightEffect):
         light = effect.apply(scene, light)
     # Of a dark column rounding would otherwise leave some light, and bars of it.
-    return replace(light, lit=np.where(light.lit > _ROUNDING_DEPTH, light.lit, 0.0))
+    return replace(light, lit=np.where(light.lit > _ROUNDING_LIGHT, light.lit, 0.0))
 
 
 def _extremes(scene: Scene, exposed: ExposedLight) -> FloatArray:

@@ -13,7 +13,7 @@ from numpy.random import Generator
 
 import occ_model as occ
 from occ_model.arrays import ByteArray
-from occ_model.video.file.quiet import quiet_opencv
+from occ_model.video.file.quiet import silence_opencv
 from occ_model.video.file.write import write_frames
 
 KINDS = (
@@ -47,7 +47,7 @@ def write_film(
     """Write grey pictures of a size (lines, columns) to a film, by OpenCV alone."""
     lines, columns = size
     code = cv2.VideoWriter.fourcc(*codec)
-    with quiet_opencv():  # FFmpeg keeps to what it is told when it is used first
+    with silence_opencv():  # FFmpeg keeps to what it is told when it is used first
         writer = cv2.VideoWriter(str(path), cv2.CAP_FFMPEG, code, rate, (columns, lines))
     assert writer.isOpened(), (path.suffix, codec)
     for picture in pictures:

@@ -13,7 +13,7 @@ import numpy as np
 
 from occ_model.arrays import ByteArray
 from occ_model.errors import VideoError, one_line
-from occ_model.video.file.quiet import quiet_opencv
+from occ_model.video.file.quiet import silence_opencv
 
 AXES = ("lines", "columns")
 """Axes of a source's pictures that the rolling shutter scans, the usual one first."""
@@ -90,7 +90,7 @@ def _read_text(file: Path) -> str:
 
 
 def _probe_devices() -> Iterator[CameraDevice]:
-    with quiet_opencv():
+    with silence_opencv():
         for number in range(_MOST_TRIED):
             capture = cv2.VideoCapture(number)
             if capture.isOpened():
@@ -108,7 +108,7 @@ class CameraSource:
     def open(self) -> None:
         """Open the camera in full HD, or in the nearest size that it has."""
         self.close()
-        with quiet_opencv():
+        with silence_opencv():
             kind = cv2.CAP_V4L2 if IS_LINUX else cv2.CAP_ANY
             capture = cv2.VideoCapture(self._device.number, kind)
             if not capture.isOpened():

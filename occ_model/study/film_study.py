@@ -22,7 +22,7 @@ from occ_model.scene.argument_checks import check_count, check_seed
 from occ_model.scene.recording import Recording
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.study.observation import panel_span
-from occ_model.video.counting import ShutterTiming, packets_received_on_average
+from occ_model.video.counting import ShutterTiming, mean_packets_received
 from occ_model.video.period import SentPeriod
 from occ_model.video.reader import VideoReader
 from occ_model.video.render import SimulatedVideo, render_video
@@ -141,9 +141,7 @@ def _measure_film(
         packets=sent,
         read=reading.read,
         counted=_count_whole(video, timing, length),
-        on_average=float(
-            packets_received_on_average(timing, 1 / Fraction(request.frame_rate), length)
-        ),
+        on_average=float(mean_packets_received(timing, 1 / Fraction(request.frame_rate), length)),
         bits_per_second=reading.bits_per_second,
         complete_at=reading.complete_after,
         is_right=reading.bits.tolist() == list(scene.transmitter.payload_bits),

@@ -1,1 +1,1 @@
-"""Films: simulate them frame by frame, write them to files, open files."""
+"""Films: simulation frame by frame, reading of payloads, and opening and writing of files."""

@@ -1,8 +1,8 @@
-"""Fit the chips' timing in one picture: where each chip lies, and how sure its value is.
+"""Fit the timing of the chips in one picture, and the certainty of their values.
 
 The light of column i is b(i) + a(i) p(i), with p the lit fraction of its exposure, which starts at
-phase + step i chips and lasts some chips; b and a are polynomials over the picture. It is the model
-of a photo's stripes, of light and of chips that need not repeat.
+phase + step i chips and lasts a number of chips; b and a are polynomials over the picture. This is
+the model of the stripes of a photo, applied to light and to chips that need not repeat.
 """
 
 import math
@@ -15,27 +15,27 @@ from occ_model.photo.fit.least_squares import StripeModel, level_freedom
 from occ_model.photo.fit.timing import SHORTEST_EXPOSURE, Timing
 from occ_model.photo.stripes.period import correlated_columns
 
-_SHIFTS = np.linspace(-0.75, 0.75, 5)  # chips, tried first: decoders count from different ends
-_BESIDE = 4  # chips on either side of those that are known, which are as the outermost ones
+_SHIFTS = np.linspace(-0.75, 0.75, 5)  # chips, because decoders count from different ends
+_BESIDE = 4  # chips on either side of the known ones, which equal the outermost ones
 
-_MIN_NOISE = 1e-6  # minimum variance of a column, as a fraction of the swing squared
-_MAX_LOG_LIKELIHOOD_RATIO = 50.0  # largest log-likelihood ratio of a chip: no model is surer
-_MIN_COLUMNS_PER_RIM = 8  # at either end at most one of so many columns is left out
+_MIN_NOISE = 1e-6  # minimum variance of a column, as a fraction of the squared swing
+_MAX_LOG_LIKELIHOOD_RATIO = 50.0  # maximum of a chip, since no model is more certain
+_MIN_COLUMNS_PER_RIM = 8  # at most one in this many columns is omitted at either end
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ChipLattice:
-    """Where chips lie in a signal, and their values."""
+    """The places of chips in a signal, and their values."""
 
-    step: float  # Chips from one column to the next
-    # Where the exposure of column 0 starts, in chips; chip ``first`` + k starts at ``first`` + k
+    step: float  # Chips per column
+    # Start of the exposure of column 0 in chips; chip number ``first`` + k starts at ``first`` + k
     phase: float
-    exposure: float  # Chips that an exposure lasts
+    exposure: float  # Duration of an exposure in chips
     first: int  # The number of the first chip
     values: ByteArray  # Shape (chips,): the chips
 
     def middle(self, columns: int) -> float:
-        """Return the place in chips of the middle of the exposure of the middle column."""
+        """Return the middle of the exposure of the middle column, in chips."""
         return self.phase + 0.5 * self.exposure + 0.5 * self.step * (columns - 1)
 
 
@@ -43,18 +43,18 @@ class ChipLattice:
 class ChipTiming:
     """The chips of one picture on their fitted lattice."""
 
-    lattice: ChipLattice  # The lattice; its columns count from the signal's first one
-    middle: float  # Place in chips of the middle of the exposure of the signal's middle column
+    lattice: ChipLattice  # Its columns are counted from the signal's first one
+    middle: float  # Middle of the exposure of the signal's middle column, in chips
     # Standard deviations of ``middle`` and of the lattice's step, in chips
     middle_error: float
     step_error: float
-    # Shape (chips,): log-likelihood ratio of each chip, positive where it is likelier lit
+    # Shape (chips,): log-likelihood ratio of each chip, positive if it is more likely lit
     ratios: FloatArray
     unexplained: float  # Fraction of the signal's variance that the chips do not explain
 
 
 def fit_timing(light: FloatArray, start: ChipLattice) -> ChipTiming | None:
-    """Fit the timing of decoded chips to the columns' light; None where it does not follow them."""
+    """Fit the timing of decoded chips to the columns' light; None if it does not fit them."""
     columns, values = len(light), start.values
     if values.size == 0 or values.min() == values.max():
         return None
@@ -63,28 +63,28 @@ def fit_timing(light: FloatArray, start: ChipLattice) -> ChipTiming | None:
     tried = [Timing(start.step, exposure, middle, 1.0) for middle in middles.tolist()]
     model = _model(light, values, start.step)
     timing = min(tried, key=lambda one: float(np.sum((light - model.levels(one)[2]) ** 2)))
-    fitted = _fitted(light, values, timing)
+    fitted = _fit_inner(light, values, timing)
     if fitted is None:
         return None
-    found = _described(light, values, *fitted, before)
+    found = _describe(light, values, *fitted, before)
     likelier = (found.ratios > 0.0).astype(np.uint8)
     if (likelier == values).all():
         return found
-    fitted = _fitted(light, likelier, fitted[0])
-    return None if fitted is None else _described(light, likelier, *fitted, before)
+    fitted = _fit_inner(light, likelier, fitted[0])
+    return None if fitted is None else _describe(light, likelier, *fitted, before)
 
 
 def _model(light: FloatArray, values: ByteArray, step: float) -> StripeModel:
     return StripeModel(light, np.pad(values, _BESIDE, mode="edge"), None, step)
 
 
-def _fitted(
+def _fit_inner(
     light: FloatArray, values: ByteArray, timing: Timing
 ) -> tuple[Timing, FloatArray] | None:
-    """Fit a timing to the columns that do not show the outermost chips.
+    """Fit a timing to the columns without the outermost chips; return the covariance as well.
 
-    Where those are cut off is where the picture was: a bright one is seen further out than a dark
-    one, which would lengthen all chips. Returned with the covariance of its middle and its step.
+    The outermost chips are cut off at the panel's rim. A bright one there is seen further out than
+    a dark one, which would lengthen all chips. The covariance is that of the middle and the step.
     """
     if values.min() == values.max():
         return None
@@ -95,13 +95,13 @@ def _fitted(
     if not float(np.median(model.levels(fit.timing)[1])) > 0.0:
         return None
     covariance = fit.covariance[np.ix_([2, 0], [2, 0])]
-    return fit.timing, covariance + _unseen(fit.timing, values, len(inner))
+    return fit.timing, covariance + _unseen_edges(fit.timing, values, len(inner))
 
 
-def _described(
+def _describe(
     light: FloatArray, values: ByteArray, timing: Timing, covariance: FloatArray, before: int
 ) -> ChipTiming:
-    """Return a timing with the chips' ratios; ``before``: the chip that it counts from."""
+    """Return a timing with the chips' ratios; ``before``: the chip from which it counts."""
     columns = len(light)
     _, swing, profile = _model(light, values, timing.step).levels(timing)
     residual = light - profile
@@ -118,24 +118,24 @@ def _described(
     )
 
 
-def _unseen(timing: Timing, values: ByteArray, count: int) -> FloatArray:
-    """Return the covariance of middle and step by edges that fall between short exposures."""
+def _unseen_edges(timing: Timing, values: ByteArray, count: int) -> FloatArray:
+    """Return the covariance of middle and step due to edges between short exposures."""
     left_out = max(timing.step - timing.exposure, 0.0)
     edges = max(1, int(np.count_nonzero(np.diff(values.astype(np.int64)))))
     variance = left_out**2 / 12.0 / edges
-    # Edges evenly over the picture: the variance of a slope is 12 / n^2 of that of the mean.
+    # For edges spread evenly, the variance of a slope is 12 / n^2 of that of the mean.
     return np.diag([variance, 12.0 * variance / count**2])
 
 
 def noise_of(swing: FloatArray, residual: FloatArray, step: float) -> float:
-    """Return the variance of a column about the model, by independent columns."""
+    """Return the variance of a column about the model, in terms of independent columns."""
     free = max(1, len(residual) - 2 * level_freedom(step * len(residual)) - 3)
     least = _MIN_NOISE * float(np.median(swing)) ** 2
     return max(float(residual @ residual) / free, least) * correlated_columns(residual)
 
 
 def chip_ratios(lattice: ChipLattice, swing: FloatArray, residual: FloatArray) -> FloatArray:
-    """Return how much likelier each chip is lit than not, the others being as they are.
+    """Return the log-likelihood ratio of each chip being lit, with the other chips unchanged.
 
     With w(i) the light of a chip in column i and r(i) the residual, the opposite value changes the
     squared distance by the sum of w^2 -+ 2 w r.
@@ -154,7 +154,7 @@ def chip_ratios(lattice: ChipLattice, swing: FloatArray, residual: FloatArray) -
     power = np.bincount(place, weight**2, minlength=chips)
     along = np.bincount(place, weight * np.repeat(residual, reach), minlength=chips)
     lit: BoolArray = lattice.values == 1
-    # For a lit chip: distance if dark, less the distance as it is.
+    # For a lit chip: the distance if it were dark, minus the present distance.
     margin = np.where(lit, power + 2.0 * along, -(power - 2.0 * along))
     noise = noise_of(swing, residual, lattice.step)
     return np.clip(margin / (2.0 * noise), -_MAX_LOG_LIKELIHOOD_RATIO, _MAX_LOG_LIKELIHOOD_RATIO)

@@ -1,9 +1,9 @@
-"""The clock of a film: fit the switching frequency to phases, and state what is measured.
+"""Fit the clock of a film: the switching frequency that explains the phases of its frames.
 
-A frame shows the phase of the chips at its time only up to whole periods of what is sent. So
-frequencies that differ by a whole number of periods between frames fit alike (aliases). The rough
-frequency, from the chips a column and a rough readout time, says which of them it is. The phase is
-then counted on over longer and longer parts of the film, each of which predicts the next one.
+A frame shows the phase of the chips only up to whole periods of what is sent. Frequencies that
+differ by a whole number of periods between frames therefore fit equally well (aliases). A rough
+frequency, from the chips per column and a rough readout time, selects one of them. The phase is
+then counted over longer and longer parts of the film, each of which predicts the next one.
 """
 
 import math
@@ -14,43 +14,45 @@ from occ_model.arrays import FloatArray
 from occ_model.results.video_reading import Clock, MeasuredValue
 from occ_model.scene.units import HERTZ, SECOND
 from occ_model.video.frame_times import FrameTimes, Part
-from occ_model.video.phase_fit import ClockFit, Phases, fit_parabola, mean_step
+from occ_model.video.phase_fit import ClockFit, FramePhases, fit_parabola, mean_step
 
-_FIRST_FRAMES = 64  # frames of the part of a film in which aliases are searched
+_FIRST_FRAMES = 64  # number of frames at the start in which aliases are searched
 
-_GRID_POINTS_PER_TURN = 8.0  # frequencies tried in a change of the last phase by a period
-_MAX_TRIED = 2**17  # most frequencies that are tried; the part of the film is shortened to it
+_GRID_POINTS_PER_TURN = 8.0  # frequencies tried while the last phase turns by a period
+_MAX_TRIED = 2**17  # maximum number of frequencies tried; the part of the film is shortened to it
 
-_MAX_ALIASES = 64  # of more, as with frames far apart, no frequency is stated
-_TRIED_WITHOUT_CHANCE = 64.0  # number of frequencies without one that is coherent by chance
+_MAX_ALIASES = 64  # with more, for example of frames far apart, no frequency is stated
+_TRIED_WITHOUT_CHANCE = 64.0  # number of frequencies of which none is coherent by chance
 
 _MIN_RELATIVE_COHERENCE = 0.8  # fraction of the best coherence from which an alias is fitted
-_MIN_COHERENCE = 0.5  # coherence of phases with the frame times below which they do not follow them
+_MIN_COHERENCE = 0.5  # minimum coherence of phases with the frame times
 _PART_GROWTH = 1.3  # factor by which the fitted part of the film grows, once its frequency is known
 
-_MAX_CHI_SQUARED_EXCESS = 9.0  # up to which an alias is not excluded: three standard deviations
+_MAX_CHI_SQUARED_EXCESS = 9.0  # above this, three standard deviations, an alias is excluded
 
-READOUT_TOLERANCE = 0.01  # maximum relative difference of the readout time from the given rough one
+READOUT_TOLERANCE = 0.01  # maximum relative error of the given rough readout time
 MOST_READOUT_TOLERANCE = 0.5
-_MAX_READOUT_EXCESS = 1e-3  # relative error by which the readout may exceed the frame period
-_MIN_FRAMES = 3  # minimum number of frames to fit the clock to
-_MAX_OUTLIER_FRACTION = 0.1  # outlier fraction of the phases that triggers a warning
-_MAX_NAMED_FREQUENCIES = 5  # maximum number of other frequencies that a sentence names
+_MAX_READOUT_EXCESS = 1e-3  # fraction of the frame period by which the readout may exceed it
+_MIN_FRAMES = 3  # minimum number of frames for a clock
+_MAX_OUTLIER_FRACTION = 0.1  # fraction of outliers among the phases from which they are reported
+_MAX_NAMED_FREQUENCIES = 5  # maximum number of alternative frequencies in a sentence
 
-_MIN_WANDER_RATIO = 3.0  # of the phases' scatter to that between frames from which they wander
+_MIN_WANDER_RATIO = 3.0  # of the phases' scatter to that between frames, for wandering
 
 
-def fit_clock(phases: Phases, low: float, high: float) -> tuple[ClockFit, ...]:
-    """Return the frequencies, ``low`` to ``high`` Hz, that fit phases, the likeliest first."""
+def fit_clock(phases: FramePhases, low: float, high: float) -> tuple[ClockFit, ...]:
+    """Return the frequencies from ``low`` to ``high`` in Hz that fit the phases, best first."""
     step, _ = mean_step(phases)
     turned = np.mod(phases.places - step * phases.columns, phases.period)
-    followed = [_followed(phases, turned, one) for one in _aliases(phases, turned, low, high)]
-    fits = _distinct([fit for fit in followed if low <= fit.frequency <= high])
+    followed = [
+        _follow_phase(phases, turned, one) for one in _find_aliases(phases, turned, low, high)
+    ]
+    fits = _drop_repeated([fit for fit in followed if low <= fit.frequency <= high])
     if not fits:
         return ()
     best = fits[0]
     free = max(1, int(best.kept.sum()) - 3)
-    # Jitter of the frame times is part of the scatter: the best fit says how much.
+    # The scatter includes the jitter of the frame times, which the best fit shows.
     scale = max(1.0, best.chi_squared / free)
     return tuple(
         fit for fit in fits
@@ -59,8 +61,8 @@ def fit_clock(phases: Phases, low: float, high: float) -> tuple[ClockFit, ...]:
     )  # fmt: skip
 
 
-def _distinct(fits: list[ClockFit]) -> list[ClockFit]:
-    """Sort fits, those with few jumps and outliers first, and drop repeated frequencies."""
+def _drop_repeated(fits: list[ClockFit]) -> list[ClockFit]:
+    """Sort fits by the numbers of jumps and outliers, and drop repeated frequencies."""
     ordered = sorted(
         fits, key=lambda fit: (len(fit.jumps), int((~fit.kept).sum()) // 2, fit.chi_squared)
     )
@@ -72,14 +74,14 @@ def _distinct(fits: list[ClockFit]) -> list[ClockFit]:
     return kept
 
 
-def _aliases(phases: Phases, turned: FloatArray, low: float, high: float) -> list[float]:
+def _find_aliases(phases: FramePhases, turned: FloatArray, low: float, high: float) -> list[float]:
     """Return the frequencies at which the phases of the first frames are coherent."""
     count = min(len(turned), _FIRST_FRAMES)
-    while count > 2 and _grid(phases.times[:count], low, high, phases.period) > _MAX_TRIED:
+    while count > 2 and _grid_size(phases.times[:count], low, high, phases.period) > _MAX_TRIED:
         count = max(2, count // 2)
     times = phases.times[:count] - phases.times[0]
-    number = _grid(times, low, high, phases.period)
-    # Of so many random phasors the mean is longer than r in the fraction exp(-count r^2).
+    number = _grid_size(times, low, high, phases.period)
+    # The mean of ``count`` random phasors is longer than r with probability exp(-count r^2).
     by_chance = math.sqrt(2.0 * math.log(max(number / _TRIED_WITHOUT_CHANCE, 1.0)) / count)
     if number > _MAX_TRIED or by_chance >= 1.0:
         return []
@@ -94,14 +96,14 @@ def _aliases(phases: Phases, turned: FloatArray, low: float, high: float) -> lis
     return [float(tried[place]) for place in chosen] if len(chosen) <= _MAX_ALIASES else []
 
 
-def _grid(times: FloatArray, low: float, high: float, period: float) -> int:
+def _grid_size(times: FloatArray, low: float, high: float, period: float) -> int:
     return int((high - low) * float(np.ptp(times)) / period * _GRID_POINTS_PER_TURN) + 3
 
 
 def _coherence(
     turned: FloatArray, times: FloatArray, tried: FloatArray, period: float
 ) -> FloatArray:
-    """Return the length of the mean phase factor at each frequency."""
+    """Return the magnitude of the mean phase factor at each frequency."""
     coherent = np.empty(len(tried))
     for start in range(0, len(tried), 4096):
         part = slice(start, start + 4096)
@@ -110,26 +112,26 @@ def _coherence(
     return coherent
 
 
-def _followed(phases: Phases, turned: FloatArray, frequency: float) -> ClockFit:
-    """Count the phase on over the film from a first frequency, and fit it."""
+def _follow_phase(phases: FramePhases, turned: FloatArray, frequency: float) -> ClockFit:
+    """Unwrap the phase over the whole film, starting from a frequency, and fit it."""
     count, total = min(len(turned), _FIRST_FRAMES), len(turned)
     times = phases.times - phases.times[0]
     angle = np.exp(2j * np.pi * (turned[:count] - frequency * times[:count]) / phases.period)
     start = float(np.angle(angle.mean())) / (2.0 * np.pi) * phases.period
-    foretold = start + frequency * times
+    predicted = start + frequency * times
     while True:
-        rounds = np.rint((foretold[:count] - turned[:count]) / phases.period)
+        rounds = np.rint((predicted[:count] - turned[:count]) / phases.period)
         fit = fit_parabola(phases.first(count), turned[:count] + rounds * phases.period)
         if count == total:
             return fit
         count = min(total, max(count + 1, int(count * _PART_GROWTH)))
-        foretold = fit.at_start(phases.times)
+        predicted = fit.at_start(phases.times)
 
 
-def fits_of(
-    phases: Phases, readout_time: float, tolerance: float, columns: int, period: float
+def fit_film_clock(
+    phases: FramePhases, readout_time: float, tolerance: float, columns: int, period: float
 ) -> tuple[ClockFit, ...]:
-    """Fit the clock by a rough readout time, wrong by ``tolerance``; ``period`` of frames in s."""
+    """Fit the clock for a readout time within ``tolerance``; ``period``: of the frames, in s."""
     if len(phases.times) < _MIN_FRAMES:
         return ()
     step, _ = mean_step(phases)
@@ -139,10 +141,10 @@ def fits_of(
     return fit_clock(phases, low, high) if low < high else ()
 
 
-def state(
-    fits: tuple[ClockFit, ...], phases: Phases, times: FrameTimes, part: Part, columns: int
+def describe_clock(
+    fits: tuple[ClockFit, ...], phases: FramePhases, times: FrameTimes, part: Part, columns: int
 ) -> Clock:
-    """State a film's clock in one part of its times, by fits of which the first is likeliest."""
+    """Return a film's clock for one part of its times, from fits sorted by likelihood."""
     best = fits[0]
     readout = best.step / best.frequency
     relative = np.hypot(best.step_error / best.step, best.frequency_error / best.frequency)
@@ -162,15 +164,15 @@ def state(
         problems=(
             *times.problems,
             *(only if len(times.parts) > 1 else ()),
-            *_problems(fits, phases),
+            *_describe_problems(fits, phases),
         ),
     )
 
 
-def _problems(fits: tuple[ClockFit, ...], phases: Phases) -> list[str]:
+def _describe_problems(fits: tuple[ClockFit, ...], phases: FramePhases) -> list[str]:
     best = fits[0]
     problems = [
-        f"Between the frames before {SECOND.format(jump.time)} and after it, the stripes move by "
+        f"At {SECOND.format(jump.time)} the stripes jump by "
         f"{SECOND.format(jump.chips / best.frequency)} that the frame times do not show: frames "
         "were dropped, doubled or shifted there."
         for jump in best.jumps
@@ -185,15 +187,15 @@ def _problems(fits: tuple[ClockFit, ...], phases: Phases) -> list[str]:
             else ""
         )
         problems.append(
-            f"Several frequencies fit the frames alike: {HERTZ.format(best.frequency)} is stated, "
-            f"but also {others}; a more accurate readout time, or a longer packet, would "
+            f"Several frequencies fit the frames equally well: {HERTZ.format(best.frequency)}, "
+            f"which is stated, and {others}; a more accurate readout time or a longer packet would "
             "distinguish them."
         )
     outliers = int((~best.kept).sum())
     if outliers > _MAX_OUTLIER_FRACTION * len(best.kept):
         problems.append(
-            f"{outliers} of {len(best.kept)} frames show a phase that does not agree with the "
-            "others' times."
+            f"{outliers} of {len(best.kept)} frames show a phase that does not agree with that of "
+            "the others."
         )
     residuals = best.residuals[best.kept]
     if len(residuals) >= 16:
@@ -202,7 +204,7 @@ def _problems(fits: tuple[ClockFit, ...], phases: Phases) -> list[str]:
         least = float(np.median(phases.errors))
         if scatter > _MIN_WANDER_RATIO * max(steps, least):
             problems.append(
-                "The stripes drift to and fro against the frame times by "
+                "The stripes drift back and forth relative to the frame times by "
                 f"{SECOND.format(scatter / best.frequency)}: the film was stabilised, its frame "
                 "rate changes, or a clock wanders."
             )

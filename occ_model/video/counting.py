@@ -1,9 +1,9 @@
-"""Count by hand which chips and packets frames show whole, in exact arithmetic.
+"""Count which chips and packets frames show whole, in exact arithmetic.
 
-A frame that starts at s shows the chips that lie whole between the start of its first column's
-exposure and the end of its last one's: chip n where n / f >= s + a t_r and (n + 1) / f <=
-s + b t_r + t, with a and b the first and the last column of the panel. Nothing is simulated: it is
-what a receiver without errors could read.
+A frame that starts at s shows the chips that lie completely between the start of its first column's
+exposure and the end of its last one's: chip n if n / f >= s + a t_r and (n + 1) / f <= s + b t_r +
+t, with a and b the first and the last column of the panel. Nothing is simulated: this is what a
+receiver without errors could read.
 """
 
 from dataclasses import dataclass
@@ -15,9 +15,9 @@ from occ_model.scene.scene import Scene
 
 @dataclass(frozen=True, slots=True)
 class ShutterTiming:
-    """The exact numbers that counting needs."""
+    """The exact timing of a scene that counting needs."""
 
-    frequency: Fraction  # Chips a second
+    frequency: Fraction  # Chips per second
     # In seconds
     exposure_time: Fraction
     readout_time: Fraction
@@ -27,7 +27,7 @@ class ShutterTiming:
 
     @classmethod
     def of(cls, scene: Scene, columns: tuple[int, int]) -> "ShutterTiming":
-        """Return the timing of a scene for columns from the panel's first to before its last."""
+        """Return a scene's timing; ``columns``: the panel's first, and the one after its last."""
         first, end = columns
         return cls(
             Fraction(scene.transmitter.switching_frequency),
@@ -43,23 +43,20 @@ class ShutterTiming:
         return (self.last - self.first) * self.readout_time + self.exposure_time
 
     def whole_chips(self, start: Fraction) -> tuple[int, int]:
-        """Return the chips shown whole, first and after the last; ``start`` of column 0 in s."""
+        """Return the first whole chip and the one after the last; ``start``: of column 0, in s."""
         begin = (start + self.first * self.readout_time) * self.frequency
         return ceil(begin), floor(begin + self.view * self.frequency)
 
     def whole_packets(self, start: Fraction, length: int) -> int:
-        """Return how many packets of some chips a frame shows whole."""
+        """Return how many packets of ``length`` chips a frame shows whole."""
         first, end = self.whole_chips(start)
         return max(end // length - -(-first // length), 0)
 
 
-def packets_received_on_average(
-    timing: ShutterTiming, frame_period: Fraction, length: int
-) -> Fraction:
-    """Return the fraction of packets that frames show whole, on average over the time of the start.
+def mean_packets_received(timing: ShutterTiming, frame_period: Fraction, length: int) -> Fraction:
+    """Return the fraction of packets that frames show whole, averaged over the start time.
 
-    A view of V chips holds a packet of L chips whole from V - L of all starts, of every L where V
-    >= L: the mean number is (V - L) / L.
+    A view of V >= L chips contains on average (V - L) / L whole packets of L chips.
     """
     view = timing.view * timing.frequency
     return max(view - length, Fraction(0)) / (timing.frequency * frame_period)

@@ -1,4 +1,4 @@
-"""The times that a film states for its frames: their period, and what is not regular in them."""
+"""Find the period of the times that a film states for its frames, and irregularities in them."""
 
 from dataclasses import dataclass
 
@@ -8,13 +8,13 @@ from occ_model.arrays import BoolArray, FloatArray, IndexArray
 from occ_model.results.video_reading import MeasuredValue
 from occ_model.scene.units import SECOND
 
-_MAX_INTERVAL_DEVIATION = 0.25  # of a period, by which an interval may differ from whole ones
-_MAX_TIME_DEVIATION = 0.02  # of frame times, as a fraction of the period, that triggers a warning
+_MAX_INTERVAL_DEVIATION = 0.25  # maximum deviation of an interval from whole periods, in periods
+_MAX_TIME_DEVIATION = 0.02  # scatter of frame times in periods from which it is reported
 _MAX_NAMED_FRAMES = 3  # maximum number of frames that a sentence names
 
 LEAST_BREAK = 16.0
-"""Periods between two frames from which the film goes on as another part: what a camera that is
-stopped, or a file that is damaged, states for them says nothing of the frames before."""
+"""Periods between two frames from which a new part of the film begins: the times of a stopped
+camera or a damaged file have no relation to the frames before."""
 
 _MIN_FRAMES_PER_PART = 4.0  # mean number of frames per part from which the times are meaningful
 _MIN_INTERVAL = 1e-9  # seconds below which two frames have the same time
@@ -25,43 +25,43 @@ class Part:
     # The number of its first frame, and of the one after its last
     first: int
     end: int
-    # When its first frame begins, and the time to the end of its last one's period, in seconds
+    # Start of its first frame, and time to the end of its last frame's period, in seconds
     start: float
     duration: float
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class FrameTimes:
-    period: MeasuredValue  # The frame period in seconds; its error is that of the times' scatter
-    # Shape (frames,): how many periods each frame lies after the first one of its part
+    period: MeasuredValue  # Frame period in seconds, with an error from the times' scatter
+    # Shape (frames,): number of periods from the first frame of its part to each frame
     numbers: IndexArray
     parts: tuple[Part, ...]  # The parts of the film, between which the times jump
     problems: tuple[str, ...]
 
     def is_jump(self, interval: float) -> bool:
-        """Whether an interval is so long that another part begins after it, or leads back."""
+        """Return whether an interval leads back, or is so long that a new part begins after it."""
         return interval > LEAST_BREAK * self.period.value or interval < -_MIN_INTERVAL
 
     @property
-    def follow(self) -> bool:
-        """Whether most frames follow each other, so that their times determine a clock."""
+    def are_consecutive(self) -> bool:
+        """Whether most frames are consecutive, so that their times determine a clock."""
         return len(self.parts) == 1 or len(self.numbers) >= _MIN_FRAMES_PER_PART * len(self.parts)
 
     def part_of(self, frame: int) -> Part:
-        """Return the part that a frame is in; the last one for those that came since."""
+        """Return the part that contains a frame; the last one for frames added since."""
         return next((part for part in self.parts if frame < part.end), self.parts[-1])
 
     def elapsed(self, frame: int) -> float:
-        """Return how long the film had run by the end of a frame's period, in seconds."""
+        """Return the time that the film has run at the end of a frame's period, in seconds."""
         here = self.part_of(frame)
         before = sum(part.duration for part in self.parts if part.end <= here.first)
         return before + float(self.numbers[frame] + 1) * self.period.value
 
 
-def frame_times(times: FloatArray, rounded_to: float = 0.0) -> FrameTimes | None:
-    """Find the period of frame times in seconds; None where fewer than two differ.
+def fit_frame_times(times: FloatArray, rounded_to: float = 0.0) -> FrameTimes | None:
+    """Find the period of frame times in seconds; None if fewer than two differ.
 
-    ``rounded_to``: the step that they are whole multiples of, in seconds.
+    ``rounded_to``: the step in seconds of which they are multiples.
     """
     intervals = np.diff(times)
     ahead = intervals[intervals > _MIN_INTERVAL]
@@ -74,14 +74,14 @@ def frame_times(times: FloatArray, rounded_to: float = 0.0) -> FrameTimes | None
     sizes = np.diff(np.append(firsts, len(times)))
     counted = np.concatenate([[0], np.cumsum(counts)])
     numbers = counted - np.repeat(counted[firsts], sizes)
-    # A part begins when it will: only steps within one show the period.
+    # Parts begin at arbitrary times, so only steps within one show the period.
     steps, later = (
         values - np.repeat(np.add.reduceat(values, firsts) / sizes, sizes)
         for values in (numbers.astype(np.float64), times)
     )
     power, free = float(steps @ steps), len(times) - len(firsts) - 1
     period = MeasuredValue(float(steps @ later) / power, rounded_to)
-    problems = _problems(np.where(jumps, 1.0, intervals / usual), counts + jumps, usual)
+    problems = _describe_problems(np.where(jumps, 1.0, intervals / usual), counts + jumps, usual)
     if free > 0:
         residuals = later - steps * period.value
         scatter = float(residuals @ residuals) / free
@@ -93,7 +93,7 @@ def frame_times(times: FloatArray, rounded_to: float = 0.0) -> FrameTimes | None
                 f"from equal steps of {SECOND.format(period.value)}."
             )
     if jumps.any():
-        problems.append(_jump(intervals, jumps))
+        problems.append(_describe_jump(intervals, jumps))
     ends = (firsts + sizes).tolist()
     parts = tuple(
         Part(
@@ -107,41 +107,41 @@ def frame_times(times: FloatArray, rounded_to: float = 0.0) -> FrameTimes | None
     return FrameTimes(period, numbers, parts, tuple(problems))
 
 
-def _jump(intervals: FloatArray, jumps: BoolArray) -> str:
+def _describe_jump(intervals: FloatArray, jumps: BoolArray) -> str:
     frames = np.flatnonzero(jumps)
     return (
         f"The frame times jump by {SECOND.format(float(intervals[frames[0]]))} after "
-        f"{_named(frames)}: what was sent between is not counted."
+        f"{_list_frames(frames)}; what was sent in between is not counted."
     )
 
 
-def _problems(steps: FloatArray, counts: IndexArray, usual: float) -> list[str]:
+def _describe_problems(steps: FloatArray, counts: IndexArray, usual: float) -> list[str]:
     problems = []
     missing = np.flatnonzero(counts > 1)
     if missing.size:
+        frames = _count_frames(int((counts[missing] - 1).sum()))
         problems.append(
-            f"{_frames(int((counts[missing] - 1).sum()))} missing, as the frame times show: after "
-            f"{_named(missing)}."
+            f"According to the frame times {frames} missing after {_list_frames(missing)}."
         )
     backward = np.flatnonzero(steps <= 0.0)
     if backward.size:
         problems.append(
-            f"The frame times do not rise after {_named(backward)}: frames are doubled."
+            f"The frame times do not increase after {_list_frames(backward)}: frames are doubled."
         )
     odd = np.flatnonzero((np.abs(steps - counts) > _MAX_INTERVAL_DEVIATION) & (steps > 0.0))
     if odd.size:
         problems.append(
             f"The frame rate is not constant: {len(odd)} of {len(steps)} intervals are not a "
-            f"whole number of {SECOND.format(usual)}, the first after {_named(odd[:1])}."
+            f"whole number of {SECOND.format(usual)}, the first after {_list_frames(odd[:1])}."
         )
     return problems
 
 
-def _frames(count: int) -> str:
+def _count_frames(count: int) -> str:
     return "1 frame is" if count == 1 else f"{count} frames are"
 
 
-def _named(frames: IndexArray) -> str:
+def _list_frames(frames: IndexArray) -> str:
     names = [str(frame) for frame in frames[:_MAX_NAMED_FRAMES].tolist()]
     more = f" and {len(frames) - _MAX_NAMED_FRAMES} more" if len(frames) > _MAX_NAMED_FRAMES else ""
     return ("frame " if len(frames) == 1 else "frames ") + ", ".join(names) + more

@@ -1,9 +1,9 @@
-"""Join frames: find each one's place in what is sent, and add their likelihoods of each chip.
+"""Join frames: find the place of each in the period, and add up their likelihoods of each chip.
 
-A frame's place follows from a header in view, or from the chips that earlier frames have shown, or
-from the clock, or from all of them together: each place has a likelihood, and a frame is placed
-where one place is far likelier than all others. What is sent repeats, so the log-likelihood ratios
-of a chip that several frames show add up.
+The place of a frame follows from a header in view, from the chips that earlier frames have shown,
+from the clock, or from all of these together. Each place has a likelihood, and a frame is placed if
+one place is far more likely than all others together. Since what is sent repeats, the
+log-likelihood ratios of a chip in several frames add up.
 """
 
 import numpy as np
@@ -13,19 +13,19 @@ from occ_model.results.video_reading import FrameReading
 from occ_model.video.period import SentPeriod
 
 _MAX_FRAME_RATIO = 8.0
-"""Largest log-likelihood ratio of a chip by one frame: a frame may be misplaced."""
+"""Largest log-likelihood ratio of a chip from one frame, because a frame may be misplaced."""
 
 _FIXED_CHIP_RATIO = 30.0  # log-likelihood ratio of a chip that is the same in every packet
 
-_KNOWN_CHIP_RATIO = 2.0  # from which a chip counts as known when places are compared
+_KNOWN_CHIP_RATIO = 2.0  # minimum for a chip to count as known when places are compared
 _MIN_LOG_ODDS = 7.0  # minimum log-odds of the best place against all others together
 
-_CONTRADICTING_LOG_LIKELIHOOD = -12.0  # below which a place contradicts the known chips
+_CONTRADICTING_LOG_LIKELIHOOD = -12.0  # below this a place contradicts the known chips
 _MIN_DEVIATION = 0.15  # minimum standard deviation of a place predicted by the clock, in chips
 
 
-class Joined:
-    """The chips of one period, as frames show them."""
+class JoinedChips:
+    """The chips of one period, joined from frames."""
 
     def __init__(self, period: SentPeriod) -> None:
         self._period = period
@@ -36,38 +36,38 @@ class Joined:
 
     @property
     def ratios(self) -> FloatArray:
-        """Log-likelihood ratio of each chip, 0 where nothing is known, shape (length,)."""
+        """Log-likelihood ratio of each chip, 0 if nothing is known, shape (length,)."""
         return self._votes + _FIXED_CHIP_RATIO * self._period.known
 
     @property
     def seen(self) -> BoolArray:
-        """The chips that some frame shows whole."""
+        """The chips that at least one frame shows whole."""
         return np.asarray(self._counts > 0)
 
     @property
     def known(self) -> BoolArray:
-        """The chips that some frame shows, or that are the same in every packet."""
+        """The chips that a frame shows, or that are the same in every packet."""
         return np.asarray(self.seen | (self._period.known != 0))
 
     def place(
         self,
         frame: FrameReading,
-        foretold: float | None = None,
+        predicted: float | None = None,
         deviation: float = 0.0,
         part_unknown: bool = False,
     ) -> int | None:
-        """Find the place of a frame's first chip; None where none is far likelier than others.
+        """Find the place of a frame's first chip; None if none is far more likely than the others.
 
-        ``foretold`` and ``deviation``: the place by the clock and its standard deviation, in chips.
-        ``part_unknown``: whether places are right but for a whole number of parts.
+        ``predicted`` and ``deviation``: the place by the clock and its standard deviation, in
+        chips. ``part_unknown``: whether places are correct except for a whole number of parts.
         """
         length = self._period.length
         first, last = frame.whole
         if last <= first:
             return None
         likelihood = by_chips = self._likelihood(frame)
-        if foretold is not None:
-            off = np.mod(np.arange(length) - foretold + 0.5 * length, length) - 0.5 * length
+        if predicted is not None:
+            off = np.mod(np.arange(length) - predicted + 0.5 * length, length) - 0.5 * length
             likelihood = likelihood - 0.5 * (off / max(deviation, _MIN_DEVIATION)) ** 2
         shown = self._period.places(frame.chips[first:last])
         places = np.array([(place - first) % length for place in shown], dtype=np.int64)
@@ -84,7 +84,7 @@ class Joined:
         best = int(likelihood.argmax())
         if (
             by_chips[best] < _CONTRADICTING_LOG_LIKELIHOOD
-            or _odds(likelihood, best) < _MIN_LOG_ODDS
+            or _log_odds(likelihood, best) < _MIN_LOG_ODDS
         ):
             return None
         return best
@@ -97,11 +97,11 @@ class Joined:
         np.add.at(self._counts, at[slice(*frame.whole)], 1)
 
     def rotate(self, shift: int) -> None:
-        """Count the places of all chips from another start, ``shift`` chips later."""
+        """Move all chips to places ``shift`` later."""
         self._votes, self._counts = np.roll(self._votes, shift), np.roll(self._counts, shift)
 
     def _likelihood(self, frame: FrameReading) -> FloatArray:
-        """Return the logarithm of the likelihood of each place, 0 for one without information."""
+        """Return the log-likelihood of each place, 0 without any information."""
         ratios, length = self.ratios, self._period.length
         lit, dark = (
             (ratios > _KNOWN_CHIP_RATIO).astype(np.float64),
@@ -113,15 +113,15 @@ class Joined:
         folded = np.zeros((2, length))
         at = np.arange(len(sureness)) % length
         for row, agreed in enumerate((np.log1p(sureness), np.log1p(-sureness))):
-            # Chips of a line code follow from each other: agreement says no more than their bits.
+            # Chips of a line code depend on each other, so agreement counts by bits only.
             np.add.at(folded[row], at, np.where(agreed > 0.0, self._fraction * agreed, agreed))
         spectrum = np.fft.rfft(lit) * np.conj(np.fft.rfft(folded[0]))
         spectrum += np.fft.rfft(dark) * np.conj(np.fft.rfft(folded[1]))
         return np.asarray(np.fft.irfft(spectrum, length))
 
 
-def _odds(likelihood: FloatArray, place: int) -> float:
-    """Return the logarithm of the odds of a place against all others together."""
+def _log_odds(likelihood: FloatArray, place: int) -> float:
+    """Return the log-odds of a place against all others together."""
     others = np.delete(likelihood, place)
     if not others.size:
         return np.inf

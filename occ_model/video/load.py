@@ -1,4 +1,4 @@
-"""Open a film's file: frames in grey levels, read as they are needed, columns the scan axis."""
+"""Open a film's file, and read its frames on demand as grey levels along the scan axis."""
 
 import threading
 from collections.abc import Iterator
@@ -26,37 +26,37 @@ from occ_model.video.file.decoder_process import (
     put_back,
     take_decoder,
 )
-from occ_model.video.file.note import note_in
+from occ_model.video.file.note import read_note
 from occ_model.video.file.source import CHANNELS, StoredFrame
 
 _SAME_TIME = 1e-6  # seconds by which a frame's time may differ from the stated one
-_MAX_DECODED_AHEAD = 10  # frames ahead up to which to decode; one further away is found by its time
-_STEPS_LEFT = 2.0  # maximum distance of a complete film's last frame from its end, in longest steps
-_SCAN_AXIS_FRAMES = 5  # frames at a film's start on which the scan axis is found
+_MAX_DECODED_AHEAD = 10  # frames; one further ahead is found by its time
+_STEPS_LEFT = 2.0  # distance of a complete film's last frame from its end, in longest steps
+_SCAN_AXIS_FRAMES = 5  # frames at a film's start from which the scan axis is found
 
 
 def load_video(path: str | Path, scan_axis: str = "auto", *, channel: str = "luma") -> "VideoFile":
     """Open a film.
 
-    Its frames are read as they are needed, in a process apart that ends with this one; only the one
-    at hand is kept.
+    Its frames are read on demand, in a separate process that ends with this one; only the current
+    one is kept.
 
     Parameters
     ----------
     path
         A file of one of the kinds in :mod:`occ_model.files.film_kinds`, recognized by its content.
-        Frames are turned upright, and their levels are 0 to 255 whatever range the file keeps.
+        Frames are turned upright, and their levels are 0 to 255, whatever range the file uses.
     scan_axis
-        ``"columns"`` or ``"lines"`` of the film, or ``"auto"``: found on the first frames, and used
-        for all.
+        ``"columns"`` or ``"lines"`` of the film, or ``"auto"``: found from the first frames and
+        used for all.
     channel
-        ``"luma"``, ``"red"``, ``"green"`` or ``"blue"``. Most files keep the luma of each pixel,
-        but the colours of four pixels together.
+        ``"luma"``, ``"red"``, ``"green"`` or ``"blue"``. Most files store the luma of each pixel,
+        but the colours of only four pixels together.
 
     Raises
     ------
     VideoError
-        There is no such file, it may not be read, or no frame in it can be.
+        There is no such file, or it or all of its frames cannot be read.
     ParameterError
         ``scan_axis`` or ``channel`` is not one of these words.
     """
@@ -83,33 +83,33 @@ class VideoFile(Video):
         self._channel = channel
         try:
             start = read_start(path, FIRST_BYTES)
-        except SceneFileError as error:  # worded for any file
+        except SceneFileError as error:  # in words for any file
             raise VideoError(str(error)) from None
         self._container = container_of(path, start)
         self.time_step = self._container.time_step
         self._problem: str | None = None
         self._times: list[float] = []
-        # The decoder that stands behind the last requested frame, and that frame.
+        # The decoder positioned after the last requested frame, and that frame.
         self._stepping: tuple[DecoderProcess, VideoFrame] | None = None
         self._lock = threading.Lock()
-        self._look(scan_axis)
+        self._read_first_frames(scan_axis)
         self._take_note()
 
     @property
     def problem(self) -> str | None:
-        """A sentence if the film is damaged or ended early, as far as it has been read; or None."""
+        """A sentence if the film, as far as it was read, is damaged or ends early; else None."""
         return self._problem
 
     def frames(self, first: int = 0) -> Iterator[VideoFrame]:
         """Read the frames in order, from the one with the number ``first``."""
         check_count("first", first, 0)
-        decoder, _ = self._opened()
+        decoder, _ = self._open_decoder()
         index = int(first)
         try:
             if decoder.skip(index) < index:
                 return
-            while (stored := self._next(decoder, index)) is not None:
-                yield self._frame(index, stored)
+            while (stored := self._read_next(decoder, index)) is not None:
+                yield self._make_frame(index, stored)
                 index += 1
         except DecoderStoppedError as error:
             self._problem = f"{self._shown} ends early: frame {index} cannot be read: {error}."
@@ -117,11 +117,11 @@ class VideoFile(Video):
             put_back(decoder)
 
     def __del__(self) -> None:
-        with suppress(AttributeError):  # a film that could not be opened has none
+        with suppress(AttributeError):  # a film that could not be opened has no decoder
             self.close()
 
     def frame(self, index: int) -> VideoFrame:
-        """Read one frame: as read before, at its time by the frame rate, or from the start."""
+        """Read one frame: the last one again, or by its time, or from the start."""
         check_count("index", index, 0)
         with self._lock:
             return self._read_one(int(index))
@@ -129,11 +129,11 @@ class VideoFile(Video):
     def _read_one(self, index: int) -> VideoFrame:
         if self._stepping is not None and self._stepping[1].index == index:
             return self._stepping[1]
-        stored, decoder = self._at(index)
+        stored, decoder = self._find_frame(index)
         if stored is None:
             put_back(decoder)
-            raise ParameterError.of("index", f"{index}", "the number of a frame that is there")
-        frame = self._frame(index, stored)
+            raise ParameterError.of("index", f"{index}", "the number of an existing frame")
+        frame = self._make_frame(index, stored)
         self._stepping = decoder, frame
         return frame
 
@@ -143,27 +143,27 @@ class VideoFile(Video):
             put_back(self._stepping[0])
             self._stepping = None
 
-    def _at(self, index: int) -> tuple[StoredFrame | None, DecoderProcess]:
-        """Find one frame: the next after the one at hand, else by its time, else from the start."""
+    def _find_frame(self, index: int) -> tuple[StoredFrame | None, DecoderProcess]:
+        """Find one frame: shortly after the current one, else by its time, else from the start."""
         stepping, self._stepping = self._stepping, None
         try:
-            decoder = stepping[0] if stepping is not None else self._opened()[0]
+            decoder = stepping[0] if stepping is not None else self._open_decoder()[0]
             passed = -1 if stepping is None else index - stepping[1].index - 1
             if 0 <= passed < _MAX_DECODED_AHEAD:
                 return (
-                    self._next(decoder, index) if decoder.skip(passed) == passed else None
+                    self._read_next(decoder, index) if decoder.skip(passed) == passed else None
                 ), decoder
-            found = self._sought(decoder, index)
+            found = self._seek(decoder, index)
             if found is not None:
                 return found, decoder
             self._open(decoder)
             passed = decoder.skip(index)
-            return (self._next(decoder, index) if passed == index else None), decoder
+            return (self._read_next(decoder, index) if passed == index else None), decoder
         except DecoderStoppedError as error:
             raise VideoError(f"Frame {index} of {self._shown} cannot be read: {error}.") from None
 
-    def _sought(self, decoder: DecoderProcess, index: int) -> StoredFrame | None:
-        """Find a frame by its time: that which it had before, or should have by the frame rate."""
+    def _seek(self, decoder: DecoderProcess, index: int) -> StoredFrame | None:
+        """Find a frame by its time, which was read earlier or follows from the frame rate."""
         if index < len(self._times):
             return decoder.seek(index, self._times[index], _SAME_TIME)
         if self.frame_rate is None or self.frame_count is None or index >= self.frame_count:
@@ -171,8 +171,8 @@ class VideoFile(Video):
         time = self._first_time + index / self.frame_rate
         return decoder.seek(index, time, (self.time_step or 0.0) / 2 + _SAME_TIME)
 
-    def _next(self, decoder: DecoderProcess, index: int) -> StoredFrame | None:
-        """Read the next frame, of this number; note its time, or how the film ends."""
+    def _read_next(self, decoder: DecoderProcess, index: int) -> StoredFrame | None:
+        """Read the next frame, which has this number; note its time, or how the film ends."""
         try:
             stored = decoder.read()
         except VideoError as error:
@@ -204,17 +204,17 @@ class VideoFile(Video):
         return stored
 
     def _note_end(self, frames: int) -> None:
-        """Compare the number of frames with that stated by the file."""
+        """Compare the number of frames with the number that the file states."""
         stated = self.frame_count
         if stated is None or frames >= stated or frames > len(self._times):
             return
         if self._container.states_frame_count:
             self._problem = (
-                f"{self._shown} holds {frames} of the {stated} frames that it states: it may be "
+                f"{self._shown} contains {frames} of the {stated} frames that it states: it may be "
                 "cut off or damaged."
             )
             return
-        # The number was estimated from the length and a rate that the frames need not have.
+        # The number was estimated from the duration and a rate that need not be that of the frames.
         length = stated / self.frame_rate if self.frame_rate else 0.0
         times = np.array(self._times[:frames])
         end = float(times[-1] - self._first_time) if frames else 0.0
@@ -227,37 +227,37 @@ class VideoFile(Video):
         else:
             self.frame_count = frames
 
-    def _look(self, scan_axis: str) -> None:
+    def _read_first_frames(self, scan_axis: str) -> None:
         """Read the size, the first time and the scan axis from the first frames."""
-        decoder, opened = self._opened()
+        decoder, opened = self._open_decoder()
         self.frame_rate, self.frame_count = opened
         try:
             first = decoder.read()
             if first is None:
                 raise VideoError(
-                    NO_MEMORY if decoder.is_full else "it holds no frame that can be decoded."
+                    NO_MEMORY if decoder.is_full else "it contains no frame that can be decoded."
                 )
             self._stored_shape = first.pixels.shape
             self._first_time = first.time
             self.turned = scan_axis == "lines" or (
-                scan_axis == "auto" and self._stripes_are_lines(first, decoder)
+                scan_axis == "auto" and self._are_stripes_lines(first, decoder)
             )
         except (VideoError, DecoderStoppedError) as error:
-            raise self._refusal(decoder, error) from None
+            raise self._refuse(decoder, error) from None
         lines, columns = first.pixels.shape
         self.shape = (columns, lines) if self.turned else (lines, columns)
         put_back(decoder)
 
     def _take_note(self) -> None:
-        """Take the scene and the recording of a simulated film from its file, where there."""
-        note = note_in(self.path)
+        """Take the scene and the recording of a simulated film from its file, if they are in it."""
+        note = read_note(self.path)
         with suppress(SceneFileError, ParameterError):
             self.scene = first_scene_in(note)
         if self.scene is not None:
             self.recording = Recording.from_text(note)
 
-    def _stripes_are_lines(self, first: StoredFrame, decoder: DecoderProcess) -> bool:
-        """Whether over the first frames the means of lines differ more than those of columns."""
+    def _are_stripes_lines(self, first: StoredFrame, decoder: DecoderProcess) -> bool:
+        """Return whether the first frames' means of lines differ more than those of columns."""
         columns = lines = 0.0
         stored: StoredFrame | None = first
         for _ in range(_SCAN_AXIS_FRAMES):
@@ -271,7 +271,7 @@ class VideoFile(Video):
                 break
         return lines > columns
 
-    def _frame(self, index: int, stored: StoredFrame) -> VideoFrame:
+    def _make_frame(self, index: int, stored: StoredFrame) -> VideoFrame:
         image: ByteArray = stored.pixels
         if self.turned:
             image = np.asarray(cv2.transpose(image), np.uint8)
@@ -280,7 +280,7 @@ class VideoFile(Video):
             exposure = self.recording.exposure_time(self.scene, index)
         return VideoFrame(index, stored.time - self._first_time, image, exposure)
 
-    def _opened(self) -> tuple[DecoderProcess, OpenedFilm]:
+    def _open_decoder(self) -> tuple[DecoderProcess, OpenedFilm]:
         decoder = take_decoder()
         return decoder, self._open(decoder)
 
@@ -288,9 +288,9 @@ class VideoFile(Video):
         try:
             return decoder.open(self.path, self._container.reader, self._channel)
         except (VideoError, DecoderStoppedError) as error:
-            raise self._refusal(decoder, error) from None
+            raise self._refuse(decoder, error) from None
 
-    def _refusal(self, decoder: DecoderProcess, error: Exception) -> VideoError:
+    def _refuse(self, decoder: DecoderProcess, error: Exception) -> VideoError:
         put_back(decoder)
         ending = str(error) if isinstance(error, VideoError) else f"{error}."
         return VideoError(f"{self._shown} cannot be read: {ending}")

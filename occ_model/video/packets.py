@@ -1,4 +1,4 @@
-"""The packets that were sent while a film ran: which of them frames show, and how they read."""
+"""Count the packets sent during a film, which of them frames show, and how they are read."""
 
 import math
 from collections.abc import Sequence
@@ -15,40 +15,40 @@ from occ_model.video.period import SentPeriod
 
 @dataclass(frozen=True, eq=False, slots=True)
 class PlacedFrame:
-    """A frame on the count of all chips that were sent."""
+    """A frame and its place in the numbering of all chips that were sent."""
 
     reading: FrameReading
-    first: int  # The number of its first chip among all that were sent
+    first: int  # The number of its first chip in this numbering
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class CountedPart:
-    frames: list[PlacedFrame]  # Its frames that are placed, in the order of time
-    # When it begins by the film's clock, and how long it is, in seconds
+    frames: list[PlacedFrame]  # Its placed frames, in the order of time
+    # Its start by the film's clock, and its duration, in seconds
     start: float
     duration: float
-    span: tuple[float, float]  # The numbers of the chips that begin with it and end with it
+    span: tuple[float, float]  # The chip numbers, with fractions, at its start and at its end
 
 
-def packets_of(
+def count_packets(
     parts: Sequence[CountedPart], period: SentPeriod, bits: ByteArray, frequency: float
 ) -> SentPackets:
-    """Count the packets that were sent while a film ran, and read those in view.
+    """Count the packets sent during a film, and read those in view.
 
-    Of each part count those that start after its first chip and end before its last one. ``bits``:
-    the payload joined from all frames; empty where it was not read.
+    Only packets that lie completely within a part count. ``bits``: the payload joined from all
+    frames; empty if it was not read.
     """
     found: list[FilmPart] = []
     packets: list[PacketReading] = []
-    length, sent, before = period.part_length, _sent_bits(period, bits), 0
+    length, sent, before = period.part_length, _framed_bits(period, bits), 0
     step = length / frequency
     for part in parts:
         first, end = math.ceil(part.span[0] / length), math.floor(part.span[1] / length)
         count = max(end - first, 0)
         begin = (first * length - part.span[0]) / frequency
         found.append(FilmPart(part.start, part.duration, count, begin, step, first % period.parts))
-        frame_of, bits_of = _read(part.frames, period)
-        for number, chips in sorted(_seen(part.frames, length).items()):
+        frame_of, bits_of = _read_packets(part.frames, period)
+        for number, chips in sorted(_count_seen_chips(part.frames, length).items()):
             if not first <= number < end:
                 continue
             read, later = bits_of.get(number), number - first
@@ -60,14 +60,16 @@ def packets_of(
                     frame=frame_of.get(number),
                     seen=chips / length,
                     bits=read,
-                    wrong_bits=_wrong(read, sent, period.slice_of_part(number % period.parts)),
+                    wrong_bits=_count_wrong(
+                        read, sent, period.slice_of_part(number % period.parts)
+                    ),
                 )
             )
         before += count
     return SentPackets(tuple(found), tuple(packets), period.parts)
 
 
-def _wrong(read: ByteArray | None, sent: ByteArray | None, part: slice) -> int | None:
+def _count_wrong(read: ByteArray | None, sent: ByteArray | None, part: slice) -> int | None:
     """Count the bits of a packet that differ from those sent."""
     if read is None or sent is None:
         return None
@@ -75,7 +77,7 @@ def _wrong(read: ByteArray | None, sent: ByteArray | None, part: slice) -> int |
     return int((read != expected).sum()) if len(read) == len(expected) else len(expected)
 
 
-def _seen(frames: list[PlacedFrame], length: int) -> dict[int, int]:
+def _count_seen_chips(frames: list[PlacedFrame], length: int) -> dict[int, int]:
     whole = sorted(
         (frame.first + frame.reading.whole[0], frame.first + frame.reading.whole[1])
         for frame in frames
@@ -92,10 +94,10 @@ def _seen(frames: list[PlacedFrame], length: int) -> dict[int, int]:
     return seen
 
 
-def _read(
+def _read_packets(
     frames: list[PlacedFrame], period: SentPeriod
 ) -> tuple[dict[int, int], dict[int, ByteArray]]:
-    """Read each packet that a frame shows whole; return its frame and its bits by its number."""
+    """Read each packet that a frame shows whole; return frames and bits by the packet's number."""
     length = period.part_length
     frame_of: dict[int, int] = {}
     bits_of: dict[int, ByteArray] = {}
@@ -107,15 +109,15 @@ def _read(
             frame_of[number] = frame.reading.index
             content = chips.tobytes()
             if content not in cache:
-                cache[content] = period.part_bits(chips)
+                cache[content] = period.read_part(chips)
             found = cache[content]
             if found is not None and found[0] == number % period.parts:
                 bits_of[number] = found[1]
     return frame_of, bits_of
 
 
-def _sent_bits(period: SentPeriod, bits: ByteArray) -> ByteArray | None:
-    """Return what the framing was given; None where the payload is not known."""
+def _framed_bits(period: SentPeriod, bits: ByteArray) -> ByteArray | None:
+    """Return the bits that were given to the framing; None if the payload is unknown."""
     if not bits.size or period.scheme is None:
         return None
     if period.parts > 1 and period.scheme.correction != "none":
@@ -123,6 +125,6 @@ def _sent_bits(period: SentPeriod, bits: ByteArray) -> ByteArray | None:
     return bits
 
 
-def counted_on(places: IndexArray, foretold: FloatArray, period: int) -> IndexArray:
-    """Unwrap places over periods, each to the nearest to what the clock predicts."""
-    return np.asarray(places + period * np.rint((foretold - places) / period)).astype(np.int64)
+def unwrap_places(places: IndexArray, predicted: FloatArray, period: int) -> IndexArray:
+    """Unwrap places over periods, each to the value nearest to the clock's prediction."""
+    return np.asarray(places + period * np.rint((predicted - places) / period)).astype(np.int64)

@@ -1,4 +1,4 @@
-"""What is sent repeatedly: its length, its parts, and what a frame shows of a place in it."""
+"""The repeated period of what is sent: its length, its parts, and places that chips show."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -23,24 +23,24 @@ from occ_model.transmitter.packet import sent_chips, shortest_period
 from occ_model.transmitter.scheme import Scheme, scheme_of
 
 _MIN_PREAMBLE_CHIPS = 10  # minimum length of a preamble that a payload rarely contains by chance
-_SAMPLES = 8  # payloads that show which chips are the same in all
+_SAMPLES = 8  # number of payloads compared to find the chips that are the same in all
 
 
 @dataclass(frozen=True)
 class SentPeriod:
-    """One period of what is sent, as far as the receiver knows it before reading."""
+    """One period of what is sent, as far as a receiver knows it before reading."""
 
-    # Its scheme and number of bits are known, not what it sends; of a raw pattern all is
+    # Only its scheme and number of bits are used, not its payload; of a raw pattern all is
     transmitter: Transmitter
 
     @cached_property
     def scheme(self) -> Scheme | None:
-        """The scheme; None of a raw pattern."""
+        """The scheme; None for a raw pattern."""
         return None if self.transmitter.pattern else scheme_of(self.transmitter)
 
     @cached_property
     def pattern(self) -> ByteArray | None:
-        """The chips of a raw pattern's shortest period; None of others."""
+        """The chips of a raw pattern's shortest period; None for anything else."""
         if not self.transmitter.pattern:
             return None
         chips = sent_chips(self.transmitter)
@@ -55,7 +55,7 @@ class SentPeriod:
 
     @cached_property
     def parts(self) -> int:
-        """Parts of equal length that can be read each by itself: sub-packets, or 1."""
+        """Number of equal parts that can each be read alone: the sub-packets, or 1."""
         if self.scheme is None or self.scheme.framing.name != c_ook.FRAMING.name:
             return 1
         return c_ook.count_sub_packets(self.scheme.form.bits)
@@ -66,7 +66,7 @@ class SentPeriod:
 
     @cached_property
     def known(self) -> IndexArray:
-        """The chips that are the same whatever the payload: 1, or -1 for dark, 0 where unknown."""
+        """The chips that do not depend on the payload: 1 for lit, -1 for dark, 0 if unknown."""
         known = np.zeros(self.length, dtype=np.int64)
         if self.pattern is not None:
             return np.where(self.pattern == 1, 1, -1)
@@ -82,7 +82,7 @@ class SentPeriod:
 
     @cached_property
     def header(self) -> tuple[int, ...]:
-        """The chips at the start of every period, as far as they do not depend on the payload."""
+        """The chips at the start of every period that do not depend on the payload."""
         if self.scheme is None:
             return ()
         random = np.random.default_rng(1)
@@ -94,7 +94,7 @@ class SentPeriod:
 
     @property
     def data_start(self) -> int | None:
-        """The chip at which line-coded bits start; None where the framing hides it."""
+        """The chip at which the line-coded bits start; None if the framing has no such place."""
         if self.scheme is None:
             return None
         name = self.scheme.framing.name
@@ -105,23 +105,26 @@ class SentPeriod:
         return None
 
     def places(self, chips: ByteArray) -> tuple[int, ...]:
-        """Return the places in the period that a frame's first chip can have, as headers show it.
+        """Return the possible places of a frame's first chip in the period, according to headers.
 
-        One where a header shows it, several where it may be any of them, none where no header is in
-        view, or several contradict each other. None of ``chips`` is cut off.
+        There is one place if a header determines it and several if it may be any of them. There is
+        none if no header is in view, or if headers contradict each other. All ``chips`` must be
+        whole.
         """
         if self.scheme is None:
             return ()
         if self.scheme.framing.name == c_ook.FRAMING.name:
-            return self._of_sub_packets(chips, self.scheme.form)
-        return self._of_headers(chips, self.scheme.form, self.scheme.framing.name)
+            return self._places_of_sub_packets(chips, self.scheme.form)
+        return self._places_of_headers(chips, self.scheme.form, self.scheme.framing.name)
 
-    def _of_headers(self, chips: ByteArray, form: FrameFormat, framing: str) -> tuple[int, ...]:
+    def _places_of_headers(
+        self, chips: ByteArray, form: FrameFormat, framing: str
+    ) -> tuple[int, ...]:
         if framing == PAPER.name:
             longest = form.line_code.longest_run
             unique = longest is not None and longest < sum(HEADER)
             found = find_headers(chips) if unique else ()
-            # At the end of the view a run of ones may go on.
+            # A run of ones at the end of the view may continue beyond it.
             found = tuple(at for at in found if at + len(HEADER) <= len(chips))
         elif framing in (PREAMBLE.name, RAW.name):
             preamble = preamble_of(form)
@@ -132,7 +135,7 @@ class SentPeriod:
         places = {-at % self.length for at in found}
         return tuple(places) if len(places) == 1 else ()
 
-    def _of_sub_packets(self, chips: ByteArray, form: FrameFormat) -> tuple[int, ...]:
+    def _places_of_sub_packets(self, chips: ByteArray, form: FrameFormat) -> tuple[int, ...]:
         length = self.part_length
         found = find_preambles(chips, own_preamble(form.line_code))
         if not found or len({at % length for at in found}) > 1:
@@ -148,8 +151,8 @@ class SentPeriod:
             return tuple(numbered) if len(numbered) == 1 else ()
         return tuple((part * length - found[0]) % self.length for part in range(self.parts))
 
-    def part_bits(self, chips: ByteArray) -> tuple[int, ByteArray] | None:
-        """Read one part by itself: its number and its bits; None where it is not read."""
+    def read_part(self, chips: ByteArray) -> tuple[int, ByteArray] | None:
+        """Read one part by itself; return its number and its bits, or None if it is not read."""
         if self.scheme is None:
             return None
         if self.parts > 1:
@@ -161,7 +164,7 @@ class SentPeriod:
         return 0, read.bits
 
     def slice_of_part(self, part: int) -> slice:
-        """Return which of the bits that the framing was given a part carries."""
+        """Return the slice of the framing's input bits that a part carries."""
         if self.scheme is None or self.parts == 1:
             return slice(None)
         bits = self.scheme.form.bits

@@ -1,4 +1,4 @@
-"""The phases of frames, and the clock that is fitted to them: a parabola of time with jumps."""
+"""Fit a clock to the phases of frames: a parabola of time with jumps."""
 
 import math
 from dataclasses import dataclass, replace
@@ -8,35 +8,35 @@ import numpy as np
 from occ_model.arrays import BoolArray, FloatArray, IndexArray
 from occ_model.photo.stripes.period import correlated_columns
 
-_MIN_FOR_DRIFT = 6  # frames from which a drift is fitted too
-_OUTLIER_DEVIATIONS = 6.0  # standard deviations from which a phase is an outlier: a misread packet
-_JUMP_DEVIATIONS = 10.0  # deviations from which the phase jumps between two frames
-_MIN_JUMP = 0.1  # smallest jump in chips: the picture itself may shift the phase by less
+_MIN_FOR_DRIFT = 6  # minimum number of frames to fit a drift as well
+_OUTLIER_DEVIATIONS = 6.0  # from which a phase is an outlier, such as of a misread packet
+_JUMP_DEVIATIONS = 10.0  # standard deviations from which a change between two frames is a jump
+_MIN_JUMP = 0.1  # smallest jump in chips, because the picture itself may shift the phase by less
 
 _MAX_JUMPS = 8
 
-_MIN_TO_COMPARE = 16  # minimum frames for a correlation of neighbouring residuals
+_MIN_TO_COMPARE = 16  # minimum number of frames for a correlation of neighbouring residuals
 _CORRELATED_DEVIATIONS = 2.5  # standard deviations from which that correlation is significant
-_SIGMA_OF_MEDIAN = 1.4826  # standard deviation over median deviation of a normal distribution
-_MIN_DEVIATION = 1e-5  # least standard deviation of a phase in chips that is believed
+_SIGMA_OF_MEDIAN = 1.4826  # ratio of standard to median deviation of a normal distribution
+_MIN_DEVIATION = 1e-5  # smallest credible standard deviation of a phase, in chips
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Phases:
-    """What frames show of the clock, in the order of time."""
+class FramePhases:
+    """What frames show about the clock, in the order of time."""
 
     times: FloatArray  # Shape (frames,): the frames' times in seconds
-    columns: FloatArray  # Shape (frames,): the column that each phase is that of
-    # Shape (frames,): the phase of the chips there, in chips from 0 to below ``period``, and its
-    # deviation
+    columns: FloatArray  # Shape (frames,): the column of each phase
+    # Shape (frames,): the phase of the chips there, from 0 to below ``period``, and its standard
+    # deviation, in chips
     places: FloatArray
     errors: FloatArray
-    # Shape (frames,): chips from one column to the next, and its deviation
+    # Shape (frames,): chips per column, and their standard deviation
     steps: FloatArray
     step_errors: FloatArray
-    period: float  # Chips after which what is sent repeats
+    period: float  # Chips after which the transmission repeats
 
-    def first(self, count: int) -> "Phases":
+    def first(self, count: int) -> "FramePhases":
         names = ("times", "columns", "places", "errors", "steps", "step_errors")
         return replace(self, **{name: getattr(self, name)[:count] for name in names})
 
@@ -45,36 +45,36 @@ class Phases:
 class PhaseJump:
     """A jump of the phase between two frames."""
 
-    # The first frame after it, and its time in seconds
+    # The first frame after the jump, and its time in seconds
     frame: int
     time: float
-    chips: float  # The jump, up to whole periods
+    chips: float  # Height of the jump, up to whole periods
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ClockFit:
-    """The phases of frames as a parabola of their times."""
+    """A parabola of time fitted to the phases of frames."""
 
-    # Chips a second in the middle of the film's times, and its standard deviation
+    # Chips per second in the middle of the film, and its standard deviation
     frequency: float
     frequency_error: float
-    # Its change in Hz a second; 0 where too few frames show it
+    # Its change in Hz per second; 0 if there are too few frames
     drift: float
     drift_error: float
-    # Chips from one column to the next
+    # Chips per column
     step: float
     step_error: float
-    middle: float  # The time that the frequency is that of, in seconds
-    start: float  # The phase at that time in column 0, in chips, counted on over periods
-    # Shape (frames,): phases less those of the fit, in chips; of frames that are ``kept``
+    middle: float  # The time in seconds for which the frequency holds
+    start: float  # The unwrapped phase at that time in column 0, in chips
+    # Shape (frames,): phases minus those of the fit, in chips; meaningful for ``kept`` frames
     residuals: FloatArray
-    kept: BoolArray  # Shape (frames,): frames whose phase agrees with the others'
+    kept: BoolArray  # Shape (frames,): frames whose phase agrees with the others
     jumps: tuple[PhaseJump, ...]
-    chi_squared: float  # Sum of the squared residuals over the variances of the phases alone
+    chi_squared: float  # Sum of the squared residuals divided by the phases' own variances
     noise: float  # Standard deviation of a phase about the fit, in chips
 
     def at_start(self, times: FloatArray) -> FloatArray:
-        """Return the phase in column 0 of frames at some times, in chips counted over periods."""
+        """Return the unwrapped phase in column 0 of frames at some times, in chips."""
         later = np.asarray(times, dtype=np.float64) - self.middle
         phase = self.start + self.frequency * later + 0.5 * self.drift * later**2
         for jump in self.jumps:
@@ -86,18 +86,18 @@ class ClockFit:
         later = time - self.middle
         drifted = 0.5 * self.drift_error * later**2
         error = np.hypot(np.hypot(self.noise, self.frequency_error * later), drifted)
-        # Few frames may agree by chance.
+        # A few frames may agree by chance.
         return float(error) * (1.0 + 3.0 / max(int(self.kept.sum()) - 3, 1))
 
 
-def mean_step(phases: Phases) -> tuple[float, float]:
-    """Return the weighted mean of the chips a column, and its deviation.
+def mean_step(phases: FramePhases) -> tuple[float, float]:
+    """Return the weighted mean of the chips per column, and its standard deviation.
 
-    It is that of the frames' scatter, but no less than the frames' own errors imply: an error that
-    all frames share does not scatter.
+    The deviation follows from the frames' scatter, but is not below what the frames' own errors
+    imply, because an error that all frames share does not scatter.
     """
     weights = 1.0 / np.maximum(phases.step_errors, 1e-12) ** 2
-    # A single frame that is surer than all others may be so by mistake.
+    # A single frame may be far more certain than all others by mistake.
     weights = np.minimum(weights, 4.0 * float(np.median(weights)))
     total = float(weights.sum())
     mean = float(weights @ phases.steps / total)
@@ -107,7 +107,7 @@ def mean_step(phases: Phases) -> tuple[float, float]:
     return mean, math.sqrt(max(scatter, stated)) / total
 
 
-def fit_parabola(phases: Phases, counted: FloatArray) -> ClockFit:
+def fit_parabola(phases: FramePhases, counted: FloatArray) -> ClockFit:
     kept = np.ones(len(counted), dtype=bool)
     jumps: list[int] = []
     solution = _solve(phases, counted, kept, jumps)
@@ -127,7 +127,7 @@ def fit_parabola(phases: Phases, counted: FloatArray) -> ClockFit:
     return solution
 
 
-def _solve(phases: Phases, counted: FloatArray, kept: BoolArray, jumps: list[int]) -> ClockFit:
+def _solve(phases: FramePhases, counted: FloatArray, kept: BoolArray, jumps: list[int]) -> ClockFit:
     times = phases.times
     middle = float(times[kept].mean())
     later = times - middle
@@ -135,7 +135,7 @@ def _solve(phases: Phases, counted: FloatArray, kept: BoolArray, jumps: list[int
     has_drift = int(kept.sum()) >= _MIN_FOR_DRIFT + len(jumps)
     parts = [np.ones(len(times)), later]
     if has_drift:
-        # Of the frequency in the middle: the parabola has no slope there on the mean.
+        # The bend's mean is subtracted so that the frequency is that of the middle.
         bend = 0.5 * later**2
         parts.append(bend - float(bend[kept].mean()))
     parts += [(np.arange(len(times)) >= frame).astype(np.float64) for frame in jumps]
@@ -152,21 +152,21 @@ def _solve(phases: Phases, counted: FloatArray, kept: BoolArray, jumps: list[int
         free = max(1, int(kept.sum()) - design.shape[1])
         excess = float(weights @ residuals**2) / free
         before = jitter
-        # The jitter with which the residuals are as large as they are.
+        # The jitter that explains the size of the residuals.
         jitter = float(
             np.sqrt(max(0.0, float((residuals[kept] ** 2 - errors[kept] ** 2).sum()) / free))
         )
         if abs(jitter - before) <= 1e-3 * max(jitter, _MIN_DEVIATION):
             break
-    # Frames agree better than each by itself is sure where a part of their errors is common, such
-    # as the sensor's fixed pattern; that part moves the fit all the same.
+    # Frames may agree better than their own errors imply if a part of these errors is common, such
+    # as that of the sensor's fixed pattern. That part still moves the fit.
     scatter = max(1.0, excess)
     if jitter > 0.0 and free > 2:
-        scatter *= free / (free - 2.0)  # frames may agree by chance: the variance of Student's t
+        scatter *= free / (free - 2.0)  # a few may agree by chance: variance of Student's t
     covariance = inverse * scatter * _correlated_count(residuals[kept]) / np.outer(scale, scale)
     noise = float(np.sqrt(residuals[kept] @ residuals[kept] / free))
     if has_drift:
-        # The phase in the middle is without what the bend's own mean takes off.
+        # Undo the subtraction of the bend's mean in the phase of the middle.
         found = found.copy()
         found[0] -= found[2] * float((0.5 * later[kept] ** 2).mean())
     step, step_error = mean_step(phases)
@@ -193,7 +193,7 @@ def _solve(phases: Phases, counted: FloatArray, kept: BoolArray, jumps: list[int
 
 
 def _correlated_count(residuals: FloatArray) -> float:
-    """Return the number of neighbouring residuals that count as one, 1 for independent ones."""
+    """Return the number of neighbouring residuals that count as one; 1 if they are independent."""
     count = len(residuals)
     power = float(residuals @ residuals)
     if count < _MIN_TO_COMPARE or power <= 0.0:
@@ -207,7 +207,7 @@ def _correlated_count(residuals: FloatArray) -> float:
 
 
 def local_spread(residuals: FloatArray, errors: FloatArray) -> float:
-    """Return the deviation of phases from that of the frame before, free of slow changes."""
+    """Return the standard deviation of phases without slow changes, from their steps."""
     least = float(np.median(errors))
     if len(residuals) < 3:
         return max(least, _MIN_DEVIATION)
@@ -218,7 +218,7 @@ def local_spread(residuals: FloatArray, errors: FloatArray) -> float:
 def _largest_jump(
     residuals: FloatArray, kept: BoolArray, spread: float, jumps: list[int]
 ) -> int | None:
-    """Find the largest jump of the residuals, which lasts: the frames to either side agree."""
+    """Find the largest lasting jump of the residuals, confirmed by the frames on either side."""
     frames: IndexArray = np.flatnonzero(kept)
     if len(frames) < 8:
         return None

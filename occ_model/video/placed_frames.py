@@ -1,7 +1,7 @@
-"""The frames of a film, each at its place in what is sent, and the clock that predicts places.
+"""Place the frames of a film in the period that is sent, and fit the clock that predicts places.
 
-Headers place the first frames; their phases give the clock; the clock and the chips that are known
-by then place others, whose phases improve the clock.
+Headers place the first frames, whose phases give the clock. The clock and the chips known by then
+place other frames, whose phases improve the clock.
 """
 
 from collections.abc import Iterable, Sequence
@@ -12,33 +12,35 @@ import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray
 from occ_model.results.video_reading import Clock, FrameReading
-from occ_model.video.clock import fits_of, state
-from occ_model.video.frame_times import FrameTimes, Part, frame_times
-from occ_model.video.joining import Joined
-from occ_model.video.packets import CountedPart, PlacedFrame, counted_on
+from occ_model.video.clock import describe_clock, fit_film_clock
+from occ_model.video.frame_times import FrameTimes, Part, fit_frame_times
+from occ_model.video.joining import JoinedChips
+from occ_model.video.packets import CountedPart, PlacedFrame, unwrap_places
 from occ_model.video.period import SentPeriod
-from occ_model.video.phase_fit import ClockFit, Phases
+from occ_model.video.phase_fit import ClockFit, FramePhases
 from occ_model.video.read_frame import TimedFrame
 
-_REFIT_GROWTH = 1.25  # factor of the number of frames after which the clock is fitted anew
-FIRST_FIT = 3  # placed frames from which the clock is fitted
-_MIN_PREDICTING_FRAMES = 6  # minimum frames of a fit that predicts the places of others
-_ROUNDS = 4  # maximum rounds over unplaced frames at the end
+_REFIT_GROWTH = 1.25  # growth of the number of frames after which the clock is fitted again
+FIRST_FIT = 3  # minimum number of placed frames to fit the clock
+_MIN_PREDICTING_FRAMES = 6  # minimum number of frames in a fit that predicts places
+_ROUNDS = 4  # maximum number of rounds over unplaced frames at the end
 
-PART_UNKNOWN = "No frame shows which sub-packet it shows, and no sub-packet was in view as a whole."
+PART_UNKNOWN = (
+    "No frame shows the number of its sub-packet, and no sub-packet was completely in view."
+)
 
 
 class PlacedFrames:
-    """Frames, in the order of time, and their places, by a readout time known to a fraction."""
+    """Frames in the order of time, and their places, found with an approximate readout time."""
 
     def __init__(self, period: SentPeriod, readout_time: float, tolerance: float) -> None:
-        self.joined = Joined(period)
+        self.joined = JoinedChips(period)
         self.clock: Clock | None = None
         self.time_step = 0.0
         self.columns = 0
         self.frames: list[TimedFrame] = []
         self.placed = 0
-        self.part_unknown = False  # whether places are right but for a whole number of sub-packets
+        self.part_unknown = False  # whether places are correct except for a number of sub-packets
         self._period = period
         self._readout_time, self._tolerance = readout_time, tolerance
         self._places: list[int | None] = []
@@ -48,22 +50,22 @@ class PlacedFrames:
         self._clock_from = 0
 
     def add(self, timed: TimedFrame) -> bool:
-        """Add the next frame; return whether the clock was fitted anew."""
+        """Add the next frame; return whether the clock was fitted again."""
         self.frames.append(timed)
         self._places.append(None)
         self._place(len(self.frames) - 1)
         if self.placed == 0 and len(self.frames) >= self._next_try:
-            self._next_try = _later(len(self.frames))
+            self._next_try = _next_count(len(self.frames))
             self._place_within_parts()
         if self.placed < self._next_fit:
             return False
-        self._next_fit = _later(self.placed)
+        self._next_fit = _next_count(self.placed)
         self._fit()
         self._place_others()
         return True
 
     def settle(self) -> None:
-        """Place whatever can be placed with all frames at hand."""
+        """Place as many frames as possible, using all of them."""
         if self.placed == 0:
             self._place_within_parts()
         for _ in range(_ROUNDS):
@@ -85,26 +87,26 @@ class PlacedFrames:
         return replace(reading, place=place)
 
     def times(self) -> FrameTimes | None:
-        """Return the frames' times; None for fewer than two."""
+        """Return the frames' times; None for fewer than two frames."""
         times = np.array([timed.reading.time for timed in self.frames])
-        return frame_times(times, self.time_step) if len(times) > 1 else None
+        return fit_frame_times(times, self.time_step) if len(times) > 1 else None
 
-    def counted(self) -> list[CountedPart]:
-        """Return the parts of the film on the count of all chips sent; needs a fit."""
+    def count_parts(self) -> list[CountedPart]:
+        """Return the parts of the film in the numbering of all chips sent; needs a fit."""
         times, fit = self.times(), self.fit
-        assert times is not None  # noqa: S101 - there is a fit of them
-        assert fit is not None  # noqa: S101 - the caller has asked
-        return [self._counted_part(fit, part) for part in times.parts]
+        assert times is not None  # noqa: S101 - a fit exists
+        assert fit is not None  # noqa: S101 - the caller has checked
+        return [self._count_part(fit, part) for part in times.parts]
 
-    def _counted_part(self, fit: ClockFit, part: Part) -> CountedPart:
-        """Count the chips of a part by the clock: from its own frames, if it is not the clock's."""
+    def _count_part(self, fit: ClockFit, part: Part) -> CountedPart:
+        """Count the chips of a part by the clock, aligned to it if fitted to another part."""
         length = self._period.length
         both = [
             (self.frames[number], place)
             for number in range(part.first, part.end)
             if (place := self._places[number]) is not None
         ]
-        begins, inside, places = _shown(fit, both)
+        begins, inside, places = _starts_and_places(fit, both)
         if part.first <= self._clock_from < part.end:
             starts = fit.at_start(begins)
             start, end = fit.at_start(np.array([part.start, part.start + part.duration])).tolist()
@@ -113,7 +115,7 @@ class PlacedFrames:
             turns = np.exp(2j * np.pi * (places - starts - inside) / length).sum()
             start = float(np.angle(turns)) / (2.0 * np.pi) * length
             starts, end = starts + start, start + fit.frequency * part.duration
-        firsts = counted_on(places, starts + inside, length).tolist()
+        firsts = unwrap_places(places, starts + inside, length).tolist()
         frames = [
             PlacedFrame(timed.reading, first)
             for (timed, _), first in zip(both, firsts, strict=True)
@@ -124,24 +126,24 @@ class PlacedFrames:
         timed = self.frames[number]
         if not timed.is_read:
             return False
-        foretold, deviation, fit = None, 0.0, self.fit
+        predicted, deviation, fit = None, 0.0, self.fit
         if (
             fit is not None
             and fit.kept.sum() >= _MIN_PREDICTING_FRAMES
-            and self._is_foretold(number)
+            and self._is_predictable(number)
         ):
             time = timed.reading.time
             phase = float(fit.at_start(np.array([time]))[0]) + fit.step * timed.column
-            foretold = (phase - timed.middle) % self._period.length
+            predicted = (phase - timed.middle) % self._period.length
             deviation = float(np.hypot(fit.phase_error(time), timed.middle_error))
-        place = self.joined.place(timed.reading, foretold, deviation, self.part_unknown)
+        place = self.joined.place(timed.reading, predicted, deviation, self.part_unknown)
         if place is None:
             return False
-        self._enter(number, place)
+        self._record_place(number, place)
         return True
 
-    def _is_foretold(self, number: int) -> bool:
-        """Whether the times from the frames that the clock was fitted to lead on to a frame."""
+    def _is_predictable(self, number: int) -> bool:
+        """Return whether the times lead without a jump from the frames of the clock to this one."""
         times = self._times
         if times is None:
             return False
@@ -151,7 +153,7 @@ class PlacedFrames:
         since = [timed.reading.time for timed in self.frames[known : number + 1]]
         return not any(times.is_jump(after - before) for before, after in pairwise(since))
 
-    def _enter(self, number: int, place: int) -> None:
+    def _record_place(self, number: int, place: int) -> None:
         self._places[number] = place
         self.placed += 1
         self.joined.add(self.frames[number].reading, place)
@@ -163,10 +165,11 @@ class PlacedFrames:
         return sum(self._place(number) for number in others) > 0
 
     def _place_within_parts(self) -> None:
-        """Place frames that show where a sub-packet starts, but none of which shows which it is.
+        """Place frames that show where a sub-packet starts but not its number.
 
-        Their phases within a sub-packet give the clock, and that how many sub-packets lie between
-        them. Which one the first of them is shows once all chips of any are known.
+        Their phases within a sub-packet give the clock, which gives the number of sub-packets
+        between them. The number of the first one is found once all chips of any sub-packet are
+        known.
         """
         length = self._period.part_length
         if self._period.parts == 1:
@@ -178,32 +181,32 @@ class PlacedFrames:
             if places:
                 shown.append((number, (places[0] - first) % length))
         times = self.times()
-        if times is None or not times.follow:
+        if times is None or not times.are_consecutive:
             return
-        part = _fullest(times, (number for number, _ in shown))
+        part = _fullest_part(times, (number for number, _ in shown))
         shown = [(number, place) for number, place in shown if part.first <= number < part.end]
         both = [(self.frames[number], place) for number, place in shown]
         if len(both) < _MIN_PREDICTING_FRAMES:
             return
-        phases = _phases(both, length)
-        fits = fits_of(
+        phases = _frame_phases(both, length)
+        fits = fit_film_clock(
             phases, self._readout_time, self._tolerance, self.columns, times.period.value
         )
         if len(fits) != 1:
             return
         self.part_unknown = True
-        begins, inside, within = _shown(fits[0], both)
-        firsts = counted_on(within, fits[0].at_start(begins) + inside, length).tolist()
+        begins, inside, within = _starts_and_places(fits[0], both)
+        firsts = unwrap_places(within, fits[0].at_start(begins) + inside, length).tolist()
         for (number, _), first, kept in zip(shown, firsts, fits[0].kept, strict=True):
             if kept:
-                self._enter(number, first % self._period.length)
+                self._record_place(number, first % self._period.length)
 
     def _find_part(self) -> None:
-        """Find which sub-packet is which, once all chips of one are known."""
+        """Find the numbers of the sub-packets once all chips of one are known."""
         length, known = self._period.part_length, self.joined.known
         chips = (self.joined.ratios > 0.0).astype(np.uint8)
         for part in np.flatnonzero(known.reshape(-1, length).all(axis=1)).tolist():
-            found = self._period.part_bits(chips[part * length : (part + 1) * length])
+            found = self._period.read_part(chips[part * length : (part + 1) * length])
             if found is not None:
                 self.part_unknown = False
                 shift = (found[0] - part) * length
@@ -217,35 +220,37 @@ class PlacedFrames:
 
     def _fit(self) -> None:
         self._fits, self.clock, times = (), None, self.times()
-        if times is None or not times.follow:
+        if times is None or not times.are_consecutive:
             return
         placed = [(n, place) for n, place in enumerate(self._places) if place is not None]
-        part = _fullest(times, (number for number, _ in placed))
+        part = _fullest_part(times, (number for number, _ in placed))
         both = [(self.frames[n], chip) for n, chip in placed if part.first <= n < part.end]
         if len(both) < FIRST_FIT:
             return
-        phases, period = _phases(both, self._period.length), times.period.value
+        phases, period = _frame_phases(both, self._period.length), times.period.value
         self._times, self._clock_from = times, part.first
-        self._fits = fits_of(phases, self._readout_time, self._tolerance, self.columns, period)
+        self._fits = fit_film_clock(
+            phases, self._readout_time, self._tolerance, self.columns, period
+        )
         if self._fits:
-            self.clock = state(self._fits, phases, times, part, self.columns)
+            self.clock = describe_clock(self._fits, phases, times, part, self.columns)
 
 
-def _fullest(times: FrameTimes, frames: Iterable[int]) -> Part:
+def _fullest_part(times: FrameTimes, frames: Iterable[int]) -> Part:
     counts = np.zeros(len(times.parts), dtype=np.int64)
     ends = np.array([part.end for part in times.parts])
     np.add.at(counts, np.searchsorted(ends, np.array(list(frames), np.int64), side="right"), 1)
     return times.parts[int(counts.argmax())]
 
 
-def _later(count: int) -> int:
+def _next_count(count: int) -> int:
     return int(np.ceil(count * _REFIT_GROWTH)) + 1
 
 
-def _shown(
+def _starts_and_places(
     fit: ClockFit, both: Sequence[tuple[TimedFrame, int]]
 ) -> tuple[FloatArray, FloatArray, IndexArray]:
-    """Return when frames begin, the chips from there to their first one, and its place."""
+    """Return the frames' start times, the chips from there to their first chip, and its place."""
     return (
         np.array([timed.reading.time for timed, _ in both]),
         np.array([fit.step * timed.column - timed.middle for timed, _ in both]),
@@ -253,8 +258,8 @@ def _shown(
     )
 
 
-def _phases(both: Sequence[tuple[TimedFrame, int]], period: int) -> Phases:
-    """Return the phases of frames whose first chip's place is known within a period."""
+def _frame_phases(both: Sequence[tuple[TimedFrame, int]], period: int) -> FramePhases:
+    """Return the phases of frames, given the places of their first chips in a period."""
     rows = [
         (
             timed.reading.time,
@@ -267,4 +272,4 @@ def _phases(both: Sequence[tuple[TimedFrame, int]], period: int) -> Phases:
         for timed, place in both
     ]
     times, columns, places, errors, steps, step_errors = np.array(rows).T
-    return Phases(times, columns, places, errors, steps, step_errors, float(period))
+    return FramePhases(times, columns, places, errors, steps, step_errors, float(period))

@@ -1,4 +1,4 @@
-"""Read one frame of a film: its chips, how sure each is, and their exact timing."""
+"""Read one frame of a film: its chips, their certainty, and their exact timing."""
 
 from collections import deque
 from dataclasses import dataclass, replace
@@ -22,31 +22,31 @@ from occ_model.transmitter.registry import MOST_CHIPS
 from occ_model.video.chip_timing import ChipLattice, ChipTiming, fit_timing
 
 _MAX_UNEXPLAINED = 0.3  # maximum fraction of the variance that the chips leave unexplained
-_REMEMBERED_REGIONS = 5  # previous frames whose regions show where the panel ends: it moves little
-_MAX_DARK = 6.0  # most dark chips in a row at an end of the panel: more than any line code has
+_REMEMBERED_REGIONS = 5  # earlier frames that show where the panel ends, since it moves little
+_MAX_DARK = 6.0  # most dark chips in a row at an end of the panel, more than any line code has
 
 _MOTION_MARGIN = 0.5  # chips by which the panel may have moved since those frames
-_ROUNDING_CHIPS = 1e-6  # chips of rounding that do not cut a chip off
+_ROUNDING_CHIPS = 1e-6  # rounding error in chips that does not cut a chip off
 
-_WHITE_MEAN = WHITE - 1.0  # grey level of a column's mean from which it counts as white
-_MIN_EDGES = 4  # fewest edges between chips that show a lattice
-_MAX_EDGE_ERROR = 0.3  # chips off the lattice from which an edge shows that chips were miscounted
+_WHITE_MEAN = WHITE - 1.0  # mean grey level from which a column counts as white
+_MIN_EDGES = 4  # minimum number of edges between chips to find a lattice
+_MAX_EDGE_ERROR = 0.3  # deviation in chips of an edge that shows a miscount
 
-_SEARCHED_FRACTION = 0.05  # of the expected length of a chip, within which another is searched
-_STEPS_A_TURN = 8.0  # lengths of a chip tried while the last edge moves by a chip against the first
+_SEARCHED_FRACTION = 0.05  # of the expected chip length, within which it is searched
+_STEPS_A_TURN = 8.0  # chip lengths tried while the last edge moves by a chip
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class TimedFrame:
     reading: FrameReading
-    # Where the exposure of ``column`` has its middle, in chips from the first chip's start
+    # Middle of the exposure of ``column``, in chips from the first chip's start, and its error
     middle: float = 0.0
     middle_error: float = 0.0
-    column: float = 0.0  # a column of the picture, the middle one of the region
-    # Chips from one column to the next
+    column: float = 0.0  # The middle column of the region, in the picture's columns
+    # Chips per column, and their error
     step: float = 0.0
     step_error: float = 0.0
-    # Why the frame by itself has no payload, as of a single picture; None where it has
+    # Why the frame by itself gives no payload, as for a single picture; None if it does
     problem: str | None = None
     white: float = 0.0  # Fraction of the panel's columns that are white in the camera's picture
 
@@ -55,8 +55,8 @@ class TimedFrame:
         return bool(self.reading.chips.size)
 
 
-def enhanced_picture(image: ByteArray, region: Region, method: str) -> ByteArray:
-    """Return the panel of a camera's picture as a receiver enhances it, by its columns' means."""
+def enhance_panel(image: ByteArray, region: Region, method: str) -> ByteArray:
+    """Return the panel of a camera's picture, enhanced by its columns' means as in a receiver."""
     enhancement = Enhancement(column_means(image, region), method)
     return enhancement.enhance_bytes(np.ascontiguousarray(region.crop(image)))
 
@@ -64,15 +64,15 @@ def enhanced_picture(image: ByteArray, region: Region, method: str) -> ByteArray
 def read_by_itself(
     image: ByteArray, scene: Scene, decoder: str = PAPER_DECODER
 ) -> tuple[DecodeResult, bool]:
-    """Read a frame as the camera gives it, or enhanced where that alone shows the payload.
+    """Read a frame as the camera gives it, or enhanced if only that shows the payload.
 
-    Return whether it was enhanced, too: the threshold is one of the picture that was read.
+    Also return whether it was enhanced, because the threshold refers to the picture that was read.
     """
     plain = decode(image, scene.replace(enhancement="none"), decoder)
     method, region = scene.model.enhancement, plain.region
     if plain.failure is None or region is None or method == "none":
         return plain, False
-    signal = enhanced_picture(image, region, method).mean(axis=0)
+    signal = enhance_panel(image, region, method).mean(axis=0)
     enhanced = read_with(decoder, signal, scene)
     if enhanced.failure is not None:
         return plain, False
@@ -80,11 +80,11 @@ def read_by_itself(
 
 
 class FrameReader:
-    """Reads frames one after the other, as the camera gives them and as the receiver enhances them.
+    """Reads frames one after another, both as the camera gives them and enhanced.
 
-    Chips' timing is fitted to the light of the camera's picture. Their values are read from either,
-    and those count that explain the light better: an enhancement moves the threshold, so that chips
-    can be distinguished in one picture that cannot in the other.
+    The chips' timing is fitted to the light of the camera's picture. Their values are read from
+    both pictures, and those that explain the light better are used: an enhancement moves the
+    threshold, so that some chips can be distinguished in only one of the pictures.
     """
 
     def __init__(self, scene: Scene, decoder: str) -> None:
@@ -93,43 +93,43 @@ class FrameReader:
         self._spans: deque[tuple[int, int]] = deque(maxlen=_REMEMBERED_REGIONS)
 
     def read(self, frame: VideoFrame) -> TimedFrame:
-        scene = self._of(self._scene, frame)
+        scene = self._with_exposure_of(self._scene, frame)
         result = decode(frame.image, scene, self.decoder)
         reading = FrameReading(frame.index, frame.time, result.region)
         if result.region is None:
             return TimedFrame(replace(reading, failure=result.failure))
         white = 0.0 if result.signal is None else float(np.mean(result.signal >= _WHITE_MEAN))
-        region = self._with_dark_ends(result.region, scene)
+        region = self._widen_by_dark_ends(result.region, scene)
         light = in_light(column_means(frame.image, region), scene).values
         before = result.region.first_column - region.first_column
-        tried = [_timing(result, column_means(frame.image, region), light, before, scene)]
+        tried = [_fit_timing(result, column_means(frame.image, region), light, before, scene)]
         if result.failure is not None and self.enhanced.model.enhancement != "none":
-            tried.append(self._of_enhanced(frame, result.region, region, light))
+            tried.append(self._read_enhanced(frame, result.region, region, light))
         timing, problem = min(tried, key=lambda one: 1.0 if one[0] is None else one[0].unexplained)
         if timing is None:
             return TimedFrame(replace(reading, failure=problem), problem=problem, white=white)
         after = region.last_column - result.region.last_column
-        timed = _timed(reading, region, (before > 0, after > 0), timing)
+        timed = _time_frame(reading, region, (before > 0, after > 0), timing)
         return replace(timed, problem=problem, white=white)
 
-    def _of_enhanced(
+    def _read_enhanced(
         self, frame: VideoFrame, found: Region, region: Region, light: FloatArray
     ) -> tuple[ChipTiming | None, str | None]:
         """Read the chips of the enhanced picture, and fit their timing to the camera's light."""
-        scene = self._of(self.enhanced, frame)
-        signal = enhanced_picture(frame.image, region, scene.model.enhancement).mean(axis=0)
+        scene = self._with_exposure_of(self.enhanced, frame)
+        signal = enhance_panel(frame.image, region, scene.model.enhancement).mean(axis=0)
         before = found.first_column - region.first_column
         part = signal[before : before + found.columns]
         result = read_with(self.decoder, part, scene)
-        return _timing(result, signal, light, before, scene)
+        return _fit_timing(result, signal, light, before, scene)
 
     @staticmethod
-    def _of(scene: Scene, frame: VideoFrame) -> Scene:
+    def _with_exposure_of(scene: Scene, frame: VideoFrame) -> Scene:
         exposure = frame.exposure_time
         return scene if exposure is None else scene.replace(exposure_time=exposure)
 
-    def _with_dark_ends(self, region: Region, scene: Scene) -> Region:
-        """Widen a region by columns that frames before show: dark chips at its ends hide them."""
+    def _widen_by_dark_ends(self, region: Region, scene: Scene) -> Region:
+        """Widen a region by columns of earlier frames, which dark chips at its ends may hide."""
         first, last = region.first_column, region.last_column
         most = round(
             _MAX_DARK / (scene.camera.readout_time * scene.transmitter.switching_frequency)
@@ -140,13 +140,16 @@ class FrameReader:
         return replace(region, first_column=earliest, last_column=latest)
 
 
-def _timing(
+def _fit_timing(
     result: DecodeResult, signal: FloatArray, light: FloatArray, before: int, scene: Scene
 ) -> tuple[ChipTiming | None, str | None]:
-    """Fit the timing of a decoder's chips; else return why they alone hold no payload."""
+    """Fit the timing of a decoder's chips; the second value tells why they give no payload."""
     if result.signal is None or result.chip_starts is None:
-        return None, result.failure or "The decoder gives no chips, which joining frames needs."
-    lattice = first_lattice(result, signal, before, scene)
+        return (
+            None,
+            result.failure or "The decoder gives no chips, which are needed to join frames.",
+        )
+    lattice = fit_lattice(result, signal, before, scene)
     if lattice is None:
         failure = result.failure or "The stripes show no regular chips."
         return None, with_short_chips(failure, scene)
@@ -156,11 +159,11 @@ def _timing(
     return timing, result.failure
 
 
-def _timed(
+def _time_frame(
     reading: FrameReading, region: Region, dark_ends: tuple[bool, bool], timing: ChipTiming
 ) -> TimedFrame:
     lattice, count = timing.lattice, region.columns
-    # In chips from the first one's start: where the first exposure starts and the last one ends.
+    # Start of the first exposure and end of the last one, in chips from the first one's start.
     start = lattice.phase - lattice.first + _MOTION_MARGIN * dark_ends[0]
     end = lattice.phase - lattice.first + lattice.step * (count - 1) + lattice.exposure
     end -= _MOTION_MARGIN * dark_ends[1]
@@ -188,13 +191,13 @@ def _timed(
     )
 
 
-def first_lattice(
+def fit_lattice(
     result: DecodeResult, signal: FloatArray, before: int, scene: Scene
 ) -> ChipLattice | None:
-    """Place the chips of a decoder on a regular lattice; None where it found none.
+    """Place the chips of a decoder on a regular lattice; None if no lattice is found.
 
-    There is none either of chips shorter than a column, or of an exposure longer than all columns.
-    ``before``: how many columns of the signal lie before the result's region. The scene's exposure
+    There is none if chips are shorter than a column, or an exposure is longer than all columns.
+    ``before``: the number of the signal's columns before the result's region. The scene's exposure
     time and switching frequency are a first guess.
     """
     edges = np.flatnonzero(np.diff(result.chips.astype(np.int64))) + 1
@@ -204,40 +207,40 @@ def first_lattice(
     exposure = scene.camera.exposure_time * scene.transmitter.switching_frequency
     places, numbers = starts[edges], edges.astype(np.float64)
     rising = result.chips[edges] == 1
-    step, offsets = _regular(places, numbers, rising)
+    step, offsets = _fit_line(places, numbers, rising)
     if step <= 0.0 or np.abs(offsets).max() > _MAX_EDGE_ERROR:
         if has_short_chips(scene):
             return None
         expected = scene.camera.readout_time * scene.transmitter.switching_frequency
         kinds = Edges(places[rising], places[~rising])
-        step = _most_coherent(kinds, expected)
+        step = _find_most_coherent(kinds, expected)
         numbers = np.rint(np.concatenate(chip_numbers(kinds, lattice_at(kinds, step))))
         places = np.concatenate([kinds.rising, kinds.falling])
-    # Far more than columns can show, or an exposure longer than they all take.
+    # Far more chips than columns can show, or an exposure longer than all columns.
     if not exposure <= step * len(signal) <= MOST_CHIPS:
         return None
-    # The middle of an exposure at a column is where its chip is read.
+    # A chip is read in the column at the middle of whose exposure it lies.
     middle = float(np.mean(numbers - places * step))
     phase = middle - 0.5 * exposure
-    lattice = _regular_chips(len(signal), step, phase, exposure)
+    lattice = _lay_out_chips(len(signal), step, phase, exposure)
     numbers = lattice.first + np.arange(len(lattice.values), dtype=np.float64)
     middles = np.asarray((numbers + 0.5 - middle) / step, dtype=np.float64)
-    return replace(lattice, values=_values(result, starts, signal, middles))
+    return replace(lattice, values=_read_values(result, starts, signal, middles))
 
 
-def _regular(
+def _fit_line(
     places: FloatArray, numbers: FloatArray, rising: BoolArray
 ) -> tuple[float, FloatArray]:
-    """Return the chips a column of a line through edges, and how far each edge lies off it."""
+    """Fit a line through edges; return its chips per column, and each edge's deviation in chips."""
     parts = np.column_stack([np.ones(len(places)), numbers, np.where(rising, 0.5, -0.5)])
     found = np.linalg.lstsq(parts, places, rcond=None)[0]
-    if found[1] * MOST_CHIPS <= 1.0:  # not even a part of a column each
+    if found[1] * MOST_CHIPS <= 1.0:  # not even a fraction of a column each
         return 0.0, np.zeros(len(places))
     return float(1.0 / found[1]), np.asarray((places - parts @ found) / found[1])
 
 
-def _most_coherent(edges: Edges, expected: float) -> float:
-    """Return the chips a column, near what is expected, on whose lattice edges lie best."""
+def _find_most_coherent(edges: Edges, expected: float) -> float:
+    """Return the chips per column, near the expected number, whose lattice fits edges best."""
     extent = max(float(np.ptp(edges.places)), 1.0)
     reach = max(_SEARCHED_FRACTION * expected, 1.0 / extent)
     count = int(np.ceil(2.0 * reach * extent * _STEPS_A_TURN)) + 1
@@ -245,16 +248,16 @@ def _most_coherent(edges: Edges, expected: float) -> float:
     return float(steps[int(np.argmax(coherence(edges, steps)))])
 
 
-def _regular_chips(columns: int, step: float, phase: float, exposure: float) -> ChipLattice:
+def _lay_out_chips(columns: int, step: float, phase: float, exposure: float) -> ChipLattice:
     first = int(np.floor(phase))
     last = max(int(np.ceil(phase + step * (columns - 1) + exposure)), first + 1)
     return ChipLattice(step, phase, exposure, first, np.zeros(last - first, dtype=np.uint8))
 
 
-def _values(
+def _read_values(
     result: DecodeResult, starts: FloatArray, signal: FloatArray, middles: FloatArray
 ) -> ByteArray:
-    """Read each chip in the column whose exposure's middle is the chip's."""
+    """Read each chip in the column whose exposure has the same middle."""
     nearest = np.clip(np.rint(middles), 0, len(signal) - 1).astype(np.int64)
     if result.threshold is not None:
         return np.asarray(signal[nearest] > result.threshold, dtype=np.uint8)

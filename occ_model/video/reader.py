@@ -1,4 +1,4 @@
-"""Read a film: frame by frame as it comes, and as a whole at its end."""
+"""Read a film frame by frame as the frames come, and as a whole at the end."""
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
@@ -23,14 +23,14 @@ from occ_model.scene.scene import Scene, check_scene
 from occ_model.transmitter.packet import code_of
 from occ_model.video.clock import MOST_READOUT_TOLERANCE, READOUT_TOLERANCE
 from occ_model.video.frame_times import FrameTimes
-from occ_model.video.packets import packets_of
+from occ_model.video.packets import count_packets
 from occ_model.video.payload_so_far import (
     NO_CLOCK,
     certainty_of,
+    explain_unplaced,
+    explain_unread,
+    format_bits,
     known_bits,
-    why_not_read,
-    why_unplaced,
-    written,
 )
 from occ_model.video.period import SentPeriod
 from occ_model.video.placed_frames import FIRST_FIT, PART_UNKNOWN, PlacedFrames
@@ -51,20 +51,20 @@ def decode_video(
     Parameters
     ----------
     scene
-        What the receiver knows: scheme and number of bits, and roughly the switching frequency, the
-        exposure time and the readout time.
+        What the receiver knows: the scheme, the number of bits, and approximately the switching
+        frequency, the exposure time and the readout time.
     decoder
         The decoder that finds the chips in each frame.
     readout_tolerance
-        The fraction by which the scene's readout time may be wrong: frequencies that need another
-        one are excluded.
+        Maximum relative error of the scene's readout time; frequencies that imply a larger one are
+        excluded.
     progress
-        Called after each frame. What it raises ends the reading.
+        Called after each frame. An exception from it ends the reading.
 
     Raises
     ------
     ParameterError
-        There is no such decoder, the tolerance is out of range, or the scheme cannot be used.
+        The decoder does not exist, the tolerance is out of range, or the scheme cannot be used.
     VideoError
         The file cannot be read.
     """
@@ -84,7 +84,7 @@ def decode_frames(
     *,
     readout_tolerance: float = READOUT_TOLERANCE,
 ) -> Iterator[FilmProgress]:
-    """Read frames as they come; give what is known after each.
+    """Read frames as they come; yield what is known after each.
 
     Parameters
     ----------
@@ -96,7 +96,7 @@ def decode_frames(
     Raises
     ------
     ParameterError
-        As :func:`decode_video`, at once.
+        As for :func:`decode_video`, raised at once.
     """
     reader = VideoReader(scene, decoder, readout_tolerance=readout_tolerance)
     return (reader.add(frame) for frame in frames)
@@ -105,7 +105,7 @@ def decode_frames(
 class VideoReader:
     """Reads a film as its frames come.
 
-    It keeps the chips of each frame, not its picture: about 2 kB a frame.
+    It keeps the chips of each frame, about 2 kB, but not its picture.
 
     Parameters
     ----------
@@ -136,13 +136,13 @@ class VideoReader:
         self._without_packets = WithoutPackets()
         self._seen = -1
         self._shape: tuple[int, ...] | None = None
-        self._white: float | None = None  # the value of it in the first frame
+        self._white: float | None = None  # the value of white in the first frame
         self._complete_with: int | None = None
         self._payload, self._faults = "", Faults()
 
     @property
     def time_step(self) -> float:
-        """The step that frame times are whole multiples of, in seconds; 0 if they are exact."""
+        """The step of which frame times are multiples, in seconds; 0 if they are exact."""
         return self._placed.time_step
 
     @time_step.setter
@@ -155,15 +155,15 @@ class VideoReader:
         Returns
         -------
         FilmProgress
-            What is known now.
+            What is known after this frame.
 
         Raises
         ------
         ParameterError
-            It is not a frame, its time is not a number from -1e8 to 1e8 s, or its picture is not
-            one, or is of another size than the first: the frames before are kept.
+            It is not a frame, its time is not a number from -1e8 to 1e8 s, or its picture is
+            invalid or has another size than the first one. The earlier frames are kept.
         """
-        frame, white = self._checked(frame)
+        frame, white = self._check_frame(frame)
         with self._faults.counting():
             timed = self._reads.read(frame)
         self._shape, self._placed.columns = frame.image.shape, frame.image.shape[1]
@@ -172,7 +172,7 @@ class VideoReader:
             self._seen = -1
         if self._placed.placed == 0:
             self._without_packets.add(frame.time, frame.image, timed.reading.region)
-        self._read_on()
+        self._update_payload()
         frames = len(self._placed.frames)
         return FilmProgress(
             frame=self._placed.reading(frames - 1),
@@ -185,54 +185,54 @@ class VideoReader:
         )
 
     def reading(self) -> VideoReading:
-        """Return what the frames so far say together."""
+        """Return the result of all frames so far together."""
         placed = self._placed
         placed.settle()
         self._seen = -1
-        self._read_on()
-        soft = self._soft_frame()
-        failure = self._failure(soft)
+        self._update_payload()
+        soft = self._read_soft_frame()
+        failure = self._explain_failure(soft)
         if failure is not None:
-            failure += self._overexposed()
+            failure += self._describe_overexposure()
         bits = soft.framed.bits if soft is not None and failure is None else np.empty(0, np.uint8)
         times, clock = placed.times(), placed.clock
         if placed.placed == 0 and placed.columns:
             readout, tolerance = self._scene.camera.readout_time, self._readout_tolerance
-            clock = self._without_packets.clock(times, readout, tolerance, placed.columns)
+            clock = self._without_packets.fit_clock(times, readout, tolerance, placed.columns)
         number = self._complete_with if failure is None else None
         return VideoReading(
             frames=tuple(placed.reading(number) for number in range(len(placed.frames))),
-            packets=self._packets(bits),
+            packets=self._count_packets(bits),
             clock=clock,
             bits=bits,
             known=self._joined.known,
-            payload=self._written(bits) if bits.size else "",
+            payload=self._format_payload(bits) if bits.size else "",
             certainty=certainty_of(soft, self._period),
             complete_at=None if number is None else placed.frames[number].reading.time,
             duration=0.0 if times is None else sum(part.duration for part in times.parts),
             failure=failure,
-            problems=self._problems(times) if clock is None else clock.problems,
+            problems=self._describe_problems(times) if clock is None else clock.problems,
             faults=str(self._faults),
             complete_after=None
             if number is None or times is None or placed.clock is None
             else times.elapsed(number),
         )
 
-    def _overexposed(self) -> str:
-        """State that the frames are overexposed, where they are: it need not be why."""
+    def _describe_overexposure(self) -> str:
+        """State that the frames are overexposed if they are, which may not be the cause."""
         white = float(np.mean([frame.white for frame in self._placed.frames] or [0.0]))
         return f" {overexposed_text(white)}" if white else ""
 
-    def _problems(self, times: FrameTimes | None) -> tuple[str, ...]:
+    def _describe_problems(self, times: FrameTimes | None) -> tuple[str, ...]:
         """Report irregular times of frames that do not determine a clock."""
         placed = self._placed
         found = () if times is None else times.problems
         if times is None and len(placed.frames) > 1:
-            found = ("The frame times do not rise.",)
+            found = ("The frame times do not increase.",)
         return (*found, NO_CLOCK) if placed.placed >= FIRST_FIT else found
 
-    def _checked(self, frame: VideoFrame) -> tuple[VideoFrame, float | None]:
-        """Return a frame of bytes and the value of white, or refuse one unlike those before."""
+    def _check_frame(self, frame: VideoFrame) -> tuple[VideoFrame, float | None]:
+        """Return a frame in bytes, and the value of white; refuse one unlike the earlier ones."""
         if not isinstance(frame, VideoFrame):
             raise ParameterError.of("frame", shown(frame), "a VideoFrame")
         check_count("index of a frame", frame.index, 0)
@@ -260,46 +260,46 @@ class VideoReader:
             )
         return replace(frame, image=pixels), white
 
-    def _read_on(self) -> None:
-        """Read the payload anew where chips have come into view."""
+    def _update_payload(self) -> None:
+        """Read the payload again if more chips have come into view."""
         seen = int(self._joined.seen.sum())
         if seen == self._seen or self._period.scheme is None:
             return
         self._seen = seen
-        soft = self._soft_frame()
-        if soft is not None and self._failure(soft) is None:
-            self._payload = self._written(soft.framed.bits)
+        soft = self._read_soft_frame()
+        if soft is not None and self._explain_failure(soft) is None:
+            self._payload = self._format_payload(soft.framed.bits)
             if self._complete_with is None:
                 self._complete_with = len(self._placed.frames) - 1
         else:
-            self._payload = written(known_bits(self._joined, self._period), self._scene)
+            self._payload = format_bits(known_bits(self._joined, self._period), self._scene)
 
-    def _soft_frame(self) -> SoftFrame | None:
+    def _read_soft_frame(self) -> SoftFrame | None:
         scheme = self._period.scheme
         if scheme is None or not self._joined.known.all():
             return None
         return read_soft_frame(self._joined.ratios, scheme, self._period.header)
 
-    def _failure(self, soft: SoftFrame | None) -> str | None:
+    def _explain_failure(self, soft: SoftFrame | None) -> str | None:
         if self._placed.placed == 0:
-            described = self._without_packets.described(self._scene.camera.readout_time)
+            described = self._without_packets.describe(self._scene.camera.readout_time)
             if not described:
-                return why_unplaced(self._placed.frames)
+                return explain_unplaced(self._placed.frames)
             if self._without_packets.may_be_packets:
-                return f"{described} {why_unplaced(self._placed.frames)}"
-            return f"{described} Packets as the scene sends them are in none of the frames."
+                return f"{described} {explain_unplaced(self._placed.frames)}"
+            return f"{described} No frame contains packets as the scene sends them."
         if self._placed.part_unknown:
             return PART_UNKNOWN
-        return why_not_read(soft, self._joined, self._period)
+        return explain_unread(soft, self._joined, self._period)
 
-    def _written(self, bits: ByteArray) -> str:
+    def _format_payload(self, bits: ByteArray) -> str:
         payload = self._scene.transmitter.payload
         if payload:
             return payload_of_bits(bits.tolist(), form_of(payload))
         return str(code_of(bits.tolist()))
 
-    def _packets(self, bits: ByteArray) -> SentPackets:
+    def _count_packets(self, bits: ByteArray) -> SentPackets:
         fit = self._placed.fit
         if fit is None or self._period.scheme is None or self._placed.part_unknown:
             return SentPackets()
-        return packets_of(self._placed.counted(), self._period, bits, fit.frequency)
+        return count_packets(self._placed.count_parts(), self._period, bits, fit.frequency)

@@ -1,4 +1,4 @@
-"""Simulate a film: the pictures that a camera takes of a scene one after the other."""
+"""Simulate a film: the pictures that a camera takes of a scene one after another."""
 
 import math
 from collections.abc import Iterator
@@ -18,8 +18,8 @@ from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.simulation.render import render_with
 from occ_model.transmitter.packet import sent_chips
 
-MOST_FRAMES = 100_000_000  # most frames of a film: days even at hundreds a second
-_JITTER, _PICTURE = 0, 1  # which of a frame's own streams of random numbers is for what
+MOST_FRAMES = 100_000_000  # maximum of a film: days even at hundreds per second
+_JITTER, _PICTURE = 0, 1  # numbers of a frame's own streams of random numbers
 
 
 def render_video(
@@ -32,29 +32,29 @@ def render_video(
 ) -> "SimulatedVideo":
     """Simulate the film that the scene's camera takes.
 
-    Frames are simulated one by one as they are asked for; only the one at hand is kept.
+    Frames are simulated one by one on request; only the current one is kept.
 
     Parameters
     ----------
     scene
         The scene; its start time is that of the first frame.
     frames
-        How many frames; None: without end.
+        Number of frames; None for an endless film.
     recording
-        Frame rate, jitter, clocks, motion and exposure times; by default 30 frames a second of the
-        scene as it is.
+        Frame rate, jitter, clocks, motion and exposure times; by default 30 frames per second of
+        the unchanged scene.
     settings
-        The settings of the simulation, those of :func:`occ_model.render` by default. Each frame has
-        its own stream of random numbers from their seed, except that what belongs to the camera
-        itself stays from frame to frame.
+        The settings of the simulation, by default those of :func:`occ_model.render`. Each frame has
+        its own stream of random numbers from their seed, but what belongs to the camera itself
+        stays the same in all frames.
     rows_step
-        From 2 on frames are drafts: every ``rows_step``-th row of each and no other.
+        From 2 on, frames are drafts that contain only every ``rows_step``-th row.
 
     Raises
     ------
     ParameterError
         ``frames`` is not a whole number from 1, a setting is out of range, or the scene cannot be
-        recorded so: see :meth:`occ_model.Recording.check`.
+        recorded this way: see :meth:`occ_model.Recording.check`.
     ProjectionError
         The image would be too large.
     """
@@ -91,7 +91,7 @@ class SimulatedVideo(Video):
         rows = len(range(0, scene.camera.rows, rows_step))
         self.shape = (rows, scene.camera.columns)
         self._rows_step = rows_step
-        self._clocks = _with_drift(scene, recording)
+        self._clocks = _apply_drift(scene, recording)
 
     def frames(self, first: int = 0) -> Iterator[VideoFrame]:
         """Simulate the frames in order, from the one with the number ``first``."""
@@ -118,12 +118,12 @@ class SimulatedVideo(Video):
         )
 
     def seed_of(self, index: int) -> int:
-        """Return the seed of one frame's picture, spawned from that of the film."""
-        words = _spawned(self.settings.seed, index, _PICTURE).generate_state(2, np.uint64)
+        """Return the seed of a frame's picture, derived from that of the film."""
+        words = _spawn_seed(self.settings.seed, index, _PICTURE).generate_state(2, np.uint64)
         return int(words[0]) << 64 | int(words[1])
 
     def start_of(self, index: int) -> Fraction:
-        """Return the exact time in the real world when a frame starts, in seconds."""
+        """Return the exact true start time of a frame, in seconds."""
         start = Fraction(self.scene.model.start_time)
         return start + self._clock(index) / (1 + Fraction(self.recording.camera_drift))
 
@@ -134,17 +134,17 @@ class SimulatedVideo(Video):
         return float(self._clock(index) - self._clock(0))
 
     def scene_of(self, index: int) -> Scene:
-        """Return the very scene that a frame shows: see :class:`occ_model.VideoFrame`.
+        """Return the exact scene that a frame shows: see :class:`occ_model.VideoFrame`.
 
-        Whole packets are taken off the start time, in exact arithmetic, so that its phase in the
-        packet is as exact after days as it is at once; the phase of the mains is kept.
+        Whole packets are subtracted from the start time in exact arithmetic, so that its phase in
+        the packet is as exact after days as at the start; the phase of the mains is kept.
         """
         scene, recording = self._clocks, self.recording
         start = self.start_of(index)
         chips = len(sent_chips(scene.transmitter))
         packet = chips / Fraction(scene.transmitter.switching_frequency)
         within = float(start % packet)
-        changes = {"start_time": within, **self._moved(index)}
+        changes = {"start_time": within, **self._pose_changes(index)}
         if recording.exposure_times:
             exposure = Fraction(recording.exposure_time(scene, index))
             changes["exposure_time"] = float(exposure / (1 + Fraction(recording.camera_drift)))
@@ -154,7 +154,7 @@ class SimulatedVideo(Video):
             changes["flicker_phase"] = math.remainder(phase, 2.0 * math.pi)
         return scene.replace(**changes)
 
-    def _moved(self, index: int) -> dict[str, float]:
+    def _pose_changes(self, index: int) -> dict[str, float]:
         pose = self.scene.pose
         motion = self.recording.motion(float(self._clock(index) - self._clock(0)))
         changes = {name: getattr(pose, name) + moved for name, moved in motion.items()}
@@ -165,23 +165,23 @@ class SimulatedVideo(Video):
         return changes
 
     def _clock(self, index: int) -> Fraction:
-        """Return when a frame starts by the camera's clock, counted from the nominal start."""
+        """Return a frame's start by the camera's clock, counted from the nominal start."""
         nominal = index / Fraction(self.recording.frame_rate)
         jitter = self.recording.frame_jitter
         if not jitter:
             return nominal
-        random = np.random.default_rng(_spawned(self.settings.seed, index, _JITTER))
+        random = np.random.default_rng(_spawn_seed(self.settings.seed, index, _JITTER))
         most = self.recording.gap(self.scene) / 2.0
         return nominal + Fraction(min(max(jitter * random.standard_normal(), -most), most))
 
 
-def _spawned(seed: int, index: int, purpose: int) -> np.random.SeedSequence:
+def _spawn_seed(seed: int, index: int, purpose: int) -> np.random.SeedSequence:
     """Return the seed of one of a frame's own streams of random numbers."""
     return np.random.SeedSequence(seed, spawn_key=(index, purpose))
 
 
-def _with_drift(scene: Scene, recording: Recording) -> Scene:
-    """Return a scene with its times and frequencies in the real world."""
+def _apply_drift(scene: Scene, recording: Recording) -> Scene:
+    """Return the scene with its true times and frequencies."""
     camera, led = 1 + Fraction(recording.camera_drift), 1 + Fraction(recording.transmitter_drift)
     return scene.replace(
         switching_frequency=float(Fraction(scene.transmitter.switching_frequency) * led),

@@ -1,4 +1,4 @@
-"""What a film shows that holds no packets: whole frames that blink, bursts, or a square wave."""
+"""Describe a film without packets: frames that blink as a whole, bursts, or a square wave."""
 
 import math
 from collections.abc import Sequence
@@ -15,19 +15,19 @@ from occ_model.results.decoding import Region
 from occ_model.results.video_reading import Clock, MeasuredValue
 from occ_model.scene.square_wave import CHIPS_OF_A_CYCLE
 from occ_model.scene.units import HERTZ, SECOND, Unit
-from occ_model.video.clock import fits_of, state
+from occ_model.video.clock import describe_clock, fit_film_clock
 from occ_model.video.frame_times import FrameTimes
-from occ_model.video.phase_fit import Phases
+from occ_model.video.phase_fit import FramePhases
 
-_MIN_PERIODS = 3.0  # fewest in a frame of repeated stripes: two may be equal by chance
-_MAX_UNREPEATED = 0.1  # maximum fraction of the stripes' variance that no repeated wave explains
-_MIN_CHANGE = 0.2  # of the brightest frames' light by which dark frames that blink are darker
-_MIN_SAME_FRACTION = 0.9  # minimum fraction of equal frames from which all count as equal
+_MIN_PERIODS = 3.0  # minimum in a frame, because two may be equal by chance
+_MAX_UNREPEATED = 0.1  # of the stripes' variance that a repeated wave may leave unexplained
+_MIN_CHANGE = 0.2  # fraction of the brightest frames' light by which dark frames must differ
+_MIN_SAME_FRACTION = 0.9  # fraction of equal frames from which all count as equal
 
 
 @dataclass(frozen=True, slots=True)
-class _Look:
-    """One frame: its time and mean level, and its stripes where they repeat."""
+class _FrameStripes:
+    """The time and mean level of a frame, and its stripes if they repeat."""
 
     time: float
     level: float
@@ -44,17 +44,17 @@ class _Look:
 
 
 class WithoutPackets:
-    """Looks at the frames of a film in which no packet was found."""
+    """Analyses the frames of a film in which no packet is found."""
 
     def __init__(self) -> None:
-        self._looks: list[_Look] = []
+        self._looks: list[_FrameStripes] = []
 
     def add(self, time: float, image: ByteArray, region: Region | None) -> None:
         region = region or Region(0, image.shape[0], 0, image.shape[1])
         even = without_trend(column_means(image, region))
-        self._looks.append(_look(time, float(image.mean()), even, region.first_column))
+        self._looks.append(_analyse_frame(time, float(image.mean()), even, region.first_column))
 
-    def clock(
+    def fit_clock(
         self, times: FrameTimes | None, readout_time: float, tolerance: float, columns: int
     ) -> Clock | None:
         seen = [look for look in self._looks if look.is_pulse]
@@ -64,7 +64,7 @@ class WithoutPackets:
             or len(seen) < _MIN_SAME_FRACTION * len(self._looks)
         ):
             return None
-        phases = Phases(
+        phases = FramePhases(
             times=np.array([look.time for look in seen]),
             columns=np.array([look.column for look in seen]),
             places=np.array([look.place for look in seen]),
@@ -75,11 +75,11 @@ class WithoutPackets:
             ),
             period=float(CHIPS_OF_A_CYCLE),
         )
-        fits = fits_of(phases, readout_time, tolerance, columns, times.period.value)
+        fits = fit_film_clock(phases, readout_time, tolerance, columns, times.period.value)
         if not fits:
             return None
-        clock = state(fits, phases, times, times.parts[0], columns)
-        # The shape of the lamp shifts the stripes of all frames equally: that does not scatter.
+        clock = describe_clock(fits, phases, times, times.parts[0], columns)
+        # The lamp's shape shifts the stripes of all frames equally, which causes no scatter.
         readout, shared = clock.readout_time, self._period_error(seen)
         error = math.hypot(readout.error, shared * readout.value)
         gap_error = math.hypot(clock.gap.error, columns * shared * readout.value)
@@ -90,36 +90,36 @@ class WithoutPackets:
         )
 
     @staticmethod
-    def _period_error(seen: Sequence[_Look]) -> float:
-        """Return the relative error of a period that many frames show, as that of one of them."""
+    def _period_error(seen: Sequence[_FrameStripes]) -> float:
+        """Return the relative error of a period; many frames do not reduce that of one of them."""
         return float(np.median([look.period_error / look.period for look in seen]))
 
-    def described(self, readout_time: float) -> str:
-        """Describe what the frames show, by a rough readout time; empty for nothing."""
+    def describe(self, readout_time: float) -> str:
+        """Describe what the frames show, using a rough readout time; empty if they show nothing."""
         seen = [look for look in self._looks if look.repeats]
         count = len(self._looks)
         if not seen:
-            return self._of_levels()
-        pulses, what = _mostly_pulses(seen), "The stripes repeat"
+            return self._describe_levels()
+        pulses, what = _select_pulses(seen), "The stripes repeat"
         if pulses:
             seen, what = pulses, "The lamp sends a plain square wave or pulse: its stripes repeat"
         period = float(np.median([look.period for look in seen]))
         columns = Unit("columns").format_estimate(period, period * self._period_error(seen))
         text = (
-            f"{what} after {columns}, {HERTZ.format(1.0 / (period * readout_time), 4)} by a "
-            f"readout time of {SECOND.format(readout_time)}."
+            f"{what} after {columns}, or at {HERTZ.format(1.0 / (period * readout_time), 4)} for "
+            f"a readout time of {SECOND.format(readout_time)}."
         )
         if len(seen) >= _MIN_SAME_FRACTION * count:
             return text
-        return f"{text} They are in {len(seen)} of {count} frames only."
+        return f"{text} Only {len(seen)} of {count} frames show them."
 
     @property
     def may_be_packets(self) -> bool:
-        """Whether the stripes are those of a code: they repeat, and are not a plain pulse."""
+        """Whether the stripes may be those of a code: they repeat and are not a plain pulse."""
         seen = [look for look in self._looks if look.repeats]
-        return bool(seen) and not _mostly_pulses(seen)
+        return bool(seen) and not _select_pulses(seen)
 
-    def _of_levels(self) -> str:
+    def _describe_levels(self) -> str:
         """Describe frames that are bright or dark as a whole."""
         levels = np.array([look.level for look in self._looks])
         low, high = (float(level) for level in np.quantile(levels, (0.1, 0.9)))
@@ -135,30 +135,30 @@ class WithoutPackets:
         )
 
 
-def _mostly_pulses(seen: Sequence[_Look]) -> list[_Look]:
-    """Return the frames that show a plain pulse; none where many show other stripes."""
+def _select_pulses(seen: Sequence[_FrameStripes]) -> list[_FrameStripes]:
+    """Return the frames that show a plain pulse; none if many show other stripes."""
     pulses = [look for look in seen if look.is_pulse]
     return pulses if len(pulses) >= _MIN_SAME_FRACTION * len(seen) else []
 
 
-def _look(time: float, level: float, even: FloatArray, first_column: int) -> _Look:
-    """Look for stripes that repeat, and for the phase of their first harmonic in the middle."""
+def _analyse_frame(time: float, level: float, even: FloatArray, first_column: int) -> _FrameStripes:
+    """Find repeated stripes and the phase of their first harmonic in the middle."""
     columns = len(even)
     found = repeat_period(even) if columns > 2 and float(np.ptp(even)) > 0.0 else None
     if found is None or found[0] * _MIN_PERIODS > columns:
-        return _Look(time, level)
+        return _FrameStripes(time, level)
     period, error = found
     left = unrepeated_fraction(even, period)
     if left > _MAX_UNREPEATED:
-        return _Look(time, level)
+        return _FrameStripes(time, level)
     middle = 0.5 * (columns - 1)
     window = np.hanning(columns + 2)[1:-1]
     turned = np.exp(-2j * np.pi * (np.arange(columns) - middle) / period)
     phase = float(np.angle((window * even) @ turned))
-    # Of a wave whose first harmonic has most of its variance, by the columns that are independent.
+    # For a wave mostly in its first harmonic, by the number of independent columns.
     independent = columns / correlated_columns(even)
     rising = int(np.count_nonzero((even[1:] > 0.0) & (even[:-1] <= 0.0)))
-    return _Look(
+    return _FrameStripes(
         time,
         level,
         period,

@@ -1,1 +1,1 @@
-"""Films in files: the kinds that are read and written, their frames decoded in a process apart."""
+"""Films in files: reading in a separate decoding process, and writing."""

@@ -1,6 +1,6 @@
 """Write animated GIF and PNG files frame by frame.
 
-Pillow keeps all frames in memory until it has them all. The formats: CompuServe, Graphics
+Pillow would keep all frames in memory until the last one. The formats: CompuServe, Graphics
 Interchange Format, version 89a; W3C, Portable Network Graphics (PNG) Specification (Third Edition),
 2025, chunks acTL, fcTL and fdAT.
 """
@@ -20,18 +20,18 @@ from occ_model.errors import OutputError
 _LARGEST_SIDE = 65_535
 _BLOCK = 255  # bytes of a block of data
 
-_LOOP_EXTENSION = b"\x21\xff\x0bNETSCAPE2.0\x03\x01\x00\x00\x00"  # begin again at the end
+_LOOP_EXTENSION = b"\x21\xff\x0bNETSCAPE2.0\x03\x01\x00\x00\x00"  # repeat endlessly
 _HEAD_BYTES, _DESCRIPTION_BYTES = 13, 10
-"""Bytes before the first table of colours, and those that describe a picture."""
+"""Bytes before the first table of colours, and bytes of a picture's description."""
 
 _SIGNATURE = b"\x89PNG\r\n\x1a\n"
 _MAX_DELAY_PART = 65_535  # largest numerator or denominator of a frame's delay
 
 
 def write_gif(path: Path, pictures: Iterator[ByteArray], rate: float, note: str) -> int:
-    """Write grey or coloured pictures with a note as the comment; count them.
+    """Write grey or coloured pictures, with a note as the comment; return their number.
 
-    Each frame's time is rounded to 1/100 s, not each step, so that the film does not run away.
+    Times are rounded to 1/100 s, not steps between frames, so that errors do not add up.
     """
     count = 0
     with path.open("wb") as file:
@@ -47,7 +47,7 @@ def write_gif(path: Path, pictures: Iterator[ByteArray], rate: float, note: str)
                 file.write(_LOOP_EXTENSION + b"\x21\xfe" + _blocks(note.encode()))
             step = round((count + 1) * 100 / rate) - round(count * 100 / rate)
             file.write(struct.pack("<BBBBHBB", 0x21, 0xF9, 4, 4, step, 0, 0))
-            file.write(_gif_of(picture))
+            file.write(_encode_gif(picture))
             count += 1
         file.write(b"\x3b")
     return count
@@ -58,7 +58,7 @@ def _blocks(content: bytes) -> bytes:
     return b"".join(bytes((len(part),)) + part for part in parts) + b"\0"
 
 
-def _gif_of(picture: ByteArray) -> bytes:
+def _encode_gif(picture: ByteArray) -> bytes:
     from PIL import Image
 
     buffer = BytesIO()
@@ -75,16 +75,16 @@ def _gif_of(picture: ByteArray) -> bytes:
 
 
 def write_png(path: Path, pictures: Iterator[ByteArray], rate: float, note: str) -> int:
-    """Write grey or coloured pictures with a note as the text ``Description``; count them."""
+    """Write grey or coloured pictures, with a note as text ``Description``; return their number."""
     delay = (1 / Fraction(rate)).limit_denominator(_MAX_DELAY_PART)
     count = sequence = place = 0
     with path.open("wb") as file:
         for picture in pictures:
-            header, data = _png_of(picture)
+            header, data = _encode_png(picture)
             if count == 0:
                 file.write(_SIGNATURE + _chunk(b"IHDR", header))
                 place = file.tell()
-                file.write(_count_of_frames(1))
+                file.write(_frame_count_chunk(1))
                 file.write(_chunk(b"iTXt", b"Description\0\0\0\0\0" + note.encode()))
             size = header[:8]
             times = struct.pack(">HH", delay.numerator, delay.denominator)
@@ -99,12 +99,12 @@ def write_png(path: Path, pictures: Iterator[ByteArray], rate: float, note: str)
             count += 1
         file.write(_chunk(b"IEND", b""))
         file.seek(place)
-        file.write(_count_of_frames(count))
+        file.write(_frame_count_chunk(count))
     return count
 
 
-def _count_of_frames(count: int) -> bytes:
-    return _chunk(b"acTL", struct.pack(">II", count, 0))  # 0: played again and again
+def _frame_count_chunk(count: int) -> bytes:
+    return _chunk(b"acTL", struct.pack(">II", count, 0))  # 0: repeated endlessly
 
 
 def _chunk(name: bytes, content: bytes) -> bytes:
@@ -112,8 +112,8 @@ def _chunk(name: bytes, content: bytes) -> bytes:
     return struct.pack(">I4s", len(content), name) + content + struct.pack(">I", check)
 
 
-def _png_of(picture: ByteArray) -> tuple[bytes, bytes]:
-    """Encode one picture: its header's content, and its compressed pixels."""
+def _encode_png(picture: ByteArray) -> tuple[bytes, bytes]:
+    """Encode one picture; return the contents of its header and its compressed pixels."""
     bgr = cv2.cvtColor(picture, cv2.COLOR_RGB2BGR) if picture.ndim == 3 else picture
     encoded = cv2.imencode(".png", bgr)[1].tobytes()
     place, header, data = len(_SIGNATURE), b"", b""

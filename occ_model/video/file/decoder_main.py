@@ -1,8 +1,8 @@
-"""The decoder's own process: opens a film and sends the requested frames.
+"""The main program of the decoder's process, which opens a film and sends requested frames.
 
-FFmpeg takes what memory and time a file makes it take: a small damaged film can declare a huge
-frame anywhere. Only a process of its own can be limited and ended, whatever is in a file; and its
-messages on the standard streams are nobody else's.
+FFmpeg takes as much memory and time as a file demands: a small damaged film can declare a huge
+frame anywhere. Only a separate process can be limited and ended whatever a file contains, and its
+messages on the standard streams do not mix with those of the program.
 """
 
 import json
@@ -16,28 +16,28 @@ from contextlib import suppress
 from pathlib import Path
 from typing import IO, Any
 
-DECODER_OPTION = "--decoder-of-films"  # makes a bundled program a decoder
-MOST_MEMORY = 400_000_000  # bytes that decoding may take, beyond those at the process's start
-_BYTES_A_PIXEL_LEFT = 12  # of memory for a decoder to go on: four frames in colours
-LONGEST_REQUEST = 4.0  # seconds of processor time that one request may take
+DECODER_OPTION = "--decoder-of-films"  # starts a bundled program as a decoder
+MOST_MEMORY = 400_000_000  # bytes for decoding, beyond those in use at the process's start
+_BYTES_A_PIXEL_LEFT = 12  # memory that a decoder needs to go on: four coloured frames
+LONGEST_REQUEST = 4.0  # maximum processor time of a request in seconds
 TOOK_TOO_LONG = 21  # exit code of a process that took too long
 
-HEADER = struct.Struct("<II")  # before each answer: the bytes of its JSON and of its pixels
+HEADER = struct.Struct("<II")  # precedes each answer: numbers of bytes of JSON and of pixels
 NO_MEMORY = "decoding it takes more memory than is allowed."  # end of a sentence
-_NO_MEMORY_LEFT = -4  # OpenCV's code of an error where memory lacks: ``cv2.Error.StsNoMem``
-_CHECK_SECONDS = 0.2  # seconds between looks at the processor time
+_NO_MEMORY_LEFT = -4  # OpenCV's error code for lack of memory, ``cv2.Error.StsNoMem``
+_CHECK_SECONDS = 0.2  # seconds between checks of the processor time
 
 
 _IDLE_SECONDS = 60.0  # seconds that a process without a film waits for the next one
 
 
 class _Watch:
-    """Ends the process when a request takes too much processor time, or none comes any more."""
+    """Ends the process if a request takes too much processor time, or requests stop coming."""
 
     def __init__(self) -> None:
         self._since: float | None = None
         self._closed: float | None = None
-        threading.Thread(target=self._look, daemon=True).start()
+        threading.Thread(target=self._watch, daemon=True).start()
 
     def begin(self) -> None:
         self._since, self._closed = time.process_time(), None
@@ -45,7 +45,7 @@ class _Watch:
     def end(self, has_film: bool) -> None:
         self._since, self._closed = None, None if has_film else time.monotonic()
 
-    def _look(self) -> None:
+    def _watch(self) -> None:
         while True:
             time.sleep(_CHECK_SECONDS)
             since = self._since
@@ -57,9 +57,9 @@ class _Watch:
 
 
 def main() -> None:
-    """Answer requests, one JSON object a line, until standard input ends."""
+    """Answer requests, one JSON object per line, until the end of standard input."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    # Nothing that a library prints may come among the answers.
+    # Output of libraries must not mix with the answers.
     answers = os.fdopen(os.dup(1), "wb", buffering=0)
     with Path(os.devnull).open("r+b") as nowhere:
         os.dup2(nowhere.fileno(), 1)
@@ -68,20 +68,20 @@ def main() -> None:
 
     _limit_memory()
     kinds: dict[str, type[FrameSource]] = {"opencv": OpenCvSource, "pillow": PillowSource}
-    answering = _Answering(kinds)
+    responder = _Responder(kinds)
     watch = _Watch()
     with suppress(BrokenPipeError):
         # A bundled program without a console has no sys.stdin.
         for line in os.fdopen(0, "rb"):
             watch.begin()
-            answer, pixels = answering.answer(json.loads(line))
-            watch.end(answering.has_film)
+            answer, pixels = responder.answer(json.loads(line))
+            watch.end(responder.has_film)
             _send(answers, answer, pixels)
-    # The decoders' own clean-up may wait for their threads.
+    # Skip the decoders' clean-up, which may wait for their threads.
     os._exit(0)
 
 
-class _Answering:
+class _Responder:
     """Answers requests about one film at a time."""
 
     def __init__(self, kinds: dict[str, Any]) -> None:
@@ -96,7 +96,7 @@ class _Answering:
         from occ_model.errors import VideoError
 
         try:
-            return self._answered(request)
+            return self._handle(request)
         except VideoError as error:
             return {"refused": str(error)}, None
         except Exception as error:  # noqa: BLE001 - decoders raise anything on damaged files
@@ -104,7 +104,7 @@ class _Answering:
                 return {"refused": NO_MEMORY}, None
             return {"refused": f"decoding it failed ({type(error).__name__})."}, None
 
-    def _answered(self, request: dict[str, Any]) -> tuple[dict[str, Any], Any]:
+    def _handle(self, request: dict[str, Any]) -> tuple[dict[str, Any], Any]:
         if request["do"] in ("open", "close") and self._source is not None:
             self._source.close()
             self._source = None
@@ -144,7 +144,7 @@ def _write(answers: IO[bytes], content: bytes | memoryview) -> None:
 
 
 def _limit_memory() -> None:
-    """Limit this process's memory; Windows has no such limit, and macOS does not hold to it."""
+    """Limit this process's memory; Windows has no such limit, and macOS ignores it."""
     if sys.platform != "linux":
         return
     import resource
@@ -155,7 +155,7 @@ def _limit_memory() -> None:
 
 
 def _data_of_this_process() -> int:
-    """Return the bytes that count for the limit: more than are in use, of threads for example."""
+    """Return the bytes that count towards the limit, more than are in use, such as of threads."""
     for line in Path("/proc/self/status").read_text(encoding="ascii").splitlines():
         if line.startswith("VmData:"):
             return int(line.split()[1]) * 1024
@@ -163,7 +163,7 @@ def _data_of_this_process() -> int:
 
 
 def _is_memory_full(source: Any) -> bool:
-    """Return whether a few more frames exceed the memory: FFmpeg gives no reason."""
+    """Return whether a few more frames would exceed the memory, since FFmpeg gives no reason."""
     import numpy as np
 
     try:

@@ -1,4 +1,4 @@
-"""Start the decoder's own process, and ask it for frames."""
+"""Start the decoder's process, and request frames from it."""
 
 import json
 import os
@@ -16,7 +16,7 @@ from occ_model.errors import VideoError
 from occ_model.video.file.decoder_main import DECODER_OPTION, HEADER, TOOK_TOO_LONG
 from occ_model.video.file.source import StoredFrame
 
-_PACKAGES = Path(__file__).resolve().parents[3]  # the folder that holds this package
+_PACKAGES = Path(__file__).resolve().parents[3]  # the folder that contains this package
 
 START = "import sys; sys.path.insert(0, sys.argv[1]); " \
     "from occ_model.video.file.decoder_main import main; main()"  # fmt: skip
@@ -24,28 +24,28 @@ START = "import sys; sys.path.insert(0, sys.argv[1]); " \
 _ENVIRONMENT = {
     "OPENCV_FFMPEG_LOGLEVEL": "-8",
     "OPENCV_LOG_LEVEL": "SILENT",
-    # Threads take memory, and a film is decoded by FFmpeg's own.
+    # Threads take memory, and FFmpeg decodes with its own threads.
     "OPENBLAS_NUM_THREADS": "1",
     "OMP_NUM_THREADS": "1",
 }
 
 
 OpenedFilm = tuple[float | None, int | None]
-"""Frame rate and number of frames as a film states them, None where it does not."""
+"""Frame rate and number of frames as stated by a film; None if it does not state them."""
 
 
 class DecoderStoppedError(Exception):
-    """The decoder's process has ended; the text is the reason, as the end of a sentence."""
+    """The decoder's process has ended; the text is the reason as the end of a sentence."""
 
 
 class DecoderProcess:
-    """A process that decodes films, one at a time, and the next frame ahead.
+    """A process that decodes one film at a time, and always the next frame in advance.
 
-    ``is_full``: whether the film ended, and no more frames would have fitted into the memory.
+    ``is_full``: whether the film ended without memory for more frames.
     """
 
     def __init__(self) -> None:
-        self._process = process = subprocess.Popen(  # noqa: S603 - this very program
+        self._process = process = subprocess.Popen(  # noqa: S603 - this program itself
             _command(),
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
@@ -58,23 +58,23 @@ class DecoderProcess:
         self.end = weakref.finalize(self, _end, process)
 
     def open(self, path: Path, reader: str, channel: str) -> OpenedFilm:
-        """Open a film; return its frame rate and count. Raises VideoError with a sentence's end."""
-        self._forget()
+        """Open a film; return its frame rate and count. VideoError has the end of a sentence."""
+        self._discard_advance()
         answer, _ = self._ask(
             {"do": "open", "path": str(path.resolve()), "reader": reader, "channel": channel}
         )
         return answer["rate"], answer["count"]
 
     def read(self) -> StoredFrame | None:
-        """Return the next frame, None after the last; the one after it is requested ahead.
+        """Return the next frame, None after the last, and request the one after it in advance.
 
-        Raises VideoError: it cannot be decoded: the end of a sentence.
+        Raises VideoError, with the end of a sentence, if it cannot be decoded.
         """
         if not self._ahead:
             self._send({"do": "read"})
         self._ahead = False
         answer, pixels = self._receive()
-        frame = _frame(answer, pixels)
+        frame = _parse_frame(answer, pixels)
         self.is_full = bool(answer.get("full"))
         if frame is not None:
             self._send({"do": "read"})
@@ -82,15 +82,15 @@ class DecoderProcess:
         return frame
 
     def skip(self, frames: int) -> int:
-        """Skip some frames; return how many there were. Raises as :meth:`read` does."""
+        """Skip some frames; return how many there were. Raises as for :meth:`read`."""
         passed = 0
         if frames > 0 and self._ahead:
             self._ahead = False
-            if _frame(*self._receive()) is None:
+            if _parse_frame(*self._receive()) is None:
                 return 0
             passed = 1
         while passed < frames:
-            # Each request is short, so that a long film does not look like one that hangs.
+            # Each request is short, so that a long film is not mistaken for one that hangs.
             asked = min(frames - passed, _AT_ONCE)
             answer, _ = self._ask({"do": "skip", "frames": asked})
             passed += answer["passed"]
@@ -99,21 +99,23 @@ class DecoderProcess:
         return passed
 
     def seek(self, index: int, time: float, within: float) -> StoredFrame | None:
-        """Return a frame by its number, within some seconds of a time; None where not found."""
-        self._forget()
-        return _frame(*self._ask({"do": "seek", "index": index, "time": time, "within": within}))
+        """Return a frame by its number if its time is ``within`` seconds of ``time``; else None."""
+        self._discard_advance()
+        return _parse_frame(
+            *self._ask({"do": "seek", "index": index, "time": time, "within": within})
+        )
 
     def close_film(self) -> None:
-        """Close the film that is open, whose memory is freed."""
-        self._forget()
+        """Close the open film and free its memory."""
+        self._discard_advance()
         self._ask({"do": "close"})
 
     @property
     def is_alive(self) -> bool:
         return self.end.alive and self._process.poll() is None
 
-    def _forget(self) -> None:
-        """Discard the answer that was requested ahead."""
+    def _discard_advance(self) -> None:
+        """Discard the answer that was requested in advance."""
         if self._ahead:
             self._ahead = False
             self._receive(refuses=False)
@@ -130,17 +132,17 @@ class DecoderProcess:
             stream.write(json.dumps(request).encode() + b"\n")
             stream.flush()
         except OSError:
-            raise self._stopped() from None
+            raise self._explain_end() from None
 
     def _receive(self, refuses: bool = True) -> tuple[dict[str, Any], bytearray]:
-        size, content = HEADER.unpack(self._bytes(HEADER.size))
-        answer: dict[str, Any] = json.loads(bytes(self._bytes(size)))
-        pixels = self._bytes(content)
+        size, content = HEADER.unpack(self._read_bytes(HEADER.size))
+        answer: dict[str, Any] = json.loads(bytes(self._read_bytes(size)))
+        pixels = self._read_bytes(content)
         if refuses and "refused" in answer:
             raise VideoError(answer["refused"])
         return answer, pixels
 
-    def _bytes(self, count: int) -> bytearray:
+    def _read_bytes(self, count: int) -> bytearray:
         stream = self._process.stdout
         if stream is None or stream.closed:
             raise DecoderStoppedError("the decoder was closed")
@@ -149,11 +151,11 @@ class DecoderProcess:
         while place < count:
             got = stream.readinto(view[place:])  # type: ignore[attr-defined]
             if not got:
-                raise self._stopped()
+                raise self._explain_end()
             place += got
         return content
 
-    def _stopped(self) -> DecoderStoppedError:
+    def _explain_end(self) -> DecoderStoppedError:
         code = self._process.wait()
         self.end()
         if code == TOOK_TOO_LONG:
@@ -165,7 +167,7 @@ _AT_ONCE = 16
 
 
 def _command() -> list[str]:
-    if getattr(sys, "frozen", False):  # a bundle, whose programs are no Python
+    if getattr(sys, "frozen", False):  # a bundle has no Python executable
         return [sys.executable, DECODER_OPTION]
     return [sys.executable, "-P", "-c", START, str(_PACKAGES)]
 
@@ -175,18 +177,18 @@ _spare_lock = threading.Lock()
 
 
 def take_decoder() -> DecoderProcess:
-    """Take the process that was put back last, or start one: that takes a third of a second."""
+    """Return the process that was kept, or start one, which takes a third of a second."""
     with _spare_lock:
         decoder = spare.pop() if spare else None
     if decoder is not None and decoder.is_alive:
-        with suppress(DecoderStoppedError):  # it waited so long that it has ended just now
+        with suppress(DecoderStoppedError):  # it may just have ended after its waiting time
             decoder.close_film()
             return decoder
     return DecoderProcess()
 
 
 def put_back(decoder: DecoderProcess) -> None:
-    """Keep one process for the next film, which ends by itself after a while; end others."""
+    """Keep one process for the next film, which ends itself after a while; end any others."""
     try:
         decoder.close_film()
     except DecoderStoppedError:
@@ -198,7 +200,7 @@ def put_back(decoder: DecoderProcess) -> None:
     decoder.end()
 
 
-def _frame(answer: dict[str, Any], pixels: bytearray) -> StoredFrame | None:
+def _parse_frame(answer: dict[str, Any], pixels: bytearray) -> StoredFrame | None:
     if "time" not in answer:
         return None
     shaped = np.frombuffer(pixels, np.uint8).reshape(answer["shape"])
@@ -209,6 +211,6 @@ def _end(process: "subprocess.Popen[bytes]") -> None:
     process.kill()
     for stream in (process.stdin, process.stdout):
         if stream is not None:
-            with suppress(OSError):  # about what was not yet written
+            with suppress(OSError):  # about unwritten data
                 stream.close()
     process.wait()

@@ -1,4 +1,4 @@
-"""The note inside a film's file: what it shows, and how it was made."""
+"""Read and write the note in a film's file that states what it shows and how it was made."""
 
 import struct
 from pathlib import Path
@@ -6,31 +6,31 @@ from uuid import UUID
 
 from occ_model.files.reading import BoundedFile
 
-_MARK = UUID("6f63635f-6d6f-4465-8c5f-66696c6d6e74").bytes  # before a note in MP4 and MKV files
+_MARK = UUID("6f63635f-6d6f-4465-8c5f-66696c6d6e74").bytes  # precedes a note in MP4 and MKV files
 _MAX_NOTE_BYTES = 1_000_000  # bytes of a note
-_VOID = b"\xec"  # Matroska's element for bytes without a meaning to players
+_VOID = b"\xec"  # Matroska's element for bytes that players ignore
 
 
 def mp4_note(note: str) -> bytes:
-    """Return the box of type ``uuid`` that holds a note, to stand at an MP4 file's end."""
+    """Return the box of type ``uuid`` with a note, for the end of an MP4 file."""
     content = _MARK + note.encode()
     return struct.pack(">I4s", 8 + len(content), b"uuid") + content
 
 
 def mkv_note(note: str) -> bytes:
-    """Return the element that holds a note, to stand at an MKV file's end."""
+    """Return the element with a note, for the end of an MKV file."""
     content = _MARK + note.encode()
-    # A size of eight bytes begins with a 1.
+    # A size of eight bytes is marked by a leading 1.
     return _VOID + struct.pack(">Q", 1 << 56 | len(content)) + content
 
 
-def note_in(path: Path) -> str:
-    """Read the note of a film, empty where it has none or it cannot be read."""
+def read_note(path: Path) -> str:
+    """Read the note of a film; empty if there is none or it cannot be read."""
     try:
         with path.open("rb") as file:
             start = file.read(16)
             if start[:4] in (b"GIF8", b"\x89PNG"):
-                return _of_picture(path)
+                return _read_picture_note(path)
             file.seek(0, 2)
             file.seek(max(0, file.tell() - _MAX_NOTE_BYTES))
             end = file.read(_MAX_NOTE_BYTES)
@@ -40,11 +40,11 @@ def note_in(path: Path) -> str:
     return text.decode(errors="replace") if mark else ""
 
 
-def _of_picture(path: Path) -> str:
+def _read_picture_note(path: Path) -> str:
     from PIL import Image
 
     try:
-        # Pillow reads up to the pixels, and unpacks no more text than its own limits allow.
+        # Pillow reads up to the pixels, and limits the text that it unpacks.
         with BoundedFile(path) as file, Image.open(file, formats=("GIF", "PNG")) as picture:
             text = picture.info.get("Description", picture.info.get("comment", ""))
     except Exception:  # noqa: BLE001 - Pillow raises anything on damaged files

@@ -1,4 +1,4 @@
-"""Keep OpenCV and its FFmpeg from printing: their errors are reported in sentences."""
+"""Keep OpenCV and its FFmpeg from printing, because errors are reported in sentences."""
 
 import os
 from collections.abc import Iterator
@@ -7,12 +7,12 @@ from typing import Any
 
 import cv2
 
-_FFMPEG = "OPENCV_FFMPEG_LOGLEVEL"  # looked at once, when FFmpeg is used first
-_SILENT = 0  # OpenCV's level at which it prints nothing
+_FFMPEG = "OPENCV_FFMPEG_LOGLEVEL"  # read once, when FFmpeg is first used
+_SILENT = 0  # OpenCV's level without any output
 
 
 @contextmanager
-def quiet_opencv() -> Iterator[None]:
+def silence_opencv() -> Iterator[None]:
     log: Any = cv2 if hasattr(cv2, "setLogLevel") else cv2.utils.logging  # OpenCV 4, and 5
     level = log.getLogLevel()
     stated = os.environ.get(_FFMPEG)

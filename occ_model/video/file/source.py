@@ -1,4 +1,4 @@
-"""A film's file as pictures with their times, in order, whatever reads it."""
+"""A film's file as a sequence of pictures with times, independent of the library that reads it."""
 
 import math
 import warnings
@@ -12,53 +12,58 @@ import numpy as np
 from occ_model.arrays import ByteArray
 from occ_model.errors import VideoError
 
-CHANNELS = ("luma", "red", "green", "blue")  # most files keep luma in each pixel, colours in 2 x 2
-MAX_PIXELS = 36_000_000  # largest frame that is read: 8K, if its codec's memory suffices
+CHANNELS = (
+    "luma",
+    "red",
+    "green",
+    "blue",
+)  # most files store luma for each pixel, colours for 2 x 2
+MAX_PIXELS = 36_000_000  # largest frame to be read: 8K, if its codec's memory suffices
 
 _MILLISECONDS = 1e3
 _MAX_FRAMES, _FASTEST = 1e9, 1e6
 _THREADS = 2
-"""Threads of FFmpeg. With one for each of many processors, each keeping frames, films of 4K would
-take more memory than the process may have."""
+"""Threads of FFmpeg. One for each of many processors, each keeping frames, would take more
+memory for 4K films than the process may use."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class StoredFrame:
-    time: float  # In seconds, as the container states it
+    time: float  # In seconds, as stated by the container
     pixels: ByteArray  # Shape (lines, columns): one channel, upright
 
 
 class FrameSource(ABC):
-    """An open film's file: yields its frames in order, each once."""
+    """An open film's file, which returns its frames in order, each once."""
 
     pixels: int = 0  # Pixels of a frame
-    # As the container states them; None where it does not
+    # As stated by the container; None if it does not state them
     frame_rate: float | None = None
     frame_count: int | None = None
 
     @abstractmethod
     def __init__(self, path: Path, channel: str) -> None:
-        """Open a file; raise a VideoError where there is no film in it, or too large a one."""
+        """Open a file; raise VideoError if it contains no film, or one that is too large."""
 
     @abstractmethod
     def read(self) -> StoredFrame | None:
-        """Return the next frame, None after the last that can be decoded."""
+        """Return the next frame; None after the last one that can be decoded."""
 
     @abstractmethod
     def skip(self) -> bool:
         """Skip the next frame; return whether there was one."""
 
     def seek(self, index: int, time: float, within: float) -> StoredFrame | None:  # noqa: ARG002
-        """Return a frame anywhere in the film, None where this source cannot find it surely."""
+        """Return any frame of the film; None if this source cannot find it reliably."""
         return None
 
     @abstractmethod
     def close(self) -> None:
-        """Free the file and the decoder."""
+        """Release the file and the decoder."""
 
 
-def one_channel(pixels: ByteArray, channel: str) -> ByteArray:
-    """Take one channel of pixels of shape (lines, columns) or (lines, columns, 3): BGR."""
+def extract_channel(pixels: ByteArray, channel: str) -> ByteArray:
+    """Extract one channel of pixels of shape (lines, columns) or (lines, columns, 3) in BGR."""
     if pixels.ndim == 2:
         return pixels
     if channel == "luma":
@@ -66,8 +71,8 @@ def one_channel(pixels: ByteArray, channel: str) -> ByteArray:
     return np.asarray(cv2.extractChannel(pixels, ("blue", "green", "red").index(channel)), np.uint8)
 
 
-def too_large(width: float, height: float) -> str | None:
-    """Return, as a sentence's end, why frames are too large, before any is decoded; else None."""
+def explain_too_large(width: float, height: float) -> str | None:
+    """Return, as the end of a sentence, why frames are too large, before decoding; else None."""
     if 0 < width * height <= MAX_PIXELS:
         return None
     return (
@@ -77,11 +82,11 @@ def too_large(width: float, height: float) -> str | None:
 
 
 class OpenCvSource(FrameSource):
-    """The frames of a film as OpenCV's FFmpeg decodes them, turned upright."""
+    """The frames of a film as decoded by OpenCV's FFmpeg, turned upright."""
 
     def __init__(self, path: Path, channel: str) -> None:
         self._channel = channel
-        # FFmpeg takes what begins with "/" or a drive's letter for a file, never for an address.
+        # FFmpeg takes a path from "/" or a drive's letter for a file, never for an address.
         self._capture = cv2.VideoCapture(
             str(path.resolve()), cv2.CAP_FFMPEG, (cv2.CAP_PROP_N_THREADS, _THREADS)
         )
@@ -89,7 +94,7 @@ class OpenCvSource(FrameSource):
             raise VideoError("no film was found in it.")
         width = self._capture.get(cv2.CAP_PROP_FRAME_WIDTH)
         height = self._capture.get(cv2.CAP_PROP_FRAME_HEIGHT)
-        problem = too_large(width, height)
+        problem = explain_too_large(width, height)
         if problem:
             raise VideoError(problem)
         self.pixels = int(width * height)
@@ -103,15 +108,15 @@ class OpenCvSource(FrameSource):
         if not found or pixels is None:
             return None
         time = self._capture.get(cv2.CAP_PROP_POS_MSEC) / _MILLISECONDS
-        channel = one_channel(np.asarray(pixels, np.uint8), self._channel)
+        channel = extract_channel(np.asarray(pixels, np.uint8), self._channel)
         return StoredFrame(time if math.isfinite(time) else 0.0, channel)
 
     def skip(self) -> bool:
         return bool(self._capture.grab())
 
     def seek(self, index: int, time: float, within: float) -> StoredFrame | None:
-        """Return a frame anywhere in the film, None where it has another time than was stated."""
-        # OpenCV counts frames by their times, which fails where they are not equally far apart.
+        """Return any frame of the film; None if its time differs from the stated one."""
+        # OpenCV numbers frames by their times, which fails if they are not equally spaced.
         if not self._capture.set(cv2.CAP_PROP_POS_FRAMES, index):
             return None
         frame = self.read()
@@ -122,18 +127,18 @@ class OpenCvSource(FrameSource):
 
 
 class PillowSource(FrameSource):
-    """The frames of an animated picture as Pillow decodes them, transparent parts black."""
+    """The frames of an animated picture as decoded by Pillow, with transparent parts black."""
 
     def __init__(self, path: Path, channel: str) -> None:
         from PIL import Image
 
-        warnings.simplefilter("ignore")  # about sizes, which are checked here
+        warnings.simplefilter("ignore")  # warnings about sizes, which are checked here
         Image.MAX_IMAGE_PIXELS = None
         self._channel = channel
         try:
             self._picture = Image.open(path, formats=("GIF", "PNG"))
             width, height = self._picture.size
-            problem, self.pixels = too_large(width, height), width * height
+            problem, self.pixels = explain_too_large(width, height), width * height
             if problem is None:
                 self.frame_count = int(getattr(self._picture, "n_frames", 1))
         except Exception:  # noqa: BLE001 - Pillow raises anything on damaged files
@@ -154,8 +159,8 @@ class PillowSource(FrameSource):
         if pixels.ndim == 3:
             lit = pixels[..., 2::-1].astype(np.uint16) * pixels[..., 3:]
             pixels = np.asarray((lit + 127) // 255, np.uint8)
-        frame = StoredFrame(self._time, one_channel(pixels, self._channel))
-        self._passed()
+        frame = StoredFrame(self._time, extract_channel(pixels, self._channel))
+        self._advance()
         return frame
 
     def skip(self) -> bool:
@@ -163,12 +168,12 @@ class PillowSource(FrameSource):
             self._picture.seek(self._next)
         except Exception:  # noqa: BLE001 - as above
             return False
-        self._passed()
+        self._advance()
         return True
 
     def close(self) -> None:
         self._picture.close()
 
-    def _passed(self) -> None:
+    def _advance(self) -> None:
         self._time += float(self._picture.info.get("duration", 0.0)) / _MILLISECONDS
         self._next += 1

@@ -1,11 +1,12 @@
-"""Write films: frame by frame, complete or not at all, with a note inside that says what they show.
+"""Write films frame by frame, completely or not at all, with a note on what they show.
 
 The note of a GIF file is its comment, that of a PNG file the text ``Description``. MP4 and MKV
-files have it in a block at their end that players pass over.
+files have it in a block at their end that players ignore.
 
-PyAV 18.1 was measured in its place, on 60 frames of 1280 x 720: it takes 103 MB more, writes no
-note into GIF and PNG files, and an animated PNG in 7.7 times the time. Frame times are the same to
-2e-16 s, of an animated PNG off by up to 0.2 ms; MP4 is decoded in 1.6 times the time, GIF in 0.4.
+PyAV 18.1 was measured as an alternative, on 60 frames of 1280 x 720. It takes 103 MB more, writes
+no note into GIF and PNG files, and takes 7.7 times as long for an animated PNG. Frame times agree
+to 2e-16 s, but those of an animated PNG deviate by up to 0.2 ms. Decoding takes 1.6 times as long
+for MP4, and 0.4 times for GIF.
 """
 
 import errno
@@ -23,13 +24,13 @@ from occ_model.results.video import USUAL_RATE, Video
 from occ_model.scene.provenance import Provenance
 from occ_model.video.file.animated_pictures import write_gif, write_png
 from occ_model.video.file.note import mkv_note, mp4_note
-from occ_model.video.file.quiet import quiet_opencv
+from occ_model.video.file.quiet import silence_opencv
 
-_CODECS = {".mp4": "mp4v", ".mkv": "FFV1"}  # MPEG-4, which is lossy, and FFV1, which is not
+_CODECS = {".mp4": "mp4v", ".mkv": "FFV1"}  # MPEG-4, which is lossy, and FFV1, which is lossless
 LOSSLESS = (".mkv", ".gif", ".png")  # endings of files that keep grey frames exactly
-FILM_ENDINGS = (".mp4", *LOSSLESS)  # endings of the files that films are written to
+FILM_ENDINGS = (".mp4", *LOSSLESS)  # endings of files to which films can be written
 
-_RATES = {  # frames a second that a file can state; players of GIF files show none faster
+_RATES = {  # frames per second that a file can state, or for GIF that players can show
     ".mp4": (0.01, 65_535.0),
     ".mkv": (0.01, 1e5),
     ".gif": (0.002, 50.0),
@@ -38,11 +39,11 @@ _RATES = {  # frames a second that a file can state; players of GIF files show n
 
 
 def write_frames(path: Path, pictures: Iterable[ByteArray], rate: float, note: str) -> int:
-    """Write a film frame by frame; return their number.
+    """Write a film frame by frame; return the number of frames.
 
-    ``pictures``: uint8 of one shape: (lines, columns), or (lines, columns, 3) with red, green and
-    blue. MP4 and MKV files have an even number of both: a last odd one is left out. OpenCV reports
-    no error: its file's frames are counted before it replaces another.
+    ``pictures``: uint8 of a common shape, (lines, columns) or (lines, columns, 3) with red, green
+    and blue. MP4 and MKV files need even numbers of both, so a last odd one is omitted. Because
+    OpenCV reports no errors, the frames in its file are counted before it replaces an older file.
     """
     check_film_path(path, rate)
     name, ending = one_line(path.name), path.suffix.lower()
@@ -65,7 +66,7 @@ def write_frames(path: Path, pictures: Iterable[ByteArray], rate: float, note: s
         if count == 0:
             raise OutputError(f"{name} is not written: the film has no frames.")
         if ending in _CODECS:
-            found = _frames_in(temporary)
+            found = _count_frames(temporary)
             if found != count:
                 raise OutputError(
                     f"{one_line(str(path))} cannot be written: only {found} of {count} frames can "
@@ -75,7 +76,7 @@ def write_frames(path: Path, pictures: Iterable[ByteArray], rate: float, note: s
 
 
 def check_film_path(path: Path, rate: float, size: tuple[int, int] | None = None) -> None:
-    """Refuse a path that no film of a frame rate, and of a size (lines, columns), is written to."""
+    """Refuse a path to which no film of this rate and size (lines, columns) can be written."""
     ending = path.suffix.lower()
     if ending not in FILM_ENDINGS:
         raise OutputError(
@@ -96,9 +97,9 @@ def check_film_path(path: Path, rate: float, size: tuple[int, int] | None = None
         )
 
 
-def _frames_in(path: Path) -> int:
-    """Count the frames of a film that was written here, without decoding."""
-    with quiet_opencv():
+def _count_frames(path: Path) -> int:
+    """Count the frames of a film that was just written, without decoding them."""
+    with silence_opencv():
         capture = cv2.VideoCapture(str(path), cv2.CAP_FFMPEG, (cv2.CAP_PROP_FORMAT, -1))
         count = 0
         while capture.grab():
@@ -107,56 +108,58 @@ def _frames_in(path: Path) -> int:
     return count
 
 
-def _by_opencv(path: Path, pictures: Iterator[ByteArray], rate: float, note: str) -> int:
+def _write_by_opencv(path: Path, pictures: Iterator[ByteArray], rate: float, note: str) -> int:
     ending, count = path.suffix.lower(), 0
     writer: cv2.VideoWriter | None = None
     try:
         for picture in pictures:
             lines, columns = (side // 2 * 2 for side in picture.shape[:2])
             if writer is None:
-                writer = _opened(path, rate, (lines, columns), picture.ndim == 3)
+                writer = _open_writer(path, rate, (lines, columns), picture.ndim == 3)
             cut = picture[:lines, :columns]
             pixels = cv2.cvtColor(cut, cv2.COLOR_RGB2BGR) if cut.ndim == 3 else cut.copy()
-            with quiet_opencv():
+            with silence_opencv():
                 writer.write(pixels)
             _check_space(path)
             count += 1
     finally:
         if writer is not None:
-            with quiet_opencv():
+            with silence_opencv():
                 writer.release()
     with path.open("ab") as file:
         file.write(mp4_note(note) if ending == ".mp4" else mkv_note(note))
         file.flush()
-        os.fsync(file.fileno())  # some disks say only now that they are full
+        os.fsync(file.fileno())  # some disks report only now that they are full
     return count
 
 
 def _check_space(path: Path) -> None:
-    """Raise an error where the disk is full, which OpenCV does not report."""
+    """Raise an error if the disk is full, which OpenCV does not report."""
     if shutil.disk_usage(path.parent).free == 0:
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
 
-def _opened(path: Path, rate: float, size: tuple[int, int], has_colours: bool) -> cv2.VideoWriter:
+def _open_writer(
+    path: Path, rate: float, size: tuple[int, int], has_colours: bool
+) -> cv2.VideoWriter:
     ending, (lines, columns) = path.suffix.lower(), size
     code = cv2.VideoWriter.fourcc(*_CODECS[ending])
-    with quiet_opencv():
+    with silence_opencv():
         writer = cv2.VideoWriter(
             str(path), cv2.CAP_FFMPEG, code, rate, (columns, lines), has_colours
         )
     if not writer.isOpened():
         _check_space(path)
         raise OutputError(
-            f"No {ending[1:].upper()} film of {columns:,} x {lines:,} pixels can be begun: the "
-            "disk is full, or OpenCV cannot write one; use .gif or .png."
+            f"No {ending[1:].upper()} film of {columns:,} x {lines:,} pixels can be started: the "
+            "disk is full, or OpenCV cannot write such a film; use .gif or .png."
         )
     return writer
 
 
 _WRITERS: dict[str, Callable[[Path, Iterator[ByteArray], float, str], int]] = {
-    ".mp4": _by_opencv,
-    ".mkv": _by_opencv,
+    ".mp4": _write_by_opencv,
+    ".mkv": _write_by_opencv,
     ".gif": write_gif,
     ".png": write_png,
 }
@@ -167,32 +170,32 @@ def write_video(
 ) -> int:
     """Write a film to a file.
 
-    Its frames get equal steps of time, whatever the jitter. The scene and the recording are kept
-    inside; :func:`occ_model.load_video` gives them back.
+    Its frames get equal time steps, whatever the jitter. The scene and the recording are stored in
+    the file; :func:`occ_model.load_video` restores them.
 
     Parameters
     ----------
     video
-        The film; it has an end.
+        The film, which must have an end.
     path
-        The file. ``.mkv``, ``.gif`` and ``.png`` keep every grey level, ``.mp4`` does not: its
-        codec, MPEG-4, is lossy. A GIF's times are rounded to hundredths of a second, those of an
-        MKV to thousandths, and the frame rate of MP4 and MKV by up to 0.001 Hz.
+        The file. ``.mkv``, ``.gif`` and ``.png`` keep every grey level; ``.mp4`` does not, because
+        its codec, MPEG-4, is lossy. The times are rounded to hundredths of a second in GIF and to
+        thousandths in MKV files, and the frame rate in MP4 and MKV files by up to 0.001 Hz.
     progress
-        Called with the number of frames written after each one; what it raises ends the work.
+        Called with the number of frames written after each one; an exception from it ends the work.
 
     Returns
     -------
     int
-        How many frames were written.
+        The number of frames written.
 
     Raises
     ------
     ParameterError
-        The film has no end.
+        The film is endless.
     OutputError
-        The file's ending is of no film, that kind of file has no such frame rate or size, or it
-        cannot be written, as on a full disk; an older file is unchanged.
+        The file's ending is not that of a film, files of this kind do not allow the frame rate or
+        size, or the file cannot be written, for example on a full disk; an older file is unchanged.
     """
     path = Path(path)
     rate = video.frame_rate or USUAL_RATE

@@ -45,7 +45,7 @@ def test_a_film_of_another_scheme_fails_with_a_sentence(
 ) -> None:
     assert main(["decode", str(film), *SCENE, "--set", "framing=raw"]) == 1
     words = capsys.readouterr().err.splitlines()[-1]
-    assert "none of" in words
+    assert "not known for any of" in words
     assert "chips" in words
 
 

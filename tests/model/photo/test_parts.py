@@ -17,7 +17,7 @@ from occ_model.files.film_kinds import is_film
 from occ_model.photo.reading import tiff
 from occ_model.photo.reading.load import load_photo
 from occ_model.photo.reading.raw import is_raw
-from occ_model.video.file.note import note_in
+from occ_model.video.file.note import read_note
 
 SUB_DIRECTORIES, EXIF, ISO, ORIENTATION = 330, 0x8769, 0x8827, 274
 SHORT, LONG, LONG8 = 3, 4, 16
@@ -85,10 +85,10 @@ def test_a_film_or_its_note_in_too_many_parts_is_none(
     frames = [Image.new("L", (8, 8), level) for level in (0, 200)]
     how = {"comment": "said"} if file_format == "GIF" else {"pnginfo": noted("said")}
     frames[0].save(path, save_all=True, append_images=frames[1:], **how)
-    assert (is_film(path), note_in(path)) == (True, "said")
+    assert (is_film(path), read_note(path)) == (True, "said")
     monkeypatch.setattr(reading, "MOST_READS", 3)
     monkeypatch.setattr(reading, "MOST_BYTES_ONE_BY_ONE", 0)
-    assert (is_film(path), note_in(path)) == (False, "")
+    assert (is_film(path), read_note(path)) == (False, "")
 
 
 def noted(text: str) -> PngInfo:

@@ -15,7 +15,7 @@ from occ_model.study.film_study import (
 )
 from occ_model.video.counting import (
     ShutterTiming,
-    packets_received_on_average,
+    mean_packets_received,
 )
 
 TIMING = ShutterTiming(Fraction(8000), Fraction(0), Fraction(1, 40_000), 0, 1000)
@@ -54,9 +54,7 @@ def test_counting_over_all_starts_gives_the_mean_over_the_start_time() -> None:
     ]
     mean = sum(by_start, Fraction(0)) / len(by_start)
     # A start at the edge of a chip shows it whole, so steps of 1/30 chip count it once more.
-    assert float(mean) == pytest.approx(
-        float(packets_received_on_average(TIMING, period, 50)), abs=1e-3
-    )
+    assert float(mean) == pytest.approx(float(mean_packets_received(TIMING, period, 50)), abs=1e-3)
 
 
 def test_a_frame_shows_the_chips_whole_that_are_not_cut_off() -> None:

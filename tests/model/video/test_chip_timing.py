@@ -1,4 +1,4 @@
-"""Timing of chips in one picture: the lattice it starts from, and closed forms of the exposure."""
+"""The timing of chips in one picture: its first lattice, and closed forms of the exposure."""
 
 from dataclasses import replace
 
@@ -13,11 +13,11 @@ from occ_model.photo.fit.timing import Timing
 from occ_model.results.decoding import DecodeResult
 from occ_model.scene.scene import Scene
 from occ_model.video.chip_timing import ChipLattice, ChipTiming, chip_ratios, fit_timing, noise_of
-from occ_model.video.read_frame import first_lattice
+from occ_model.video.read_frame import fit_lattice
 
 CHIPS = np.array([1, 0, 1, 1, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0, 1, 0, 1, 0], dtype=np.uint8)
 LENGTH = 20.0
-"""Columns a chip."""
+"""Columns per chip."""
 
 
 def _lit(lattice: ChipLattice, columns: int) -> np.ndarray:
@@ -26,7 +26,7 @@ def _lit(lattice: ChipLattice, columns: int) -> np.ndarray:
 
 
 def _light(lattice: ChipLattice, columns: int, noise: float, seed: int) -> np.ndarray:
-    """Light of a panel that is brighter on one side, with noise."""
+    """Return the light of a panel that is brighter on one side, with noise."""
     random = np.random.default_rng(seed)
     place = np.linspace(-1.0, 1.0, columns)
     fraction = _lit(lattice, columns)
@@ -64,7 +64,7 @@ def test_without_noise_phase_and_step_are_exact(exposure: float) -> None:
     assert fitted.lattice.step == pytest.approx(lattice.step, rel=1e-5)
 
 
-def test_light_without_noise_whose_exposure_no_column_shows_has_errors() -> None:
+def test_light_without_noise_has_errors_if_no_column_shows_the_exposure() -> None:
     for seed in range(10):
         _, fitted = _fit(0.005, 1e-7, seed)
         assert 0.0 < fitted.middle_error < np.inf
@@ -72,14 +72,14 @@ def test_light_without_noise_whose_exposure_no_column_shows_has_errors() -> None
 
 
 def test_an_exposure_shorter_than_a_column_has_an_error_that_is_not_understated() -> None:
-    """Of three columns a chip that see a third of it, noise alone would state a fortieth."""
+    """With three columns per chip that see a third of it, noise alone would give a fortieth."""
     found, columns = [], 280
     for seed in range(amount(15, 60)):
         lattice = _lattice(0.1, seed, step=0.3)
         fitted = fit_timing(_light(lattice, columns, 0.003, seed), _rough(lattice, seed))
         assert fitted is not None
         found.append((fitted.middle - lattice.middle(columns)) / fitted.middle_error)
-    # How much of it edges hide depends on where they lie: the error is for the worst places.
+    # The true error depends on where the edges lie, and the stated one is for the worst places.
     assert float(np.sqrt(np.mean(np.square(found)))) < 1.2
 
 
@@ -93,7 +93,7 @@ def test_stated_errors_of_phase_and_step_cover_68_percent() -> None:
     assert np.mean(np.abs(found) < 1.0) == pytest.approx(0.68, abs=0.08)
 
 
-def test_light_that_falls_off_as_a_lens_s_shifts_no_edges_of_all_frames_alike() -> None:
+def test_vignetting_does_not_shift_the_edges_of_all_frames_equally() -> None:
     place = np.linspace(-1.0, 1.0, 1200)
     fall = np.cos(np.arctan(0.9 * (place - 0.3))) ** 4
     found = []
@@ -103,12 +103,12 @@ def test_light_that_falls_off_as_a_lens_s_shifts_no_edges_of_all_frames_alike() 
         noise = 0.01 * np.random.default_rng(seed).standard_normal(1200)
         fitted = fit_timing(fall * (0.1 + fraction) + noise, _rough(lattice, seed))
         found.append((fitted.lattice.step - lattice.step) / fitted.step_error)
-    # The mean of 30 deviates by 0.18 if their errors are only those of the noise.
+    # If their errors are those of the noise alone, the mean of 30 deviates by 0.18.
     assert abs(np.mean(found)) < 0.4
     assert 0.6 < np.std(found) < 1.4
 
 
-def test_a_chip_that_was_misread_is_set_right() -> None:
+def test_a_misread_chip_is_corrected() -> None:
     lattice = _lattice(0.5, 11)
     values = lattice.values.copy()
     values[[20, 45]] ^= 1
@@ -139,64 +139,66 @@ def test_every_ratio_is_the_change_of_the_squared_distance_by_that_chip_alone() 
             fraction = _lit(replace(lattice, values=values), 400)
             residual = light - profile + swing * (here - fraction)
             squares.append(float(residual @ residual))
-        # Chips that are out of view repeat the outermost ones where the light is worked out.
+        # In the computed light, chips out of view equal the outermost ones.
         if 3 < chip < 80:
             assert ratio == pytest.approx((squares[0] - squares[1]) / (2.0 * noise), abs=1e-9)
 
 
 def scene_of(columns_a_chip: float = LENGTH) -> Scene:
-    """A scene of short exposures whose chips last so many columns."""
+    """Return a scene of short exposures whose chips last this many columns."""
     scene = occ.load_preset("phone-136us").replace(exposure_time=1e-6)
     return scene.replace(switching_frequency=1.0 / (columns_a_chip * scene.camera.readout_time))
 
 
 def signal_of(chips: np.ndarray) -> np.ndarray:
-    """Light of 90 where a chip is lit, and 10 where none is."""
+    """Return light of 90 for lit chips, and of 10 for dark ones."""
     return 10.0 + 80.0 * np.repeat(chips, int(LENGTH)).astype(float)
 
 
-def decoded(chips: np.ndarray, starts: np.ndarray, threshold: float | None) -> DecodeResult:
+def make_result(chips: np.ndarray, starts: np.ndarray, threshold: float | None) -> DecodeResult:
     return DecodeResult("threshold", chips=chips, chip_starts=starts, threshold=threshold)
 
 
 @pytest.mark.parametrize("side", [0, 1])
 def test_miscounted_chips_do_not_change_the_length_of_a_chip(side: int) -> None:
-    # Two chips of the first or of the last run were taken for more: the edges past them move.
+    # The first or the last run is counted as more than two chips, which moves the edges beyond it.
     starts = LENGTH * np.arange(len(CHIPS))
     run = slice(2, 4) if side == 0 else slice(11, 13)
     chips = np.insert(CHIPS, run.start, [1, 1, 1])
     inside = np.linspace(starts[run.start], starts[run.stop], 6)[:-1]
     seen = np.concatenate([starts[: run.start], inside, starts[run.stop :]])
     signal = signal_of(CHIPS)
-    found = first_lattice(decoded(chips, seen, 50.0), signal, 0, scene_of())
+    found = fit_lattice(make_result(chips, seen, 50.0), signal, 0, scene_of())
     assert found.step == pytest.approx(1.0 / LENGTH, rel=0.01)
 
 
-def test_an_edge_far_before_its_place_shows_a_miscount_as_well() -> None:
-    # One chip too few in the last run but one: only the last edges lie off, and all to one side.
+def test_an_edge_far_before_its_place_also_shows_a_miscount() -> None:
+    # One chip too few in the last run but one: only the last edges deviate, all to one side.
     starts = LENGTH * np.arange(len(CHIPS))
     for lost in (12, 3):
         chips, seen = np.delete(CHIPS, lost), np.delete(starts, lost)
-        found = first_lattice(decoded(chips, seen, 50.0), signal_of(CHIPS), 0, scene_of())
+        found = fit_lattice(make_result(chips, seen, 50.0), signal_of(CHIPS), 0, scene_of())
         assert found.step == pytest.approx(1.0 / LENGTH, rel=0.01)
 
 
 def test_a_chip_that_was_counted_twice_before_the_last_edge_is_found() -> None:
-    # This edge alone lies off, before its place; all others lie a little behind theirs.
+    # Only this edge lies before its place; all others lie slightly after theirs.
     starts = LENGTH * np.arange(len(CHIPS))
     last = len(CHIPS) - 2
     chips = np.insert(CHIPS, last, CHIPS[last])
     seen = np.insert(starts, last + 1, starts[last] + 0.5 * LENGTH)
-    found = first_lattice(decoded(chips, seen, 50.0), signal_of(CHIPS), 0, scene_of())
+    found = fit_lattice(make_result(chips, seen, 50.0), signal_of(CHIPS), 0, scene_of())
     assert found.step == pytest.approx(1.0 / LENGTH, rel=0.01)
 
 
 @pytest.mark.parametrize("threshold", [50.0, None])
-def test_chips_are_those_of_the_threshold_or_else_of_the_decoder(threshold: float | None) -> None:
-    # The decoder says otherwise of one chip than the signal: an equalizer may.
+def test_chips_are_read_by_the_threshold_if_there_is_one_or_else_by_the_decoder(
+    threshold: float | None,
+) -> None:
+    # For one chip the decoder disagrees with the signal, as an equalizer may.
     said = CHIPS.copy()
     said[9:11] = 1
-    result = decoded(said, LENGTH * np.arange(len(said)), threshold)
-    found = first_lattice(result, signal_of(CHIPS), 0, scene_of())
+    result = make_result(said, LENGTH * np.arange(len(said)), threshold)
+    found = fit_lattice(result, signal_of(CHIPS), 0, scene_of())
     shown = found.values[-found.first :][: len(CHIPS)]
     np.testing.assert_array_equal(shown, said if threshold is None else CHIPS)

@@ -1,4 +1,4 @@
-"""Clock of a film: phases counted on, aliases, jumps and errors that hold, and frame times."""
+"""The clock of a film: phases, aliases, jumps, stated errors, and frame times."""
 
 import itertools
 import math
@@ -9,8 +9,8 @@ import pytest
 from amount import amount
 
 from occ_model.video.clock import fit_clock
-from occ_model.video.frame_times import frame_times
-from occ_model.video.phase_fit import ClockFit, PhaseJump, Phases, local_spread, mean_step
+from occ_model.video.frame_times import fit_frame_times
+from occ_model.video.phase_fit import ClockFit, FramePhases, PhaseJump, local_spread, mean_step
 
 _NOISE = 0.01
 
@@ -22,8 +22,8 @@ def _phases(
     random: np.random.Generator,
     jitter: float = 0.0,
     drift: float = 0.0,
-) -> Phases:
-    """Phases of frames that start at ``times`` but for a jitter."""
+) -> FramePhases:
+    """Return the phases of frames that start at ``times``, except for a jitter."""
     count = len(times)
     started = times + jitter * random.standard_normal(count)
     columns = 500.0 + 30.0 * np.sin(np.arange(count) * 0.1)
@@ -31,7 +31,7 @@ def _phases(
     places = frequency * started + 0.5 * drift * (started - started.mean()) ** 2 + step * columns
     places = places + _NOISE * random.standard_normal(count)
     relative = 1e-5 * random.standard_normal(count)
-    return Phases(
+    return FramePhases(
         times=times,
         columns=columns,
         places=np.mod(places, period),
@@ -61,8 +61,8 @@ def test_the_stated_error_of_the_frequency_covers_68_percent() -> None:
 
 
 @pytest.mark.parametrize("count", [6, 8])
-def test_the_errors_of_a_few_frames_hold_also_far_out(count: int) -> None:
-    """So few may agree by chance: without Student's t a sixth lay beyond two errors."""
+def test_the_errors_of_a_few_frames_hold_even_far_out(count: int) -> None:
+    """A few may agree by chance: without Student's t a sixth would lie beyond two errors."""
     random, times = np.random.default_rng(count), np.arange(count) / 30.0
     off = []
     for _ in range(amount(100, 200)):
@@ -73,8 +73,8 @@ def test_the_errors_of_a_few_frames_hold_also_far_out(count: int) -> None:
     assert fractions.tolist() == pytest.approx([0.954, 0.954], abs=0.045)
 
 
-def test_frames_that_agree_better_than_each_is_sure_make_the_clock_no_surer() -> None:
-    """What they share, such as the sensor's fixed pattern, does not show in their scatter."""
+def test_frames_that_agree_better_than_their_errors_do_not_reduce_the_clocks_error() -> None:
+    """Common errors, such as of the sensor's fixed pattern, do not show in their scatter."""
     phases = _phases(8e3, np.arange(60) / 30.0, 52.0, np.random.default_rng(9))
     (sure,) = fit_clock(phases, 7960.0, 8040.0)
     (fit,) = fit_clock(replace(phases, errors=4.0 * phases.errors), 7960.0, 8040.0)
@@ -82,16 +82,16 @@ def test_frames_that_agree_better_than_each_is_sure_make_the_clock_no_surer() ->
     assert fit.frequency_error == pytest.approx(4.0 * sure.frequency_error, rel=0.2)
 
 
-def test_frequencies_a_period_of_the_frames_apart_are_all_given() -> None:
+def test_all_frequencies_that_differ_by_a_period_per_frame_are_given() -> None:
     random = np.random.default_rng(2)
     times = np.arange(60) / 30.0
     phases = _phases(8000.0, times, 2.0, random)
     fits = fit_clock(phases, 7920.0, 8080.0)
-    # A wave of two chips in 30 frames a second: every 60 Hz.
+    # A wave of two chips in 30 frames per second gives one every 60 Hz.
     assert sorted(round(fit.frequency) for fit in fits) == [7940, 8000, 8060]
 
 
-def test_uneven_frame_times_tell_aliases_apart() -> None:
+def test_uneven_frame_times_distinguish_aliases() -> None:
     random = np.random.default_rng(3)
     times = np.arange(60) / 30.0 + 1e-3 * random.standard_normal(60)
     (fit,) = fit_clock(_phases(8000.0, times, 2.0, random), 7920.0, 8080.0)
@@ -109,7 +109,7 @@ def test_a_jump_of_the_phase_is_found_and_does_not_change_the_frequency() -> Non
     assert fit.frequency_error < 0.01
 
 
-def test_misread_phases_are_left_out() -> None:
+def test_misread_phases_are_excluded() -> None:
     random = np.random.default_rng(5)
     phases = _phases(8000.0, np.arange(60) / 30.0, 52.0, random)
     places = phases.places.copy()
@@ -119,7 +119,7 @@ def test_misread_phases_are_left_out() -> None:
     assert fit.frequency == pytest.approx(8000.0, abs=5.0 * fit.frequency_error)
 
 
-def test_phases_that_follow_no_frequency_give_none() -> None:
+def test_phases_that_fit_no_frequency_give_none() -> None:
     random = np.random.default_rng(6)
     phases = _phases(8000.0, np.arange(60) / 30.0, 52.0, random)
     assert fit_clock(replace(phases, places=random.uniform(0.0, 52.0, 60)), 7950.0, 8050.0) == ()
@@ -127,24 +127,26 @@ def test_phases_that_follow_no_frequency_give_none() -> None:
 
 def test_missing_frames_do_not_change_the_frame_period() -> None:
     numbers = np.delete(np.arange(50), [10, 11, 30])
-    found = frame_times(numbers / 25.0)
+    found = fit_frame_times(numbers / 25.0)
     assert found.period.value == pytest.approx(0.04, rel=1e-12)
     assert found.numbers.tolist() == numbers.tolist()
-    assert found.problems == ("3 frames are missing, as the frame times show: after frames 9, 27.",)
+    assert found.problems == (
+        "According to the frame times 3 frames are missing after frames 9, 27.",
+    )
 
 
-def test_a_rate_that_changes_is_told() -> None:
+def test_a_changing_rate_is_reported() -> None:
     times = np.cumsum(np.where(np.arange(60) < 30, 1 / 30, 1 / 22))
-    found = frame_times(times)
+    found = fit_frame_times(times)
     assert any("not constant" in problem for problem in found.problems)
     assert any("uneven" in problem for problem in found.problems)
 
 
-def test_times_that_do_not_rise_are_told() -> None:
+def test_times_that_do_not_increase_are_reported() -> None:
     times = np.arange(20) / 30.0
     times[8] = times[7]
-    found = frame_times(times)
-    assert any("do not rise after frame 7" in problem for problem in found.problems)
+    found = fit_frame_times(times)
+    assert any("do not increase after frame 7" in problem for problem in found.problems)
 
 
 def fit_of(frames: int) -> ClockFit:
@@ -156,7 +158,7 @@ def fit_of(frames: int) -> ClockFit:
     )  # fmt: skip
 
 
-def test_a_foretold_phase_is_a_parabola_of_time_with_its_jumps() -> None:
+def test_a_predicted_phase_is_a_parabola_of_time_with_its_jumps() -> None:
     times = np.array([0.5, 1.5, 1.9, 2.0, 3.5])
     later = times - 1.5
     expected = 7.0 + 2000.0 * later + 2.0 * later**2 + np.array([0.0, 0.0, 0.0, 3.0, 3.0])
@@ -164,24 +166,24 @@ def test_a_foretold_phase_is_a_parabola_of_time_with_its_jumps() -> None:
 
 
 def test_its_error_grows_from_the_noise_by_those_of_frequency_and_drift() -> None:
-    """Of many frames: the three are independent."""
+    """For many frames, whose three contributions are independent."""
     many = fit_of(100_000)
     for later in (-4.0, 0.0, 0.7, 10.0):
         expected = math.hypot(0.02, 0.3 * later, 0.25 * later**2)
         assert many.phase_error(1.5 + later) == pytest.approx(expected, rel=1e-4)
 
 
-def test_few_frames_foretell_less_and_never_nothing() -> None:
+def test_a_few_frames_predict_with_a_larger_and_never_a_zero_error() -> None:
     errors = [fit_of(frames).phase_error(1.5) for frames in (1, 4, 5, 6, 20, 1000)]
     assert errors[0] == errors[1] == pytest.approx(4.0 * 0.02)
     assert all(few > more for few, more in itertools.pairwise(errors[1:]))
-    # What the agreement of n frames tells of three unknowns has n - 3 degrees of freedom.
+    # The scatter of n frames about three unknowns has n - 3 degrees of freedom.
     assert errors[3] / 0.02 - 1.0 == pytest.approx((errors[2] / 0.02 - 1.0) * 2.0 / 3.0)
 
 
-def phases_of(steps: list[float], errors: list[float]) -> Phases:
+def phases_of(steps: list[float], errors: list[float]) -> FramePhases:
     count = len(steps)
-    return Phases(
+    return FramePhases(
         np.arange(count) / 30.0, np.full(count, 500.0), np.zeros(count), np.full(count, 0.01),
         np.array(steps), np.array(errors), 52.0,
     )  # fmt: skip
@@ -198,8 +200,8 @@ def test_the_mean_step_is_weighted_and_its_error_that_of_the_scatter() -> None:
 
 
 @pytest.mark.parametrize("frames", [1, 2, 25])
-def test_frames_that_agree_know_no_more_than_they_state(frames: int) -> None:
-    """An error that all of them share does not scatter."""
+def test_frames_that_agree_do_not_reduce_their_stated_error(frames: int) -> None:
+    """An error common to all of them does not scatter."""
     agree = mean_step(phases_of([1.0] * frames, [0.1] * frames))
     assert agree == (1.0, pytest.approx(0.1 / math.sqrt(frames)))
 
@@ -209,10 +211,10 @@ def test_a_single_frame_that_states_no_error_does_not_decide_alone() -> None:
     assert mean == pytest.approx((4.0 + 4.0 * 2.0) / 8.0)
 
 
-def test_phases_scatter_by_the_median_of_their_steps_and_no_less_than_they_state() -> None:
+def test_the_scatter_of_phases_is_the_median_of_their_steps_and_at_least_their_error() -> None:
     random = np.random.default_rng(3)
     noise = random.normal(size=4000)
-    # Slow changes do not count.
+    # Slow changes are not part of the scatter.
     spread = local_spread(0.2 * noise + np.linspace(0.0, 40.0, 4000), np.full(4000, 0.01))
     assert spread == pytest.approx(0.2, rel=0.06)
     assert local_spread(0.001 * noise, np.full(4000, 0.3)) == 0.3
@@ -220,8 +222,8 @@ def test_phases_scatter_by_the_median_of_their_steps_and_no_less_than_they_state
     assert local_spread(np.zeros(2), np.zeros(2)) > 0.0
 
 
-def test_thousand_frames_are_followed_from_the_first_ones() -> None:
-    """An alias that only the first frames allow is told apart by the later ones."""
+def test_the_phase_of_a_thousand_frames_is_followed_from_the_first_ones() -> None:
+    """The later frames exclude an alias that the first ones allow."""
     random = np.random.default_rng(7)
     times = np.arange(600) / 30.0
     places = 8000.0 * times + 0.01 * random.standard_normal(600)

@@ -1,4 +1,4 @@
-"""A film from a file: its frames, times, levels and axes, whatever else is in the file."""
+"""Films are read from files with their frames, times, levels and axes."""
 
 import gc
 import os
@@ -41,19 +41,19 @@ def saved(folder: Path, content: bytes, ending: str = "mp4") -> Path:
 
 
 def memory_of(*work: str) -> list[int]:
-    """Do some work in a process of its own: this one has run other tests, and made the film."""
+    """Measure the memory of some work in a new process, as this one has done other work."""
     command = [sys.executable, str(_MEMORY), *work]
     ran = subprocess.run(command, capture_output=True, text=True, check=True)
     return [int(number) for number in ran.stdout.split()]
 
 
 def error_of(image: ByteArray, number: int) -> float:
-    """The root mean square of a frame's difference from the stripes that were written."""
+    """Return the RMS difference of a frame from the stripes that were written."""
     return float(np.sqrt(np.mean((image.astype(float) - stripes(number)) ** 2)))
 
 
 @pytest.mark.parametrize(("ending", "codec"), KINDS)
-def test_every_kind_gives_its_frames_levels_and_times(
+def test_every_kind_of_film_gives_frames_levels_and_times(
     tmp_path: Path, ending: str, codec: str
 ) -> None:
     film = occ.load_video(saved(tmp_path, film_bytes(ending, codec), ending))
@@ -64,7 +64,7 @@ def test_every_kind_gives_its_frames_levels_and_times(
     assert [frame.time for frame in frames] == pytest.approx(
         [number / RATE for number in range(20)], abs=step / 2 + 1e-12
     )
-    # Lossy codecs soften the stripes' edges; a film that keeps 16 to 235 is spread to 0 to 255.
+    # Lossy codecs soften the stripes' edges; levels from 16 to 235 are stretched to 0 to 255.
     assert max(error_of(frame.image, frame.index) for frame in frames) < 12
     levels = [np.percentile(frame.image[LINES // 2 :], (25, 75)) for frame in frames]
     np.testing.assert_allclose(levels, np.tile((20, 235), (20, 1)), atol=4)
@@ -72,9 +72,9 @@ def test_every_kind_gives_its_frames_levels_and_times(
 
 
 @pytest.mark.parametrize(("ending", "codec"), [KINDS[0], KINDS[3], KINDS[9]])
-def test_any_frame_can_be_had_in_any_order(tmp_path: Path, ending: str, codec: str) -> None:
+def test_frames_can_be_read_in_any_order(tmp_path: Path, ending: str, codec: str) -> None:
     film = occ.load_video(saved(tmp_path, film_bytes(ending, codec), ending))
-    before = film.frame(17)  # before any time is known
+    before = film.frame(17)  # before any times are known
     frames = list(film)
     np.testing.assert_array_equal(before.image, frames[17].image)
     for index in (3, 4, 9, 2, 19, 0, 18, 17, 17):
@@ -88,8 +88,8 @@ def test_any_frame_can_be_had_in_any_order(tmp_path: Path, ending: str, codec: s
             film.frame(absent)
 
 
-def test_frames_can_be_far_apart_and_unequally(tmp_path: Path) -> None:
-    # A second is 15,360 units; the sum stays that of the film as it was.
+def test_frames_can_be_far_apart_and_unequally_spaced(tmp_path: Path) -> None:
+    # A second has 15,360 units; their sum remains that of the original film.
     steps = [512, 256, 768, 1024, *[480] * 16]
     film = occ.load_video(saved(tmp_path, with_steps(film_bytes("mp4", "mp4v"), steps)))
     frames = list(film)
@@ -100,8 +100,8 @@ def test_frames_can_be_far_apart_and_unequally(tmp_path: Path) -> None:
         np.testing.assert_array_equal(film.frame(index).image, frames[index].image)
 
 
-def test_a_film_of_unequal_steps_that_states_its_length_only_is_whole(tmp_path: Path) -> None:
-    # The first half is twice as fast. A frame's time stands in two bytes after the track's number.
+def test_a_film_of_unequal_steps_that_states_only_its_duration_is_complete(tmp_path: Path) -> None:
+    # The first half is twice as fast. A frame's time is in two bytes after the track's number.
     content = bytearray(film_bytes("mkv", "MPNG"))
     for number in range(1, 10):
         old, new = round(number * 1000 / RATE), round(number * 500 / RATE)
@@ -127,7 +127,7 @@ def test_a_turned_film_is_shown_upright(tmp_path: Path) -> None:
     np.testing.assert_array_equal(film.frame(0).image, np.rot90(upright, -1))
 
 
-def test_the_scan_axis_is_found_on_the_first_frames_and_kept(tmp_path: Path) -> None:
+def test_the_scan_axis_is_found_from_the_first_frames_and_kept(tmp_path: Path) -> None:
     lying = [np.full((COLUMNS, LINES), 90, np.uint8), *(stripes(n).T for n in range(6))]
     path = tmp_path / "film.avi"
     write_film(path, "MJPG", lying, size=(COLUMNS, LINES))
@@ -154,7 +154,7 @@ def test_animated_pictures_are_films_too(tmp_path: Path, ending: str) -> None:
     np.testing.assert_array_equal(film.frame(1).image, shown[1])
 
 
-def test_an_animated_picture_has_colours_to_choose_and_its_transparent_parts_are_black(
+def test_an_animated_picture_has_colour_channels_and_transparent_parts_are_black(
     tmp_path: Path,
 ) -> None:
     first = np.full((20, 30, 4), (200, 100, 50, 255), np.uint8)
@@ -169,7 +169,7 @@ def test_an_animated_picture_has_colours_to_choose_and_its_transparent_parts_are
         assert (film.frame_count, film.frame_rate) == (2, 25.0)
         assert (film.frame(0).image == level).all()
         assert list(film.frames(2)) == []
-        (seen,) = film.frames(1)  # the first one is passed over
+        (seen,) = film.frames(1)  # the first one is skipped
         assert seen.time == pytest.approx(0.04)
         assert {*seen.image[:10].flat} == {0}
         assert {*seen.image[11:].flat} == {level}
@@ -177,23 +177,23 @@ def test_an_animated_picture_has_colours_to_choose_and_its_transparent_parts_are
 
 
 @pytest.mark.parametrize(("ending", "codec"), [KINDS[1], KINDS[3], KINDS[7]])
-def test_a_film_that_was_cut_off_gives_what_it_holds_and_says_so(
+def test_a_truncated_film_gives_its_frames_and_states_the_damage(
     tmp_path: Path, ending: str, codec: str
 ) -> None:
     content = film_bytes(ending, codec)
-    if ending == "mov":  # whose table of frames is at its end
+    if ending == "mov":  # with the table of frames at the end
         blanked = content.index(b"mdat") + 900
         content = content[:blanked] + bytes(600) + content[blanked + 600 :]
     else:
         content = content[: len(content) // 2]
     film = occ.load_video(saved(tmp_path, content, ending))
     held = list(film)
-    if ending == "mov":  # the decoder fills in what is missing, or leaves a frame out
+    if ending == "mov":  # the decoder fills in missing parts or omits a frame
         assert 15 <= len(held) <= 20
     else:
         assert 5 <= len(held) <= 15
         stated = (
-            f"holds {len(held)} of the 20 frames"
+            f"contains {len(held)} of the 20 frames"
             if ending == "avi"
             else f"ends after {held[-1].time:.3g} s of the 0.667 s"
         )
@@ -211,7 +211,7 @@ ADDRESSES = [
 
 
 @pytest.mark.parametrize(("name", "content"), ADDRESSES)
-def test_a_list_of_other_files_or_addresses_is_no_film(
+def test_a_list_of_other_files_or_addresses_is_not_a_film(
     tmp_path: Path, name: str, content: bytes
 ) -> None:
     (tmp_path / "other.mp4").write_bytes(film_bytes("mp4", "mp4v"))
@@ -228,7 +228,9 @@ def test_a_list_of_other_files_or_addresses_is_no_film(
         "file:film.mp4", "subfile,,start,0,end,9,,:film.mp4", "0", "/dev/video0", "",
     ],
 )  # fmt: skip
-def test_an_address_is_no_file(tmp_path: Path, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_address_is_not_a_file(
+    tmp_path: Path, name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
     saved(tmp_path, film_bytes("mp4", "mp4v"))
     monkeypatch.chdir(tmp_path)
     with pytest.raises(occ.VideoError, match=r"cannot be read"):
@@ -244,7 +246,7 @@ def test_a_film_may_have_any_name(
     assert occ.load_video(name).frame(19).index == 19
 
 
-def test_what_is_no_regular_file_is_refused(tmp_path: Path) -> None:
+def test_anything_but_a_regular_file_is_refused(tmp_path: Path) -> None:
     pipe = tmp_path / "pipe.mp4"
     os.mkfifo(pipe)
     for path in (pipe, tmp_path, tmp_path / "none.mp4", "a\0b.mp4"):
@@ -263,8 +265,8 @@ def test_a_huge_frame_is_refused_before_it_is_decoded(tmp_path: Path) -> None:
         occ.load_video(path)
 
 
-def test_a_frame_that_grows_in_a_film_does_not_fill_the_memory(tmp_path: Path) -> None:
-    # Each key frame of VP8 has its own size; the container keeps the first one's.
+def test_a_frame_that_is_larger_than_stated_does_not_fill_the_memory(tmp_path: Path) -> None:
+    # Each key frame of VP8 has its own size; the container states that of the first.
     content = film_bytes("mkv", "VP80")
     own = b"\x9d\x01\x2a" + bytes((COLUMNS, 0, LINES, 0))
     assert content.count(own) == 2
@@ -275,7 +277,7 @@ def test_a_frame_that_grows_in_a_film_does_not_fill_the_memory(tmp_path: Path) -
     assert film.problem.startswith(str(film.path))
 
 
-def test_nothing_is_printed_and_the_environment_stays(
+def test_nothing_is_printed_and_the_environment_is_unchanged(
     tmp_path: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:
     content = bytearray(film_bytes("mp4", "mp4v"))
@@ -291,7 +293,7 @@ def test_nothing_is_printed_and_the_environment_stays(
 
 
 def decoders() -> list[int]:
-    """Return the processes that this one has started and that still decode."""
+    """Return the decoding processes that this one has started and that still run."""
     here = os.getpid()
     tasks = Path(f"/proc/{here}/task").glob("*/children")
     children = {int(child) for task in tasks for child in task.read_text().split()}
@@ -300,7 +302,7 @@ def decoders() -> list[int]:
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="finds processes in Linux's /proc")
-def test_a_decoder_that_dies_ends_the_film_with_a_sentence_and_the_next_one_begins_anew(
+def test_a_dead_decoder_ends_the_film_with_a_sentence_and_the_next_film_gets_a_new_one(
     tmp_path: Path,
 ) -> None:
     film = occ.load_video(saved(tmp_path, film_bytes("mp4", "mp4v")))
@@ -309,7 +311,7 @@ def test_a_decoder_that_dies_ends_the_film_with_a_sentence_and_the_next_one_begi
     for decoder in decoders():
         os.kill(decoder, signal.SIGKILL)
     seen += frames
-    assert len(seen) in (7, 8)  # one more is decoded ahead
+    assert len(seen) in (7, 8)  # another one is decoded in advance
     index = len(seen)
     assert film.problem == (
         f"{film.path} ends early: frame {index} cannot be read: the decoder failed."
@@ -357,7 +359,7 @@ decoder_main.main()
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="only Linux limits a process's memory")
-def test_a_film_that_takes_too_much_memory_says_so(
+def test_a_film_that_takes_too_much_memory_is_reported(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     path = tmp_path / "film.mp4"
@@ -384,7 +386,7 @@ def test_a_bundled_program_becomes_its_own_decoder(
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="finds processes in Linux's /proc")
-def test_films_that_nobody_holds_leave_one_process_for_the_next(tmp_path: Path) -> None:
+def test_films_no_longer_used_leave_one_process_for_the_next(tmp_path: Path) -> None:
     path = saved(tmp_path, film_bytes("mp4", "mp4v"))
     films = [occ.load_video(path) for _ in range(3)]
     for film in films:
@@ -401,7 +403,7 @@ def test_films_that_nobody_holds_leave_one_process_for_the_next(tmp_path: Path) 
     assert decoders() == [kept]
 
 
-def test_a_long_film_is_as_long_as_it_states_and_each_frame_can_be_had(tmp_path: Path) -> None:
+def test_a_long_film_has_its_stated_length_and_each_frame_can_be_read(tmp_path: Path) -> None:
     film = occ.load_video(saved(tmp_path, lasting(film_bytes("mov", "MJPG"), 18_000), "mov"))
     assert film.frame_count == 18_000
     first, last = film.frame(0), film.frame(17_999)
@@ -427,7 +429,7 @@ def test_ten_minutes_of_4k_stay_within_400_megabytes(
 
 
 @pytest.mark.parametrize(("rate", "is_whole"), [(None, True), (30.0, False)])
-def test_a_film_without_a_rate_states_no_length_that_it_could_end_before(
+def test_a_film_without_a_rate_states_no_duration_and_cannot_end_early(
     rate: float | None, is_whole: bool
 ) -> None:
     film = SimpleNamespace(
@@ -439,9 +441,7 @@ def test_a_film_without_a_rate_states_no_length_that_it_could_end_before(
     assert film.frame_count == (3 if is_whole else 100)
 
 
-def test_a_film_ends_where_its_times_cannot_be(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_film_ends_at_an_impossible_time(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("occ_model.video.load.LATEST_TIME", 0.2)
     film = occ.load_video(saved(tmp_path, film_bytes("mp4", "mp4v")))
     assert [frame.index for frame in film] == list(range(7))

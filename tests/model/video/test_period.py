@@ -1,4 +1,4 @@
-"""Where in the period of what is sent a stretch of chips can be, as its headers show."""
+"""Headers determine at which places of the sent period a sequence of chips can be."""
 
 from types import SimpleNamespace
 from typing import Any
@@ -8,7 +8,7 @@ import pytest
 
 import occ_model as occ
 from occ_model.transmitter.packet import sent_chips
-from occ_model.video.payload_so_far import known_bits, written
+from occ_model.video.payload_so_far import format_bits, known_bits
 from occ_model.video.period import SentPeriod
 
 
@@ -20,14 +20,14 @@ def test_a_header_in_view_shows_the_place(shift: int) -> None:
     assert place == -shift % len(sent_chips(scene.transmitter))
 
 
-def test_headers_that_contradict_each_other_show_nothing() -> None:
+def test_contradicting_headers_show_no_place() -> None:
     scene = occ.Scene()
     period = sent_chips(scene.transmitter)
     torn = np.concatenate([period, period[:5], period, period])
     assert SentPeriod(scene.transmitter).places(torn) == ()
 
 
-def test_nothing_is_shown_without_a_header() -> None:
+def test_without_a_header_no_place_is_shown() -> None:
     scene = occ.Scene()
     assert SentPeriod(scene.transmitter).places(sent_chips(scene.transmitter)[8:14]) == ()
 
@@ -44,18 +44,18 @@ def bits_of(octets: bytes) -> np.ndarray:
         ("bits:10", b"\x80", "10000000", "·"),
     ],
 )
-def test_a_payload_is_written_in_its_form_and_what_is_missing_by_dots(
+def test_a_payload_is_written_in_its_form_with_dots_for_unknown_parts(
     payload: str, octets: bytes, whole: str, partly: str
 ) -> None:
     scene = occ.Scene().replace(payload=payload)
     bits = bits_of(octets)
-    assert written(bits, scene) == whole
+    assert format_bits(bits, scene) == whole
     bits[-1] = -1
-    assert written(bits, scene).endswith(partly)
+    assert format_bits(bits, scene).endswith(partly)
 
 
 @pytest.mark.parametrize("framing", ["paper", "raw", "preamble"])
-def test_all_bits_are_known_of_a_whole_period_and_fewer_of_a_part(framing: str) -> None:
+def test_a_whole_period_gives_all_bits_and_a_part_fewer(framing: str) -> None:
     scene = occ.Scene().replace(payload="hex:5ac3", framing=framing)
     period = SentPeriod(scene.transmitter)
     sent = np.array(scene.transmitter.payload_bits, dtype=np.uint8)
@@ -71,5 +71,5 @@ def test_all_bits_are_known_of_a_whole_period_and_fewer_of_a_part(framing: str) 
     for place in range(len(chips)):
         one: Any = SimpleNamespace(ratios=ratios, known=np.arange(len(chips)) != place)
         lost += int(np.count_nonzero(known_bits(one, period) < 0))
-    # A bit needs its two chips and those of the bit before: of a header, the last one.
+    # A bit needs its own two chips and those of the bit before, or the last chip of a header.
     assert lost == 4 * len(sent) - (framing != "raw")

@@ -1,4 +1,4 @@
-"""Simulated films, read: the clock within its errors, the payload where all of it was in view."""
+"""Simulated films are read: the clock within its errors, and the payload if all was in view."""
 
 import math
 import tracemalloc
@@ -32,11 +32,11 @@ SCENE = occ.load_preset("phone-68us").replace(
     panel_height=1.5,
     distance=0.5,
 )
-"""Eighty chips in a view of 26 ms, of packets of 134 chips: no frame shows a packet whole."""
+"""A view of 26 ms has 80 chips and a packet 134, so no frame shows a whole packet."""
 
 
 class Frames(occ.Video):
-    """A film of given frames."""
+    """A film with given frames."""
 
     def __init__(self, frames: list[VideoFrame], columns: int) -> None:
         self.title, self.frames_ = "frames", frames
@@ -50,7 +50,9 @@ class Frames(occ.Video):
         return self.frames_[index]
 
 
-def recorded(scene: occ.Scene, count: int, recording: Recording | None = None) -> list[VideoFrame]:
+def record_frames(
+    scene: occ.Scene, count: int, recording: Recording | None = None
+) -> list[VideoFrame]:
     return list(occ.render_video(scene, count, recording))
 
 
@@ -59,10 +61,10 @@ _READ: dict[tuple[object, ...], tuple[VideoFrame, TimedFrame]] = {}
 
 @pytest.fixture(autouse=True)
 def chips_are_read_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Read each picture for one scene once: most tests differ in what is stated of its time."""
+    """Read each picture only once per scene, as most tests differ only in the stated times."""
     usual = FrameReader.read
 
-    def remembered(reader: FrameReader, frame: VideoFrame) -> TimedFrame:
+    def read_cached(reader: FrameReader, frame: VideoFrame) -> TimedFrame:
         key = (id(frame.image), frame.exposure_time, reader.enhanced, reader.decoder)
         if key not in _READ:
             _READ[key] = frame, usual(reader, frame)
@@ -70,21 +72,21 @@ def chips_are_read_once(monkeypatch: pytest.MonkeyPatch) -> None:
         reading = replace(timed.reading, index=frame.index, time=frame.time)
         return replace(timed, reading=reading)
 
-    monkeypatch.setattr(FrameReader, "read", remembered)
+    monkeypatch.setattr(FrameReader, "read", read_cached)
 
 
 @cache
 def film_of_scene() -> list[VideoFrame]:
-    """Thirty-three frames of the scene, for all who only look at them.
+    """Return 33 frames of the scene for all tests that do not change them.
 
-    A reader is not told the scene and the start that simulated frames have.
+    The reader does not get the scene and the start that simulated frames contain.
     """
-    return [replace(frame, scene=None, start=None) for frame in recorded(SCENE, 33)]
+    return [replace(frame, scene=None, start=None) for frame in record_frames(SCENE, 33)]
 
 
 @cache
 def whole_reading() -> occ.VideoReading:
-    """What the first thirty-two of them give."""
+    """Return the reading of the first 32 of them."""
     return reading_of(film_of_scene()[:32], SCENE)
 
 
@@ -92,8 +94,8 @@ def reading_of(frames: list[VideoFrame], scene: occ.Scene) -> occ.VideoReading:
     return occ.decode_video(Frames(frames, scene.camera.columns), scene)
 
 
-def assert_as_demanded(judged: Judged) -> None:
-    """The demands on one film's clock and payload, each beside the truth."""
+def assert_correct(judged: Judged) -> None:
+    """Check a film's clock and payload against the truth."""
     truth, period = judged.film.truth, judged.film.recording.frame_period
     assert judged.reading.clock.is_sure
     assert abs(judged.error("switching_frequency")[0]) < 20e-6 * truth["switching_frequency"]
@@ -107,7 +109,7 @@ def assert_as_demanded(judged: Judged) -> None:
 
 
 def test_a_film_gives_its_clock_and_the_payload() -> None:
-    assert_as_demanded(judge(film(2, seconds=1.0)))
+    assert_correct(judge(film(2, seconds=1.0)))
 
 
 def test_packets_longer_than_a_frame_are_joined_chip_by_chip() -> None:
@@ -118,7 +120,7 @@ def test_packets_longer_than_a_frame_are_joined_chip_by_chip() -> None:
     assert 0.0 < reading.complete_at < 1.0
 
 
-def test_a_reading_needs_no_exact_readout_time_or_frequency() -> None:
+def test_a_reading_does_not_need_the_exact_readout_time_or_frequency() -> None:
     rough = SCENE.replace(readout_time=36.2e-6, switching_frequency=3.09e3)
     reading = reading_of(film_of_scene()[:22], rough)
     assert reading.payload == "HELLO"
@@ -129,7 +131,7 @@ def test_a_reading_needs_no_exact_readout_time_or_frequency() -> None:
     assert clock.frame_period.value == pytest.approx(1.0 / 30.0, rel=1e-9)
 
 
-def test_what_is_known_grows_frame_by_frame_and_ends_as_the_reading() -> None:
+def test_knowledge_grows_frame_by_frame_up_to_the_final_reading() -> None:
     steps = list(occ.decode_frames(film_of_scene()[:32], SCENE))
     known = [step.known for step in steps]
     assert known == sorted(known)
@@ -141,7 +143,7 @@ def test_what_is_known_grows_frame_by_frame_and_ends_as_the_reading() -> None:
 
 def test_sub_packets_are_joined_by_their_numbers() -> None:
     scene = SCENE.replace(framing="c-ook", payload="text:sub-packets join")
-    reading = reading_of(recorded(scene, 24), scene)
+    reading = reading_of(record_frames(scene, 24), scene)
     assert reading.payload == "sub-packets join"
     assert {packet.part for packet in reading.packets if packet.is_read} <= set(range(8))
     assert reading.doubled == reading.read - len(
@@ -150,7 +152,7 @@ def test_sub_packets_are_joined_by_their_numbers() -> None:
     assert reading.bit_error_rate == 0.0
 
 
-def test_packets_read_and_lost_are_those_that_counting_gives() -> None:
+def test_packets_read_and_lost_are_those_of_exact_counting() -> None:
     reading = reading_of_short_packets()
     assert reading.payload == str(0b10110010)
     sent = 1.0 * 3.1e3 / 20.0
@@ -168,17 +170,17 @@ SHORT = SCENE.replace(payload="", bits=8, code=0b10110010, framing="paper",
 
 @cache
 def film_of_short_packets() -> list[VideoFrame]:
-    return recorded(SHORT, 30)
+    return record_frames(SHORT, 30)
 
 
-def retimed(times: Iterable[float]) -> list[VideoFrame]:
-    """The film of short packets, of whose frames a file states other times."""
+def change_times(times: Iterable[float]) -> list[VideoFrame]:
+    """Return the film of short packets with other stated times."""
     both = zip(film_of_short_packets(), times, strict=True)
     return [replace(frame, time=float(time)) for frame, time in both]
 
 
 def assert_adds_up(reading: occ.VideoReading) -> None:
-    """Every figure of a reading is of the same packets and the same seconds."""
+    """Check that all figures of a reading refer to the same packets and the same time."""
     windows = reading.rates(4)
     assert reading.read + reading.lost == len(reading.packets)
     assert sum(window.packets for window in windows) == len(reading.packets)
@@ -200,13 +202,13 @@ def reading_of_short_packets() -> occ.VideoReading:
 @pytest.mark.parametrize(
     ("jump", "after"), [(0.6, 1), (3600.0, 15), (3.15e7, 29), (-0.5, 15), (-3600.0, 1)]
 )
-def test_what_lies_between_two_parts_of_a_film_is_in_none_of_its_figures(
+def test_the_time_between_two_parts_of_a_film_is_in_none_of_its_figures(
     jump: float, after: int
 ) -> None:
     steady = reading_of_short_packets()
     times = np.arange(30) / 30.0
     times[after:] += jump
-    reading = reading_of(retimed(times), SHORT)
+    reading = reading_of(change_times(times), SHORT)
     assert_adds_up(reading)
     assert (reading.payload, reading.read) == (steady.payload, steady.read)
     assert len(reading.packets) == pytest.approx(len(steady.packets), abs=2)
@@ -222,7 +224,7 @@ def test_what_lies_between_two_parts_of_a_film_is_in_none_of_its_figures(
     assert of_which.startswith("The clock is that of frames ")
 
 
-def test_times_that_lie_take_no_memory() -> None:
+def test_false_times_take_no_memory() -> None:
     reader = occ.VideoReader(SHORT)
     tracemalloc.start()
     for number, frame in enumerate(film_of_short_packets()[:9]):
@@ -233,10 +235,10 @@ def test_times_that_lie_take_no_memory() -> None:
     assert peak < 20e6
 
 
-def test_a_payload_is_complete_after_the_frames_that_it_took() -> None:
-    """The frames after it come later and later: equal steps would have said half an hour."""
+def test_a_payload_is_complete_after_the_frames_it_needed() -> None:
+    """Later frames are further and further apart; equal steps would have given half an hour."""
     times = np.concatenate([np.arange(10) / 30.0, 1.0 + np.cumsum(np.linspace(0.1, 0.4, 20))])
-    reading = reading_of(retimed(times), SHORT)
+    reading = reading_of(change_times(times), SHORT)
     assert reading.complete_after < 0.2
     assert reading.duration > 3.0
     assert_adds_up(reading)
@@ -246,16 +248,18 @@ def test_a_payload_is_complete_after_the_frames_that_it_took() -> None:
     ("times", "said"),
     [
         (60.0 * np.arange(30), "do not determine a clock"),
-        (np.full(30, 7.0), "do not rise"),
-        (1.0 - np.arange(30) / 30.0, "do not rise"),
+        (np.full(30, 7.0), "do not increase"),
+        (1.0 - np.arange(30) / 30.0, "do not increase"),
         (3600.0 * (np.arange(30) % 2) + np.arange(30) / 30.0, "times jump by"),
         (np.random.default_rng(1).permutation(30) / 30.0, "times jump by"),
         (np.arange(30) / 60.0, "do not determine a clock"),
-        (1e-300 * np.arange(30), "do not rise"),
+        (1e-300 * np.arange(30), "do not increase"),
     ],
 )
-def test_times_that_tell_no_clock_give_none_and_a_sentence(times: FloatArray, said: str) -> None:
-    reading = reading_of(retimed(times), SHORT)
+def test_times_that_determine_no_clock_give_none_and_a_sentence(
+    times: FloatArray, said: str
+) -> None:
+    reading = reading_of(change_times(times), SHORT)
     assert reading.payload == str(0b10110010)
     assert reading.clock is None
     assert len(reading.packets) == 0
@@ -282,7 +286,7 @@ def test_times_that_tell_no_clock_give_none_and_a_sentence(times: FloatArray, sa
         ({"exposure_time": math.nan}, "exposure_time is "),
     ]
 )
-def test_a_frame_that_cannot_be_read_is_refused_and_those_before_are_kept(
+def test_an_invalid_frame_is_refused_and_the_earlier_ones_are_kept(
     change: dict[str, object], said: str
 ) -> None:
     reader = occ.VideoReader(SHORT)
@@ -300,7 +304,7 @@ def test_a_frame_that_cannot_be_read_is_refused_and_those_before_are_kept(
 
 
 @pytest.mark.parametrize("white", [1.0, 255.0])
-def test_white_is_one_value_in_all_frames_of_floating_point(white: float) -> None:
+def test_white_is_the_same_value_in_all_floating_point_frames(white: float) -> None:
     frames = film_of_short_packets()[:6]
     reader, scale = occ.VideoReader(SHORT), white / 255.0
     for frame in frames:
@@ -316,19 +320,20 @@ def test_white_is_one_value_in_all_frames_of_floating_point(white: float) -> Non
         assert not reader.add(other).frame.chips.size  # a dark frame among bright ones
 
 
-def test_a_square_wave_leaves_aliases_and_they_are_said() -> None:
+def test_a_square_wave_leaves_aliases_that_are_stated() -> None:
     scene = SCENE.replace(payload="", pattern="10", switching_frequency=4e3, exposure_time=1e-4)
-    frames = Frames(recorded(scene, 16), scene.camera.columns)
+    frames = Frames(record_frames(scene, 16), scene.camera.columns)
     reading = occ.decode_video(frames, scene, readout_tolerance=0.03)
     assert not reading.clock.is_sure
     stated = [reading.clock.switching_frequency.value]
     stated += [frequency for frequency, _ in reading.clock.alternatives]
-    # A wave of two chips, 30 frames a second: one each 60 Hz, from 4 kHz / 1.03 to 4 kHz / 0.97.
+    # A wave of two chips at 30 frames per second: one every 60 Hz from 4 kHz / 1.03 to 4 kHz /
+    # 0.97.
     assert sorted(round(frequency) for frequency in stated) == [3940, 4000, 4060, 4120]
-    assert any("fit the frames alike" in problem for problem in reading.clock.problems)
+    assert any("fit the frames equally well" in problem for problem in reading.clock.problems)
 
 
-def test_dropped_frames_that_the_times_hide_are_told() -> None:
+def test_dropped_frames_that_the_times_hide_are_reported() -> None:
     frames = film_of_scene()
     kept = frames[:20] + frames[21:]
     renumbered = [
@@ -347,20 +352,20 @@ def test_a_film_without_stripes_fails_with_a_sentence() -> None:
     reading = reading_of(dark, SCENE)
     assert reading.clock is None
     assert len(reading.packets) == 0
-    assert reading.failure.startswith("None of 5 frames shows chips; of the first one: No panel")
+    assert reading.failure.startswith("None of 5 frames shows chips. The first one: No panel")
 
 
 def near_the_null(frequency: float) -> occ.Scene:
-    """The paper's phone, whose single chips all but vanish just below 2 / t = 14.7 kHz."""
+    """Return the paper's phone, whose single chips almost vanish just below 2 / t = 14.7 kHz."""
     return occ.load_preset("phone-136us").replace(switching_frequency=frequency, rows=1152)
 
 
-def test_where_the_enhanced_picture_is_read_the_film_is() -> None:
+def test_if_the_enhanced_picture_is_read_so_is_the_film() -> None:
     scene = near_the_null(14.21e3)
     as_the_camera_gives_it = scene.replace(enhancement="none")
     assert occ.decode(occ.render(scene).image, scene).code == scene.transmitter.code
     assert occ.decode(occ.render(as_the_camera_gives_it).image, scene).code is None
-    frames = recorded(scene, 2)
+    frames = record_frames(scene, 2)
     alone, is_enhanced = read_by_itself(frames[0].image, scene)
     assert (alone.code, is_enhanced) == (scene.transmitter.code, True)
     assert alone.region is not None
@@ -374,11 +379,11 @@ def test_a_film_that_is_not_read_fails_with_the_words_of_a_single_picture() -> N
     scene = near_the_null(14.6e3)
     still = occ.decode(occ.render(scene).image, scene).failure
     assert still is not None
-    failure = reading_of(recorded(scene, 2), scene).failure
-    assert "none of 2 frames" in failure
+    failure = reading_of(record_frames(scene, 2), scene).failure
+    assert "not known for any of 2 frames" in failure
     assert failure.endswith(still)
 
 
-def test_too_short_a_film_says_how_much_was_not_in_view() -> None:
+def test_a_film_that_is_too_short_states_how_much_was_not_in_view() -> None:
     reading = reading_of(film_of_scene()[:2], SCENE)
-    assert "of 134 chips were in no frame" in reading.failure or "header" in reading.failure
+    assert "of 134 chips are in no frame" in reading.failure or "header" in reading.failure

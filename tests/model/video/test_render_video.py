@@ -1,4 +1,4 @@
-"""A simulated film: its frames one by one, their noise, times, motion and exposures."""
+"""The frames of a simulated film, their noise, times, motion and exposure times."""
 
 import tracemalloc
 from itertools import islice, pairwise
@@ -13,7 +13,7 @@ SCENE = Scene().replace(rows=120, columns=160, readout_time=1e-4, distance=0.8)
 PERIOD, READ = 1 / 30, 160e-4
 
 
-def test_a_film_can_be_gone_through_again_and_frame_by_frame() -> None:
+def test_a_film_can_be_iterated_again_and_read_frame_by_frame() -> None:
     film = occ.render_video(SCENE, frames=4)
     once, again = ([frame.image for frame in film] for _ in range(2))
     assert len(once) == film.frame_count == 4
@@ -24,14 +24,14 @@ def test_a_film_can_be_gone_through_again_and_frame_by_frame() -> None:
     assert once[0].shape == film.shape == (120, 160)
 
 
-def test_a_film_without_end_has_no_count() -> None:
+def test_an_endless_film_has_no_frame_count() -> None:
     film = occ.render_video(SCENE)
     assert film.frame_count is None
     assert [frame.index for frame in islice(film.frames(10**6), 2)] == [10**6, 10**6 + 1]
 
 
-def test_each_frame_has_noise_of_its_own_and_the_camera_keeps_its_pattern() -> None:
-    # 20 packets a frame, and no frame's start in a chip differs from another's.
+def test_each_frame_has_its_own_noise_and_the_camera_keeps_its_pattern() -> None:
+    # 20 packets per frame, so all frames start at the same place in a packet.
     still = SCENE.replace(switching_frequency=24 * 30 * 20.0)
     noisy = occ.SimulationSettings(force={"fixed-pattern": False, "sensor-noise": True})
     film = occ.render_video(still, frames=3, settings=noisy)
@@ -46,7 +46,7 @@ def test_each_frame_has_noise_of_its_own_and_the_camera_keeps_its_pattern() -> N
     np.testing.assert_array_equal(one.image, two.image)
 
 
-def test_another_seed_gives_other_noise_and_the_same_seed_the_same() -> None:
+def test_another_seed_gives_other_noise_and_the_same_seed_equal_noise() -> None:
     films = [
         occ.render_video(SCENE, settings=occ.SimulationSettings(seed=seed)) for seed in (1, 2, 1)
     ]
@@ -61,7 +61,7 @@ def test_jitter_has_its_deviation_and_never_lets_frames_overlap() -> None:
     film = occ.render_video(SCENE, recording=recording)
     starts = np.array([float(film.start_of(index)) for index in range(2000)])
     moved = starts - np.arange(2000) * PERIOD
-    # A deviation from 2,000 numbers is within 5 % of the true one, at more than three sigma.
+    # The deviation of 2,000 numbers is within 5 % of the true one by more than three sigma.
     assert moved.std() == pytest.approx(1e-3, rel=0.05)
     assert np.diff(starts).min() >= READ
     assert np.abs(moved).max() <= recording.gap(SCENE) / 2
@@ -97,7 +97,7 @@ def test_exposure_times_come_in_turn() -> None:
     assert actual == pytest.approx([1e-4 / 1.0001, 2e-4 / 1.0001, 1e-4 / 1.0001], rel=1e-15)
 
 
-def test_a_gap_is_what_reading_leaves_of_the_period() -> None:
+def test_the_gap_is_the_rest_of_the_period_after_the_readout() -> None:
     recording = occ.Recording(frame_rate=30.0)
     assert recording.gap(SCENE) == pytest.approx(PERIOD - READ)
     assert recording.gap_ratio(SCENE) == pytest.approx(1 - 30 * READ)
@@ -112,7 +112,7 @@ def test_a_gap_is_what_reading_leaves_of_the_period() -> None:
         (SCENE.replace(exposure_time=0.05), {}, "exposure_time is 50 ms; allowed in a film"),
     ],
 )
-def test_a_scene_that_cannot_be_recorded_is_refused(
+def test_a_scene_that_cannot_be_filmed_is_refused(
     scene: Scene, recording: dict[str, float], words: str
 ) -> None:
     with pytest.raises(occ.ParameterError) as refusal:
@@ -130,7 +130,7 @@ def test_a_path_that_leads_out_of_range_is_refused_with_its_frame() -> None:
 
 
 def test_the_memory_does_not_grow_with_the_film(monkeypatch: pytest.MonkeyPatch) -> None:
-    # In one thread: how much of their bands several hold at once is a matter of chance.
+    # In one thread, since the number of bands that several threads keep at once varies.
     monkeypatch.setenv("OMP_NUM_THREADS", "1")
     film = occ.render_video(SCENE.replace(rows=300, columns=300, readout_time=1e-5))
     peaks = []
@@ -143,7 +143,7 @@ def test_the_memory_does_not_grow_with_the_film(monkeypatch: pytest.MonkeyPatch)
     assert peaks[1] < 1.1 * peaks[0]
 
 
-def test_times_and_starts_agree_on_every_frame_but_for_the_clock() -> None:
+def test_times_and_starts_of_all_frames_agree_except_for_the_clock() -> None:
     film = occ.render_video(SCENE, 5, occ.Recording(camera_drift=-5e-5, frame_jitter=1e-4))
     frames = list(film)
     for before, after in pairwise(frames):
@@ -151,6 +151,6 @@ def test_times_and_starts_agree_on_every_frame_but_for_the_clock() -> None:
         assert (after.time - before.time) / true == pytest.approx(1 - 5e-5, abs=1e-9)
 
 
-def test_a_draft_has_some_rows_of_the_frames() -> None:
+def test_a_draft_has_a_selection_of_the_frames_rows() -> None:
     film = occ.render_video(SCENE, 1, rows_step=8)
     assert film.shape == film.frame(0).image.shape == (15, 160)

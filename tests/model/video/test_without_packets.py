@@ -1,4 +1,4 @@
-"""A film without packets is described: a square wave and its clock, bursts, frames that blink."""
+"""A film without packets is described: square waves and their clock, bursts, blinking frames."""
 
 import re
 
@@ -14,11 +14,11 @@ COLUMNS, FRAME_RATE, READOUT = 600, 30.0, 25e-6
 SCENE = occ.load_preset("phone-136us").replace(
     rows=40, columns=COLUMNS, readout_time=1.004 * READOUT, switching_frequency=8e3
 )
-"""What a receiver supposes: the readout time is 0.4 % off."""
+"""The receiver's assumptions, whose readout time is wrong by 0.4 %."""
 
 
 def stripes(frame: int, chips: str, frequency: float) -> np.ndarray:
-    """Draw a frame: the lamp's level at each column's own time, averaged over a tenth of a chip."""
+    """Draw a frame of the lamp's level at each column's time, averaged over a tenth of a chip."""
     times = frame / FRAME_RATE + READOUT * np.arange(COLUMNS)
     parts = [times * frequency + part / 100.0 for part in range(10)]
     levels = np.array([int(chip) for chip in chips])
@@ -47,7 +47,7 @@ def read(pictures: list[np.ndarray]) -> VideoReading:
 @pytest.mark.parametrize(
     ("chips", "chip_rate"), [("10", 2345.0), ("1110000000", 6000.0), ("1111111100", 5123.0)]
 )
-def test_a_square_wave_or_pulse_tells_its_clock(chips: str, chip_rate: float) -> None:
+def test_a_square_wave_or_pulse_gives_its_clock(chips: str, chip_rate: float) -> None:
     found = read([stripes(number, chips, chip_rate) for number in range(8)])
     assert found.failure.startswith("The lamp sends a plain square wave or pulse: its stripes")
     assert "header" not in found.failure
@@ -60,7 +60,7 @@ def test_a_square_wave_or_pulse_tells_its_clock(chips: str, chip_rate: float) ->
     assert 0.0 < readout.error < 0.005 * READOUT
 
 
-def test_a_film_that_is_not_read_and_is_overexposed_says_so() -> None:
+def test_the_failure_of_an_overexposed_film_states_the_overexposure() -> None:
     frames = [stripes(number, "10", 2345.0) for number in range(8)]
     dim, bright = read(frames), read([4.0 * frame for frame in frames])
     assert "Overexposed" not in dim.failure
@@ -71,8 +71,8 @@ def test_a_film_that_is_not_read_and_is_overexposed_says_so() -> None:
 def test_stripes_in_some_frames_are_bursts() -> None:
     square, dark = stripes(0, "10", 2345.0), np.full(COLUMNS, 30.0)
     found = read([square if number // 3 % 2 else dark for number in range(12)])
-    # The lamp may be out of sight in the others.
-    assert "They are in 6 of 12 frames only. " in found.failure
+    # The lamp may be out of view in the others.
+    assert "Only 6 of 12 frames show them. " in found.failure
     assert "burst" not in found.failure
     assert found.clock is None
 
@@ -82,27 +82,26 @@ def test_whole_frames_that_blink_are_described() -> None:
     assert found.failure.startswith(
         "Whole frames are bright or dark: 4 of 10 are bright, and that changes 4 times"
     )
-    # A global shutter shows a fast lamp alike, and so does one that is switched by hand.
+    # A global shutter shows a fast lamp in this way, as does a lamp switched by hand.
     assert found.failure.endswith(
-        "No frame shows stripes that repeat. Packets as the scene sends them are in none of the "
-        "frames."
+        "No frame shows stripes that repeat. No frame contains packets as the scene sends them."
     )
     assert "slow" not in found.failure
 
 
-def test_a_pattern_that_repeats_is_no_square_wave() -> None:
+def test_a_repeated_pattern_is_not_a_square_wave() -> None:
     found = read([stripes(number, "1101000", 5000.0) for number in range(6)])
     assert found.failure.startswith("The stripes repeat after 56.")
     assert found.clock is None
 
 
-def test_frames_that_show_nothing_and_hardly_change_are_refused_as_before() -> None:
+def test_frames_that_show_nothing_and_hardly_change_fail_without_a_description() -> None:
     found = read([np.full(COLUMNS, 35.0 if number // 2 % 2 else 30.0) for number in range(5)])
     assert found.failure.startswith("None of 5 frames shows chips")
 
 
-def test_where_nine_frames_of_ten_show_a_pulse_nothing_is_said_of_packets() -> None:
+def test_if_nine_of_ten_frames_show_a_pulse_packets_are_not_mentioned() -> None:
     sent = [*["10"] * 9, "1101000"]
     found = read([stripes(number, chips, 5000.0) for number, chips in enumerate(sent)])
     assert found.failure.startswith("The lamp sends a plain square wave or pulse")
-    assert found.failure.endswith("Packets as the scene sends them are in none of the frames.")
+    assert found.failure.endswith("No frame contains packets as the scene sends them.")

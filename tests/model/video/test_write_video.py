@@ -1,4 +1,4 @@
-"""A film written to a file is whole, opens again and elsewhere, and says how it was made."""
+"""A film written to a file is complete, can be opened, and states how it was made."""
 
 import resource
 import shutil
@@ -19,7 +19,7 @@ import occ_model as occ
 from occ_model.arrays import ByteArray
 from occ_model.figures.animation import write_animation
 from occ_model.scene.scene import Scene
-from occ_model.video.file.note import note_in
+from occ_model.video.file.note import read_note
 from occ_model.video.file.write import FILM_ENDINGS, LOSSLESS, check_film_path, write_frames
 
 SCENE = Scene().replace(rows=120, columns=160, readout_time=1e-4, distance=0.8, payload="text:été")
@@ -40,7 +40,9 @@ def film() -> occ.Video:
 
 
 @pytest.mark.parametrize("ending", FILM_ENDINGS)
-def test_a_film_comes_back_as_it_was_written(tmp_path: Path, film: occ.Video, ending: str) -> None:
+def test_a_film_is_read_back_as_it_was_written(
+    tmp_path: Path, film: occ.Video, ending: str
+) -> None:
     path, done = tmp_path / f"film{ending}", list[int]()
     assert occ.write_video(film, path, done.append) == 7
     assert done == [1, 2, 3, 4, 5, 6, 7]
@@ -55,7 +57,7 @@ def test_a_film_comes_back_as_it_was_written(tmp_path: Path, film: occ.Video, en
         error = read.image.astype(float) - made.image
         if ending in LOSSLESS:
             assert not error.any()
-        else:  # the codec's own error, which the noise makes large, and that of a column's mean
+        else:  # the codec's error, which is large because of the noise, and that of a column's mean
             assert np.sqrt(np.mean(error**2)) < 8
             assert np.sqrt(np.mean(error.mean(axis=0) ** 2)) < 2
     assert back.problem is None
@@ -69,7 +71,7 @@ def test_other_programs_open_it(tmp_path: Path, film: occ.Video, ending: str) ->
     if ending in (".gif", ".png"):
         with Image.open(path) as picture:
             assert (picture.n_frames, picture.size) == (7, (160, 120))  # type: ignore[attr-defined]
-            assert picture.info["loop"] == 0  # played again and again
+            assert picture.info["loop"] == 0  # repeated endlessly
             picture.seek(6)
             last = np.asarray(picture.convert("L"))
         np.testing.assert_array_equal(last, film.frame(6).image)
@@ -80,7 +82,7 @@ def test_other_programs_open_it(tmp_path: Path, film: occ.Video, ending: str) ->
         assert frames == [True] * 7 + [False]
 
 
-def test_the_parts_of_a_png_film_are_those_of_its_standard(tmp_path: Path) -> None:
+def test_the_parts_of_a_png_film_follow_the_standard(tmp_path: Path) -> None:
     path = tmp_path / "film.png"
     write_frames(path, (stripes(n) for n in range(3)), 29.97, "a note")
     content, place, names, order = path.read_bytes(), 8, [], []
@@ -98,14 +100,14 @@ def test_the_parts_of_a_png_film_are_those_of_its_standard(tmp_path: Path) -> No
     assert order == [0, 1, 2, 3, 4]
 
 
-def test_the_rounded_times_of_a_gif_film_do_not_run_away(tmp_path: Path) -> None:
+def test_rounding_errors_of_a_gif_films_times_do_not_add_up(tmp_path: Path) -> None:
     path = tmp_path / "film.gif"
     write_frames(path, (stripes(n) for n in range(61)), 30.0, "")
     times = [frame.time for frame in occ.load_video(path)]
     assert times == pytest.approx([n / 30 for n in range(61)], abs=0.0051)
 
 
-def test_a_film_of_odd_size_keeps_it_where_the_codec_can(tmp_path: Path) -> None:
+def test_a_film_of_odd_size_keeps_it_if_the_codec_can(tmp_path: Path) -> None:
     odd = [stripes(n, 45, 63) for n in range(2)]
     for ending, shape in [(".png", (45, 63)), (".gif", (45, 63)), (".mkv", (44, 62))]:
         path = tmp_path / f"film{ending}"
@@ -123,10 +125,10 @@ def test_colours_are_kept(tmp_path: Path, ending: str) -> None:
     for channel, level in [("red", 200), ("green", 100), ("blue", 50)]:
         image = occ.load_video(path, channel=channel).frame(1).image
         assert abs(float(np.median(image)) - level) <= (0 if ending in LOSSLESS else 4)
-    assert note_in(path) == "colours"
+    assert read_note(path) == "colours"
 
 
-def test_a_film_that_is_ended_leaves_the_older_file(tmp_path: Path, film: occ.Video) -> None:
+def test_an_interrupted_film_leaves_the_older_file(tmp_path: Path, film: occ.Video) -> None:
     def end(done: int) -> None:
         if done == 3:
             raise KeyboardInterrupt
@@ -150,7 +152,7 @@ def test_a_film_that_is_ended_leaves_the_older_file(tmp_path: Path, film: occ.Vi
         ("a.mp4", None, 30.0, "a film without end"),
     ],
 )
-def test_what_cannot_be_written_is_refused_before_any_frame_is_simulated(
+def test_a_film_that_cannot_be_written_is_refused_before_any_frame_is_simulated(
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
     name: str,
@@ -158,7 +160,7 @@ def test_what_cannot_be_written_is_refused_before_any_frame_is_simulated(
     rate: float,
     words: str,
 ) -> None:
-    """Simulating takes hours where writing takes minutes."""
+    """Simulation can take hours."""
     film = occ.render_video(SCENE, frames, occ.Recording(frame_rate=rate))
     monkeypatch.setattr(
         type(film), "__iter__", lambda _: pytest.fail("a frame was asked for"), raising=False
@@ -181,9 +183,7 @@ def test_the_memory_for_writing_does_not_grow_with_the_film(tmp_path: Path, endi
     assert peaks[1] < 1.2 * peaks[0]
 
 
-def test_a_film_opened_and_written_again_keeps_what_its_file_says(
-    tmp_path: Path, film: occ.Video
-) -> None:
+def test_a_film_opened_and_written_again_keeps_its_note(tmp_path: Path, film: occ.Video) -> None:
     first, second = tmp_path / "a.mkv", tmp_path / "b.png"
     occ.write_video(film, first)
     occ.write_video(occ.load_video(first), second)
@@ -195,7 +195,7 @@ def test_a_film_opened_and_written_again_keeps_what_its_file_says(
 @pytest.mark.parametrize(
     "note", ["", "scene x:\nfrequency = 3", "scene x:\n[camera]\niso = -1", "recording.path = 3"]
 )
-def test_a_note_that_says_nothing_is_passed_over(tmp_path: Path, note: str) -> None:
+def test_a_meaningless_note_is_ignored(tmp_path: Path, note: str) -> None:
     path = tmp_path / "film.mp4"
     write_frames(path, [stripes(0), stripes(1)], 30.0, note)
     back = occ.load_video(path)
@@ -214,14 +214,14 @@ def test_the_animation_of_a_slider_opens_as_a_film(tmp_path: Path) -> None:
     assert [frame.time for frame in frames] == pytest.approx([0.0, 0.1, 0.2])
     assert film.problem is None
     assert (frames[0].image != frames[2].image).any()
-    assert note_in(path).startswith("Animation over switching_frequency")
+    assert read_note(path).startswith("Animation over switching_frequency")
 
 
 _NO_LIMIT = (resource.RLIM_INFINITY, resource.RLIM_INFINITY)
 
 
 def full_disk(first: int, last: int) -> Generator[ByteArray, None, None]:
-    """Frames during some of which no file may grow, as on a disk that is full for a moment."""
+    """Yield frames, during some of which no file can grow, as on a disk that is briefly full."""
     noise = np.random.default_rng(1).integers(0, 256, (40, 192, 256), dtype=np.uint8)
     try:
         for number, picture in enumerate(noise):
@@ -236,35 +236,35 @@ def full_disk(first: int, last: int) -> Generator[ByteArray, None, None]:
 def open_files() -> list[str]:
     found = []
     for each in Path("/proc/self/fd").iterdir():
-        with suppress(OSError):  # that of the folder itself
+        with suppress(OSError):  # the folder's own descriptor
             found.append(str(each.readlink()))
     return found
 
 
 @pytest.mark.parametrize(("first", "last"), [(0, 39), (10, 30), (30, 40)])
 @pytest.mark.parametrize("ending", FILM_ENDINGS)
-def test_a_disk_that_is_full_for_a_moment_leaves_the_older_file_and_nothing_else(
+def test_a_briefly_full_disk_leaves_only_the_older_file(
     tmp_path: Path, capfd: pytest.CaptureFixture[str], ending: str, first: int, last: int
 ) -> None:
     path = tmp_path / f"film{ending}"
     path.write_text("older")
-    # Closed: what still refers to the frames of a film that failed would leave the disk full.
+    # Closed, because references to a failed film's frames would keep the disk full.
     with (
-        pytest.raises(occ.OutputError, match=r"film\.... cannot be written: |can be begun: "),
+        pytest.raises(occ.OutputError, match=r"film\.... cannot be written: |can be started: "),
         closing(full_disk(first, last)) as frames,
     ):
         write_frames(path, frames, 30.0, "")
     assert path.read_text() == "older"
     assert list(tmp_path.iterdir()) == [path]
-    # A file that is removed but still open takes space.
+    # A removed file that is still open takes space.
     assert not [each for each in open_files() if str(tmp_path) in each]
     assert capfd.readouterr() == ("", "")
 
 
-def test_no_more_frames_are_asked_for_when_the_disk_is_full(
+def test_no_more_frames_are_requested_when_the_disk_is_full(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Simulating a film takes hours, and OpenCV goes on as if nothing were wrong."""
+    """Simulating a film can take hours, and OpenCV does not report a full disk."""
     monkeypatch.setattr(shutil, "disk_usage", lambda _: shutil._ntuple_diskusage(9, 9, 0))
     pictures = iter([stripes(0)] * 5)
     with pytest.raises(occ.OutputError, match="cannot be written: No space left on device"):
@@ -280,7 +280,7 @@ def test_no_more_frames_are_asked_for_when_the_disk_is_full(
         ([stripes(0), stripes(1, 40)], "a frame has another size than the first"),
     ],
 )
-def test_frames_that_make_no_film_leave_no_file(
+def test_invalid_frames_leave_no_file(
     tmp_path: Path, frames: list[ByteArray], words: str, ending: str
 ) -> None:
     with pytest.raises(occ.OutputError, match=f"a{ending} is not written: {words}"):

@@ -16,7 +16,7 @@ from occ_model.results.bands import Cure
 from occ_model.results.match import Match
 from occ_model.results.photo_table import DOUBTFUL, REFUSED, SURE, UNREADABLE
 from occ_model.scene.scene import Scene
-from occ_model.scene.units import HERTZ, SECOND
+from occ_model.scene.units import HERTZ, PERCENT, SECOND
 
 SIGNS = {SURE: "●", DOUBTFUL: "◐", REFUSED: "○", UNREADABLE: "✕"}
 """Sign of each verdict, so that none depends on colour alone."""
@@ -150,7 +150,7 @@ class MatchResult(QWidget):
     def _show_cure(self, found: Cure, match: Match) -> None:
         text = (
             f"This lamp repeats at {HERTZ.format(found.repeats, 4)} and is lit for "
-            f"{100.0 * found.duty:.2g} % of the time: {self._depth(found, match)}no bars at "
+            f"{PERCENT.format(found.duty, 2)} of the time: {self._depth(found, match)}no bars at "
             f"whole multiples of {SECOND.format(1.0 / found.repeats, 4)}."
         )
         first, kept = (

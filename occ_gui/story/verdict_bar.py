@@ -22,7 +22,7 @@ from occ_gui.widgets.state_look import State
 from occ_model.results.cause import Remedy, overexposed_text, symptom
 from occ_model.results.decoding import PAPER_DECODER
 from occ_model.scene.simulation_settings import TOLERANCE, unit_of
-from occ_model.scene.units import SECOND
+from occ_model.scene.units import PERCENT, SECOND
 
 _COMPUTING = "computing"  # key of the badge for results that are still to come
 _READS = 0.99  # fraction of the bits from which a decoder counts as reading
@@ -34,7 +34,7 @@ def badges_of(reading: Reading, decoder: str) -> Iterator[Badge]:
         meaning = "Read from the column profile or a draft; the exact picture is computed."
         yield Badge(_COMPUTING, "picture follows", meaning, State.WAITING, stays=True)
     if reading.overexposed:
-        text = f"overexposed: {100.0 * reading.overexposed:.2g} %"
+        text = f"overexposed: {PERCENT.format(reading.overexposed, 2)}"
         yield Badge("overexposed", text, overexposed_text(reading.overexposed), State.DOUBTFUL)
     scene = reading.scene
     ratio = scene.camera.exposure_time / scene.transmitter.switching_period

@@ -25,6 +25,7 @@ from occ_model.receiver.signal import MAX_UNEXPLAINED, unexplained_fraction, why
 from occ_model.receiver.threshold import read_stripes as read_by_threshold
 from occ_model.results.decoding import DecodeResult
 from occ_model.scene.scene import Scene
+from occ_model.scene.units import PERCENT
 from occ_model.transmitter.framings.framing import Framed
 from occ_model.transmitter.framings.paper import HEADER
 from occ_model.transmitter.scheme import scheme_of
@@ -124,8 +125,9 @@ def _why_unexplained(
     if unexplained <= MAX_UNEXPLAINED:
         return None
     return (
-        f"The packet that was read does not explain its columns: {100.0 * unexplained:.2g} % of "
-        f"the variance of their light is neither that of its chips nor noise, and {_UNCHECKED}"
+        "The packet that was read does not explain its columns: "
+        f"{PERCENT.format(unexplained, 2)} of the variance of their light is neither that of its "
+        f"chips nor noise, and {_UNCHECKED}"
     )
 
 

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from occ_model.scene.parameter_kinds import ParameterValue
+from occ_model.scene.units import PERCENT
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,4 +41,4 @@ def symptom(failure: str) -> str:
 
 def overexposed_text(fraction: float) -> str:
     """Return the sentence on the fraction of the panel's columns that are overexposed."""
-    return f"Overexposed: {100.0 * fraction:.2g} % of the panel's columns are white, or full."
+    return f"Overexposed: {PERCENT.format(fraction, 2)} of the panel's columns are white, or full."

@@ -6,6 +6,7 @@ import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray
 from occ_model.results.decoding import Region
+from occ_model.scene.units import PERCENT
 
 _LEAST_PERIODS = 2.5  # fewest periods in view; two bright objects can look like fewer
 _MOST_UNSURE = 0.01 / 3.0  # relative standard deviation of a frequency; three are a percent
@@ -72,7 +73,7 @@ class Lamp:
             found.append("its stripes are so faint in its light that some may be missing")
         product, error = self.switching_frequency_times_readout, self.product_uncertainty
         if product is not None and error is not None and error > _MOST_UNSURE * product:
-            found.append(f"its frequency is known only to {100.0 * error / product:.2g} %")
+            found.append(f"its frequency is known only to {PERCENT.format(error / product, 2)}")
         return tuple(found)
 
     @property

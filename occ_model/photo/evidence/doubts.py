@@ -11,6 +11,7 @@ from occ_model.photo.evidence.hypothesis import CLIPPED_FRACTION, Hypothesis
 from occ_model.photo.fit.chip_runs import chips_as_one, chips_if_longer, is_single_pulse, runs_of
 from occ_model.photo.stripes.period import unrepeated_fraction
 from occ_model.results.match import Stripes
+from occ_model.scene.units import PERCENT
 
 _LEAST_PERIODS = 1.5  # minimum periods in view of a long pattern that is given
 _LEAST_PERIODS_OF_OTHERS = 3.0  # the same of a short one, or of one that was read
@@ -153,8 +154,8 @@ def _doubts_by_residual(found: Hypothesis, stripes: Stripes) -> list[str]:
         return []
     return [
         f"What is left of the stripes repeats after {line.period:.3g} columns, by "
-        f"{100.0 * line.amplitude:.2g} % of their height: the stripes explained may be another "
-        "light's, or the mains'."
+        f"{PERCENT.format(line.amplitude, 2)} of their height: the stripes explained may be "
+        "another light's, or the mains'."
     ]
 
 

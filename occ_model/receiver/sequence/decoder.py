@@ -28,6 +28,7 @@ from occ_model.receiver.sequence.trellis import Word
 from occ_model.receiver.signal import MAX_UNEXPLAINED, why_flat
 from occ_model.results.decoding import DecodeResult
 from occ_model.scene.scene import Scene
+from occ_model.scene.units import PERCENT
 from occ_model.transmitter.scheme import scheme_of
 
 _IMPROVEMENTS = 4  # maximum iterations of fit and detection
@@ -161,9 +162,9 @@ def _framed(result: DecodeResult, fit: Fit, scene: Scene, header: tuple[int, ...
     if unexplained > (_MAX_UNEXPLAINED_OF_ANY_CHIPS if scheme.takes_any_chips else MAX_UNEXPLAINED):
         failure = (
             "The chips found do not explain the signal: "
-            f"{100.0 * unexplained:.2g} % of its variance is neither theirs nor noise. Check that "
-            "exposure time, switching frequency, readout time and scheme are the picture's, and "
-            "that it is not overexposed."
+            f"{PERCENT.format(unexplained, 2)} of its variance is neither theirs nor noise. Check "
+            "that exposure time, switching frequency, readout time and scheme are the picture's, "
+            "and that it is not overexposed."
         )
     elif failure is None and frame.certainty < _MIN_CERTAINTY and not scheme.framing.checks:
         failure = (

@@ -13,6 +13,7 @@ from occ_model.camera.photometry import (
 from occ_model.results.cause import Remedy
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
+from occ_model.scene.units import PERCENT
 from occ_model.study.cause.suspect import Attempt, Suspect
 
 _TARGET = 200.0  # grey level of the lit panel at which a remedy aims
@@ -91,6 +92,6 @@ def suspect_other_light(scene: Scene) -> Suspect | None:
         return None
     return Suspect(
         "much light from other sources",
-        f"The dark panel has {100.0 * dark / lit:.2g} % of the lit one's level.",
+        f"The dark panel has {PERCENT.format(dark / lit, 2)} of the lit one's level.",
         lambda one: one.change(illuminance=0.0),
     )

@@ -11,6 +11,7 @@ from occ_model.results.cause import Remedy
 from occ_model.scene.parameter_kinds import in_sentence
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
+from occ_model.scene.units import PERCENT
 from occ_model.study import theory
 from occ_model.study.cause.brightness import (
     suspect_darkness,
@@ -109,10 +110,11 @@ def _suspect_small_panel(scene: Scene) -> Suspect | None:
     value = max(float(f"{0.5 * fraction:.2g}"), quantity("bright_fraction").low)
     return Suspect(
         "the panel is not found",
-        f"The receiver marks the brightest {100.0 * wanted:.3g} % of the pixels, but the panel "
-        f"covers {100.0 * fraction:.2g} % of the picture: pixels beside it are marked as well.",
+        f"The receiver marks the brightest {PERCENT.format(wanted, 3)} of the pixels, but the "
+        f"panel covers {PERCENT.format(fraction, 2)} of the picture: pixels beside it are marked "
+        "as well.",
         lambda one: one.change(bright_fraction=value),
-        (Remedy(f"Mark the brightest {100.0 * value:.2g} %", {"bright_fraction": value}),),
+        (Remedy(f"Mark the brightest {PERCENT.format(value, 2)}", {"bright_fraction": value}),),
     )
 
 

@@ -18,6 +18,7 @@ from occ_gui.simulation.verdict import CodeVerdict
 from occ_gui.story.verdict_bar import VerdictBar
 from occ_gui.widgets.badge_row import BadgeLabel
 from occ_gui.widgets.state_look import State
+from occ_model.results.cause import overexposed_text
 from occ_model.scene.scene import Scene
 from occ_model.simulation.render import plan_scene
 from occ_model.teaching.lessons import lessons
@@ -302,6 +303,17 @@ def test_overexposure_is_said_first_where_it_is_why_and_is_noted_where_it_is_not
     assert bar.heading == "No code: beyond the null at 14.7 kHz"
     bar.show_reading(snapshot_of())
     assert "overexposed" not in texts(bar)
+
+
+@pytest.mark.parametrize(
+    ("fraction", "said"), [(1.0, "100 %"), (0.996, "100 %"), (0.0123, "1.2 %")]
+)
+def test_the_overexposed_fraction_is_written_without_an_exponent(
+    bar: VerdictBar, snapshot_of: SnapshotOf, fraction: float, said: str
+) -> None:
+    bar.show_reading(replace(snapshot_of(), overexposed=fraction))
+    assert texts(bar)["overexposed"] == f"overexposed: {said}"
+    assert overexposed_text(fraction).startswith(f"Overexposed: {said} of the panel's columns")
 
 
 def test_before_the_cause_is_known_no_consequence_is_the_title(

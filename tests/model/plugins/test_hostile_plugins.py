@@ -390,7 +390,7 @@ def test_chips_that_lie_on_each_other_are_no_chips_of_a_film(gap: float) -> None
 
     with installed(plugins.DECODERS, occ.Decoder("own", "Own", read)):
         reading = occ.decode_video(occ.render_video(scene, 2), scene, "own")
-    assert "The stripes do not follow the chips that were read." in str(reading.failure)
+    assert "The stripes show no regular chips." in str(reading.failure)
 
 
 def test_what_a_signal_raises_within_a_plug_in_is_for_the_program() -> None:

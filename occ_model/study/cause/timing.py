@@ -9,7 +9,7 @@ from occ_model.results.cause import Remedy
 from occ_model.scene.parameters import PARAMETERS, quantity
 from occ_model.scene.parameters.light import MAX_BITS
 from occ_model.scene.scene import Scene
-from occ_model.scene.units import HERTZ, SECOND
+from occ_model.scene.units import HERTZ, PERCENT, SECOND
 from occ_model.study import theory
 from occ_model.study.cause.suspect import Attempt, Suspect
 from occ_model.transmitter.scheme import scheme_of
@@ -122,11 +122,11 @@ def suspect_long_exposure(scene: Scene) -> Suspect | None:
         what = f"at {place}" if is_at else f"{HERTZ.format(abs(off), 2)} {side} {place}"
     elif off > 0.0:
         what = f"beyond the null at {HERTZ.format(null, 3)}"
-    swing = 100.0 * theory.alternating_swing(scene)
+    swing = PERCENT.format(theory.alternating_swing(scene), 2)
     short = float(f"{_SHORT_EXPOSURE * sent.switching_period:.3g}")
     return Suspect(
         what,
-        f"An exposure covers {chips:.3g} chips and leaves {swing:.2g} % of the swing of "
+        f"An exposure covers {chips:.3g} chips and leaves {swing} of the swing of "
         "alternating chips.",
         _expose_shortly,
         (*_decoder_remedies(scene), _exposure_remedy(scene, short)),

@@ -11,8 +11,9 @@ import occ_model as occ
 from occ_model.camera.photometry import level_values
 from occ_model.receiver.decoders import QUICK_DECODERS
 from occ_model.scene.scene import Scene
+from occ_model.study.cause.brightness import suspect_other_light
 from occ_model.study.cause.cause import cause_of
-from occ_model.study.cause.timing import reads_two_headers
+from occ_model.study.cause.timing import reads_two_headers, suspect_long_exposure
 
 SMALL = {"rows": 400}
 NULL = "the null at 14.7 kHz"
@@ -83,6 +84,16 @@ def test_the_null_is_stated_with_the_distance_from_it(frequency: float, what: st
     assert cause.remedy.decoder == "matched"
     # The same frequency is not a cause where the picture is read.
     assert cause_of(scene, "matched") is None
+
+
+def test_percentages_near_100_are_written_without_an_exponent() -> None:
+    scene = occ.load_preset("phone-136us").replace(switching_frequency=1.001 / 136e-6)
+    exposed = suspect_long_exposure(scene)
+    assert exposed is not None
+    assert exposed.why.endswith("leaves 100 % of the swing of alternating chips.")
+    outshone = suspect_other_light(scene.replace(illuminance=1e8, iso=1.0))
+    assert outshone is not None
+    assert outshone.why == "The dark panel has 100 % of the lit one's level."
 
 
 @pytest.mark.parametrize("enhancement", ["equalization", "none"])

@@ -18,7 +18,7 @@ from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_model.errors import OccError
 from occ_model.room.room import Place, Room
 from occ_model.room.rooms import load_room, rooms
-from occ_model.room.view import aimed_at
+from occ_model.room.view import aim_at
 
 _LEAST = QSize(360, 180)
 
@@ -85,7 +85,7 @@ class RoomPane(Pane[RoomChoice]):
         self._look_from(replace(self.room.camera, x=x, y=y), "move of the camera", gesture)
 
     def _aim(self, x: float, y: float, gesture: int) -> None:
-        camera = aimed_at(self.room.camera, x, y, plan_of(self.room).height)
+        camera = aim_at(self.room.camera, x, y, plan_of(self.room).height)
         self._look_from(camera, "turn of the camera", gesture)
 
     def _look_from(self, camera: Place, title: str, gesture: int) -> None:

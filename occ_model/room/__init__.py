@@ -1,1 +1,1 @@
-"""A room: many lamps, each with its code, and one camera that looks for its own place."""
+"""A room: many lamps, each with its own code, and a camera whose place is found from them."""

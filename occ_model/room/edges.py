@@ -1,7 +1,7 @@
-"""The straight edges of a rectangular lamp in a picture, to a fraction of a pixel.
+"""Measure the straight edges of a rectangular lamp in a picture to a fraction of a pixel.
 
-Dark chips hide a lamp's edge: it is measured only where the lamp's light, which repeats with the
-packet, is bright.
+Dark chips hide a lamp's edge, which is therefore measured only where the lamp's light, which
+repeats with the packet, is bright.
 """
 
 import math
@@ -22,51 +22,52 @@ from occ_model.room.edge_lines import (
     Course,
     Edge,
     Line,
+    distort_points,
     estimate_variance_ratio,
     fit_line,
-    picture_points,
 )
 from occ_model.room.lamp_light import LampLight
 from occ_model.room.room import Room, RoomLamp
-from occ_model.room.seen_light import SeenLight, find_enhancement
+from occ_model.room.seen_light import ApparentLight, find_enhancement
 from occ_model.scene.scene import Scene
 
-_EDGE_REACH = 7  # least pixels on either side of where an edge is expected: their light is summed
-_BLUR_REACH = 3.0  # standard deviations of the lens's blur that are summed as well
-_LEVEL_PIXELS = 10  # further pixels, from which lamp and surroundings have their light
+_EDGE_REACH = 7  # minimum pixels on either side of an expected edge over which light is summed
+_BLUR_REACH = 3.0  # standard deviations of the lens's blur over which light is summed as well
+_LEVEL_PIXELS = 10  # further pixels, which give the levels of lamp and surroundings
 _MIN_RELATIVE_LIGHT = 0.5  # fraction of the lamp's brightest light from which an edge is measured
 
 _MIN_LEVEL_PIXELS = 4  # minimum pixels across an edge that determine the level inside
-_MIN_LEVEL_POINTS = 8  # minimum bright points of each of them
-_MOST_PASSES = 6  # of a side: each is measured about the line that the one before found
-_SETTLED = 0.2  # pixels within which a line and the course that it was measured about agree
+_MIN_LEVEL_POINTS = 8  # minimum number of bright points for each of them
+_MOST_PASSES = 6  # over a side, each about the line found by the one before
+_SETTLED = 0.2  # pixels up to which a line agrees with the course about which it was measured
 _OF_PIXEL = math.sqrt(1.0 / 12.0)  # standard deviation of the blur by a pixel's own width
-_SHARP = 0.3  # standard deviation of a blur in pixels, below which no pixel is partly lit
-_SEARCHED_POINTS = 64  # of an edge, by which it is searched for
+_SHARP = 0.3  # standard deviation in pixels of a blur below which no pixel is partly lit
+_SEARCHED_POINTS = 64  # number of an edge's points used to search for it
 _NOTHING = np.zeros((2, 2))
-_SAMPLES = 16  # of each side's curve, where the lamp's outline is drawn
+_SAMPLES = 16  # of each side's curve in the lamp's outline
 
 
 def find_edges(image: ByteArray, room: Room, lamp: RoomLamp, corners: FloatArray) -> list[Edge]:
     """Measure a lamp's edges.
 
-    ``corners``: those of its outline where a lens without distortion shows them, shape (4, 2).
+    ``corners``: the corners of its outline as a lens without distortion would show them, shape (4,
+    2).
     """
-    outline = picture_points(subdivide(corners, np.full(4, _SAMPLES)), room.scene)
+    outline = distort_points(subdivide(corners, np.full(4, _SAMPLES)), room.scene)
     enhancement = find_enhancement(lamp, room, _take_middle(image, outline))
-    seen, blur = SeenLight(room.scene, enhancement), _find_blur(lamp, corners, room.scene)
-    # The outline is where a tenth of the light is, and the blurred rim is no lamp's inside.
+    seen, blur = ApparentLight(room.scene, enhancement), _find_blur(lamp, corners, room.scene)
+    # The outline is at a tenth of the light, and the blurred rim is not the lamp's inside.
     margin = _EDGE_REACH + math.ceil(1.5 * _BLUR_REACH * blur)
     own = LampLight.of(image, outline, lamp, seen, margin)
-    shown = _ShownLamp(image, room.scene, outline, seen, own, blur)
-    lines = [shown.line(corners[[side, (side + 1) % 4]]) for side in range(4)]
+    shown = _LampInPicture(image, room.scene, outline, seen, own, blur)
+    lines = [shown.fit_line(corners[[side, (side + 1) % 4]]) for side in range(4)]
     found = [line for line in lines if line is not None]
     alike = estimate_variance_ratio(found)
-    return [line.edge(alike) for line in found]
+    return [line.make_edge(alike) for line in found]
 
 
 def _take_middle(image: ByteArray, outline: FloatArray) -> ByteArray:
-    """Return the pixels well within an outline, in no order."""
+    """Return the pixels well within an outline, in no particular order."""
     centre = outline.mean(axis=0)
     first, last = column_spans(centre + 0.5 * (outline - centre), *image.shape)
     shown = np.flatnonzero(last > first).tolist()
@@ -74,7 +75,7 @@ def _take_middle(image: ByteArray, outline: FloatArray) -> ByteArray:
 
 
 def _find_blur(lamp: RoomLamp, corners: FloatArray, scene: Scene) -> float:
-    """Return the lens's blur in pixels, at about the distance of a lamp that is so large."""
+    """Return the lens's blur in pixels at a lamp's distance, estimated from its size."""
     x, y = corners.T
     area = max(abs(float(x @ np.roll(y, -1) - y @ np.roll(x, -1))) / 2.0, 1.0)
     distance = scene.camera.focal_length_pixels * math.sqrt(math.prod(lamp.size) / area)
@@ -82,30 +83,30 @@ def _find_blur(lamp: RoomLamp, corners: FloatArray, scene: Scene) -> float:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class _ShownLamp:
+class _LampInPicture:
     image: ByteArray
     scene: Scene
-    outline: FloatArray  # about where the picture shows it
-    seen: SeenLight
+    outline: FloatArray  # the lamp's approximate outline in the picture
+    seen: ApparentLight
     own: LampLight
     blur: float
 
-    def line(self, ends: FloatArray) -> Line | None:
-        """Measure an edge about where it is expected, and again about where it was found."""
-        pixels = self._across(Course.of(ends, self.scene))
+    def fit_line(self, ends: FloatArray) -> Line | None:
+        """Measure an edge where it is expected, and repeatedly where it was found."""
+        pixels = self._take_across(Course.of(ends, self.scene))
         if pixels is None:
             return None
         ends = pixels.search_ends()
         for _ in range(_MOST_PASSES):
-            pixels = self._across(Course.of(ends, self.scene))
-            line = None if pixels is None else pixels.line()
+            pixels = self._take_across(Course.of(ends, self.scene))
+            line = None if pixels is None else pixels.fit_line()
             if line is None or np.abs(line.shift).max() < _SETTLED:
                 return line
             ends = line.course.move(line.shift)
         return None
 
-    def _across(self, course: Course) -> "_PixelsAcross | None":
-        """Return the pixels across an edge; None where too few of its points have enough."""
+    def _take_across(self, course: Course) -> "_PixelsAcross | None":
+        """Return the pixels across an edge; None if too few of its points have enough pixels."""
         level, seen = course.axis == 0, self.seen
         image, outline = (
             (self.image, self.outline) if level else (self.image.T, self.outline[:, ::-1])
@@ -113,10 +114,10 @@ class _ShownLamp:
         steepest = float(course.steepness.max(initial=1.0))
         reach = max(_EDGE_REACH, math.ceil(_BLUR_REACH * self.blur * steepest))
         size = reach + _LEVEL_PIXELS
-        course = course.without_ends(size - 2)
+        course = course.cut_ends(size - 2)
         middle = np.rint(course.across).astype(np.int64)
         first, last = column_spans(outline, *image.shape)
-        # The level is that of pixels which the opposite edge's blur does not reach.
+        # The level is taken from pixels that the blur of the opposite edge does not reach.
         kept = (last - first)[course.places] >= size + reach
         kept &= (middle >= size) & (middle < len(image) - size)
         course, middle = course.take(kept), middle[kept]
@@ -126,7 +127,7 @@ class _ShownLamp:
         pixels = np.arange(-size, size + 1)
         across = middle[:, None] + pixels * inwards
         light = seen.of(image[across, course.places[:, None]])
-        if level:  # a column has one light, which its innermost pixels show unless they are white
+        if level:  # its innermost pixels show a column's light unless they are white
             inside = light[:, -_LEVEL_PIXELS:].mean(axis=1)
             lit = seen.true_inside(inside) - seen.true_outside(light[:, :_LEVEL_PIXELS].mean())
             lit = np.where(seen.is_white(inside), self.own.light[course.places], lit)[:, None]
@@ -138,39 +139,39 @@ class _ShownLamp:
             course, inwards, depth, light, np.broadcast_to(lit, light.shape),
             max(_MIN_RELATIVE_LIGHT * float(brightest), 0.0), seen, self.blur,
         )  # fmt: skip
-        return found.with_level()
+        return found.correct_level()
 
 
 @dataclass(frozen=True, eq=False)
 class _PixelsAcross:
-    """The pixels across an edge, point by point, from outside to inside.
+    """The pixels across an edge for each of its points, from outside to inside.
 
     All arrays have the shape (points, pixels).
     """
 
     course: Course
-    inwards: int  # 1 where rows, or columns, inside have larger numbers; -1 else
+    inwards: int  # 1 if rows or columns inside have larger numbers, otherwise -1
     depth: FloatArray  # pixels along the axis from the course
-    light: FloatArray  # as it is seen
+    light: FloatArray  # light as it appears
     lit: FloatArray  # the lamp's true light above the dark, as if it had no edge
     bright: float  # the true light from which an edge is measured
-    seen: SeenLight
+    seen: ApparentLight
     blur: float
-    error: float = 0.0  # of the light of all points, in pixels of the lamp's
+    error: float = 0.0  # common error of all points' light, in pixels of the lamp's light
 
     @cached_property
     def outside(self) -> float:
-        """The light beside the lamp, as it is seen."""
+        """The light beside the lamp, as it appears."""
         return float(self.light[:, :_LEVEL_PIXELS].mean())
 
     @cached_property
     def own(self) -> FloatArray:
-        """The lamp's light above that outside, as it is seen where no edge is near."""
+        """The lamp's light above that outside, as it appears far from any edge."""
         black = self.seen.true_outside(self.outside)
         return self.seen.inside(black + self.lit) - self.outside
 
     def expect(self, shift: float = 0.0) -> FloatArray:
-        """Return the light of an edge so many pixels further inside than the course."""
+        """Return the expected light of an edge that is ``shift`` pixels further inside."""
         depth, black, own = self.depth - shift, self.seen.true_outside(self.outside), self.own
         if self.blur < _SHARP:
             return np.asarray(self.outside + np.clip(depth + 0.5, 0.0, 1.0) * own)
@@ -178,14 +179,14 @@ class _PixelsAcross:
         covered = normal_fraction(across / self.blur)
         true = black + covered * self.lit
         seen = np.where(covered < 0.5, self.seen.outside(true), self.seen.inside(true))
-        # An edge may be anywhere on the grid of pixels.
+        # The edge may be anywhere on the grid of pixels.
         on_grid = math.hypot(self.blur, _OF_PIXEL / float(self.course.steepness.mean()))
         return np.asarray(seen + (normal_fraction(across / on_grid) - covered) * own)
 
-    def with_level(self) -> Self | None:
-        """Return the lamp's light as its pixels inside the edge show it; None with too few.
+    def correct_level(self) -> Self | None:
+        """Correct the lamp's light by the pixels inside the edge; None if there are too few.
 
-        It falls towards the rim: the level is taken where the lit pixels of the sum are.
+        The light falls towards the rim, so the level is extrapolated to the lit pixels of the sum.
         """
         inner = np.s_[:, -_LEVEL_PIXELS:]
         dark = self.light[:, :_LEVEL_PIXELS].mean(axis=0)
@@ -217,8 +218,8 @@ class _PixelsAcross:
         return replace(self, lit=self.lit * at_edge, bright=self.bright * at_edge, error=error)
 
     def search_ends(self) -> FloatArray:
-        """Return the edge's ends where both of its halves are explained best, to a pixel."""
-        few = self._of(slice(None, None, max(1, len(self.light) // _SEARCHED_POINTS)))
+        """Return the edge's ends that explain both of its halves best, to a pixel."""
+        few = self._take(slice(None, None, max(1, len(self.light) // _SEARCHED_POINTS)))
         reach = self.light.shape[1] // 2 - _LEVEL_PIXELS
         shifts = np.arange(-reach, reach + 1)
         errors = np.array(
@@ -232,14 +233,14 @@ class _PixelsAcross:
         line = Line(self.course, self.inwards * (first + place * (second - first)), _NOTHING)
         return self.course.move(line.shift)
 
-    def _of(self, points: slice) -> Self:
+    def _take(self, points: slice) -> Self:
         return replace(
             self, course=self.course.take(points), depth=self.depth[points],
             light=self.light[points], lit=self.lit[points],
         )  # fmt: skip
 
-    def line(self) -> Line | None:
-        """Find each point from the light that is summed across it, and fit a line."""
+    def fit_line(self) -> Line | None:
+        """Find each point from the light summed across it, and fit a line."""
         summed = np.s_[:, _LEVEL_PIXELS:-_LEVEL_PIXELS]
         total, expected, nearer, farther = (
             light[summed].sum(axis=1)

@@ -1,4 +1,4 @@
-"""A lamp's light in the columns of a picture, by its packet and by what its inside shows."""
+"""Find a lamp's light in the columns of a picture, from its packet and from its inside."""
 
 import dataclasses
 import math
@@ -12,36 +12,36 @@ from occ_model.camera.coverage import column_spans
 from occ_model.camera.photometry import ColumnLight, luminance_levels, luminance_of, panel_values
 from occ_model.effects.light_effects import LedEdges
 from occ_model.room.room import RoomLamp
-from occ_model.room.seen_light import SeenLight
+from occ_model.room.seen_light import ApparentLight
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.packet import sent_chips
 
 _MIN_ROWS = 16  # minimum rows that determine the lamp's light in a column
-_MIN_COLUMNS = 16  # minimum columns that determine how bright it is, and when its packet starts
-_STEPS_A_COLUMN = 8  # of the packet's light
+_MIN_COLUMNS = 16  # minimum columns that determine brightness and start of the packet
+_STEPS_A_COLUMN = 8  # steps per column of the packet's light
 _MOST_STEPS = 2**16
-_ROUNDS = 4  # of the refinement of brightness and start
+_ROUNDS = 4  # refinements of brightness and start
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class LampLight:
-    """A lamp's light in every column, at its middle row, and its fall from row to row."""
+    """A lamp's light in every column at its middle row, and its change from row to row."""
 
-    light: FloatArray  # Shape (columns,): above the dark, in cd/m2; 0 where it is not known
+    light: FloatArray  # Shape (columns,): light above the dark in cd/m2; 0 where it is unknown
     fall: float
     middle: float
 
     def at(self, rows: IndexArray, columns: IndexArray) -> FloatArray:
-        """Return the light in some columns of each row, shape as ``columns``."""
+        """Return the light in some columns of each row, with the shape of ``columns``."""
         return np.asarray(self.light[columns] * (1.0 + self.fall * (rows - self.middle))[:, None])
 
     @classmethod
     def of(
-        cls, image: ByteArray, outline: FloatArray, lamp: RoomLamp, seen: SeenLight, margin: int
+        cls, image: ByteArray, outline: FloatArray, lamp: RoomLamp, seen: ApparentLight, margin: int
     ) -> Self:
-        """Measure it within an outline, but for a margin in pixels.
+        """Measure the light within an outline, except for a margin in pixels.
 
-        Columns that show none of the lamp's inside, or white, have the light of its packet.
+        Columns that do not show the lamp's inside, or show it white, get the light of its packet.
         """
         middle = float(outline[:, 1].mean())
         dark = float(np.median(seen.of(image[::16, ::16])))
@@ -57,11 +57,11 @@ class LampLight:
 
 
 def _inner_light(
-    image: ByteArray, outline: FloatArray, seen: SeenLight, margin: int
+    image: ByteArray, outline: FloatArray, seen: ApparentLight, margin: int
 ) -> tuple[IndexArray, FloatArray, float]:
-    """Return the columns that show enough of an outline's inside, the mean light, and its fall.
+    """Return the columns that show enough of an outline's inside, their mean light, and its slope.
 
-    The light is as it is seen at the middle row; per row it grows by a fraction, the fall.
+    The light is as it appears at the middle row; the slope is its relative change per row.
     """
     nothing = np.empty(0, dtype=np.int64), np.empty(0), 0.0
     first, last = column_spans(outline, *image.shape)
@@ -88,10 +88,10 @@ def _inner_light(
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Packet:
-    """The light of a lamp's packet above the dark, at equally spaced starts of an exposure."""
+    """The light of a lamp's packet above the dark, for equally spaced starts of the exposure."""
 
     light: FloatArray  # Shape (steps,)
-    a_column: float  # steps from a column's exposure to the next one's
+    a_column: float  # steps from one column's exposure to the next one's
 
     @classmethod
     def of(cls, lamp: RoomLamp, scene: Scene) -> Self:
@@ -106,15 +106,15 @@ class _Packet:
         return cls(light, steps / columns)
 
     def at(self, start: FloatArray | float, columns: IndexArray) -> FloatArray:
-        """Return the light in columns, the packet starting so many steps before column 0."""
+        """Return the light in columns if the packet starts ``start`` steps before column 0."""
         steps = np.arange(len(self.light))
         place = start + columns * self.a_column
         return np.asarray(np.interp(place, steps, self.light, period=len(steps)))
 
     def fit(self, columns: IndexArray, own: FloatArray, count: int) -> FloatArray:
-        """Return the light in columns from 0 on, as bright and as early as some have their own.
+        """Return the light in columns from 0 on, fitted in brightness and start to known columns.
 
-        How bright it is may change from column to column, by a fraction.
+        The brightness may change linearly from column to column.
         """
         start = self._search_start(columns, own)
 

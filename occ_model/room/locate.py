@@ -1,4 +1,4 @@
-"""Localization: the camera's place and angles from the named lamps in its picture."""
+"""Find a camera's place and angles from the named lamps in its picture."""
 
 from collections.abc import Sequence
 from dataclasses import astuple, dataclass
@@ -15,43 +15,41 @@ from occ_model.errors import ParameterError, counted
 from occ_model.room.edge_lines import Edge
 from occ_model.room.edges import find_edges
 from occ_model.room.pose_fit import LampEdges, Located
-from occ_model.room.reading import ReadLamp, check_picture, find_and_name
+from occ_model.room.reading import ReadLamp, check_picture, read_lamps
 from occ_model.room.room import Room, RoomLamp
 from occ_model.room.view import angles_of, room_outline, rotation
 
-_MAX_DEVIATION_EXCESS = 9.0  # of chi-squared, within which another place explains the picture too
+_MAX_DEVIATION_EXCESS = 9.0  # of chi-squared, up to which another place is as good
 _MIN_EDGES = 4
-"""Edges of lamps below which there is no place.
+"""Minimum number of lamps' edges: each gives two numbers, and many places explain three edges."""
 
-Each has two numbers; those of three are explained exactly by many places."""
-
-_MAX_MEAN_SQUARE = 4.0  # in standard errors squared; above it a place does not explain the edges
-_MAX_ANCHORS = 3  # maximum number of lamps whose corners are starting values
-_MAX_EXCLUDED_EDGES = 3  # maximum edges left out, one after the other, where no place explains all
-_ONE_LAMP = "Only one lamp determines the place: it can be farther off than the stated errors."
+_MAX_MEAN_SQUARE = 4.0  # in squared standard errors, up to which a place explains the edges
+_MAX_ANCHORS = 3  # maximum number of lamps whose corners give starting values
+_MAX_EXCLUDED_EDGES = 3  # maximum number of edges omitted one by one if no place explains all
+_ONE_LAMP = "Only one lamp determines the place, which can be farther off than the stated errors."
 
 _LOOSE = (
-    "The edges that were measured determine the place so loosely that it can be farther off than "
-    "the stated errors."
+    "The measured edges determine the place so loosely that it can be farther off than the "
+    "stated errors."
 )
 
-_PLACE_TOLERANCE = 1e-3  # metres and radians within which two places are the same
+_PLACE_TOLERANCE = 1e-3  # metres and radians up to which two places are the same
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class RoomReading:
-    """What a picture says of its room.
+    """The lamps and the place found in a picture of a room.
 
     Parameters
     ----------
     lamps
-        The lamps found, from the largest to the smallest.
+        The lamps that were found, the largest first.
     located
-        The place of the camera that explains the picture best, None where ``reasons`` say why.
+        The place of the camera that explains the picture best; None if there is none.
     alternatives
-        Other places that explain it as well.
+        Other places that explain the picture as well.
     reasons
-        Why there is no place, more than one, or one that is not sure; sentences.
+        Sentences on why there is no place, or several, or an uncertain one.
     """
 
     lamps: tuple[ReadLamp, ...]
@@ -61,26 +59,26 @@ class RoomReading:
 
     @property
     def is_sure(self) -> bool:
-        """Whether there is one place, and nothing speaks against it."""
+        """Whether there is exactly one place, and no doubt about it."""
         return self.located is not None and not self.reasons
 
 
 def read_room(image: NDArray[Any], room: Room, focal_share: float = 0.0) -> RoomReading:
     """Name the lamps in a picture of a room, and find where it was taken.
 
-    The receiver knows the room but for the camera's place and angles: the lamps, and the camera's
-    settings and lens. The place follows from the straight edges of the named rectangles; discs are
-    named only.
+    The receiver knows the room except for the camera's place and angles: the lamps, and the
+    camera's settings and lens. The place follows from the straight edges of the named rectangles;
+    discs are only named.
 
     Parameters
     ----------
     image : ndarray, shape (rows, columns)
-        The camera's picture, of pixels as :func:`occ_model.decode` takes them.
+        The camera's picture, with pixels as for :func:`occ_model.decode`.
     room
         The room; its camera's place is not used.
     focal_share
-        Standard error of the room's focal length, as a fraction of it: the place's errors include
-        it.
+        Standard error of the room's focal length, as a fraction of it, which the place's errors
+        include.
 
     Raises
     ------
@@ -92,23 +90,23 @@ def read_room(image: NDArray[Any], room: Room, focal_share: float = 0.0) -> Room
     if not 0.0 <= focal_share < 1.0:
         raise ParameterError.of("focal_share", f"{focal_share:g}", "from 0 to below 1")
     picture = check_picture(image, room)
-    lamps = find_and_name(picture, room)
+    lamps = read_lamps(picture, room)
     by_name = {lamp.name: lamp for lamp in room.lamps}
     measured = []
     for read in lamps:
         lamp = by_name.get(read.name or "")
         if lamp is None or lamp.shape != "rectangle":
             continue
-        corners = quadrilateral(undistort(read.hull, room.scene))
+        corners = fit_quadrilateral(undistort(read.hull, room.scene))
         edges = find_edges(picture, room, lamp, corners)
-        measured.append(_Measured(lamp, corners, edges, read.is_cut))
+        measured.append(_MeasuredLamp(lamp, corners, edges, read.is_cut))
     whole = [(by_name[one.name], one) for one in lamps if one.name and not one.is_cut]
-    found, why = _located(measured, room, len(lamps), _start_of_centres(whole, room), focal_share)
+    found, why = _locate(measured, room, len(lamps), _start_of_centres(whole, room), focal_share)
     return RoomReading(lamps, found[0] if found else None, tuple(found[1:]), why)
 
 
-def quadrilateral(hull: FloatArray) -> FloatArray:
-    """Return the quadrilateral round a convex outline, corners in the sense of a lamp's own."""
+def fit_quadrilateral(hull: FloatArray) -> FloatArray:
+    """Return the quadrilateral around a convex outline, its corners in the order of a lamp's."""
     found = cv2.approxPolyN(hull.astype(np.float32).reshape(-1, 1, 2), 4)
     corners = np.asarray(found, dtype=np.float64).reshape(4, 2)
     x, y = corners.T
@@ -117,15 +115,15 @@ def quadrilateral(hull: FloatArray) -> FloatArray:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class _Measured:
+class _MeasuredLamp:
     lamp: RoomLamp
     corners: FloatArray
     edges: list[Edge]
     is_cut: bool
 
 
-def _located(
-    measured: Sequence[_Measured],
+def _locate(
+    measured: Sequence[_MeasuredLamp],
     room: Room,
     found: int,
     more: Sequence[FloatArray],
@@ -136,20 +134,20 @@ def _located(
         return [], (f"{what}: nothing determines the place.",)
     whole = [one for one in measured if not one.is_cut]
     if not whole:
-        return [], ("Every named lamp is cut by the picture's edge; one has to be whole.",)
+        return [], ("Every named lamp is cut by the picture's edge; at least one must be whole.",)
     edges = sum(len(one.edges) for one in measured)
     if edges < _MIN_EDGES:
         return [], (
-            f"Of named lamps only {counted(edges, 'edge')} can be measured, the others being too "
-            f"faint; allowed: from {_MIN_EDGES}.",
+            f"Only {counted(edges, 'edge')} of the named lamps can be measured, because the others "
+            f"are too faint; at least {_MIN_EDGES} are needed.",
         )
     table = LampEdges.of([(one.lamp, one.edges) for one in measured], room, focal_share)
     starts = [start for anchor in whole[:_MAX_ANCHORS] for start in _starts(anchor, room)]
-    tried = _explanations(table, [*more, *starts])
+    tried = find_places(table, [*more, *starts])
     if not tried:
         return [], (
-            "No place of the camera follows from the edges of the named lamps: those that are "
-            "bright are all parallel, or they are not where the room's lamps are, or the picture "
+            "No place of the camera explains the edges of the named lamps: the bright ones are "
+            "all parallel, or they are not where the room's lamps are, or the picture "
             "is mirrored.",
         )
     tried.sort(key=lambda one: one.deviations)
@@ -165,22 +163,23 @@ def _located(
         why = (_ONE_LAMP,) if len(measured) == 1 else ()
         return kept, why if kept[0].is_linear else (*why, _LOOSE)
     return kept, (
-        f"{len(kept)} places explain the picture alike: a panel looks the same when it is turned, "
-        "and a small one when it is tilted the other way. More lamps would resolve it.",
+        f"{len(kept)} places explain the picture equally well: a panel looks the same when it is "
+        "turned, and a small one when it is tilted the other way. More lamps would decide between "
+        "them.",
     )
 
 
-def _explanations(edges: LampEdges, starts: Sequence[FloatArray]) -> list[Located]:
-    """Return the places that explain the edges, or all but a few of them."""
+def find_places(edges: LampEdges, starts: Sequence[FloatArray]) -> list[Located]:
+    """Return the places that explain all edges, or all except a few."""
     for _ in range(_MAX_EXCLUDED_EDGES + 1):
-        tried = [fitted for start in starts if (fitted := edges.fitted(start)) is not None]
+        tried = [fitted for start in starts if (fitted := edges.fit(start)) is not None]
         fits = [one for one, _ in tried if one.deviations <= _MAX_MEAN_SQUARE * (one.freedom + 4)]
         if fits or not tried:
             return fits
         _, off = min(tried, key=lambda each: each[0].deviations)
         if len(off) < _MIN_EDGES + 2:
             return []
-        edges = edges.without(int(np.argmax(off)))
+        edges = edges.omit_edge(int(np.argmax(off)))
     return []
 
 
@@ -191,7 +190,7 @@ def _is_same(one: Located, other: Located) -> bool:
 
 
 def _start_of_centres(whole: Sequence[tuple[RoomLamp, ReadLamp]], room: Room) -> list[FloatArray]:
-    """Return a place that explains the centres of four lamps or more, discs among them."""
+    """Return a place that explains the centres of at least four lamps, including discs."""
     if len(whole) < 4:
         return []
     centres = np.array([[lamp.x, lamp.y, lamp.z] for lamp, _ in whole])
@@ -207,8 +206,8 @@ def _start_of_centres(whole: Sequence[tuple[RoomLamp, ReadLamp]], room: Room) ->
     return [np.concatenate([place, angles_of(camera)])]
 
 
-def _starts(anchor: _Measured, room: Room) -> list[FloatArray]:
-    """Return places, six numbers each, that explain the corners of one lamp roughly."""
+def _starts(anchor: _MeasuredLamp, room: Room) -> list[FloatArray]:
+    """Return places of six numbers that roughly explain the corners of one lamp."""
     rays = image_rays(anchor.corners, room.scene.camera)
     outline = room_outline(anchor.lamp)
     turned = rotation(anchor.lamp)

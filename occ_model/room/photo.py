@@ -1,4 +1,4 @@
-"""Where a photo of a room was taken, and what is assumed of its camera."""
+"""Find where a photo of a room was taken, and state what is assumed about its camera."""
 
 import math
 from dataclasses import dataclass
@@ -15,26 +15,26 @@ from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import SECOND
 
-_SHAPE_ERROR = 0.01  # relative difference of aspect ratios for another picture, not scaled
+_SHAPE_ERROR = 0.01  # relative difference of aspect ratios from which a picture is not a scaled one
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class RoomPhoto:
-    room: Room  # The room as it was read: its camera has the photo's size and settings
-    # Shape (rows, columns): the photo as it was read: the columns are in the order of their
-    # exposure
+    room: Room  # The room used for reading, whose camera has the photo's size and settings
+    # Shape (rows, columns): the photo as it was read, with the columns in the order of exposure
     image: ByteArray
     reading: RoomReading
-    assumed: tuple[str, ...]  # What is taken as given of camera and lens, and from where; sentences
+    assumed: tuple[str, ...]  # Sentences on what is assumed about camera and lens, with the source
 
 
 def read_room_photo(photo: Photo, room: Room, focal_length: float | None = None) -> RoomPhoto:
     """Name the lamps in a photo of a room, and find where it was taken.
 
     Exposure time, ISO speed, aperture and, unless given, the equivalent focal length (in metres)
-    are those of the EXIF data, else the room's; an error includes its rounding. A photo is turned
-    by a right angle where the stripes lie, and by half a turn where no lamp is named. Raises
-    ParameterError for a focal length out of range, ProjectionError for too large a photo.
+    are taken from the EXIF data, or else from the room; the errors include the rounding of the
+    focal length. A photo is turned by a right angle if the stripes are horizontal, and by half a
+    turn if no lamp is named. Raises ParameterError for a focal length out of range, and
+    ProjectionError for a photo that is too large.
     """
     upright: ByteArray = np.ascontiguousarray(photo.image[::-1] if photo.turned else photo.image)
     scene, assumed = _camera_of(photo, upright, room.scene)
@@ -48,7 +48,7 @@ def read_room_photo(photo: Photo, room: Room, focal_length: float | None = None)
         if any(lamp.name for lamp in other.lamps):
             reading, image, turned = other, around, turned + 180
     if turned:
-        assumed.append(f"The photo is read turned by {turned}°, and the angles are those of that.")
+        assumed.append(f"The photo is read turned by {turned}°, to which the angles refer.")
     return RoomPhoto(seen, image, reading, (said, *assumed))
 
 
@@ -58,7 +58,7 @@ def _camera_of(photo: Photo, image: ByteArray, scene: Scene) -> tuple[Scene, lis
     is_scaled = math.isclose(rows / columns, camera.rows / camera.columns, rel_tol=_SHAPE_ERROR)
     if is_scaled and columns != camera.columns:
         readout *= camera.columns / columns
-        scaled = f", for a picture of {columns} columns in place of {camera.columns}"
+        scaled = f", scaled to a picture of {columns} columns instead of {camera.columns}"
     scene = with_notes(scene.replace(rows=rows, columns=columns, readout_time=readout), photo)
     if photo.is_linear:
         scene = scene.replace(gamma=1.0)
@@ -67,7 +67,7 @@ def _camera_of(photo: Photo, image: ByteArray, scene: Scene) -> tuple[Scene, lis
     return scene, [
         f"Readout time: {SECOND.format(readout)} a column, as the room says{scaled}.",
         f"Exposure time: {SECOND.format(scene.camera.exposure_time)}, as the {said}.",
-        f"Distortion: {bends}; the lens's axis is in the middle of the picture.",
+        f"Distortion: {bends}; the lens's axis passes through the middle of the picture.",
     ]
 
 
@@ -77,11 +77,11 @@ def _with_focal_length(photo: Photo, scene: Scene, given: float | None) -> tuple
         PARAMETERS["equivalent_focal_length"].check(given)
         value, source = given, "as given"
     elif noted is not None:
-        error = photo.focal_length_step / math.sqrt(12.0)  # of what is rounded to it
+        error = photo.focal_length_step / math.sqrt(12.0)  # of rounding to this step
         value, fraction = noted, error / noted
-        source = f"± {1e3 * error:.2g} mm, as the EXIF data say, of a picture that is not cropped"
+        source = f"± {1e3 * error:.2g} mm, as the EXIF data say, if the picture is not cropped"
     else:
         value = scene.camera.equivalent_focal_length
-        source = "as the room says: the photo has no EXIF data of it"
+        source = "as the room says, because the photo has no EXIF data on it"
     scene = scene.replace(equivalent_focal_length=value)
     return scene, fraction, f"Focal length: {1e3 * value:.4g} mm equivalent, {source}."

@@ -1,4 +1,4 @@
-"""Fit a camera's place to the edges of lamps: least squares by Gauss and Newton's steps."""
+"""Fit a camera's place to the edges of lamps by least squares, with Gauss-Newton steps."""
 
 import math
 from collections.abc import Sequence
@@ -14,12 +14,12 @@ from occ_model.room.room import Place, Room, RoomLamp
 from occ_model.room.view import angles_of, room_outline
 from occ_model.scene.scene import Camera
 
-_ROUNDS = 12  # rounds of the refinement; it ends sooner where a step is negligible
-_MIN_DEPTH = 1e-6  # metres before the camera from which a corner is seen
-_DIFFERENCE = 1e-6  # step of each coordinate, in metres or radians, for its numerical derivative
-_CHECKED_ERRORS = 2.0  # how far from the place the errors are checked, in errors
-_MAX_GROWTH = 2.0  # of the deviations there, relative to what the errors say, and its inverse
-_MAX_CONDITION_NUMBER = 1e14  # condition number from which some parameters are undetermined
+_ROUNDS = 12  # maximum number of steps; refinement ends earlier once a step is negligible
+_MIN_DEPTH = 1e-6  # minimum depth in metres at which a corner is seen
+_DIFFERENCE = 1e-6  # step of each coordinate for numerical derivatives, in metres or radians
+_CHECKED_ERRORS = 2.0  # distance from the place at which errors are checked, in errors
+_MAX_GROWTH = 2.0  # of the deviations there relative to the prediction, and its inverse
+_MAX_CONDITION_NUMBER = 1e14  # above this some parameters are undetermined
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -29,14 +29,14 @@ class Located:
     Parameters
     ----------
     covariance : ndarray of float64, shape (6, 6)
-        Of x, y, z, yaw, pitch and roll, in metres and radians.
+        Covariance of x, y, z, yaw, pitch and roll, in metres and radians.
     deviations
-        Sum of the squared deviations of the lamps' edges, in their standard errors.
+        Sum of the squared deviations of the lamps' edges, in standard errors.
     freedom
-        How many numbers were measured beyond those that were wanted.
+        Number of measured values minus that of fitted ones.
     focal_length, focal_error
-        The equivalent focal length that explains the picture, in metres, and its standard error: 0
-        where it was known.
+        The equivalent focal length that explains the picture, in metres, and its standard error; 0
+        if it was known.
     """
 
     place: Place
@@ -57,14 +57,14 @@ class Located:
 class LampEdges:
     """The edges of some lamps in a picture, as arrays.
 
-    A place is six numbers, those of :class:`occ_model.Place`, and a seventh where the focal length
-    is not known exactly: its fraction above the one assumed.
+    A place is given by the six numbers of :class:`occ_model.Place`, and by a seventh if the focal
+    length is not known exactly: its relative excess over the assumed one.
     """
 
     outlines: FloatArray  # Shape (lamps, 4, 3): the lamps' corners in the room
-    lamp: IndexArray  # Shape (edges,): which of them each edge is of
+    lamp: IndexArray  # Shape (edges,): the lamp of each edge
     points: FloatArray  # Shape (edges, 2, 2): two points of each edge
-    # Shape (edges, 2, 2): what makes deviations of both two independent ones, in their standard
+    # Shape (edges, 2, 2): matrix that turns both points' deviations into independent standard
     # errors
     whitening: FloatArray
     camera: Camera
@@ -84,14 +84,14 @@ class LampEdges:
             focal_share,
         )
 
-    def without(self, edge: int) -> "LampEdges":
+    def omit_edge(self, edge: int) -> "LampEdges":
         kept = np.arange(len(self.lamp)) != edge
         return replace(
             self, lamp=self.lamp[kept], points=self.points[kept], whitening=self.whitening[kept]
         )
 
-    def fitted(self, start: FloatArray) -> tuple[Located, FloatArray] | None:
-        """Return a place refined with each edge's squared deviation; None where there is none."""
+    def fit(self, start: FloatArray) -> tuple[Located, FloatArray] | None:
+        """Refine a place; return it with the edges' squared deviations, or None if it fails."""
         numbers = np.append(start, 0.0) if self.focal_share else start
         inverse = np.eye(len(numbers))
         for _ in range(_ROUNDS):
@@ -116,7 +116,7 @@ class LampEdges:
                 break
         sides = self._sides(numbers)
         found = None if sides is None else self._deviations(numbers[None], sides)
-        place = None if found is None else _place(numbers)
+        place = None if found is None else _make_place(numbers)
         if sides is None or found is None or place is None:
             return None
         off = found[0]
@@ -134,7 +134,7 @@ class LampEdges:
     def _is_linear(
         self, numbers: FloatArray, sides: IndexArray, inverse: FloatArray, least: float
     ) -> bool:
-        """Whether deviations grow as far as a few errors as the errors say, in all directions."""
+        """Return whether deviations grow as predicted up to a few errors in all directions."""
         sizes, axes = np.linalg.eigh(inverse)
         steps = _CHECKED_ERRORS * np.sqrt(np.maximum(sizes, 0.0))[:, None] * axes.T
         found = self._deviations(numbers + np.vstack([steps, -steps]), sides)
@@ -144,7 +144,7 @@ class LampEdges:
         return bool(growth.min() > 1.0 / _MAX_GROWTH and growth.max() < _MAX_GROWTH)
 
     def _outlines_at(self, numbers: FloatArray) -> FloatArray | None:
-        """Return corners in the picture, shape (places, lamps, 4, 2); None behind the camera."""
+        """Return corners in the picture, shape (places, lamps, 4, 2); None if behind the camera."""
         placed = self.outlines[None] - numbers[:, None, None, :3]
         placed = np.einsum("plci,pij->plcj", placed, rotations(*numbers[:, 3:6].T))
         depth = placed[..., 2:]
@@ -156,26 +156,26 @@ class LampEdges:
         return image_points(rays, self.camera)
 
     def _sides(self, numbers: FloatArray) -> IndexArray | None:
-        """Return the side of its lamp that each edge is, from a place; None where none is seen.
+        """Return which side of its lamp each edge is, seen from a place; None if none is in view.
 
-        It is the nearest of those that have the lamp on the same hand.
+        It is the nearest of the sides that have the lamp on the same side as the edge.
         """
         outlines = self._outlines_at(numbers[None])
         if outlines is None:
             return None
         own = outlines[0][self.lamp]
-        off = np.abs(_off(own, self.points)).max(axis=-1)
+        off = np.abs(_distances(own, self.points)).max(axis=-1)
         along = np.einsum(
             "esk,ek->es", np.roll(own, -1, axis=-2) - own, self.points[:, 1] - self.points[:, 0]
         )
         return np.asarray(np.argmin(np.where(along > 0.0, off, np.inf), axis=-1))
 
     def _deviations(self, numbers: FloatArray, sides: IndexArray) -> FloatArray | None:
-        """Return edges' distances from places', and the focal length's, in standard errors."""
+        """Return the deviations of edges, and of the focal length, in standard errors."""
         outlines = self._outlines_at(numbers)
         if outlines is None:
             return None
-        off = _off(outlines[:, self.lamp], self.points)
+        off = _distances(outlines[:, self.lamp], self.points)
         own = off[:, np.arange(len(sides)), sides]
         whitened = np.einsum("eij,pej->pei", self.whitening, own).reshape(len(numbers), -1)
         if not self.focal_share:
@@ -183,20 +183,20 @@ class LampEdges:
         return np.column_stack([whitened, numbers[:, 6] / self.focal_share])
 
 
-def _off(outlines: FloatArray, points: FloatArray) -> FloatArray:
-    """Return the distances of both points of each edge to the left of an outline's sides."""
+def _distances(outlines: FloatArray, points: FloatArray) -> FloatArray:
+    """Return how far both points of each edge are to the left of an outline's sides."""
     along = np.roll(outlines, -1, axis=-2) - outlines
     along = along / np.hypot(along[..., 0], along[..., 1])[..., None]
     apart = points[:, None] - outlines[..., None, :]
     return np.asarray(apart[..., 1] * along[..., None, 0] - apart[..., 0] * along[..., None, 1])
 
 
-def _place(numbers: FloatArray) -> Place | None:
+def _make_place(numbers: FloatArray) -> Place | None:
     if not np.isfinite(numbers).all():
         return None
     yaw, pitch, roll = angles_of(rotations(*numbers[3:6]))
     x, y, z = numbers[:3].tolist()
     try:
         return Place(x=x, y=y, z=z, yaw=yaw, pitch=pitch, roll=roll)
-    except ValueError:  # beyond what a room's camera can be at
+    except ValueError:  # out of the range of a room's camera
         return None

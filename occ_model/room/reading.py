@@ -1,4 +1,4 @@
-"""Read the lamps of a room in a picture: find them, decode each, name it by its code."""
+"""Find the lamps of a room in a picture, decode each, and name it by its code."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
@@ -19,18 +19,17 @@ from occ_model.scene.scene import Scene
 from occ_model.transmitter.packet import code_of, packet, sent_chips
 from occ_model.transmitter.scheme import scheme_of
 
-_ROWS = 4  # rows that are averaged where lamps are looked for
+_ROWS = 4  # rows that are averaged to search for lamps
 
-_MIN_SIGMA_ABOVE_NOISE = 6.0  # of the noise above the surroundings from which a pixel is a lamp's
-_MIN_LAMP_FRACTION = 0.1  # of the brightest pixels' light above the surroundings
-_SAMPLING_STEP = 4  # step between the rows that sample the light of surroundings and lamps
-_MIN_SIDE = 12  # rows and columns of the smallest lamp that is looked at
+_MIN_SIGMA_ABOVE_NOISE = 6.0  # above the surroundings, from which a pixel is a lamp's
+_MIN_LAMP_FRACTION = 0.1  # fraction of the brightest pixels' light above the surroundings
+_SAMPLING_STEP = 4  # step between rows that sample the light of surroundings and lamps
+_MIN_SIDE = 12  # rows and columns of the smallest lamp considered
 
 _MIN_LIT_FRACTION = 0.5
-"""Fraction of a lamp's brightest light from which a column of it is found lit, however faint the
-lamp is beside others."""
+"""Fraction of a lamp's own brightest light from which one of its columns counts as lit."""
 
-_SENT = (  # what a decoder has to know of a lamp besides its code
+_SENT = (  # what a decoder must know about a lamp besides its code
     "switching_frequency", "bits", "payload", "line_code", "framing", "preamble",
     "error_correction", "pattern",
 )  # fmt: skip
@@ -43,17 +42,17 @@ class ReadLamp:
     Parameters
     ----------
     name
-        Its name in the room, None where it has none.
+        Its name in the room; None if it has none.
     code
-        The code that was read, None where none was.
+        The code that was read; None if none was.
     region
-        The rectangle round its lit pixels.
+        The bounding rectangle of its lit pixels.
     hull : ndarray of float64, shape (corners, 2)
-        The convex outline of its lit pixels, (column, row) of each corner.
+        The convex outline of its lit pixels, with (column, row) of each corner.
     is_cut
-        Whether it reaches the picture's edge, or may do so behind chips that are dark there.
+        Whether it reaches the picture's edge, or may do so where its chips are dark.
     note
-        Why it has no name, or that it is cut; empty where all is well.
+        Why it has no name, or that it is cut; otherwise empty.
     """
 
     name: str | None
@@ -75,10 +74,10 @@ def check_picture(image: NDArray[Any], room: Room) -> ByteArray:
     return bytes_of(picture)
 
 
-def find_and_name(image: ByteArray, room: Room) -> tuple[ReadLamp, ...]:
-    """Find the lamps in the camera's picture and name them, from the largest to the smallest."""
-    found = sorted(_found(image, room), key=lambda one: -one[0].rows * one[0].columns)
-    lamps = [_read(image, region, hull, room) for region, hull in found]
+def read_lamps(image: ByteArray, room: Room) -> tuple[ReadLamp, ...]:
+    """Find the lamps in the camera's picture and name them, the largest first."""
+    found = sorted(_find_lamps(image, room), key=lambda one: -one[0].rows * one[0].columns)
+    lamps = [_read_lamp(image, region, hull, room) for region, hull in found]
     names = [lamp.name for lamp in lamps if lamp.name]
     return tuple(
         replace(lamp, name=None, note=f"{lamp.name} was read at {names.count(lamp.name)} places.")
@@ -88,7 +87,7 @@ def find_and_name(image: ByteArray, room: Room) -> tuple[ReadLamp, ...]:
     )
 
 
-def _found(image: ByteArray, room: Room) -> Iterator[tuple[Region, FloatArray]]:
+def _find_lamps(image: ByteArray, room: Room) -> Iterator[tuple[Region, FloatArray]]:
     """Return the region and the convex outline of each group of lit pixels."""
     scale = min(_ROWS, len(image))
     rows = len(image) // scale
@@ -112,13 +111,13 @@ def _found(image: ByteArray, room: Room) -> Iterator[tuple[Region, FloatArray]]:
         hull = corners.astype(np.float64) + np.array([x, y])
         hull[:, 1] = (hull[:, 1] + 0.5) * scale - 0.5
         first, last = y * scale, min(len(image), (y + height) * scale + 1)
-        # Closing joins to the picture's sides what is near them: the lit pixels themselves count.
+        # Closing extends spots near the picture's sides up to them, so the lit pixels count.
         left, right = int(hull[:, 0].min()), int(hull[:, 0].max()) + 1
         yield Region(first, last, left, right), hull
 
 
 def _ends_of_rows(lit: BoolArray) -> NDArray[np.int32]:
-    """Return the first and the last lit pixel of each row: the others are within their hull."""
+    """Return the first and the last lit pixel of each row, whose hull contains the others."""
     rows = np.flatnonzero(lit.any(axis=1))
     first = lit[rows].argmax(axis=1)
     last = lit.shape[1] - 1 - lit[rows, ::-1].argmax(axis=1)
@@ -127,7 +126,7 @@ def _ends_of_rows(lit: BoolArray) -> NDArray[np.int32]:
 
 
 def _longest_gap(room: Room) -> int:
-    """Return the columns of the longest dark run of any lamp, odd."""
+    """Return the columns of the longest dark run of any lamp, as an odd number."""
     longest = 0.0
     for lamp in room.lamps:
         chips = sent_chips(lamp.transmitter)
@@ -135,7 +134,7 @@ def _longest_gap(room: Room) -> int:
             continue
         ends = np.flatnonzero(np.concatenate([chips, chips]))
         gap = int(np.diff(ends).max()) - 1
-        # Another code, of a lamp that is not in the room, may have a longer run.
+        # The code of a lamp that is not in the room may have a longer run.
         run = max(gap, scheme_of(lamp.transmitter).line_code.longest_run or 0)
         longest = max(longest, run / lamp.transmitter.switching_frequency)
     return int(longest / room.scene.camera.readout_time * 1.1) // 2 * 2 + 5
@@ -145,17 +144,17 @@ def _settings(room: Room) -> tuple[Scene, ...]:
     """Return a scene for each combination of settings with which lamps of the room send."""
     return tuple(
         room.scene.replace(**dict(zip(_SENT, sent, strict=True)), code=0)
-        for sent in dict.fromkeys(sent_by(lamp) for lamp in room.lamps)
+        for sent in dict.fromkeys(settings_of(lamp) for lamp in room.lamps)
     )
 
 
-def sent_by(lamp: RoomLamp) -> tuple[Any, ...]:
-    """Return what a decoder has to know of a lamp besides its code."""
+def settings_of(lamp: RoomLamp) -> tuple[Any, ...]:
+    """Return what a decoder must know about a lamp besides its code."""
     return tuple(getattr(lamp.transmitter, name) for name in _SENT)
 
 
 def code_sent(lamp: RoomLamp) -> int:
-    """Return the code that a decoder reads of a lamp, its payload's bits where it has one."""
+    """Return the code that a decoder reads from a lamp, or its payload's bits as a number."""
     return code_of(lamp.transmitter.payload_bits)
 
 
@@ -175,7 +174,7 @@ def _signal(image: ByteArray, region: Region, hull: FloatArray) -> FloatArray:
     return np.asarray(np.interp(column, column[shown], means[shown]))
 
 
-def _read(image: ByteArray, region: Region, hull: FloatArray, room: Room) -> ReadLamp:
+def _read_lamp(image: ByteArray, region: Region, hull: FloatArray, room: Room) -> ReadLamp:
     rows, columns = image.shape
     is_cut = (
         region.first_row <= _ROWS or region.first_column <= 1
@@ -194,7 +193,7 @@ def _read(image: ByteArray, region: Region, hull: FloatArray, room: Room) -> Rea
         sent = tuple(getattr(scene.transmitter, name) for name in _SENT)
         names = [
             lamp.name for lamp in room.lamps
-            if sent_by(lamp) == sent and code_sent(lamp) == result.code
+            if settings_of(lamp) == sent and code_sent(lamp) == result.code
         ]  # fmt: skip
         codes.append((result.code, names))
         hides = hides or _may_reach_sides(result, scene, region, bright)
@@ -215,11 +214,11 @@ def _read(image: ByteArray, region: Region, hull: FloatArray, room: Room) -> Rea
 
 
 def _may_reach_sides(result: DecodeResult, scene: Scene, region: Region, bright: BoolArray) -> bool:
-    """Whether no column from a lamp to one side lacks a lit chip's light."""
+    """Return whether the lamp may reach a side, all columns up to it being dark by its chips."""
     if result.model is None:
         return False
     camera, sent = scene.camera, scene.transmitter
-    column = np.arange(camera.columns) - region.first_column  # of the signal that was read
+    column = np.arange(camera.columns) - region.first_column  # columns of the signal that was read
     chip = (scene.model.start_time + column * camera.readout_time) * sent.switching_frequency
     bins = len(result.model)
     place = chip * (bins / len(packet(scene)))

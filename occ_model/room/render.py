@@ -35,13 +35,13 @@ from occ_model.simulation.stage_timer import StageTimer
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class ShownLamp:
+class PicturedLamp:
     lamp: RoomLamp
-    # Shape (corners, 2): its outline in the picture, (column, row) of each corner
+    # Shape (corners, 2): its outline in the picture, with (column, row) of each corner
     outline: FloatArray
-    region: Region  # The rectangle round it in the picture
+    region: Region  # Its bounding rectangle in the picture
     is_cut: bool  # Whether a part of it is outside the picture
-    profile: FloatArray  # Shape (columns,): its pixel value in each column, were it alone
+    profile: FloatArray  # Shape (columns,): the pixel value that it alone would have in each column
     blur: float  # Standard deviation of the lens's blur, in pixels
 
 
@@ -52,11 +52,11 @@ class RoomFrame:
     Parameters
     ----------
     plan
-        The effects simulated: those that the picture of any of its lamps calls for.
+        The simulated effects: those that the picture of any of its lamps needs.
     camera_image : ndarray of uint8, shape (rows, columns)
         The camera's picture.
     lamps
-        Those in the picture, in the room's order.
+        The lamps in the picture, in the room's order.
     timings
         Seconds of each stage.
     """
@@ -64,12 +64,12 @@ class RoomFrame:
     room: Room
     plan: Plan
     camera_image: ByteArray
-    lamps: tuple[ShownLamp, ...]
+    lamps: tuple[PicturedLamp, ...]
     timings: Mapping[str, float]
 
     @cached_property
     def image(self) -> ByteArray:
-        """The receiver's picture: each lamp enhanced by itself, as the scene says."""
+        """The receiver's picture: each lamp is enhanced by itself, by the scene's method."""
         image = self.camera_image.copy()
         method = self.room.scene.model.enhancement
         rows, columns = image.shape
@@ -94,13 +94,13 @@ def render_room(
 ) -> RoomFrame:
     """Simulate the picture that a room's camera takes.
 
-    A lamp outside the picture costs nothing. Noise, the sensor and the file are simulated once, for
+    A lamp outside the picture takes no time. Noise, the sensor and the file are simulated once, for
     the sum of all light.
 
     Parameters
     ----------
     tolerance, seed, observable, force, noise
-        As for :func:`occ_model.render`, the tolerance for each lamp.
+        As for :func:`occ_model.render`; the tolerance holds for each lamp.
 
     Raises
     ------
@@ -115,15 +115,15 @@ def render_room(
     seen = lamps_in_view(room)
     timer.end_stage("projection")
     views = [one.view for one in seen] or [_dark_view(room.scene)]
-    chosen = plan_of_any(_extreme(views), settings)
+    chosen = plan_of_any(_select_extreme(views), settings)
     timer.end_stage("plan")
     if len(views) == 1:
         frame = render_plan(views[0], chosen, seed=seed, noise=noise, timer=timer)
         profiles, image = [expose_columns(views[0], chosen).profile], frame.camera_image
     else:
-        profiles, image = _composed(views, chosen, settings, timer)
+        profiles, image = _compose(views, chosen, settings, timer)
     shown = tuple(
-        _shown(one, chosen, profile) for one, profile in zip(seen, profiles, strict=False)
+        _show_lamp(one, chosen, profile) for one, profile in zip(seen, profiles, strict=False)
     )
     lamps = tuple(lamp for lamp in shown if lamp is not None)
     return RoomFrame(room, chosen, image, lamps, timer.timings)
@@ -133,12 +133,12 @@ def _dark_view(scene: Scene) -> PaperView:
     return paper_view_of(dataclasses.replace(scene, pose=Pose(distance=1.0, offset_x=1e3)))
 
 
-def _extreme(views: Sequence[PaperView]) -> list[PaperView]:
-    """Return the lamps among which any effect is largest.
+def _select_extreme(views: Sequence[PaperView]) -> list[PaperView]:
+    """Return the lamps for which an effect can be largest.
 
     They are extreme in depth (defocus), place in the picture (vignetting, distortion), tilt and
-    order (emission), light (noise), number of pixels, frequency and edges (and what a stretch makes
-    of all).
+    order (emission), light (noise), number of pixels, frequency, or edges (and in their swing,
+    which an enhancement stretches).
     """
 
     def features(view: PaperView) -> tuple[float, ...]:
@@ -154,7 +154,7 @@ def _extreme(views: Sequence[PaperView]) -> list[PaperView]:
         )  # fmt: skip
 
     table = np.array([features(view) for view in views])
-    # Numbers that differ by rounding alone do not make another lamp an extreme one.
+    # Differences by rounding alone must not add a lamp.
     table = np.round(table / np.maximum(np.abs(table).max(axis=0), 1e-30), 6)
     places = {*table.argmin(axis=0).tolist(), *table.argmax(axis=0).tolist()}
     return [views[place] for place in sorted(places)]
@@ -167,10 +167,10 @@ def _optics_of(view: PaperView, chosen: Plan) -> Optics:
     return optics
 
 
-def _composed(
+def _compose(
     views: list[PaperView], chosen: Plan, settings: SimulationSettings, timer: StageTimer
 ) -> tuple[list[FloatArray], ByteArray]:
-    """Return the profile of each lamp, and the camera's picture of all."""
+    """Return the profile of each lamp, and the camera's picture of all lamps."""
     camera = views[0].scene.camera
     columns = [expose_columns(view, chosen, timer) for view in views]
     panels = [
@@ -190,7 +190,7 @@ def _composed(
     return [one.profile for one in columns], made.camera_image
 
 
-def _shown(seen: LampView, chosen: Plan, profile: FloatArray) -> ShownLamp | None:
+def _show_lamp(seen: LampView, chosen: Plan, profile: FloatArray) -> PicturedLamp | None:
     camera, optics = seen.view.scene.camera, _optics_of(seen.view, chosen)
     outline = optics.outline
     region = region_of(outline, camera.rows, camera.columns)
@@ -201,4 +201,4 @@ def _shown(seen: LampView, chosen: Plan, profile: FloatArray) -> ShownLamp | Non
         column.min() < 0 or row.min() < 0
         or column.max() > camera.columns - 1 or row.max() > camera.rows - 1
     )  # fmt: skip
-    return ShownLamp(seen.lamp, outline, region, cut, profile, optics.blur)
+    return PicturedLamp(seen.lamp, outline, region, cut, profile, optics.blur)

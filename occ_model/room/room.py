@@ -1,8 +1,8 @@
-"""A room: lamps with place and direction, and a camera among them, as frozen values.
+"""A room as a frozen value: lamps with places and directions, and a camera.
 
 Room coordinates are in metres: x and y along the floor, z upwards. At angles of 0 the camera looks
-straight up, its columns along x and its rows along y, and a lamp faces straight down. Angles turn
-about x (pitch), then y (yaw), then z (roll), as those of a scene's pose do.
+straight up, with its columns along x and its rows along y, and a lamp faces straight down. Angles
+turn about x (pitch), then y (yaw), then z (roll), like those of a scene's pose.
 """
 
 import dataclasses
@@ -56,12 +56,12 @@ def _check_fields(value: object) -> None:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Place:
-    """Where a camera is and how it is turned: metres and radians.
+    """The place and the angles of a camera, in metres and radians.
 
     Parameters
     ----------
     yaw, pitch, roll
-        Turn about y, x and z; all 0 looks straight up.
+        Rotation about y, x and z; at 0 the camera looks straight up.
 
     Raises
     ------
@@ -91,9 +91,9 @@ class RoomLamp:
     shape
         ``"rectangle"``, or ``"disc"`` of the diameter ``panel_width``.
     x, y, z
-        Place of its centre, metres.
+        Place of its centre in metres.
     yaw, pitch, roll
-        Its turn; all 0 faces straight down.
+        Rotation about y, x and z; at 0 it faces straight down.
     start_time
         When its packet starts, before the room's time 0, in seconds.
     transmitter
@@ -130,27 +130,27 @@ class RoomLamp:
 
     @property
     def size(self) -> tuple[float, float]:
-        """Width and height of the lamp, a disc's diameter twice, in metres."""
+        """Width and height of the lamp in metres; for a disc both are the diameter."""
         width = self.transmitter.panel_width
         return width, width if self.shape == "disc" else self.transmitter.panel_height
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Room:
-    """Lamps, and a camera among them.
+    """Lamps and a camera.
 
     Parameters
     ----------
     lamps
         At most 200.
     scene
-        The camera's settings, lens and sensor, the light that is not the lamps', and the model. Its
-        transmitter is not used, and its pose is the first one.
+        The camera's settings, lens and sensor, the light of the surroundings, and the model. Its
+        transmitter is not used, and its pose is set to the default.
 
     Raises
     ------
     ParameterError
-        There is no lamp or more than 200, two have the same name, or a value is not of its kind.
+        There is no lamp or more than 200, two have the same name, or a value has the wrong type.
     """
 
     lamps: tuple[RoomLamp, ...]
@@ -159,7 +159,7 @@ class Room:
 
     def __post_init__(self) -> None:
         check_scene(self.scene)
-        # An unused pose does not make two rooms differ.
+        # Rooms must not differ by an unused pose.
         object.__setattr__(self, "scene", dataclasses.replace(self.scene, pose=Pose()))
         if not isinstance(self.camera, Place):
             raise ParameterError.of("camera", shown(self.camera), "a Place")
@@ -173,7 +173,7 @@ class Room:
         for name in names:
             if names.count(name) > 1:
                 raise ParameterError(
-                    f"Two lamps have the name {name}; allowed: a name of its own for each lamp."
+                    f"Two lamps have the name {name}; allowed: a different name for each lamp."
                 )
 
     @classmethod
@@ -188,7 +188,7 @@ class Room:
         return cls(lamps=(lamp,), scene=scene)
 
     def replace(self, **changes: Any) -> Self:
-        """Return the room with its lamps, scene or camera, or one of the camera's values, changed.
+        """Return the room with changes to its lamps, scene, camera, or single values.
 
         Parameters
         ----------
@@ -215,7 +215,7 @@ class Room:
         return dataclasses.replace(room, camera=camera, scene=room.scene.replace(**changes))
 
     def with_sent(self, **changes: Any) -> Self:
-        """Return the room with parameters of the scene changed, for all lamps those that they have.
+        """Return the room with parameters of the scene, and of all lamps, changed.
 
         Raises
         ------
@@ -230,7 +230,7 @@ class Room:
         return self.replace(lamps=lamps, **changes)
 
     def to_toml(self) -> str:
-        """Write the room as the text of a room file."""
+        """Return the room as the text of a room file."""
         tables = self.scene.tables()
         tables.pop("pose")
         usual = tables["transmitter"]
@@ -247,17 +247,17 @@ class Room:
     def from_toml(cls, text: str) -> Self:
         """Read the text of a room file.
 
-        Its tables are those of a scene file, ``[transmitter]`` holding what all lamps share;
-        ``based_on`` names a preset for what it does not say. ``[place]`` is the camera's place, and
-        ``lamps`` a list of tables, each with a lamp's name, shape, place and angles, its start
-        time, and what its transmitter has of its own.
+        Its tables are those of a scene file, with ``[transmitter]`` for what all lamps share.
+        ``based_on`` names a preset for everything that is not stated. ``[place]`` is the camera's
+        place, and ``lamps`` a list of tables, each with a lamp's name, shape, place, angles and
+        start time, and with those parameters of its transmitter that are its own.
 
         Raises
         ------
         SceneFileError
             The text is not a room file.
         ParameterError
-            A value is not of its kind or out of range; a lamp is named.
+            A value has the wrong type or is out of range; the message names the lamp.
         """
         tables = toml_format.from_toml(text)
         tables.pop("title", None)
@@ -286,7 +286,7 @@ def _read_lamp(row: Mapping[str, Any], usual: Transmitter, number: int) -> RoomL
     _check_keys(row, (*_LAMP_KEYS, *GROUPS["transmitter"]), called)
     own = {name: row[name] for name in _LAMP_KEYS if name in row}
     if "name" not in own:
-        raise SceneFileError(f"{called} has no name; each lamp has one of its own.")
+        raise SceneFileError(f"{called} has no name; each lamp needs one of its own.")
     sent = {name: value for name, value in row.items() if name not in _LAMP_KEYS}
     try:
         return RoomLamp(**own, transmitter=usual.replaced(sent))

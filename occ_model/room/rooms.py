@@ -1,4 +1,4 @@
-"""Rooms that come with the program, and room files."""
+"""Load rooms that come with the program, and room files."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""The light that a picture's pixels seem to have had: noise, limits and enhancement change it."""
+"""Relate true light to the apparent light of pixels, which noise and enhancement alter."""
 
 import numpy as np
 
@@ -15,23 +15,23 @@ from occ_model.camera.photometry import (
 from occ_model.effects.effect import LightEffect, NoiseEffect, PixelEffect
 from occ_model.effects.registry import NAMES, effects_named
 from occ_model.room.room import Room, RoomLamp
-from occ_model.room.view import sent_scene
+from occ_model.room.view import scene_with_lamp
 from occ_model.scene.scene import Scene
 
-_LEVELS = np.linspace(0.0, 2.0 * WHITE, 600)  # pixel values that the mean is tabulated for
-_MIN_SLOPE = 0.25  # of what is seen by the light there; below it says little of what was there
-_NEGLIGIBLE = 1e-6  # fraction of the pixels that says nothing of a value's light
-_UNEXPLAINED = 1e-4  # fraction of the pixels that may have any value
+_LEVELS = np.linspace(0.0, 2.0 * WHITE, 600)  # pixel values for which means are tabulated
+_MIN_SLOPE = 0.25  # minimum slope of apparent over true light for the true light to be known
+_NEGLIGIBLE = 1e-6  # fraction of pixels too small to determine a value's light
+_UNEXPLAINED = 1e-4  # fraction of pixels that may have any value
 
 _PLAIN: ByteArray = np.arange(256, dtype=np.uint8)
 
 
-class SeenLight:
-    """What pixels in a picture of a scene say of the light that reached them, in the mean.
+class ApparentLight:
+    """The mean relation between the light of pixels in a picture and the light that reached them.
 
-    Black and white cut noise off: a dark pixel seems brighter, a bright one darker. Where the
-    receiver enhanced a lamp's pixels, and not those beside it, a pixel's value counts as the mean
-    light of those that have it, half of them being the lamp's.
+    Black and white clip the noise, so dark pixels appear brighter and bright ones darker. If the
+    receiver enhanced a lamp's pixels but not those beside it, a pixel value counts as the mean
+    light of all pixels that have it, half of which are taken to be the lamp's.
     """
 
     def __init__(
@@ -65,44 +65,44 @@ class SeenLight:
         return np.maximum.accumulate(mean)
 
     def of(self, image: ByteArray) -> FloatArray:
-        """Return the light of pixels, in cd/m2, shape as ``image``."""
+        """Return the apparent light of pixels in cd/m2, with the shape of ``image``."""
         return self._of_byte[image]
 
     def inside(self, true: FloatArray) -> FloatArray:
-        """Return what a lamp's pixels of some light seem to have."""
+        """Return the apparent light of a lamp's pixels of a true light."""
         return np.asarray(np.interp(true, self._true, self._inside))
 
     def outside(self, true: FloatArray) -> FloatArray:
-        """Return what pixels beside a lamp seem to have."""
+        """Return the apparent light of pixels beside a lamp."""
         return np.asarray(np.interp(true, self._true, self._outside))
 
     def true_inside(self, seen: FloatArray) -> FloatArray:
-        """Return the light of a lamp's pixels that seem to have some: :meth:`inside` undone."""
+        """Return the true light of a lamp's pixels, the inverse of :meth:`inside`."""
         return np.asarray(np.interp(seen, self._inside, self._true))
 
     def true_outside(self, seen: float) -> float:
         return float(np.interp(seen, self._outside, self._true))
 
     def is_white(self, seen: FloatArray) -> BoolArray:
-        """Whether a lamp's light is too bright for what is seen of it to say how bright it is."""
+        """Return whether a lamp appears too bright for its true light to be known."""
         return np.asarray(seen >= self._white)
 
 
 def find_enhancement(
     lamp: RoomLamp, room: Room, pixels: ByteArray
 ) -> tuple[ByteArray, FloatArray] | None:
-    """Return the curve that has enhanced a lamp's pixels, and the values of its columns before.
+    """Return the curve that enhanced a lamp's pixels, and the values of its columns before.
 
-    None where their values are likelier without.
+    Returns None if their values are more likely without an enhancement.
     """
-    scene = sent_scene(room, lamp)
+    scene = scene_with_lamp(room, lamp)
     bare = ColumnLight.of(scene)
     light = bare
     for effect in effects_named(NAMES, LightEffect):
         light = effect.apply(scene, light)
     counts = np.bincount(pixels, minlength=256)
     found, best = None, 0.0
-    for own in (light, bare):  # a picture may have been simulated without the lamp's edges
+    for own in (light, bare):  # a picture may be simulated without the lamp's edges
         values = panel_values(scene, own)
         curve = Enhancement(_limit(values, scene), scene.model.enhancement).curve
         plain = _fractions_of_bytes(values, np.ones(len(values)), scene)
@@ -114,7 +114,7 @@ def find_enhancement(
 
 
 def _fractions_of_bytes(levels: FloatArray, weights: FloatArray, scene: Scene) -> FloatArray:
-    """Return how much pixels of some mean values weigh, by the byte that they become."""
+    """Return the total weight of the pixels that become each byte, from their mean values."""
     spread = _noise_of(levels, scene)
     return byte_fractions(_limit(levels, scene), spread, weights / len(levels))
 
@@ -125,7 +125,7 @@ def _noise_of(levels: FloatArray, scene: Scene) -> FloatArray:
 
 
 def _limit(levels: FloatArray, scene: Scene) -> FloatArray:
-    """Return mean pixel values as the sensor limits them."""
+    """Return mean pixel values as limited by the sensor."""
     for limit in effects_named(NAMES, PixelEffect):
         levels = limit.apply(scene, levels)
     return saturate(levels)

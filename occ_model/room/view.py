@@ -1,4 +1,4 @@
-"""The lamps that a room's camera sees, each as a scene of its own."""
+"""Find the lamps that a room's camera sees, each as a scene of its own."""
 
 import dataclasses
 import math
@@ -16,14 +16,14 @@ from occ_model.errors import ParameterError, ProjectionError, one_line
 from occ_model.room.room import Place, Room, RoomLamp
 from occ_model.scene.scene import Pose, Scene
 
-_DISC_CORNERS = 96  # of a disc's polygon, which lies within 0.06 % of the radius of the circle
-_MIN_DEPTH = 1e-3  # depth in metres before which nothing is seen
+_DISC_CORNERS = 96  # of a disc's polygon, which is within 0.06 % of the radius of the circle
+_MIN_DEPTH = 1e-3  # depth in metres below which nothing is seen
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class LampView:
     lamp: RoomLamp
-    # The paper's view of the scene whose panel is the lamp, with its outline as the corners
+    # The paper's view of the scene whose panel is the lamp, with the lamp's outline as corners
     view: PaperView
 
 
@@ -32,7 +32,7 @@ def rotation(place: Place | RoomLamp) -> FloatArray:
 
 
 def own_outline(lamp: RoomLamp) -> FloatArray:
-    """Return a lamp's outline in its own plane, in order, shape (corners, 2), metres."""
+    """Return a lamp's outline in its own plane in metres, shape (corners, 2), in order."""
     width, height = lamp.size
     if lamp.shape == "disc":
         angle = np.arange(_DISC_CORNERS) * (2.0 * math.pi / _DISC_CORNERS)
@@ -41,14 +41,14 @@ def own_outline(lamp: RoomLamp) -> FloatArray:
 
 
 def room_outline(lamp: RoomLamp) -> FloatArray:
-    """Return a lamp's outline in the room, shape (corners, 3), metres."""
+    """Return a lamp's outline in the room in metres, shape (corners, 3)."""
     return own_outline(lamp) @ rotation(lamp)[:, :2].T + [lamp.x, lamp.y, lamp.z]
 
 
 def lamp_scene(room: Room, lamp: RoomLamp) -> Scene:
-    """Return the scene whose panel is a lamp of the room, a disc being in its square.
+    """Return the scene whose panel is a lamp of the room, or the square around a disc.
 
-    Raises ParameterError: the lamp's plane is turned too far from the picture's for a scene.
+    Raises ParameterError if the lamp's plane is turned too far from the picture's for a scene.
     """
     camera = room.camera
     if camera.yaw == camera.pitch == camera.roll == 0.0:
@@ -60,15 +60,15 @@ def lamp_scene(room: Room, lamp: RoomLamp) -> Scene:
         place = [lamp.x - camera.x, lamp.y - camera.y, lamp.z - camera.z]
         x, y, z = (rotation(camera).T @ place).tolist()
     pose = Pose(distance=z, offset_x=x, offset_y=y, yaw=angles[0], pitch=angles[1], roll=angles[2])
-    return dataclasses.replace(sent_scene(room, lamp), pose=pose)
+    return dataclasses.replace(scene_with_lamp(room, lamp), pose=pose)
 
 
-def sent_scene(room: Room, lamp: RoomLamp) -> Scene:
-    """Return the room's scene with a lamp's light, at the room's time, and with any pose."""
+def scene_with_lamp(room: Room, lamp: RoomLamp) -> Scene:
+    """Return the room's scene with a lamp's light at the room's time; its pose has no meaning."""
     scene = room.scene
     width, height = lamp.size
     surroundings = scene.surroundings
-    if lamp.start_time and surroundings.flicker_depth:  # swings in the room's time, not the lamp's
+    if lamp.start_time and surroundings.flicker_depth:  # it follows the room's time, not the lamp's
         cycles = Fraction(surroundings.flicker_frequency) * Fraction(lamp.start_time)
         phase = surroundings.flicker_phase - 2.0 * math.pi * float(cycles % 1)
         phase = math.remainder(phase, 2.0 * math.pi)
@@ -82,28 +82,28 @@ def sent_scene(room: Room, lamp: RoomLamp) -> Scene:
 
 
 def angles_of(turned: FloatArray) -> tuple[float, float, float]:
-    """Return yaw, pitch and roll of a rotation: :func:`rotation_of` undone."""
+    """Return yaw, pitch and roll of a rotation, the inverse of :func:`rotation_of`."""
     yaw = math.asin(min(1.0, max(-1.0, -float(turned[2, 0]))))
     pitch = math.atan2(turned[2, 1], turned[2, 2])
     return yaw, pitch, math.atan2(turned[1, 0], turned[0, 0])
 
 
 def lamps_in_view(room: Room) -> tuple[LampView, ...]:
-    """Return the lamps whose front any pixel can show, in the room's order.
+    """Return the lamps whose front a pixel can show, in the room's order.
 
-    Raises ProjectionError: one is partly behind the camera, or turned by 90 degrees or more; or the
-    lens folds the picture.
+    Raises ProjectionError if one of them is partly behind the camera or turned by 90 degrees or
+    more, or if the lens folds the picture.
     """
     frame = undistort_frame(room.scene)
-    return tuple(seen for lamp in room.lamps if (seen := _seen(room, lamp, frame)) is not None)
+    return tuple(seen for lamp in room.lamps if (seen := _view_lamp(room, lamp, frame)) is not None)
 
 
-def _seen(room: Room, lamp: RoomLamp, frame: FloatArray) -> LampView | None:
+def _view_lamp(room: Room, lamp: RoomLamp, frame: FloatArray) -> LampView | None:
     turned = rotation(room.camera)
     own = [room.camera.x, room.camera.y, room.camera.z]
     placed = (room_outline(lamp) - own) @ turned
     facing = rotation(lamp)[:, 2] @ (np.array([lamp.x, lamp.y, lamp.z]) - own)
-    before = part_inside(placed, placed[:, 2] - _MIN_DEPTH)  # before the camera
+    before = part_inside(placed, placed[:, 2] - _MIN_DEPTH)  # in front of the camera
     if facing <= 0.0 or len(before) == 0:
         return None
     camera = room.scene.camera
@@ -134,9 +134,10 @@ def _seen(room: Room, lamp: RoomLamp, frame: FloatArray) -> LampView | None:
 
 
 def seen_outline(room: Room, height: float) -> FloatArray:
-    """Return the outline, x and y, of the part of a plane at some height that the camera sees.
+    """Return the outline in x and y of the part of a level plane that the camera sees.
 
-    Empty where no whole picture of it is above the camera, or the lens folds the picture.
+    It is empty if a part of the picture shows nothing above the camera, or if the lens folds the
+    picture.
     """
     camera, place = room.scene.camera, room.camera
     try:
@@ -151,14 +152,14 @@ def seen_outline(room: Room, height: float) -> FloatArray:
 
 
 def aim_of(place: Place, height: float) -> tuple[float, float]:
-    """Return where on a level plane above it the middle of a camera's picture is."""
+    """Return the point of a level plane above the camera in the middle of its picture."""
     x, y, z = rotation(place)[:, 2].tolist()
     along = (height - place.z) / max(z, _MIN_DEPTH)
     return place.x + along * x, place.y + along * y
 
 
-def aimed_at(place: Place, x: float, y: float, height: float) -> Place:
-    """Return a camera turned so that a point is in the middle of its picture, its roll kept."""
+def aim_at(place: Place, x: float, y: float, height: float) -> Place:
+    """Return a camera turned to have a point in the middle of its picture, with the same roll."""
     away = np.array([x - place.x, y - place.y, height - place.z])
     away /= np.linalg.norm(away)
     about = rotation_of(Pose(roll=place.roll)).T @ away

@@ -16,8 +16,8 @@ import occ_model as occ
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.effects.distortion import undistort
 from occ_model.room.edges import find_edges
-from occ_model.room.locate import quadrilateral
-from occ_model.room.reading import find_and_name
+from occ_model.room.locate import fit_quadrilateral
+from occ_model.room.reading import read_lamps
 from occ_model.room.room import Place, Room, RoomLamp
 from occ_model.room.view import lamps_in_view
 
@@ -121,7 +121,7 @@ def _about(axis: FloatArray, angle: float, points: FloatArray) -> FloatArray:
 def edges_off(room: Room, image: ByteArray) -> Iterator[tuple[bool, float, float]]:
     """Yield of each measured edge's points whether it is upright, how far off, and the error."""
     lamps = {lamp.name: lamp for lamp in room.lamps}
-    for read in find_and_name(image, room):
+    for read in read_lamps(image, room):
         lamp = lamps.get(read.name or "")
         if lamp is None or lamp.shape != "rectangle":
             continue
@@ -129,7 +129,9 @@ def edges_off(room: Room, image: ByteArray) -> Iterator[tuple[bool, float, float
         starts, ends = corners, np.roll(corners, -1, axis=0)
         along = (ends - starts) / np.hypot(*(ends - starts).T)[:, None]
         across = np.stack([-along[:, 1], along[:, 0]], axis=1)
-        for edge in find_edges(image, room, lamp, quadrilateral(undistort(read.hull, room.scene))):
+        for edge in find_edges(
+            image, room, lamp, fit_quadrilateral(undistort(read.hull, room.scene))
+        ):
             off = np.einsum("psk,sk->ps", edge.points[:, None] - starts, across)
             own = off[:, int(np.abs(off).max(axis=0).argmin())]
             upright = bool(abs(edge.normal[0]) > abs(edge.normal[1]))

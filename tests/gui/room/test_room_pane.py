@@ -30,7 +30,7 @@ from occ_model.figures.room import room_drawing
 from occ_model.photo.reading.exif import EQUIVALENT_FOCAL_LENGTH
 from occ_model.room.room import Place
 from occ_model.room.rooms import load_room
-from occ_model.room.view import aim_of, aimed_at, rotation
+from occ_model.room.view import aim_at, aim_of, rotation
 from occ_model.scene.scene import Scene
 
 ROOM = small_room(turned=0.0, camera=Place(x=0.6, y=0.6, z=-0.2, roll=0.4))
@@ -116,7 +116,7 @@ def test_a_drag_is_one_step_and_undo_looks_from_the_former_place(
     one_look: None, bench: PaneBench, pane: RoomPane, qtbot: QtBot
 ) -> None:
     plan, stack = pane.view.plan, bench.store.undo_stack
-    aside = ROOM.replace(camera=aimed_at(ROOM.camera, 0.2, 0.2, plan_of(ROOM).height))
+    aside = ROOM.replace(camera=aim_at(ROOM.camera, 0.2, 0.2, plan_of(ROOM).height))
     bench.store.put(replace(bench.store.workspace, room=RoomChoice("mine", aside)))
     stack.clear()
     for _ in range(2):
@@ -229,7 +229,7 @@ def test_a_camera_is_aimed_at_a_point_by_turning_it(seed: int) -> None:
     random = np.random.default_rng([25, seed])
     place = Place(z=0.5, roll=float(random.uniform(-3, 3)))
     x, y = random.uniform(-2.0, 2.0, 2).tolist()
-    turned = aimed_at(place, x, y, 2.5)
+    turned = aim_at(place, x, y, 2.5)
     axis = rotation(turned)[:, 2]
     assert (axis[0] / axis[2] * 2.0, axis[1] / axis[2] * 2.0) == pytest.approx((x, y))
     assert aim_of(turned, 2.5) == pytest.approx((x, y))
@@ -344,7 +344,7 @@ def test_another_room_is_looked_for_in_the_photo_and_dragging_leaves_it(
 ) -> None:
     pane.open_photo(_photo(tmp_path / "room.jpg"))
     looked(qtbot, pane)
-    assert "the photo has no EXIF data of it" in pane.view.sentences.text()
+    assert "the photo has no EXIF data on it" in pane.view.sentences.text()
     pane.take("other", ROOM.with_sent(code=900))
     looked(qtbot, pane)
     assert pane.view.headline.text() == "The place is not determined"

@@ -31,7 +31,10 @@ def test_a_simulated_picture_is_located(tmp_path: Path, capsys: pytest.CaptureFi
         assert written.size == (1728, 2304)
     assert main(["room", "locate", picture, "--room", room]) == 0
     said = capsys.readouterr().out
-    assert "Focal length: 26 mm equivalent, as the room says: the photo has no EXIF data" in said
+    assert (
+        "Focal length: 26 mm equivalent, as the room says, because the photo has no EXIF data"
+        in said
+    )
     assert "Distortion: none" in said
     assert "I am here:  x 0.5" in said
     assert "yaw 10.0" in said or "yaw 9.9" in said

@@ -1,4 +1,4 @@
-"""Edges of lamps are where their errors say, however the lens and the sensor change their light."""
+"""Edges of lamps lie within their errors, however the lens and the sensor change their light."""
 
 from typing import Any
 
@@ -22,8 +22,8 @@ from occ_model.room.edges import find_edges
 from occ_model.room.lamp_light import LampLight
 from occ_model.room.render import RoomFrame
 from occ_model.room.room import Place, Room
-from occ_model.room.seen_light import SeenLight, find_enhancement
-from occ_model.room.view import lamp_scene, sent_scene
+from occ_model.room.seen_light import ApparentLight, find_enhancement
+from occ_model.room.view import lamp_scene, scene_with_lamp
 from occ_model.scene.scene import Scene
 
 _POINTS = 640
@@ -31,7 +31,7 @@ _ENDS = np.array([[0.0, 250.0], [_POINTS - 1.0, 270.0]])
 
 
 def line(random: np.random.Generator, reach: int) -> Line:
-    """Return a line through points whose errors are means over so many neighbours."""
+    """Return a line through points whose errors are means over ``reach`` neighbours."""
     noise = random.normal(size=_POINTS + reach - 1)
     errors = 0.2 * np.convolve(noise, np.full(reach, reach**-0.5), mode="valid")
     course = Course.of(_ENDS, Scene().replace(rows=500, columns=_POINTS))
@@ -39,9 +39,9 @@ def line(random: np.random.Generator, reach: int) -> Line:
 
 
 def cut(reach: int) -> float:
-    """Return how many times too small a variance is that blocks tell of means over neighbours.
+    """Return the factor by which blocks underestimate a variance of means over neighbours.
 
-    Points k apart have 1 - k / reach of their variance in common, in all and within a block.
+    Points k apart have 1 - k / reach of their variance in common, among all and within a block.
     """
     apart = np.arange(1 - reach, reach)
     alike = 1.0 - np.abs(apart) / reach
@@ -49,14 +49,14 @@ def cut(reach: int) -> float:
 
 
 @pytest.mark.parametrize("reach", [1, 8])
-def test_a_line_is_as_far_off_as_the_scatter_within_blocks_tells(reach: int) -> None:
+def test_the_error_of_a_line_follows_from_the_scatter_within_blocks(reach: int) -> None:
     random = np.random.default_rng(9107 + reach)
     squares, rooms = [], amount(30, 150)
     for _ in range(rooms):
         lines = [line(random, reach) for _ in range(4)]
         alike = estimate_variance_ratio(lines)
         for each in lines:
-            edge = each.edge(alike)
+            edge = each.make_edge(alike)
             off = (edge.points - _ENDS) @ edge.normal
             squares.append(off @ np.linalg.solve(edge.covariance, off) / 2.0)
     # The mean square of 1,200 numbers scatters by 4 %.
@@ -83,12 +83,12 @@ def _bent(**settings: Any) -> Room:
 
 
 def _corners(room: Room) -> dict[str, np.ndarray]:
-    """Return where a lens without distortion shows the corners of each lamp."""
+    """Return the corners of each lamp as a lens without distortion shows them."""
     return {lamp.name: occ.panel_corners(lamp_scene(room, lamp)) for lamp in room.lamps}
 
 
 def _deviations(frame: RoomFrame, image: np.ndarray) -> np.ndarray:
-    """Return how far edges are inside the true ones, in their errors, begun at rough corners."""
+    """Return how far edges lie inside the true ones, in errors, starting from rough corners."""
     random, room = np.random.default_rng(5), frame.room
     found = []
     for name, corners in _corners(room).items():
@@ -104,24 +104,24 @@ def _deviations(frame: RoomFrame, image: np.ndarray) -> np.ndarray:
 
 
 @pytest.mark.parametrize("settings", LENSES)
-def test_edges_are_where_their_errors_say_in_both_pictures(settings: dict[str, Any]) -> None:
+def test_edges_lie_within_their_errors_in_both_pictures(settings: dict[str, Any]) -> None:
     frame = occ.render_room(_bent(**settings), seed=3)
     for image in (frame.camera_image, frame.image):
         off = _deviations(frame, image)
         assert len(off) >= 10  # of 16
         assert np.abs(off).max() < 4.5
         assert 0.2 < np.square(off).mean() < 2.0
-        # None is further inside, or outside, than by chance; a lamp's edges share an error.
+        # There is no common shift beyond chance, considering that a lamp's edges share an error.
         assert abs(off[:, 0].mean()) < 4.0 / np.sqrt(len(off) / 2.0)
 
 
 @pytest.mark.parametrize("light", [0.0, 300.0, 1500.0, 3600.0])
 @pytest.mark.parametrize("settings", [{}, WHITE, NOISY])
-def test_pixels_seem_to_have_the_light_that_is_expected_of_noise_and_of_the_enhancement(
+def test_the_apparent_light_of_pixels_is_that_expected_from_noise_and_enhancement(
     settings: dict[str, Any], light: float
 ) -> None:
     room = small_room(1, rows=300, columns=400, **settings)
-    scene = sent_scene(room, room.lamps[0])
+    scene = scene_with_lamp(room, room.lamps[0])
     panel = scene.replace(
         pattern="1", luminance=light, distance=0.1, enhancement="none", edge_time=0.0
     )
@@ -129,7 +129,7 @@ def test_pixels_seem_to_have_the_light_that_is_expected_of_noise_and_of_the_enha
     true = light + luminance_levels(scene)[0]
     values = panel_values(scene, ColumnLight.of(scene))
     curve = Enhancement(saturate(values), "equalization").curve
-    plain, enhanced = SeenLight(scene), SeenLight(scene, (curve, values))
+    plain, enhanced = ApparentLight(scene), ApparentLight(scene, (curve, values))
     for expected, pixels in (
         (plain.inside, plain.of(image)),
         (enhanced.inside, enhanced.of(curve[image])),
@@ -140,7 +140,7 @@ def test_pixels_seem_to_have_the_light_that_is_expected_of_noise_and_of_the_enha
 
 
 @pytest.mark.parametrize("settings", [{}, WHITE, NOISY])
-def test_a_lamps_light_is_known_in_columns_that_show_none_of_it(settings: dict[str, Any]) -> None:
+def test_a_lamps_light_is_known_in_columns_that_do_not_show_it(settings: dict[str, Any]) -> None:
     room = _bent(**settings)
     frame = occ.render_room(room, seed=3)
     lamp = room.lamps[1]
@@ -152,8 +152,8 @@ def test_a_lamps_light_is_known_in_columns_that_show_none_of_it(settings: dict[s
     near = slice(int(corners[:, 0].min()) - 60, int(corners[:, 0].max()) + 60)
     for image in (frame.camera_image, frame.image):
         middle = image[centre[1] - 40 : centre[1] + 40, centre[0] - 40 : centre[0] + 40].ravel()
-        seen = SeenLight(scene, find_enhancement(lamp, room, middle))
+        seen = ApparentLight(scene, find_enhancement(lamp, room, middle))
         own = LampLight.of(image, corners, lamp, seen, 7).light
         off = (own - true)[near] / true.max()
-        assert np.abs(off).max() < 0.1  # of the few rows at an end
+        assert np.abs(off).max() < 0.1  # in the few rows at an end
         assert np.sqrt(np.square(off).mean()) < 0.02

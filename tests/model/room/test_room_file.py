@@ -1,4 +1,4 @@
-"""Room files: what is read is what was written, and a mistake ends in a sentence."""
+"""Room files are read as they were written, and mistakes give a sentence."""
 
 import pytest
 from each_case import each_case
@@ -19,7 +19,7 @@ def test_a_room_is_read_as_it_was_written(name: str) -> None:
     assert Room.from_toml(turned.to_toml()) == turned
 
 
-def test_a_scene_s_pose_is_no_part_of_a_room() -> None:
+def test_a_scenes_pose_is_not_part_of_a_room() -> None:
     room = Room.of_scene(occ.load_preset("phone-136us").replace(distance=2.5, yaw=0.3))
     assert Room.from_toml(room.to_toml()) == room
     moved = room.replace(x=1.0, roll=0.2)
@@ -44,7 +44,7 @@ def test_a_scene_s_pose_is_no_part_of_a_room() -> None:
         ("format = 1\nbased_on = 7\nlamps = [{name = 'a'}]", "no preset 7"),
     ]
 )
-def test_a_mistake_in_a_room_file_ends_in_a_sentence(text: str, words: str) -> None:
+def test_a_mistake_in_a_room_file_gives_a_sentence(text: str, words: str) -> None:
     with pytest.raises(occ.OccError, match=words):
         Room.from_toml(text)
 
@@ -58,7 +58,7 @@ def test_a_room_has_at_most_200_lamps() -> None:
 @pytest.mark.parametrize(
     "rest", ["", ", code = 9999", ", x = 'far'", ", shape = 'star'", ", y = 1e9"]
 )
-def test_a_name_of_any_length_leaves_the_sentence_short(rest: str) -> None:
+def test_the_sentence_is_short_for_a_name_of_any_length(rest: str) -> None:
     for name in ("n" * 5000, "two\\nlines"):
         with pytest.raises((occ.SceneFileError, occ.ParameterError)) as refused:
             Room.from_toml(f'format = 1\nlamps = [{{name = "{name}"{rest}}}]')

@@ -1,4 +1,4 @@
-"""A photo of a room is read as a picture of it, with what its file says of the camera."""
+"""A photo of a room is read as its picture, with what the file states about the camera."""
 
 import dataclasses
 from functools import cache
@@ -58,7 +58,7 @@ def test_a_rounded_focal_length_is_part_of_the_stated_errors(tmp_path: Path) -> 
     assert located.focal_length == pytest.approx(true_focal_length, abs=4.0 * located.focal_error)
     assert 0.0 < located.focal_error < 2e-3 / np.sqrt(12.0)
     assert "26 mm equivalent, ± 0.29 mm, as the EXIF data say" in found.assumed[0]
-    # As if it were exact, the height is surely wrong; given rightly, it is told more exactly.
+    # Taken as exact, it gives a wrong height; with the correct one, the error is smaller.
     exact = read_room_photo(photo, known, 0.026).reading.located
     right = read_room_photo(photo, known, true_focal_length)
     assert exact is None or abs(exact.place.z + 0.2) > 5.0 * exact.errors[2]
@@ -68,7 +68,7 @@ def test_a_rounded_focal_length_is_part_of_the_stated_errors(tmp_path: Path) -> 
 
 
 @pytest.mark.parametrize("quarters", [1, pytest.param(2, marks=pytest.mark.whole)])
-def test_a_photo_is_read_however_it_lies(tmp_path: Path, quarters: int) -> None:
+def test_a_photo_is_read_in_any_orientation(tmp_path: Path, quarters: int) -> None:
     room = _room()
     image = np.rot90(_picture(), quarters)
     found = read_room_photo(occ.load_photo(_saved(tmp_path / "room.jpg", image)), room)
@@ -76,12 +76,12 @@ def test_a_photo_is_read_however_it_lies(tmp_path: Path, quarters: int) -> None:
     assert ("turned" in found.assumed[-1]) == bool(quarters)
 
 
-def test_a_photo_of_half_the_size_has_twice_the_readout_time_a_column(tmp_path: Path) -> None:
+def test_a_photo_of_half_the_size_has_twice_the_readout_time_per_column(tmp_path: Path) -> None:
     room = _room()
     image = Image.fromarray(_picture()).resize((384, 512), Image.Resampling.BOX)
     found = read_room_photo(occ.load_photo(_saved(tmp_path / "room.jpg", np.asarray(image))), room)
     assert found.room.scene.camera.readout_time == pytest.approx(72e-6)
-    assert "for a picture of 384 columns in place of 768" in found.assumed[1]
+    assert "scaled to a picture of 384 columns instead of 768" in found.assumed[1]
     assert {lamp.name for lamp in found.reading.lamps if lamp.name} == {"L0", "L1", "L2", "L3"}
     assert (_off(found, room.camera) < 4.0 * found.reading.located.errors).all()
 
@@ -95,7 +95,7 @@ def test_a_mirrored_photo_has_no_place(tmp_path: Path) -> None:
     assert "mirrored" in found.reading.reasons[0]
 
 
-def test_the_command_says_what_it_assumes(
+def test_the_command_states_its_assumptions(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     room = _room()
@@ -113,7 +113,7 @@ def test_the_command_says_what_it_assumes(
     assert "that fits" not in said
 
 
-def test_a_focal_length_that_is_nearly_known_keeps_its_error() -> None:
+def test_a_nearly_known_focal_length_keeps_its_error() -> None:
     room = _room()
     image = _picture()
     for fraction in (1e-7, 1e-6):

@@ -55,7 +55,7 @@ def _off(place: Place, true: Place) -> np.ndarray:
 
 
 @pytest.mark.parametrize("seed", [2, pytest.param(3, marks=pytest.mark.whole)])
-def test_the_place_lies_within_its_stated_error_and_no_lamp_is_named_wrongly(seed: int) -> None:
+def test_the_place_is_within_its_stated_error_and_no_lamp_is_misnamed(seed: int) -> None:
     room = _room(seed, 9)
     frame = occ.render_room(room, seed=seed)
     reading = occ.read_room(frame.camera_image, room)
@@ -98,7 +98,9 @@ BENT = {
 
 
 @pytest.mark.parametrize("name", BENT)
-def test_a_place_behind_a_lens_that_bends_and_blurs_lies_within_its_stated_error(name: str) -> None:
+def test_the_place_behind_a_distorting_and_blurring_lens_is_within_its_stated_error(
+    name: str,
+) -> None:
     room = BENT[name]
     reading = occ.read_room(occ.render_room(room).camera_image, room)
     assert reading.is_sure, reading.reasons
@@ -108,7 +110,7 @@ def test_a_place_behind_a_lens_that_bends_and_blurs_lies_within_its_stated_error
 
 @pytest.mark.parametrize("enhancement", ["equalization", "stretch"])
 @pytest.mark.parametrize("blur", [0.0, 2.5])
-def test_both_pictures_of_a_frame_tell_the_same_place(enhancement: str, blur: float) -> None:
+def test_both_pictures_of_a_frame_give_the_same_place(enhancement: str, blur: float) -> None:
     room = _room(2, 9).replace(enhancement=enhancement, point_spread=blur, radial_k1=0.05)
     frame = occ.render_room(room, seed=2)
     found = []
@@ -125,7 +127,7 @@ def test_both_pictures_of_a_frame_tell_the_same_place(enhancement: str, blur: fl
 
 
 def _exact(room: Room, wanted: dict[str, tuple[int, ...]], error: float = 0.05) -> LampEdges:
-    """Return some sides of lamps as edges that are measured exactly where they are."""
+    """Return some sides of lamps as exactly measured edges."""
     measured = []
     for lamp in room.lamps:
         corners = occ.panel_corners(lamp_scene(room, lamp))
@@ -134,25 +136,26 @@ def _exact(room: Room, wanted: dict[str, tuple[int, ...]], error: float = 0.05) 
     return LampEdges.of(measured, room, 0.0)
 
 
-def test_an_edge_is_a_side_that_has_the_lamp_on_the_same_hand() -> None:
+def test_an_edge_is_assigned_to_a_side_that_has_the_lamp_on_the_same_side() -> None:
     room = small_room(2, turned=0.0, camera=Place(x=0.4, z=0.0, roll=0.3))
     edges = _exact(room, {"L0": (0, 1, 3), "L1": (1, 3)})
-    # From a lamp's height beside the place, the first side is where the third one is expected.
+    # Seen from a place displaced by the lamp's height, the first side is where the third is
+    # expected.
     start = np.array([0.4, 0.7, 0.0, 0.0, 0.0, 0.3])
-    located, _ = edges.fitted(start)
+    located, _ = edges.fit(start)
     assert located.place.y == pytest.approx(0.0, abs=1e-6)
     assert located.deviations == pytest.approx(0.0, abs=1e-6)
 
 
-def test_errors_too_large_for_a_linear_law_are_said_to_be() -> None:
+def test_errors_too_large_for_a_linear_law_are_reported() -> None:
     room = small_room(2, turned=0.0, camera=Place(x=0.4, z=0.0, roll=0.3))
     start = np.array([0.4, 0.0, 0.0, 0.0, 0.0, 0.3])
     sides = {"L0": (0, 2, 3), "L1": (0, 2)}
-    assert _exact(room, sides).fitted(start)[0].is_linear
-    assert not _exact(room, sides, error=5.0).fitted(start)[0].is_linear
+    assert _exact(room, sides).fit(start)[0].is_linear
+    assert not _exact(room, sides, error=5.0).fit(start)[0].is_linear
 
 
-def test_only_what_the_lamps_send_counts_and_not_the_rooms_own_transmitter() -> None:
+def test_the_rooms_own_transmitter_has_no_influence() -> None:
     room = small_room(framing="preamble", preamble="11110000111100110")
     image = occ.render_room(room, seed=1).camera_image
     other = dataclasses.replace(room, scene=room.scene.replace(framing="paper", preamble=""))
@@ -162,7 +165,7 @@ def test_only_what_the_lamps_send_counts_and_not_the_rooms_own_transmitter() -> 
     assert found.located.deviations == again.located.deviations
 
 
-def test_a_picture_is_read_alike_whatever_its_pixels_are() -> None:
+def test_a_picture_is_read_equally_in_any_pixel_type() -> None:
     room = small_room()
     image = occ.render_room(room, seed=1).camera_image
     found = occ.read_room(image, room)
@@ -187,12 +190,12 @@ def test_a_lamp_that_sends_a_payload_is_named_by_its_bits() -> None:
     assert (point.shown, point.named, point.misread) == (2, 2, 0)
 
 
-def test_a_lamp_is_one_however_long_its_chips_are_dark() -> None:
+def test_a_lamp_with_long_dark_runs_is_found_as_one() -> None:
     room = small_room(
         2, line_code="fsk", framing="preamble", bits=8, code=0, switching_frequency=12e3,
         columns=1536, rows=1024,
     )  # fmt: skip
-    # Ten chips are dark between two that are lit.
+    # There are ten dark chips between two lit ones.
     sent = [lamp.transmitter.replaced({"bits": 8, "code": code})
             for lamp, code in zip(room.lamps, (192, 240), strict=True)]  # fmt: skip
     lamps = [dataclasses.replace(lamp, transmitter=own)
@@ -202,23 +205,23 @@ def test_a_lamp_is_one_however_long_its_chips_are_dark() -> None:
     assert [lamp.name for lamp in reading.lamps] == ["L0", "L1"]
 
 
-def test_dark_chips_of_a_lamp_from_elsewhere_are_joined_by_its_line_code() -> None:
+def test_dark_chips_of_an_unknown_lamp_are_joined_by_its_line_code() -> None:
     room = small_room(1, switching_frequency=1e3)
-    # No two dark chips of code 0 follow each other, as those of others may.
+    # Code 0 has no two dark chips in a row, but other codes may.
     sent = room.lamps[0].transmitter.replaced({"code": 0})
     room = room.replace(lamps=(dataclasses.replace(room.lamps[0], transmitter=sent),))
     assert _longest_gap(room) >= 2.0 * sent.switching_period / room.scene.camera.readout_time
 
 
-# At the last, a single column of the next lit chip is in the picture.
+# In the last case a single column of the next lit chip is in the picture.
 @pytest.mark.parametrize("chips", [*range(0, 24, amount(12, 2)), 10 / 7])
-def test_a_lamp_cut_behind_dark_chips_is_said_to_be_cut(chips: float) -> None:
+def test_a_lamp_cut_at_dark_chips_is_reported_as_cut(chips: float) -> None:
     room = _room(5, 1).replace(
         x=0.0, y=0.0, yaw=0.0, pitch=0.0, roll=0.0, switching_frequency=4e3
     )  # fmt: skip
     sent = room.lamps[0].transmitter.replaced({"panel_width": 1.3, "switching_frequency": 4e3})
     lamp = dataclasses.replace(room.lamps[0], roll=0.0, start_time=chips / 4e3, transmitter=sent)
-    # A chip is 7 columns long, and a metre 243 of them.
+    # A chip has 7 columns, and a metre 243 columns.
     for shift, is_cut in ((0.0, False), (-0.83, False), (-1.1, True), (1.1, True)):
         here = room.replace(lamps=(dataclasses.replace(lamp, x=shift),))
         frame = occ.render_room(here)
@@ -229,7 +232,7 @@ def test_a_lamp_cut_behind_dark_chips_is_said_to_be_cut(chips: float) -> None:
         assert ("picture's edge" in read.note) == is_cut
 
 
-def test_one_panel_that_looks_alike_from_several_places_is_said_to() -> None:
+def test_a_panel_that_looks_the_same_from_several_places_is_reported() -> None:
     room = _room(5, 1).replace(yaw=0.3, pitch=0.2, z=0.3)
     reading = occ.read_room(occ.render_room(room).camera_image, room)
     assert reading.lamps[0].name == "L0"
@@ -267,13 +270,13 @@ def test_a_dark_picture_has_no_place_and_a_reason() -> None:
     assert reading.reasons[0].startswith("No lamp was found")
 
 
-def test_lamps_moved_in_the_file_leave_no_place_that_is_sure_and_right() -> None:
+def test_lamps_moved_in_the_file_give_no_place() -> None:
     room = _room(2, 9)
     image = occ.render_room(room).camera_image
     moved = tuple(dataclasses.replace(lamp, x=lamp.x * 1.3, y=lamp.y * 0.6) for lamp in room.lamps)
     reading = occ.read_room(image, room.replace(lamps=moved))
     assert reading.located is None
-    assert "No place of the camera follows" in reading.reasons[0]
+    assert "No place of the camera explains" in reading.reasons[0]
 
 
 def test_a_picture_of_another_size_is_refused() -> None:
@@ -281,13 +284,13 @@ def test_a_picture_of_another_size_is_refused() -> None:
         occ.read_room(np.zeros((10, 10), dtype=np.uint8), _room(1, 1))
 
 
-def test_a_place_that_one_lamp_tells_is_not_sure(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_place_from_a_single_lamp_is_not_sure(monkeypatch: pytest.MonkeyPatch) -> None:
     room = _room(5, 1)
     there = Located(room.camera, np.eye(6), 1.0, 2)
     corners = np.array([[0.0, 0.0], [9.0, 0.0], [9.0, 9.0], [0.0, 9.0]])
     edge = Edge(corners[:2], np.eye(2))
-    measured = [locate._Measured(room.lamps[0], corners, [edge] * 4, is_cut=False)]
-    monkeypatch.setattr(locate, "_explanations", lambda *_: [there])
-    places, reasons = locate._located(measured, room, 1, ())
+    measured = [locate._MeasuredLamp(room.lamps[0], corners, [edge] * 4, is_cut=False)]
+    monkeypatch.setattr(locate, "find_places", lambda *_: [there])
+    places, reasons = locate._locate(measured, room, 1, ())
     assert places == [there]
     assert not locate.RoomReading((), there, (), reasons).is_sure

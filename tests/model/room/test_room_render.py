@@ -1,4 +1,4 @@
-"""A room's picture: that of a scene where it has one lamp; the light of more lamps adds."""
+"""A room with one lamp has the picture of its scene, and the light of several lamps adds up."""
 
 import dataclasses
 from typing import Any
@@ -33,7 +33,7 @@ def test_a_room_of_one_lamp_is_its_scene_byte_for_byte(preset: str, tolerance: f
     frame = occ.render(scene, tolerance=tolerance, seed=3)
     made = render_room(Room.of_scene(scene), tolerance=tolerance, seed=3)
     np.testing.assert_array_equal(made.camera_image, frame.camera_image)
-    if frame.plan.kinds - {"column"}:  # else the scene's enhanced profile is not rounded first
+    if frame.plan.kinds - {"column"}:  # otherwise the scene's enhanced profile is not rounded first
         np.testing.assert_array_equal(made.image, frame.image)
 
 
@@ -45,7 +45,7 @@ def test_a_lamp_out_of_the_picture_changes_nothing() -> None:
         np.testing.assert_array_equal(made.camera_image, render_room(alone, seed=3).camera_image)
 
 
-def test_a_lamp_that_only_the_lens_brings_into_the_picture_is_drawn_and_bounded() -> None:
+def test_a_lamp_that_only_distortion_brings_into_the_picture_is_drawn_and_bounded() -> None:
     camera = Place(z=0.0)
     lens = {"equivalent_focal_length": 0.0181, "radial_k1": -0.25, "radial_k2": 0.03}
     room = small_room(1, camera=camera, illuminance=0.0, **lens)
@@ -57,13 +57,13 @@ def test_a_lamp_that_only_the_lens_brings_into_the_picture_is_drawn_and_bounded(
     assert np.hypot(*(shown.outline - corner).T).min() < 0.1
     lit = np.argwhere(frame.camera_image > 40)
     assert lit.min(axis=0) == pytest.approx(corner[::-1], abs=12)  # a chip may be dark there
-    # What the camera sees of the lamps' plane ends at its picture's corners.
+    # The part of the lamps' plane that the camera sees ends at the picture's corners.
     seen = seen_outline(room, 2.6)
     x, y = image_rays(undistort(np.array([767.0, 511.0]), room.scene), room.scene.camera) * 2.6
     assert np.hypot(*(seen - [x, y]).T).min() < 1e-9
 
 
-def test_far_from_another_lamp_a_pixel_is_that_of_the_lamps_own_scene() -> None:
+def test_far_from_other_lamps_a_pixel_is_that_of_the_lamps_own_scene() -> None:
     scene = occ.load_preset("phone-136us-real").replace(**SMALL, jpeg_quality=0, distance=3.0)
     alone = Room.of_scene(scene)
     made = render_room(_beside(alone, x=1.0, y=0.3), tolerance=0.0, seed=3)
@@ -73,7 +73,7 @@ def test_far_from_another_lamp_a_pixel_is_that_of_the_lamps_own_scene() -> None:
     assert (made.camera_image[:, 460:] != own[:, 460:]).mean() > 0.05
 
 
-def test_where_two_lamps_overlap_their_light_adds_before_the_tone_curve() -> None:
+def test_the_light_of_overlapping_lamps_adds_up_before_the_tone_curve() -> None:
     scene = occ.load_preset("phone-136us").replace(
         **SMALL, luminance=400.0, gain_variation=0.0, averaging="light", roll=0.2
     )
@@ -90,10 +90,10 @@ def test_where_two_lamps_overlap_their_light_adds_before_the_tone_curve() -> Non
     assert images[2].max() < 255.0
     step = luminance_of(images[2] + 0.5, scene.camera) - both
     worst = np.abs(both - (first + second - dark)) / step
-    assert worst.max() < 4.0  # roundings of four pictures
+    assert worst.max() < 4.0  # rounding errors of four pictures
 
 
-def test_mains_flicker_is_that_of_the_room_whenever_a_lamp_s_packet_starts() -> None:
+def test_mains_flicker_does_not_depend_on_the_start_of_a_lamps_packet() -> None:
     scene = occ.load_preset("phone-136us").replace(
         **SMALL, flicker_depth=0.9, illuminance=2000.0, gain_variation=0.0, luminance=100.0
     )
@@ -122,7 +122,7 @@ def test_the_pixels_lit_by_a_disc_are_those_of_its_circle() -> None:
     assert lit == pytest.approx(area, rel=2e-3)
 
 
-def test_the_camera_sees_the_same_after_room_and_camera_are_moved_together() -> None:
+def test_moving_room_and_camera_together_does_not_change_the_picture() -> None:
     scene = occ.load_preset("phone-136us").replace(**SMALL, yaw=0.3, pitch=0.2)
     alone = Room.of_scene(scene)
     moved = alone.replace(
@@ -133,7 +133,7 @@ def test_the_camera_sees_the_same_after_room_and_camera_are_moved_together() -> 
     np.testing.assert_allclose(a.lamps[0].outline, b.lamps[0].outline, atol=1e-9)
 
 
-def test_a_turned_camera_sees_a_lamp_where_an_independent_projection_puts_it() -> None:
+def test_a_turned_camera_shows_a_lamp_where_an_independent_projection_does() -> None:
     scene = occ.load_preset("phone-136us").replace(**SMALL)
     lamp = RoomLamp(name="a", x=0.3, y=-0.2, z=2.7, roll=0.4, transmitter=scene.transmitter)
     place = Place(x=0.1, y=0.2, z=0.9, yaw=0.25, pitch=-0.15, roll=1.1)
@@ -154,7 +154,7 @@ def test_a_turned_camera_sees_a_lamp_where_an_independent_projection_puts_it() -
     np.testing.assert_allclose(made.lamps[0].outline, expected, atol=1e-9)
 
 
-def test_the_plan_of_a_picture_includes_what_any_of_its_lamps_calls_for() -> None:
+def test_the_plan_of_a_picture_includes_every_effect_that_a_lamp_needs() -> None:
     random = np.random.default_rng([2512, 0])
     scene = occ.load_preset("phone-136us-real").replace(
         rows=300, columns=400, focus_distance=float(random.uniform(0.5, 3.0))
@@ -184,9 +184,7 @@ def test_the_plan_of_a_picture_includes_what_any_of_its_lamps_calls_for() -> Non
 @pytest.mark.parametrize(
     ("own", "effect"), [({"lambertian_order": 6.0}, "emission"), ({"edge_time": 2e-5}, "led-edges")]
 )
-def test_an_effect_that_one_lamp_alone_has_is_planned_for(
-    own: dict[str, float], effect: str
-) -> None:
+def test_an_effect_of_a_single_lamp_is_planned(own: dict[str, float], effect: str) -> None:
     scene = occ.load_preset("phone-136us").replace(**SMALL)
     lamps = tuple(
         RoomLamp(

@@ -145,7 +145,7 @@ for name in ("a.png", "b.png"):
     preferences.add(Path(name))
     settings.sync()
     file.write(KeptSession(Workspace(Scene())), in_use=False)
-print(settings.fileName())
+print(settings.fileName(), flush=True)
 os._exit(0)
 """
 

@@ -1,1 +1,1 @@
-"""The receiver: from an image back to the code."""
+"""The receiver, which reads the code from an image."""

@@ -1,4 +1,4 @@
-"""Decode an image or a profile: check it, locate the panel, run a decoder on the signal."""
+"""Decode an image or a profile: check it, locate the panel, and run a decoder on the signal."""
 
 from dataclasses import replace
 from typing import Any
@@ -16,7 +16,7 @@ from occ_model.receiver.signal import column_means, locate
 from occ_model.results.decoding import PAPER_DECODER, DecodeResult, Region
 from occ_model.scene.scene import Scene
 
-_LARGEST_LEVEL = 1e5  # largest value accepted as a grey level, above those of any bit depth
+_LARGEST_LEVEL = 1e5  # largest accepted grey level, above those of any bit depth
 
 
 def decode(image: NDArray[Any], scene: Scene, decoder: str = PAPER_DECODER) -> DecodeResult:
@@ -25,10 +25,10 @@ def decode(image: NDArray[Any], scene: Scene, decoder: str = PAPER_DECODER) -> D
     Parameters
     ----------
     image : ndarray, shape (rows, columns) or (columns,)
-        A grey image, columns being the scan axis: uint8, uint16 (65535 is white) or floating point.
-        Floating-point pixels are fractions of white where none is beyond 1, and grey levels where
-        the largest is beyond 2 and none beyond 255; others are refused. An array of one dimension
-        is a profile in grey levels, of any gain and offset: no panel is located.
+        A grey image with the columns as scan axis: uint8, uint16 (65535 is white) or floating
+        point. Floating-point pixels are fractions of white if none exceeds 1, and grey levels if
+        the largest exceeds 2 and none exceeds 255; others are refused. An array of one dimension is
+        a profile in grey levels, with any gain and offset, in which no panel is located.
     scene
         The parameters that the receiver knows.
     decoder
@@ -37,28 +37,28 @@ def decode(image: NDArray[Any], scene: Scene, decoder: str = PAPER_DECODER) -> D
     Returns
     -------
     DecodeResult
-        Its ``failure`` says in a sentence why there is no code.
+        Its ``failure`` is a sentence on why there is no code.
 
     Raises
     ------
     DecodeInputError
-        The array is not a grey image or profile, is empty or too large, holds a value that is not a
-        number, or leaves open which value is white.
+        The array is not a grey image or profile, is empty or too large, contains a value that is
+        not a number, or does not show which value is white.
     ParameterError
-        There is no such decoder.
+        The decoder does not exist.
     PluginError
-        The decoder is a plug-in that cannot be imported; one that fails is named in ``failure``.
+        The decoder is a plug-in that cannot be imported; if it fails later, ``failure`` names it.
     """
     decoder_named(decoder)
     try:
         image = np.asarray(image)
     except ValueError:
         raise DecodeInputError(
-            "The image is not an array: its rows are of different lengths."
+            "The image is not an array: its rows have different lengths."
         ) from None
-    _check(image)
+    _check_shape(image)
     if image.ndim == 1:
-        levels = _levels(check_pixels(image))
+        levels = _convert_to_levels(check_pixels(image))
         result = replace(read_with(decoder, levels, scene), region=Region(0, 1, 0, len(image)))
         return _with_hint(result, levels) if image.dtype.kind == "f" else result
     grey = bytes_of(image)
@@ -71,7 +71,7 @@ def decode(image: NDArray[Any], scene: Scene, decoder: str = PAPER_DECODER) -> D
     return replace(result, region=found.region, location=found)
 
 
-def _levels(profile: NDArray[Any]) -> FloatArray:
+def _convert_to_levels(profile: NDArray[Any]) -> FloatArray:
     """Convert a profile of any type to grey levels."""
     levels = profile.astype(np.float64)
     if profile.dtype == np.uint16:
@@ -79,20 +79,23 @@ def _levels(profile: NDArray[Any]) -> FloatArray:
     largest = float(np.abs(levels).max())
     if largest > _LARGEST_LEVEL:
         raise DecodeInputError(
-            f"The profile holds the value {largest:.3g}; grey levels reach from 0 to {WHITE:.0f}."
+            f"The profile contains the value {largest:.3g}; grey levels are from 0 to {WHITE:.0f}."
         )
     return levels
 
 
 def _with_hint(result: DecodeResult, levels: FloatArray) -> DecodeResult:
-    """Say of a profile that is not read and may be in fractions of white how it would be taken."""
+    """Add to a failure how to scale a profile that may be in fractions of white."""
     if result.failure is None or not 0.0 < np.abs(levels).max() <= 1.0:
         return result
-    hint = "A profile is in grey levels: if this one is in fractions of white, multiply it by 255."
+    hint = (
+        "A profile must be in grey levels: if this one is in fractions of white, multiply it by "
+        "255."
+    )
     return replace(result, failure=f"{result.failure} {hint}")
 
 
-def _check(image: NDArray[Any]) -> None:
+def _check_shape(image: NDArray[Any]) -> None:
     if image.ndim not in (1, 2):
         raise DecodeInputError(
             "A decoder reads a grey image (rows, columns) or a profile (columns,), not an array of "

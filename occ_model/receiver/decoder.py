@@ -1,4 +1,4 @@
-"""The interface of a decoder, and what is common to decoders: the last step, and a refusal."""
+"""The interface of decoders, and their common parts: the last step, and sentences on failures."""
 
 import math
 from collections.abc import Callable
@@ -23,14 +23,14 @@ class Decoder:
     name
         The identifier, as on the command line.
     read
-        Reads a signal, the mean grey level of each column, shape (columns,), with the parameters of
-        a scene that a receiver knows. The caller adds the region to the result.
+        Function that reads a signal, the mean grey level of each column, shape (columns,), with the
+        parameters of a scene that a receiver knows. The caller adds the region to the result.
     is_quick
-        Whether it reads in a few milliseconds and imports nothing slow, so that every picture of a
+        Whether it takes only a few milliseconds and no slow imports, so that every picture of a
         live view can be read with it.
     searched_chips
-        The longest exposure, in chips, to which its limits are searched: where it takes so long
-        beyond that nobody would wait.
+        The longest exposure in chips up to which its limits are searched, because it takes too long
+        beyond.
     """
 
     name: str
@@ -41,14 +41,14 @@ class Decoder:
 
 
 def read_payload(result: DecodeResult, scene: Scene) -> DecodeResult:
-    """Find frames among the chips of a result, and read the payload by the scene's scheme.
+    """Find frames in the chips of a result, and read the payload by the scene's scheme.
 
-    Returns the result with headers, bits, code and payload, or with the failure that says why not.
+    Returns the result with headers, bits, code and payload, or with a failure.
     """
-    return with_bits(result, scheme_of(scene.transmitter).decode(result.chips), scene)
+    return add_bits(result, scheme_of(scene.transmitter).decode(result.chips), scene)
 
 
-def with_bits(result: DecodeResult, framed: Framed, scene: Scene) -> DecodeResult:
+def add_bits(result: DecodeResult, framed: Framed, scene: Scene) -> DecodeResult:
     payload = scene.transmitter.payload
     bits = framed.bits.tolist()
     return replace(
@@ -61,12 +61,12 @@ def with_bits(result: DecodeResult, framed: Framed, scene: Scene) -> DecodeResul
     )
 
 
-_MIN_CHIP_COLUMNS = 1.0  # columns of a chip below which not every chip has a column of its own
+_MIN_CHIP_COLUMNS = 1.0  # columns per chip below which not every chip has a column of its own
 _DIGITS = 3  # significant digits of a time in a sentence
 
 
 def columns_of_chip(scene: Scene) -> float:
-    """Return the columns that are read out while one chip lasts."""
+    """Return the number of columns that are read out during one chip."""
     return scene.transmitter.switching_period / scene.camera.readout_time
 
 
@@ -75,29 +75,31 @@ def has_short_chips(scene: Scene) -> bool:
     return columns_of_chip(scene) < _MIN_CHIP_COLUMNS
 
 
-def with_short_chips(failure: str, scene: Scene) -> str:
-    """Put before a failure that chips are too short, where they are and cause it."""
-    return f"{_sentence(scene)} {failure}" if has_short_chips(scene) else failure
+def blame_short_chips(failure: str, scene: Scene) -> str:
+    """State before a failure that chips are too short, if they are, as its cause."""
+    return f"{_describe_short_chips(scene)} {failure}" if has_short_chips(scene) else failure
 
 
-def then_short_chips(failure: str, scene: Scene) -> str:
-    """Add to a failure that chips are too short, where they are: it may have another cause."""
-    return f"{failure} {_sentence(scene)}" if has_short_chips(scene) else failure
+def mention_short_chips(failure: str, scene: Scene) -> str:
+    """Add to a failure that chips are too short, if they are; it may have another cause."""
+    return f"{failure} {_describe_short_chips(scene)}" if has_short_chips(scene) else failure
 
 
-def whole_chips(chips: float) -> int:
-    """Count the whole chips of a number of them that may be off by its rounding."""
+def count_whole_chips(chips: float) -> int:
+    """Return the whole chips in a number of chips that may have a rounding error."""
     return int(chips * (1.0 + 1e-12))
 
 
-def short_view(columns: int, needed: int, scene: Scene, longest_exposure: float = math.inf) -> str:
-    """Say how many of the chips that are needed so many columns show, and what would show more.
+def describe_short_view(
+    columns: int, needed: int, scene: Scene, longest_exposure: float = math.inf
+) -> str:
+    """State how many of the needed chips are in view, and how to get more of them.
 
-    ``longest_exposure``: in chips, up to which a decoder reads.
+    ``longest_exposure``: the longest exposure in chips that the decoder reads.
     """
-    shown = whole_chips(columns / columns_of_chip(scene))
+    shown = count_whole_chips(columns / columns_of_chip(scene))
     ways = ["come closer"] if columns < scene.camera.columns else []
-    # At the frequency at which the chips fit.
+    # Exposure in chips at the frequency at which the chips fit.
     exposure = scene.camera.exposure_time / scene.camera.readout_time * needed / columns
     if columns >= needed and exposure < longest_exposure:
         ways.append("raise the frequency")
@@ -105,7 +107,7 @@ def short_view(columns: int, needed: int, scene: Scene, longest_exposure: float 
     return f"{shown} of {needed} chips fit the panel's image{advice}."
 
 
-def _sentence(scene: Scene) -> str:
+def _describe_short_chips(scene: Scene) -> str:
     chip, column = scene.transmitter.switching_period, scene.camera.readout_time
     return (
         f"A chip of {SECOND.format(chip, _DIGITS)} is shorter than the "

@@ -1,4 +1,4 @@
-"""The decoders by name: the built-in ones and those of plug-ins, whose results are checked."""
+"""Find decoders by name: built-in ones, and those of plug-ins, whose results are checked."""
 
 from dataclasses import replace
 from functools import lru_cache
@@ -19,7 +19,7 @@ from occ_model.transmitter.plugin_checks import checked_text
 
 
 def _read_sequence(signal: FloatArray, scene: Scene) -> DecodeResult:
-    # Its search is imported when first needed: most signals are read without it.
+    # Imported when first needed, because most signals are read without it.
     from occ_model.receiver.sequence.decoder import read_signal
 
     return read_signal(signal, scene)
@@ -30,7 +30,7 @@ SEQUENCE = Decoder(
     "Sequence: the most likely chips",
     _read_sequence,
     is_quick=False,
-    # A picture takes 0.02 s up to 7 chips, 0.1 s at 10 and several at 14.
+    # A picture takes 0.02 s up to 7 chips, 0.1 s at 10 chips and several seconds at 14.
     searched_chips=8.0,
 )
 
@@ -40,12 +40,12 @@ DECODERS: dict[str, Decoder] = {  # the built-in decoders by name
 
 
 def decoders() -> tuple[str, ...]:
-    """Return the names of all decoders, those of plug-ins last."""
+    """Return the names of all decoders, with those of plug-ins last."""
     return tuple(dict.fromkeys((*DECODERS, *plugins.plugin_names(plugins.DECODERS))))
 
 
 QUICK_DECODERS = tuple(name for name, decoder in DECODERS.items() if decoder.is_quick)
-"""The names of the decoders that every picture of the window is read with."""
+"""The names of the decoders with which every picture of the window is read."""
 
 
 def decoder_named(name: str) -> Decoder:
@@ -58,7 +58,7 @@ def decoder_named(name: str) -> Decoder:
 
 
 def read_with(decoder: str, signal: FloatArray, scene: Scene) -> DecodeResult:
-    """Read a signal by a decoder's name; where a plug-in fails, the result's failure says so."""
+    """Read a signal with a named decoder; a plug-in's fault becomes the result's failure."""
     read = decoder_named(decoder).read
     try:
         result = read(signal, scene)
@@ -71,7 +71,7 @@ def read_with(decoder: str, signal: FloatArray, scene: Scene) -> DecodeResult:
 
 @lru_cache(maxsize=64)
 def _plugin(name: str) -> Decoder:
-    """Import a plug-in's decoder; its faults become sentences."""
+    """Import a plug-in's decoder, whose faults become sentences."""
     offered = plugins.load_plugin(plugins.DECODERS, name, Decoder)
     who = plugins.described(plugins.DECODERS, name)
 
@@ -81,7 +81,7 @@ def _plugin(name: str) -> Decoder:
             return replace(checked_result(who, found, len(signal), scene), decoder=name)
 
         try:
-            # It cannot change the signal that other decoders read after it.
+            # A copy, because other decoders read the signal afterwards.
             return plugins.called(who, "read", checked, offered.read, np.array(signal), scene)
         except ParameterError as error:
             raise PluginError(str(error), parameters=error.parameters) from None

@@ -1,14 +1,14 @@
-"""The equalizer: the exposure undone, then the paper's threshold, run lengths and headers.
+"""The equalizer: undo the exposure, then read by the paper's threshold, run lengths and headers.
 
-Beyond the paper, it knows the exposure time and the readout time, and about how long a chip is. It
-needs no list of codes: the data may be any. Where nothing else checks the packet that was read, it
-is exposed again, and compared with the light of its columns.
+Beyond the paper, it knows the exposure time, the readout time and roughly the length of a chip. It
+needs no list of codes and accepts any data. If nothing else checks the packet that was read, its
+exposure is simulated and compared with the light of its columns.
 
 The exposure, a moving average of t / t_r columns, is a filter with the response sinc(F t), which
-has nulls: there the light leaves nothing but noise. The Wiener filter H* / (|H|^2 + N / S) divides
-by the response H where the light's spectrum S is above the noise's N, and gives nothing where it is
-below: it has the least mean square error (MMSE). Without the noise it is the inverse 1 / H
-(zero-forcing), which amplifies the noise beside a null without limit.
+has nulls at which only noise is left. The Wiener filter H* / (|H|^2 + N / S) divides by the
+response H where the light's spectrum S is above the noise's spectrum N, and suppresses frequencies
+where it is below; it has the minimum mean square error (MMSE). Without noise it is the inverse 1 /
+H (zero-forcing), which amplifies noise near a null without limit.
 """
 
 import math
@@ -19,9 +19,9 @@ import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.camera.photometry import WHITE
-from occ_model.receiver.decoder import Decoder, with_bits
-from occ_model.receiver.light import PER_CHIP, in_light, light_of_chips
-from occ_model.receiver.signal import MAX_UNEXPLAINED, unexplained_fraction, why_flat
+from occ_model.receiver.decoder import Decoder, add_bits
+from occ_model.receiver.light import PER_CHIP, convert_to_light, light_of_chips
+from occ_model.receiver.signal import MAX_UNEXPLAINED, explain_flat, unexplained_fraction
 from occ_model.receiver.threshold import read_stripes as read_by_threshold
 from occ_model.results.decoding import DecodeResult
 from occ_model.scene.scene import Scene
@@ -32,20 +32,20 @@ from occ_model.transmitter.scheme import scheme_of
 
 _CURVE_UNKNOWN = (
     "The picture is enhanced by {enhancement}, which hides how bright each column was: the light "
-    "whose exposure is undone is estimated."
+    "could only be estimated."
 )
 
-_MAX_VOTES = 15  # packets that are compared; more take time and change nothing
-_MAX_EXPOSURE_FRACTION = 0.25  # of the columns: the longest exposure that is undone
+_MAX_VOTES = 15  # maximum of packets to compare; more take time without any change
+_MAX_EXPOSURE_FRACTION = 0.25  # of the columns: the longest exposure that can be undone
 
-_UNCHECKED = "this scheme finds not all wrong chips; the framing raw checks the payload."
+_UNCHECKED = "this scheme does not detect all wrong chips; the framing raw checks the payload."
 
-_SHIFTS = np.arange(-PER_CHIP, PER_CHIP + 1)  # up to a chip: of a packet's start
+_SHIFTS = np.arange(-PER_CHIP, PER_CHIP + 1)  # of a packet's start, up to a chip
 
 
 def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
-    """Read the code from the deconvolved light, with the threshold decoder's steps."""
-    result = DecodeResult(DECODER.name, signal=signal, failure=why_flat(signal))
+    """Read the code from the deconvolved light with the threshold decoder's steps."""
+    result = DecodeResult(DECODER.name, signal=signal, failure=explain_flat(signal))
     if result.failure is not None:
         return result
     camera = scene.camera
@@ -53,31 +53,31 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
     if exposure > _MAX_EXPOSURE_FRACTION * len(signal):
         return replace(
             result,
-            failure=f"An exposure lasts {exposure:.3g} columns of the {len(signal)} in the panel's "
-            "image: too few are left to undo it.",
+            failure=f"An exposure lasts {exposure:.3g} of the {len(signal)} columns in the panel's "
+            "image: they are too few to undo it.",
         )
-    light = in_light(signal, scene)
+    light = convert_to_light(signal, scene)
     chip = scene.transmitter.switching_period / camera.readout_time
     undone = undo_exposure(light.values, exposure, chip, scene.receiver.equalizer)
     equalized = undone * WHITE
     read = read_by_threshold(equalized, scene)
-    read = _agreed(read, scene)
-    failure = read.failure or _why_unexplained(read, light.values, exposure, scene)
+    read = _take_majority(read, scene)
+    failure = read.failure or _explain_unexplained(read, light.values, exposure, scene)
     read = read if failure is None else replace(read, code=None)
     if failure is not None and light.is_estimated:
         failure += " " + _CURVE_UNKNOWN.format(enhancement=scene.model.enhancement)
     return replace(read, decoder=DECODER.name, signal=signal, equalized=equalized, failure=failure)
 
 
-def _agreed(read: DecodeResult, scene: Scene) -> DecodeResult:
-    """Read every packet that the picture shows, and take the majority of their bits.
+def _take_majority(read: DecodeResult, scene: Scene) -> DecodeResult:
+    """Read every packet in the picture, and take the payload of the majority.
 
-    The paper reads the first one alone; errors of undone light differ from packet to packet.
+    The paper reads only the first one, but errors of deconvolved light differ between packets.
     """
     if scene.transmitter.pattern:
         return read
     scheme = scheme_of(scene.transmitter)
-    length = scheme.length + len(HEADER)  # the next header ends a packet of the paper's
+    length = scheme.length + len(HEADER)  # the paper's packet ends at the next header
     starts = read.headers[:_MAX_VOTES]
     frames = [scheme.decode(read.chips[start : start + length]) for start in starts]
     votes = Counter(
@@ -93,17 +93,17 @@ def _agreed(read: DecodeResult, scene: Scene) -> DecodeResult:
             read,
             code=None,
             payload="",
-            failure="The packets in the picture do not agree: two different payloads were read "
-            f"from {most} of them each.",
+            failure="The packets in the picture do not agree: two different payloads were each "
+            f"read from {most} of them.",
         )
     agreed = Framed(read.headers, np.array(bits, dtype=np.uint8))
-    return with_bits(read, agreed, scene)
+    return add_bits(read, agreed, scene)
 
 
-def _why_unexplained(
+def _explain_unexplained(
     read: DecodeResult, light: FloatArray, exposure: float, scene: Scene
 ) -> str | None:
-    """Return why the light is not the packet's; None where it is, or a rule checks it."""
+    """Return why the light is not that of the packet; None if it is, or if a rule checks it."""
     scheme = scheme_of(scene.transmitter)
     length = read.chip_length
     if scheme.is_papers or scheme.framing.checks or length is None or read.chip_starts is None:
@@ -112,22 +112,24 @@ def _why_unexplained(
     starts = [start for start in read.headers if _is_packet(read.chips[start:], chips)]
     if not starts and scheme.takes_any_chips:
         return f"No header is followed by all chips of the payload that was read, and {_UNCHECKED}"
-    if not starts:  # the picture shows a packet's end before its beginning
+    if not starts:  # the picture shows the end of a packet before its beginning
         return None
     first = float(read.chip_starts[starts[0]])
     columns = np.arange(max(0.0, first), min(len(light), first + len(chips) * length))
     columns = columns.astype(np.int64)
-    # Light that is undone stands at the middle of each exposure.
+    # Deconvolved light refers to the middle of each exposure.
     begun = (columns - 0.5 * exposure - first) / length
     place = np.floor(PER_CHIP * begun).astype(np.int64)
     model = light_of_chips(chips, exposure / length)
-    unexplained = _unexplained(light[columns], model[(place + _SHIFTS[:, None]) % len(model)])
+    unexplained = _unexplained_by_best(
+        light[columns], model[(place + _SHIFTS[:, None]) % len(model)]
+    )
     if unexplained <= MAX_UNEXPLAINED:
         return None
     return (
         "The packet that was read does not explain its columns: "
-        f"{PERCENT.format(unexplained, 2)} of the variance of their light is neither that of its "
-        f"chips nor noise, and {_UNCHECKED}"
+        f"{PERCENT.format(unexplained, 2)} of the variance of their light is due neither to its "
+        f"chips nor to noise, and {_UNCHECKED}"
     )
 
 
@@ -135,8 +137,8 @@ def _is_packet(seen: ByteArray, chips: ByteArray) -> bool:
     return len(seen) >= len(chips) and bool(np.array_equal(seen[: len(chips)], chips))
 
 
-def _unexplained(light: FloatArray, models: FloatArray) -> float:
-    """Return the fraction of the variance that the best model leaves."""
+def _unexplained_by_best(light: FloatArray, models: FloatArray) -> float:
+    """Return the fraction of the variance that the best model leaves unexplained."""
     seen = light - light.mean()
     models = models - models.mean(axis=1, keepdims=True)
     swings = np.maximum(np.einsum("ij,ij->i", models, models), 1e-12)
@@ -147,20 +149,23 @@ def _unexplained(light: FloatArray, models: FloatArray) -> float:
 
 
 DECODER = Decoder(
-    "equalizer", "Equalizer: the exposure undone, then as the paper", read_signal, is_quick=False
+    "equalizer",
+    "Equalizer: undoes the exposure, then reads as in the paper",
+    read_signal,
+    is_quick=False,
 )
 
 
-MMSE, ZERO_FORCING = "mmse", "zero-forcing"  # the ways to undo an exposure
+MMSE, ZERO_FORCING = "mmse", "zero-forcing"  # methods to undo an exposure
 
 _ZERO_FORCING_NOISE = 1e-6  # noise-to-light ratio that avoids a division by zero at a null
-_NULL_FRACTION = 0.25  # fraction of the spectrum, least passed by the exposure, to measure noise in
-_MIN_CHIP_SPECTRUM = 1e-3  # minimum of a chip's spectrum relative to its largest; 0 at its nulls
-_TAPER_EXPOSURES = 4.0  # exposures over which either end fades out, before the spectrum repeats it
+_NULL_FRACTION = 0.25  # part of the spectrum least passed by the exposure, which shows noise
+_MIN_CHIP_SPECTRUM = 1e-3  # minimum of a chip's spectrum, relative to its maximum
+_TAPER_EXPOSURES = 4.0  # exposures over which each end fades out, since a spectrum is periodic
 
 
 def box(columns: float) -> FloatArray:
-    """Return a moving average over columns, also a part of one, as an impulse response of sum 1."""
+    """Return a moving average over columns, possibly fractional, as an impulse response."""
     reach = max(0, math.ceil((columns - 1.0) / 2.0))
     covered = np.clip(columns / 2.0 - np.abs(np.arange(-reach, reach + 1)) + 0.5, 0.0, 1.0)
     return np.asarray(covered / covered.sum())
@@ -168,7 +173,7 @@ def box(columns: float) -> FloatArray:
 
 def response(columns: float, length: int) -> FloatArray:
     """Return the real frequency response of :func:`box`, shape (length // 2 + 1,)."""
-    from skimage.restoration import uft  # slow to import, and for this decoder alone
+    from skimage.restoration import uft  # slow to import, and used only by this decoder
 
     return np.asarray(uft.ir2tf(box(columns), (length,)).real)
 
@@ -176,41 +181,41 @@ def response(columns: float, length: int) -> FloatArray:
 def undo_exposure(
     light: FloatArray, exposure: float, chip: float, method: str = MMSE
 ) -> FloatArray:
-    """Return the light before it was averaged over ``exposure`` columns, at its middle."""
-    # Not ``skimage.restoration.wiener``, whose module takes 1.4 s to import scipy.signal.
+    """Return the light before its average over ``exposure`` columns, at the exposure's middle."""
+    # Not ``skimage.restoration.wiener``, whose module takes 1.4 s because it imports scipy.signal.
     from scipy.fft import next_fast_len
     from skimage.restoration import uft
 
     mean = float(light.mean())
     margin = math.ceil(_TAPER_EXPOSURES * exposure)
-    # A Fourier transform of a length with large prime factors takes many times as long.
-    faded = _faded(light - mean, margin, next_fast_len(len(light) + 2 * margin, real=True))
+    # A Fourier transform takes many times as long if its length has large prime factors.
+    faded = _fade_out(light - mean, margin, next_fast_len(len(light) + 2 * margin, real=True))
     passed = response(exposure, len(faded))
     frequency = np.arange(len(passed)) / len(faded)
     if method == ZERO_FORCING:
         noise, spectrum = _ZERO_FORCING_NOISE, np.ones_like(passed)
     else:
         spectrum = np.sinc(frequency * chip) ** 2 + _MIN_CHIP_SPECTRUM
-        noise = _noise_over_light(faded, light, passed, spectrum)
+        noise = _noise_to_light_ratio(faded, light, passed, spectrum)
     wiener_filter = passed / (passed**2 + noise / spectrum)
     undone = uft.uirfftn(wiener_filter * uft.urfftn(faded), shape=faded.shape)
     return np.asarray(undone[margin : margin + len(light)] + mean, dtype=np.float64)
 
 
-def _faded(signal: FloatArray, margin: int, length: int) -> FloatArray:
-    """Continue a signal beyond both ends, where it fades out: a spectrum repeats it endlessly."""
+def _fade_out(signal: FloatArray, margin: int, length: int) -> FloatArray:
+    """Extend a signal beyond both ends and fade it out there, because a spectrum is periodic."""
     fade = 0.5 - 0.5 * np.cos(np.pi * (np.arange(margin) + 0.5) / margin)
     rest = np.zeros(length - len(signal) - 2 * margin)
     return np.concatenate([signal[0] * fade, signal, signal[-1] * fade[::-1], rest])
 
 
-def _noise_over_light(
+def _noise_to_light_ratio(
     faded: FloatArray, light: FloatArray, passed: FloatArray, spectrum: FloatArray
 ) -> float:
-    """Measure the noise's power beside the nulls, relative to the light's at low frequencies.
+    """Measure the noise power near the nulls, relative to the light's power at low frequencies.
 
-    What the signal has there cannot be light of chips: it is noise, rounding, an error of the tone
-    curve, and what the ends of the picture cut off.
+    There the signal cannot be light of chips: it is noise, rounding, an error of the tone curve, or
+    an effect of the picture's ends.
     """
     power = np.abs(np.fft.rfft(faded)) ** 2 / len(faded)
     count = max(1, int(_NULL_FRACTION * len(power)))

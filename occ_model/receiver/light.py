@@ -1,9 +1,9 @@
-"""From grey levels to light: the camera's tone curve undone, where it is known, or estimated.
+"""Convert grey levels to light by the camera's tone curve if it is known, or else by estimation.
 
-A detector that adds up light needs a signal that is proportional to it, up to a constant. Histogram
-equalization depends on the picture: which light has which level cannot be undone from the picture
-alone. What remains is the order of the levels. The distribution of the exposures' light is known
-for random data, so a level's rank gives its light as far as the data in the picture are random.
+A detector that adds up light needs a signal proportional to it, up to a constant. Histogram
+equalization depends on the picture, so the picture alone does not show which light has which level.
+Only the order of the levels is known. The distribution of the exposures' light is known for random
+data, so a level's rank gives its light as far as the data in the picture are random.
 """
 
 from dataclasses import dataclass
@@ -16,45 +16,45 @@ from occ_model.camera.photometry import WHITE
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.scheme import Scheme, scheme_of
 
-_CHIPS = 1500  # chips of random payloads that the distribution of light is computed from
-PER_CHIP = 16  # exposures in each chip of :func:`expected_light`
+_CHIPS = 1500  # chips of random payloads from which the distribution of light is computed
+PER_CHIP = 16  # exposures per chip in :func:`expected_light`
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Light:
     # Shape (columns,): proportional to the light of each column, up to a constant
     values: FloatArray
-    # Shape (columns,): columns of the largest level, whose light is that or more
+    # Shape (columns,): columns of the largest level, whose light may be larger
     clipped: BoolArray
-    # Whether only the order of the levels was used, as the curve from light to levels is unknown
+    # Whether only the order of the levels was used, because the tone curve is unknown
     is_estimated: bool
 
 
 def is_curve_known(scene: Scene) -> bool:
-    """Whether the curve from light to the levels of a picture follows from the scene."""
+    """Return whether the scene determines the curve from light to the levels of a picture."""
     model = scene.model
     return model.enhancement == "none" or (
         model.enhancement == "stretch" and model.averaging == "pixel-value"
     )
 
 
-def in_light(signal: FloatArray, scene: Scene) -> Light:
-    """Return grey levels in light; an estimated curve also uses exposure, frequency and bits."""
+def convert_to_light(signal: FloatArray, scene: Scene) -> Light:
+    """Convert grey levels to light; an estimate also uses exposure time, frequency and bits."""
     model = scene.model
-    # Above white, the signal's levels are not those of a picture, and none is the largest.
+    # A signal above white does not have the levels of a picture, so none is the largest.
     clipped = (signal >= WHITE - 0.5) & (signal.max() <= WHITE)
     if not is_curve_known(scene):
-        return Light(by_rank(signal, expected_light(scene)), np.zeros_like(clipped), True)
+        return Light(rank_to_light(signal, expected_light(scene)), np.zeros_like(clipped), True)
     if model.enhancement == "stretch":
-        clipped = np.zeros_like(clipped)  # the brightest column is white, and is no less exact
+        clipped = np.zeros_like(clipped)  # the brightest column is white but not clipped
     if model.averaging == "light":
-        # Light is what averages; a level has the power gamma of it.
+        # Light is averaged, of which levels are a power with the exponent 1 / gamma.
         return Light(np.maximum(signal / WHITE, 0.0) ** scene.camera.gamma, clipped, False)
     return Light(signal / WHITE, clipped, False)
 
 
-def by_rank(signal: FloatArray, levels: FloatArray) -> FloatArray:
-    """Return the light of each value of a signal by its rank among the light of many exposures."""
+def rank_to_light(signal: FloatArray, levels: FloatArray) -> FloatArray:
+    """Return the light of each value of a signal, by its rank among the light of exposures."""
     _, place, counts = np.unique(signal, return_inverse=True, return_counts=True)
     fraction = (np.cumsum(counts) - 0.5 * counts) / len(signal)
     ordered = np.sort(levels, axis=None)
@@ -63,7 +63,7 @@ def by_rank(signal: FloatArray, levels: FloatArray) -> FloatArray:
 
 
 def expected_light(scene: Scene) -> FloatArray:
-    """Return the lit fractions of exposures of random data in the order of time, 16 a chip."""
+    """Return the lit fractions of exposures of random data in the order of time, 16 per chip."""
     transmitter = scene.transmitter
     exposure = scene.camera.exposure_time * transmitter.switching_frequency
     return _expected_light(None if transmitter.pattern else scheme_of(transmitter), exposure)
@@ -85,7 +85,7 @@ def _expected_light(scheme: Scheme | None, exposure: float) -> FloatArray:
 
 
 def light_of_chips(chips: ByteArray, exposure: float) -> FloatArray:
-    """Return the lit fractions of exposures of repeated chips in the order of time, 16 a chip."""
+    """Return the lit fractions of exposures of repeated chips in time order, 16 per chip."""
     starts = (np.arange(len(chips) * PER_CHIP) + 0.5) / PER_CHIP
     lit = np.concatenate([[0.0], np.cumsum(chips)])
     ends = starts + exposure % len(chips)

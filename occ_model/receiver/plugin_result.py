@@ -1,4 +1,4 @@
-"""The one check where a plug-in's result of decoding enters: whole, of its types, and possible."""
+"""Check a plug-in's result of decoding: it must be complete, of the right types, and possible."""
 
 import math
 from numbers import Integral
@@ -24,14 +24,14 @@ from occ_model.transmitter.plugin_checks import (
 from occ_model.transmitter.registry import MOST_CHIPS
 
 _SHORTEST_CHIP = 1e-6  # columns
-_FARTHEST_CHIP = 10.0  # signals, before or behind this one, within which a chip may begin
+_FARTHEST_CHIP = 10.0  # lengths of the signal before or after it, within which a chip may begin
 
 
 def checked_result(who: str, result: DecodeResult, columns: int, scene: Scene) -> DecodeResult:
-    """Return a result of which every part is as :class:`DecodeResult` says, or raise PluginError.
+    """Return a result whose parts all comply with :class:`DecodeResult`, or raise PluginError.
 
-    Its bits are those that the scene sends, and its code and payload those of the bits. Where it
-    lies in the picture is for the caller to say.
+    It must have as many bits as the scene sends, and the code and payload of these bits. The caller
+    adds its place in the picture.
     """
     bits = checked_bits(who, "bits", result.bits, MAX_PAYLOAD_BITS)
     chips = checked_bits(who, "chips", result.chips, max(columns, MOST_CHIPS))

@@ -1,4 +1,4 @@
-"""The paper's decoder: Otsu's threshold, the lengths of runs and of one chip, headers, bits."""
+"""The paper's decoder: Otsu's threshold, run lengths, the length of a chip, headers, bits."""
 
 from dataclasses import dataclass, replace
 
@@ -7,42 +7,42 @@ import numpy as np
 from occ_model.arrays import ByteArray, FloatArray, IndexArray
 from occ_model.receiver.decoder import (
     Decoder,
+    blame_short_chips,
     columns_of_chip,
+    describe_short_view,
     has_short_chips,
     read_payload,
-    short_view,
-    with_short_chips,
 )
-from occ_model.receiver.signal import otsu_split, otsu_threshold, why_flat
+from occ_model.receiver.signal import explain_flat, otsu_split, otsu_threshold
 from occ_model.results.decoding import PAPER_DECODER, DecodeResult, RunHistogram, Runs
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.scheme import scheme_of
 
-_MIN_RUNS = 3  # fewest whole runs from which a chip's length is estimated
+_MIN_RUNS = 3  # minimum number of whole runs to estimate a chip's length
 
 
 _LONGEST_EXPOSURE = 2.0
-"""Chips of an exposure beyond which a single chip leaves less than half of its light in a column.
+"""Exposure in chips above which a single chip changes a column by less than half of the swing.
 
-A threshold in the middle no longer sees it, and all repetitions of a packet show the same errors.
+A threshold in the middle then misses it, with the same errors in all repetitions of a packet.
 """
 
 _LONGEST_UNCHECKED = 1.0  # exposure in chips up to which single chips reach the level of runs
 
 
 def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
-    """Read the payload from a signal, as :func:`read_stripes` does, as long as it shows the chips.
+    """Read the payload from a signal like :func:`read_stripes`, but reject uncertain ones.
 
-    Where the known exposure is so long that several chips can be misread alike in every packet, and
-    the framing does not check the payload, the bits are given with a failure.
+    If the known exposure is so long that chips can be misread in the same way in every packet, and
+    the framing does not check the payload, the bits are returned with a failure.
     """
     result = read_stripes(signal, scene)
-    unsure = None if result.failure is not None else _why_unsure(scene)
+    unsure = None if result.failure is not None else _explain_uncertainty(scene)
     return result if unsure is None else replace(result, code=None, failure=unsure)
 
 
-def _why_unsure(scene: Scene) -> str | None:
-    """Return why a payload may have been misread unnoticed; None where it cannot."""
+def _explain_uncertainty(scene: Scene) -> str | None:
+    """Return why a payload may have been misread unnoticed; None if this is impossible."""
     scheme = scheme_of(scene.transmitter)
     if scheme.is_papers or scheme.framing.checks:
         return None
@@ -50,42 +50,42 @@ def _why_unsure(scene: Scene) -> str | None:
     if chips <= (_LONGEST_UNCHECKED if scheme.takes_any_chips else _LONGEST_EXPOSURE):
         return None
     return (
-        f"The exposure lasts {chips:.2f} chips, of which a threshold sees no single ones for "
-        "certain, and this scheme finds not all that are wrong; the framing raw checks the payload."
+        f"The exposure lasts {chips:.2f} chips, so a threshold can miss single chips, and this "
+        "scheme does not detect all wrong chips; the framing raw checks the payload."
     )
 
 
 def read_stripes(signal: FloatArray, scene: Scene) -> DecodeResult:
-    """Read the payload from a signal; of the scene, scheme and number of bits are known.
+    """Read the payload from a signal with the scene's scheme and number of bits.
 
-    For a raw pattern, whose runs have no scale, and for other schemes than the paper's the length
-    of a chip is known too. The result holds every step that was reached, without the region.
+    The length of a chip is known as well for a raw pattern, whose runs have no scale, and for other
+    schemes than the paper's. The result contains all completed steps, without the region.
     """
-    result = _read(signal, scene)
+    result = _read_steps(signal, scene)
     failure = result.failure
     if failure is None:
         return result
-    if not _knows_length(scene):
-        failure = with_short_chips(failure, scene)
+    if not _is_length_known(scene):
+        failure = blame_short_chips(failure, scene)
     if not scene.transmitter.pattern:
         scheme = scheme_of(scene.transmitter)
         needed = (2 if scheme.ends_by_header else 1) * scheme.length
         if len(signal) < needed * columns_of_chip(scene):
-            failure += " " + short_view(len(signal), needed, scene, _LONGEST_EXPOSURE)
+            failure += " " + describe_short_view(len(signal), needed, scene, _LONGEST_EXPOSURE)
     return replace(result, failure=failure)
 
 
-def _knows_length(scene: Scene) -> bool:
-    """Return whether a chip's length is known, so that a failure names one that is too short."""
+def _is_length_known(scene: Scene) -> bool:
+    """Return whether a chip's length is known, so that a failure can state that it is short."""
     return bool(scene.transmitter.pattern) or not scheme_of(scene.transmitter).is_papers
 
 
-def _read(signal: FloatArray, scene: Scene) -> DecodeResult:
-    result = DecodeResult(DECODER.name, signal=signal, failure=why_flat(signal))
+def _read_steps(signal: FloatArray, scene: Scene) -> DecodeResult:
+    result = DecodeResult(DECODER.name, signal=signal, failure=explain_flat(signal))
     if result.failure is not None:
         return result
     threshold = otsu_threshold(signal)
-    runs = runs_of((signal > threshold).astype(np.uint8))
+    runs = split_into_runs((signal > threshold).astype(np.uint8))
     result = replace(result, threshold=threshold, runs=runs)
     whole = Runs(runs.values[1:-1], runs.lengths[1:-1])
     if len(whole.lengths) < _MIN_RUNS:
@@ -93,11 +93,11 @@ def _read(signal: FloatArray, scene: Scene) -> DecodeResult:
             result,
             failure=f"Too few stripes: {len(whole.lengths)} whole ones were found.",
         )
-    if _knows_length(scene) and has_short_chips(scene):
+    if _is_length_known(scene) and has_short_chips(scene):
         return replace(
             result,
-            failure=f"A chip lasts {columns_of_chip(scene):.2g} columns: runs of columns cannot "
-            "tell how many chips they hold.",
+            failure=f"A chip lasts {columns_of_chip(scene):.2g} columns: runs of columns do not "
+            "show how many chips they contain.",
         )
     if scene.transmitter.pattern:
         return _read_pattern(result, runs, whole, scene)
@@ -106,23 +106,23 @@ def _read(signal: FloatArray, scene: Scene) -> DecodeResult:
 
 
 def _read_pattern(result: DecodeResult, runs: Runs, whole: Runs, scene: Scene) -> DecodeResult:
-    """Read the chips of a raw pattern, which holds no code."""
+    """Read the chips of a raw pattern, which contains no code."""
     read = _read_chips(result, runs, whole, scene)
     return replace(
         read,
-        failure=f"A raw chip pattern is sent, which holds no packets; {len(read.chips)} chips "
+        failure=f"A raw chip pattern is sent, which contains no packets; {len(read.chips)} chips "
         "were read.",
     )
 
 
 def _read_chips(result: DecodeResult, runs: Runs, whole: Runs, scene: Scene) -> DecodeResult:
-    """Convert runs to chips; of the first and last run only the part in the image counts."""
+    """Convert runs to chips; only the visible parts of the first and the last run count."""
     histograms = (run_histogram(whole, 0), run_histogram(whole, 1))
-    if _knows_length(scene):
+    if _is_length_known(scene):
         fit = fit_pattern(whole, columns_of_chip(scene))
     else:
         fit = fit_chips(whole, histograms)
-    counts = fit.chips_in(runs)
+    counts = fit.count_chips(runs)
     ends = np.cumsum(runs.lengths).astype(np.float64)
     starts = ends - runs.lengths
     within = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
@@ -139,16 +139,16 @@ def _read_chips(result: DecodeResult, runs: Runs, whole: Runs, scene: Scene) -> 
 DECODER = Decoder(PAPER_DECODER, "The paper's: threshold and run lengths", read_signal)
 
 
-_MAX_RUN_CHIPS = np.array([2, 4])  # chips of a run of zeros, and of ones: a header after a one
-_HEADER_RUNS = (3, 4)  # chips of the run of ones that holds a header: its three, or one more
-_NO_HEADER_PENALTY = 0.1  # penalty in chips of a fit without a header, as the picture may show none
-_WIDENING_PENALTY = 0.05  # penalty of a pattern's fit, in chips, for each chip of widening
-_WIDENINGS = 19  # widenings that are tried for a raw pattern, which has no framing
+_MAX_RUN_CHIPS = np.array([2, 4])  # of a run of zeros, and of ones: a header after a one
+_HEADER_RUNS = (3, 4)  # chips of the run of ones that contains a header: its three, or one more
+_NO_HEADER_PENALTY = 0.1  # in chips, for a fit without a header, since the picture may show none
+_WIDENING_PENALTY = 0.05  # in chips, for each chip of widening in the fit of a pattern
+_WIDENINGS = 19  # number of widenings tried for a raw pattern, which has no framing
 
-_IMPROVEMENTS = 3  # maximum rounds of least squares; they end when the numbers of chips stay
+_IMPROVEMENTS = 3  # maximum rounds of least squares, unless the numbers of chips settle earlier
 
 
-def runs_of(binary: ByteArray) -> Runs:
+def split_into_runs(binary: ByteArray) -> Runs:
     """Split zeros and ones into runs of equal values."""
     changes = np.flatnonzero(binary[1:] != binary[:-1]) + 1
     starts = np.concatenate([[0], changes])
@@ -162,8 +162,8 @@ def run_histogram(runs: Runs, value: int) -> RunHistogram:
     return RunHistogram(counts, otsu_split(counts))
 
 
-def short_run(histogram: RunHistogram) -> float:
-    """Average the short runs: those up to the histogram's split, or all where there is none."""
+def mean_short_run(histogram: RunHistogram) -> float:
+    """Average the short runs: those up to the histogram's split, or all if there is none."""
     counts = histogram.counts[: None if histogram.split is None else histogram.split + 1]
     return float(counts @ np.arange(len(counts)) / counts.sum())
 
@@ -172,60 +172,60 @@ def short_run(histogram: RunHistogram) -> float:
 class ChipFit:
     """The relation of run lengths to chips.
 
-    A run of n ones is ``n * chip_length + widening`` columns long, one of n zeros
-    ``n * chip_length - widening``: a threshold off the middle moves every edge by the same amount.
+    A run of n ones is ``n * chip_length + widening`` columns long, and one of n zeros ``n *
+    chip_length - widening``, since a threshold off the middle moves all edges equally.
     """
 
     chip_length: float
     widening: float
-    misfit: float  # root mean square distance from whole chips, plus penalties
+    misfit: float  # RMS distance from whole chips, plus penalties
 
-    def chips_in(self, runs: Runs) -> IndexArray:
+    def count_chips(self, runs: Runs) -> IndexArray:
         sign = np.where(runs.values == 1, 1.0, -1.0)
         counts = np.rint((runs.lengths - sign * self.widening) / self.chip_length)
         return np.maximum(counts, 1.0).astype(np.int64)
 
 
 def fit_chips(runs: Runs, histograms: tuple[RunHistogram, RunHistogram]) -> ChipFit:
-    """Find the length of one chip from whole runs of both kinds.
+    """Find the length of a chip from whole runs of both kinds.
 
-    The paper splits the histogram of the ones' run lengths, and that of the zeros', by Otsu's
-    threshold; the average of the short runs is one chip. That misreads a code whose short runs are
-    two chips long, such as 1023, and one whose single and double runs are on one side of the split.
-    So the ones' short runs are tried as one chip and as two, the longest run of ones, which holds
-    the header, as three chips and as four, and the zeros' short runs as one chip and as two (an odd
-    number of bits, all of them 1, leaves no single zero). Each trial is refined by least squares.
-    The best trial is the one whose runs are nearest to whole chips, no longer than the framing
-    allows, and include a header. A widening may exceed a chip: a packet without single chips can
-    still be read.
+    The paper splits the histograms of the run lengths of ones and of zeros by Otsu's threshold, and
+    takes the average of the short runs for one chip. This misreads a code whose short runs are two
+    chips long, such as 1023, and a code whose single and double runs are on the same side of the
+    split. Therefore several interpretations are tried: the short runs of ones as one or two chips,
+    the longest run of ones, which contains the header, as three or four chips, and the short runs
+    of zeros as one or two chips (an odd number of bits that are all 1 has no single zero). Each
+    trial is refined by least squares. The best trial is the one whose runs are closest to whole
+    chips, not longer than the framing allows, and include a header. A widening may exceed a chip,
+    because a packet without single chips can still be read.
     """
-    short_zero, short_one = (short_run(histogram) for histogram in histograms)
+    short_zero, short_one = (mean_short_run(histogram) for histogram in histograms)
     longest_one = float(len(histograms[1].counts) - 1)
     trials = [(short_one, chips) for chips in (1, 2)]
     trials += [(longest_one, chips) for chips in _HEADER_RUNS]
     one_length, one_chips, zero_chips = np.array(
         [(length, chips, zeros_in) for zeros_in in (1, 2) for length, chips in trials]
     ).T
-    # A threshold off the middle shortens runs of ones by as much as it lengthens those of zeros.
+    # A threshold off the middle shortens runs of ones as much as it lengthens those of zeros.
     chip_length = (one_length + short_zero) / (one_chips + zero_chips)
-    return _best_fit(runs, chip_length, one_length - one_chips * chip_length)
+    return _find_best_fit(runs, chip_length, one_length - one_chips * chip_length)
 
 
 def fit_pattern(runs: Runs, nominal: float) -> ChipFit:
-    """Find the length of one chip of a raw pattern, near a nominal one.
+    """Find the length of a chip of a raw pattern, near a nominal one.
 
     Without packets the runs do not distinguish one chip from two, so the scale must be known.
-    Several widenings are tried, of which smaller ones are likelier. Where an enhancement has moved
-    the threshold by more than half a chip, the runs of one pattern can equal those of another.
+    Several widenings are tried, of which smaller ones are more likely. If an enhancement moves the
+    threshold by more than half a chip, the runs of one pattern can equal those of another.
     """
     widening = nominal * np.linspace(-0.9, 0.9, _WIDENINGS)
     # A threshold is rarely far off the middle.
     penalty = _WIDENING_PENALTY * np.abs(widening) / nominal
     chip_length = np.full(_WIDENINGS, nominal)
-    return _best_fit(runs, chip_length, widening, penalty, nominal=nominal)
+    return _find_best_fit(runs, chip_length, widening, penalty, nominal=nominal)
 
 
-def _best_fit(
+def _find_best_fit(
     runs: Runs,
     chip_length: FloatArray,
     widening: FloatArray,
@@ -234,8 +234,8 @@ def _best_fit(
 ) -> ChipFit:
     """Improve first guesses by least squares over the runs' whole chips, and return the best.
 
-    All guesses are improved at once, and equal runs are counted, not repeated. With a ``nominal``
-    length, the distance from it counts in place of the framing.
+    All guesses are improved together, and equal runs are weighted by their number. With a
+    ``nominal`` length, the deviation from it counts instead of the framing.
     """
     kinds, repeats = np.unique(2 * runs.lengths + runs.values, return_counts=True)
     values, lengths = kinds % 2, (kinds // 2).astype(np.float64)
@@ -250,7 +250,7 @@ def _best_fit(
         # Normal equations of lengths = chip_length * n + widening * sign.
         nn, ns, ss = (n * n) @ repeats, n @ (repeats * sign), float(repeats.sum())
         nl, sl = n @ (repeats * lengths), float((sign * lengths) @ repeats)
-        determinant = nn * ss - ns**2  # never 0: ones and zeros differ in sign
+        determinant = nn * ss - ns**2  # never 0, because ones and zeros differ in sign
         better = (ss * nl - ns * sl) / determinant
         usable = better > 0.0
         widening = np.where(usable, (nn * sl - ns * nl) / determinant, widening)

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from occ_model.arrays import BoolArray, FloatArray
-from occ_model.receiver.signal import grid_of, least_bright_fraction
+from occ_model.receiver.signal import grid_size_of, least_bright_fraction
 from occ_model.results.decoding import Region
 
 _MAX_PROBABILITY = 1.0 - 1e-12  # largest probability of a bright pixel, for its logarithm
@@ -34,7 +34,7 @@ class BrightFractions:
         """Draw the rectangle that is found; the whole picture where no pixel is bright."""
         columns = len(self.around)
         whole = Region(0, self.rows, 0, columns)
-        grid = grid_of(self.rows, columns)
+        grid = grid_size_of(self.rows, columns)
         for least in (least_bright_fraction(), 0.5 / 255.0):
             marked = self._marked_cells(grid, least, random)
             if marked.any():

@@ -10,9 +10,9 @@ from occ_model.camera.enhancement import Enhancement
 from occ_model.camera.photometry import WHITE
 from occ_model.photo.chips.edges import Edges, chip_numbers, coherence, lattice_at
 from occ_model.receiver.decode import decode
-from occ_model.receiver.decoder import has_short_chips, with_short_chips
+from occ_model.receiver.decoder import blame_short_chips, has_short_chips
 from occ_model.receiver.decoders import read_with
-from occ_model.receiver.light import in_light
+from occ_model.receiver.light import convert_to_light
 from occ_model.receiver.signal import column_means
 from occ_model.results.decoding import PAPER_DECODER, DecodeResult, Region
 from occ_model.results.video import VideoFrame
@@ -100,7 +100,7 @@ class FrameReader:
             return TimedFrame(replace(reading, failure=result.failure))
         white = 0.0 if result.signal is None else float(np.mean(result.signal >= _WHITE_MEAN))
         region = self._widen_by_dark_ends(result.region, scene)
-        light = in_light(column_means(frame.image, region), scene).values
+        light = convert_to_light(column_means(frame.image, region), scene).values
         before = result.region.first_column - region.first_column
         tried = [_fit_timing(result, column_means(frame.image, region), light, before, scene)]
         if result.failure is not None and self.enhanced.model.enhancement != "none":
@@ -152,7 +152,7 @@ def _fit_timing(
     lattice = fit_lattice(result, signal, before, scene)
     if lattice is None:
         failure = result.failure or "The stripes show no regular chips."
-        return None, with_short_chips(failure, scene)
+        return None, blame_short_chips(failure, scene)
     timing = fit_timing(light, lattice)
     if timing is None or timing.unexplained > _MAX_UNEXPLAINED:
         return None, "The stripes do not follow the chips that were read."

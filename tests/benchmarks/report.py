@@ -31,7 +31,7 @@ import occ_model as occ
 from occ_model.arrays import FloatArray
 from occ_model.camera.enhancement import enhance
 from occ_model.camera.exposure import forget_exposures
-from occ_model.receiver.matched.templates import code_templates
+from occ_model.receiver.matched.templates import make_code_templates
 from occ_model.results.frame import Frame
 from occ_model.scene.scene import Scene
 
@@ -204,7 +204,8 @@ def code_templates_cost() -> Row:
     profile = enhance(occ.column_profile(_PAPER), _PAPER.model.enhancement)
     exposures = (Fraction(n, 977) for n in count(1000))
     a, b = side_by_side(
-        lambda: code_templates(10, next(exposures)), lambda: occ.decode(profile, _PAPER, "matched")
+        lambda: make_code_templates(10, next(exposures)),
+        lambda: occ.decode(profile, _PAPER, "matched"),
     )
     return Row(
         "forward model of all 1024 codes, once a setting, against one matched decoding",
@@ -221,7 +222,7 @@ def long_code_cost() -> Row:
     a, b, templates = side_by_side(
         lambda: occ.decode(long_profile, long, "matched"),
         lambda: occ.decode(profile, scene, "matched"),
-        lambda: code_templates(16, next(exposures)),
+        lambda: make_code_templates(16, next(exposures)),
     )
     return Row(
         "matched decoding of a code of 16 bits, against one of 10",

@@ -326,7 +326,7 @@ def test_an_exposure_that_leaves_only_the_mean_is_refused(exposure: float) -> No
     # Exactly one packet, or so many that the rest is lost in rounding: all codes look alike.
     scene = Scene().replace(exposure_time=exposure, switching_frequency=8192.0)
     failure = occ.decode(SIGNALS["runs of all lengths"], scene, "matched").failure
-    assert failure.startswith("All codes look alike")
+    assert failure.startswith("All codes look the same")
 
 
 LOCATED: dict[str, tuple[np.ndarray, Region]] = {

@@ -14,9 +14,9 @@ import pytest
 from numpy.typing import NDArray
 from physics.exposed_chips import expose_rows, manchester, noise_of
 
-from occ_model.receiver.sequence.exposures import Timing, gather
-from occ_model.receiver.sequence.search import best_chips
-from occ_model.receiver.sequence.trellis import Word, trellis_of
+from occ_model.receiver.sequence.exposures import RowTiming, gather
+from occ_model.receiver.sequence.search import find_best_chips
+from occ_model.receiver.sequence.trellis import Word, make_trellis
 
 EXPOSURE, STEP, PHASE, DECIBELS = 4, 0.2, 0.13, 15.0
 ROWS = 10  # rows that begin while a bit, of two chips, lasts
@@ -86,7 +86,7 @@ def rates(sequences: int, bits: int, seed: int) -> tuple[float, float, float]:
     noise = noise_of(DECIBELS)
     sent = random.integers(0, 2, (sequences, bits))
     words = (Word(0, (0, 1), 0), Word(0, (1, 0), 0))
-    timing = Timing(EXPOSURE, STEP, PHASE)
+    timing = RowTiming(EXPOSURE, STEP, PHASE)
     whole = bits - BITS_BACK - 1
     seen = np.empty((sequences, whole, ROWS))
     wrong = counted = 0
@@ -95,7 +95,7 @@ def rates(sequences: int, bits: int, seed: int) -> tuple[float, float, float]:
         light = expose_rows(chips, EXPOSURE, STEP, PHASE)
         light = light + noise * random.standard_normal(len(light))
         seen[number] = light[: whole * ROWS].reshape(whole, ROWS)
-        found = best_chips(trellis_of(words, timing.memory), gather(light, timing))
+        found = find_best_chips(make_trellis(words, timing.memory), gather(light, timing))
         decided = found.values[-found.first :][: 2 * whole : 2] == manchester(np.array([1]))[0]
         inside = slice(BITS_BACK, whole)
         wrong += int((decided[inside] != (payload[:whole] == 1)[inside]).sum())

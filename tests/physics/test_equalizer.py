@@ -134,7 +134,7 @@ def test_a_failure_of_an_enhanced_picture_says_why_it_cannot_be_undone() -> None
 def test_an_exposure_of_most_of_the_picture_is_refused() -> None:
     scene = Scene().replace(exposure_time=20e-3, readout_time=8e-6)
     failure = occ.decode(np.resize([0.0, 200.0], 3456), scene, "equalizer").failure
-    assert "2.5e+03 columns of the 3456" in failure
+    assert "2.5e+03 of the 3456 columns" in failure
 
 
 def test_the_equalizer_is_a_parameter_of_the_receiver() -> None:

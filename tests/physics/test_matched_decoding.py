@@ -10,12 +10,12 @@ from amount import amount
 import occ_model as occ
 from occ_model.arrays import FloatArray, IndexArray
 from occ_model.camera.exposure import lit_fraction
-from occ_model.receiver.matched.decoder import most_likely
+from occ_model.receiver.matched.decoder import find_most_likely
 from occ_model.receiver.matched.templates import (
     BINS_PER_CHIP,
     CodeTemplates,
-    code_templates,
     codes_by_levels,
+    make_code_templates,
     sums_of_halves,
 )
 from occ_model.scene.scene import Scene
@@ -63,7 +63,7 @@ def test_no_tone_curve_needs_to_be_known(enhancement: str, averaging: str) -> No
 
 def test_the_code_book_holds_the_forward_model_of_every_code() -> None:
     frequency, exposure = 10e3, 237e-6
-    templates = code_templates(10, Fraction(exposure) * Fraction(frequency))
+    templates = make_code_templates(10, Fraction(exposure) * Fraction(frequency))
     for code in (0, 3, 718, 1023):
         scene = Scene().replace(
             code=code,
@@ -109,9 +109,9 @@ def test_the_search_finds_the_codes_that_an_exhaustive_one_finds(bits: int) -> N
     rng = np.random.default_rng(bits)
     every = np.arange(2**bits)
     for exposure in _exposures(bits):
-        templates = code_templates(bits, exposure)
+        templates = make_code_templates(bits, exposure)
         for signal in _signals(templates, rng):
-            found, phases = most_likely(signal, templates)
+            found, phases = find_most_likely(signal, templates)
             correlations = _correlations(signal, templates, every)
             largest = correlations.max(axis=1)
             # Codes that tie may be exchanged, but none with a better correlation may be missing.
@@ -126,10 +126,10 @@ def test_the_search_finds_the_codes_that_an_exhaustive_one_finds(bits: int) -> N
 @pytest.mark.parametrize("exposure", _exposures(16)[1 :: amount(4, 1)])
 def test_no_16_bit_code_that_correlates_better_is_missed(exposure: Fraction) -> None:
     rng = np.random.default_rng(16)
-    templates = code_templates(16, exposure)
+    templates = make_code_templates(16, exposure)
     sample = rng.integers(0, 2**16, 2000)
     for signal in _signals(templates, rng):
-        found, phases = most_likely(signal, templates)
+        found, phases = find_most_likely(signal, templates)
         correlations = _correlations(signal, templates, found)
         limit = 1e-7 * abs(correlations).max()
         np.testing.assert_allclose(
@@ -154,7 +154,7 @@ def test_a_sum_over_a_packet_is_that_over_its_halves(bits: int) -> None:
 @pytest.mark.parametrize("bits", range(2, 12, amount(3, 1)))
 def test_energies_are_those_of_the_profiles(bits: int) -> None:
     for exposure in _exposures(bits):
-        templates = code_templates(bits, exposure)
+        templates = make_code_templates(bits, exposure)
         profiles = templates.profiles(np.arange(2**bits))
         energies = len(templates.levels) * profiles.var(axis=1)
         known = np.isfinite(templates.energy)
@@ -211,7 +211,7 @@ def test_a_wrong_code_never_comes_with_high_confidence() -> None:
 @pytest.mark.parametrize("exposure", [Fraction(1, 2), Fraction(7, 3)])
 def test_levels_are_quantiles_of_all_codes_profiles(bits: int, exposure: Fraction) -> None:
     """There are as many evenly spaced quantiles as bins."""
-    templates = code_templates(bits, exposure)
+    templates = make_code_templates(bits, exposure)
     profiles = templates.profiles(np.arange(2**bits))
     bins = profiles.shape[1]
     expected = np.quantile(profiles, (np.arange(bins) + 0.5) / bins)

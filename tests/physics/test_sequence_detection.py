@@ -8,10 +8,10 @@ from amount import amount
 from physics.exposed_chips import expose_rows, manchester, noise_of
 
 import occ_model as occ
-from occ_model.receiver.sequence.exposures import Timing, gather, taps
+from occ_model.receiver.sequence.exposures import RowTiming, gather, taps
 from occ_model.receiver.sequence.fit import lit_fractions
-from occ_model.receiver.sequence.search import Chips, beam_chips, best_chips, least_distances
-from occ_model.receiver.sequence.trellis import FREE_CHIPS, Word, trellis_of
+from occ_model.receiver.sequence.search import Chips, find_best_chips, least_distances, search_beam
+from occ_model.receiver.sequence.trellis import FREE_CHIPS, Word, make_trellis
 from occ_model.scene.scene import Scene
 
 MANCHESTER = (Word(0, (0, 1), 0), Word(0, (1, 0), 0))
@@ -22,8 +22,8 @@ POINTS = [(7, 15, 3e-2), (7, 20, 8e-4), (7, 30, 1e-4), (4, 10, 6e-2), (4, 20, 1e
 
 
 def detect(light: np.ndarray, exposure: float, words: tuple[Word, ...] = MANCHESTER) -> Chips:
-    timing = Timing(exposure, STEP, PHASE)
-    return best_chips(trellis_of(words, timing.memory), gather(light, timing))
+    timing = RowTiming(exposure, STEP, PHASE)
+    return find_best_chips(make_trellis(words, timing.memory), gather(light, timing))
 
 
 def wrong_bits(exposure: float, decibels: float, bits: int, seed: int) -> tuple[int, int]:
@@ -56,7 +56,7 @@ def test_4_chips_at_15_db_have_a_rate_near_6_in_10000() -> None:
 def test_the_lit_fraction_of_a_row_is_that_of_the_chips_under_its_exposure() -> None:
     values = np.array([1, 0, 0, 1, 1, 0], dtype=np.uint8)
     chips = Chips(0, values, np.ones(6))
-    timing = Timing(1.5, 0.25, 0.0)
+    timing = RowTiming(1.5, 0.25, 0.0)
     model, slope = lit_fractions(chips, timing, 18)
     # Exact, by a running integral of the light.
     lit = np.concatenate([[0.0], np.cumsum(values)])
@@ -84,11 +84,11 @@ def test_no_other_sequence_is_nearer_to_the_rows(words: tuple[Word, ...], exposu
     sent = manchester(random.integers(0, 2, count // 2))
     light = expose_rows(sent, exposure, STEP, 0.0)
     light = light + 0.2 * random.standard_normal(len(light))
-    timing = Timing(exposure, STEP, 0.0)
+    timing = RowTiming(exposure, STEP, 0.0)
     statistics = gather(light, timing)
-    trellis = trellis_of(words, timing.memory)
+    trellis = make_trellis(words, timing.memory)
     (least,) = least_distances(trellis, [statistics])
-    chips = best_chips(trellis, statistics)
+    chips = find_best_chips(trellis, statistics)
     every = np.array(list(itertools.product([0, 1], repeat=count)))
     if words is MANCHESTER:
         # Both alignments of the pairs, each also with another chip at the end.
@@ -108,8 +108,8 @@ def test_a_margin_is_what_the_opposite_chip_costs() -> None:
     sent = random.integers(0, 2, count)
     light = expose_rows(sent, exposure, STEP, 0.0)
     light = light + 0.15 * random.standard_normal(len(light))
-    timing = Timing(exposure, STEP, 0.0)
-    found = best_chips(trellis_of(FREE_CHIPS, timing.memory), gather(light, timing))
+    timing = RowTiming(exposure, STEP, 0.0)
+    found = find_best_chips(make_trellis(FREE_CHIPS, timing.memory), gather(light, timing))
     every = np.array(list(itertools.product([0, 1], repeat=count)))
     distances = np.array(
         [((expose_rows(one, exposure, STEP, 0.0) - light) ** 2).sum() for one in every]
@@ -126,10 +126,10 @@ def test_the_beam_finds_what_the_whole_trellis_finds(exposure: float) -> None:
     sent = manchester(random.integers(0, 2, 150))
     light = expose_rows(sent, exposure, STEP, PHASE)
     light = light + noise_of(25.0) * random.standard_normal(len(light))
-    timing = Timing(exposure, STEP, PHASE)
+    timing = RowTiming(exposure, STEP, PHASE)
     statistics = gather(light, timing)
-    whole = best_chips(trellis_of(MANCHESTER, timing.memory), statistics)
-    beam = beam_chips(MANCHESTER, timing.memory, statistics)
+    whole = find_best_chips(make_trellis(MANCHESTER, timing.memory), statistics)
+    beam = search_beam(MANCHESTER, timing.memory, statistics)
     same = beam.values[whole.first - beam.first :][: len(whole.values)] == whole.values
     # The beam first has to converge.
     assert same[3 * timing.memory :].all()
@@ -147,7 +147,7 @@ def test_the_beam_finds_what_the_whole_trellis_finds(exposure: float) -> None:
 def test_taps_are_the_overlaps_of_exposure_and_chips(
     exposure: float, start: float, fractions: list[float]
 ) -> None:
-    last, found = taps(Timing(exposure, 0.1), np.array([start]))
+    last, found = taps(RowTiming(exposure, 0.1), np.array([start]))
     in_time = found[0, ::-1][-int(last[0]) - 1 :]
     np.testing.assert_allclose(in_time[: len(fractions)], fractions, atol=1e-12)
     assert found.sum() == pytest.approx(1.0)

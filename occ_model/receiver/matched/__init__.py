@@ -1,1 +1,1 @@
-"""The matched decoder: correlation with the forward model of every code and phase."""
+"""The matched decoder, which correlates a signal with the model of every code and phase."""

@@ -1,8 +1,8 @@
 """The matched decoder: correlate the signal with the forward model of every code and phase.
 
 Beyond the paper, it knows the switching frequency, the exposure time and the readout time. The
-signal is folded over one packet first. An exposure of several chips is not an obstacle: each code
-still has a profile of its own.
+signal is first folded over one packet. Exposures of several chips are possible, because each code
+still has its own profile.
 """
 
 import math
@@ -15,23 +15,23 @@ from occ_model.arrays import FloatArray, IndexArray
 from occ_model.camera.exposure import column_phases
 from occ_model.receiver.decoder import (
     Decoder,
-    short_view,
-    then_short_chips,
-    with_bits,
-    with_short_chips,
+    add_bits,
+    blame_short_chips,
+    describe_short_view,
+    mention_short_chips,
 )
 from occ_model.receiver.matched.templates import (
     BINS_PER_CHIP,
     MOST_BITS,
     CodeTemplates,
     PayloadTemplates,
-    code_templates,
     codes_by_levels,
-    payload_templates,
-    same_chips,
+    find_same_chips,
+    make_code_templates,
+    make_payload_templates,
     sums_of_halves,
 )
-from occ_model.receiver.signal import why_flat
+from occ_model.receiver.signal import explain_flat
 from occ_model.results.decoding import DecodeResult
 from occ_model.scene.parameters.light import MAX_BITS
 from occ_model.scene.scene import Scene
@@ -39,123 +39,119 @@ from occ_model.transmitter.framings.framing import Framed
 from occ_model.transmitter.packet import bits_of, packet_length
 from occ_model.transmitter.scheme import scheme_of
 
-_MIN_CORRELATION = 0.7  # of a code that is read: half of the signal's variance is explained
-_MIN_CONFIDENCE = 0.05  # of a code that is read; below it the best code may be so by chance
+_MIN_CORRELATION = 0.7  # minimum for reading a code: half of the signal's variance is explained
+_MIN_CONFIDENCE = 0.05  # minimum for reading a code; below it a code may be best by chance
 _NEGLIGIBLE_UNEXPLAINED = 1e-3
-"""Fraction of the variance below which a code explains all: bins and ranks are no more exact.
+"""Unexplained fraction of the variance below which a code explains everything, since bins and
+ranks are not more exact. If two codes do, either can be the one that is sent."""
 
-Where two codes do, either can be the one that is sent.
-"""
-
-_SAME_LEVEL = 1e-5  # difference of lit fractions that is rounding error
+_SAME_LEVEL = 1e-5  # maximum rounding error of lit fractions
 
 _WIDEST_GAP = 1.25
-"""Chips between two starts of exposures above which the signal has too few values for a code.
+"""Maximum distance in chips between starts of exposures for a signal to determine a code.
 
-Where each chip has a column of its own there is no gap above one chip, but for rounding to bins.
+If each chip has a column of its own, no gap exceeds one chip, except for rounding to bins.
 """
 
-_CANDIDATE_CODES = 16  # codes that are compared in the second, more exact step
-_AT_ONCE = 2**15  # correlations, of codes at phases, held at once: they fit the processor's cache
+_CANDIDATE_CODES = 16  # number of codes compared in the second, more exact step
+_AT_ONCE = 2**15  # correlations in memory at a time, to fit the processor's cache
 
 
 def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
-    """Read the code whose forward model is most like the signal.
+    """Read the code whose forward model is most similar to the signal.
 
     With r1 and r2 the correlations of the best and the second best code with the signal, the
-    confidence is 1 - (1 - r1^2) / (1 - r2^2): 0 where both explain the same fraction of the
-    variance, near 1 where the best alone explains all of it.
+    confidence is 1 - (1 - r1^2) / (1 - r2^2): 0 if both explain the same fraction of the variance,
+    and near 1 if only the best code explains all of it.
     """
-    result = DecodeResult(DECODER.name, signal=signal, failure=why_flat(signal))
+    result = DecodeResult(DECODER.name, signal=signal, failure=explain_flat(signal))
     if result.failure is not None:
         return result
     if scene.transmitter.pattern:
-        return replace(result, failure="A raw chip pattern is sent, which holds no packets.")
+        return replace(result, failure="A raw chip pattern is sent, which contains no packets.")
     scheme = scheme_of(scene.transmitter)
     most = MAX_BITS if scheme.is_papers else MOST_BITS
     if scheme.bits > most:
         return replace(
             result,
             failure=f"The payload has {scheme.bits} bits; the matched decoder compares all "
-            f"payloads, by this scheme of up to {most} bits: use the sequence detector.",
+            f"payloads, for this scheme of up to {most} bits: use the sequence detector.",
         )
     frequency = scene.transmitter.switching_frequency
     chips_seen = len(signal) * scene.camera.readout_time * frequency
     if chips_seen < scheme.length:
-        return replace(
-            result,
-            failure=f"Less than one packet: {short_view(len(signal), scheme.length, scene)}",
-        )
+        view = describe_short_view(len(signal), scheme.length, scene)
+        return replace(result, failure=f"Less than one packet: {view}")
     exposure = Fraction(scene.camera.exposure_time) * Fraction(frequency)
     templates: CodeTemplates | PayloadTemplates
     if scheme.is_papers:
-        templates = code_templates(scheme.bits, exposure)
+        templates = make_code_templates(scheme.bits, exposure)
     else:
-        templates = payload_templates(scheme, exposure)
+        templates = make_payload_templates(scheme, exposure)
     if not np.isfinite(templates.energy).any():
         return replace(
             result,
-            failure="All codes look alike: the exposure time is a whole number of packets, or so "
-            "many that their mean is all it leaves.",
+            failure="All codes look the same: the exposure time is a whole number of packets, or "
+            "so many packets that only their mean is left.",
         )
     starts = _start_bins(len(signal), scene, scheme.length)
     counts = np.bincount(starts, minlength=scheme.length * BINS_PER_CHIP)
     gap = _widest_gap(counts) / BINS_PER_CHIP
     if gap > _WIDEST_GAP:
         unseen = (
-            f"Not every chip is seen: all columns together see a packet at places up to {gap:.2g} "
+            f"Not every chip is seen: the columns show a packet only at places up to {gap:.2g} "
             "chips apart."
         )
-        return replace(result, failure=with_short_chips(unseen, scene))
-    read = _best_code(result, _fold(signal, starts, counts), templates, scene)
+        return replace(result, failure=blame_short_chips(unseen, scene))
+    read = _find_best_code(result, _fold(signal, starts, counts), templates, scene)
     if read.failure is None:
         return read
-    return replace(read, failure=then_short_chips(read.failure, scene))
+    return replace(read, failure=mention_short_chips(read.failure, scene))
 
 
 def _start_bins(columns: int, scene: Scene, period: int) -> IndexArray:
-    # The signal may start at any column, as the packet's phase is found, not known.
+    # The signal may start at any column, because the packet's phase is unknown.
     phases = column_phases(scene, period, columns=columns)
     bins = period * BINS_PER_CHIP
     return np.rint((phases.chip + phases.fraction) * BINS_PER_CHIP).astype(np.int64) % bins
 
 
 def _widest_gap(counts: IndexArray) -> int:
-    """Return the most bins between two bins of a packet in which an exposure starts."""
+    """Return the largest distance between bins of a packet in which an exposure starts."""
     seen = np.flatnonzero(counts)
     return int(np.diff(seen, append=seen[0] + len(counts)).max())
 
 
 def _fold(signal: FloatArray, starts: IndexArray, counts: IndexArray) -> FloatArray:
-    """Average the columns whose exposure starts in the same bin of a packet, shape (bins,)."""
+    """Average the columns whose exposures start in the same bin of a packet, shape (bins,)."""
     sums = np.bincount(starts, signal, minlength=len(counts))
     seen = np.flatnonzero(counts)
-    # Bins without columns are interpolated: a profile has no jumps.
+    # Bins without columns are interpolated, since a profile has no jumps.
     return np.interp(np.arange(len(counts)), seen, sums[seen] / counts[seen], period=len(counts))
 
 
-def _best_code(
+def _find_best_code(
     result: DecodeResult,
     folded: FloatArray,
     templates: CodeTemplates | PayloadTemplates,
     scene: Scene,
 ) -> DecodeResult:
-    """Compare the folded signal with every code, then with the most likely ones more exactly."""
-    # The camera keeps the order of grey levels. So a bin's rank gives its lit fraction, and neither
-    # gamma nor enhancement needs to be known.
+    """Compare the folded signal with every code, then more exactly with the most likely ones."""
+    # The camera preserves the order of grey levels, so a bin's rank gives its lit fraction, and
+    # gamma and enhancement need not be known.
     rank = folded.argsort(kind="stable").argsort()
     if isinstance(templates, CodeTemplates):
-        likely, shifts = most_likely(templates.levels[rank], templates)
+        likely, shifts = find_most_likely(templates.levels[rank], templates)
     else:
-        likely, shifts = templates.most_likely(
+        likely, shifts = templates.find_most_likely(
             rank, _CANDIDATE_CODES, math.sqrt(1.0 - _NEGLIGIBLE_UNEXPLAINED)
         )
     models = templates.profiles(likely)
-    # The levels of each code itself are more exact than those of all codes.
+    # The levels of each single code are more exact than those of all codes.
     signals = np.sort(models, axis=1)[:, rank]
     places = (np.arange(len(folded)) - shifts[:, None]) % len(folded)
     models = np.take_along_axis(models, places, axis=1)
-    # What is left of a flat profile is rounding error, which any signal correlates with.
+    # A flat profile has only rounding errors, with which any signal correlates.
     is_seen = np.isfinite(templates.energy[likely])
     correlations = np.minimum(
         _row_correlations(signals, models), _level_correlations(folded, models)
@@ -170,32 +166,32 @@ def _best_code(
     )
     failure = None
     if isinstance(templates, PayloadTemplates):
-        failure = _why_ambiguous(code, likely, scene)
+        failure = _explain_ambiguity(code, likely, scene)
     if failure is None and (r1 < _MIN_CORRELATION or confidence < _MIN_CONFIDENCE):
         failure = (
-            f"No code stands out: the best, {code}, correlates by {r1:.3f} with the signal, the "
-            f"second best, {likely[second]}, by {r2:.3f}."
+            f"No code stands out: the best one, {code}, has a correlation of {r1:.3f} with the "
+            f"signal, and the second best, {likely[second]}, of {r2:.3f}."
         )
     if failure is not None:
         return replace(result, failure=failure)
     bits = np.array(bits_of(code, scene.transmitter.payload_length), dtype=np.uint8)
-    return with_bits(result, Framed((), bits), scene)
+    return add_bits(result, Framed((), bits), scene)
 
 
-def _why_ambiguous(code: int, likely: IndexArray, scene: Scene) -> str | None:
-    """Return a sentence if another code sends the same chips, None if none does."""
-    other = same_chips(code, likely, scheme_of(scene.transmitter))
+def _explain_ambiguity(code: int, likely: IndexArray, scene: Scene) -> str | None:
+    """Return a sentence if another code sends the same chips; None otherwise."""
+    other = find_same_chips(code, likely, scheme_of(scene.transmitter))
     if other is None:
         return None
     first, second = sorted((code, other))
     return (
-        f"The codes {first} and {second} send the same endless chips: the framing does not tell "
-        "them apart."
+        f"The codes {first} and {second} send the same endless chips: the framing does not "
+        "distinguish them."
     )
 
 
-def most_likely(signal: FloatArray, templates: CodeTemplates) -> tuple[IndexArray, IndexArray]:
-    """Return the codes that correlate best with the signal, and the bins where they start."""
+def find_most_likely(signal: FloatArray, templates: CodeTemplates) -> tuple[IndexArray, IndexArray]:
+    """Return the codes that correlate best with the signal, and the bins at which they start."""
     bins, period = len(signal), packet_length(templates.bits)
     about_mean = signal - signal.mean()
     spectrum = np.fft.rfft(about_mean) * np.conj(np.fft.rfft(templates.response))
@@ -203,17 +199,17 @@ def most_likely(signal: FloatArray, templates: CodeTemplates) -> tuple[IndexArra
     places = np.arange(period)[:, None] * BINS_PER_CHIP + np.arange(bins)
     first, second = sums_of_halves(np.concatenate([with_response] * 2)[places], templates.bits)
     codes = codes_by_levels(templates.bits)
-    scores = _largest_sums(first, second).ravel() / np.sqrt(templates.energy[codes])
+    scores = _maximum_sums(first, second).ravel() / np.sqrt(templates.energy[codes])
     count = min(_CANDIDATE_CODES, len(scores))
     likely = np.argpartition(scores, -count)[-count:]
     of_first, of_second = np.divmod(likely, len(second))
     return codes[likely], (first[of_first] + second[of_second]).argmax(axis=1)
 
 
-def _largest_sums(first: FloatArray, second: FloatArray) -> FloatArray:
-    """Return the largest value of each sum of a row of one array and a row of the other."""
+def _maximum_sums(first: FloatArray, second: FloatArray) -> FloatArray:
+    """Return the maximum of each sum of a row of one array and a row of the other."""
     columns, shape = first.shape[1], (len(first), len(second))
-    # Neighbours in memory are different sums, which the processor adds several at a time.
+    # Neighbours in memory belong to different sums, several of which the processor adds at a time.
     first, second = first.T[:, :, None].copy(), second.T[:, None].copy()
     step = max(1, _AT_ONCE // (shape[0] * shape[1]))
     sums = np.empty((min(step, columns), *shape))
@@ -226,10 +222,10 @@ def _largest_sums(first: FloatArray, second: FloatArray) -> FloatArray:
 
 
 def _level_correlations(folded: FloatArray, models: FloatArray) -> FloatArray:
-    """Correlate the signal with its means over the bins to which each model gives one level.
+    """Correlate the signal with its means over the bins that have the same level in each model.
 
-    Ranks alone take a model of few levels for any signal that has the same order of them. But bins
-    of one lit fraction have one grey level, whatever the tone curve.
+    By ranks alone, a model of few levels fits any signal with the same order. But bins of the same
+    lit fraction have the same grey level, whatever the tone curve.
     """
     rows, bins = models.shape
     order = models.argsort(axis=1)

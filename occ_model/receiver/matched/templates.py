@@ -1,6 +1,6 @@
-"""Templates of all codes: the forward model of each, in a form that compares all at once.
+"""Make the templates of all codes: their forward models, in a form that compares all at once.
 
-Those of the paper's scheme are sums of one response; those of any other scheme are a table.
+Those of the paper's scheme are sums of one response; those of other schemes are a table.
 """
 
 from dataclasses import dataclass
@@ -16,43 +16,43 @@ from occ_model.transmitter.packet import bits_of, packet_length, packets_of_code
 from occ_model.transmitter.scheme import Scheme
 from occ_model.transmitter.waveform import Duration, PhasesInPeriod, Waveform
 
-BINS_PER_CHIP = 8  # bins of a chip: an edge is known to a sixteenth of a chip
+BINS_PER_CHIP = 8  # so that an edge is known to a sixteenth of a chip
 
-_TONE_CODES = 256  # codes for the distribution of lit fractions; more do not change it
-_ROUNDING = 1e-12  # variance in lit fractions squared below which it is rounding error
+_TONE_CODES = 256  # codes for the distribution of lit fractions, which more do not change
+_ROUNDING = 1e-12  # variance of lit fractions below which it is rounding error
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class CodeTemplates:
     """The profile of a packet of each code at an exposure time.
 
-    That of code c at bin b is the sum over its lit chips j of ``response[b - j * BINS_PER_CHIP]``.
-    So a correlation with every code is one correlation with the response, and its sums over the lit
-    chips (:func:`sums_of_halves`).
+    The profile of code c at bin b is the sum over its lit chips j of ``response[b - j *
+    BINS_PER_CHIP]``. Correlating with every code is therefore a single correlation with the
+    response, followed by sums over lit chips (:func:`sums_of_halves`).
     """
 
     bits: int
-    # Shape (bins,): lit fraction of an exposure that starts in each bin, when chip 0 alone is lit
+    # Shape (bins,): lit fraction of an exposure that starts in each bin, if only chip 0 is lit
     response: FloatArray
-    # Shape (codes,): sum of the squares of each code's profile about its mean; infinite where that
-    # is rounding error, so that such a profile correlates with no signal
+    # Shape (codes,): sum of squares of each code's profile about its mean; infinite if that is only
+    # rounding error, so that such a profile correlates with no signal
     energy: FloatArray
-    # Shape (bins,): lit fractions in the codes' profiles: evenly spaced quantiles of all of them
+    # Shape (bins,): evenly spaced quantiles of the lit fractions in all codes' profiles
     levels: FloatArray
 
     def profiles(self, codes: IndexArray) -> FloatArray:
-        """Return the lit fraction over one packet of some codes, shape (codes, bins)."""
+        """Return the lit fractions over a packet for some codes, shape (codes, bins)."""
         return _profiles(codes, self.bits, self.response)
 
 
 @lru_cache(maxsize=16)
-def code_templates(bits: int, exposure: Fraction) -> CodeTemplates:
-    """Make the forward model of every code; ``exposure`` in chips, exactly."""
+def make_code_templates(bits: int, exposure: Fraction) -> CodeTemplates:
+    """Make the forward model of every code; ``exposure``: exact length in chips."""
     response = chip_response(packet_length(bits), exposure)
     bins = np.arange(len(response))
     some = np.arange(0, 2**bits, max(1, 2**bits // _TONE_CODES))
     fractions = (bins + 0.5) / len(bins)
-    # As numpy.quantile gives them, which finds each place apart and takes five times as long.
+    # The same as numpy.quantile, which searches each place separately and takes five times as long.
     values = np.sort(_profiles(some, bits, response), axis=None)
     levels = np.interp(fractions * (values.size - 1), np.arange(values.size), values)
     templates = CodeTemplates(bits, response, _energies(bits, response), levels)
@@ -62,7 +62,7 @@ def code_templates(bits: int, exposure: Fraction) -> CodeTemplates:
 
 
 def chip_response(period: int, exposure: Fraction) -> FloatArray:
-    """Return the lit fraction of an exposure (in chips) from each bin, when chip 0 alone is lit."""
+    """Return the lit fraction of an exposure (in chips) from each bin, if only chip 0 is lit."""
     first_chip = np.zeros(period, dtype=np.uint8)
     first_chip[0] = 1
     bins = np.arange(period * BINS_PER_CHIP)
@@ -72,13 +72,12 @@ def chip_response(period: int, exposure: Fraction) -> FloatArray:
 
 
 def sums_of_halves(values: FloatArray, bits: int) -> tuple[FloatArray, FloatArray]:
-    """Sum values, shape (chips, n), over the chips that are lit, in each half of every packet.
+    """Sum values, shape (chips, n), over the lit chips in each half of every packet.
 
-    A bit lights one of its two chips: the first where the level after the bit is 0, the second
-    where it is 1. So a bit's chips depend on no level but the one after it, and the sum over a
-    packet is that over its first half, header and ``bits // 2`` bits, of which there are only
-    2^(bits // 2), plus that over its second half. Rows are numbered by the levels, read as a binary
-    number.
+    A bit lights one of its two chips: the first one if the level after the bit is 0, the second one
+    if it is 1. A bit's chips thus depend only on the level after it. The sum over a packet is that
+    over its first half, header and ``bits // 2`` bits, of which there are only 2^(bits // 2), plus
+    that over its second half. Rows are numbered by the levels, read as a binary number.
     """
     header = np.array(HEADER, dtype=np.float64) @ values[: len(HEADER)]
     pairs = values[len(HEADER) :].reshape(bits, 2, -1)
@@ -89,7 +88,7 @@ def sums_of_halves(values: FloatArray, bits: int) -> tuple[FloatArray, FloatArra
 
 
 def _add_bits(sums: FloatArray, pairs: FloatArray) -> FloatArray:
-    """Add to each sum, bit after bit, the values of either chip."""
+    """Add the values of either chip to each sum, bit by bit."""
     for pair in pairs:
         sums = (sums[:, None] + pair).reshape(-1, sums.shape[1])
     return sums
@@ -97,10 +96,10 @@ def _add_bits(sums: FloatArray, pairs: FloatArray) -> FloatArray:
 
 @lru_cache(maxsize=4)
 def codes_by_levels(bits: int) -> IndexArray:
-    """Return the code with these levels after its bits, the levels read as a binary number."""
+    """Return the code for each sequence of levels after its bits, read as a binary number."""
     after = np.arange(2**bits)
     before = after >> 1 | HEADER[-1] << (bits - 1)
-    codes: IndexArray = after ^ before  # a bit is 1 where the level changes
+    codes: IndexArray = after ^ before  # a bit is 1 if the level changes
     codes.flags.writeable = False
     return codes
 
@@ -115,7 +114,7 @@ def _profiles(codes: IndexArray, bits: int, response: FloatArray) -> FloatArray:
 def _energies(bits: int, response: FloatArray) -> FloatArray:
     """Return each profile's sum of squares about its mean, from the response's autocorrelation.
 
-    It is summed over all pairs of lit chips: within each half of a packet, and across.
+    It is summed over all pairs of lit chips, within and between the halves of a packet.
     """
     period = packet_length(bits)
     spectrum = np.abs(np.fft.rfft(response)) ** 2
@@ -131,39 +130,39 @@ def _energies(bits: int, response: FloatArray) -> FloatArray:
     return np.where(energies > _ROUNDING * len(response), energies, np.inf)
 
 
-MOST_BITS = 12  # bits up to which all payloads are compared: 4,096 of them
-_PAYLOADS_AT_ONCE = 512  # payloads whose correlations are held at once
+MOST_BITS = 12  # maximum bits to compare all payloads, which are 4,096
+_PAYLOADS_AT_ONCE = 512  # payloads whose correlations are in memory at a time
 
-_ROUNDING_OF_SPECTRA = 1e-6  # the same of payloads' profiles, in single precision
+_ROUNDING_OF_SPECTRA = 1e-6  # the same for payloads' profiles, in single precision
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class PayloadTemplates:
-    """The profile of a period of what is sent, for each payload at an exposure time."""
+    """The profile of a sent period for each payload at an exposure time."""
 
-    period: int  # Int: chips of a period
-    # Shape (payloads, bins // 2 + 1): of each payload's profile about its mean
+    period: int  # Chips of a period
+    # Shape (payloads, bins // 2 + 1): spectrum of each payload's profile about its mean
     spectra: NDArray[np.complex64]
-    means: FloatArray  # Shape (payloads,): of each profile, in lit fractions
-    # Shape (payloads,): sum of the squares of each profile about its mean; infinite where that is
+    means: FloatArray  # Shape (payloads,): mean of each profile, in lit fractions
+    # Shape (payloads,): sum of squares of each profile about its mean; infinite if that is only
     # rounding error
     energy: FloatArray
-    # Shape (payloads, bins): the lit fractions of each profile about its mean, in order
+    # Shape (payloads, bins): the lit fractions of each profile about its mean, sorted
     levels: Pixels
 
     def profiles(self, codes: IndexArray) -> FloatArray:
-        """Return the lit fraction over one period of some payloads, shape (codes, bins)."""
+        """Return the lit fractions over a period for some payloads, shape (codes, bins)."""
         about_mean = np.fft.irfft(self.spectra[codes], self.period * BINS_PER_CHIP, axis=1)
         return np.asarray(about_mean + self.means[codes, None], dtype=np.float64)
 
-    def most_likely(
+    def find_most_likely(
         self, rank: IndexArray, count: int, sure: float
     ) -> tuple[IndexArray, IndexArray]:
-        """Return the ``count`` payloads, and phases, that correlate best with a signal.
+        """Return the ``count`` payloads that correlate best with a signal, and their phases.
 
-        Each payload is compared with the signal that has its own levels, as it may light most chips
-        or hardly any. ``rank``: shape (bins,); the place of each bin of the folded signal in the
-        order of its values. All with a correlation of ``sure`` are among them.
+        Each payload is compared with the signal converted to its own levels, because it may light
+        most chips or hardly any. ``rank``, shape (bins,): the rank of each bin's value in the
+        folded signal. All payloads with a correlation of at least ``sure`` are included.
         """
         scores = np.empty(len(self.spectra))
         phases = np.empty(len(self.spectra), dtype=np.int64)
@@ -173,7 +172,7 @@ class PayloadTemplates:
             matches = np.fft.irfft(spectra * self.spectra[part].conj(), len(rank), axis=1)
             phases[part] = matches.argmax(axis=1)
             scores[part] = matches.max(axis=1)
-        # Of the signal, too: it has the same levels in another order.
+        # The signal has the same energy, since it has the same levels in another order.
         scores /= self.energy
         count = min(max(count, int((scores >= sure).sum())), len(scores))
         likely = np.argpartition(scores, -count)[-count:]
@@ -181,8 +180,8 @@ class PayloadTemplates:
 
 
 @lru_cache(maxsize=2)
-def payload_templates(scheme: Scheme, exposure: Fraction) -> PayloadTemplates:
-    """Make the forward model of every payload of up to :data:`MOST_BITS` bits."""
+def make_payload_templates(scheme: Scheme, exposure: Fraction) -> PayloadTemplates:
+    """Make the forward model of every payload of at most :data:`MOST_BITS` bits."""
     codes = range(2**scheme.bits)
     response = np.fft.rfft(chip_response(scheme.length, exposure))
     spectra = np.empty((len(codes), len(response)), dtype=np.complex64)
@@ -194,7 +193,7 @@ def payload_templates(scheme: Scheme, exposure: Fraction) -> PayloadTemplates:
         means[code] = spectrum[0].real / len(impulses)
         spectrum[0] = 0.0
         spectra[code] = spectrum
-    # By Parseval's theorem; a real signal's spectrum holds each frequency but the ends twice.
+    # By Parseval's theorem; all frequencies except the ends count twice for a real signal.
     power = np.abs(spectra.astype(np.complex128)) ** 2
     energy = (2.0 * power.sum(axis=1) - power[:, -1]) / len(impulses)
     energy = np.where(energy > _ROUNDING_OF_SPECTRA * len(impulses), energy, np.inf)
@@ -207,8 +206,8 @@ def payload_templates(scheme: Scheme, exposure: Fraction) -> PayloadTemplates:
     return PayloadTemplates(scheme.length, spectra, means, energy, levels)
 
 
-def same_chips(code: int, others: IndexArray, scheme: Scheme) -> int | None:
-    """Find another payload whose chips, sent repeatedly, are the same from another start."""
+def find_same_chips(code: int, others: IndexArray, scheme: Scheme) -> int | None:
+    """Find another payload with the same repeated chips, possibly from another start."""
     twice = np.tile(scheme.encode(bits_of(code, scheme.bits)), 2).tobytes()
     for other in others.tolist():
         if other != code and scheme.encode(bits_of(other, scheme.bits)).tobytes() in twice:

@@ -1,1 +1,1 @@
-"""The sequence detector: the most likely chips, each exposure a moving average of several."""
+"""The sequence detector, which finds the most likely chips from their moving averages."""

@@ -1,7 +1,7 @@
-"""The words of any scheme, found by encoding: what chips its line code and framing can send.
+"""Find the words of any scheme by encoding: the chips that its line code and framing can send.
 
-A line code is tried with every block after each of its states, which show in the chips that follow.
-What is at the start of every frame, whatever the payload, is one word more.
+A line code is tried with every block after each of its states, which differ in the chips that
+follow. The common start of all frames is an additional word.
 """
 
 from collections.abc import Iterable
@@ -12,61 +12,66 @@ from itertools import product
 import numpy as np
 
 from occ_model.arrays import ByteArray
-from occ_model.receiver.sequence.trellis import FREE_CHIPS, Word, most_states, places_of
+from occ_model.receiver.sequence.trellis import (
+    FREE_CHIPS,
+    Word,
+    count_most_states,
+    steps_from_places,
+)
 from occ_model.scene.scene import Transmitter
 from occ_model.transmitter.line_codes.line_code import LineCode
 from occ_model.transmitter.scheme import Scheme, scheme_named, scheme_of
 
-MOST_STATES = 2048  # states of a trellis that is searched whole
-_MAX_ENCODER_STATES = 16  # states of an encoder above which its words are not listed
+MOST_STATES = 2048  # maximum for a complete search of a trellis
+_MAX_ENCODER_STATES = 16  # above this an encoder's words are not listed
 _MAX_BLOCK = 8  # bits of a block above which its words are not listed
 
 _MAX_SAMPLED_BITS = 64  # bits of payloads up to which all samples are tried as sequences of words
-_SAMPLES = 8  # random payloads beside those of zeros and of ones
+_SAMPLES = 8  # number of random payloads, besides those of zeros and of ones
 
 
 @dataclass(frozen=True, slots=True)
 class CodeWords:
     words: tuple[Word, ...]
-    # The chips at the start of every frame; empty where they are not known
+    # The chips at the start of every frame; empty if unknown
     header: tuple[int, ...] = ()
 
 
-def code_words(transmitter: Transmitter, memory: int) -> CodeWords:
-    """Return the words that a transmitter can send, as a trellis of ``memory`` chips can hold them.
+def find_code_words(transmitter: Transmitter, memory: int) -> CodeWords:
+    """Return the words that a transmitter can send, for a trellis of ``memory`` chips.
 
-    Where the trellis of the code itself would have too many states, only its longest run is kept,
-    and where that has too many, the code: its best ways alone are followed.
+    If the trellis of the code would have too many states, only the limit of its runs is kept. If
+    that has too many states as well, the code is returned, and only its best paths are followed.
     """
     if transmitter.pattern:
         return CodeWords(FREE_CHIPS)
-    whole = _of_scheme(
+    whole = _words_of_scheme(
         transmitter.line_code,
         transmitter.framing,
         transmitter.preamble,
         transmitter.error_correction,
         scheme_of(transmitter).bits,
     )
-    if most_states(whole.words, memory) <= MOST_STATES:
+    if count_most_states(whole.words, memory) <= MOST_STATES:
         return whole
     limited = CodeWords(words_of_runs(_longest_run(whole.words)), whole.header)
-    return limited if most_states(limited.words, memory) <= MOST_STATES else whole
+    return limited if count_most_states(limited.words, memory) <= MOST_STATES else whole
 
 
 @lru_cache(maxsize=32)
-def _of_scheme(
+def _words_of_scheme(
     line_code: str, framing: str, preamble: str, correction: str, bits: int
 ) -> CodeWords:
     scheme = scheme_named(line_code, framing, preamble, correction, bits)
     periods = _sample_periods(scheme)
-    blocks = _blocks(scheme.line_code)
+    blocks = _list_blocks(scheme.line_code)
     states = range(1 + max(word.before for word in blocks))
     common = periods[0][: _common_prefix(periods)]
     for length in range(len(common), -1, -1):
         header = tuple(common[:length].tolist())
         ends = product(states, states) if header else ()
         words = (*blocks, *(Word(before, header, after) for before, after in ends))
-        # The number of bits is part of some headers, so that samples are as long as the payload.
+        # The number of bits is part of some headers, so samples are as long as the payload.
         tried = periods if bits <= _MAX_SAMPLED_BITS else periods[-2:]
         if all(_accepts(words, period) for period in tried):
             return CodeWords(words, header)
@@ -85,7 +90,7 @@ def _common_prefix(periods: list[ByteArray]) -> int:
     return len(same) if same.all() else int(same.argmin())
 
 
-def _blocks(line_code: LineCode) -> tuple[Word, ...]:
+def _list_blocks(line_code: LineCode) -> tuple[Word, ...]:
     """Return the words of a line code between the states of its encoder."""
     if line_code.block_bits > _MAX_BLOCK:
         return FREE_CHIPS
@@ -94,7 +99,7 @@ def _blocks(line_code: LineCode) -> tuple[Word, ...]:
     states: list[tuple[ByteArray, int]] = []
 
     def state_after(bits: ByteArray, level: int) -> int:
-        after = _after(line_code, bits, level, (blocks[0], blocks[-1], blocks[1]))
+        after = _chips_after(line_code, bits, level, (blocks[0], blocks[-1], blocks[1]))
         if after not in number:
             number[after] = len(states)
             states.append((bits, level))
@@ -103,7 +108,7 @@ def _blocks(line_code: LineCode) -> tuple[Word, ...]:
     for level in (0, 1):
         state_after(np.empty(0, dtype=np.uint8), level)
     words = []
-    for state, (bits, level) in enumerate(states):  # it grows meanwhile
+    for state, (bits, level) in enumerate(states):  # the list grows meanwhile
         if len(states) > _MAX_ENCODER_STATES:
             return FREE_CHIPS
         for block in blocks:
@@ -113,16 +118,18 @@ def _blocks(line_code: LineCode) -> tuple[Word, ...]:
     return tuple(words)
 
 
-def _after(line_code: LineCode, bits: ByteArray, level: int, probes: Iterable[ByteArray]) -> bytes:
-    """Return the chips of some blocks after a number of bits, which determine the state."""
+def _chips_after(
+    line_code: LineCode, bits: ByteArray, level: int, probes: Iterable[ByteArray]
+) -> bytes:
+    """Return the chips of some blocks after a number of bits, which identify the state."""
     start = len(bits) // line_code.block_bits * line_code.block_chips
     sent = [line_code.encode(np.concatenate([bits, probe]), level)[start:] for probe in probes]
     return np.concatenate(sent).tobytes()
 
 
 def _accepts(words: tuple[Word, ...], period: ByteArray) -> bool:
-    """Whether a period, sent repeatedly, is a sequence of words."""
-    steps = places_of(words)
+    """Return whether a period, sent repeatedly, is a sequence of words."""
+    steps = steps_from_places(words)
     places = set(range(len(steps)))
     for chip in np.concatenate([period, period, period]).tolist():
         places = {to for place in places for sent, to in steps[place] if sent == chip}
@@ -132,8 +139,8 @@ def _accepts(words: tuple[Word, ...], period: ByteArray) -> bool:
 
 
 def _longest_run(words: tuple[Word, ...]) -> int | None:
-    """Return the most equal chips in a row that words can make; None without a limit."""
-    steps = places_of(words)
+    """Return the maximum number of equal chips in a row that words allow; None without a limit."""
+    steps = steps_from_places(words)
     longest = 0
     for value in (0, 1):
         places, run = set(range(len(steps))), 0
@@ -148,7 +155,7 @@ def _longest_run(words: tuple[Word, ...]) -> int | None:
 
 @lru_cache(maxsize=16)
 def words_of_runs(longest: int | None) -> tuple[Word, ...]:
-    """Return the chips of all sequences with no run above the longest."""
+    """Return the words of all sequences without a run above the longest one."""
     if longest is None:
         return FREE_CHIPS
     words = []

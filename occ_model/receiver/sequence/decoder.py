@@ -1,7 +1,7 @@
-"""The sequence detector: the chip sequence whose exposures are most like the signal.
+"""The sequence detector: find the chip sequence whose exposures are most similar to the signal.
 
-Beyond the paper, it knows the switching frequency, the exposure time and the readout time, and the
-line code. It needs no list of codes: the data may be any. An exposure of several chips is a moving
+Beyond the paper, it knows the switching frequency, the exposure time, the readout time and the line
+code. It needs no list of codes and accepts any data. An exposure of several chips is a moving
 average of them, which the Viterbi algorithm undoes.
 """
 
@@ -11,115 +11,130 @@ from dataclasses import replace
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.receiver.decoder import has_short_chips, short_view, with_bits, with_short_chips
-from occ_model.receiver.light import PER_CHIP, Light, by_rank, expected_light, in_light
-from occ_model.receiver.sequence.code_words import code_words
-from occ_model.receiver.sequence.exposures import Timing
+from occ_model.receiver.decoder import (
+    add_bits,
+    blame_short_chips,
+    describe_short_view,
+    has_short_chips,
+)
+from occ_model.receiver.light import (
+    PER_CHIP,
+    Light,
+    convert_to_light,
+    expected_light,
+    rank_to_light,
+)
+from occ_model.receiver.sequence.code_words import find_code_words
+from occ_model.receiver.sequence.exposures import RowTiming
 from occ_model.receiver.sequence.fit import (
-    Fit,
+    SequenceFit,
     detect,
     find_phase,
-    first_guess,
     follow_timing,
+    guess_brightness,
     improve,
 )
 from occ_model.receiver.sequence.soft_frame import probability, read_frame
 from occ_model.receiver.sequence.trellis import Word
-from occ_model.receiver.signal import MAX_UNEXPLAINED, why_flat
+from occ_model.receiver.signal import MAX_UNEXPLAINED, explain_flat
 from occ_model.results.decoding import DecodeResult
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import PERCENT
 from occ_model.transmitter.scheme import scheme_of
 
-_IMPROVEMENTS = 4  # maximum iterations of fit and detection
+_IMPROVEMENTS = 4  # maximum number of rounds of fit and detection
 
 _MAX_NOISE_RATIO = 0.9
-"""Fraction of the noise's variance before an improvement above which no other one is tried."""
+"""Ratio of the noise's variances after and before a round above which no other one is tried."""
 
-_MIN_CERTAINTY = 0.9  # least probability that all bits are right, of a code that is read
+_MIN_CERTAINTY = 0.9  # minimum probability that all bits are correct, to read a code
 
-_MAX_MEMORY = 32  # chips that an exposure reaches back to; a longer mean leaves hardly anything
+_MAX_MEMORY = 32  # maximum chips in an exposure, since a longer mean leaves hardly any swing
 _DOUBTFUL_FRACTION = 0.02
-"""Fraction of the signal's variance that is neither the chips' light nor noise, above which their
-timing may be another one."""
+"""Fraction of the signal's variance, neither due to the chips nor to noise, from which their
+timing may be wrong."""
 
 _MAX_UNEXPLAINED_OF_ANY_CHIPS = 0.005
-"""``MAX_UNEXPLAINED`` where no rule refuses chips, whose light need not be that of random data."""
+"""``MAX_UNEXPLAINED`` if no rule refuses chips, whose light may differ from random data."""
 
 
 def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
-    """Read the code from the chips whose exposures are most like the signal.
+    """Read the code from the chips whose exposures are most similar to the signal.
 
-    The result holds the chips, the light of each column beside that of the chips' model, and the
-    probability that each bit is right.
+    The result contains the chips, the light of each column and of the chips' model, and the
+    probability that each bit is correct.
     """
-    result = DecodeResult("sequence", signal=signal, failure=why_flat(signal))
+    result = DecodeResult("sequence", signal=signal, failure=explain_flat(signal))
     if result.failure is not None:
         return result
     transmitter, camera = scene.transmitter, scene.camera
     frequency = transmitter.switching_frequency
-    timing = Timing(camera.exposure_time * frequency, camera.readout_time * frequency)
-    refusal = _why_not(timing, len(signal), scene)
+    timing = RowTiming(camera.exposure_time * frequency, camera.readout_time * frequency)
+    refusal = _explain_refusal(timing, len(signal), scene)
     if refusal is not None:
         return replace(result, failure=refusal)
-    code = code_words(transmitter, timing.memory)
+    code = find_code_words(transmitter, timing.memory)
     fit, light = _fit(signal, scene, timing, code.words)
-    result = _with_steps(result, fit, light)
+    result = _add_steps(result, fit, light)
     if transmitter.pattern:
         return replace(
             result,
-            failure="A raw chip pattern is sent, which holds no packets; "
+            failure="A raw chip pattern is sent, which contains no packets; "
             f"{len(fit.chips.values)} chips were read.",
         )
-    return _framed(result, fit, scene, code.header)
+    return _read_payload(result, fit, scene, code.header)
 
 
-def _why_not(timing: Timing, rows: int, scene: Scene) -> str | None:
-    """Return why chips cannot be resolved at a timing, or that too few are seen."""
+def _explain_refusal(timing: RowTiming, rows: int, scene: Scene) -> str | None:
+    """Return why chips cannot be resolved with a timing, or that too few are in view."""
     if has_short_chips(scene):
-        return with_short_chips("The sequence detector needs one for each.", scene)
+        return blame_short_chips("The sequence detector needs one for each chip.", scene)
     if timing.memory > _MAX_MEMORY:
         return (
-            f"An exposure covers {timing.exposure:.3g} chips; the sequence detector undoes up to "
+            f"An exposure covers {timing.exposure:.3g} chips; the sequence detector can undo up to "
             f"{_MAX_MEMORY}."
         )
     if scene.transmitter.pattern or not scheme_of(scene.transmitter).is_papers:
         return None
     length = scheme_of(scene.transmitter).length
     if rows * timing.step < length:
-        return f"Less than one packet: {short_view(rows, length, scene)}"
+        return f"Less than one packet: {describe_short_view(rows, length, scene)}"
     return None
 
 
 def _fit(
-    signal: FloatArray, scene: Scene, timing: Timing, words: tuple[Word, ...]
-) -> tuple[Fit, Light]:
-    """Detect the chips; where they explain too little, follow their timing and detect them anew."""
-    light = in_light(signal, scene)
-    brightness = first_guess(light.values, expected_light(scene), timing, PER_CHIP)
+    signal: FloatArray, scene: Scene, timing: RowTiming, words: tuple[Word, ...]
+) -> tuple[SequenceFit, Light]:
+    """Detect the chips; if they explain too little, follow their timing and detect them again."""
+    light = convert_to_light(signal, scene)
+    brightness = guess_brightness(light.values, expected_light(scene), timing, PER_CHIP)
     known = find_phase(light.values, timing, brightness, words)
-    found = _improved(signal, scene, detect(light.values, known, brightness, words), light, words)
+    found = _improve_rounds(
+        signal, scene, detect(light.values, known, brightness, words), light, words
+    )
     if found[0].unexplained() <= _DOUBTFUL_FRACTION:
         return found
     followed = follow_timing(light.values, known, brightness, words)
     fit = detect(light.values, followed, brightness, words)
-    other = _improved(signal, scene, fit, light, words)
+    other = _improve_rounds(signal, scene, fit, light, words)
     return other if other[0].unexplained() < found[0].unexplained() else found
 
 
-def _improved(
-    signal: FloatArray, scene: Scene, fit: Fit, light: Light, words: tuple[Word, ...]
-) -> tuple[Fit, Light]:
-    """Improve what the chips were detected with, and detect them anew."""
+def _improve_rounds(
+    signal: FloatArray, scene: Scene, fit: SequenceFit, light: Light, words: tuple[Word, ...]
+) -> tuple[SequenceFit, Light]:
+    """Improve timing, brightness and light by the detected chips, and detect them again."""
     for _ in range(_IMPROVEMENTS):
         if light.is_estimated:
-            # The chips found have a distribution of light of their own, nearer to the picture's.
-            light = replace(light, values=by_rank(signal, fit.model))
+            # The chips found have their own distribution of light, closer to the picture's.
+            light = replace(light, values=rank_to_light(signal, fit.model))
         elif light.clipped.any():
-            # A white column had that light or more, as the chips found say.
+            # A white column may have had more light, according to the chips found.
             least = fit.brightness.dark + fit.brightness.swing * fit.model
             more = np.where(
-                light.clipped, np.maximum(in_light(signal, scene).values, least), light.values
+                light.clipped,
+                np.maximum(convert_to_light(signal, scene).values, least),
+                light.values,
             )
             light = replace(light, values=more)
         before, fit = fit, detect(light.values, *improve(light.values, fit), words)
@@ -130,7 +145,7 @@ def _improved(
     return fit, light
 
 
-def _with_steps(result: DecodeResult, fit: Fit, light: Light) -> DecodeResult:
+def _add_steps(result: DecodeResult, fit: SequenceFit, light: Light) -> DecodeResult:
     fraction = fit.brightness.lit_fraction(light.values)
     count = len(fraction)
     places = fit.chips.first + np.arange(len(fit.chips.values)) - fit.timing.phase
@@ -150,26 +165,28 @@ def _with_steps(result: DecodeResult, fit: Fit, light: Light) -> DecodeResult:
     )
 
 
-def _framed(result: DecodeResult, fit: Fit, scene: Scene, header: tuple[int, ...]) -> DecodeResult:
-    """Read the payload, if it is certain enough."""
+def _read_payload(
+    result: DecodeResult, fit: SequenceFit, scene: Scene, header: tuple[int, ...]
+) -> DecodeResult:
+    """Read the payload if it is certain enough."""
     ratios = np.where(fit.chips.values == 1, 1.0, -1.0) * fit.ratios()
     scheme = scheme_of(scene.transmitter)
     frame = read_frame(ratios, scheme, header)
-    read = with_bits(result, replace(frame.framed, headers=()), scene)
+    read = add_bits(result, replace(frame.framed, headers=()), scene)
     read = replace(read, bit_likelihoods=frame.likelihoods, confidence=frame.certainty)
     failure = read.failure
     unexplained = fit.unexplained()
     if unexplained > (_MAX_UNEXPLAINED_OF_ANY_CHIPS if scheme.takes_any_chips else MAX_UNEXPLAINED):
         failure = (
             "The chips found do not explain the signal: "
-            f"{PERCENT.format(unexplained, 2)} of its variance is neither theirs nor noise. Check "
-            "that exposure time, switching frequency, readout time and scheme are the picture's, "
-            "and that it is not overexposed."
+            f"{PERCENT.format(unexplained, 2)} of its variance is due neither to them nor to "
+            "noise. Check that exposure time, switching frequency, readout time and scheme are "
+            "those of the picture, and that it is not overexposed."
         )
     elif failure is None and frame.certainty < _MIN_CERTAINTY and not scheme.framing.checks:
         failure = (
-            "The chips are not certain enough: that all "
-            f"{scheme.bits} bits are right has a probability of {frame.certainty:.2g}."
+            "The chips are not certain enough: all "
+            f"{scheme.bits} bits are correct with a probability of only {frame.certainty:.2g}."
         )
     if failure is None:
         return read

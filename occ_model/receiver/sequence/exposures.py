@@ -1,7 +1,7 @@
-"""What the rows show of the chips: each row is the mean of the chips that its exposure covers.
+"""Model what rows show of the chips: each row is the mean of the chips in its exposure.
 
 Row i is exposed over [i s + p, i s + p + T] in chips, with s = t_r f, T = t f and a phase p. The
-fraction of chip k in it is the overlap of the exposure with [k, k + 1], over T: the taps of a
+fraction of chip k in it is the overlap of the exposure with [k, k + 1], divided by T: the taps of a
 rectangular filter, sampled at the line rate.
 """
 
@@ -12,31 +12,31 @@ import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray
 
-_KINDS = 4  # kinds of chips in an exposure: the latest, those it covers whole, and the two earliest
+_KINDS = 4  # of chips in an exposure: the latest, those completely covered, and the two earliest
 
 
 @dataclass(frozen=True, slots=True)
-class Timing:
-    """The timing of rows against chips."""
+class RowTiming:
+    """The timing of rows relative to chips."""
 
     exposure: float  # Length of an exposure in chips, T
-    step: float  # Chips from the start of one row's exposure to that of the next, s
-    phase: float = 0.0  # Where the first row's exposure starts, in chips, p; chip 0 starts at 0
+    step: float  # Chips between the starts of consecutive rows' exposures, s
+    phase: float = 0.0  # Start of the first row's exposure in chips, p; chip 0 starts at 0
 
     @property
     def memory(self) -> int:
-        """Number of chips that an exposure reaches back over, at least 1."""
+        """Number of chips over which an exposure extends back, at least 1."""
         return max(1, int(np.ceil(self.exposure - 1e-9)))
 
     def starts(self, rows: int) -> FloatArray:
-        """Return where the exposure of each row starts, in chips, shape (rows,)."""
+        """Return the start of each row's exposure in chips, shape (rows,)."""
         return np.asarray(self.phase + self.step * np.arange(rows), dtype=np.float64)
 
 
-def taps(timing: Timing, starts: FloatArray) -> tuple[IndexArray, FloatArray]:
-    """Return the chip that each exposure ends in, and the fractions of that and the chips before.
+def taps(timing: RowTiming, starts: FloatArray) -> tuple[IndexArray, FloatArray]:
+    """Return the chip in which each exposure ends, and the fractions of it and of earlier chips.
 
-    Those have the shape (..., memory + 1), the latest first; their sum is 1.
+    The fractions have the shape (..., memory + 1), with the latest first; their sum is 1.
     """
     ends = starts + timing.exposure
     last = np.floor(ends)
@@ -47,20 +47,20 @@ def taps(timing: Timing, starts: FloatArray) -> tuple[IndexArray, FloatArray]:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ChipStatistics:
-    """All that a squared distance of rows from chips depends on, gathered by the last chip.
+    """Statistics that determine the squared distance of rows from chips, gathered by the last chip.
 
-    The squared distance of the rows that end in a chip from the light of chips c is
-    c' G c - 2 v' c, and a number that does not depend on the chips.
+    The squared distance of the rows that end in a chip from the light of chips c is c' G c - 2 v'
+    c, plus a number that does not depend on the chips.
     """
 
-    first: int  # The first chip that a row ends in
+    first: int  # The first chip in which a row ends
     # Shape (chips, features): v, the diagonal of G, and twice the entries of its upper triangle
     features: FloatArray
     energy: FloatArray  # Shape (chips,): the number that does not depend on the chips
 
 
 def features_of(words: FloatArray) -> FloatArray:
-    """Return the weight of each feature in the distance of some chips, shape (..., features)."""
+    """Return the weight of each feature in the distance from some chips, shape (..., features)."""
     upper, lower = _pairs(words.shape[-1])
     return np.concatenate([-2.0 * words, words, words[..., upper] * words[..., lower]], axis=-1)
 
@@ -74,9 +74,9 @@ def _pairs(count: int) -> tuple[IndexArray, IndexArray]:
 def _kinds(reach: int) -> tuple[IndexArray, IndexArray, IndexArray, IndexArray]:
     """Return which chips of an exposure have the same sums over rows.
 
-    Between its first chips and its last ones all have the same fraction. Returns a chip of each
-    kind, the pairs of kinds whose fractions are multiplied, and which sum each feature is: first
-    those of a kind and the light, then those products.
+    All chips between the first and the last ones have the same fraction. Returns a chip of each
+    kind, the pairs of kinds whose fractions are multiplied, and the number of the sum for each
+    feature: first the sums of a kind and the light, then those of products.
     """
     kind = np.clip(np.arange(reach), None, 1)
     kind[-2:] = np.arange(reach)[-2:] if reach < _KINDS else (2, 3)
@@ -90,13 +90,13 @@ def _kinds(reach: int) -> tuple[IndexArray, IndexArray, IndexArray, IndexArray]:
     return chosen, one, other, sums
 
 
-def gather(light: FloatArray, timing: Timing) -> ChipStatistics:
-    """Gather rows, each a fraction of full light, by the chip that each of them ends in."""
+def gather(light: FloatArray, timing: RowTiming) -> ChipStatistics:
+    """Gather rows, given as fractions of full light, by the chip in which each of them ends."""
     last, fractions = taps(timing, timing.starts(len(light)))
     first, reach = int(last[0]), fractions.shape[1]
     chosen, one, other, sums = _kinds(reach)
     of_kinds = np.ascontiguousarray(fractions[:, chosen].T)
-    # Differences of running sums: exact enough, as no sum exceeds the number of rows.
+    # Differences of running sums are exact enough, as no sum exceeds the number of rows.
     running = np.zeros((len(chosen) + len(one) + 1, len(light) + 1))
     terms = running[:, 1:]
     np.multiply(of_kinds, light, out=terms[: len(chosen)])

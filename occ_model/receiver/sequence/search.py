@@ -1,14 +1,14 @@
-"""The most likely chips of a trellis, and how much likelier each is than its opposite.
+"""Find the most likely chips of a trellis, and the margin of each over its opposite.
 
-The forward and the backward recursion over the trellis (Bahl, Cocke, Jelinek and Raviv, IEEE Trans.
-Inf. Theory 20:284, 1974) with the largest term of each sum alone: max-log-MAP. The chips that come
-out are those of the Viterbi algorithm. A long sequence is cut into parts that overlap, so that
-numpy works on all parts at once.
+The method is the forward and backward recursion over the trellis (Bahl, Cocke, Jelinek and Raviv,
+IEEE Trans. Inf. Theory 20:284, 1974) with only the largest term of each sum: max-log-MAP. Its chips
+are those of the Viterbi algorithm. A long sequence is cut into overlapping parts, so that numpy can
+process all parts at once.
 
-The states of a trellis double with every chip or two that an exposure covers. Where they are too
-many, the M-algorithm (Anderson and Mohan, IEEE Trans. Commun. 32:169, 1984) follows the ways of
-least distance alone, and drops the others at each chip. A way that was dropped may have been the
-right one.
+The number of states of a trellis doubles with every one or two chips in an exposure. If there are
+too many, the M-algorithm (Anderson and Mohan, IEEE Trans. Commun. 32:169, 1984) follows only the
+paths of least distance and drops the others at each chip. A dropped path may have been the correct
+one.
 """
 
 from collections.abc import Sequence
@@ -19,25 +19,25 @@ import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray, IndexArray
 from occ_model.receiver.sequence.exposures import ChipStatistics, features_of
-from occ_model.receiver.sequence.trellis import NO_STATE, Trellis, Word, places_of
+from occ_model.receiver.sequence.trellis import NO_STATE, Trellis, Word, steps_from_places
 
 _UNREACHABLE_COST = 1e30  # distance of a state that cannot be reached
-TRUNCATION_DEPTH = 5  # memories of a trellis after which surviving paths have one beginning
-_LONGEST_PART = 128  # chips of a part of a sequence, without what overlaps
+TRUNCATION_DEPTH = 5  # memories of a trellis after which surviving paths have a common beginning
+_LONGEST_PART = 128  # chips of a part of a sequence, without the overlaps
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Chips:
     first: int
     values: ByteArray  # Shape (chips,): the chips
-    # Shape (chips,): by how much the squared distance of the rows would grow if this chip were the
-    # opposite, the others then being the best for it
+    # Shape (chips,): growth of the rows' squared distance if this chip were the opposite and the
+    # others were the best for it
     margins: FloatArray
 
 
-def best_chips(trellis: Trellis, statistics: ChipStatistics) -> Chips:
-    """Find the chips whose light is nearest to the rows, from the first that a row can show."""
-    # The first row shows one chip more than the state after it holds: the state before it does.
+def find_best_chips(trellis: Trellis, statistics: ChipStatistics) -> Chips:
+    """Find the chips whose light is closest to the rows, from the first that a row can show."""
+    # The first row shows one chip more than the state after it contains, so a step is prepended.
     features = np.pad(statistics.features, ((1, 0), (0, 0)))
     parts = _Parts.of(len(features), trellis.memory)
     costs = _costs(trellis, features)
@@ -45,12 +45,12 @@ def best_chips(trellis: Trellis, statistics: ChipStatistics) -> Chips:
     costs = np.concatenate([costs, outside])
     forward = _forward(trellis, costs, parts)
     both = _add_backward(trellis, costs, forward, parts)
-    values, margins = _decided(trellis, both, parts)
+    values, margins = _decide(trellis, both, parts)
     return Chips(statistics.first - trellis.memory, values, margins)
 
 
 def least_distances(trellis: Trellis, statistics: Sequence[ChipStatistics]) -> FloatArray:
-    """Return the least squared distance of rows from any chips, for several timings."""
+    """Return the minimum squared distance of rows from any chips, for several timings."""
     count = max(len(one.features) for one in statistics)
     features = np.zeros((count, len(statistics), statistics[0].features.shape[1]))
     for place, one in enumerate(statistics):
@@ -64,13 +64,13 @@ def least_distances(trellis: Trellis, statistics: Sequence[ChipStatistics]) -> F
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Parts:
-    """Parts of a sequence of equal length, each reaching into its neighbours."""
+    """Equally long parts of a sequence, each overlapping its neighbours."""
 
     count: int
     core: int
     overlap: int
     chips: IndexArray
-    """The chip of each step of each part, shape (steps, parts); outside it is ``count``."""
+    """The chip of each step of each part, shape (steps, parts); ``count`` outside the sequence."""
 
     @classmethod
     def of(cls, count: int, memory: int) -> Self:
@@ -93,9 +93,9 @@ def _costs(trellis: Trellis, features: FloatArray) -> FloatArray:
 
 
 def _forward(trellis: Trellis, costs: FloatArray, parts: _Parts) -> FloatArray:
-    """Return the least distance of the ways to each state, shape (chips, parts, states).
+    """Return the least distance of the paths to each state, shape (chips, parts, states).
 
-    ``costs``: those of the whole sequence, and last of a chip that no row shows.
+    ``costs``: the costs of the whole sequence, and last those of a chip that no row shows.
     """
     shape = (parts.chips.shape[1], *costs.shape[1:])
     least = np.empty((len(parts.chips), shape[0], trellis.states))
@@ -111,7 +111,7 @@ def _forward(trellis: Trellis, costs: FloatArray, parts: _Parts) -> FloatArray:
 def _add_backward(
     trellis: Trellis, costs: FloatArray, forward: FloatArray, parts: _Parts
 ) -> FloatArray:
-    """Add the least distance of the ways on from each state, in place; costs as before."""
+    """Add the least distance of the paths from each state onwards, in place."""
     steps, states = costs.shape[1:]
     count = parts.chips.shape[1]
     now = np.zeros((count, states))
@@ -128,8 +128,8 @@ def _add_backward(
     return forward
 
 
-def _decided(trellis: Trellis, distance: FloatArray, parts: _Parts) -> tuple[ByteArray, FloatArray]:
-    """Decide each chip from the least distance of the ways through each state."""
+def _decide(trellis: Trellis, distance: FloatArray, parts: _Parts) -> tuple[ByteArray, FloatArray]:
+    """Decide each chip by the least distance of the paths through each state."""
 
     def margins(of_states: FloatArray, age: int) -> FloatArray:
         lit = trellis.chips[:, age] == 1
@@ -137,7 +137,7 @@ def _decided(trellis: Trellis, distance: FloatArray, parts: _Parts) -> tuple[Byt
         return np.asarray(dark - of_states[..., lit].min(axis=-1))
 
     inner = distance[parts.overlap : parts.overlap + parts.core]
-    # The first state also holds the chips before its own.
+    # The first state also contains the chips before its own.
     first = [margins(inner[0], age)[0] for age in range(trellis.memory - 1, 0, -1)]
     later = margins(inner, 0).T.ravel()[: parts.count]
     lit = np.concatenate([first, later])
@@ -147,11 +147,11 @@ def _decided(trellis: Trellis, distance: FloatArray, parts: _Parts) -> tuple[Byt
 _BEAM_WIDTH = 256  # paths kept at each chip
 
 
-def beam_chips(words: tuple[Word, ...], memory: int, statistics: ChipStatistics) -> Chips:
-    """Find chips whose light is near to the rows, and the margins of each.
+def search_beam(words: tuple[Word, ...], memory: int, statistics: ChipStatistics) -> Chips:
+    """Find chips whose light is close to the rows, and the margin of each.
 
-    A margin is that to the best way kept with the opposite chip, some memories later; where none is
-    kept, that to the worst way kept.
+    The margin is the distance to the best path kept with the opposite chip, some memories later, or
+    to the worst path kept if there is none.
     """
     chip_after, place_after = _steps(words)
     reach = memory + 1
@@ -168,7 +168,7 @@ def beam_chips(words: tuple[Word, ...], memory: int, statistics: ChipStatistics)
         places = place_after[places[origin], choice]
         window = chips[:, :reach].astype(np.float64)
         distance = distance[origin] + np.einsum("ij,ij->i", window @ g - 2.0 * v, window)
-        best = _best_ways(places, chips[:, :memory], distance)
+        best = _select_best_paths(places, chips[:, :memory], distance)
         places, chips, distance = places[best], chips[best], distance[best] - distance[best[0]]
         values.append(chips[0, -1])
         margins.append(_margin(chips[:, -1], distance))
@@ -180,8 +180,8 @@ def beam_chips(words: tuple[Word, ...], memory: int, statistics: ChipStatistics)
 
 
 def _steps(words: tuple[Word, ...]) -> tuple[ByteArray, IndexArray]:
-    """Return the chip and the place of each step out of each place, shape (places, steps)."""
-    steps = places_of(words)
+    """Return the chip and the destination of each step from each place, shape (places, steps)."""
+    steps = steps_from_places(words)
     most = max(map(len, steps))
     chips = np.zeros((len(steps), most), dtype=np.uint8)
     places = np.full((len(steps), most), NO_STATE)
@@ -201,8 +201,8 @@ def _quadratic(features: FloatArray, reach: int) -> FloatArray:
     return matrices
 
 
-def _best_ways(places: IndexArray, chips: ByteArray, distance: FloatArray) -> IndexArray:
-    """Return the best ways, in order; of ways that end in one state only the better one."""
+def _select_best_paths(places: IndexArray, chips: ByteArray, distance: FloatArray) -> IndexArray:
+    """Return the best paths in order, and only the best of those that end in the same state."""
     order = np.argsort(distance, kind="stable")
     numbers = np.ascontiguousarray(places[order, None]).view(np.uint8)
     state = np.concatenate([numbers, chips[order]], axis=1)

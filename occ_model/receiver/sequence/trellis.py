@@ -1,8 +1,9 @@
-"""The trellis of a code: which chips may follow which, as far as one exposure reaches back.
+"""Make the trellis of a code: which chips may follow which within an exposure.
 
-A code is a set of words of chips, each from one state of the encoder to the next; a header is one
-word more. Where the words of a chip sequence start is not known: any word may follow any other that
-ends in its state. Each state of the trellis is a place within a word and the chips before it.
+A code is a set of words of chips, each from one state of the encoder to another; a header is an
+additional word. The places at which words start in a chip sequence are unknown, and any word may
+follow any other that ends in its initial state. Each state of the trellis is a place within a word,
+with the chips before it.
 """
 
 from dataclasses import dataclass
@@ -12,12 +13,12 @@ import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray, IndexArray
 
-NO_STATE = -1  # marks a place of a table that no state fills
+NO_STATE = -1  # marks an unused place of a table
 
 
 @dataclass(frozen=True, slots=True)
 class Word:
-    """Chips that are sent together, from one state of the encoder to another."""
+    """Chips that are sent together, leading from one state of the encoder to another."""
 
     before: int
     chips: tuple[int, ...]
@@ -29,18 +30,18 @@ FREE_CHIPS = (Word(0, (0,), 0), Word(0, (1,), 0))  # any chip may follow any oth
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Trellis:
-    """The states of a code whose exposures reach over some chips, and the steps between them.
+    """The states of a code for exposures of some chips, and the steps between them.
 
-    A step adds a chip. The steps into one state are numbered; missing ones are ``NO_STATE``.
+    A step adds a chip. The steps into a state are numbered; missing ones are ``NO_STATE``.
     """
 
-    memory: int  # Chips that a state holds
-    places: IndexArray  # Shape (states,): the place within the words, see places_of
-    chips: ByteArray  # Shape (states, memory): the last chips, the latest first
-    before: IndexArray  # Shape (steps, states): the state that each step comes from
-    words: FloatArray  # Shape (words, memory + 1): the chips that a step can have, the latest first
+    memory: int  # Number of chips in a state
+    places: IndexArray  # Shape (states,): the place within the words, see steps_from_places
+    chips: ByteArray  # Shape (states, memory): the last chips, with the latest first
+    before: IndexArray  # Shape (steps, states): the state from which each step comes
+    words: FloatArray  # Shape (words, memory + 1): possible chips of a step, with the latest first
     word_of: IndexArray  # Shape (steps, states): the word of each step
-    # Shape (ways, states): the steps out of each state, as places in the flat ``before``
+    # Shape (ways, states): the steps from each state, as indices of the flattened ``before``
     after: IndexArray
 
     @property
@@ -49,11 +50,11 @@ class Trellis:
 
 
 @lru_cache(maxsize=32)
-def places_of(words: tuple[Word, ...]) -> tuple[tuple[tuple[int, int], ...], ...]:
-    """Return the steps out of each place within the words, as pairs of a chip and a place.
+def steps_from_places(words: tuple[Word, ...]) -> tuple[tuple[tuple[int, int], ...], ...]:
+    """Return the steps from each place within the words, as pairs of a chip and a place.
 
-    The places are the encoder's states, between words, and those within words. Words that begin
-    alike have common places, as have places from which the same chips can follow.
+    Places are the encoder's states between words, and those within words. Words with the same
+    beginning have common places, and places from which the same chips can follow are merged.
     """
     count = 1 + max(max(word.before, word.after) for word in words)
     steps: list[dict[tuple[int, int], int]] = [{} for _ in range(count)]
@@ -66,11 +67,11 @@ def places_of(words: tuple[Word, ...]) -> tuple[tuple[tuple[int, int], ...], ...
                 steps.append({})
             place = steps[place][key]
         steps[place][(word.chips[-1], word.after)] = word.after
-    return _merged([tuple((chip, to) for (chip, _), to in one.items()) for one in steps])
+    return _merge([tuple((chip, to) for (chip, _), to in one.items()) for one in steps])
 
 
-def _merged(steps: list[tuple[tuple[int, int], ...]]) -> tuple[tuple[tuple[int, int], ...], ...]:
-    """Merge places from which the same chips can follow: refine classes of places until stable."""
+def _merge(steps: list[tuple[tuple[int, int], ...]]) -> tuple[tuple[tuple[int, int], ...], ...]:
+    """Merge places from which the same chips can follow, by refining classes until stable."""
     classes, count = [0] * len(steps), 1
     while True:
         seen: dict[tuple[int, frozenset[tuple[int, int]]], int] = {}
@@ -82,13 +83,13 @@ def _merged(steps: list[tuple[tuple[int, int], ...]]) -> tuple[tuple[tuple[int, 
             break
         classes, count = finer, len(seen)
     merged = {own: sorted(key[1]) for key, own in zip(seen, range(count), strict=True)}
-    # The classes have the same numbers in both rounds: each of the first of its places.
+    # The classes have the same numbers in both rounds, each that of its first place.
     return tuple(tuple(merged[own]) for own in range(count))
 
 
-def most_states(words: tuple[Word, ...], memory: int) -> int:
-    """Return the most states that a trellis can have: the ways to go as many steps as it holds."""
-    steps = places_of(words)
+def count_most_states(words: tuple[Word, ...], memory: int) -> int:
+    """Return the maximum number of a trellis's states: that of paths of ``memory`` steps."""
+    steps = steps_from_places(words)
     ways = [1] * len(steps)
     for _ in range(memory):
         on = [0] * len(steps)
@@ -100,9 +101,9 @@ def most_states(words: tuple[Word, ...], memory: int) -> int:
 
 
 @lru_cache(maxsize=16)
-def trellis_of(words: tuple[Word, ...], memory: int) -> Trellis:
+def make_trellis(words: tuple[Word, ...], memory: int) -> Trellis:
     """Make the trellis of a code; ``memory``: one chip less than an exposure can touch."""
-    steps = places_of(words)
+    steps = steps_from_places(words)
     reached: set[tuple[int, tuple[int, ...]]] = {(place, ()) for place in range(len(steps))}
     for _ in range(memory):
         reached = {(to, (chip, *chips)) for place, chips in reached for chip, to in steps[place]}
@@ -128,12 +129,12 @@ def trellis_of(words: tuple[Word, ...], memory: int) -> Trellis:
         before,
         different,
         word_of.reshape(before.shape),
-        _steps_out(before),
+        _steps_from_states(before),
     )
 
 
-def _steps_out(before: IndexArray) -> IndexArray:
-    """Return the steps out of each state, as places in the flat table of the steps into them."""
+def _steps_from_states(before: IndexArray) -> IndexArray:
+    """Return the steps from each state, as indices of the flattened table of steps into states."""
     flat = before.ravel()
     used = np.flatnonzero(flat != NO_STATE)
     used = used[np.argsort(flat[used], kind="stable")]

@@ -3,7 +3,7 @@
 import math
 
 from occ_model.camera.projection import panel_corners
-from occ_model.receiver.decoder import columns_of_chip, whole_chips
+from occ_model.receiver.decoder import columns_of_chip, count_whole_chips
 from occ_model.receiver.matched.templates import MOST_BITS
 from occ_model.results.cause import Remedy
 from occ_model.scene.parameters import PARAMETERS, quantity
@@ -87,7 +87,7 @@ def suspect_few_chips(attempt: Attempt) -> Suspect | None:
         return None
     more = needed / shown * _MARGIN
     nearer = float(f"{scene.pose.distance / more:.2g}")
-    room = f"The panel's image has room for {whole_chips(shown)} of the {needed} chips of"
+    room = f"The panel's image has room for {count_whole_chips(shown)} of the {needed} chips of"
     why = f"{room} a packet."
     if packets == 2:
         why = f"{room} two packets, so not every picture shows both headers."

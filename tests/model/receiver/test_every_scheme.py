@@ -1,4 +1,4 @@
-"""Every scheme with every decoder: read, or refused with a sentence."""
+"""Every decoder reads every scheme or refuses it with a sentence."""
 
 import itertools
 
@@ -17,7 +17,7 @@ FRAMINGS = registry.FRAMINGS.load_built_in()
 SCENE = occ.load_preset("phone-68us").replace(
     switching_frequency=4e3, distance=0.6, rows=100, bits=8, code=0b10110010
 )
-"""At 60 cm the panel fills the picture: 110 chips of 31 columns."""
+"""At 60 cm the panel fills the picture, with 110 chips of 31 columns."""
 
 SCHEMES = [
     (code, framing)
@@ -26,23 +26,23 @@ SCHEMES = [
 ]
 
 REFUSED = {
-    # 8 bits of length, 8 of payload and 16 of check sum, 6 chips each, and a preamble of 14.
+    # 8 bits of length, 8 of payload and 16 of check sum with 6 chips each, and a preamble of 14.
     ("fsk", "raw"): ("of 206 chips fit the panel's image",),
-    # From another start the chips are those of the code 29.
+    # From another start the chips are those of code 29.
     ("8b10b", "paper"): ("2 payloads fit the chips", "29 and 178 send the same endless chips"),
 }
-"""What a sentence about a scheme says at this scene."""
+"""Parts of the sentences on these schemes for this scene."""
 
 
 def signal(scene: occ.Scene, start: float) -> np.ndarray:
-    """What a receiver reads, before the enhancement, of packets that start anywhere."""
+    """Return the signal without enhancement of packets with any start."""
     return occ.column_profile(scene.replace(start_time=start))
 
 
 @pytest.mark.parametrize(
     ("decoder", "code", "framing"),
     [
-        # Every day each scheme with one of the four decoders, and each decoder with a quarter.
+        # By default each scheme is tried with one of the four decoders.
         pytest.param(decoder, *scheme, marks=pytest.mark.whole if (place + number) % 4 else ())
         for place, decoder in enumerate(DECODERS)
         for number, scheme in enumerate(SCHEMES)
@@ -69,7 +69,7 @@ def test_every_scheme_is_read_or_refused_with_a_sentence(
         [name for name in DECODERS if name != "matched"],
     )
 )
-def test_a_text_comes_back_as_a_text(code: str, correction: str, decoder: str) -> None:
+def test_a_text_is_returned_as_a_text(code: str, correction: str, decoder: str) -> None:
     scene = SCENE.replace(
         line_code=code, framing="raw", payload="text:HELLO", error_correction=correction,
         switching_frequency=14e3, exposure_time=40e-6, enhancement="none",
@@ -80,11 +80,11 @@ def test_a_text_comes_back_as_a_text(code: str, correction: str, decoder: str) -
 
 
 @pytest.mark.parametrize(("payload", "most"), [("text:HELLO", 12), ("hex:0123456789", 12)])
-def test_the_matched_decoder_says_when_there_are_too_many_payloads(payload: str, most: int) -> None:
+def test_the_matched_decoder_refuses_too_many_payloads(payload: str, most: int) -> None:
     scene = SCENE.replace(line_code="manchester", payload=payload)
     result = occ.decode(signal(scene, 0.0), scene, "matched")
     assert result.failure == (
-        "The payload has 40 bits; the matched decoder compares all payloads, by this scheme of up "
+        "The payload has 40 bits; the matched decoder compares all payloads, for this scheme of up "
         f"to {most} bits: use the sequence detector."
     )
 
@@ -96,7 +96,8 @@ def test_wrong_bits_of_a_text_are_shown_with_the_failure() -> None:
     )  # fmt: skip
     levels = signal(scene, 0.0)
     columns = 1 / 6e3 / 8e-6
-    # The panel's first chips are dark and so outside; a chip of the fourth letter is inverted.
+    # The panel's first chips are dark and thus outside the region; a chip of the fourth letter is
+    # inverted.
     place = int((13 + 8 + 24 + 0.2) * columns)
     levels[place : place + int(columns)] = levels.max()
     result = occ.decode(levels[: int(100 * columns)], scene)
@@ -152,10 +153,10 @@ def test_a_payload_is_refused_or_right_at_any_exposure(code: str, framing: str) 
 
 
 @each_case(itertools.product((0, 1, 4, 6, 15, 79, 255), (0.5, 1.5, 2.5)))
-def test_payloads_that_light_many_or_few_chips_are_not_taken_for_others(
+def test_payloads_with_many_or_few_lit_chips_are_not_mistaken_for_others(
     code: int, chips: float
 ) -> None:
-    # NRZ lights as many chips as the payload has ones: its levels are not those of others.
+    # NRZ lights one chip for each 1 of the payload, so payloads differ in their levels.
     scene = SCENE.replace(
         line_code="nrz", framing="paper", code=code, enhancement="none", exposure_time=chips / 4e3
     )
@@ -163,8 +164,8 @@ def test_payloads_that_light_many_or_few_chips_are_not_taken_for_others(
 
 
 @pytest.mark.parametrize(("line_code", "chips"), [("manchester", 4), ("manchester", 8), ("nrz", 4)])
-def test_of_two_payloads_that_explain_all_none_is_given(line_code: str, chips: int) -> None:
-    # A whole number of chips leaves few levels: another payload has the same order of them.
+def test_no_payload_is_read_if_two_explain_everything(line_code: str, chips: int) -> None:
+    # A whole number of chips leaves few levels, and another payload has the same order of them.
     scenes = [
         SCENE.replace(
             line_code=line_code, framing="paper", code=code, enhancement="none",
@@ -180,8 +181,9 @@ def test_of_two_payloads_that_explain_all_none_is_given(line_code: str, chips: i
     assert any("No code stands out" in (result.failure or "") for result in results)
 
 
-def test_a_payload_is_read_where_another_one_leaves_no_stripes() -> None:
-    # An exposure of 4 chips, of the 12 of a frame: one payload gives all columns the same light.
+def test_a_payload_is_read_if_another_one_has_no_stripes() -> None:
+    # With an exposure of 4 of the 12 chips of a frame, one payload gives all columns the same
+    # light.
     scene = SCENE.replace(
         line_code="nrz", framing="paper", code=77, enhancement="none",
         switching_frequency=4096.0, exposure_time=2.0**-10,
@@ -199,8 +201,9 @@ def test_the_threshold_reads_checked_chips_of_exposures_longer_than_one(chips: f
 
 
 @pytest.mark.parametrize("bits", [63, 65, 127, 128])
-def test_the_number_of_bits_in_a_header_is_that_of_the_payload(bits: int) -> None:
-    # A frame of 128 bits states its length in 16 bits, one of 65 in 8 that differ from those of 64.
+def test_the_length_in_a_header_is_that_of_the_payload(bits: int) -> None:
+    # A frame of 128 bits states its length in 16 bits, one of 65 in 8 that differ from those for
+    # 64.
     payload = "bits:" + "".join(map(str, np.random.default_rng(bits).integers(0, 2, bits)))
     scene = SCENE.replace(
         payload=payload, framing="raw", line_code="manchester", enhancement="none",
@@ -219,7 +222,7 @@ def test_the_number_of_bits_in_a_header_is_that_of_the_payload(bits: int) -> Non
         ("equalizer", 8, (48, 93, 102, 111), (3.4, 4.6, 5.5), 3),
     ],
 )
-def test_chips_that_no_rule_refuses_are_read_rightly_or_not_at_all(
+def test_chips_that_no_rule_refuses_are_read_correctly_or_not_at_all(
     decoder: str, bits: int, codes: tuple[int, ...], exposures: tuple[float, ...], read: int
 ) -> None:
     base = occ.Scene().replace(

@@ -1,4 +1,4 @@
-"""Finding the panel from its brightest pixels."""
+"""The panel is located from its brightest pixels."""
 
 from itertools import pairwise
 
@@ -29,23 +29,23 @@ def dark(rows: int, columns: int, level: int = 20) -> np.ndarray:
 
 def lit(rows: int, columns: int, region: Region, level: int = 200) -> np.ndarray:
     image = dark(rows, columns)
-    put(image, region, level)
+    paint(image, region, level)
     return image
 
 
-def put(image: np.ndarray, region: Region, level: int) -> None:
+def paint(image: np.ndarray, region: Region, level: int) -> None:
     image[region.first_row : region.last_row, region.first_column : region.last_column] = level
 
 
-def inside(rows: int, columns: int) -> st.SearchStrategy[Region]:
-    """Any rectangle of an image, the borders and the single pixel among them."""
+def draw_rectangle(rows: int, columns: int) -> st.SearchStrategy[Region]:
+    """Draw any rectangle of an image, including its borders and single pixels."""
     along = st.tuples(st.integers(0, rows), st.integers(0, rows)).filter(lambda p: p[0] != p[1])
     across = st.tuples(st.integers(0, columns), st.integers(0, columns))
     across = across.filter(lambda p: p[0] != p[1])
     return st.builds(lambda r, c: Region(*sorted(r), *sorted(c)), along, across)
 
 
-@given(region=inside(60, 90).filter(lambda r: r.rows * r.columns < 60 * 90))
+@given(region=draw_rectangle(60, 90).filter(lambda r: r.rows * r.columns < 60 * 90))
 def test_a_bright_rectangle_is_found_exactly_wherever_it_is(region: Region) -> None:
     assert region_in(lit(60, 90, region), FRACTION) == region
 
@@ -56,7 +56,9 @@ def test_a_bright_rectangle_is_found_exactly_wherever_it_is(region: Region) -> N
 def test_a_bright_rectangle_is_found_exactly_in_a_large_image(
     shape: tuple[int, int], data: st.DataObject
 ) -> None:
-    region = data.draw(inside(*shape).filter(lambda r: r.rows * r.columns < shape[0] * shape[1]))
+    region = data.draw(
+        draw_rectangle(*shape).filter(lambda r: r.rows * r.columns < shape[0] * shape[1])
+    )
     assert region_in(lit(*shape, region), FRACTION) == region
 
 
@@ -80,14 +82,14 @@ def test_the_bright_fraction_does_not_move_a_rectangle(region: Region, fraction:
 
 @pytest.mark.parametrize("period", [4, 10, 37, 120])
 @pytest.mark.parametrize("shape", [(300, 400), (1200, 1600)])
-def test_a_striped_panel_is_found_from_first_to_last_stripe(
+def test_a_striped_panel_is_found_from_the_first_to_the_last_stripe(
     shape: tuple[int, int], period: int
 ) -> None:
     image = dark(*shape)
     first, last, top, bottom = 40, shape[1] - 60, 30, shape[0] - 50
     starts = range(first, last - period // 2, period)
     for start in starts:
-        put(image, Region(top, bottom, start, start + period // 2), 220)
+        paint(image, Region(top, bottom, start, start + period // 2), 220)
     assert region_in(image, FRACTION) == Region(top, bottom, first, starts[-1] + period // 2)
 
 
@@ -96,7 +98,7 @@ def test_stripes_of_several_brightnesses_are_one_panel() -> None:
     levels = [150, 220, 180, 255, 150]
     edges = [50, 80, 110, 150, 160, 200]
     for (start, end), level in zip(pairwise(edges), levels, strict=True):
-        put(image, Region(40, 160, start, end - 4), level)
+        paint(image, Region(40, 160, start, end - 4), level)
     assert region_in(image, 0.5) == Region(40, 160, 50, 196)
 
 
@@ -107,17 +109,17 @@ def test_isolated_hot_pixels_away_from_the_panel_do_not_widen_it(
     panel = Region(300, 900, 500, 1700)
     image = lit(1500, 2500, panel)
     for row, column in places:
-        # The contours live on a coarser grid: what lies within a cell of them is part of them.
+        # The contours are on a coarser grid, so pixels within a cell of them belong to them.
         if not (14 <= row <= 45 and 24 <= column <= 85):
             image[20 * row, 20 * column] = 255
     assert region_in(image, FRACTION) == panel
 
 
-def test_a_far_panel_is_not_lost_among_bright_surroundings() -> None:
+def test_a_distant_panel_is_found_among_bright_surroundings() -> None:
     rng = np.random.default_rng(3)
     image = rng.integers(10, 30, (600, 800), dtype=np.uint8)
     panel = Region(250, 280, 390, 420)  # 0.2 % of the area
-    put(image, panel, 200)
+    paint(image, panel, 200)
     assert region_in(image, FRACTION) == panel
 
 
@@ -132,7 +134,7 @@ def test_a_constant_image_shows_no_panel(level: int, shape: tuple[int, int]) -> 
 
 
 def check_any(image: np.ndarray, fraction: float) -> None:
-    """Check what holds for the region of any image."""
+    """Check the properties that the region of any image has."""
     before = image.copy()
     region = region_in(image, fraction)
     np.testing.assert_array_equal(image, before)
@@ -143,8 +145,8 @@ def check_any(image: np.ndarray, fraction: float) -> None:
     assert 0 <= region.first_row < region.last_row <= rows
     assert 0 <= region.first_column < region.last_column <= columns
     outside = image.copy()
-    put(outside, region, 0)
-    # Without the brightest pixels there is no panel; each edge touches one brighter than the rest.
+    paint(outside, region, 0)
+    # The region contains the brightest pixels, and each edge touches one brighter than the rest.
     assert outside.max() < image.max()
     part = image[region.first_row : region.last_row, region.first_column : region.last_column]
     for edge in (part[0], part[-1], part[:, 0], part[:, -1]):
@@ -153,14 +155,14 @@ def check_any(image: np.ndarray, fraction: float) -> None:
 
 
 @given(image=images, fraction=st.floats(1e-4, 0.5))
-def test_a_region_holds_its_bright_pixels_and_fits_them_closely(
+def test_a_region_contains_its_bright_pixels_and_fits_them_closely(
     image: np.ndarray, fraction: float
 ) -> None:
     check_any(image, fraction)
 
 
 @given(image=images, fraction=st.floats(1e-4, 0.5))
-def test_a_mirrored_or_turned_image_has_its_region_so_too(
+def test_mirroring_or_turning_an_image_does_the_same_to_its_region(
     image: np.ndarray, fraction: float
 ) -> None:
     region = region_in(image, fraction)
@@ -182,7 +184,7 @@ def test_a_mirrored_or_turned_image_has_its_region_so_too(
     )
 
 
-def test_stripes_grow_together_over_half_their_gaps() -> None:
+def test_stripes_merge_when_they_grow_by_half_their_gaps() -> None:
     image = np.zeros((120, 400), dtype=np.uint8)
     for first in range(100, 300, 40):
         image[30:90, first : first + 10] = 255
@@ -193,11 +195,11 @@ def test_stripes_grow_together_over_half_their_gaps() -> None:
     assert found.growth == 15
 
 
-def test_pixels_that_are_exactly_the_bright_fraction_are_bright() -> None:
+def test_pixels_that_make_up_exactly_the_bright_fraction_are_bright() -> None:
     counts = np.zeros(256, dtype=np.int64)
     counts[[20, 200, 255]] = 90, 5, 5
     assert bright_level(counts, 0.05) == 255
     assert bright_level(counts, 0.06) == 200
-    # What lies below the split between dark and bright is never bright.
+    # Pixels below the split between dark and bright are never bright.
     between = bright_level(counts, 0.5)
     assert 20 < between <= 200

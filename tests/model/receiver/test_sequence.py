@@ -1,4 +1,4 @@
-"""Parts of the sequence detector, and the words of a scheme with the limits of their runs."""
+"""Parts of the sequence detector, and the words of schemes with their run limits."""
 
 from itertools import groupby, product
 from types import SimpleNamespace
@@ -11,60 +11,60 @@ from physics.exposed_chips import expose_rows, noise_of
 import occ_model as occ
 from occ_model.receiver.light import PER_CHIP, expected_light, light_of_chips
 from occ_model.receiver.sequence import decoder
-from occ_model.receiver.sequence.code_words import code_words, words_of_runs
-from occ_model.receiver.sequence.exposures import Timing, gather
-from occ_model.receiver.sequence.fit import Brightness, Fit, first_guess
-from occ_model.receiver.sequence.search import Chips, beam_chips, best_chips
-from occ_model.receiver.sequence.trellis import FREE_CHIPS, places_of, trellis_of
+from occ_model.receiver.sequence.code_words import find_code_words, words_of_runs
+from occ_model.receiver.sequence.exposures import RowTiming, gather
+from occ_model.receiver.sequence.fit import Brightness, SequenceFit, guess_brightness
+from occ_model.receiver.sequence.search import Chips, find_best_chips, search_beam
+from occ_model.receiver.sequence.trellis import FREE_CHIPS, make_trellis, steps_from_places
 from occ_model.scene.scene import Scene
 
 RANDOM = np.random.default_rng(12)
 SENT = RANDOM.integers(0, 2, 120).astype(np.uint8)
 
 
-def test_few_ways_find_the_chips_of_the_whole_trellis_with_a_margin_each() -> None:
-    timing = Timing(2.3, 0.2, 0.13)
+def test_few_paths_find_the_chips_of_the_whole_trellis_with_a_margin_each() -> None:
+    timing = RowTiming(2.3, 0.2, 0.13)
     light = expose_rows(SENT, 2.3, 0.2, 0.13)
     seen = gather(light + noise_of(20) * RANDOM.standard_normal(len(light)), timing)
-    found = beam_chips(FREE_CHIPS, timing.memory, seen)
-    whole = best_chips(trellis_of(FREE_CHIPS, timing.memory), seen)
+    found = search_beam(FREE_CHIPS, timing.memory, seen)
+    whole = find_best_chips(make_trellis(FREE_CHIPS, timing.memory), seen)
     assert len(found.margins) == len(found.values)
     assert (found.margins >= 0.0).all()
     shift = whole.first - found.first
     inside = slice(10, 100)
     values = found.values[shift:][: len(whole.values)]
     assert np.array_equal(values[inside], whole.values[inside])
-    # No way that was kept is nearer than the nearest of all.
+    # No path that was kept is closer than the closest of all.
     margins = found.margins[shift:][: len(whole.values)]
     assert (margins[inside] >= whole.margins[inside] - 1e-9).all()
 
 
 @pytest.mark.parametrize("exposure", [1e-9, 0.7, 2.3])
-def test_the_last_chip_is_the_last_that_a_row_shows(exposure: float) -> None:
-    timing = Timing(exposure, 0.2, 0.13)
+def test_the_last_chip_is_the_last_one_that_a_row_shows(exposure: float) -> None:
+    timing = RowTiming(exposure, 0.2, 0.13)
     seen = gather(np.zeros(50), timing)
     last = int(np.floor(0.13 + 49 * 0.2 + exposure))
     assert seen.first + len(seen.features) - 1 == last
-    found = best_chips(trellis_of(FREE_CHIPS, timing.memory), seen)
+    found = find_best_chips(make_trellis(FREE_CHIPS, timing.memory), seen)
     assert found.first + len(found.values) - 1 == last
     assert found.first == seen.first - timing.memory
 
 
 @pytest.mark.parametrize("pattern", ["", "1000"])
-def test_the_light_of_random_data_is_all_and_nothing_and_half_on_the_mean(pattern: str) -> None:
+def test_the_light_of_random_data_reaches_0_and_1_with_a_mean_of_a_half(pattern: str) -> None:
     light = expected_light(Scene().replace(pattern=pattern, exposure_time=5e-5))
     assert (light.min(), light.max()) == pytest.approx((0.0, 1.0))
     assert light.mean() == pytest.approx(0.5, abs=0.06)
 
 
-def test_the_brightness_is_first_guessed_by_how_neighbouring_rows_go_together() -> None:
+def test_the_brightness_is_first_guessed_from_the_covariance_of_neighbouring_rows() -> None:
     light = 60.0 + 150.0 * expose_rows(SENT, 1.3, 0.35, 0.0)
-    guess = first_guess(light, light_of_chips(SENT, 1.3), Timing(1.3, 0.35), PER_CHIP)
+    guess = guess_brightness(light, light_of_chips(SENT, 1.3), RowTiming(1.3, 0.35), PER_CHIP)
     assert guess.dark == pytest.approx(60.0, abs=1.0)
     assert guess.swing == pytest.approx(150.0, abs=1.0)
 
 
-def test_the_steps_of_a_result_are_the_chips_that_columns_see(small_signal: Any) -> None:
+def test_the_chips_of_a_result_are_those_in_view_of_columns(small_signal: Any) -> None:
     scene, signal = small_signal
     result = decoder.read_signal(signal, scene)
     assert result.failure is None
@@ -73,7 +73,7 @@ def test_the_steps_of_a_result_are_the_chips_that_columns_see(small_signal: Any)
         scene.transmitter.switching_period / scene.camera.readout_time, rel=1e-3
     )
     assert np.diff(starts) == pytest.approx(length)
-    # A chip that ends in view began a chip before it at most.
+    # A chip that ends in view began at most one chip earlier.
     assert -length < starts[0] <= 0.0
     assert len(signal) - length <= starts[-1] < len(signal)
     assert len(result.chips) == len(starts) == len(result.chip_likelihoods)
@@ -103,13 +103,13 @@ def fit_of(noise: float, chips: list[int], unexplained: float = 0.0) -> Any:
 @pytest.mark.parametrize(
     ("noises", "flips", "unexplained", "rounds"),
     [
-        ([5.0, 2.0, 1.0, 0.5], [1, 1, 1, 1], 0.0, 4),  # each round helps
-        ([5.0, 4.9, 1.0, 0.5], [1, 1, 1, 1], 0.0, 2),  # the second gains next to nothing
-        ([5.0, 2.0, 1.0, 0.5], [1, 0, 1, 1], 0.0, 2),  # the second finds the same chips
-        ([5.0, 4.9, 4.8, 4.7], [1, 1, 1, 1], 0.2, 4),  # nothing is explained yet
+        ([5.0, 2.0, 1.0, 0.5], [1, 1, 1, 1], 0.0, 4),  # each round improves the fit
+        ([5.0, 4.9, 1.0, 0.5], [1, 1, 1, 1], 0.0, 2),  # the second one gains almost nothing
+        ([5.0, 2.0, 1.0, 0.5], [1, 0, 1, 1], 0.0, 2),  # the second one finds the same chips
+        ([5.0, 4.9, 4.8, 4.7], [1, 1, 1, 1], 0.2, 4),  # nothing has been explained yet
     ],
 )
-def test_chips_are_improved_until_nothing_is_gained(
+def test_chips_are_improved_as_long_as_it_helps(
     monkeypatch: pytest.MonkeyPatch,
     noises: list[float],
     flips: list[int],
@@ -128,24 +128,24 @@ def test_chips_are_improved_until_nothing_is_gained(
     monkeypatch.setattr(decoder, "improve", lambda *_: (None, None))
     light = SimpleNamespace(values=np.zeros(4), clipped=np.zeros(4, dtype=bool), is_estimated=False)
     first = fit_of(10.0, [0, 1], unexplained)
-    found, _ = decoder._improved(np.zeros(4), Scene(), first, light, FREE_CHIPS)  # type: ignore[arg-type]
+    found, _ = decoder._improve_rounds(np.zeros(4), Scene(), first, light, FREE_CHIPS)  # type: ignore[arg-type]
     assert len(made) == rounds
     assert found is made[-1]
 
 
-def fit_with(residual: np.ndarray) -> Fit:
+def fit_with(residual: np.ndarray) -> SequenceFit:
     count = len(residual)
     chips = Chips(0, np.zeros(10, dtype=np.uint8), np.ones(10))
     brightness = Brightness(np.zeros(count), np.ones(count))
-    return Fit(chips, Timing(3.0, 0.25, 0.0), brightness, np.zeros(count), residual)
+    return SequenceFit(chips, RowTiming(3.0, 0.25, 0.0), brightness, np.zeros(count), residual)
 
 
-def test_noise_of_independent_rows_stays_in_sums_and_what_is_alike_adds_up() -> None:
+def test_independent_noise_averages_out_in_sums_and_equal_errors_add_up() -> None:
     noise = RANDOM.normal(size=6000)
     white, alike = fit_with(noise), fit_with(np.repeat(noise[:1500], 4))
     assert white.noise == pytest.approx(1.0, rel=0.1)
     assert white.noise_of_sums() == pytest.approx(white.noise, rel=0.2)
-    # Four rows that are alike have sixteen times the variance of one in their sum.
+    # The sum of four equal rows has sixteen times the variance of one row.
     assert alike.noise_of_sums() / alike.noise == pytest.approx(4.0, rel=0.15)
     assert white.ratios() == pytest.approx(1.0 / (2.0 * white.noise_of_sums()))
     assert white.unexplained() < 0.06
@@ -154,10 +154,10 @@ def test_noise_of_independent_rows_stays_in_sums_and_what_is_alike_adds_up() -> 
 
 
 @pytest.mark.parametrize(("columns", "is_refused"), [(90, True), (300, False)])
-def test_less_than_a_packet_is_refused_where_a_packet_has_one_length(
+def test_less_than_a_packet_is_refused_if_packets_have_a_fixed_length(
     columns: int, is_refused: bool
 ) -> None:
-    scene = occ.load_preset("phone-68us").replace(switching_frequency=25e3)  # five columns a chip
+    scene = occ.load_preset("phone-68us").replace(switching_frequency=25e3)  # five columns per chip
     signal = occ.column_profile(scene)[:columns]
     said = occ.decode(signal, scene, "sequence").failure or ""
     assert said.startswith(f"Less than one packet: {columns // 5} of 24 chips") is is_refused
@@ -166,8 +166,8 @@ def test_less_than_a_packet_is_refused_where_a_packet_has_one_length(
 
 
 @pytest.mark.parametrize("line_code", ["nrz", "differential-manchester", "8b10b"])
-def test_headers_lead_between_the_states_of_the_encoder_only(line_code: str) -> None:
-    found = code_words(
+def test_headers_lead_only_between_states_of_the_encoder(line_code: str) -> None:
+    found = find_code_words(
         Scene().replace(line_code=line_code, framing="preamble").transmitter, memory=6
     )
     headers = [word for word in found.words if word.chips == found.header]
@@ -175,13 +175,15 @@ def test_headers_lead_between_the_states_of_the_encoder_only(line_code: str) -> 
     states = {word.before for word in blocks}
     assert found.header
     assert {word.after for word in blocks} <= states
-    # After a header the encoder may be in any state, as its frame may go on from any.
+    # After a header the encoder may be in any state, as a frame may continue from any.
     assert {(word.before, word.after) for word in headers} == set(product(states, states))
 
 
 @pytest.mark.parametrize("longest", [1, 2, 3])
-def test_chips_with_limited_runs_are_all_those_without_a_longer_run(longest: int) -> None:
-    steps = places_of(words_of_runs(longest))
+def test_words_of_limited_runs_allow_exactly_the_sequences_without_longer_runs(
+    longest: int,
+) -> None:
+    steps = steps_from_places(words_of_runs(longest))
 
     def can_be_sent(chips: tuple[int, ...]) -> bool:
         places = set(range(len(steps)))

@@ -15,11 +15,10 @@ from hard_cases.references import (
     STARTS,
     ExactTimes,
     decades,
-    signed_decades,
     some_columns,
     within,
 )
-from occ_model.camera.exposure import column_phases, lit_fraction
+from occ_model.camera.exposure import column_phases
 from occ_model.scene.scene import Scene
 
 CHIPS = decades(1e-3, 1e6)  # exposures in chips
@@ -126,63 +125,6 @@ def test_on_and_off_time_are_the_exposure(
     assert ulps <= 3.0
     # The camera's t_off is t minus t_on.
     assert np.abs(on_time + (exposure - on_time) - exposure).max() <= math.ulp(exposure)
-
-
-@cases(
-    packets=st.integers(-(10**9), 10**9), chips=CHIPS, frequency=FREQUENCIES,
-    start=signed_decades(1e-9, 1e3), pattern=PATTERNS,
-)  # fmt: skip
-def test_a_start_whole_packets_later_changes_only_rounding(
-    packets: int, chips: float, frequency: float, start: float, pattern: str
-) -> None:
-    scene = scene_of_exposure(chips, frequency, start_time=start, pattern=pattern)
-    period = len(occ.packet(scene)) / Fraction(frequency)
-    wanted = Fraction(start) + packets * period
-    later = scene.replace(start_time=within("start_time", float(wanted)))
-    moved = abs(Fraction(later.model.start_time) - wanted) % period
-    fraction = float(min(moved, period - moved)) / scene.camera.exposure_time
-    change = float(np.abs(lit_fraction(later) - lit_fraction(scene)).max())
-    beyond = max(change - fraction * (1 + 1e-12), 0.0)
-    record("t_on whole packets later, of t beyond t_0's rounding", "to 1e9 packets", beyond, 1e-12)
-
-
-@cases(
-    chips=CHIPS,
-    frequency=FREQUENCIES,
-    readout=READOUTS,
-    start=STARTS,
-    which=st.sampled_from(
-        ["start_time", "exposure_time", "readout_time", "switching_frequency"]
-    ),
-    sign=st.sampled_from([-1, 1]),
-    size=decades(1e-16, 1e-6),
-)  # fmt: skip
-def test_a_small_change_of_a_time_changes_on_time_by_its_fraction(
-    chips: float, frequency: float, readout: float, start: float, which: str, sign: int, size: float
-) -> None:
-    """The change is relative, 1e-12 among others; its bound is that of exact arithmetic.
-
-    t_on moves by no more than the start moves, or than t grows. Where f changes by the fraction e,
-    all of time stretches about zero: the window starts e (t_0 + i t_r) later, and is e t longer
-    in chips, which are e shorter.
-    """
-    scene = scene_of_exposure(chips, frequency, readout_time=readout, start_time=start)
-    old = float(scene.value(which))
-    new = within(which, old * (1 + sign * size))
-    changed = scene.replace(**{which: new})
-    delta, t = abs(Fraction(new) - Fraction(old)), Fraction(scene.camera.exposure_time)
-    exact = ExactTimes(scene)
-    found = [occ.on_time(one) for one in (scene, changed)]
-    for column in some_columns(scene):
-        fraction = delta
-        if which == "readout_time":
-            fraction = column * delta
-        elif which == "switching_frequency":
-            stretch = delta / min(Fraction(new), Fraction(old))
-            fraction = stretch * (abs(exact.start(column)) / exact.frequency + 2 * t)
-        change = abs(Fraction(float(found[0][column])) - Fraction(float(found[1][column])))
-        beyond = float(max(change - fraction, Fraction(0)) / t)
-        record("t_on's change beyond its part, of t", "any time by 1e-16 to 1e-6", beyond, 1e-12)
 
 
 LONG = "1" * 2048 + "0" * 2048

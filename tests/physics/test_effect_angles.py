@@ -1,17 +1,13 @@
 """Laws of a panel with directed light, and of a lens that darkens the corners."""
 
 import math
-from itertools import product
 
 import numpy as np
 import pytest
-from each_case import each_case
 from physics.pictured_luminance import pictured_luminance
 
 import occ_model as occ
-from occ_model.camera.optics import Optics
 from occ_model.camera.photometry import level_values, luminance_levels
-from occ_model.camera.projection import image_points
 from occ_model.effects.optics_effects import Emission
 from occ_model.scene.scene import Scene
 from occ_model.simulation.render import observe
@@ -28,40 +24,6 @@ def steady_scene(**changes: float | str) -> Scene:
         rows=ROWS, columns=COLUMNS, pattern="1", distance=0.5, panel_width=3.0, panel_height=3.0,
         lambertian_order=3.0, luminance=1000.0, enhancement="none",
     ).replace(**changes)  # fmt: skip
-
-
-@each_case(product((1.5, 2.0, 3.0, 10.0), ("yaw", "pitch"), (0.0, 20.0, -45.0, 60.0)))
-def test_a_turned_panel_is_darker_by_the_cosine_of_its_turn(
-    order: float, turn: str, degrees: float
-) -> None:
-    angle = math.radians(degrees)
-    scene = steady_scene(lambertian_order=order, panel_width=0.2, panel_height=0.2, **{turn: angle})
-    dark, bright = luminance_levels(scene)
-    own = pictured_luminance(scene, Emission())[AXIS] - dark
-    assert own == pytest.approx((bright - dark) * math.cos(angle) ** (order - 1), rel=1e-5)
-
-
-def test_each_corners_angle_is_between_its_normal_and_its_ray() -> None:
-    scene = steady_scene(yaw=0.4, pitch=-0.3, roll=0.5, distance=3.0, offset_x=0.2, panel_width=1.0)
-    pose = scene.pose
-
-    def turned(x: float, y: float, z: float) -> np.ndarray:
-        sin, cos = math.sin(pose.pitch), math.cos(pose.pitch)
-        y, z = y * cos - z * sin, y * sin + z * cos
-        sin, cos = math.sin(pose.yaw), math.cos(pose.yaw)
-        x, z = x * cos + z * sin, z * cos - x * sin
-        sin, cos = math.sin(pose.roll), math.cos(pose.roll)
-        return np.array([x * cos - y * sin, x * sin + y * cos, z])
-
-    normal = turned(0.0, 0.0, -1.0)
-    place = np.array([pose.offset_x, pose.offset_y, pose.distance])
-    optics = Emission().apply(scene, Optics(occ.panel_corners(scene)))
-    gains = optics.emission[0].at(np.arange(ROWS, dtype=np.float64), slice(None))
-    for x, y in ((-0.2, -0.3), (0.1, -0.3), (0.1, 0.2), (0.0, 0.0)):
-        point = turned(x, y, 0.0) + place
-        column, row = np.rint(image_points(point[:2] / point[2], scene.camera)).astype(int)
-        cosine = -normal @ point / np.linalg.norm(point)
-        assert gains[row, column] == pytest.approx(cosine**2, rel=0.01)
 
 
 def test_reflected_light_and_surroundings_stay_as_they_are() -> None:

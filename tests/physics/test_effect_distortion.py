@@ -10,8 +10,7 @@ import pytest
 from amount import amount
 
 import occ_model as occ
-from occ_model.camera.projection import image_points, image_rays
-from occ_model.effects.distortion import distort, undistort
+from occ_model.camera.projection import image_rays
 from occ_model.scene.scene import Lens, Scene
 
 ROWS, COLUMNS = 100, 200
@@ -100,16 +99,6 @@ def test_stripes_stay_columns(lens: dict[str, float]) -> None:
     np.testing.assert_array_equal(frame.image[shown], columns[shown])
     outside = frame.image[~inside & ~at_rim]
     assert outside.min() == outside.max()
-
-
-@pytest.mark.parametrize("lens", [*LENSES, {"radial_k1": -0.25, "radial_k2": 0.05}])
-def test_undistorted_points_are_pictured_where_they_were(lens: dict[str, float]) -> None:
-    scene = bent_scene(**lens)
-    points = np.array([[0.0, 0.0], [COLUMNS - 1.0, 0.0], [30.0, 70.0], [COLUMNS / 2.0, ROWS - 1.0]])
-    rays = image_rays(undistort(points, scene), scene.camera)
-    np.testing.assert_allclose(
-        image_points(distort(rays, scene.lens), scene.camera), points, atol=1e-3
-    )
 
 
 def test_a_minimal_distortion_gives_the_straight_panel() -> None:

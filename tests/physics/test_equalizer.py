@@ -44,13 +44,6 @@ def test_its_response_is_that_of_a_mean_over_columns(columns: int) -> None:
     np.testing.assert_allclose(response(columns, 4096)[1:], kernel, atol=1e-12)
 
 
-def test_its_response_is_near_the_sinc_of_a_long_exposure() -> None:
-    found = response(62.5, 4096)
-    frequency = np.arange(len(found)) / 4096
-    low = frequency * 62.5 < 4.0
-    np.testing.assert_allclose(found[low], np.sinc(frequency[low] * 62.5), atol=0.01)
-
-
 def chips_in_columns(count: int, chip: int) -> FloatArray:
     random = np.random.default_rng(2)
     return np.repeat(random.integers(0, 2, count), chip).astype(np.float64)

@@ -10,33 +10,6 @@ from occ_model.study.theory import alternating_swing
 
 
 @pytest.mark.parametrize(
-    ("exposure", "eps", "taps"),
-    [
-        (1.0, 0.25, [0.75, 0.25]),
-        (1.5, 0.0, [2 / 3, 1 / 3]),
-        (1.5, 0.75, [1 / 6, 2 / 3, 1 / 6]),
-        (2.5, 0.5, [0.2, 0.4, 0.4]),
-    ],
-)
-def test_exposure_is_a_moving_average_with_the_published_taps(
-    exposure: float, eps: float, taps: list[float]
-) -> None:
-    period = 8
-    found = []
-    for lit in range(period):
-        pattern = "".join("1" if chip == lit else "0" for chip in range(period))
-        scene = Scene().replace(
-            pattern=pattern,
-            switching_frequency=1.0,
-            exposure_time=exposure,
-            start_time=eps,
-            columns=1,
-        )
-        found.append(float(lit_fraction(scene)[0]))
-    assert found == pytest.approx(taps + [0.0] * (period - len(taps)), abs=1e-15)
-
-
-@pytest.mark.parametrize(
     ("frequency", "exposure", "response"),
     [
         (2000.0, 100e-6, 0.9355),

@@ -14,13 +14,11 @@ from occ_model.receiver.matched.decoder import find_most_likely
 from occ_model.receiver.matched.templates import (
     BINS_PER_CHIP,
     CodeTemplates,
-    codes_by_levels,
     make_code_templates,
-    sums_of_halves,
 )
 from occ_model.scene.scene import Scene
 from occ_model.study.success_rate import success_rate
-from occ_model.transmitter.packet import packet_length, packets_of_codes
+from occ_model.transmitter.packet import packet_length
 
 HIGH_CONFIDENCE = 0.5
 
@@ -40,15 +38,6 @@ def test_it_reads_a_single_packet_and_says_if_none_fits() -> None:
     slow = scene.replace(switching_frequency=850.0)
     result = occ.decode(occ.render(slow).image, slow, "matched")
     assert "Less than one packet" in result.failure
-
-
-def test_codes_are_read_at_three_chips_an_exposure() -> None:
-    scene = occ.load_preset("phone-136us").replace(
-        switching_frequency=3.2 / 136e-6, distance=0.1, rows=16
-    )
-    for code in range(0, 1024, amount(61, 7)):
-        signal = occ.render(scene.replace(code=code)).signal
-        assert occ.decode(signal, scene, "matched").code == code
 
 
 @pytest.mark.parametrize("enhancement", ["equalization", "stretch", "none"])
@@ -139,16 +128,6 @@ def test_no_16_bit_code_that_correlates_better_is_missed(exposure: Fraction) -> 
         assert (
             _correlations(signal, templates, others).max() <= correlations.max(axis=1).min() + limit
         )
-
-
-@pytest.mark.parametrize("bits", range(2, 12, amount(3, 1)))
-def test_a_sum_over_a_packet_is_that_over_its_halves(bits: int) -> None:
-    values = np.random.default_rng(bits).normal(size=(packet_length(bits), 3))
-    first, second = sums_of_halves(values, bits)
-    sums = (first[:, None] + second).reshape(-1, 3)
-    np.testing.assert_allclose(
-        sums, packets_of_codes(codes_by_levels(bits), bits) @ values, atol=1e-12
-    )
 
 
 @pytest.mark.parametrize("bits", range(2, 12, amount(3, 1)))

@@ -10,7 +10,7 @@ from physics.exposed_chips import expose_rows, manchester, noise_of
 import occ_model as occ
 from occ_model.receiver.sequence.exposures import RowTiming, gather, taps
 from occ_model.receiver.sequence.fit import lit_fractions
-from occ_model.receiver.sequence.search import Chips, find_best_chips, least_distances, search_beam
+from occ_model.receiver.sequence.search import Chips, find_best_chips, least_distances
 from occ_model.receiver.sequence.trellis import FREE_CHIPS, Word, make_trellis
 from occ_model.scene.scene import Scene
 
@@ -118,21 +118,6 @@ def test_a_margin_is_what_the_opposite_chip_costs() -> None:
         lit = every[:, chip] == 1
         cost = abs(distances[lit].min() - distances[~lit].min())
         assert found.margins[chip - found.first] == pytest.approx(cost, abs=1e-9)
-
-
-@pytest.mark.parametrize("exposure", [3.0, 5.3])
-def test_the_beam_finds_what_the_whole_trellis_finds(exposure: float) -> None:
-    random = np.random.default_rng(2)
-    sent = manchester(random.integers(0, 2, 150))
-    light = expose_rows(sent, exposure, STEP, PHASE)
-    light = light + noise_of(25.0) * random.standard_normal(len(light))
-    timing = RowTiming(exposure, STEP, PHASE)
-    statistics = gather(light, timing)
-    whole = find_best_chips(make_trellis(MANCHESTER, timing.memory), statistics)
-    beam = search_beam(MANCHESTER, timing.memory, statistics)
-    same = beam.values[whole.first - beam.first :][: len(whole.values)] == whole.values
-    # The beam first has to converge.
-    assert same[3 * timing.memory :].all()
 
 
 @pytest.mark.parametrize(

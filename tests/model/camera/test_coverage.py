@@ -98,14 +98,3 @@ def test_a_part_with_one_fraction_is_covered_fully_or_not_at_all(blur: float, le
     square = np.array([[left, -900.0], [left + 50, -900], [left + 50, 900], [left, 900]])
     parts = Coverage(square, ROWS, COLUMNS, blur).parts(range(ROWS))
     assert {part.fraction for part in parts if isinstance(part.fraction, float)} <= {0.0, 1.0}
-
-
-@pytest.mark.parametrize("blur", [0.2, 1.0, 5.0, 10.0, 100.0])
-def test_an_outline_beyond_the_rim_is_not_darker_at_the_rim(blur: float) -> None:
-    reach = 6.0 * blur + 10.0
-    outline = np.array(
-        [[-reach, 20.0], [COLUMNS + reach, 20.0], [COLUMNS + reach, 70.0], [-reach, 70.0]]
-    )
-    soft = cover_rows(outline, blur)
-    # The panel has as many rows above and below each pixel at the rim as in the middle.
-    np.testing.assert_allclose(soft, np.tile(soft[:, 60:61], COLUMNS), rtol=0, atol=1e-4)

@@ -86,18 +86,6 @@ GAMMA = (-0.5, 0.5)
 ALL = np.arange(9)
 
 
-def test_nothing_changed_is_the_first_guess() -> None:
-    scaled = ScaledParameters(FIRST, ALL, SCALE, 0.09, GAMMA)
-    assert scaled.values(np.zeros(9)) == pytest.approx(FIRST)
-
-
-def test_only_what_is_free_changes() -> None:
-    free = np.array([0, 2, 7])
-    values = ScaledParameters(FIRST, free, SCALE, 0.09, GAMMA).values(np.ones(3))
-    assert np.flatnonzero(values != FIRST).tolist() == free.tolist()
-    assert values[free] == pytest.approx((FIRST + SCALE)[free])
-
-
 def test_equal_changes_of_the_exposure_are_equal_ratios() -> None:
     scaled = ScaledParameters(FIRST, np.array([1]), SCALE, 0.09, GAMMA)
     ratios = [scaled.values(np.array([change]))[1] / 0.6 for change in (-3.0, 1.0, 3.0)]

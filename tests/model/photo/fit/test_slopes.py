@@ -47,47 +47,6 @@ def drawn(seed: int) -> np.ndarray:
     return np.asarray(random.uniform(low, high))
 
 
-def light_of(parameters: np.ndarray, shape: BlurShape = "normal") -> np.ndarray:
-    """Return the lit fractions of step, exposure, middle, blur and longer."""
-    step, exposure, middle, blur, longer = parameters.tolist()
-    timing = Timing(step, exposure, middle, 2.2)
-    return BlurredLight(CHIPS, COLUMNS).lit_fraction(timing, blur, longer, shape)
-
-
-@pytest.mark.parametrize("shape", SHAPES)
-@pytest.mark.parametrize("seed", range(4))
-def test_the_lights_slopes_are_limits_of_differences(shape: BlurShape, seed: int) -> None:
-    values = drawn(seed)[[0, 1, 2, 7, 8]]
-    step, exposure, middle, blur, longer = values.tolist()
-    timing = Timing(step, exposure, middle, 2.2)
-    slopes = BlurredLight(CHIPS, COLUMNS).slopes(timing, blur, longer, shape)
-    differences = central(lambda at: light_of(at, shape), values, 1e-7)
-    assert slopes.shape == (5, COLUMNS)
-    assert slopes == pytest.approx(differences, abs=1e-6 * np.abs(differences).max())
-
-
-def test_where_a_whole_period_is_seen_only_its_length_and_the_time_on_matter() -> None:
-    """All columns see as many ends of pulses; a longer exposure sees what comes next, half each."""
-    period = float(len(CHIPS))
-    timing = Timing(0.11, period, 3.3, 2.2)
-    slopes = BlurredLight(CHIPS, COLUMNS).slopes(timing, 0.8, 0.0)
-    pulses = np.count_nonzero(np.roll(CHIPS, 1) < CHIPS)
-    assert slopes[[0, 2, 3]] == pytest.approx(0.0, abs=1e-9)
-    assert slopes[4] == pytest.approx(pulses / period, abs=1e-9)
-
-
-@pytest.mark.parametrize("shape", SHAPES)
-@pytest.mark.parametrize("blur", [0.7, 1.1, 1.7])
-def test_more_blur_takes_from_the_middle_what_it_adds_around(blur: float, shape: BlurShape) -> None:
-    slope, place = kernel_slope(blur, shape), np.arange(-8, 9)
-    assert slope.sum() == pytest.approx(0.0, abs=1e-9)
-    assert slope == pytest.approx(slope[::-1], abs=1e-9)
-    assert slope[8] < 0.0
-    if shape == "normal":
-        # The variance is the square of the blur.
-        assert slope @ place**2 == pytest.approx(2.0 * blur, rel=0.02)
-
-
 def test_a_picture_that_is_sharp_stays_so_with_hardly_more_blur() -> None:
     assert not kernel_slope(0.0, "normal").any()
     assert blur_kernel(0.0) == pytest.approx(blur_kernel(0.04))
@@ -162,10 +121,7 @@ def model_of(
 
 @pytest.mark.parametrize(("brightest", "late"), [(0.5, 0.0), (1.5, 0.0), (1.5, 0.4)])
 @pytest.mark.parametrize(("gamma", "wide"), [(2.2, False), (2.2, True), (1.0, False)])
-@pytest.mark.parametrize(
-    "shape",
-    [pytest.param(one, marks=() if one == "normal" else pytest.mark.whole) for one in SHAPES],
-)
+@pytest.mark.parametrize("shape", SHAPES)
 def test_the_residuals_slopes_are_limits_of_differences(
     brightest: float, late: float, gamma: float, wide: bool, shape: BlurShape
 ) -> None:

@@ -52,13 +52,6 @@ def test_levels_have_a_parameter_for_each_six_chips_within_bounds() -> None:
     assert [level_freedom(chips) for chips in (0.0, 6.0, 23.9, 24.0, 1e6)] == [1, 1, 3, 4, 8]
 
 
-def test_an_exact_profile_is_explained_whole() -> None:
-    fit = model_of().described(TRUE, np.zeros((4, 4)))
-    assert fit.correlation == pytest.approx(1.0, abs=1e-9)
-    assert fit.residual == pytest.approx(0.0, abs=1e-3)
-    assert fit.is_possible
-
-
 def test_its_correlation_is_that_of_the_stripes_without_uneven_light() -> None:
     """Alike where nothing varies but the stripes: Pearson's coefficient."""
     flat = 40.0 + 100.0 * LIT + 12.0 * np.random.default_rng(4).normal(size=COLUMNS)
@@ -114,19 +107,6 @@ def test_light_is_fitted_as_by_a_linear_response_whose_slopes_take_differences()
     for name in ("step", "exposure", "middle"):
         assert getattr(light.timing, name) == pytest.approx(getattr(linear.timing, name), rel=1e-3)
     assert np.diag(light.covariance) == pytest.approx(np.diag(linear.covariance), rel=0.05)
-
-
-def test_the_slopes_of_light_are_limits_of_differences_where_nothing_is_left() -> None:
-    model = StripeModel(PROFILE, CHIPS, None, TRUE.step)
-    for place, name in enumerate(("step", "exposure", "middle")):
-        change = 1e-7 if name == "step" else 1e-5
-        more, less = (
-            model.levels(replace(TRUE, **{name: getattr(TRUE, name) + sign * change}))[2]
-            for sign in (1.0, -1.0)
-        )
-        slopes = model._slopes(TRUE)[:, place]
-        off = np.abs(slopes + (more - less) / (2.0 * change))
-        assert np.quantile(off, 0.95) < 1e-3 * np.abs(slopes).max()  # but at the chips' edges
 
 
 def test_stripes_that_vanish_are_taken_for_a_twentieth_of_the_highest_ones() -> None:

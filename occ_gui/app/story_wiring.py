@@ -90,7 +90,7 @@ class _SimulationNaming(QObject):
         if name != "photo":
             return
         self._photo = pane.view
-        self._story.take_photo_verdict(pane.view.verdict)
+        self._story.add_photo_verdict(pane.view.verdict)
         self._show_simulation()
         self.show()
 

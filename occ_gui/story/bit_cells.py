@@ -15,14 +15,14 @@ _PADDING = 4  # pixels of a cell that no text covers
 
 def have_room_for_marks(metrics: QFontMetrics, widths: Iterable[float]) -> bool:
     """Return whether the mark of a bit fits into each cell: a row has all of them or none."""
-    needed = max(metrics.horizontalAdvance(bit + mark) for bit in "01" for mark in _MARKS.values())
-    return all(needed <= width - _PADDING for width in widths)
+    widest = max(metrics.horizontalAdvance(bit + mark) for bit in "01" for mark in _MARKS.values())
+    return all(widest <= width - _PADDING for width in widths)
 
 
 def have_room_for_bits(metrics: QFontMetrics, widths: Iterable[float]) -> bool:
     """Return whether a digit fits into each cell: a row has all of them or none."""
-    needed = max(map(metrics.horizontalAdvance, "01"))
-    return all(needed <= width for width in widths)
+    widest = max(map(metrics.horizontalAdvance, "01"))
+    return all(widest <= width for width in widths)
 
 
 def draw_field(  # noqa: PLR0913 - what is drawn, where and how
@@ -40,9 +40,8 @@ def draw_field(  # noqa: PLR0913 - what is drawn, where and how
     """Draw a header or a bit as a rounded cell; a wrong one is crossed out.
 
     ``texts``: the bit, or what the header is called; the first text that fits is drawn.
-    ``has_text``: whether the text is drawn, the shortest one also where it hardly fits; None: where
-    it fits.
-    ``within``: the area that is seen: the text stands in the part of the cell within it.
+    ``has_text``: whether a text is drawn, even one that hardly fits; None: where it fits.
+    ``within``: the visible area; the text is centred in the part of the cell within it.
     """
     colours = colours_of(state, palette)
     inner = cell.adjusted(1, 0.5, -1, -0.5)
@@ -53,15 +52,15 @@ def draw_field(  # noqa: PLR0913 - what is drawn, where and how
     metrics = painter.fontMetrics()
     mark = _MARKS.get(state, "") if is_marked else ""
     painter.setPen(colours.ink if not is_header else palette.color(QPalette.ColorRole.Text))
-    seen = inner if within is None else inner.intersected(within)
-    room = seen.width() - _PADDING + 2
+    visible = inner if within is None else inner.intersected(within)
+    room = visible.width() - _PADDING + 2
     fitting = (
         each for each in (texts[0] + mark, *texts) if metrics.horizontalAdvance(each) <= room
     )
     text = "" if has_text is False else next(fitting, texts[-1] if has_text else "")
     if text:
-        # About the middle of what is seen, and not cut where it is as wide as its cell.
-        painter.drawText(seen.adjusted(-2, 0, 2, 0), Qt.AlignmentFlag.AlignCenter, text)
+        # Two pixels wider, so that a text as wide as its cell is not cut.
+        painter.drawText(visible.adjusted(-2, 0, 2, 0), Qt.AlignmentFlag.AlignCenter, text)
     if state is State.BAD:
         painter.setPen(QPen(colours.ink, 1.5))
         painter.drawLine(QPointF(inner.bottomLeft()), QPointF(inner.topRight()))

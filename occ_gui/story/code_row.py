@@ -23,9 +23,7 @@ from occ_model.scene.payload import PayloadPiece, compare_payload, form_of
 
 Span: TypeAlias = tuple[float, float]  # where a bit is drawn: its first and its last x
 
-_CHIPS, _BITS = 20, 22
-_GAP = 3  # pixels of the cells, and between them, in text of the usual size
-
+_CHIP_HEIGHT, _BIT_HEIGHT, _GAP = 20, 22, 3  # pixels, in text of the usual size
 
 _MISSING = "·"  # in place of a letter that was not received
 
@@ -36,62 +34,62 @@ class CodeRow(StoryRow):
     def __init__(self, axis: ColumnAxis, crosshair: Crosshair) -> None:
         super().__init__("Code", axis, crosshair)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        self._decoded: DecodeResult | None = None
-        self._sent: tuple[int, ...] = ()
-        self._drawn_from: tuple[object, ...] = ()
+        self._result: DecodeResult | None = None
+        self._sent_bits: tuple[int, ...] = ()
+        self._drawn_inputs: tuple[object, ...] = ()
         self.edges: FloatArray | None = None
         self.fields: tuple[PacketField, ...] = ()
         self.letters: tuple[PayloadPiece, ...] = ()
         self._form = ""
 
-    def show_reading(self, reading: ColumnView, decoded: DecodeResult) -> None:
+    def show_reading(self, reading: ColumnView, result: DecodeResult) -> None:
         payload = reading.scene.transmitter.payload if reading.sent else ""
-        fields = received_fields(decoded, reading.scene)
-        looks = (
-            decoded.region, decoded.failure, decoded.code, decoded.chips, decoded.bits,
-            decoded.chip_starts, decoded.headers, reading.sent, fields, payload,
+        fields = received_fields(result, reading.scene)
+        inputs = (
+            result.region, result.failure, result.code, result.chips, result.bits,
+            result.chip_starts, result.headers, reading.sent, fields, payload,
         )  # fmt: skip
-        if are_same(looks, self._drawn_from):
+        if are_same(inputs, self._drawn_inputs):
             return
-        self._drawn_from = looks
-        self._decoded, self._sent = decoded, reading.sent
-        self.edges = received_edges(decoded)
+        self._drawn_inputs = inputs
+        self._result, self._sent_bits = result, reading.sent
+        self.edges = received_edges(result)
         self.fields = fields
-        self.letters = compare_payload(payload, decoded.bits.tolist()) if decoded.bits.size else ()
+        self.letters = compare_payload(payload, result.bits.tolist()) if result.bits.size else ()
         self._form = form_of(payload)
         self.updateGeometry()
-        self.setAccessibleDescription(self._in_words())
+        self.setAccessibleDescription(self._describe())
         self.redraw()
 
-    def _in_words(self) -> str:
-        if self._decoded is None:
+    def _describe(self) -> str:
+        if self._result is None:
             return ""
-        bits = self._decoded.bits.tolist()
-        wrong = len(wrong_places(self._sent, bits))
-        return received_in_words("".join(map(str, self._sent)), "".join(map(str, bits)), wrong)
+        bits = self._result.bits.tolist()
+        wrong = len(wrong_places(self._sent_bits, bits))
+        return received_in_words("".join(map(str, self._sent_bits)), "".join(map(str, bits)), wrong)
 
     def value_of(self, bit: int) -> int | None:
-        if self._decoded is None or bit >= self._decoded.bits.size:
+        if self._result is None or bit >= self._result.bits.size:
             return None
-        return int(self._decoded.bits[bit])
+        return int(self._result.bits[bit])
 
     def state_of(self, bit: int) -> State:
-        """Compare a received bit with the sent one; neutral if it was refused."""
-        if self._decoded is None or bit >= min(len(self._sent), self._decoded.bits.size):
+        """Compare a received bit with the sent one; neutral if the decoder refused it."""
+        if self._result is None or bit >= min(len(self._sent_bits), self._result.bits.size):
             return State.NEUTRAL
-        if self._decoded.failure is not None and not self.fields:
-            return State.NEUTRAL  # that a bit is the one sent says nothing: it may be by chance
-        right = int(self._decoded.bits[bit]) == self._sent[bit]
-        return State.GOOD if right else State.BAD
+        if self._result.failure is not None and not self.fields:
+            return State.NEUTRAL  # it may equal the sent one by chance
+        is_right = int(self._result.bits[bit]) == self._sent_bits[bit]
+        return State.GOOD if is_right else State.BAD
 
-    def received_at(self, column: float) -> tuple[int | None, int | None]:
+    def find_received(self, column: float) -> tuple[int | None, int | None]:
         """Return the chip, and the index of the bit, read at a column."""
-        edges, decoded = self.edges, self._decoded
-        if edges is None or decoded is None or not edges[0] <= column < edges[-1]:
+        edges, result = self.edges, self._result
+        if edges is None or result is None or not edges[0] <= column < edges[-1]:
             return None, None
         place = int(edges.searchsorted(column, side="right")) - 1
         bits = (f.bit for f in self.fields if f.first <= place < f.last)
-        return int(decoded.chips[place]), next(bits, None)
+        return int(result.chips[place]), next(bits, None)
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         return QSize(200, self._lines()[-1][1] + 2 * _GAP)
@@ -102,34 +100,34 @@ class CodeRow(StoryRow):
     def _lines(self) -> tuple[tuple[int, int], tuple[int, int], tuple[int, int]]:
         """Return top and bottom of the chips, of the letters, if any, and of the bits."""
         metrics = self.fontMetrics()
-        bit = line_height(metrics, _BITS, 4)
-        chips = _GAP + line_height(metrics, _CHIPS)
+        bit = line_height(metrics, _BIT_HEIGHT, 4)
+        chips = _GAP + line_height(metrics, _CHIP_HEIGHT)
         letters = chips + (bit + _GAP if self.letters else 0)
         return (_GAP, chips), (chips + _GAP, letters), (letters + _GAP, letters + _GAP + bit)
 
     def draw(self, painter: QPainter, area: QRectF) -> None:
-        decoded = self._decoded
-        if decoded is None:
+        result = self._result
+        if result is None:
             return
         chips, letters, bits = (
             QRectF(area.left(), area.top() + top, area.width(), bottom - top)
             for top, bottom in self._lines()
         )
         if self.edges is None:
-            self._draw_reason(painter, chips, decoded)
-            self._draw_letters(painter, letters, self._list_bits(painter, bits, decoded))
+            self._explain_no_chips(painter, chips, result)
+            self._draw_letters(painter, letters, self._list_bits(painter, bits, result))
             return
         edges = self.xs_of(self.edges).tolist()
         cells = [
             (chip, QRectF(left + 0.5, chips.top() + 0.5, right - left - 1.0, chips.height() - 1.0))
-            for chip, left, right in zip(decoded.chips.tolist(), edges, edges[1:], strict=False)
+            for chip, left, right in zip(result.chips.tolist(), edges, edges[1:], strict=False)
             if right > area.left() and left < area.right()
         ]
         draw_chips(painter, cells, SIMULATION, self.palette(), within=area)
         if self.fields:
-            spans = self._draw_fields(painter, bits, decoded, edges)
+            spans = self._draw_fields(painter, bits, result, edges)
         else:
-            spans = self._list_bits(painter, bits, decoded)
+            spans = self._list_bits(painter, bits, result)
         self._draw_letters(painter, letters, spans)
 
     def _draw_letters(self, painter: QPainter, place: QRectF, spans: Sequence[Span]) -> None:
@@ -145,12 +143,12 @@ class CodeRow(StoryRow):
             draw_field(painter, cell, (text,), self.palette(), state=state, within=place)
 
     def _draw_fields(
-        self, painter: QPainter, place: QRectF, decoded: DecodeResult, edges: list[float]
+        self, painter: QPainter, place: QRectF, result: DecodeResult, edges: list[float]
     ) -> list[Span]:
         """Draw header and bits under their columns; return where the bits are."""
         spans = [(field.bit, edges[field.first], edges[field.last]) for field in self.fields]
         bits = [(bit, left, right) for bit, left, right in spans if bit is not None]
-        self._draw_bits(painter, place, decoded, bits)
+        self._draw_bits(painter, place, result, bits)
         for bit, left, right in spans:
             if bit is None:
                 cell = QRectF(left, place.top(), right - left, place.height())
@@ -161,7 +159,7 @@ class CodeRow(StoryRow):
         self,
         painter: QPainter,
         place: QRectF,
-        decoded: DecodeResult,
+        result: DecodeResult,
         bits: Sequence[tuple[int, float, float]],
     ) -> None:
         """Draw bits, each from one x to another; a row has all marks and digits or none."""
@@ -170,14 +168,14 @@ class CodeRow(StoryRow):
         has_text = have_room_for_bits(metrics, widths)
         for bit, left, right in bits:
             cell = QRectF(left, place.top(), right - left, place.height())
-            texts = (str(int(decoded.bits[bit])),)
+            texts = (str(int(result.bits[bit])),)
             draw_field(painter, cell, texts, self.palette(), state=self.state_of(bit),
                        is_marked=is_marked, has_text=has_text)  # fmt: skip
 
-    def _draw_reason(self, painter: QPainter, place: QRectF, decoded: DecodeResult) -> None:
-        """Explain why there are no chips: none were read, or the decoder reads whole packets."""
+    def _explain_no_chips(self, painter: QPainter, place: QRectF, result: DecodeResult) -> None:
+        """Write why there are no chips: none were read, or the decoder compares whole packets."""
         text = "No chips were read."
-        if decoded.code is not None:
+        if result.code is not None:
             text = "This decoder compares whole packets, and reads no single chips."
         self._write(painter, place, text)
 
@@ -187,23 +185,23 @@ class CodeRow(StoryRow):
 
     def list_label(self) -> str:
         """Return the label before bits that have no columns of their own."""
-        if self._decoded is not None and self._decoded.failure is not None:
+        if self._result is not None and self._result.failure is not None:
             return "not accepted:"
         return "from all packets together:"
 
-    def _list_bits(self, painter: QPainter, place: QRectF, decoded: DecodeResult) -> list[Span]:
-        """Draw bits that have no columns of their own side by side, after a label."""
-        if not decoded.bits.size:
+    def _list_bits(self, painter: QPainter, place: QRectF, result: DecodeResult) -> list[Span]:
+        """Draw bits that have no columns of their own side by side after a label."""
+        if not result.bits.size:
             self._write(painter, place, "No bits were read.")
             return []
         label = self.list_label()
         self._write(painter, place, label)
         left = place.left() + 16 + painter.fontMetrics().horizontalAdvance(label)
-        count = max(len(self._sent), decoded.bits.size)
+        count = max(len(self._sent_bits), result.bits.size)
         width = min(34.0, (place.right() - left) / count)
         spans = [(left + bit * width, left + (bit + 1) * width) for bit in range(count)]
-        bits = [(bit, *spans[bit]) for bit in range(decoded.bits.size)]
-        self._draw_bits(painter, place, decoded, bits)
+        bits = [(bit, *spans[bit]) for bit in range(result.bits.size)]
+        self._draw_bits(painter, place, result, bits)
         return spans
 
     def draw_beside(self, painter: QPainter, area: QRectF) -> None:

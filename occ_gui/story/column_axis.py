@@ -1,4 +1,4 @@
-"""Common to all rows of the story: columns in view, scales, crosshair, room for text."""
+"""Shared by the rows of the story: columns in view, scales, crosshair, width of the gutter."""
 
 import math
 from collections.abc import Sequence
@@ -17,14 +17,14 @@ GUTTER = 104  # pixels at the left of each row for its name and levels, in text 
 
 MARGIN = 12  # pixels at the right of each row
 _LEAST_SPAN = 4.0  # fewest columns in view
-_MARGIN_FRACTION = 0.5  # most empty space beside the picture, as a part of what is in view
+_MARGIN_FRACTION = 0.5  # most empty space beside the picture, as a fraction of the range in view
 
 _WIDEST_WORD = "chips"  # the widest of the words beside a row's name
 GAPS = 14  # pixels between and around a name and what stands beside it
 _LARGEST_GUTTER = 2 * GUTTER  # more would leave the columns too little room
 
 CURSOR_NAMES = ("1", "2")  # A and B are pins
-_START = (0.3, 0.6)  # where the cursors stand at first, as parts of what is in view
+_CURSOR_STARTS = (0.3, 0.6)  # as fractions of the range in view
 
 
 class ColumnAxis(QObject):
@@ -40,7 +40,7 @@ class ColumnAxis(QObject):
         super().__init__(parent)
         self.first, self.last = -0.5, 99.5
         self._home = (self.first, self.last)
-        self._ends = (self.first, self.last)
+        self._picture_range = (self.first, self.last)
         self.gutter = GUTTER  # pixels at the left of each row
         self.is_following = True
 
@@ -66,19 +66,19 @@ class ColumnAxis(QObject):
 
     def set_home(self, first: float, last: float, columns: int) -> None:
         self._home = (first, last)
-        self._ends = (-0.5, columns - 0.5)
+        self._picture_range = (-0.5, columns - 0.5)
         if self.is_following:
-            self._put(*self._home)
+            self._set(*self._home)
         else:
-            self._put(*self._within(self.first, self.last))
+            self._set(*self._clamp(self.first, self.last))
 
     def fit(self) -> None:
         self.is_following = True
-        self._put(*self._home)
+        self._set(*self._home)
 
     def zoom(self, factor: float, at: float) -> None:
         """Show ``factor`` times as many columns, with the one at ``at`` in its place."""
-        whole = (self._ends[1] - self._ends[0]) * (1.0 + _MARGIN_FRACTION)
+        whole = (self._picture_range[1] - self._picture_range[0]) * (1.0 + _MARGIN_FRACTION)
         span = min(max(self.span * factor, _LEAST_SPAN), max(whole, _LEAST_SPAN))
         fraction = (at - self.first) / self.span
         self._move(at - fraction * span, at + (1.0 - fraction) * span)
@@ -96,16 +96,16 @@ class ColumnAxis(QObject):
 
     def _move(self, first: float, last: float) -> None:
         self.is_following = False
-        self._put(*self._within(first, last))
+        self._set(*self._clamp(first, last))
 
-    def _within(self, first: float, last: float) -> tuple[float, float]:
+    def _clamp(self, first: float, last: float) -> tuple[float, float]:
         """Shift a range so that the picture stays in view."""
         beside = _MARGIN_FRACTION * (last - first)
-        low, high = self._ends[0] - beside, self._ends[1] + beside
+        low, high = self._picture_range[0] - beside, self._picture_range[1] + beside
         shift = max(low - first, 0.0) + min(high - last, 0.0)
         return first + shift, last + shift
 
-    def _put(self, first: float, last: float) -> None:
+    def _set(self, first: float, last: float) -> None:
         if (first, last) != (self.first, self.last):
             self.first, self.last = first, last
             self.changed.emit()
@@ -121,7 +121,7 @@ class MeasureCursors(QObject):
         self.columns: list[float] = []  # empty while nothing is measured
 
     def switch(self, on: bool, first: float, last: float) -> None:
-        self.columns = [first + part * (last - first) for part in _START] if on else []
+        self.columns = [first + part * (last - first) for part in _CURSOR_STARTS] if on else []
         self.changed.emit()
 
     def move(self, place: int, column: float, columns: int) -> None:
@@ -129,10 +129,10 @@ class MeasureCursors(QObject):
             self.columns[place] = min(max(column, 0.0), columns - 1.0)
             self.changed.emit()
 
-    def near(self, column: float, reach: float) -> int | None:
-        found = [(abs(each - column), place) for place, each in enumerate(self.columns)]
-        within = [pair for pair in found if pair[0] <= reach]
-        return min(within)[1] if within else None
+    def find_nearest(self, column: float, reach: float) -> int | None:
+        distances = [(abs(each - column), place) for place, each in enumerate(self.columns)]
+        distance, place = min(distances, default=(math.inf, None))
+        return place if distance <= reach else None
 
 
 class Crosshair(QObject):
@@ -144,7 +144,7 @@ class Crosshair(QObject):
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
-        self.pointed: int | None = None
+        self.mouse_column: int | None = None
         self.column: int | None = None
         self.columns = 0
         self.cursors = MeasureCursors(self)
@@ -153,15 +153,15 @@ class Crosshair(QObject):
         """Set the number of columns; choose ``first`` if none is chosen yet."""
         self.columns = columns
         self.choose(first if self.column is None else self.column)
-        if self.pointed is not None:
-            self.point_at(self.pointed)
+        if self.mouse_column is not None:
+            self.point_at(self.mouse_column)
 
     def point_at(self, column: float | None) -> None:
         nearest = None if column is None else round(column)
         if nearest is not None and not 0 <= nearest < self.columns:
             nearest = None
-        if nearest != self.pointed:
-            self.pointed = nearest
+        if nearest != self.mouse_column:
+            self.mouse_column = nearest
             self.pointed_at.emit()
 
     def choose(self, column: float) -> None:
@@ -173,23 +173,23 @@ class Crosshair(QObject):
             self.chosen.emit()
 
     @property
-    def read(self) -> int | None:
+    def shown_column(self) -> int | None:
         """The column whose values are shown: that under the mouse, else the chosen one."""
-        return self.column if self.pointed is None else self.pointed
+        return self.column if self.mouse_column is None else self.mouse_column
 
 
-def line_height(metrics: QFontMetrics, usual: int, around: int = 2) -> int:
-    """Return the height of a line of text in pixels, with ``around`` above and below it."""
-    return max(usual, metrics.height() + around)
+def line_height(metrics: QFontMetrics, usual: int, margin: int = 2) -> int:
+    """Return the height of a line of text in pixels, with a margin, and at least ``usual``."""
+    return max(usual, metrics.height() + margin)
 
 
-def gutter_of(font: QFont, names: Sequence[str]) -> int:
+def find_gutter_width(font: QFont, names: Sequence[str]) -> int:
     """Return the width in pixels of the rows' names with their levels."""
-    widest = max(needed_by(name, font) for name in names)
+    widest = max(measure_name(name, font) for name in names)
     return min(max(GUTTER, widest + GAPS), _LARGEST_GUTTER)
 
 
-def needed_by(name: str, font: QFont) -> int:
+def measure_name(name: str, font: QFont) -> int:
     """Return the width in pixels of a row's name and what stands beside it, without gaps."""
     bold = QFont(font)
     bold.setBold(True)
@@ -199,11 +199,11 @@ def needed_by(name: str, font: QFont) -> int:
 
 _HEIGHT = 18
 _TICK = 5
-_SPACING = 76  # fewest pixels from one number to the next
+_SPACING = 76  # fewest pixels between two numbers
 
 
 class Scale(QWidget):
-    """Numbers beside their columns: ``start`` at column 0, and a step from column to column."""
+    """An axis with numbers: ``start`` at column 0, and ``step`` more at each next column."""
 
     def __init__(
         self, name: str, axis: ColumnAxis, *, is_above: bool, least_step: float = 0.0

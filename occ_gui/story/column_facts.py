@@ -1,4 +1,4 @@
-"""Results of the model for the story: light, packets, threshold, readers.
+"""Results of the model for the story: light, packets, threshold, decoders.
 
 The rows draw it; they compute nothing themselves.
 """

@@ -1,4 +1,4 @@
-"""Values of one column, and what is measured between two of them."""
+"""Values of one column, and what is difference between two of them."""
 
 from dataclasses import dataclass
 
@@ -12,7 +12,7 @@ from occ_model.scene.scene import Scene
 from occ_model.scene.units import HERTZ, SECOND
 
 _MICRO = 1e6
-_MOST_CHIPS = 20_000  # chips in an exposure up to which its light is added up while the mouse moves
+_MOST_CHIPS = 20_000  # most chips in an exposure whose light is averaged while the mouse moves
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,7 +20,7 @@ class ColumnValues:
     column: int
     time: float  # when its exposure begins, in seconds
     light: float  # the light at that time, 0 to 1
-    # The mean light within its exposure, None for more chips than can be added up
+    # The mean light during its exposure; None for too many chips to average
     fraction: float | None
     level: float
     chip: int | None = None
@@ -29,21 +29,21 @@ class ColumnValues:
     state: State = State.NEUTRAL
 
 
-def values_at(
+def read_values(
     column: int, scene: Scene, light: LightRow, profile: ProfileRow, code: CodeRow
 ) -> ColumnValues | None:
-    """Read all rows at a column; None without results, or outside the picture."""
+    """Read all rows at a column; None without results or outside the picture."""
     levels = profile.levels
     if levels is None or not 0 <= column < len(levels):
         return None
     width = scene.camera.exposure_time / scene.camera.readout_time
-    now = light.light(column, column + min(width, 1.0), _MOST_CHIPS)
-    curve = light.light(column, column + width, _MOST_CHIPS)
-    chip, bit = code.received_at(column)
+    start = light.find_light(column, column + min(width, 1.0), _MOST_CHIPS)
+    curve = light.find_light(column, column + width, _MOST_CHIPS)
+    chip, bit = code.find_received(column)
     return ColumnValues(
         column=column,
         time=scene.model.start_time + column * scene.camera.readout_time,
-        light=0.0 if now is None else now.light_at(column),
+        light=0.0 if start is None else start.light_at(column),
         fraction=None if curve is None else curve.mean(column, column + width),
         level=float(levels[column]),
         chip=chip,
@@ -53,7 +53,7 @@ def values_at(
     )
 
 
-def in_words(values: ColumnValues, scene: Scene) -> str:
+def describe_values(values: ColumnValues, scene: Scene) -> str:
     parts = [f"column {values.column}", f"{values.time * _MICRO:.1f} µs", _light(values.light)]
     if values.fraction is not None:
         exposure = scene.camera.exposure_time
@@ -98,11 +98,11 @@ def measure(
     return CursorDifference(columns, time, levels, time * scene.transmitter.switching_frequency)
 
 
-def difference_in_words(measured: CursorDifference) -> str:
-    parts = [f"1 to 2: {measured.columns:.1f} columns", SECOND.format(measured.time, 4)]
-    if measured.levels is not None:
-        parts.append(f"{measured.levels:+.1f} levels")
-    parts.append(f"{measured.chips:.2f} chips")
-    if measured.time:
-        parts.append(f"as a period {HERTZ.format(1 / abs(measured.time), 4)}")
+def describe_difference(difference: CursorDifference) -> str:
+    parts = [f"1 to 2: {difference.columns:.1f} columns", SECOND.format(difference.time, 4)]
+    if difference.levels is not None:
+        parts.append(f"{difference.levels:+.1f} levels")
+    parts.append(f"{difference.chips:.2f} chips")
+    if difference.time:
+        parts.append(f"as a period {HERTZ.format(1 / abs(difference.time), 4)}")
     return "  ·  ".join(parts)

@@ -11,17 +11,17 @@ from occ_gui.widgets.building import fill
 from occ_gui.widgets.colours import pen_on
 from occ_gui.widgets.guarded_paint import guarded
 
-_SAMPLE, _GAP, _APART = 24, 6, 16
+_SWATCH, _GAP, _ENTRY_GAP = 24, 6, 16  # pixels of a line, after it, and between entries
 _SPACING = 6  # pixels between the legend and what stands beside it
 
 
 class CurveLegend(QWidget):
-    """Samples of lines with names, in lines as needed; ``usual`` keys have reserved room."""
+    """Lines with names, wrapped as needed; room is reserved for the ``usual`` keys."""
 
     def __init__(self, lines: Mapping[str, tuple[QPen, str]], usual: tuple[str, ...] = ()) -> None:
         super().__init__()
         self._lines, self._usual = dict(lines), usual
-        self.shown: tuple[str, ...] = ()
+        self.keys: tuple[str, ...] = ()
         self.note = ""
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.setAccessibleName("Curves of the profile")
@@ -30,32 +30,31 @@ class CurveLegend(QWidget):
         pen, before = self._lines[key]
         if name != before:
             self._lines[key] = (pen, name)
-            keys, note = self.shown, self.note
-            self.shown = ()
-            self.show_lines(keys, note, self.toolTip())
+            keys, self.keys = self.keys, ()
+            self.show_lines(keys, self.note, self.toolTip())
 
     def show_lines(self, keys: tuple[str, ...], note: str = "", meaning: str = "") -> None:
         """Show these entries and a remark after them, whose tooltip is its meaning."""
         self.setToolTip(meaning)
-        if (keys, note) != (self.shown, self.note):
-            self.shown, self.note = keys, note
+        if (keys, note) != (self.keys, self.note):
+            self.keys, self.note = keys, note
             texts = [self._lines[key][1] for key in keys] + ([note] if note else [])
             self.setAccessibleDescription(", ".join(texts))
-            self._take_lines()
+            self._fit_height()
             self.update()
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         super().resizeEvent(event)
-        self._take_lines()
+        self._fit_height()
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        """Lay out again in as many lines as the text's size needs."""
+        """Lay the legend out anew for the size of its text."""
         super().changeEvent(event)
-        if event.type() == QEvent.Type.FontChange and hasattr(self, "shown"):
-            self._take_lines()
+        if event.type() == QEvent.Type.FontChange and hasattr(self, "keys"):
+            self._fit_height()
 
-    def _take_lines(self) -> None:
-        # Not by Qt's height for width, which a row of several widgets does not ask for in time.
+    def _fit_height(self) -> None:
+        # Not by Qt's height for width, which a row of several widgets queries too late.
         height = self.heightForWidth(self.width())
         if height != self.height() or height != self.minimumHeight():
             self.setFixedHeight(height)
@@ -68,39 +67,40 @@ class CurveLegend(QWidget):
         return QSize(120, self.heightForWidth(self.width()))
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        return QSize(_SAMPLE, self.fontMetrics().height() + 2)
+        return QSize(_SWATCH, self.fontMetrics().height() + 2)
 
     def heightForWidth(self, width: int) -> int:  # noqa: N802 - Qt's name
-        usual = self._placed([self._width(key) for key in self._usual], width)
-        shown = self._placed(self._widths(), width)
+        usual = self._place_entries([*map(self._width, self._usual)], width)
+        shown = self._place_entries(self._widths(), width)
         lines = 1 + max((line for _, line in (*usual, *shown)), default=0)
         return lines * self.fontMetrics().height() + 2
 
     def _width(self, key: str) -> int:
-        return _SAMPLE + _GAP + self.fontMetrics().horizontalAdvance(self._lines[key][1])
+        return _SWATCH + _GAP + self.fontMetrics().horizontalAdvance(self._lines[key][1])
 
     def _widths(self) -> list[int]:
         note = [self.fontMetrics().horizontalAdvance(self.note)] if self.note else []
-        return [*map(self._width, self.shown), *note]
+        return [*map(self._width, self.keys), *note]
 
     @staticmethod
-    def _placed(widths: Sequence[int], room: int) -> list[tuple[int, int]]:
+    def _place_entries(widths: Sequence[int], room: int) -> list[tuple[int, int]]:
         """Return the left edge and the line of each entry."""
         places, left, line = list[tuple[int, int]](), 0, 0
         for width in widths:
             if left and left + width > room:
                 left, line = 0, line + 1
             places.append((left, line))
-            left += width + _APART
+            left += width + _ENTRY_GAP
         return places
 
     @guarded
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
         painter = QPainter(self)
         text = self.palette().color(QPalette.ColorRole.WindowText)
-        places, height = self._placed(self._widths(), self.width()), painter.fontMetrics().height()
+        places = self._place_entries(self._widths(), self.width())
+        height = painter.fontMetrics().height()
         top = (self.height() - height * (1 + max((line for _, line in places), default=0))) / 2
-        for (left, line), key in zip_longest(places, self.shown):
+        for (left, line), key in zip_longest(places, self.keys):
             place = QRectF(left, top + line * height, self.width() - left, height)
             name = self.note
             if key is not None:
@@ -110,14 +110,14 @@ class CurveLegend(QWidget):
                 thick.setCosmetic(False)  # as wide as the curve at any scale of the screen
                 painter.setPen(thick)
                 middle = place.center().y()
-                painter.drawLine(QPointF(left, middle), QPointF(left + _SAMPLE, middle))
-                place.setLeft(left + _SAMPLE + _GAP)
+                painter.drawLine(QPointF(left, middle), QPointF(left + _SWATCH, middle))
+                place.setLeft(left + _SWATCH + _GAP)
             painter.setPen(text)
             painter.drawText(place, Qt.AlignmentFlag.AlignVCenter, name)
 
 
 class LegendLine(QWidget):
-    """A legend, and at its right the controls of what is shown."""
+    """A legend, and the controls of what is shown at its right."""
 
     def __init__(self, legend: CurveLegend) -> None:
         super().__init__()
@@ -129,7 +129,7 @@ class LegendLine(QWidget):
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         super().resizeEvent(event)
         beside = self.contentsRect().width() - self.controls.sizeHint().width() - _SPACING
-        way = QBoxLayout.Direction
-        direction = way.LeftToRight if beside >= self._legend.widest else way.TopToBottom
+        kinds = QBoxLayout.Direction
+        direction = kinds.LeftToRight if beside >= self._legend.widest else kinds.TopToBottom
         if direction != self._layout.direction():
             self._layout.setDirection(direction)

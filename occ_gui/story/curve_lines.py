@@ -11,21 +11,20 @@ from occ_model.arrays import FloatArray
 
 DASH = (7.0, 5.0)  # pixels of a dash, and of the gap after it
 
-
 _STRAIGHT_DISTANCE = 1e-6
 """Largest distance, in pixels, of a point that counts as on the line between its neighbours."""
 
 
-def _corners(xs: FloatArray, ys: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _drop_straight_points(xs: FloatArray, ys: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Leave out the points at which a curve goes straight on, as on its flat tops."""
     before, after = np.diff(xs), np.diff(ys)
     turns = np.abs(before[:-1] * after[1:] - before[1:] * after[:-1])
     bent = turns > _STRAIGHT_DISTANCE * np.hypot(before[:-1] + before[1:], after[:-1] + after[1:])
-    kept = np.concatenate([[True], bent, [True]])
-    return xs[kept], ys[kept]
+    corners = np.concatenate([[True], bent, [True]])
+    return xs[corners], ys[corners]
 
 
-def lines_of(
+def make_lines(
     xs: FloatArray, ys: FloatArray, dash: tuple[float, float] | None = None
 ) -> list[QLineF]:
     """Return the lines from each point to the next, or the dashes along them.
@@ -35,46 +34,46 @@ def lines_of(
     """
     if len(xs) < 2:
         return []
-    xs, ys = _corners(xs, ys)
+    xs, ys = _drop_straight_points(xs, ys)
     if dash is None:
-        return _between(xs, ys)
+        return _connect(xs, ys)
     along = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(xs), np.diff(ys)))])
     period = sum(dash)
     starts = np.arange(0.0, along[-1], period)
-    # Not by np.union1d: the first call of it imports much of numpy.
+    # Not by np.union1d, whose first call imports much of numpy.
     cuts = np.sort(np.concatenate([along, starts, starts + dash[0]]))
     cuts = cuts[(cuts <= along[-1]) & (np.diff(cuts, prepend=-1.0) > 0.0)]
     x, y = np.interp(cuts, along, xs), np.interp(cuts, along, ys)
-    drawn = np.mod((cuts[:-1] + cuts[1:]) / 2, period) < dash[0]
-    ends = (x[:-1][drawn], y[:-1][drawn], x[1:][drawn], y[1:][drawn])
+    is_dash = np.mod((cuts[:-1] + cuts[1:]) / 2, period) < dash[0]
+    ends = (x[:-1][is_dash], y[:-1][is_dash], x[1:][is_dash], y[1:][is_dash])
     return list(map(QLineF, *(end.tolist() for end in ends)))
 
 
-def _between(xs: FloatArray, ys: FloatArray) -> list[QLineF]:
+def _connect(xs: FloatArray, ys: FloatArray) -> list[QLineF]:
     x, y = xs.tolist(), ys.tolist()
     return list(map(QLineF, x, y, x[1:], y[1:]))
 
 
-def envelope(
+def keep_extremes(
     positions: FloatArray, values: FloatArray, left: float, right: float, cells: int
 ) -> tuple[FloatArray, FloatArray]:
     """Reduce a curve of evenly spaced points to its extremes over the cells of a screen.
 
-    What is in view and the point beyond each end are returned; of each cell with more than two
-    points the lowest and the highest one, in their order.
+    Return the points in view and one beyond each end; of a cell with more than two points, only
+    the lowest and the highest.
     """
     first = max(int(np.searchsorted(positions, left)) - 1, 0)
     last = int(np.searchsorted(positions, right, side="right")) + 1
     positions, values = positions[first:last], values[first:last]
-    a_cell = len(values) // max(cells, 1)
-    if a_cell < 2:
+    cell_size = len(values) // max(cells, 1)
+    if cell_size < 2:
         return positions, values
-    groups = len(values) // a_cell
-    rest = groups * a_cell
-    folded = values[:rest].reshape(groups, a_cell)
+    groups = len(values) // cell_size
+    rest = groups * cell_size
+    folded = values[:rest].reshape(groups, cell_size)
     low, high = folded.argmin(axis=1), folded.argmax(axis=1)
-    starts = np.arange(groups) * a_cell
+    starts = np.arange(groups) * cell_size
     both = np.sort(np.stack([low, high], axis=1), axis=1) + starts[:, None]
-    picked = np.concatenate([[0], both.ravel(), np.arange(rest, len(values)), [len(values) - 1]])
-    picked = np.unique(picked)
-    return positions[picked], values[picked]
+    ends = np.concatenate([[0], both.ravel(), np.arange(rest, len(values)), [len(values) - 1]])
+    places = np.unique(ends)
+    return positions[places], values[places]

@@ -1,4 +1,4 @@
-"""The story in the middle of the window, declared."""
+"""Declares the story in the middle of the window."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -17,7 +17,7 @@ from occ_gui.story.story_view import StoryView
 from occ_model.receiver.decoders import decoders
 from occ_model.results.cause import Remedy
 
-_REST_MS = 250  # milliseconds from the first picture to the look for further decoders
+_REST_MS = 250  # milliseconds from the first picture to the search for plug-in decoders
 
 
 class StoryPane(PiecesPane):
@@ -33,17 +33,17 @@ class StoryPane(PiecesPane):
             view, view.choose_decoder, view.choose_picture, view.show_reading, view.show_picture,
             view.rows.show_photo_profile,
         )  # fmt: skip
-        # The stripes' picture comes later than the reading.
+        # The stripes' picture follows the reading.
         self.made_of = {view.rows: of_reading, view.rows.stripes: of_picture}
         self.verdicts = (view.verdict,)
         self._scenes = scenes
         # Looking for plug-ins takes some 40 ms: not before the first picture is painted.
         self._plugins = QTimer(self, singleShot=True)
         self._plugins.setInterval(_REST_MS)
-        self._plugins.timeout.connect(self._offer)
+        self._plugins.timeout.connect(self._offer_plugins)
         view.picture_kind.chosen.connect(self._choose_picture)
         view.decoder.chosen.connect(self.choose_decoder)
-        view.verdict.step_chosen.connect(self._take)
+        view.verdict.step_chosen.connect(self._take_step)
         once = Qt.ConnectionType.SingleShotConnection
         simulation.snapshot_shown.connect(self._plugins.start, once)
         simulation.failed.connect(view.verdict.show_failure)
@@ -52,8 +52,8 @@ class StoryPane(PiecesPane):
     def stop(self) -> None:
         self._plugins.stop()
 
-    def _offer(self) -> None:
-        self.view.offer(decoders())
+    def _offer_plugins(self) -> None:
+        self.view.offer_decoders(decoders())
 
     def choose_decoder(self, name: str) -> None:
         store = self._scenes.store
@@ -63,7 +63,7 @@ class StoryPane(PiecesPane):
         store, is_enhanced = self._scenes.store, picture_kind == "receiver"
         store.put(replace(store.workspace, picture_kind=picture_kind, is_enhanced=is_enhanced))
 
-    def _take(self, step: Remedy) -> None:
+    def _take_step(self, step: Remedy) -> None:
         if step.decoder:
             self.choose_decoder(step.decoder)
         else:
@@ -73,12 +73,12 @@ class StoryPane(PiecesPane):
 def story(
     scenes: SceneStore, simulation: SimulationController, picture: QWidget, decoders: Sequence[str]
 ) -> Feature[Any]:
-    """Declare the pane; it has a place for the whole picture."""
+    """Declare the pane, which shows ``picture`` in place of its rows."""
 
     def part(workspace: Workspace, results: Results) -> tuple[object, ...]:
         # A photo's profile is drawn where both are enhanced, or neither is.
-        agree = workspace.is_enhanced == (workspace.picture_kind == "receiver")
-        photo = results.photo_profile if agree else None
+        is_alike = workspace.is_enhanced == (workspace.picture_kind == "receiver")
+        photo = results.photo_profile if is_alike else None
         return workspace.decoder, workspace.picture_kind, results.reading, results.picture, photo
 
     return Feature(

@@ -9,7 +9,7 @@ from occ_gui.simulation.snapshot import ColumnView
 from occ_gui.story.bit_cells import HEADER, draw_field, have_room_for_bits
 from occ_gui.story.column_axis import LEFT, RIGHT, ColumnAxis, Crosshair, line_height
 from occ_gui.story.column_facts import PacketField, light_over_columns, packet_fields
-from occ_gui.story.curve_lines import lines_of
+from occ_gui.story.curve_lines import make_lines
 from occ_gui.story.story_row import StoryRow
 from occ_gui.widgets.chip_cell import draw_digits, have_room_for_digits
 from occ_gui.widgets.state_look import is_dark
@@ -30,8 +30,8 @@ _LEAST_CHIP = 1.5  # fewest pixels of a chip that is drawn
 
 _LEAST_FOR_DIGIT = 9
 
-_MOST_LETTERS = 60  # letters of a payload that is described in words
-_GRIP = 6  # pixels beside the window that still belong to it
+_MOST_LETTERS = 60  # letters of a payload in its description
+_GRIP = 6  # pixels beside the window in which the mouse still grabs it
 
 
 class LightRow(StoryRow):
@@ -50,31 +50,31 @@ class LightRow(StoryRow):
             "it, click, or use the arrow keys."
         )
         self._scene: Scene | None = None
-        self._drawn_from: tuple[object, ...] = ()
-        self._edged = False
-        self._sent: tuple[int, ...] = ()
+        self._drawn_inputs: tuple[object, ...] = ()
+        self._has_edges = False
+        self._sent_bits: tuple[int, ...] = ()
         self.letters: tuple[PayloadPiece, ...] = ()
-        self._grabbed: float | None = None
+        self._grab_offset: float | None = None
 
     def show_reading(self, reading: ColumnView) -> None:
         if reading.scene != self._scene:
             self.update()  # the window, at least
-        self._scene, self._sent = reading.scene, reading.sent
-        self.letters = compare_payload(reading.scene.transmitter.payload, self._sent)
-        self._edged = reading.has_edges
-        drawn = (
+        self._scene, self._sent_bits = reading.scene, reading.sent
+        self.letters = compare_payload(reading.scene.transmitter.payload, self._sent_bits)
+        self._has_edges = reading.has_edges
+        inputs = (
             self._scene.transmitter, self._scene.camera.readout_time,
-            self._scene.model.start_time, self._edged, self._sent,
+            self._scene.model.start_time, self._has_edges, self._sent_bits,
         )  # fmt: skip
-        if drawn != self._drawn_from:  # at other exposures the same light is seen
-            self._drawn_from = drawn
+        if inputs != self._drawn_inputs:  # an exposure time changes only the window
+            self._drawn_inputs = inputs
             self.redraw()
 
-    def light(self, first: float, last: float, most: int) -> LightCurve | None:
-        """Return the light from one column to another, None for more chips than ``most``."""
+    def find_light(self, first: float, last: float, most: int) -> LightCurve | None:
+        """Return the light between two columns; None for more chips than ``most``."""
         if self._scene is None:
             return None
-        return light_over_columns(self._scene, first, last, most, self._edged)
+        return light_over_columns(self._scene, first, last, most, self._has_edges)
 
     def exposure_window(self) -> tuple[float, float] | None:
         """Return the columns at which the chosen column's exposure begins and ends."""
@@ -98,9 +98,10 @@ class LightRow(StoryRow):
         if self._scene is None:
             return
         light = self._light_area(area)
-        curve = self.light(self.axis.first, self.axis.last, round(area.width() / _LEAST_CHIP))
+        most = round(area.width() / _LEAST_CHIP)
+        curve = self.find_light(self.axis.first, self.axis.last, most)
         if curve is None:
-            self._say_too_fast(painter, light)
+            self._write_too_fast(painter, light)
             return
         edges = self.xs_of(curve.edges).tolist()
         cells = [
@@ -111,9 +112,9 @@ class LightRow(StoryRow):
         xs = self.xs_of(curve.columns)
         ys = light.bottom() - curve.light * light.height()
         painter.setPen(QPen(self.colour(QPalette.ColorRole.Text), 1.5))
-        # Upright and level lines are sharper on whole pixels.
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing, self._edged)
-        painter.drawLines(lines_of(xs, ys))
+        # Upright and level lines are sharper without antialiasing.
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing, self._has_edges)
+        painter.drawLines(make_lines(xs, ys))
         if have_room_for_digits(cells):
             draw_digits(painter, cells, light)
         if light.bottom() < area.bottom() - self._strip_height():
@@ -126,9 +127,9 @@ class LightRow(StoryRow):
         curve: LightCurve,
         cells: Sequence[tuple[int, QRectF]],
     ) -> None:
-        """Fill what lies below the light: a rectangle for each chip, or what edges leave of it."""
+        """Fill the area below the light: a rectangle for each chip, or one polygon with edges."""
         glow = _GLOW[is_dark(self.palette())]
-        if not self._edged:
+        if not self._has_edges:
             for chip, cell in cells:
                 if chip:
                     painter.fillRect(cell, glow)
@@ -141,14 +142,14 @@ class LightRow(StoryRow):
         painter.setBrush(glow)
         painter.drawPolygon(QPolygonF(below))
 
-    def _say_too_fast(self, painter: QPainter, light: QRectF) -> None:
+    def _write_too_fast(self, painter: QPainter, light: QRectF) -> None:
         painter.fillRect(light, _GLOW[is_dark(self.palette())])
         painter.setPen(self.colour(QPalette.ColorRole.Text))
         text = "The LED switches faster than this view can show: zoom in."
         painter.drawText(light, Qt.AlignmentFlag.AlignCenter, text)
 
     def _draw_fields(self, painter: QPainter, area: QRectF, curve: LightCurve) -> None:
-        """Draw header and bits of each packet in view under the chips that carry them."""
+        """Draw header and bits of each packet in view under their chips."""
         if self._scene is None:
             return
         fields = packet_fields(self._scene)
@@ -156,10 +157,10 @@ class LightRow(StoryRow):
         step = float(edges[1] - edges[0])
         chips_a_bit = fields[-1].last - fields[-1].first if fields else 0
         if chips_a_bit * step < _LEAST_FOR_DIGIT:
-            self._say_sent(painter, area)
+            self._write_sent(painter, area)
             return
         length = fields[-1].last
-        # Of each packet in view, also the one that begins before it, the x of its first chip.
+        # The x of each packet's first chip, from the packet that the left edge cuts.
         start = float(edges[0]) - int(curve.places[0]) * step
         while start < area.right():
             self._draw_packet(painter, area, fields, start, step)
@@ -180,7 +181,7 @@ class LightRow(StoryRow):
         has_text = have_room_for_bits(painter.fontMetrics(), [width]) or None
         cells = [
             (HEADER, header, header, low),
-            *(((str(self._sent[bit]),), field, field, low) for bit, field in enumerate(bits)),
+            *(((str(self._sent_bits[bit]),), field, field, low) for bit, field in enumerate(bits)),
             *(
                 ((piece.sent,), bits[piece.first], bits[piece.last - 1], low - line)
                 for piece in self.letters
@@ -194,12 +195,12 @@ class LightRow(StoryRow):
                 draw_field(painter, cell, texts, self.palette(), is_header=first is header,
                            has_text=has_text if top == low else None, within=area)  # fmt: skip
 
-    def _say_sent(self, painter: QPainter, area: QRectF) -> None:
+    def _write_sent(self, painter: QPainter, area: QRectF) -> None:
         place = area.adjusted(8, area.height() - self._strip_height(), 0, 0)
         painter.setPen(self.colour(QPalette.ColorRole.Text))
-        painter.drawText(place, LEFT, self.sent_in_words())
+        painter.drawText(place, LEFT, self.describe_sent())
 
-    def sent_in_words(self) -> str:
+    def describe_sent(self) -> str:
         if self._scene is None:
             return ""
         sent = self._scene.transmitter
@@ -208,7 +209,7 @@ class LightRow(StoryRow):
         what = f"code {sent.code}"
         if sent.payload:
             what = f"“{one_line(sent.payload.partition(':')[2], _MOST_LETTERS)}”"
-        return f"{what}, {counted(len(self._sent), 'bit')}"
+        return f"{what}, {counted(len(self._sent_bits), 'bit')}"
 
     def draw_beside(self, painter: QPainter, area: QRectF) -> None:
         light = self._light_area(area)
@@ -237,13 +238,13 @@ class LightRow(StoryRow):
         painter.setPen(QPen(accent, 2))
         painter.setBrush(Qt.BrushStyle.NoBrush)
         painter.drawRect(place)
-        self._name_window(painter, place, SECOND.format(scene.camera.exposure_time, 4))
+        self._label_window(painter, place, SECOND.format(scene.camera.exposure_time, 4))
 
     def _hatch(self, painter: QPainter, light: QRectF, window: tuple[float, float]) -> None:
         most = round(light.width() / _LEAST_CHIP)
         first = max(window[0], self.axis.first)
         last = min(window[1], self.axis.last)
-        curve = self.light(first, last, most) if first < last else None
+        curve = self.find_light(first, last, most) if first < last else None
         if curve is None:
             return
         painter.setPen(Qt.PenStyle.NoPen)
@@ -257,7 +258,7 @@ class LightRow(StoryRow):
             if chip:
                 painter.drawRect(QRectF(left, light.top(), right - left, light.height()))
 
-    def _name_window(self, painter: QPainter, place: QRectF, text: str) -> None:
+    def _label_window(self, painter: QPainter, place: QRectF, text: str) -> None:
         width = painter.fontMetrics().horizontalAdvance(text) + 8
         area = self.plot_area()
         label = QRectF(place.center().x() - width / 2, area.top(), width, self._label_height())
@@ -281,7 +282,7 @@ class LightRow(StoryRow):
         super().mousePressEvent(event)
         place, column = event.position(), self.crosshair.column
         if event.button() == Qt.MouseButton.LeftButton and self._is_on_window(place):
-            self._grabbed = None if column is None else self.column_at(place.x()) - column
+            self._grab_offset = None if column is None else self.column_at(place.x()) - column
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
         super().mouseMoveEvent(event)
@@ -292,17 +293,17 @@ class LightRow(StoryRow):
                 self.unsetCursor()
 
     def drag_to(self, place: QPointF) -> None:
-        """Move the window to another column, or all columns where it was not grabbed."""
-        if self._grabbed is None:
+        """Move the window to another column; pan where it was not grabbed."""
+        if self._grab_offset is None:
             super().drag_to(place)
-        elif self.moved_from_press(place):
-            self.crosshair.choose(self.column_at(place.x()) - self._grabbed)
+        elif self.is_drag(place):
+            self.crosshair.choose(self.column_at(place.x()) - self._grab_offset)
             self.window_dragged.emit()
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
         super().mouseReleaseEvent(event)
-        self._grabbed = None
+        self._grab_offset = None
 
     def click(self, place: QPointF) -> None:
-        if self._grabbed is None:
+        if self._grab_offset is None:
             super().click(place)

@@ -10,7 +10,7 @@ from PySide6.QtGui import QColor, QPainter, QPalette, QPen
 from occ_gui.simulation.snapshot import ColumnView
 from occ_gui.story.column_axis import RIGHT, ColumnAxis, Crosshair
 from occ_gui.story.column_facts import threshold_levels
-from occ_gui.story.curve_lines import DASH, envelope, lines_of
+from occ_gui.story.curve_lines import DASH, keep_extremes, make_lines
 from occ_gui.story.story_row import StoryRow
 from occ_gui.values.photo_results import PhotoProfile
 from occ_gui.widgets.colours import BAND, PHOTO, SIMULATION, THRESHOLD, lighten_for, mix_colours
@@ -22,17 +22,17 @@ _Level = TypeVar("_Level", float, FloatArray)  # one, or one for each column
 
 _LEAST_HEIGHT = 56
 _STEPS = (10.0, 20.0, 50.0, 100.0)
-_LEAST_SPACING = 26  # fewest pixels between two numbers of the levels
+_LEAST_SPACING = 26  # fewest pixels between two numbers on the axis
 
-_ROUNDED = 20.0
+_TOP_STEP = 20.0
 """The largest level is rounded up to a multiple of this, so that the axis rarely changes."""
 
-_GRID = 38
+_GRID_ALPHA = 38
 _SHADE = 22 / 255
-"""Fraction of the text's colour in that of the columns that the decoder does not read."""
+"""Fraction of the text's colour in the shade over columns that the decoder does not read."""
 
 _WIDTH, _THIN = 2.0, 1.2
-_CROWDED_COLUMNS = 2  # columns a pixel of the screen from which a curve is drawn thinner
+_CROWDED_COLUMNS = 2  # columns per screen pixel above which a curve is thinner
 
 
 class ProfileRow(StoryRow):
@@ -42,25 +42,25 @@ class ProfileRow(StoryRow):
         super().__init__("Profile", axis, crosshair)
         self.setMinimumHeight(_LEAST_HEIGHT)
         self._reading: ColumnView | None = None
-        self._decoded: DecodeResult | None = None
+        self._result: DecodeResult | None = None
         self._photo: PhotoProfile | None = None
         self._picture_kind = "camera"
-        self._drawn_from: tuple[object, ...] = ()
+        self._drawn_inputs: tuple[object, ...] = ()
         self._top = 255.0
         self.threshold: tuple[float, float] | None = None
         """The levels between which the decoder's threshold lies; None if it has none."""
 
-    def show_reading(self, reading: ColumnView, decoded: DecodeResult) -> None:
-        self._reading, self._decoded = reading, decoded
-        self._fit()
+    def show_reading(self, reading: ColumnView, result: DecodeResult) -> None:
+        self._reading, self._result = reading, result
+        self._update()
 
     def show_photo(self, photo: PhotoProfile | None) -> None:
         self._photo = photo
-        self._fit()
+        self._update()
 
     def choose_picture(self, picture_kind: str) -> None:
         self._picture_kind = picture_kind
-        self._fit()
+        self._update()
 
     @property
     def levels(self) -> FloatArray | None:
@@ -86,33 +86,33 @@ class ProfileRow(StoryRow):
         return photo.comparison.first_column + np.arange(len(levels), dtype=np.float64), levels
 
     @property
-    def photo_is_fitted(self) -> bool:
+    def is_photo_fitted(self) -> bool:
         """Whether the photo is drawn with the mean and the contrast of the simulation."""
         return self._photo is not None and self._photo.comparison is not None
 
     def _find_threshold(self) -> tuple[float, float] | None:
         """Place the decoder's threshold among the levels that are shown."""
-        levels, decoded = self.levels, self._decoded
-        if levels is None or decoded is None or decoded.threshold is None:
+        levels, result = self.levels, self._result
+        if levels is None or result is None or result.threshold is None:
             return None
-        found = threshold_levels(levels, decoded)
-        if found is None or self._picture_kind == "camera":
-            return found
-        return decoded.threshold, decoded.threshold
+        threshold = threshold_levels(levels, result)
+        if threshold is None or self._picture_kind == "camera":
+            return threshold
+        return result.threshold, result.threshold
 
-    def _fit(self) -> None:
-        """Show from black to the largest level."""
-        # Once for a reading: the legend and each drawing ask for it.
+    def _update(self) -> None:
+        """Find the threshold, scale the axis to the largest level, and redraw what has changed."""
+        # Computed once: the legend and each redraw use it.
         self.threshold = self._find_threshold()
         photo = self.photo
         curves = (self.levels, self.band, None if photo is None else photo[1])
         largest = max((float(curve.max()) for curve in curves if curve is not None), default=0.0)
-        self._top = max(_ROUNDED, math.ceil(largest / _ROUNDED) * _ROUNDED)
-        region = None if self._decoded is None else self._decoded.region
-        drawn = (*curves, self.threshold, region, self._photo)
-        # A picture mostly shows what was read before it.
-        if not are_same(drawn, self._drawn_from):
-            self._drawn_from = drawn
+        self._top = max(_TOP_STEP, math.ceil(largest / _TOP_STEP) * _TOP_STEP)
+        region = None if self._result is None else self._result.region
+        inputs = (*curves, self.threshold, region, self._photo)
+        # The results from the picture mostly equal the early ones.
+        if not are_same(inputs, self._drawn_inputs):
+            self._drawn_inputs = inputs
             self.redraw()
 
     def y_of(self, level: _Level, area: QRectF) -> _Level:
@@ -128,9 +128,9 @@ class ProfileRow(StoryRow):
         self._draw_threshold(painter, area)
         columns = np.arange(len(levels), dtype=np.float64)
         self._draw_curve(painter, area, columns, levels, SIMULATION)
-        if self.band is not None:  # its dashes above, so that both are seen where they agree
+        if self.band is not None:  # drawn above it, so that both are visible where they agree
             self._draw_curve(painter, area, columns, self.band, BAND, dash=DASH)
-        if self.photo is not None:  # and thinner
+        if self.photo is not None:  # above both, and thinner
             self._draw_curve(painter, area, *self.photo, PHOTO, width=_THIN)
 
     def _draw_curve(
@@ -145,20 +145,20 @@ class ProfileRow(StoryRow):
         width: float = _WIDTH,
     ) -> None:
         cells = round(area.width() * self.devicePixelRatioF())
-        crowded = self.axis.span > _CROWDED_COLUMNS * cells
-        columns, levels = envelope(columns, levels, self.axis.first, self.axis.last, cells)
+        is_crowded = self.axis.span > _CROWDED_COLUMNS * cells
+        columns, levels = keep_extremes(columns, levels, self.axis.first, self.axis.last, cells)
         if len(columns) < 2:
             return
         xs, ys = self.xs_of(columns), self.y_of(levels, area)
-        pen = QPen(lighten_for(self.palette(), colour), _THIN if crowded else width)
+        pen = QPen(lighten_for(self.palette(), colour), _THIN if is_crowded else width)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         if dash is not None:
             pen.setCapStyle(Qt.PenCapStyle.FlatCap)
         painter.setPen(pen)
-        painter.drawLines(lines_of(xs, ys, dash))
+        painter.drawLines(make_lines(xs, ys, dash))
 
     def _shade_outside(self, painter: QPainter, area: QRectF) -> None:
-        region = None if self._decoded is None else self._decoded.region
+        region = None if self._result is None else self._result.region
         if region is None:
             return
         ink, paper = self.colour(QPalette.ColorRole.Text), self.colour(QPalette.ColorRole.Base)
@@ -175,7 +175,7 @@ class ProfileRow(StoryRow):
 
     def _draw_grid(self, painter: QPainter, area: QRectF) -> None:
         faint = QColor(self.colour(QPalette.ColorRole.Text))
-        faint.setAlpha(_GRID)
+        faint.setAlpha(_GRID_ALPHA)
         painter.setPen(QPen(faint, 1))
         for level in self._ticks(area):
             y = round(self.y_of(level, area)) + 0.5
@@ -200,7 +200,7 @@ class ProfileRow(StoryRow):
             place = QRectF(0, self.y_of(level, area) - 8, area.left() - 6, 16)
             painter.drawText(place, RIGHT, f"{level:g}")
 
-    def draw_pointed(self, painter: QPainter, column: int, area: QRectF) -> None:
+    def draw_value_mark(self, painter: QPainter, column: int, area: QRectF) -> None:
         levels = self.levels
         if levels is None or not 0 <= column < len(levels):
             return

@@ -17,20 +17,20 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from occ_gui.story.column_axis import CURSOR_NAMES, GAPS, ColumnAxis, Crosshair, needed_by
+from occ_gui.story.column_axis import CURSOR_NAMES, GAPS, ColumnAxis, Crosshair, measure_name
 from occ_gui.widgets.columns import KEY_STEPS
 from occ_gui.widgets.guarded_paint import guarded
 from occ_model.arrays import FloatArray
 
 _ZOOMS = {Qt.Key.Key_Plus: 0.8, Qt.Key.Key_Equal: 0.8, Qt.Key.Key_Minus: 1.25}
 
-_NOTCH = 120
-_A_NOTCH = 0.85
+_NOTCH = 120  # of Qt's units of a wheel's angle
+_ZOOM_A_NOTCH = 0.85
 
-_GRIP = 6  # pixels from a measuring cursor within which the mouse takes it
+_GRIP = 6  # pixels from a measuring cursor within which the mouse grabs it
 
 _MOST_FITS = 4
-"""Times that a font is made smaller: letters are as wide as whole pixels, not as the size says."""
+"""Most reductions of a font: widths are rounded to pixels, so that one may not suffice."""
 
 _CLICK = 4  # most pixels between press and release of a click
 
@@ -38,19 +38,18 @@ _CLICK = 4  # most pixels between press and release of a click
 class StoryRow(QWidget):
     """One of the rows, with its name at the left.
 
-    What depends on the results and the range is drawn once and kept; the crosshair is drawn over
-    it.
+    What depends on the results and the range is cached in a pixmap; the crosshair is drawn over it.
     """
 
     def __init__(self, name: str, axis: ColumnAxis, crosshair: Crosshair) -> None:
         super().__init__()
         self.name = name
         self.axis, self.crosshair = axis, crosshair
-        self._drawn: QPixmap | None = None
+        self._pixmap: QPixmap | None = None
         self._is_drawn = False
         self._press: QPointF | None = None
         self._last: QPointF | None = None
-        self._held: int | None = None
+        self._grabbed_cursor: int | None = None
         self.setAccessibleName(name)
         self.setMouseTracking(True)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
@@ -86,10 +85,10 @@ class StoryRow(QWidget):
         """Draw what stands at the left of the area, beside the row's name."""
 
     def draw_markers(self, painter: QPainter, area: QRectF) -> None:
-        """Draw what follows the chosen column."""
+        """Draw the marks of the chosen column."""
 
-    def draw_pointed(self, painter: QPainter, column: int, area: QRectF) -> None:
-        """Draw what follows the column that is read out."""
+    def draw_value_mark(self, painter: QPainter, column: int, area: QRectF) -> None:
+        """Draw the mark of the column whose values are shown."""
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         super().resizeEvent(event)
@@ -103,30 +102,29 @@ class StoryRow(QWidget):
     @guarded
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
         ratio = self.devicePixelRatioF()
-        if self._drawn is None or not self._is_drawn or self._drawn.devicePixelRatioF() != ratio:
-            self._drawn, self._is_drawn = self._picture(ratio), True
+        if self._pixmap is None or not self._is_drawn or self._pixmap.devicePixelRatioF() != ratio:
+            self._pixmap, self._is_drawn = self._draw_pixmap(ratio), True
         painter = QPainter(self)
-        painter.drawPixmap(QPoint(0, 0), self._drawn)
+        painter.drawPixmap(QPoint(0, 0), self._pixmap)
         area = self.plot_area()
         painter.setClipRect(area)
-        read = self.crosshair.read
         if self.crosshair.column is not None:
             self._draw_line(painter, self.crosshair.column, area, Qt.PenStyle.SolidLine)
-        if self.crosshair.pointed is not None:
-            self._draw_line(painter, self.crosshair.pointed, area, Qt.PenStyle.DashLine)
+        if self.crosshair.mouse_column is not None:
+            self._draw_line(painter, self.crosshair.mouse_column, area, Qt.PenStyle.DashLine)
         self.draw_markers(painter, area)
         self._draw_cursors(painter, area)
-        if read is not None:
-            self.draw_pointed(painter, read, area)
+        if self.crosshair.shown_column is not None:
+            self.draw_value_mark(painter, self.crosshair.shown_column, area)
         painter.setClipping(False)
         if self.hasFocus():
             painter.setPen(QPen(self.colour(QPalette.ColorRole.Highlight), 2))
             painter.setBrush(Qt.BrushStyle.NoBrush)
             painter.drawRect(area.adjusted(1, 1, -1, -1))
 
-    def _picture(self, ratio: float) -> QPixmap:
-        size, picture = self.size() * ratio, self._drawn
-        if picture is None or picture.size() != size:  # memory that is used again is there at once
+    def _draw_pixmap(self, ratio: float) -> QPixmap:
+        size, picture = self.size() * ratio, self._pixmap
+        if picture is None or picture.size() != size:  # reused memory needs no allocation
             picture = QPixmap(size)
         picture.setDevicePixelRatio(ratio)
         picture.fill(self.colour(QPalette.ColorRole.Window))
@@ -148,7 +146,7 @@ class StoryRow(QWidget):
         """Return the row's font, smaller where its name would touch its levels."""
         font, room = QFont(self.font()), self.axis.gutter - GAPS
         for _ in range(_MOST_FITS):
-            needed = needed_by(self.name, font)
+            needed = measure_name(self.name, font)
             if needed <= room or font.pointSizeF() <= 0.0:
                 break
             font.setPointSizeF(font.pointSizeF() * room / needed)
@@ -191,7 +189,7 @@ class StoryRow(QWidget):
 
     def _cursor_at(self, x: float) -> int | None:
         reach = _GRIP * self.axis.span / self.axis.plot_width(self.width())
-        return self.crosshair.cursors.near(self.column_at(x), reach)
+        return self.crosshair.cursors.find_nearest(self.column_at(x), reach)
 
     def colour(self, role: QPalette.ColorRole) -> QColor:
         return self.palette().color(role)
@@ -199,49 +197,49 @@ class StoryRow(QWidget):
     # The mouse and the keys.
 
     def wheelEvent(self, event: QWheelEvent) -> None:  # noqa: N802 - Qt's name
-        """Zoom at the mouse; with Shift or a wheel to the side, move."""
+        """Zoom at the mouse; with Shift or a sideways wheel, pan."""
         delta = event.angleDelta()
         sideways = delta.x() if delta.x() else delta.y()
         if delta.x() or event.modifiers() & Qt.KeyboardModifier.ShiftModifier:
             self.axis.pan(-sideways / _NOTCH * self.axis.span / 10)
         else:
             at = self.column_at(event.position().x())
-            self.axis.zoom(_A_NOTCH ** (delta.y() / _NOTCH), at)
+            self.axis.zoom(_ZOOM_A_NOTCH ** (delta.y() / _NOTCH), at)
         event.accept()
 
     def mousePressEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
         if event.button() == Qt.MouseButton.LeftButton:
-            self._held = self._cursor_at(event.position().x())
+            self._grabbed_cursor = self._cursor_at(event.position().x())
             self._press = self._last = event.position()
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
         place = event.position()
-        inside = self.plot_area().contains(place)
-        if self._held is not None:
+        if self._grabbed_cursor is not None:
             column = self.column_at(place.x())
-            self.crosshair.cursors.move(self._held, column, self.crosshair.columns)
+            self.crosshair.cursors.move(self._grabbed_cursor, column, self.crosshair.columns)
         elif self._last is not None:
             self.drag_to(place)
             self._last = place
+        inside = self.plot_area().contains(place)
         self.crosshair.point_at(self.column_at(place.x()) if inside else None)
 
     def drag_to(self, place: QPointF) -> None:
-        if self._last is not None and self.moved_from_press(place):
+        if self._last is not None and self.is_drag(place):
             columns = self.column_at(self._last.x()) - self.column_at(place.x())
             self.axis.pan(columns)
             self.setCursor(Qt.CursorShape.ClosedHandCursor)
 
-    def moved_from_press(self, place: QPointF) -> bool:
+    def is_drag(self, place: QPointF) -> bool:
         return self._press is not None and (place - self._press).manhattanLength() > _CLICK
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
         if event.button() != Qt.MouseButton.LeftButton or self._press is None:
             return
         place = event.position()
-        is_click = self._held is None and not self.moved_from_press(place)
+        is_click = self._grabbed_cursor is None and not self.is_drag(place)
         if is_click and self.plot_area().contains(place):
             self.click(place)
-        self._press = self._last = self._held = None
+        self._press = self._last = self._grabbed_cursor = None
         self.unsetCursor()
 
     def click(self, place: QPointF) -> None:

@@ -7,13 +7,13 @@ from occ_gui.simulation.band_drift import drift_of, what_is_compared, why_it_dri
 from occ_gui.simulation.snapshot import ColumnView, Picture, PictureView
 from occ_gui.simulation.verdict import result_of
 from occ_gui.story.code_row import CodeRow
-from occ_gui.story.column_axis import MARGIN, ColumnAxis, Crosshair, Scale, gutter_of
+from occ_gui.story.column_axis import MARGIN, ColumnAxis, Crosshair, Scale, find_gutter_width
 from occ_gui.story.column_values import (
     ColumnValues,
-    difference_in_words,
-    in_words,
+    describe_difference,
+    describe_values,
     measure,
-    values_at,
+    read_values,
 )
 from occ_gui.story.curve_legend import CurveLegend, LegendLine
 from occ_gui.story.light_row import LightRow
@@ -30,7 +30,7 @@ RANGES = ("packets", "panel")
 """What is in view until the user moves the columns: the first packets, or the whole panel."""
 
 _MICRO = 1e6
-_MARGIN_FRACTION = 0.01  # space beside the range, as a part of it
+_MARGIN_FRACTION = 0.01  # space beside the range, as a fraction of it
 
 
 class StoryRows(QWidget):
@@ -49,7 +49,7 @@ class StoryRows(QWidget):
         self._decoder = PAPER_DECODER
         self._picture_kind = PICTURES[0]
         self.range = RANGES[0]
-        self._held: float | None = None
+        self._span: float | None = None
         self.ranges: dict[str, QPushButton] = {}  # buttons that choose the range, of RANGES
         for name in RANGES:
             self.ranges[name] = button = push_button(
@@ -57,10 +57,10 @@ class StoryRows(QWidget):
                 "Show all columns of the panel, and follow it.",
                 lambda _=False, name=name: self.choose_range(name),
             )
-            button.setParent(self)  # until they have their place: they would outlive the rows
+            button.setParent(self)  # owned until laid out elsewhere: it would outlive the rows
             button.setCheckable(True)
         self._mark_range()
-        self._name_first(has_packets=True)
+        self._label_range(has_packets=True)
         self.time = Scale("time (µs)", self.axis, is_above=True)
         self.columns = Scale("column", self.axis, is_above=False, least_step=1.0)
         self.light = LightRow(self.axis, self.crosshair)
@@ -92,34 +92,34 @@ class StoryRows(QWidget):
         )
         part = LegendLine(self.legend)
         part.setContentsMargins(self.axis.gutter, 0, MARGIN, 0)
-        self._line_of_legend = part
+        self._legend_row = part
         self.controls = part.controls
         return part
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        """Reserve as much room for the rows' names as text of another size needs."""
+        """Fit the gutter to the size of the text."""
         super().changeEvent(event)
-        if event.type() == QEvent.Type.FontChange and hasattr(self, "_line_of_legend"):
-            self._leave_room()
+        if event.type() == QEvent.Type.FontChange and hasattr(self, "_legend_row"):
+            self._reserve_gutter()
 
-    def _leave_room(self) -> None:
+    def _reserve_gutter(self) -> None:
         names = [row.name for row in (self.light, self.stripes, self.profile, self.code)]
-        self.axis.set_gutter(gutter_of(self.font(), names))
-        self._line_of_legend.setContentsMargins(self.axis.gutter, 0, MARGIN, 0)
+        self.axis.set_gutter(find_gutter_width(self.font(), names))
+        self._legend_row.setContentsMargins(self.axis.gutter, 0, MARGIN, 0)
         for part in (self.time, self.columns, self.code):
             part.updateGeometry()
 
     def _show_legend(self) -> None:
         profile = self.profile
-        found = {  # the band model last: the remark is on it
+        curves = {  # the band model last: the remark is on it
             "simulation": profile.levels,
-            "fitted" if profile.photo_is_fitted else "photo": profile.photo,
+            "fitted" if profile.is_photo_fitted else "photo": profile.photo,
             "threshold": profile.threshold, "band": profile.band,
         }  # fmt: skip
         undefined = "" if self._reading is None else self._reading.band_undefined
         drift = "" if self._reading is None else drift_of(self._reading)
         note = "no band model here" if undefined else drift
-        keys = tuple(key for key, value in found.items() if value is not None)
+        keys = tuple(key for key, curve in curves.items() if curve is not None)
         if undefined or profile.band is None:
             why = undefined
         else:
@@ -131,18 +131,18 @@ class StoryRows(QWidget):
         self.stripes.show_picture(picture.seen_by(self._picture_kind))
 
     def show_reading(self, reading: ColumnView) -> None:
-        was_seen = self._sees_chosen()
+        was_visible = self._is_choice_visible()
         self._reading = reading
         scene = reading.scene
         self.time.count_from(_MICRO * scene.model.start_time, _MICRO * scene.camera.readout_time)
         self.light.show_reading(reading)
-        self._show_decoded()
+        self._show_result()
         self._set_range()
-        self._name_first(has_packets=not scene.transmitter.pattern)
+        self._label_range(has_packets=not scene.transmitter.pattern)
         first = int(reading.panel_origin[0] + reading.packet_columns / 2)
         self.crosshair.set_columns(len(reading.profile), first)
-        if was_seen and not self._sees_chosen():
-            # The panel has moved away from it: it would be read out unseen.
+        if was_visible and not self._is_choice_visible():
+            # The panel has left it: its values would be shown without it.
             self.crosshair.choose(first)
         self._measure()
         self._read_out()
@@ -153,7 +153,7 @@ class StoryRows(QWidget):
 
     def choose_decoder(self, name: str) -> None:
         self._decoder = name
-        self._show_decoded()
+        self._show_result()
         self._read_out()
 
     def choose_picture(self, picture_kind: str) -> None:
@@ -175,44 +175,44 @@ class StoryRows(QWidget):
         self._mark_range()
 
     def hold_columns(self, columns: float | None) -> None:
-        """Keep so many columns in view in place of the first packets; None for the packets again.
+        """Show this many columns in place of the first packets; None: the packets again.
 
         Columns that the user has moved to stay.
         """
-        self._held = columns
+        self._span = columns
         self._set_range()
         reading = self._reading
-        self._name_first(has_packets=reading is None or not reading.scene.transmitter.pattern)
+        self._label_range(has_packets=reading is None or not reading.scene.transmitter.pattern)
 
-    def _name_first(self, *, has_packets: bool) -> None:
+    def _label_range(self, *, has_packets: bool) -> None:
         text, tip = first_periods(has_packets)
-        if self._held is not None:
-            text = f"{self._held:.0f} columns"
-            tip = "Show so many columns from the panel's first on, whatever is sent."
+        if self._span is not None:
+            text = f"{self._span:.0f} columns"
+            tip = "Show this many columns from the panel's first, whatever is sent."
         self.ranges[RANGES[0]].setText(text)
         self.ranges[RANGES[0]].setToolTip(tip)
 
     @property
-    def decoded(self) -> DecodeResult | None:
+    def result(self) -> DecodeResult | None:
         if self._reading is None:
             return None
         return result_of(self._reading, self._decoder)
 
     def values(self) -> ColumnValues | None:
         """Return the values at the crosshair, else at the chosen column."""
-        column = self.crosshair.read
+        column = self.crosshair.shown_column
         if self._reading is None or column is None:
             return None
-        return values_at(column, self._reading.scene, self.light, self.profile, self.code)
+        return read_values(column, self._reading.scene, self.light, self.profile, self.code)
 
-    def _show_decoded(self) -> None:
-        if self._reading is not None and self.decoded is not None:
-            self.profile.show_reading(self._reading, self.decoded)
-            self.code.show_reading(self._reading, self.decoded)
+    def _show_result(self) -> None:
+        if self._reading is not None and self.result is not None:
+            self.profile.show_reading(self._reading, self.result)
+            self.code.show_reading(self._reading, self.result)
             self._show_legend()
 
-    def _sees_chosen(self) -> bool:
-        """Whether the chosen column is in the range that is followed, else on the panel."""
+    def _is_choice_visible(self) -> bool:
+        """Return whether the chosen column is in the followed range, else on the panel."""
         column, reading = self.crosshair.column, self._reading
         if column is None or reading is None:
             return False
@@ -227,8 +227,8 @@ class StoryRows(QWidget):
         last_column = len(reading.profile) - 1
         first, last = reading.panel_columns
         if self.range == RANGES[0]:
-            wanted = min(last, first + PACKETS_IN_VIEW * reading.packet_columns)
-            last = wanted if self._held is None else min(first + self._held, last_column)
+            packets_end = min(last, first + PACKETS_IN_VIEW * reading.packet_columns)
+            last = packets_end if self._span is None else min(first + self._span, last_column)
         last = max(last, first + 4.0)
         beside = _MARGIN_FRACTION * (last - first)
         self.axis.set_home(first - beside, last + beside, last_column + 1)
@@ -241,7 +241,7 @@ class StoryRows(QWidget):
     def _read_out(self) -> None:
         values = self.values()
         if values is not None and self._reading is not None:
-            self.values_changed.emit(in_words(values, self._reading.scene))
+            self.values_changed.emit(describe_values(values, self._reading.scene))
 
     def switch_measuring(self, on: bool) -> None:
         self.crosshair.cursors.switch(on, self.axis.first, self.axis.last)
@@ -249,5 +249,5 @@ class StoryRows(QWidget):
     def _measure(self) -> None:
         reading = self._reading
         if reading is not None:
-            found = measure(self.crosshair.cursors, reading.scene, self.profile.levels)
-            self.measured_changed.emit("" if found is None else difference_in_words(found))
+            measured = measure(self.crosshair.cursors, reading.scene, self.profile.levels)
+            self.measured_changed.emit("" if measured is None else describe_difference(measured))

@@ -16,7 +16,7 @@ from occ_gui.widgets.keyed_combo_box import KeyedComboBox
 _WHOLE, _WHOLE_TIP = "Whole picture", "Show the whole picture in place of the four rows."
 
 
-class _Held(QWidget):
+class _LayoutBarrier(QWidget):
     """Holds a widget without passing on its size requests, which would lay the window out anew."""
 
     def __init__(self, content: QWidget) -> None:
@@ -59,7 +59,7 @@ class StoryView(QWidget):
             self._pages.addWidget(page)
         self._size_by_page()
         line = fill(
-            QHBoxLayout(), 4, (_Held(self.readout), 1), self.decoder,
+            QHBoxLayout(), 4, (_LayoutBarrier(self.readout), 1), self.decoder,
             (self.whole, 0, Qt.AlignmentFlag.AlignRight), margins=0,
         )  # fmt: skip
         for control in (self.picture_kind, *self.rows.ranges.values()):
@@ -69,7 +69,7 @@ class StoryView(QWidget):
             margins=4, spacing=4,
         )  # fmt: skip
 
-    def offer(self, decoders: Sequence[str]) -> None:
+    def offer_decoders(self, decoders: Sequence[str]) -> None:
         for name in decoders:
             if self.decoder.findData(name) < 0:
                 self.decoder.addItem(f"Decoder: {name}", name)
@@ -78,7 +78,7 @@ class StoryView(QWidget):
         self.decoder = KeyedComboBox(
             "Decoder", "Whose verdict, threshold, chips and bits are shown.", {}, is_fixed=True
         )
-        self.offer(decoders)
+        self.offer_decoders(decoders)
         self.picture_kind = KeyedComboBox(
             "Whose picture and profile are shown",
             "Camera: picture and profile as the camera gives them.\n"
@@ -88,16 +88,16 @@ class StoryView(QWidget):
         )
         self.whole = push_button(_WHOLE, _WHOLE_TIP, self.show_whole_picture)
         self.whole.setCheckable(True)
-        self.whole.setObjectName("way")  # its text says what it does: it need not look pressed
+        self.whole.setObjectName("way")  # its text tells its state: it need not look pressed
         self.whole.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
 
     def _size_by_page(self) -> None:
         """Let only the visible page determine the size."""
-        kinds = QSizePolicy.Policy
+        policies = QSizePolicy.Policy
         for page in (self.rows, self._picture):
-            kind = kinds.Expanding if page is self._pages.currentWidget() else kinds.Ignored
-            page.setSizePolicy(kind, kind)
-        # At once: who is shown beside it next would else find the width of the page before.
+            policy = policies.Expanding if page is self._pages.currentWidget() else policies.Ignored
+            page.setSizePolicy(policy, policy)
+        # At once: the next pane beside it would else be laid out with the old page's width.
         self._pages.updateGeometry()
         self.updateGeometry()
 
@@ -114,20 +114,20 @@ class StoryView(QWidget):
         self.readout.setVisible(not shown)
         self._show_verdicts()
 
-    def take_photo_verdict(self, bar: QWidget) -> None:
+    def add_photo_verdict(self, bar: QWidget) -> None:
         self._photo_verdict = bar
         self._layout.insertWidget(0, bar)
         self._show_verdicts()
 
-    def show_photo_verdict(self, about: bool) -> None:
-        self._is_about_photo = about
+    def show_photo_verdict(self, is_about_photo: bool) -> None:
+        self._is_about_photo = is_about_photo
         self._show_verdicts()
 
     def _show_verdicts(self) -> None:
         if self._photo_verdict is not None:
-            about = self._is_about_photo and self.shows_whole_picture
-            self._photo_verdict.setVisible(about)
-            self.verdict.setHidden(about)
+            is_visible = self._is_about_photo and self.shows_whole_picture
+            self._photo_verdict.setVisible(is_visible)
+            self.verdict.setHidden(is_visible)
 
     def show_picture(self, picture: Picture) -> None:
         self.rows.show_picture(picture)

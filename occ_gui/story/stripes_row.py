@@ -40,20 +40,32 @@ class StripesRow(StoryRow):
         self.redraw()
 
     def rows_per_pixel(self) -> float:
-        """Return the rows of the picture on a pixel of the screen, the same for any draft."""
-        first, last = (0, 0) if self._corners is None else _showing(self._corners, self._all_rows)
+        """Return the picture's rows per screen pixel, the same for every draft."""
+        first, last = self._find_panel_rows(self._all_rows)
         pixels = max(1.0, self.height() * self.devicePixelRatioF())
         return (last - first) / pixels
 
-    def rows_shown(self) -> tuple[int, int]:
+    def panel_rows(self) -> tuple[int, int]:
         """Return the panel's first row in the whole picture and the one after its last."""
-        return (0, 0) if self._corners is None else _showing(self._corners, self._rows)
+        return self._find_panel_rows(self._rows)
+
+    def _find_panel_rows(self, rows: range) -> tuple[int, int]:
+        """Return the places of the first of ``rows`` that the panel spans and after the last.
+
+        All of them where the panel is outside the picture.
+        """
+        if self._corners is None:
+            return 0, 0
+        top, bottom = self._corners[:, 1].min(), self._corners[:, 1].max()
+        first = max(math.ceil((top - rows.start) / rows.step), 0)
+        last = min(math.floor((bottom - rows.start) / rows.step) + 1, len(rows))
+        return (first, last) if first < last else (0, len(rows))
 
     def draw(self, painter: QPainter, area: QRectF) -> None:
         if self._image is None:
             return
         painter.fillRect(area, self.colour(QPalette.ColorRole.Mid))
-        first_row, last_row = self.rows_shown()
+        first_row, last_row = self.panel_rows()
         columns = self._image.shape[1]
         ratio = self.devicePixelRatioF()
         left = max(self.x_of(-0.5), area.left())
@@ -67,7 +79,7 @@ class StripesRow(StoryRow):
         low = max(int(edges[0]), 0)
         high = min(int(np.ceil(edges[-1])) + 1, columns)
         part = self._image[first_row:last_row, low:high]
-        grey = resampled(part, edges - low, max(1, round(area.height() * ratio)))
+        grey = resample(part, edges - low, max(1, round(area.height() * ratio)))
         rows, cells = grey.shape
         image = QImage(grey.data, cells, rows, cells, QImage.Format.Format_Grayscale8)
         image.setDevicePixelRatio(ratio)
@@ -80,19 +92,8 @@ class StripesRow(StoryRow):
         self.thumbnail.setVisible(height >= _LEAST_THUMBNAIL)
 
     def _mark_view(self) -> None:
-        first, last = (row * self._rows.step for row in self.rows_shown())
+        first, last = (row * self._rows.step for row in self.panel_rows())
         self.thumbnail.show_view(self.axis.first, self.axis.last, first, last)
-
-
-def _showing(corners: FloatArray, rows: range) -> tuple[int, int]:
-    """Return the first of some rows of a picture that the panel spans, and the one after the last.
-
-    All of them where the panel is out of the picture.
-    """
-    top, bottom = (float(extreme) for extreme in (corners[:, 1].min(), corners[:, 1].max()))
-    first = max(math.ceil((top - rows.start) / rows.step), 0)
-    last = min(math.floor((bottom - rows.start) / rows.step) + 1, len(rows))
-    return (first, last) if first < last else (0, len(rows))
 
 
 class FrameThumbnail(QAbstractButton):
@@ -116,10 +117,10 @@ class FrameThumbnail(QAbstractButton):
         self._pixels, self._image = pixels, None
         self.update()
 
-    def _scaled(self, pixels: ByteArray, place: QRectF) -> QImage:
+    def _scale_image(self, pixels: ByteArray, place: QRectF) -> QImage:
         ratio = self.devicePixelRatioF()
         width, height = max(1, round(place.width() * ratio)), max(1, round(place.height() * ratio))
-        small = shrunk(pixels, height, width)
+        small = shrink(pixels, height, width)
         image = QImage(small.data, width, height, width, QImage.Format.Format_Grayscale8).copy()
         image.setDevicePixelRatio(ratio)
         return image
@@ -149,7 +150,7 @@ class FrameThumbnail(QAbstractButton):
         if self._pixels is None or place.width() < 4:
             return
         if self._image is None or self._image.devicePixelRatioF() != self.devicePixelRatioF():
-            self._image = self._scaled(self._pixels, place)
+            self._image = self._scale_image(self._pixels, place)
         painter.drawImage(place.topLeft(), self._image)
         scale = place.width() / self._size[1]
         left = place.left() + (self.view.left() + 0.5) * scale
@@ -158,46 +159,46 @@ class FrameThumbnail(QAbstractButton):
         view = view.intersected(place)
         painter.setPen(QPen(REGION, 1.5))
         painter.drawRect(view)
-        marked = self.hasFocus() or self.underMouse()
-        role = QPalette.ColorRole.Highlight if marked else QPalette.ColorRole.Mid
-        painter.setPen(QPen(self.palette().color(role), 2 if marked else 1))
+        is_highlighted = self.hasFocus() or self.underMouse()
+        role = QPalette.ColorRole.Highlight if is_highlighted else QPalette.ColorRole.Mid
+        painter.setPen(QPen(self.palette().color(role), 2 if is_highlighted else 1))
         painter.drawRect(place)
 
 
-def resampled(pixels: ByteArray, edges: FloatArray, rows: int) -> ByteArray:
+def resample(pixels: ByteArray, edges: FloatArray, rows: int) -> ByteArray:
     """Average a picture over cells of the screen, exactly, whatever their size: (rows, cells).
 
     ``edges``: where each cell begins and the last one ends, in columns from the left edge of the
     first; beyond the picture, this goes on with its last column.
-    ``rows``: at most those of the picture are averaged, more are repeated.
+    ``rows``: where the picture has fewer, its rows are repeated.
     """
     height = min(rows, pixels.shape[0])
-    low = cv2.resize(pixels, (pixels.shape[1], height), interpolation=cv2.INTER_AREA)
-    columns = low.shape[1]
+    reduced = cv2.resize(pixels, (pixels.shape[1], height), interpolation=cv2.INTER_AREA)
+    columns = reduced.shape[1]
     # The running sum along each row: a cell's mean is the difference of two of its values. They
     # are whole numbers below 2^24 for as many columns as a picture can show at once, so exact.
-    kind = np.float32 if 255 * columns < 2**24 else np.float64
-    sums = np.zeros((height, columns + 1), dtype=kind)
-    np.cumsum(low, axis=1, dtype=kind, out=sums[:, 1:])
+    dtype = np.float32 if 255 * columns < 2**24 else np.float64
+    sums = np.zeros((height, columns + 1), dtype=dtype)
+    np.cumsum(reduced, axis=1, dtype=dtype, out=sums[:, 1:])
     places = np.clip(edges, 0.0, columns)
     whole = np.minimum(places.astype(np.int64), columns - 1)
-    at = sums.take(whole, axis=1)
-    at += low.take(whole, axis=1) * (places - whole).astype(kind)
-    means = at[:, 1:] - at[:, :-1]
+    integral = sums.take(whole, axis=1)
+    integral += reduced.take(whole, axis=1) * (places - whole).astype(dtype)
+    means = integral[:, 1:] - integral[:, :-1]
     widths = np.diff(places)
     empty = widths <= 0.0
-    means *= (1.0 / np.where(empty, 1.0, widths)).astype(kind)
+    means *= (1.0 / np.where(empty, 1.0, widths)).astype(dtype)
     if empty.any():  # beyond the picture
         nearest = np.clip(np.floor(edges[:-1][empty]).astype(np.int64), 0, columns - 1)
-        means[:, empty] = low[:, nearest]
+        means[:, empty] = reduced[:, nearest]
     means += 0.5
-    found = means.astype(np.uint8)
+    cells = means.astype(np.uint8)
     if height < rows:
-        found = cv2.resize(found, (found.shape[1], rows), interpolation=cv2.INTER_NEAREST_EXACT)
-    return np.ascontiguousarray(found)
+        cells = cv2.resize(cells, (cells.shape[1], rows), interpolation=cv2.INTER_NEAREST_EXACT)
+    return np.ascontiguousarray(cells)
 
 
-def shrunk(pixels: ByteArray, rows: int, columns: int) -> ByteArray:
+def shrink(pixels: ByteArray, rows: int, columns: int) -> ByteArray:
     """Average a picture over the cells of a much coarser grid.
 
     First over whole pixels, which OpenCV does many times faster than over parts of them; what is

@@ -1,4 +1,4 @@
-"""Verdict bar: whether the code was read, in words, colour and shape, and what holds beside."""
+"""Verdict bar: whether the code was read, in words, colour and shape, with further badges."""
 
 import math
 from collections.abc import Iterator
@@ -25,13 +25,13 @@ from occ_model.scene.simulation_settings import TOLERANCE, unit_of
 from occ_model.scene.units import PERCENT, SECOND
 
 _COMPUTING = "computing"  # key of the badge for results that are still to come
-_READS = 0.99  # fraction of the bits from which a decoder counts as reading
+_GOOD_RATE = 0.99  # fraction of right bits from which a decoder reads
 
 
-def badges_of(reading: Reading, decoder: str) -> Iterator[Badge]:
-    """Yield what holds for the results besides the verdict on one decoder's."""
-    if not reading.has_picture:  # which has the last word
-        meaning = "Read from the column profile or a draft; the exact picture is computed."
+def make_badges(reading: Reading, decoder: str) -> Iterator[Badge]:
+    """Yield all badges of a reading, for which the decoder's verdict is shown."""
+    if not reading.has_picture:
+        meaning = "Read from the column profile or a draft; the exact picture is being computed."
         yield Badge(_COMPUTING, "picture follows", meaning, State.WAITING, stays=True)
     if reading.overexposed:
         text = f"overexposed: {PERCENT.format(reading.overexposed, 2)}"
@@ -44,16 +44,16 @@ def badges_of(reading: Reading, decoder: str) -> Iterator[Badge]:
     yield Badge("ratio", f"t / t<sub>LED</sub> = {ratio:.3g}", meaning)
     if reading.band_undefined:
         yield Badge("band", "band model ends here", reading.band_undefined)
-    yield from _other_decoders(reading, decoder)
+    yield from _list_other_decoders(reading, decoder)
     if reading.called_for:
         yield Badge("left out", "effects left out", left_out_in_words(reading), State.DOUBTFUL)
 
 
-def computing_badge() -> Badge:
-    return Badge(_COMPUTING, "computing", "The results are computed.", State.WAITING, stays=True)
+def make_computing_badge() -> Badge:
+    return Badge(_COMPUTING, "computing", "Results are being computed.", State.WAITING, stays=True)
 
 
-def rate_badge(rate: SceneRate) -> Badge:
+def make_rate_badge(rate: SceneRate) -> Badge:
     """Return the success rate of pictures that begin at any time."""
     text = f"of {rate.images} pictures: {100.0 * rate.fraction:.3g} % of bits"
     meaning = (
@@ -62,26 +62,24 @@ def rate_badge(rate: SceneRate) -> Badge:
         f"read (95 % interval {100.0 * rate.low:.1f} to {100.0 * rate.high:.1f} %), and every bit "
         f"of {rate.whole} pictures. The strips show the same percentage."
     )
-    state = (
-        State.GOOD if rate.fraction >= _READS else State.DOUBTFUL if rate.fraction else State.BAD
-    )
-    return Badge("rate", text, meaning, state)
+    state = State.DOUBTFUL if rate.fraction else State.BAD
+    return Badge("rate", text, meaning, State.GOOD if rate.fraction >= _GOOD_RATE else state)
 
 
-def badges_in_run(badges: tuple[Badge, ...], pictured: str) -> tuple[Badge, ...]:
+def add_picture_value(badges: tuple[Badge, ...], picture_value: str) -> tuple[Badge, ...]:
     """Add the value of the picture, where a running slider is ahead of it.
 
-    ``pictured``: that value; empty where it is that of the results.
+    ``picture_value``: that value; empty where it is that of the results.
     """
     rest = tuple(badge for badge in badges if badge.key != _COMPUTING)
-    if not pictured:
+    if not picture_value:
         return rest
     meaning = "The slider runs ahead of the picture, which is still of this value."
-    return (Badge(_COMPUTING, f"picture: {pictured}", meaning, stays=True), *rest)
+    return (Badge(_COMPUTING, f"picture: {picture_value}", meaning, stays=True), *rest)
 
 
-def _other_decoders(reading: Reading, decoder: str) -> list[Badge]:
-    # Others have read it only where they were chosen before.
+def _list_other_decoders(reading: Reading, decoder: str) -> list[Badge]:
+    # Other decoders have read it only where they were chosen before.
     tried = [name for name in (*READ_BY_ALL, decoder) if name in reading.results]
     right = [name for name in tried if is_right(reading.results[name], reading.sent)]
     others = [name for name in right if name != decoder]
@@ -114,8 +112,8 @@ class VerdictBar(StateBar):
         self.step_taken.connect(self._take_step)
         self._reading: Reading | None = None
         self._decoder = PAPER_DECODER
-        self._run = self._pictured = ""
-        self._is_outdated = self._is_named = False
+        self._run = self._picture_value = ""
+        self._is_outdated = self._names_simulation = False
         self._failure = ""
         self._rate: SceneRate | None = None
         self.setAccessibleName("Verdict on the code")
@@ -134,10 +132,10 @@ class VerdictBar(StateBar):
             self._is_outdated = outdated
             self._write()
 
-    def show_run(self, value: str, pictured: str) -> None:
+    def show_run(self, value: str, picture_value: str) -> None:
         """Show which value of a running slider the verdict is for; empty while none runs."""
-        if (value, pictured) != (self._run, self._pictured):
-            self._run, self._pictured = value, pictured
+        if (value, picture_value) != (self._run, self._picture_value):
+            self._run, self._picture_value = value, picture_value
             self._write()
 
     def show_failure(self, sentence: str) -> None:
@@ -156,8 +154,8 @@ class VerdictBar(StateBar):
         self._write()
 
     def name_simulation(self, named: bool) -> None:
-        if named != self._is_named:
-            self._is_named = named
+        if named != self._names_simulation:
+            self._names_simulation = named
             self._write()
 
     def _write(self) -> None:
@@ -171,25 +169,25 @@ class VerdictBar(StateBar):
             return
         result = result_of(reading, self._decoder)
         verdict = verdict_on(result, reading.sent)
-        badges = tuple(badges_of(reading, result.decoder))
+        badges = tuple(make_badges(reading, result.decoder))
         if self._run:
-            badges = badges_in_run(badges, self._pictured)
+            badges = add_picture_value(badges, self._picture_value)
         state = verdict.state
         if self._is_outdated:
-            state, badges = State.WAITING, (computing_badge(), *badges)
+            state, badges = State.WAITING, (make_computing_badge(), *badges)
         elif self._rate is not None:
-            badges = (rate_badge(self._rate), *badges)
+            badges = (make_rate_badge(self._rate), *badges)
         cause = cause_in(reading, result)
         if cause is None:
-            # What follows from a failure is no title while its cause is searched for.
+            # While the cause is searched for, no symptom is the title.
             title = verdict.title if reading.causes is None else verdict.heading
-            title += _left_out(verdict, reading)
-            heading, why = self._heading(title), self._why(verdict, reading)
+            title += _describe_error(verdict, reading)
+            heading, why = self._make_heading(title), self._explain(verdict, reading)
             if _is_averaged(verdict, reading) and not (self._is_outdated or self._run):
                 self._offer_lesson(AVERAGES_LESSON)
         else:
             unread = "No code" if result.code is None else verdict.title
-            heading = self._heading(f"{unread}: {cause.what}")
+            heading = self._make_heading(f"{unread}: {cause.what}")
             why = [f"{cause.why} {symptom(verdict.reason)}".strip(), cause.why, symptom(cause.why)]
             self._offer(None if self._is_outdated else cause.remedy)
         self.show_state(state, heading, *why, badges=badges)
@@ -210,22 +208,22 @@ class VerdictBar(StateBar):
         self.offer_step("Lesson")
         self.step.setToolTip("Opens the lesson on exposures longer than a chip.")
 
-    def _heading(self, verdict: str) -> str:
-        """Return the heading, with the source of the verdict where that is not evident."""
+    def _make_heading(self, verdict: str) -> str:
+        """Return the heading, which names the source of the verdict where several are visible."""
         if self._run:
             verdict = f"{self._run}: {verdict[:1].lower()}{verdict[1:]}"
-        if not self._is_named:
+        if not self._names_simulation:
             return f"Earlier scene: {verdict}" if self._is_outdated else verdict
         subject = "Simulation of the earlier scene" if self._is_outdated else "Simulation"
         return f"{subject}: {verdict[:1].lower()}{verdict[1:]}"
 
-    def _why(self, verdict: CodeVerdict, reading: Reading) -> list[str]:
+    def _explain(self, verdict: CodeVerdict, reading: Reading) -> list[str]:
         if verdict.explanation:
-            # What follows a semicolon is left out where it does not fit.
+            # The part after a semicolon is dropped where it does not fit.
             reason = verdict.reason if reading.causes is None else verdict.explanation
             first, more, _ = reason.partition(";")
             return [reason, f"{first}."] if more else [reason]
-        if verdict.state in (State.BAD, State.DOUBTFUL):  # what follows would seem to be why
+        if verdict.state in (State.BAD, State.DOUBTFUL):  # the exposure would seem to be the cause
             return ["" if verdict.reason else "The decoder itself does not notice that."]
         scene = reading.scene
         exposure = SECOND.format(scene.camera.exposure_time, 4)
@@ -250,12 +248,12 @@ class VerdictBar(StateBar):
         ]
 
 
-def _left_out(verdict: CodeVerdict, reading: Reading) -> str:
-    """Qualify a good verdict where more is left out than a new window would; else empty."""
+def _describe_error(verdict: CodeVerdict, reading: Reading) -> str:
+    """Qualify a good verdict where more is left out than by default; else empty."""
     if verdict.state is not State.GOOD or reading.error <= TOLERANCE.default:
         return ""
     observable = reading.request.settings.observable
-    # Of single columns and decisions it is sometimes a little more than estimated.
+    # The error of single columns and decisions may slightly exceed its estimate.
     most = "up to" if observable == "image" else "about"
     amount = f"{most} {reading.error:.2g} {unit_of(observable)}"
     return f" ({amount if math.isfinite(reading.error) else 'an unknown part'} left out)"

@@ -92,14 +92,14 @@ def test_all_places_say_that_what_was_typed_is_sent(
     rows = application.story.rows
     assert [letter.sent for letter in rows.light.letters] == list(letters)
     assert [letter.received for letter in rows.code.letters] == list(letters)
-    assert rows.light.sent_in_words().endswith(f", {bits} bits")
+    assert rows.light.describe_sent().endswith(f", {bits} bits")
     assert len(application.view("decode").strip.sent) == bits
     code.bits.clear()
     qtbot.keyClick(code.bits, Qt.Key.Key_Return)
     user.wait_until_idle()
     assert (count.field.value(), count.field.isEnabled()) == (10, True)
     assert (field.field.text(), code.bits.text()) == ("", "1011001110")
-    assert rows.light.sent_in_words() == "code 718, 10 bits"
+    assert rows.light.describe_sent() == "code 718, 10 bits"
 
 
 def test_a_code_and_a_framing_that_do_not_fit_are_told_at_both_fields(

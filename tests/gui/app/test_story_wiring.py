@@ -68,7 +68,7 @@ def test_a_decoder_is_chosen_in_the_story_or_by_its_tab(
         story.decoder.chosen.emit(name)
         user.wait_until_idle()
         assert pane.decoder() == name
-        decoded = not_none(story.rows.decoded)
+        decoded = not_none(story.rows.result)
         assert decoded.decoder == name
         assert decoded.code == 718
     pane.decoders.setCurrentIndex(0)
@@ -126,11 +126,11 @@ def test_the_mouse_reads_all_rows_out(application: Application, qtbot: QtBot) ->
     row = rows.profile
     column = round((rows.axis.first + rows.axis.last) / 2)
     qtbot.mouseMove(row, QPoint(round(row.x_of(column)), row.height() // 2))
-    pointed = rows.crosshair.pointed
+    pointed = rows.crosshair.mouse_column
     assert pointed == pytest.approx(column, abs=1)
     assert application.story.readout.toolTip().startswith(f"column {pointed}  ·  ")
     QApplication.sendEvent(row, QEvent(QEvent.Type.Leave))
-    assert rows.crosshair.pointed is None
+    assert rows.crosshair.mouse_column is None
     assert application.story.readout.toolTip().startswith(f"column {rows.crosshair.column}  ·  ")
 
 
@@ -146,11 +146,11 @@ def test_an_open_photo_is_drawn_in_the_story(
     assert photo is not None
     assert shown is not None
     np.testing.assert_array_equal(photo[1], shown)
-    assert "fitted" in rows.legend.shown
+    assert "fitted" in rows.legend.keys
     application.photos.close()
     user.wait_until_idle()
     assert rows.profile.photo is None
-    assert {"fitted", "photo"}.isdisjoint(rows.legend.shown)
+    assert {"fitted", "photo"}.isdisjoint(rows.legend.keys)
 
 
 def test_the_equations_explain_the_column_that_the_story_shows(

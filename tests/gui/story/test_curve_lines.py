@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from occ_gui.story.curve_lines import DASH, envelope, lines_of
-from occ_gui.story.stripes_row import resampled, shrunk
+from occ_gui.story.curve_lines import DASH, keep_extremes, make_lines
+from occ_gui.story.stripes_row import resample, shrink
 
 
 @pytest.fixture
@@ -24,7 +24,7 @@ def stairs() -> tuple[np.ndarray, np.ndarray]:
 
 def test_every_point_lies_on_a_line(stairs: tuple[np.ndarray, np.ndarray]) -> None:
     xs, ys = stairs
-    lines = lines_of(xs, ys)
+    lines = make_lines(xs, ys)
     ends = [*(line.p1() for line in lines), lines[-1].p2()]
     drawn = np.interp(xs, [end.x() for end in ends], [end.y() for end in ends])
     np.testing.assert_allclose(drawn, ys, atol=1e-4)
@@ -34,18 +34,17 @@ def test_every_point_lies_on_a_line(stairs: tuple[np.ndarray, np.ndarray]) -> No
 
 def test_a_straight_part_is_one_line(stairs: tuple[np.ndarray, np.ndarray]) -> None:
     xs, ys = stairs
-    assert len(lines_of(xs[:100], ys[:100])) == 5  # three tops, and two edges between them
-    assert len(lines_of(xs, 0.3 * xs - 2.0)) == 1
+    assert len(make_lines(xs[:100], ys[:100])) == 5  # three tops, and two edges between them
+    assert len(make_lines(xs, 0.3 * xs - 2.0)) == 1
 
 
 def test_dashes_cover_their_fraction_of_the_curve(stairs: tuple[np.ndarray, np.ndarray]) -> None:
     xs, ys = stairs
-    solid, dashed = (
-        sum(line.length() for line in lines) for lines in (lines_of(xs, ys), lines_of(xs, ys, DASH))
-    )
+    curves = make_lines(xs, ys), make_lines(xs, ys, DASH)
+    solid, dashed = (sum(line.length() for line in lines) for lines in curves)
     assert solid == pytest.approx(np.hypot(np.diff(xs), np.diff(ys)).sum())
     assert dashed / solid == pytest.approx(DASH[0] / sum(DASH), abs=0.02)
-    for line in lines_of(xs, ys, DASH):
+    for line in make_lines(xs, ys, DASH):
         middle = (line.x1() + line.x2()) / 2
         assert (line.y1() + line.y2()) / 2 == pytest.approx(np.interp(middle, xs, ys), abs=1e-4)
 
@@ -60,32 +59,32 @@ def picture(rows: int = 6) -> np.ndarray[tuple[int, int], np.dtype[np.uint8]]:
 
 @settings(max_examples=20, deadline=None)
 @given(first=st.floats(0.0, 20.0), span=st.floats(0.5, 19.9), cells=st.integers(1, 90))
-def test_a_cell_is_the_mean_of_what_lies_under_it(first: float, span: float, cells: int) -> None:
+def test_a_cell_is_the_mean_of_the_columns_under_it(first: float, span: float, cells: int) -> None:
     pixels = picture()
     edges = np.linspace(first, first + span, cells + 1)
-    found = resampled(pixels, edges, 4)
-    assert found.shape == (4, cells)
+    resampled = resample(pixels, edges, 4)
+    assert resampled.shape == (4, cells)
     fine = np.linspace(0.0, 1.0, 2001)[:-1] + 0.5 / 2000
     for cell in range(cells):
         under = edges[cell] + fine * (edges[cell + 1] - edges[cell])
         mean = pixels[0, under.astype(int)].mean()
-        assert found[:, cell] == pytest.approx(mean, abs=0.8)
+        assert resampled[:, cell] == pytest.approx(mean, abs=0.8)
 
 
-def test_fine_stripes_become_grey_and_not_coarser_ones_along_rows_too() -> None:
+def test_fine_stripes_become_grey_and_no_coarser_stripes_in_either_direction() -> None:
     stripes = np.tile(np.array([0, 200], dtype=np.uint8), (8, 500))
     edges = np.linspace(0.0, 1000.0, 97)
-    assert np.ptp(resampled(stripes, edges, 8).astype(int)) < 25
+    assert np.ptp(resample(stripes, edges, 8).astype(int)) < 25
     assert np.ptp(stripes[:, edges[:-1].astype(int)].astype(int)) == 200
     fine = np.tile(np.array([[0], [200]], dtype=np.uint8), (30, 10))
-    np.testing.assert_array_equal(resampled(fine, np.arange(11.0), 10), 100)
+    np.testing.assert_array_equal(resample(fine, np.arange(11.0), 10), 100)
 
 
-def test_beyond_the_picture_its_last_column_goes_on() -> None:
+def test_the_outer_columns_continue_beyond_the_picture() -> None:
     pixels = picture()
-    found = resampled(pixels, np.array([-4.0, -2.0, 0.0, 40.0, 41.0, 43.0]), 3)
-    assert found[0, 0] == found[0, 1] == pixels[0, 0]
-    assert found[0, -1] == found[0, -2] == pixels[0, -1]
+    row = resample(pixels, np.array([-4.0, -2.0, 0.0, 40.0, 41.0, 43.0]), 3)[0]
+    assert row[0] == row[1] == pixels[0, 0]
+    assert row[-1] == row[-2] == pixels[0, -1]
 
 
 @pytest.mark.parametrize("cells", [7, 100, 999, 5000])
@@ -93,7 +92,7 @@ def test_a_reduced_curve_keeps_its_extremes_and_its_ends(cells: int) -> None:
     positions = np.arange(3000.0)
     values = np.random.default_rng(2).normal(size=3000)
     values[1234], values[77] = 50.0, -40.0
-    x, y = envelope(positions, values, 0.0, 2999.0, cells)
+    x, y = keep_extremes(positions, values, 0.0, 2999.0, cells)
     assert (y.max(), y.min()) == (50.0, -40.0)
     assert (x[0], x[-1]) == (0.0, 2999.0)
     assert (np.diff(x) > 0).all()
@@ -101,9 +100,9 @@ def test_a_reduced_curve_keeps_its_extremes_and_its_ends(cells: int) -> None:
     assert len(x) <= max(3000 // max(1, 3000 // cells) * 2 + 2 * cells, 3000)
 
 
-def test_only_what_is_in_view_is_kept() -> None:
+def test_only_points_in_view_are_kept() -> None:
     positions = np.arange(3000.0)
-    x, _ = envelope(positions, positions, 1000.5, 1010.5, 800)
+    x, _ = keep_extremes(positions, positions, 1000.5, 1010.5, 800)
     np.testing.assert_array_equal(x, np.arange(1000.0, 1012.0))
 
 
@@ -113,7 +112,7 @@ def test_a_shrunk_picture_has_the_means_of_its_cells(size: tuple[int, int]) -> N
     y, x = np.meshgrid(*(np.linspace(0.0, np.pi, side) for side in size), indexing="ij")
     picture = (120.0 + 100.0 * np.sin(x) * np.cos(y)).astype(np.uint8)
     exact = cv2.resize(picture, (columns, rows), interpolation=cv2.INTER_AREA)
-    found = shrunk(picture, rows, columns)
-    assert found.shape == (rows, columns)
+    small = shrink(picture, rows, columns)
+    assert small.shape == (rows, columns)
     a_cell = 100.0 * np.pi / min(rows, columns)  # the most by which neighbours differ
-    assert np.abs(found.astype(int) - exact).max() <= a_cell / 2 + 1
+    assert np.abs(small.astype(int) - exact).max() <= a_cell / 2 + 1

@@ -1,4 +1,4 @@
-"""All rows share one axis and one crosshair, and what they say there is the model's."""
+"""All rows share one axis and one crosshair, and their values there are the model's."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -18,7 +18,7 @@ import occ_model as occ
 from occ_gui.simulation.snapshot import Picture, Snapshot
 from occ_gui.story import code_row, light_row
 from occ_gui.story.column_axis import GUTTER, Crosshair
-from occ_gui.story.column_values import ColumnValues, in_words
+from occ_gui.story.column_values import ColumnValues, describe_values
 from occ_gui.story.story_row import StoryRow
 from occ_gui.story.story_rows import StoryRows
 from occ_gui.widgets.state_look import State
@@ -54,7 +54,7 @@ def test_a_column_lies_at_the_same_pixel_in_every_row(
         assert rows.light.column_at(rows.light.x_of(column)) == pytest.approx(column)
 
 
-def test_what_is_kept_of_an_earlier_scene_looks_as_if_drawn_anew(
+def test_rows_kept_from_an_earlier_scene_equal_those_drawn_anew(
     rows: StoryRows, snapshot_of: SnapshotOf
 ) -> None:
     for name, value in (
@@ -75,13 +75,13 @@ def test_the_stripes_show_each_column_at_its_place(
 ) -> None:
     rows.axis.zoom(0.2, 1400.0)
     drawn = grey_picture(rows.stripes)[rows.stripes.height() // 2]
-    first, last = rows.stripes.rows_shown()
+    first, last = rows.stripes.panel_rows()
     means = snapshot.frame.camera_image[first:last].mean(axis=0)
     inside = range(int(rows.axis.first) + 2, int(rows.axis.last) - 2)
     chosen = rows.crosshair.column
-    seen = [drawn[round(rows.stripes.x_of(column))] for column in inside if column != chosen]
+    levels = [drawn[round(rows.stripes.x_of(column))] for column in inside if column != chosen]
     wanted = [means[column] for column in inside if column != chosen]
-    np.testing.assert_allclose(seen, wanted, atol=1.0)
+    np.testing.assert_allclose(levels, wanted, atol=1.0)
 
 
 def test_a_draft_shows_the_stripes_at_the_same_place(
@@ -99,7 +99,7 @@ def test_a_draft_shows_the_stripes_at_the_same_place(
 @pytest.mark.parametrize(
     ("changes", "step"), [({}, 1), ({"distance": 0.4}, 7), ({"pitch": 0.2}, 22)]
 )
-def test_of_a_draft_the_rows_that_show_the_panel_are_seen(
+def test_the_stripes_are_the_rows_of_a_draft_that_show_the_panel(
     rows: StoryRows, bare_snapshot_of: SnapshotOf, step: int, changes: dict[str, Any]
 ) -> None:
     snapshot = bare_snapshot_of(**changes)
@@ -107,7 +107,7 @@ def test_of_a_draft_the_rows_that_show_the_panel_are_seen(
     rows_per_pixel = rows.stripes.rows_per_pixel()
     draft = occ.render(snapshot.frame.scene, tolerance=np.inf, rows_step=step)
     rows.show_picture(Picture.of(draft, "camera"))
-    first, last = rows.stripes.rows_shown()
+    first, last = rows.stripes.panel_rows()
     ends = draft.corners[:, 1].min(), draft.corners[:, 1].max()
     wanted = [row for row in draft.rows if ends[0] <= row <= ends[1]]
     assert list(draft.rows[first:last]) == wanted
@@ -134,7 +134,7 @@ def test_the_values_at_the_crosshair_are_the_models(
         assert values.light == chips[floor(exact * Fraction(frequency)) % len(chips)]
         assert values.fraction == pytest.approx(lit[column], abs=1e-9)
         assert values.level == frame.profile[column]
-        words = in_words(values, scene)
+        words = describe_values(values, scene)
         assert f"column {column}" in words
         assert ("light on" in words) == bool(values.light)
         rows.choose_picture("receiver")
@@ -143,7 +143,7 @@ def test_the_values_at_the_crosshair_are_the_models(
         rows.choose_picture("camera")
 
 
-def test_the_bits_at_the_crosshair_are_those_read_and_outside_the_picture_nothing_is_pointed_at(
+def test_the_bits_at_the_crosshair_are_those_read_and_it_has_no_column_outside_the_picture(
     rows: StoryRows, snapshot: Snapshot
 ) -> None:
     code, result = rows.code, snapshot.results["threshold"]
@@ -160,7 +160,7 @@ def test_the_bits_at_the_crosshair_are_those_read_and_outside_the_picture_nothin
     chosen = rows.crosshair.column
     for column in (-3.0, len(snapshot.profile) + 2.0):
         rows.crosshair.point_at(column)
-        assert rows.crosshair.pointed is None
+        assert rows.crosshair.mouse_column is None
         values = read_out(rows)
         assert values.column == chosen
 
@@ -249,7 +249,7 @@ def test_new_results_keep_a_range_that_the_user_chose(
     assert rows.axis.span == pytest.approx(2.0 * 24 / 7e3 / 8e-6, rel=0.03)
 
 
-def test_wrong_bits_are_marked_bits_without_columns_listed_and_refused_ones_not_ticked(
+def test_wrong_bits_are_marked_those_without_columns_listed_and_refused_ones_not_ticked(
     rows: StoryRows, snapshot: Snapshot
 ) -> None:
     bits = snapshot.results["threshold"].bits.copy()
@@ -296,7 +296,7 @@ def test_bits_stand_side_by_side_and_each_letter_over_its_own(
         drawn.clear()
         row.redraw()
         row.grab()
-        area, found = row.plot_area(), set[str]()
+        area, letters = row.plot_area(), set[str]()
         bits = [cell for text, cell, _ in drawn if text in "01"]
         for text, letter, look in drawn:
             if text in "Hi" and area.left() <= letter.left() and letter.right() <= area.right():
@@ -304,8 +304,8 @@ def test_bits_stand_side_by_side_and_each_letter_over_its_own(
                 assert (len(own), look.get("has_text")) == (8, None)
                 edges = [letter.left(), *(bit.right() for bit in own)]
                 assert edges == pytest.approx([*(bit.left() for bit in own), letter.right()])
-                found.add(text)
-        assert found == {"H", "i"}
+                letters.add(text)
+        assert letters == {"H", "i"}
         assert all(look["has_text"] for text, _, look in drawn if text in "01")
 
 
@@ -321,9 +321,9 @@ def test_a_decoder_without_chips_lists_its_bits(rows: StoryRows) -> None:
 def test_the_legend_names_what_is_drawn_and_why_the_band_model_drifts_or_ends(
     rows: StoryRows, bare_snapshot_of: SnapshotOf
 ) -> None:
-    assert rows.legend.shown == ("simulation", "threshold", "band")
+    assert rows.legend.keys == ("simulation", "threshold", "band")
     rows.show_reading(bare_snapshot_of(exposure_time=136e-6))
-    assert rows.legend.shown == ("simulation", "threshold")
+    assert rows.legend.keys == ("simulation", "threshold")
     assert rows.legend.note == "no band model here"
     rows.show_reading(bare_snapshot_of(band_reading="literal"))
     assert "whole columns" in rows.legend.toolTip()
@@ -365,10 +365,10 @@ def test_extreme_scenes_are_drawn(
         for row in all_rows(rows):
             assert not row.grab().isNull()
     values = read_out(rows)
-    assert in_words(values, snapshot.frame.scene)
+    assert describe_values(values, snapshot.frame.scene)
 
 
-def test_before_any_reading_the_profile_is_empty_and_no_column_beyond_the_picture_pointed_at(
+def test_before_any_reading_the_profile_is_empty_and_no_column_is_under_the_mouse(
     qtbot: QtBot,
 ) -> None:
     rows, painter = StoryRows(), Mock()
@@ -378,9 +378,9 @@ def test_before_any_reading_the_profile_is_empty_and_no_column_beyond_the_pictur
     crosshair = Crosshair()
     crosshair.set_columns(100, 10)
     crosshair.point_at(90.0)
-    assert crosshair.pointed == 90
+    assert crosshair.mouse_column == 90
     crosshair.set_columns(50, 10)
-    assert crosshair.pointed is None
+    assert crosshair.mouse_column is None
 
 
 def test_a_chosen_column_that_the_panel_leaves_is_chosen_anew(
@@ -403,6 +403,6 @@ def test_a_chosen_column_that_the_panel_leaves_is_chosen_anew(
         assert panel()[0] <= rows.crosshair.column <= panel()[1]
         assert rows.axis.is_following == follows
         outside = panel()[0] - 20.0
-        rows.crosshair.choose(outside)  # on purpose
+        rows.crosshair.choose(outside)
         rows.show_reading(snapshot_of(distance=2.1))
         assert rows.crosshair.column == round(outside)

@@ -24,24 +24,23 @@ def view(qtbot: QtBot, snapshot: Snapshot) -> StoryView:
     return view
 
 
-def checked(view: StoryView) -> list[str]:
+def checked_ranges(view: StoryView) -> list[str]:
     return [name for name, button in view.rows.ranges.items() if button.isChecked()]
 
 
 def test_a_range_is_marked_until_the_columns_are_moved(view: StoryView) -> None:
-    assert checked(view) == ["packets"]
+    assert checked_ranges(view) == ["packets"]
     packets = view.rows.axis.span
     view.rows.ranges["panel"].click()
-    assert checked(view) == ["panel"]
+    assert checked_ranges(view) == ["panel"]
     assert view.rows.axis.span > 1.5 * packets
     view.rows.axis.zoom(0.5, 1500.0)
-    assert checked(view) == []
+    assert checked_ranges(view) == []
     view.rows.fit()
-    assert checked(view) == ["panel"]
+    assert checked_ranges(view) == ["panel"]
     view.choose_decoder("matched")
     assert view.decoder.key() == "matched"
-    assert view.rows.decoded is not None
-    assert view.rows.decoded.decoder == "matched"
+    assert not_none(view.rows.result).decoder == "matched"
     assert view.verdict.heading.startswith("Code 718 read, all bits right")
 
 
@@ -51,12 +50,13 @@ def test_the_difference_is_that_of_the_model(view: StoryView, snapshot: Snapshot
     cursors = rows.crosshair.cursors
     cursors.move(0, 100.0, rows.crosshair.columns)
     cursors.move(1, 225.0, rows.crosshair.columns)
-    found = not_none(measure(cursors, scene, rows.profile.levels))
-    assert found.columns == 125.0
-    assert found.time == pytest.approx(125 * scene.camera.readout_time)
-    assert found.chips == pytest.approx(found.time * scene.transmitter.switching_frequency)
-    assert rows.profile.levels is not None
-    assert found.levels == pytest.approx(rows.profile.levels[225] - rows.profile.levels[100])
+    difference = not_none(measure(cursors, scene, rows.profile.levels))
+    assert difference.columns == 125.0
+    assert difference.time == pytest.approx(125 * scene.camera.readout_time)
+    chips = difference.time * scene.transmitter.switching_frequency
+    assert difference.chips == pytest.approx(chips)
+    levels = not_none(rows.profile.levels)
+    assert difference.levels == pytest.approx(levels[225] - levels[100])
     assert view.measured.text().startswith("1 to 2: 125.0 columns  ·  1 ms")
     assert "as a period 1 kHz" in view.measured.toolTip()
 
@@ -108,5 +108,5 @@ def test_each_time_is_that_of_its_column(rows: StoryRows, bare_snapshot_of: Snap
 @pytest.mark.parametrize(
     ("least", "step"), [(0.011, 0.02), (1.0, 1.0), (1.2, 2.0), (3.0, 5.0), (51.0, 100.0)]
 )
-def test_a_step_is_round_and_no_smaller_than_asked(least: float, step: float) -> None:
+def test_a_step_is_round_and_no_smaller_than_the_least(least: float, step: float) -> None:
     assert round_step(least) == pytest.approx(step)

@@ -1,4 +1,4 @@
-"""The verdict bar says in words and by shape what each decoder's result is worth."""
+"""The verdict bar states in words and by shape whether each decoder read the code."""
 
 import math
 from dataclasses import replace
@@ -32,14 +32,14 @@ def bar(qtbot: QtBot) -> VerdictBar:
 
 
 def texts(bar: VerdictBar) -> dict[str, str]:
-    return {chip.key: chip.text for chip in bar.badges.badges}
+    return {badge.key: badge.text for badge in bar.badges.badges}
 
 
-def sent_to(snapshot: Snapshot, **changes: Any) -> Snapshot:
+def alter(snapshot: Snapshot, **changes: Any) -> Snapshot:
     return with_result(snapshot, replace(snapshot.results["threshold"], **changes))
 
 
-def test_a_code_read_is_good_and_names_the_code_and_one_with_wrong_bits_doubtful(
+def test_a_code_that_is_read_is_good_and_named_and_one_with_wrong_bits_is_doubtful(
     bar: VerdictBar, snapshot_of: SnapshotOf
 ) -> None:
     assert bar.state is State.WAITING
@@ -50,9 +50,9 @@ def test_a_code_read_is_good_and_names_the_code_and_one_with_wrong_bits_doubtful
     snapshot = snapshot_of()
     bits = snapshot.results["threshold"].bits.copy()
     bits[[2, 5]] ^= 1
-    bar.show_reading(sent_to(snapshot, code=1, bits=bits))
+    bar.show_reading(alter(snapshot, code=1, bits=bits))
     assert (bar.state, bar.title.text()) == (State.DOUBTFUL, "Code 1 read, 2 of 10 bits wrong")
-    bar.show_reading(sent_to(snapshot, code=1, bits=1 - snapshot.results["threshold"].bits))
+    bar.show_reading(alter(snapshot, code=1, bits=1 - snapshot.results["threshold"].bits))
     assert bar.state is State.BAD
 
 
@@ -69,17 +69,17 @@ def test_a_code_read_is_good_and_names_the_code_and_one_with_wrong_bits_doubtful
         ("No panel found.", "no panel found", "no panel found."),
     ],
 )
-def test_no_code_is_bad_and_says_why(
+def test_no_code_is_bad_and_the_reason_is_given(
     bar: VerdictBar, snapshot_of: SnapshotOf, reason: str, cause: str, rest: str
 ) -> None:
     none = np.empty(0, dtype=np.uint8)
-    bar.show_reading(sent_to(snapshot_of(), code=None, bits=none, failure=reason))
+    bar.show_reading(alter(snapshot_of(), code=None, bits=none, failure=reason))
     assert bar.state is State.BAD
     assert bar.title.text() == f"No code: {cause}"
     assert bar.accessibleDescription().endswith(rest)
 
 
-def test_a_panel_that_the_receiver_does_not_find_is_not_said_to_have_no_stripes(
+def test_the_cause_of_no_stripes_is_a_panel_that_the_receiver_does_not_find(
     bar: VerdictBar,
 ) -> None:
     snapshot = simulate(occ.load_preset("phone-68us").replace(panel_height=0.002))
@@ -101,7 +101,7 @@ def test_a_raw_pattern_is_neither_good_nor_bad_and_a_slow_decoder_is_waited_for(
     assert "takes longer" in bar.accessibleDescription()
 
 
-def test_an_outdated_verdict_or_one_before_the_picture_says_so(
+def test_an_outdated_verdict_and_one_before_the_picture_are_marked(
     bar: VerdictBar, snapshot_of: SnapshotOf
 ) -> None:
     bar.show_reading(snapshot_of())
@@ -132,7 +132,7 @@ def test_a_scene_without_a_picture_has_no_verdict(bar: VerdictBar, snapshot_of: 
     assert bar.state is State.GOOD
 
 
-def test_the_chips_say_where_the_band_model_ends(bar: VerdictBar, snapshot_of: SnapshotOf) -> None:
+def test_a_badge_tells_where_the_band_model_ends(bar: VerdictBar, snapshot_of: SnapshotOf) -> None:
     bar.show_reading(snapshot_of())
     assert texts(bar)["ratio"] == "t / t<sub>LED</sub> = 0.68"
     assert "band" not in texts(bar)
@@ -145,9 +145,7 @@ def test_the_chips_say_where_the_band_model_ends(bar: VerdictBar, snapshot_of: S
     )
 
 
-def test_a_good_verdict_beside_a_large_error_says_how_large(
-    bar: VerdictBar, small_scene: Scene
-) -> None:
+def test_a_good_verdict_states_a_large_error(bar: VerdictBar, small_scene: Scene) -> None:
     read = simulate(small_scene)
     bar.show_reading(read)
     assert bar.heading == "Code 718 read, all bits right"
@@ -158,18 +156,18 @@ def test_a_good_verdict_beside_a_large_error_says_how_large(
         rough = simulate(small_scene, settings)
         assert rough.error == rough.plan.error > 0.5
         bar.show_reading(rough)
-        said = f"Code 718 read, all bits right (up to {rough.error:.2g} levels left out)"
-        assert bar.heading == said
+        heading = f"Code 718 read, all bits right (up to {rough.error:.2g} levels left out)"
+        assert bar.heading == heading
     # Before its picture is there, too.
     planned = plan_scene(small_scene, rough.request.settings)
     early = not_none(reading_by_profile(rough.request, planned))
     bar.show_reading(early)
-    assert bar.heading == said
+    assert bar.heading == heading
     bar.show_reading(replace(read, error=math.inf))
     assert bar.heading.endswith("(an unknown part left out)")
 
 
-def test_that_the_picture_is_not_the_last_word_is_said_however_little_room_there_is(
+def test_the_badge_for_a_picture_to_come_is_never_cut(
     bar: VerdictBar, snapshot_of: SnapshotOf
 ) -> None:
     early = replace(snapshot_of(exposure_time=136e-6), source="draft", has_picture=False)
@@ -190,12 +188,12 @@ def test_the_verdict_is_that_of_the_chosen_decoder(bar: VerdictBar, small_scene:
     assert occ.decode(snapshot.frame.image, scene, decoder="matched").code == 718
     bar.show_reading(snapshot)
     assert bar.state is State.BAD
-    (others,) = [chip for chip in bar.badges.badges if chip.key == "others"]
+    (others,) = [badge for badge in bar.badges.badges if badge.key == "others"]
     assert others.text.startswith("read by: ")
     assert "matched" in others.meaning
     bar.choose_decoder("matched")
     assert bar.state is State.GOOD
-    assert not any("matched" in c.meaning for c in bar.badges.badges if c.key == "others")
+    assert not any("matched" in b.meaning for b in bar.badges.badges if b.key == "others")
 
 
 @pytest.mark.parametrize("width", [900, 400, 230, 120])
@@ -229,7 +227,7 @@ def test_the_simulation_is_named_where_a_photo_is_shown_too(
     assert bar.heading == "Earlier scene: Code 718 read, all bits right"
 
 
-def test_a_bar_that_is_narrow_says_the_same_in_fewer_words(
+def test_a_narrow_bar_says_the_same_in_fewer_words(
     bar: VerdictBar, snapshot_of: SnapshotOf
 ) -> None:
     bar.show()
@@ -243,7 +241,7 @@ def test_a_bar_that_is_narrow_says_the_same_in_fewer_words(
     assert bar.accessibleDescription() == whole
 
 
-def test_while_a_slider_runs_the_verdict_names_its_value_and_the_pictures(
+def test_while_a_slider_runs_the_verdict_names_its_value_and_that_of_the_picture(
     bar: VerdictBar, snapshot_of: SnapshotOf
 ) -> None:
     bar.show_reading(snapshot_of())
@@ -257,7 +255,7 @@ def test_while_a_slider_runs_the_verdict_names_its_value_and_the_pictures(
     assert bar.heading == "Code 718 read, all bits right"
 
 
-def test_what_was_chosen_before_does_not_change_which_decoders_are_named(
+def test_an_earlier_choice_does_not_change_which_decoders_are_named(
     bar: VerdictBar, small_scene: Scene
 ) -> None:
     snapshot = simulate(small_scene)
@@ -283,7 +281,7 @@ def test_the_cause_comes_first_and_its_step_is_a_button(
     assert bar.step.isHidden()
 
 
-def test_overexposure_is_said_first_where_it_is_why_and_is_noted_where_it_is_not(
+def test_overexposure_is_the_heading_where_it_is_the_cause_and_else_a_badge(
     bar: VerdictBar, snapshot_of: SnapshotOf
 ) -> None:
     read = snapshot_of(exposure_time=136e-6, iso=6400.0)
@@ -296,7 +294,7 @@ def test_overexposure_is_said_first_where_it_is_why_and_is_noted_where_it_is_not
     assert bar.step.text() == "Set ISO 501"
     bits = np.array(white.sent, dtype=np.uint8)
     bits[[2, 5]] ^= 1
-    bar.show_reading(sent_to(white, code=1, bits=bits, failure=None))
+    bar.show_reading(alter(white, code=1, bits=bits, failure=None))
     assert bar.heading == "Code 1 read, 2 of 10 bits wrong: overexposed"
     assert "each column sees" not in bar.accessibleDescription()
     bar.show_reading(snapshot_of(exposure_time=136e-6, iso=6400.0, switching_frequency=20e3))
@@ -306,29 +304,29 @@ def test_overexposure_is_said_first_where_it_is_why_and_is_noted_where_it_is_not
 
 
 @pytest.mark.parametrize(
-    ("fraction", "said"), [(1.0, "100 %"), (0.996, "100 %"), (0.0123, "1.2 %")]
+    ("fraction", "text"), [(1.0, "100 %"), (0.996, "100 %"), (0.0123, "1.2 %")]
 )
 def test_the_overexposed_fraction_is_written_without_an_exponent(
-    bar: VerdictBar, snapshot_of: SnapshotOf, fraction: float, said: str
+    bar: VerdictBar, snapshot_of: SnapshotOf, fraction: float, text: str
 ) -> None:
     bar.show_reading(replace(snapshot_of(), overexposed=fraction))
-    assert texts(bar)["overexposed"] == f"overexposed: {said}"
-    assert overexposed_text(fraction).startswith(f"Overexposed: {said} of the panel's columns")
+    assert texts(bar)["overexposed"] == f"overexposed: {text}"
+    assert overexposed_text(fraction).startswith(f"Overexposed: {text} of the panel's columns")
 
 
-def test_before_the_cause_is_known_no_consequence_is_the_title(
+def test_before_the_cause_is_known_no_symptom_is_the_title(
     bar: VerdictBar, snapshot_of: SnapshotOf
 ) -> None:
     unread = snapshot_of(exposure_time=136e-6, switching_frequency=20e3)
     bar.show_reading(replace(unread, causes=None))
     assert bar.heading == "No code read"
     assert bar.accessibleDescription() == f"No code read. {unread.results['threshold'].failure}"
-    wrong = sent_to(unread, code=1, bits=1 - np.array(unread.sent, dtype=np.uint8), failure=None)
+    wrong = alter(unread, code=1, bits=1 - np.array(unread.sent, dtype=np.uint8), failure=None)
     bar.show_reading(replace(wrong, causes={}))
     assert bar.accessibleDescription().endswith("The decoder itself does not notice that.")
 
 
-def test_a_code_read_beyond_a_period_leads_to_its_lesson(
+def test_a_code_that_is_read_beyond_a_period_leads_to_its_lesson(
     bar: VerdictBar, snapshot_of: SnapshotOf, qtbot: QtBot
 ) -> None:
     bar.show_reading(snapshot_of(exposure_time=136e-6, switching_frequency=5e3))

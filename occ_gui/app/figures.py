@@ -29,25 +29,25 @@ _OVERLAY_FILE = "picture-with-photo"
 
 
 def picture_figures(store: Store, about_photo: Callable[[], str]) -> tuple[Figure, Figure]:
-    """``about_photo`` returns the caption of a picture with the photo."""
+    """Declare both figures; ``about_photo`` returns the caption of a picture with the photo."""
 
-    def picture(pane: "PicturesPane | None", shown: Snapshot) -> Draw:
+    def picture(pane: "PicturesPane | None", snapshot: Snapshot) -> Draw:
         workspace, photo = store.workspace, _photo(pane)
         if pane is None or photo is None:
             return later(
                 "occ_model.figures.window_panes:picture_drawing",
-                shown.frame, shown.region, None, workspace.picture_kind, None, "",
+                snapshot.frame, snapshot.region, None, workspace.picture_kind, None, "",
             )  # fmt: skip
-        return _with_photo(pane.view, photo, shown, workspace.overlay, about_photo())
+        return _lay_over(pane.view, photo, snapshot, workspace.overlay, about_photo())
 
-    def overlay(pane: "PicturesPane | None", shown: Snapshot) -> Draw:
+    def overlay(pane: "PicturesPane | None", snapshot: Snapshot) -> Draw:
         photo = _photo(pane)
         if pane is None or photo is None:
             raise NothingToDraw("No photo is open: open one to lay it over the picture.")
         mode = store.workspace.overlay
-        laid = _BLENDED if mode == _BESIDE else mode
-        over = _with_photo(pane.view, photo, shown, laid, about_photo())
-        return lambda: replace(over(), name=_OVERLAY_FILE)
+        mode = _BLENDED if mode == _BESIDE else mode
+        draw = _lay_over(pane.view, photo, snapshot, mode, about_photo())
+        return lambda: replace(draw(), name=_OVERLAY_FILE)
 
     def is_beside(pane: "PicturesPane | None") -> bool:
         return _photo(pane) is not None and store.workspace.overlay == _BESIDE
@@ -63,12 +63,12 @@ def _photo(pane: "PicturesPane | None") -> "Photo | None":
     return None if pane is None else pane.view.shown_photo
 
 
-def _with_photo(view: "ImageView", opened: "Photo", shown: Snapshot, mode: str, about: str) -> Draw:
-    frame, region = shown.frame, shown.region
-    photo, picture_kind, over = opened.image, view.picture_kind, view.overlay
+def _lay_over(view: "ImageView", photo: "Photo", snapshot: Snapshot, mode: str, about: str) -> Draw:
+    frame, region = snapshot.frame, snapshot.region
+    pixels, picture_kind, over = photo.image, view.picture_kind, view.overlay
     place = over.placement
     opacities = {_BLENDED: (over.opacity, None), _SPLIT: (1.0, over.split_row)}
-    laid, times = opacities.get(mode), over.difference.gain
+    opacity, gain = opacities.get(mode), over.difference.gain
 
     def draw() -> "Drawing":
         from occ_gui.picture.photo_overlay import difference_cells, rect_of
@@ -76,18 +76,18 @@ def _with_photo(view: "ImageView", opened: "Photo", shown: Snapshot, mode: str, 
         from occ_model.figures.window_panes import MOST_CELLS, picture_drawing
 
         layer: PhotoLayer | Difference | None = None
-        if laid is not None:
-            layer = PhotoLayer(place.column, place.row, place.scale, *laid)
+        if opacity is not None:
+            layer = PhotoLayer(place.column, place.row, place.scale, *opacity)
         elif mode == _DIFFERENCE:
             image = frame.picture(picture_kind)
-            layers = (image, rect_of(image, Placement())), (photo, rect_of(photo, place))
-            found = difference_cells(*layers, MOST_CELLS)
-            if found is None:
+            layers = (image, rect_of(image, Placement())), (pixels, rect_of(pixels, place))
+            cells = difference_cells(*layers, MOST_CELLS)
+            if cells is None:
                 raise NothingToDraw("Photo and simulation do not overlap: there is no difference.")
-            levels, grid = found
+            levels, grid = cells
             edges = (grid.left(), grid.right(), grid.bottom(), grid.top())
-            layer = Difference(levels, edges, times)
-        return picture_drawing(frame, region, photo, picture_kind, layer, about)
+            layer = Difference(levels, edges, gain)
+        return picture_drawing(frame, region, pixels, picture_kind, layer, about)
 
     return draw
 
@@ -95,94 +95,94 @@ def _with_photo(view: "ImageView", opened: "Photo", shown: Snapshot, mode: str, 
 def profile_figure(
     store: Store, results_store: ResultsStore, about_photo: Callable[[], str]
 ) -> Figure:
-    def ask(pane: "ProfilePane | None", shown: Snapshot) -> Draw:
+    def draw(pane: "ProfilePane | None", snapshot: Snapshot) -> Draw:
         workspace, photo = store.workspace, results_store.results.photo_profile
         comparison = None if photo is None else photo.comparison
-        whole, enhanced = (0, len(shown.profile)), workspace.is_enhanced
+        whole, enhanced = (0, len(snapshot.profile)), workspace.is_enhanced
         return later(
             "occ_model.figures.window_panes:profile_drawing",
-            shown.frame,
-            shown.band_levels(enhanced=enhanced),
-            shown.band_undefined,
+            snapshot.frame,
+            snapshot.band_levels(enhanced=enhanced),
+            snapshot.band_undefined,
             comparison,
             slice(*(whole if pane is None else pane.view.columns_in_view())),
             enhanced=enhanced,
-            decoded=shown.results.get(workspace.decoder),
+            decoded=snapshot.results.get(workspace.decoder),
             about="" if comparison is None else about_photo(),
         )
 
-    return Figure(name="profile", title="Column profile", draw=ask)
+    return Figure(name="profile", title="Column profile", draw=draw)
 
 
 def decoding_figures() -> tuple[Figure, ...]:
     return tuple(
-        Figure(name=f"decoding-{name}", title=f"Decoding, {name}", draw=partial(_steps, name))
+        Figure(name=f"decoding-{name}", title=f"Decoding, {name}", draw=partial(_draw_steps, name))
         for name in QUICK_DECODERS
     )
 
 
-def _steps(decoder: str, _pane: object, shown: Snapshot) -> Draw:
-    result = shown.results.get(decoder)
+def _draw_steps(decoder: str, _pane: object, snapshot: Snapshot) -> Draw:
+    result = snapshot.results.get(decoder)
     if result is None:
         raise NothingToDraw(f"The {decoder} decoder has not read the picture.")
-    cause = cause_in(shown, result)
-    return later("occ_model.figures.decoding:decode_drawing", shown.frame.scene, result, cause)
+    cause = cause_in(snapshot, result)
+    return later("occ_model.figures.decoding:decode_drawing", snapshot.frame.scene, result, cause)
 
 
 def accuracy_figure() -> Figure:
-    def ask(pane: "AccuracyPane | None", _shown: Snapshot) -> Draw:
+    def draw(pane: "AccuracyPane | None", _snapshot: Snapshot) -> Draw:
         points = () if pane is None else pane.view.plot.measured
         if not points:
             raise NothingToDraw(
-                "What accuracy costs is not measured yet: open its pane and wait a moment."
+                "The cost of accuracy is not measured yet: open its pane and wait a moment."
             )
         return later("occ_model.figures.accuracy:accuracy_drawing", points)
 
-    return Figure(name="accuracy", title="Accuracy and time", draw=ask)
+    return Figure(name="accuracy", title="Accuracy and time", draw=draw)
 
 
 def map_figure(store: Store) -> Figure:
-    def ask(pane: "MapPane | None", _shown: Snapshot) -> Draw:
-        there = None if pane is None else pane.map.full
-        if there is None:
+    def draw(pane: "MapPane | None", _snapshot: Snapshot) -> Draw:
+        complete = None if pane is None else pane.map.full
+        if complete is None:
             raise NothingToDraw(
                 "The detection map is not complete yet: open its pane and wait a moment."
             )
         from occ_gui.detection_map.map_schedule import table_of
 
-        table = table_of(*there, store.workspace.frame_rate)
+        table = table_of(*complete, store.workspace.frame_rate)
         return later("occ_model.figures.sweep:sweep_drawing", table, store.workspace.shown)
 
-    return Figure(name="map", title="Detection map", draw=ask)
+    return Figure(name="map", title="Detection map", draw=draw)
 
 
 def bench_figure(store: Store) -> Figure:
-    def ask(pane: "BenchPane | None", _shown: Snapshot) -> Draw:
-        there = None if pane is None else pane.controller.full
-        if there is None:
+    def draw(pane: "BenchPane | None", _snapshot: Snapshot) -> Draw:
+        complete = None if pane is None else pane.controller.full
+        if complete is None:
             raise NothingToDraw(
                 "The bench is not complete: open its pane, measure and wait a moment."
             )
         rate = store.workspace.frame_rate
-        return later("occ_model.figures.bench:bench_drawing", *there, rate)
+        return later("occ_model.figures.bench:bench_drawing", *complete, rate)
 
-    return Figure(name="bench", title="Bench", draw=ask)
+    return Figure(name="bench", title="Bench", draw=draw)
 
 
 def bands_figures() -> tuple[Figure, ...]:
-    def drawn(name: str) -> Callable[[Any, Snapshot], Draw]:
-        return lambda _, shown: later(f"occ_model.figures.bands:{name}", shown.frame.scene)
+    def draw(name: str) -> Callable[[Any, Snapshot], Draw]:
+        return lambda _, snapshot: later(f"occ_model.figures.bands:{name}", snapshot.frame.scene)
 
     return (
-        Figure(name="bands", title="Bars", draw=drawn("bands_drawing")),
-        Figure(name="flicker", title="Flicker for the eye", draw=drawn("flicker_drawing")),
+        Figure(name="bands", title="Bars", draw=draw("bands_drawing")),
+        Figure(name="flicker", title="Flicker for the eye", draw=draw("flicker_drawing")),
     )
 
 
 def room_figure() -> Figure:
-    """Declare the figure, available once the picture of the present place is read."""
+    """Declare the figure, which is available once the picture from the present place is read."""
 
-    def ask(pane: "RoomPane | None", _shown: Snapshot) -> Draw:
+    def draw(pane: "RoomPane | None", _snapshot: Snapshot) -> Draw:
         shown = None if pane is None else pane.shown
         if shown is None or shown.reading is None:
             raise NothingToDraw(
@@ -193,4 +193,4 @@ def room_figure() -> Figure:
             shown.room, shown.image, shown.reading, is_photo=shown.look.photo is not None,
         )  # fmt: skip
 
-    return Figure(name="room", title="Room", draw=ask)
+    return Figure(name="room", title="Room", draw=draw)

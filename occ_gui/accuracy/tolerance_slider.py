@@ -40,13 +40,13 @@ class ToleranceEdit(QuantityEdit):
         if self._value == math.inf:
             self.lineEdit().setText(f"∞ {self._quantity.unit.symbol}")
 
-    def take_typed(self) -> None:
+    def accept_text(self) -> None:
         text = self.lineEdit().text().removesuffix(self._quantity.unit.symbol).strip().lower()
-        if self._typed and text in _INFINITE:
+        if self._is_edited and text in _INFINITE:
             self.set_value(math.inf)
             self.edited.emit(math.inf)
             return
-        super().take_typed()
+        super().accept_text()
 
 
 class ToleranceSlider(QWidget):

@@ -6,7 +6,7 @@ from occ_gui.accuracy.plan_changes import PlanNews, switch_sentence
 from occ_gui.app.parts import Parts
 from occ_gui.picture.before_controller import BeforeController
 from occ_gui.scene.control_panel import MAIN
-from occ_gui.scene.forced_effects import accuracy_badge, set_by_hand
+from occ_gui.scene.forced_effects import accuracy_badge, describe_accuracy
 from occ_gui.shell.status import entries_of
 from occ_gui.simulation.snapshot import Snapshot
 from occ_model.results.plan import Decision
@@ -80,7 +80,7 @@ class SceneInWindow(QObject):
     def _show_settings(self, settings: SimulationSettings) -> None:
         parts = self._parts
         labels = parts.store.settings.effect_labels
-        parts.controls.forced.show_list(set_by_hand(settings, labels))
+        parts.controls.forced.show_list(describe_accuracy(settings, labels))
         parts.window.show_accuracy(accuracy_badge(settings, labels))
 
     def _refuse(self, sentence: str) -> None:

@@ -7,7 +7,7 @@ from PySide6.QtCore import QObject
 
 from occ_gui.core.store import Store
 from occ_gui.files.preferences import Preferences
-from occ_gui.scene.scene_editor import HoldBrightness
+from occ_gui.scene.scene_editor import BrightnessHold
 from occ_gui.window.docks import DockLayout
 from occ_gui.window.main_window import MainWindow
 from occ_gui.window.text_size import TextSize
@@ -23,7 +23,7 @@ class ViewOptions(QObject):
         window: MainWindow,
         store: Store,
         preferences: Preferences,
-        hold: HoldBrightness,
+        hold: BrightnessHold,
         say: Callable[[str], None],
     ) -> None:
         super().__init__(window)

@@ -173,7 +173,7 @@ class MatchForm(QWidget):
     def choice(self) -> MatchChoice:
         """Return the choices, including values that were typed but not yet entered."""
         for field in (self.square, *self.known.values()):
-            field.take_typed()
+            field.accept_text()
         return self._choice()
 
     def _choice(self) -> MatchChoice:

@@ -22,8 +22,8 @@ _MOST_DIGITS = 20
 class CodeEntry(QWidget):
     """Two fields that show the code as a number and as bits; either can be edited.
 
-    The field of the bits also takes a payload, such as ``HELLO``, and shows it alone; emptied, it
-    shows the code again. What cannot be read stays in it, with the reason, until it is typed anew.
+    The field of the bits also accepts a payload, such as ``HELLO``, which is then shown alone; when
+    cleared, it shows the code again. Unreadable text stays, with the reason, until it is corrected.
     """
 
     edited = Signal(str, object, int)
@@ -41,7 +41,7 @@ class CodeEntry(QWidget):
         self.bits = QLineEdit()
         self.bits.setFont(QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont))
         self.bits.setAccessibleName("Code as bits")
-        self.bits.setToolTip("The bits, the first sent first; or a text to be sent, such as HELLO.")
+        self.bits.setToolTip("The bits in the order sent, or a text to send, such as HELLO.")
         layout = QGridLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setVerticalSpacing(1)
@@ -65,8 +65,8 @@ class CodeEntry(QWidget):
         # A raw pattern or a payload is sent in place of the code.
         self.setEnabled(not transmitter.pattern)
         self._show_title(scene)
-        shown = (self._bits, self._code, self._payload)
-        if (transmitter.bits, transmitter.code, transmitter.payload) == shown:
+        current = (self._bits, self._code, self._payload)
+        if (transmitter.bits, transmitter.code, transmitter.payload) == current:
             return
         self._bits, self._payload = transmitter.bits, transmitter.payload
         with QSignalBlocker(self.number):
@@ -76,7 +76,7 @@ class CodeEntry(QWidget):
 
     def _show_title(self, scene: Scene | None) -> None:
         if scene is not None and scene.transmitter.pattern:
-            text = "Code: not sent, a raw pattern is"
+            text = "Code: not sent, but a raw pattern"
         elif scene is not None and scene.transmitter.payload:
             form = form_of(scene.transmitter.payload)
             form = "bytes" if form == "hex" else form
@@ -94,21 +94,21 @@ class CodeEntry(QWidget):
         self._write()
 
     def _write(self) -> None:
-        self.bits.setText(self._written)
+        self.bits.setText(self._bits_text)
         self.bits.setCursorPosition(0)
         self.notices[1].end()
 
     @property
-    def _written(self) -> str:
+    def _bits_text(self) -> str:
         return payload_parameter().format(self._payload) or f"{self._code:0{self._bits}b}"
 
     def show_problem(self, sentence: str) -> None:
         self.notices[0].show_problem(sentence)
 
     def end_refusal(self) -> None:
-        """Remove other problems, but not one about a text that its field still shows."""
+        """Remove the notices, except one about text that the field still shows."""
         self.notices[0].end()
-        if self.bits.text() == self._written:
+        if self.bits.text() == self._bits_text:
             self.notices[1].end()
 
     def _enter(self, code: int) -> None:
@@ -119,7 +119,7 @@ class CodeEntry(QWidget):
     def _read_bits(self) -> None:
         typed = self.bits.text()
         text = "".join(typed.split())
-        if typed == self._written:
+        if typed == self._bits_text:
             self.notices[1].end()
         elif not text and not self._payload:
             self._write()

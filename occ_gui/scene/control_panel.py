@@ -27,9 +27,9 @@ MAIN = ("exposure_time", "switching_frequency", "readout_time", "iso", "f_number
 class ControlPanel(QWidget):
     """All controls of a scene.
 
-    ``effects``: the parameters of the effects, on a page of their own, in the order that light
-    passes them. ``stages``: by parameter the heading there: ``"light"``, ``"optics"``, ``"sensor"``
-    or ``"processing"``.
+    ``effects``: the parameters of the effects, in the order of the light's path; they have a page
+    of their own. ``stages``: the stage of each, ``"light"``, ``"optics"``, ``"sensor"`` or
+    ``"processing"``, which becomes a heading there.
     """
 
     preset_chosen = Signal(str)
@@ -75,7 +75,7 @@ class ControlPanel(QWidget):
         return {title: page.panel() for title, page in self._pages.items()}
 
     @property
-    def _made(self) -> list[ParameterPanel]:
+    def _existing_panels(self) -> list[ParameterPanel]:
         return [page.content for page in self._pages.values() if page.content is not None]
 
     def _on_made(self, panel: ParameterPanel) -> None:
@@ -114,24 +114,24 @@ class ControlPanel(QWidget):
         unreadable: Sequence[tuple[str, str]] = (),
         own: Collection[str] = (),
     ) -> None:
-        """List these presets, by name and title, in place of the former ones.
+        """Replace the listed presets by these, each given as (name, title).
 
-        ``unreadable``: presets that cannot be loaded or chosen, with the reasons. ``own``: presets
-        of the user, which are listed by name.
+        ``unreadable``: (name, reason) of presets that cannot be loaded, nor chosen. ``own``: names
+        of the user's presets, which are listed by name instead of title.
         """
         self.preset.clear()
         for name, title in presets:
             by_name = name in own
-            self._list(one_line(name if by_name else title), name, title if by_name else name)
+            self._add_preset(one_line(name if by_name else title), name, title if by_name else name)
         for name, reason in unreadable:
             text = f"{one_line(name)}: cannot be read"
-            place = self._list(text, None, reason)
+            place = self._add_preset(text, None, reason)
             entries = self.preset.model()
             if isinstance(entries, QStandardItemModel):
                 entries.item(place).setEnabled(False)
         self.preset.setCurrentIndex(-1)
 
-    def _list(self, text: str, name: str | None, tip: str) -> int:
+    def _add_preset(self, text: str, name: str | None, tip: str) -> int:
         self.preset.addItem(text, name)
         place = self.preset.count() - 1
         tip = in_tool_tip(one_line(tip, LONGEST_TEXT))
@@ -149,7 +149,7 @@ class ControlPanel(QWidget):
         self._scene = scene
         self.player.follow_scene(scene)
         self.code.show_scene(scene)
-        for panel in self._made:
+        for panel in self._existing_panels:
             panel.show_scene(scene)
         self._show_bits(scene)
 
@@ -158,14 +158,14 @@ class ControlPanel(QWidget):
         if isinstance(row, CountRow):
             sent = scene.transmitter
             reason = "Bits of the payload, which is sent in place of the code."
-            row.show_instead(*((sent.payload_length, reason) if sent.payload else (None,)))
+            row.show_derived(*((sent.payload_length, reason) if sent.payload else (None,)))
 
     def show_marks(self, name: str, marks: Sequence[MarkedValue]) -> None:
         self._main.show_marks(name, marks)
 
     def show_problem(self, sentence: str, names: Iterable[str]) -> None:
         """Show, at the fields of parameters, what is wrong with their values."""
-        for field in self._needed(names):
+        for field in self._make_fields(names):
             field.show_problem(sentence)
 
     def end_refusals(self, names: Iterable[str] | None = None) -> None:
@@ -173,7 +173,7 @@ class ControlPanel(QWidget):
         for field in self._fields().values() if names is None else self._fields_of(names):
             field.end_refusal()
 
-    def _needed(self, names: Iterable[str]) -> list[CodeEntry | ParameterRow]:
+    def _make_fields(self, names: Iterable[str]) -> list[CodeEntry | ParameterRow]:
         wanted = set(names)
         for page in self._pages.values():
             if wanted.intersection(page.names):
@@ -186,7 +186,7 @@ class ControlPanel(QWidget):
 
     def _fields(self) -> dict[str, CodeEntry | ParameterRow]:
         fields: dict[str, CodeEntry | ParameterRow] = {"code": self.code}
-        for panel in self._made:
+        for panel in self._existing_panels:
             fields.update(panel.rows)
         return fields
 

@@ -1,4 +1,4 @@
-"""What the user has set of a simulation's accuracy by hand, in words and as a line."""
+"""Describe which accuracy settings the user has changed by hand, and show them in a line."""
 
 import math
 from collections.abc import Mapping
@@ -28,7 +28,7 @@ def forced_text(force: Mapping[str, bool], labels: Mapping[str, str]) -> str:
     return ", ".join(switch_text(name, force[name], labels) for name in names)
 
 
-def set_by_hand(settings: SimulationSettings, labels: Mapping[str, str]) -> str:
+def describe_accuracy(settings: SimulationSettings, labels: Mapping[str, str]) -> str:
     """Describe how the accuracy differs from what a new window plans; empty where it does not."""
     texts = (_tolerance_text(settings), forced_text(settings.force, labels))
     listed = ", ".join(text for text in texts if text)
@@ -46,8 +46,8 @@ def _tolerance_text(settings: SimulationSettings) -> str:
 
 
 def accuracy_badge(settings: SimulationSettings, labels: Mapping[str, str]) -> Badge | None:
-    """Return what is always to be seen of the accuracy; None where nothing is left out by hand."""
-    by_hand, is_reused = set_by_hand(settings, labels), settings.noise == "reused"
+    """Return the status line's badge; None if nothing is set by hand and the noise is exact."""
+    by_hand, is_reused = describe_accuracy(settings, labels), settings.noise == "reused"
     count = len(settings.force)
     forced = forced_text(settings.force, labels)
     if count > _MOST_NAMED:
@@ -59,15 +59,15 @@ def accuracy_badge(settings: SimulationSettings, labels: Mapping[str, str]) -> B
     meanings = [f"{by_hand}."] if by_hand else []
     if is_reused:
         meanings.append(
-            "The noise is taken from a stored plane: much faster than drawn for each pixel."
+            "The noise is read from a stored plane, which is much faster than drawing it anew."
         )
-    meanings.append("The mode Effects shows what that changes.")
+    meanings.append("The mode Effects shows what this changes.")
     state = State.DOUBTFUL if by_hand else State.NEUTRAL
     return Badge("accuracy", text, "\n".join(meanings), state)
 
 
 class ForcedEffects(QWidget):
-    """What is set by hand, and a button that resets it; hidden where nothing is."""
+    """A list of what is set by hand, and a button that resets it; hidden if nothing is."""
 
     released = Signal()  # the user leaves all effects to the plan
 

@@ -1,7 +1,7 @@
-"""Fields for plain numbers, whole as ``0b101`` or ``0x1f`` too, or with a decimal comma.
+"""Fields for numbers, which may be typed with a decimal comma, or as ``0b101`` or ``0x1f``.
 
-Any text can be typed; what is no allowed number is refused with a sentence. Qt's own would read
-``1,5`` as 15, and leave out the characters that it does not allow.
+Any text can be typed, and what is not an allowed number is refused with a sentence. Qt's own fields
+would read ``1,5`` as 15, and ignore characters that they do not allow.
 """
 
 from dataclasses import replace
@@ -16,8 +16,14 @@ from occ_model.scene.parameter_kinds import Count, Quantity
 from occ_model.scene.refusal import refusal_of
 
 
+def _validate(_field: object, text: str, position: int) -> tuple[QValidator.State, str, int]:
+    """Allow any text while typing; the end of the input refuses invalid text."""
+    return QValidator.State.Acceptable, text, position
+
+
 class CountEdit(QSpinBox):
-    accepted = Signal()  # what was typed is an allowed number, also if it is the one shown before
+    validate = _validate
+    accepted = Signal()  # an allowed number was typed, even if it is the one shown before
     refused = Signal(str)  # why an input is not valid; the field shows the last value again
 
     def __init__(self, declared: Count) -> None:
@@ -30,15 +36,13 @@ class CountEdit(QSpinBox):
         self._declared = replace(self._declared, high=high)
         self.setRange(self._declared.low, high)
 
-    def validate(self, text: str, position: int) -> tuple[QValidator.State, str, int]:
-        return QValidator.State.Acceptable, text, position
-
     def valueFromText(self, text: str) -> int:  # noqa: N802 - Qt's name
         return int(_read(self, self._declared, text.strip()))
 
 
 class DecimalEdit(QDoubleSpinBox):
-    accepted = Signal()  # as of a whole number
+    validate = _validate
+    accepted = Signal()  # both as in CountEdit
     refused = Signal(str)
 
     def __init__(self, declared: Quantity, decimals: int) -> None:
@@ -50,11 +54,8 @@ class DecimalEdit(QDoubleSpinBox):
             self.setSuffix(f" {declared.unit.symbol}")
         _prepare(self)
 
-    def validate(self, text: str, position: int) -> tuple[QValidator.State, str, int]:
-        return QValidator.State.Acceptable, text, position
-
     def valueFromText(self, text: str) -> float:  # noqa: N802 - Qt's name
-        # Qt keeps its own unit behind one that is typed.
+        # Qt appends the suffix even to a unit that was typed.
         return _read(self, self._declared, text.removesuffix(self.suffix()))
 
 
@@ -65,7 +66,7 @@ def _prepare(field: CountEdit | DecimalEdit) -> None:
 
 
 def _read(field: CountEdit | DecimalEdit, declared: Count | Quantity, text: str) -> float:
-    """Parse the typed number; the last value stays where it is refused."""
+    """Parse the typed number, or return the last value if it is refused."""
     try:
         value = declared.parse(text)
     except ParameterError as error:
@@ -83,9 +84,10 @@ _WIDEST_TEXT = "888.888 cd/m²"
 class QuantityEdit(QAbstractSpinBox):
     """Shows a quantity with its unit; accepts ``10 kHz``, ``68us``, ``1/8000 s`` or a number.
 
-    A number without a unit is read in the unit shown. The value keeps all digits; only the text is
-    rounded.
+    A number without a unit is read in the unit shown. Only the text is rounded, not the value.
     """
+
+    validate = _validate
 
     edited = Signal(float)  # the value that the user entered, in SI units
 
@@ -99,8 +101,8 @@ class QuantityEdit(QAbstractSpinBox):
         self.setKeyboardTracking(False)
         self.setAlignment(Qt.AlignmentFlag.AlignRight)
         self.lineEdit().textEdited.connect(self._note_typing)
-        self.editingFinished.connect(self.take_typed)
-        self._typed = False
+        self.editingFinished.connect(self.accept_text)
+        self._is_edited = False
         leave_undo_to_window(self)
         select_numbers_whole(self)
         self._show()
@@ -115,14 +117,14 @@ class QuantityEdit(QAbstractSpinBox):
         self._show()
 
     def _show(self) -> None:
-        self._typed = False
+        self._is_edited = False
         self.lineEdit().setText(self._quantity.format(self._value))
 
     def _note_typing(self) -> None:
-        self._typed = True
+        self._is_edited = True
 
-    def take_typed(self) -> None:
-        if not self._typed:  # leaving the field must not round the value
+    def accept_text(self) -> None:
+        if not self._is_edited:  # leaving the field must not round the value
             return
         plain = self._quantity.unit.display(self._value)[1]
         try:
@@ -135,7 +137,7 @@ class QuantityEdit(QAbstractSpinBox):
         self.edited.emit(value)
 
     def stepBy(self, steps: int) -> None:  # noqa: N802 - Qt's name
-        self.take_typed()  # the step starts from the typed value
+        self.accept_text()  # the step starts from the typed value
         fraction = self._quantity.fraction(self._value) + steps * _STEP
         self.set_value(self._quantity.at(min(max(fraction, 0.0), 1.0)))
         self.edited.emit(self._value)
@@ -148,10 +150,6 @@ class QuantityEdit(QAbstractSpinBox):
         if self._value < high:
             enabled |= QAbstractSpinBox.StepEnabledFlag.StepUpEnabled
         return enabled
-
-    def validate(self, text: str, position: int) -> tuple[QValidator.State, str, int]:
-        """Allow any text to be typed; invalid text is refused with a sentence at the end."""
-        return QValidator.State.Acceptable, text, position
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         width = self.fontMetrics().horizontalAdvance(_WIDEST_TEXT) + 28

@@ -93,7 +93,7 @@ def _label(declared: Parameter) -> QLabel:
     return label
 
 
-_SCROLL_BAR_WIDTH = 20  # pixels that the scroll bar takes at most
+_SCROLL_BAR_WIDTH = 20  # greatest width of the scroll bar in pixels
 
 
 class ParameterPage(QScrollArea):

@@ -36,7 +36,7 @@ class ParameterRow(QWidget):
     value: ParameterValue | None = None  # the value shown or entered; None before the first
 
     notice: RefusalNotice
-    """Notice under the field: why the last input was refused, or what is wrong with the value."""
+    """Notice below the field: why the last input was refused, or what is wrong with the value."""
 
     def __init__(self, declaration: Declaration) -> None:
         super().__init__()
@@ -86,7 +86,7 @@ class QuantityRow(ParameterRow):
         self.slider.sliderReleased.connect(self.gestures.end)
         self.field.lineEdit().textEdited.connect(self.gestures.end)
         self.slider.valueChanged.connect(self._slide)
-        self.field.edited.connect(self._take)
+        self.field.edited.connect(self._accept)
         self.field.refused.connect(self.refused)
         self.show_value(quantity.default)
 
@@ -104,8 +104,8 @@ class QuantityRow(ParameterRow):
         self._layout.addWidget(widget, 0, 0, Qt.AlignmentFlag.AlignVCenter)
         widget.lower()
 
-    def show_track(self, shown: bool) -> None:
-        self.slider.setProperty("tracked", shown)
+    def show_track(self, on: bool) -> None:
+        self.slider.setProperty("tracked", on)
         self.slider.style().unpolish(self.slider)
         self.slider.style().polish(self.slider)
 
@@ -136,7 +136,7 @@ class QuantityRow(ParameterRow):
         self._announce_value(value)
 
     def _announce_value(self, value: float) -> None:
-        """Announce the value to a screen reader: that of the slider itself is a number of steps."""
+        """Announce the value to a screen reader, which else reads the slider's number of steps."""
         self.slider.setAccessibleDescription(self._quantity.format(value, _DIGITS))
 
     def _slide(self, position: int) -> None:
@@ -148,7 +148,7 @@ class QuantityRow(ParameterRow):
         gesture = self.gestures.of_change(held=held)
         self.edited.emit(self.name, value, gesture)
 
-    def _take(self, value: float) -> None:
+    def _accept(self, value: float) -> None:
         self._place_slider(value)
         self._enter(value)
 
@@ -169,8 +169,8 @@ class CountRow(ParameterRow):
         with QSignalBlocker(self.field):
             self.field.setValue(int(value))
 
-    def show_instead(self, number: int | None, reason: str = "") -> None:
-        """Show a derived number, and its reason; None: the own value again."""
+    def show_derived(self, number: int | None, reason: str = "") -> None:
+        """Show a derived number with its reason; with None, show the row's own value again."""
         self.field.setEnabled(number is None)
         self.field.setToolTip(reason or explain(self._declared))
         with QSignalBlocker(self.field):
@@ -195,7 +195,7 @@ class ChoiceRow(ParameterRow):
 
 
 class OpenChoiceBox(QComboBox):
-    """A list of choices that is completed before it opens."""
+    """A list that gets the choices of plug-ins before it opens."""
 
     def __init__(self, declared: OpenChoice) -> None:
         super().__init__()
@@ -209,7 +209,7 @@ class OpenChoiceBox(QComboBox):
 
 
 class OpenChoiceRow(ChoiceRow):
-    """A list of the built-in choices and those of plug-ins."""
+    """A choice among the built-in values and those of plug-ins."""
 
     def __init__(self, declared: OpenChoice) -> None:
         super().__init__(declared, OpenChoiceBox(declared))
@@ -226,26 +226,26 @@ class PatternRow(ParameterRow):
     def __init__(self, declared: ChipPattern | Payload) -> None:
         super().__init__(declared)
         self._declared = declared
-        self._shown = ""
+        self._value_text = ""
         self.field = QLineEdit(placeholderText=f"empty: {declared.empty}")
         leave_undo_to_window(self.field)
         _fill(self, self.field, declared)
         self.field.textEdited.connect(self.gestures.end)
         self.field.editingFinished.connect(self._read)
-        self.notice.dismissed.connect(lambda: self.field.setText(self._shown))
+        self.notice.dismissed.connect(lambda: self.field.setText(self._value_text))
 
     def _display(self, value: ParameterValue) -> None:
-        self._shown = self._declared.format(str(value))
-        self.field.setText(self._shown)
+        self._value_text = self._declared.format(str(value))
+        self.field.setText(self._value_text)
         self.end_refusal()
 
     def end_refusal(self) -> None:
         """Remove the sentence, unless it is about the text that the field still shows."""
-        if self.field.text() == self._shown:
+        if self.field.text() == self._value_text:
             super().end_refusal()
 
     def _read(self) -> None:
-        if self.field.text() == self._shown:
+        if self.field.text() == self._value_text:
             self.end_refusal()
             return
         try:
@@ -253,9 +253,9 @@ class PatternRow(ParameterRow):
         except ParameterError as error:
             self.refused.emit(refusal_of(error))
             return
-        unchanged = value == self.value
+        is_changed = value != self.value
         self.show_value(value)
-        if not unchanged:
+        if is_changed:
             self._enter(value)
 
 

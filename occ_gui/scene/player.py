@@ -8,7 +8,7 @@ from occ_gui.scene.parameter_rows import QuantityRow
 from occ_gui.widgets.icons import IconButton
 from occ_model.scene.scene import Scene
 
-_TURN_MS = 40
+_FRAME_MS = 40
 
 _ICON = 12
 
@@ -18,7 +18,7 @@ _RELATIVE_TOLERANCE = 1e-9
 
 
 class PlayButton(IconButton):
-    """Shows whether a slider runs; the right mouse button asks for a menu."""
+    """Shows whether a slider runs; the right mouse button opens a menu."""
 
     switched = Signal(str, bool)  # the parameter, and whether its slider is to run
     menu_asked = Signal(str)  # the parameter whose menu is to be opened
@@ -30,7 +30,7 @@ class PlayButton(IconButton):
         self.setAccessibleName(f"Play: {label}")
         self.setToolTip(
             "Run the slider from end to end and back.\n"
-            "The right mouse button offers speed, loop and a film of it."
+            "The right mouse button opens a menu: speed, loop, animation."
         )
         self.clicked.connect(lambda on: self.switched.emit(name, on))
         self.customContextMenuRequested.connect(lambda: self.menu_asked.emit(name))
@@ -41,7 +41,7 @@ class PlayButton(IconButton):
 
 
 class Player(QObject):
-    """Runs one slider at a time, until its value is changed by anything else."""
+    """Runs one slider at a time, until anything else changes its value."""
 
     film_asked = Signal(str)  # the parameter whose run is to be written as an animation
     run_changed = Signal(str)  # the parameter whose slider runs from now on; empty for none
@@ -58,11 +58,11 @@ class Player(QObject):
         self.speed, self.is_looping = "normal", True
         self._direction = 1.0
         self._fraction = 0.0
-        self._set: float | None = None
+        self._last_value: float | None = None
         self._clock = QElapsedTimer()
-        self._turns = QTimer(self)
-        self._turns.setInterval(_TURN_MS)
-        self._turns.timeout.connect(self._advance)
+        self._timer = QTimer(self)
+        self._timer.setInterval(_FRAME_MS)
+        self._timer.timeout.connect(self._advance)
         for button in buttons.values():
             button.switched.connect(self._switch)
             button.menu_asked.connect(self._open_menu)
@@ -72,15 +72,15 @@ class Player(QObject):
         self.stop()
         row = self._rows[name]
         self.playing, self._fraction, self._direction = name, row.fraction, 1.0
-        self._set = None
+        self._last_value = None
         row.begin_run()
         self._buttons[name].show_playing(True)
         self.run_changed.emit(name)
         self._clock.start()
-        self._turns.start()
+        self._timer.start()
 
     def stop(self) -> None:
-        self._turns.stop()
+        self._timer.stop()
         if self.playing:
             self._rows[self.playing].end_run()
             self._buttons[self.playing].show_playing(False)
@@ -88,21 +88,20 @@ class Player(QObject):
             self.run_changed.emit("")
 
     def follow_scene(self, scene: Scene) -> None:
-        if not self.playing or self._set is None:
+        if not self.playing or self._last_value is None:
             return
         value = float(scene.value(self.playing))
-        if abs(value - self._set) > _RELATIVE_TOLERANCE * abs(self._set):
+        if abs(value - self._last_value) > _RELATIVE_TOLERANCE * abs(self._last_value):
             self.stop()
 
     def _advance(self) -> None:
-        passed = 1e-3 * self._clock.restart() / SPEEDS[self.speed]
-        self._fraction += self._direction * passed
+        self._fraction += self._direction * 1e-3 * self._clock.restart() / SPEEDS[self.speed]
         is_over = self._fraction < 0.0 and not self.is_looping
         if not 0.0 <= self._fraction <= 1.0:
             self._fraction = min(max(self._fraction, 0.0), 1.0)
             self._direction = -self._direction
         row = self._rows[self.playing]
-        self._set = row.value_at(self._fraction)  # before the scene changes
+        self._last_value = row.value_at(self._fraction)  # before the scene changes
         row.run_to(self._fraction)
         if is_over:
             self.stop()

@@ -1,4 +1,4 @@
-"""Refusal notice: why a value was refused, over what is under its field, and a frame round it."""
+"""Refusal notice: the reason why a value was refused, below its field, which gets a frame."""
 
 from PySide6.QtCore import QEvent, QObject, QRectF, Qt, Signal
 from PySide6.QtGui import (
@@ -19,14 +19,14 @@ from occ_gui.widgets.guarded_paint import guarded
 _RED = QColor("#b3261e")
 
 _PADDING, _MARGIN, _GAP = 6, 4, 2
-"""Pixels round the sentence, beside it, and between it and the field."""
+"""Pixels around the sentence, beside it, and between it and the field."""
 
 
 class RefusalNotice(QLabel):
-    """A sentence under a field that says what is wrong; hidden until there is one.
+    """A sentence below a field that says what is wrong; hidden if nothing is.
 
-    It lies over what is below the field, so that nothing moves when it comes or goes; a click on it
-    removes it. Screen readers announce it, and read it as the description of the field.
+    It covers what is below the field, so that nothing moves when it appears; a click removes it.
+    Screen readers announce it, and read it as the description of the field.
     """
 
     dismissed = Signal()  # the user has clicked the sentence away
@@ -47,13 +47,13 @@ class RefusalNotice(QLabel):
     def show_problem(self, sentence: str) -> None:
         self.setText(sentence)
         self._field.setAccessibleDescription(sentence)
-        self._take_colour()
+        self._update_colour()
         self._frame.show()
-        self._appear()
+        self._show_on_page()
         QAccessible.updateAccessibility(QAccessibleEvent(self, QAccessible.Event.Alert))
 
-    def _appear(self) -> None:
-        """Show the sentence over the page of the field."""
+    def _show_on_page(self) -> None:
+        """Show the sentence on top of the field's page."""
         page = _page_of(self._field)
         if self.parentWidget() is not page:
             self.setParent(page)
@@ -63,7 +63,7 @@ class RefusalNotice(QLabel):
         self.raise_()
 
     def _place(self) -> None:
-        """Place the sentence under the field, or above it where there is no room below."""
+        """Place the sentence below the field, or above it if there is no room below."""
         page = self.parentWidget() or self._field
         width = page.width() - 2 * _MARGIN
         height = self.heightForWidth(width)
@@ -97,7 +97,7 @@ class RefusalNotice(QLabel):
         super().paintEvent(event)
 
     def end(self) -> None:
-        """Remove the sentence: the value is corrected, or no longer wanted."""
+        """Remove the sentence, because the value was corrected or given up."""
         if self.text():
             self.clear()
             self._field.setAccessibleDescription("")
@@ -107,20 +107,20 @@ class RefusalNotice(QLabel):
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
         super().changeEvent(event)
         if event.type() == QEvent.Type.PaletteChange and self.text():
-            self._take_colour()
+            self._update_colour()
 
-    def _take_colour(self) -> None:
-        paper = QApplication.palette()
-        paper.setColor(QPalette.ColorRole.Base, paper.color(self.backgroundRole()))
-        ink = lighten_for(paper, _RED)
-        if self.palette().color(self.foregroundRole()) != ink:
-            colours = QPalette()  # in which all other colours stay those of the theme
-            colours.setColor(self.foregroundRole(), ink)
+    def _update_colour(self) -> None:
+        theme = QApplication.palette()
+        theme.setColor(QPalette.ColorRole.Base, theme.color(self.backgroundRole()))
+        red = lighten_for(theme, _RED)
+        if self.palette().color(self.foregroundRole()) != red:
+            colours = QPalette()  # all other colours stay the theme's
+            colours.setColor(self.foregroundRole(), red)
             self.setPalette(colours)
 
 
 def _page_of(field: QWidget) -> QWidget:
-    """Return the page that a field scrolls with, or else its pane or window."""
+    """Return the page with which a field scrolls, or else its pane or window."""
     page = field
     while not page.isWindow() and (around := page.parentWidget()) is not None:
         pane = around.parentWidget()

@@ -1,4 +1,4 @@
-"""Scene editor: makes the changes of the controls, with the brightness held if chosen."""
+"""Scene editor: applies the edits of all controls, and keeps the brightness if chosen."""
 
 from PySide6.QtCore import QObject, Signal
 
@@ -10,32 +10,32 @@ from occ_model.scene.scene import Scene
 _EXPOSURE, _ISO = "exposure_time", "iso"
 
 
-class HoldBrightness(QObject):
-    """While it is on, keeps the product S t of equation (1) constant as the exposure changes."""
+class BrightnessHold(QObject):
+    """While it is on, keeps the product S t of equation (1) when the exposure time t changes."""
 
     switched = Signal(bool)
 
-    status_message = Signal(str)  # the reason why the brightness could not be held
+    status_message = Signal(str)  # the reason why the brightness could not be kept
 
     def __init__(self, store: SceneStore) -> None:
         super().__init__()
         self._store = store
         self.is_on = False
         self._product = 0.0
-        self._asked: tuple[float, float] | None = None
+        self._own_change: tuple[float, float] | None = None
         self._limit = ""
         self._note_product(store.scene)
         store.changed.connect(self._note_product)
 
     def switch(self, on: bool) -> None:
-        self._asked = None
+        self._own_change = None
         self._note_product(self._store.scene)
         if on != self.is_on:
             self.is_on = on
             self.switched.emit(on)
 
     def changes(self, name: str, value: ParameterValue) -> dict[str, ParameterValue]:
-        """Return the change of a parameter, together with that of the ISO speed if it follows."""
+        """Return the change of a parameter, and that of the ISO speed if the brightness is kept."""
         self._limit = ""
         time = value if isinstance(value, float) else 0.0
         if not self.is_on or name != _EXPOSURE or time <= 0.0:
@@ -43,15 +43,14 @@ class HoldBrightness(QObject):
         iso = quantity(_ISO)
         low, high = iso.slider
         wanted = self._product / time
-        held = min(max(wanted, low), high)
-        self._asked = (time, held)
-        if held != wanted:
+        speed = min(max(wanted, low), high)
+        self._own_change = (time, speed)
+        if speed != wanted:
             self._limit = (
                 f"The brightness cannot be held: it takes ISO {iso.format(wanted)}; the "
-                "slider goes from "
-                f"{iso.format(low)} to {iso.format(high)}."
+                f"slider goes from {iso.format(low)} to {iso.format(high)}."
             )
-        return {_EXPOSURE: time, _ISO: held}
+        return {_EXPOSURE: time, _ISO: speed}
 
     def report_limit(self) -> None:
         """Report, after the change, that the ISO speed has reached an end of its slider."""
@@ -59,16 +58,16 @@ class HoldBrightness(QObject):
             self.status_message.emit(self._limit)
 
     def _note_product(self, scene: Scene) -> None:
-        # After a change of this rule's own, the ISO speed may be at the end of its slider: then
-        # its product is not the one to be held.
+        # After a change made here, the ISO speed may be at an end of its slider, and the product
+        # is then not the one to keep.
         camera = scene.camera
-        if (camera.exposure_time, camera.iso) != self._asked:
-            self._asked = None
+        if (camera.exposure_time, camera.iso) != self._own_change:
+            self._own_change = None
             self._product = camera.iso * camera.exposure_time
 
 
 class SceneEditor(QObject):
-    """Receives the edits of all controls and changes the scene in the store."""
+    """Changes the scene in the store as the controls ask."""
 
     edit_started = Signal()  # a value was entered, whether or not it differs from the scene's
     input_refused = Signal(str)  # the reason why an input is not valid
@@ -76,10 +75,10 @@ class SceneEditor(QObject):
     def __init__(self, store: SceneStore) -> None:
         super().__init__()
         self._store = store
-        self.brightness = HoldBrightness(store)
+        self.brightness = BrightnessHold(store)
 
     def edit(self, name: str, value: ParameterValue, gesture: int) -> None:
-        """Change a parameter, and the ISO speed with it where the brightness is held.
+        """Change a parameter, and with it the ISO speed if the brightness is kept.
 
         ``gesture``: changes of one gesture are undone as one step.
         """

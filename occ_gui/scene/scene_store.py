@@ -1,4 +1,4 @@
-"""Scene store: edits of the scene and of its simulation settings, and which are steps."""
+"""Scene store: edits of the scene and its simulation settings, as steps to undo."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -58,8 +58,8 @@ class SettingsStore(QObject):
         self._store.put(replace(self._store.workspace, settings=settings))
 
 
-_MOST_OF_A_CHANGE = 2
-"""Most parameters in one change of the user: the exposure and, held by it, the ISO."""
+_MOST_OF_AN_EDIT = 2
+"""Most parameters that one edit changes: the exposure time and the ISO speed that follows it."""
 
 
 class SceneStore(QObject):
@@ -97,8 +97,8 @@ class SceneStore(QObject):
 
     def force(self, effect: str, included: bool | None) -> None:
         """Switch an effect on or off, or leave it to the plan (None)."""
-        now = self.settings.settings.force
-        force = {name: on for name, on in now.items() if name != effect}
+        force = dict(self.settings.settings.force)
+        force.pop(effect, None)
         if included is not None:
             force[effect] = included
         text = switch_text(effect, included, self.settings.effect_labels)
@@ -107,19 +107,19 @@ class SceneStore(QObject):
     def release_effects(self) -> None:
         """Leave all effects to the plan, with the tolerance of a new window."""
         title = "return of all effects to the plan"
-        self.store.put(replace(self.store.workspace, settings=self._as_planned()), title)
+        self.store.put(replace(self.store.workspace, settings=self._planned_settings()), title)
 
-    def _as_planned(self) -> SimulationSettings:
-        """Return the settings without what the user has left out or taken in by hand."""
+    def _planned_settings(self) -> SimulationSettings:
+        """Return the settings with all effects left to the plan, and the usual tolerance."""
         settings = self.settings.settings
         return replace(FIRST_SETTINGS, noise=settings.noise, seed=settings.seed)
 
     def begin(self, scene: Scene, title: str, gesture: int = NO_GESTURE) -> None:
-        """Replace the scene by another one, of which nothing is left out by hand, as one step."""
-        settings, former = self._as_planned(), self.settings.settings
+        """Replace the scene in one step, and leave all effects to the plan."""
+        settings, former = self._planned_settings(), self.settings.settings
         self.store.put(replace(self._with(scene), settings=settings), title, gesture)
         if settings != former:
-            self.noted.emit("What is left out is up to the plan again, within the usual tolerance.")
+            self.noted.emit("The plan decides on all effects again, within the usual tolerance.")
 
     def put(
         self,
@@ -129,10 +129,10 @@ class SceneStore(QObject):
         force: Mapping[str, bool] | None = None,
         preset: str = "",
     ) -> None:
-        """Replace the whole scene as one step, and the effects forced by hand if they are given.
+        """Replace the whole scene in one step, and the effects forced by hand if given.
 
-        The preset is what a whole other scene was changed from; one that is changed a little keeps
-        its own.
+        ``preset``: the preset that the scene is based on; by default, a scene in which little
+        changes keeps its preset.
         """
         workspace = self._with(scene, preset)
         if force is not None:
@@ -142,7 +142,7 @@ class SceneStore(QObject):
     def _with(self, scene: Scene, preset: str = "") -> Workspace:
         workspace, last = self.store.workspace, self.scene
         changed = sum(scene.value(name) != last.value(name) for name in PARAMETERS)
-        preset = preset or (workspace.preset if changed <= _MOST_OF_A_CHANGE else "")
+        preset = preset or (workspace.preset if changed <= _MOST_OF_AN_EDIT else "")
         return replace(workspace, scene=scene, preset=preset)
 
 
@@ -168,10 +168,8 @@ class Gestures:
 
     def of_change(self, held: bool = False) -> int:
         """Return the gesture of a change made now; while held, a pause does not end a gesture."""
-        goes_on = self._since_change.isValid() and (
-            held or not self._since_change.hasExpired(PAUSE_MS)
-        )
-        if not goes_on:
+        since = self._since_change
+        if not since.isValid() or (since.hasExpired(PAUSE_MS) and not held):
             self._number = new_gesture()
         self._since_change.start()
         return self._number

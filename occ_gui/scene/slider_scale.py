@@ -15,7 +15,7 @@ from occ_model.scene.parameter_kinds import Quantity
 
 _TEXT_SCALE = 0.85
 _TICK, _GAP = 4.0, 4.0
-_NAME_OVERHANG = 3.0  # pixels by which a name at one side of its mark reaches to the other side
+_NAME_OVERHANG = 3.0  # pixels by which a name beside its mark extends to the other side
 
 _DIGITS = 4
 _Text: TypeAlias = tuple[str, QRectF]
@@ -37,10 +37,10 @@ class SliderScale(QWidget):
     def show_marks(self, marks: Sequence[MarkedValue]) -> None:
         """Show marks at values within the slider's range."""
         low, high = self._quantity.slider
-        found = tuple(mark for mark in marks if low <= mark.value <= high)
-        if found != self.marks:
-            self.marks = found
-            self.setAccessibleDescription(" ".join(self._meaning(mark) for mark in found))
+        inside = tuple(mark for mark in marks if low <= mark.value <= high)
+        if inside != self.marks:
+            self.marks = inside
+            self.setAccessibleDescription(" ".join(self._meaning(mark) for mark in inside))
             self.update()
 
     def _meaning(self, mark: MarkedValue) -> str:
@@ -53,7 +53,7 @@ class SliderScale(QWidget):
         return QSize(60, round(QFontMetricsF(self.text_font()).height() + _TICK + 2))
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return a small width: names of marks are left out where there is no space."""
+        """Return a small width, because names of marks are left out if there is no space."""
         return QSize(20, self.sizeHint().height())
 
     def x_of(self, value: float) -> float:
@@ -82,12 +82,12 @@ class SliderScale(QWidget):
         font = self.text_font()
         metrics = QFontMetricsF(font)
         painter.setFont(font)
-        ink = self.palette().color(QPalette.ColorRole.WindowText)
+        colour = self.palette().color(QPalette.ColorRole.WindowText)
         ends, names = self.texts(metrics)
         painter.setPen(self.palette().color(QPalette.ColorRole.PlaceholderText))
         for text, box in ends:
             painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)
-        painter.setPen(QPen(ink, 1.5))
+        painter.setPen(QPen(colour, 1.5))
         for mark in self.marks:
             x = self.x_of(mark.value)
             painter.drawLine(QPointF(x, 0.0), QPointF(x, _TICK))
@@ -97,18 +97,18 @@ class SliderScale(QWidget):
     def texts(self, metrics: QFontMetricsF) -> tuple[list[_Text], list[_Text]]:
         """Return the end values and the marks' names, each with its place.
 
-        An end value that leaves a mark no place for its name is left out: where the slider ends is
-        seen, but nothing else says what a mark is.
+        An end value is left out where a mark's name needs its place, as only the name explains the
+        mark.
         """
         low, high = self._ends(metrics)
         choices: tuple[list[_Text], ...] = ([low, high], [low], [high], [])
         named = [(ends, self._names(metrics, [box for _, box in ends])) for ends in choices]
         return max(named, key=lambda texts: len(texts[1]))  # the first of equal ones
 
-    def _names(self, metrics: QFontMetricsF, taken: Sequence[QRectF]) -> list[_Text]:
-        """Return the marks' names with their places: as many as there is space for.
+    def _names(self, metrics: QFontMetricsF, occupied: Sequence[QRectF]) -> list[_Text]:
+        """Return as many of the marks' names as there is space for, with their places.
 
-        A name stands in the middle under its mark, or to one side, where that leaves more space.
+        A name is centred below its mark, or moved to one side if that leaves more space.
         """
         places: list[list[_Text | None]] = []
         for mark in self.marks:
@@ -121,10 +121,10 @@ class SliderScale(QWidget):
                 QRectF(min(max(left, 0.0), most), _TICK + 1.0, width, metrics.height())
                 for left in lefts
             ]
-            places.append([*((text, box) for box in boxes if _is_free(box, taken)), None])
+            places.append([*((text, box) for box in boxes if _is_free(box, occupied)), None])
         best: list[_Text] = []
-        for chosen in product(*places):
-            named = [name for name in chosen if name is not None]
+        for combination in product(*places):
+            named = [name for name in combination if name is not None]
             apart = all(_is_free(one[1], [other[1]]) for one, other in combinations(named, 2))
             if apart and len(named) > len(best):
                 best = named
@@ -139,8 +139,8 @@ class SliderScale(QWidget):
         )
 
 
-def _is_free(box: QRectF, taken: Sequence[QRectF]) -> bool:
-    return not any(box.adjusted(-_GAP, 0, _GAP, 0).intersects(other) for other in taken)
+def _is_free(box: QRectF, occupied: Sequence[QRectF]) -> bool:
+    return not any(box.adjusted(-_GAP, 0, _GAP, 0).intersects(other) for other in occupied)
 
 
 def slider_travel(slider: QSlider) -> tuple[float, float]:

@@ -1,4 +1,4 @@
-"""Spotlight: one control is marked and scrolled into view, others are dimmed and take nothing."""
+"""Spotlight: marks one control and scrolls it into view, and dims and disables the others."""
 
 from PySide6.QtCore import QMargins, QObject, Qt
 from PySide6.QtGui import QPalette
@@ -56,7 +56,7 @@ class Spotlight(QObject):
         marked = (row, label, panel.play_buttons.get(name))
         why = (
             f"This step of the lesson is about “{PARAMETERS[name].label}”. The other "
-            "controls of this page take nothing until it is left."
+            "controls of this page are disabled until you leave it."
         )
         for widget in children:
             if widget not in marked:

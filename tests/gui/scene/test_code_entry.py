@@ -9,31 +9,32 @@ from occ_gui.scene.code_entry import CodeEntry
 from occ_model.scene.scene import Scene
 
 
-class Bench:
-    """An entry on a store, and what it told."""
+class CodeForm:
+    """An entry that edits a store, with a record of its signals."""
 
     def __init__(self, qtbot: QtBot) -> None:
         self.entry = CodeEntry()
         self.store = store_of(Scene().replace(code=718, bits=10))
-        self.told: list[tuple[str, int, int]] = []
+        self.edits: list[tuple[str, int, int]] = []
         self.refused: list[str] = []
-        self.entry.edited.connect(self._take)
+        self.entry.edited.connect(self._edit)
         self.entry.refused.connect(self.refused.append)
         self.store.changed.connect(self.entry.show_scene)
         self.entry.show_scene(self.store.scene)
         self._qtbot = qtbot
-        qtbot.addWidget(self.entry)
+        for widget in (self.entry, self.entry.title):  # another widget shows the title
+            qtbot.addWidget(widget)
         self.entry.show()
 
-    def _take(self, name: str, code: int, gesture: int) -> None:
-        self.told.append((name, code, gesture))
+    def _edit(self, name: str, code: int, gesture: int) -> None:
+        self.edits.append((name, code, gesture))
         self.store.change(gesture, **{name: code})
 
     @property
     def codes(self) -> list[int]:
-        return [code for _, code, _ in self.told]
+        return [code for _, code, _ in self.edits]
 
-    def shown(self) -> tuple[int, str]:
+    def texts(self) -> tuple[int, str]:
         return self.entry.number.value(), self.entry.bits.text()
 
     def enter_bits(self, text: str) -> None:
@@ -49,83 +50,83 @@ class Bench:
 
 
 @pytest.fixture
-def bench(qtbot: QtBot) -> Bench:
-    return Bench(qtbot)
+def form(qtbot: QtBot) -> CodeForm:
+    return CodeForm(qtbot)
 
 
-def test_quick_steps_of_the_number_are_one_step_to_undo(bench: Bench, qtbot: QtBot) -> None:
+def test_quick_steps_of_the_number_are_one_step_to_undo(form: CodeForm, qtbot: QtBot) -> None:
     for _ in range(3):
-        qtbot.keyClick(bench.entry.number, Qt.Key.Key_Up)
-    assert bench.codes == [719, 720, 721]
-    bench.store.undo_stack.undo()
-    assert bench.shown() == (718, "1011001110")
+        qtbot.keyClick(form.entry.number, Qt.Key.Key_Up)
+    assert form.codes == [719, 720, 721]
+    form.store.undo_stack.undo()
+    assert form.texts() == (718, "1011001110")
 
 
-def test_bits_and_number_follow_each_other(bench: Bench) -> None:
-    assert bench.shown() == (718, "1011001110")
-    bench.enter_number("3")
-    assert bench.shown() == (3, "0000000011")
-    assert bench.codes == [3]
-    bench.enter_bits("11111 00000")
-    assert bench.shown() == (0b1111100000, "1111100000")
-    assert bench.codes == [3, 0b1111100000]
+def test_bits_and_number_follow_each_other(form: CodeForm) -> None:
+    assert form.texts() == (718, "1011001110")
+    form.enter_number("3")
+    assert form.texts() == (3, "0000000011")
+    assert form.codes == [3]
+    form.enter_bits("11111 00000")
+    assert form.texts() == (0b1111100000, "1111100000")
+    assert form.codes == [3, 0b1111100000]
 
 
-def test_every_entry_is_a_gesture_of_its_own(bench: Bench) -> None:
-    bench.enter_bits("0000000001")
-    bench.enter_number("2")
-    bench.enter_number("3")
-    assert len({gesture for _, _, gesture in bench.told}) == 3
+def test_every_entry_is_a_gesture_of_its_own(form: CodeForm) -> None:
+    form.enter_bits("0000000001")
+    form.enter_number("2")
+    form.enter_number("3")
+    assert len({gesture for _, _, gesture in form.edits}) == 3
 
 
 @pytest.mark.parametrize("text", ["101", "1011001112"])
-def test_digits_that_are_no_bits_stay_with_the_reason_until_typed_anew(
-    bench: Bench, text: str
+def test_digits_that_are_not_bits_stay_with_the_reason_until_corrected(
+    form: CodeForm, text: str
 ) -> None:
-    bench.enter_bits(text)
-    (sentence,) = bench.refused
+    form.enter_bits(text)
+    (sentence,) = form.refused
     assert repr(text) in sentence
     assert "allowed: 10 characters 0 and 1" in sentence
     assert f"text:{text}" in sentence
-    bench.store.change(iso=200.0)  # and with it, all refusals end
-    bench.entry.end_refusal()
-    assert bench.shown() == (718, text)
-    notice = bench.entry.notices[1]
+    form.store.change(iso=200.0)  # this ends all other refusals
+    form.entry.end_refusal()
+    assert form.texts() == (718, text)
+    notice = form.entry.notices[1]
     assert notice.isVisible()
-    bench.enter_bits("0000000001")
-    assert bench.shown() == (1, "0000000001")
+    form.enter_bits("0000000001")
+    assert form.texts() == (1, "0000000001")
     assert not notice.isVisible()
 
 
-def test_the_emptied_or_untouched_bits_come_back_without_a_word(bench: Bench, qtbot: QtBot) -> None:
-    bench.enter_bits("")
-    assert bench.shown() == (718, "1011001110")
-    assert bench.codes == bench.refused == []
-    qtbot.keyClick(bench.entry.bits, Qt.Key.Key_Return)
-    assert bench.codes == []
-    assert bench.refused == []
-    bench.enter_bits("10110 01110")
-    assert bench.codes == []
-    assert bench.refused == []
-    assert bench.shown() == (718, "1011001110")
+def test_cleared_or_unchanged_bits_return_silently(form: CodeForm, qtbot: QtBot) -> None:
+    form.enter_bits("")
+    assert form.texts() == (718, "1011001110")
+    assert form.codes == form.refused == []
+    qtbot.keyClick(form.entry.bits, Qt.Key.Key_Return)
+    assert form.codes == []
+    assert form.refused == []
+    form.enter_bits("10110 01110")
+    assert form.codes == []
+    assert form.refused == []
+    assert form.texts() == (718, "1011001110")
 
 
-def test_the_reason_clicked_away_takes_the_text_with_it(bench: Bench, qtbot: QtBot) -> None:
-    bench.enter_bits("101")
-    qtbot.mouseClick(bench.entry.notices[1], Qt.MouseButton.LeftButton)
-    assert bench.shown() == (718, "1011001110")
+def test_a_click_on_the_reason_also_removes_the_text(form: CodeForm, qtbot: QtBot) -> None:
+    form.enter_bits("101")
+    qtbot.mouseClick(form.entry.notices[1], Qt.MouseButton.LeftButton)
+    assert form.texts() == (718, "1011001110")
 
 
-def test_the_number_of_bits_sets_what_can_be_entered(bench: Bench) -> None:
-    bench.store.change(code=5, bits=3)
-    assert bench.shown() == (5, "101")
-    assert bench.entry.number.maximum() == 7
-    assert "from 0 to 7" in bench.entry.number.toolTip()
-    bench.enter_bits("011")
-    assert bench.shown() == (3, "011")
-    bench.store.change(code=2**16 - 1, bits=16)
-    assert bench.shown() == (65535, "1" * 16)
-    assert bench.codes == [3]
+def test_the_number_of_bits_limits_what_can_be_entered(form: CodeForm) -> None:
+    form.store.change(code=5, bits=3)
+    assert form.texts() == (5, "101")
+    assert form.entry.number.maximum() == 7
+    assert "from 0 to 7" in form.entry.number.toolTip()
+    form.enter_bits("011")
+    assert form.texts() == (3, "011")
+    form.store.change(code=2**16 - 1, bits=16)
+    assert form.texts() == (65535, "1" * 16)
+    assert form.codes == [3]
 
 
 @pytest.mark.parametrize(
@@ -137,42 +138,44 @@ def test_the_number_of_bits_sets_what_can_be_entered(bench: Bench) -> None:
         ("bits:011", "bits:011", "Sent as bits: 3 bits"),
     ],
 )
-def test_what_is_typed_as_a_payload_is_sent_and_alone_is_shown(
-    bench: Bench, typed: str, payload: str, title: str
+def test_a_payload_that_is_typed_is_sent_and_alone_is_shown(
+    form: CodeForm, typed: str, payload: str, title: str
 ) -> None:
-    bench.enter_bits(typed)
-    assert bench.store.scene.transmitter.payload == payload
-    assert bench.entry.bits.text() == typed
-    assert bench.entry.title.text() == title
-    assert bench.entry.number.isHidden()
-    assert bench.refused == []
+    form.enter_bits(typed)
+    assert form.store.scene.transmitter.payload == payload
+    assert form.entry.bits.text() == typed
+    assert form.entry.title.text() == title
+    assert form.entry.number.isHidden()
+    assert form.refused == []
 
 
-def test_the_emptied_field_sends_the_code_again_and_bits_end_a_payload(bench: Bench) -> None:
-    bench.enter_bits("hex:0F")
-    assert bench.shown()[1] == "hex:0f"
-    bench.enter_bits("")
-    assert bench.store.scene.transmitter.payload == ""
-    assert bench.shown() == (718, "1011001110")
-    assert bench.entry.number.isVisible()
-    assert bench.entry.title.text() == "Code, as a number and as bits"
-    bench.enter_bits("text:HI")
-    bench.enter_bits("0000000001")
-    assert bench.store.scene.transmitter.payload == ""
-    assert bench.store.scene.transmitter.code == 1
-    assert bench.shown() == (1, "0000000001")
-    bench.store.change(-1, payload="bits:01")
-    assert bench.shown() == (1, "bits:01")
-    bench.store.undo_stack.undo()
-    assert bench.shown() == (1, "0000000001")
+def test_a_cleared_field_sends_the_code_again_and_bits_end_a_payload(
+    form: CodeForm,
+) -> None:
+    form.enter_bits("hex:0F")
+    assert form.texts()[1] == "hex:0f"
+    form.enter_bits("")
+    assert form.store.scene.transmitter.payload == ""
+    assert form.texts() == (718, "1011001110")
+    assert form.entry.number.isVisible()
+    assert form.entry.title.text() == "Code, as a number and as bits"
+    form.enter_bits("text:HI")
+    form.enter_bits("0000000001")
+    assert form.store.scene.transmitter.payload == ""
+    assert form.store.scene.transmitter.code == 1
+    assert form.texts() == (1, "0000000001")
+    form.store.change(-1, payload="bits:01")
+    assert form.texts() == (1, "bits:01")
+    form.store.undo_stack.undo()
+    assert form.texts() == (1, "0000000001")
 
 
 @pytest.mark.parametrize(("typed", "bits"), [("text:", "0"), ("x" * 513, "4,104")])
-def test_a_payload_that_is_none_is_refused_and_the_code_is_sent(
-    bench: Bench, typed: str, bits: str
+def test_an_invalid_payload_is_refused_and_the_code_is_sent(
+    form: CodeForm, typed: str, bits: str
 ) -> None:
-    bench.enter_bits(typed)
-    assert bench.store.scene.transmitter.payload == ""
-    assert bench.shown() == (718, typed)
-    assert len(bench.refused) == 1
-    assert f"Payload cannot have {bits} bits" in bench.refused[0]
+    form.enter_bits(typed)
+    assert form.store.scene.transmitter.payload == ""
+    assert form.texts() == (718, typed)
+    assert len(form.refused) == 1
+    assert f"Payload cannot have {bits} bits" in form.refused[0]

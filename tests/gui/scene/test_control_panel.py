@@ -32,10 +32,10 @@ def panel(qtbot: QtBot) -> ControlPanel:
 
 
 def entry_controls(panel: QWidget) -> list[QWidget]:
-    """List what a user enters values with, without the line edits inside of number fields."""
+    """List the controls that accept values, without the line edits inside number fields."""
     kinds = (QAbstractSpinBox, QComboBox, QLineEdit, QSlider)
-    found = [control for kind in kinds for control in panel.findChildren(kind)]
-    return [c for c in found if not isinstance(c.parentWidget(), QAbstractSpinBox)]
+    controls = [control for kind in kinds for control in panel.findChildren(kind)]
+    return [c for c in controls if not isinstance(c.parentWidget(), QAbstractSpinBox)]
 
 
 def test_every_parameter_but_the_code_has_exactly_one_row_on_its_page(panel: ControlPanel) -> None:
@@ -62,58 +62,60 @@ def test_every_row_names_its_parameter_and_its_allowed_range(panel: ControlPanel
     assert symbols["distance"].endswith("<i>d</i>")
 
 
-def test_all_pages_show_the_scene_and_tell_nothing(panel: ControlPanel) -> None:
-    told: list[object] = []
+def test_all_pages_show_the_scene_and_emit_no_edit(panel: ControlPanel) -> None:
+    edits: list[object] = []
     rows: list[Any] = [
         panel.code,
         *(r for page in panel.panels.values() for r in page.rows.values()),
     ]
     for row in rows:
-        row.edited.connect(lambda *edit: told.append(edit))
+        row.edited.connect(lambda *edit: edits.append(edit))
     scene = Scene().replace(
         code=5, bits=4, pattern="01", distance=0.7, gamma=1.8, averaging="light", rows=77
     )
     panel.show_scene(scene)
-    shown: dict[str, object] = {"code": panel.code.number.value()}
+    values: dict[str, object] = {"code": panel.code.number.value()}
     for page in panel.panels.values():
         for name, row in page.rows.items():
             match row:
                 case QuantityRow() | CountRow():
-                    shown[name] = row.field.value()
+                    values[name] = row.field.value()
                 case ChoiceRow():
-                    shown[name] = row.field.currentText()
+                    values[name] = row.field.currentText()
                 case PatternRow():
-                    shown[name] = row.field.text()
-    assert shown == {name: scene.value(name) for name in PARAMETERS}
-    assert told == []
+                    values[name] = row.field.text()
+    assert values == {name: scene.value(name) for name in PARAMETERS}
+    assert edits == []
 
 
 def test_edits_and_refusals_of_every_part_are_passed_on(
     panel: ControlPanel, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    told: list[object] = []
+    heard: list[object] = []
     editor = SceneEditor(store_of())
-    monkeypatch.setattr(SceneStore, "change", lambda _store, _gesture, **edit: told.extend(edit))
+    monkeypatch.setattr(SceneStore, "change", lambda _store, _gesture, **edit: heard.extend(edit))
     panel.connect_editor(editor)
-    editor.input_refused.connect(told.append)
+    editor.input_refused.connect(heard.append)
     for page in panel.panels.values():
         for name, row in page.rows.items():
             row.edited.emit(name, 1, 1)
     panel.code.edited.emit("code", 1, 1)
     panel.code.refused.emit("No such bits.")
-    assert Counter(told) == Counter([*PARAMETERS, "No such bits."])
+    assert Counter(heard) == Counter([*PARAMETERS, "No such bits."])
 
 
-def test_choosing_a_preset_tells_its_name(panel: ControlPanel, qtbot: QtBot) -> None:
-    told = collect(panel.preset_chosen)
+def test_choosing_a_preset_emits_its_name(panel: ControlPanel, qtbot: QtBot) -> None:
+    names = collect(panel.preset_chosen)
     panel.show_preset("small")
-    assert told == []
+    assert names == []
     panel.show()
     qtbot.keyClick(panel.preset, Qt.Key.Key_Down)
-    assert told == ["large"]
+    assert names == ["large"]
 
 
-def test_the_preset_shown_is_the_scenes_or_named_as_changed_or_none(panel: ControlPanel) -> None:
+def test_the_list_shows_the_scenes_preset_or_that_it_is_changed_or_none(
+    panel: ControlPanel,
+) -> None:
     panel.show_preset("large")
     assert panel.preset.currentData() == "large"
     panel.show_preset("")
@@ -127,15 +129,15 @@ def test_the_preset_shown_is_the_scenes_or_named_as_changed_or_none(panel: Contr
     assert panel.preset.placeholderText() == "Choose a preset"
 
 
-def test_other_presets_replace_the_last_ones_without_a_signal_by_their_titles(
+def test_presets_are_replaced_without_a_signal_and_listed_by_title_or_own_name(
     panel: ControlPanel,
 ) -> None:
-    told = collect(panel.preset_chosen)
+    chosen = collect(panel.preset_chosen)
     panel.list_presets([("mine", "My own"), *PRESETS])
     texts = [panel.preset.itemData(place) for place in range(panel.preset.count())]
     assert texts == ["mine", "small", "large"]
     assert panel.preset.currentIndex() == -1
-    assert told == []
+    assert chosen == []
     panel.list_presets([("phone-68us", "Phone, 68 µs"), ("mine", "Measured")], own=["mine"])
     texts = [panel.preset.itemText(place) for place in range(2)]
     tips = [panel.preset.itemData(place, Qt.ItemDataRole.ToolTipRole) for place in range(2)]

@@ -1,4 +1,4 @@
-"""Effects switched by hand are listed where they are seen, and one click ends them all."""
+"""Effects switched by hand are always listed on the screen, and one click resets them all."""
 
 import math
 from dataclasses import replace
@@ -24,7 +24,7 @@ from occ_model.scene.presets import load_preset, preset_named
 from occ_model.scene.scene import Scene
 
 
-def forced(application: Application) -> dict[str, bool]:
+def forced_effects(application: Application) -> dict[str, bool]:
     return dict(application.settings.settings.force)
 
 
@@ -60,7 +60,7 @@ def test_each_forced_effect_is_named_in_the_order_of_light() -> None:
         ({"force": {"jpeg": False, "flicker": True}}, "2 effects by hand · reused noise", True),
     ],
 )  # fmt: skip
-def test_what_is_left_out_by_hand_is_one_chip(
+def test_what_is_set_by_hand_is_one_badge(
     settings: dict[str, Any], text: str, is_doubtful: bool
 ) -> None:
     labels = {effect.name: effect.label for effect in EFFECTS}
@@ -72,8 +72,8 @@ def test_what_is_left_out_by_hand_is_one_chip(
     assert accuracy_badge(replace(FIRST_SETTINGS, noise="exact"), labels) is None
 
 
-def test_it_is_always_on_the_screen(application: Application, user: User) -> None:
-    """In whole, in every mode, beside the longest messages, at small and large sizes."""
+def test_the_badge_is_always_whole_on_the_screen(application: Application, user: User) -> None:
+    """Check every mode, beside the longest messages, in small and large windows."""
     window = application.window
     application.settings.set_tolerance(10.0)
     for effect in ("jpeg", "flicker", "defocus"):
@@ -95,7 +95,7 @@ def test_it_is_always_on_the_screen(application: Application, user: User) -> Non
     window.modes.switch("explore")
 
 
-def test_another_scene_is_simulated_within_the_usual_tolerance_again(
+def test_another_scene_is_simulated_within_the_usual_tolerance(
     application: Application, user: User, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def small(name: str) -> Scene:
@@ -128,20 +128,20 @@ def test_another_scene_is_simulated_within_the_usual_tolerance_again(
     assert application.settings.settings == replace(FIRST_SETTINGS, noise="exact")
 
 
-def test_forced_effects_are_listed_and_end_by_a_click_another_preset_and_a_reset_in_one_step(
+def test_a_click_a_preset_or_a_reset_ends_listed_forced_effects_in_one_step(
     by_hand: Application, user: User, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    listed = by_hand.controls.forced
-    assert listed.isVisible()
-    assert listed.text.text() == "Vignetting on by hand, JPEG off by hand"
-    listed.back.click()
+    line = by_hand.controls.forced
+    assert line.isVisible()
+    assert line.text.text() == "Vignetting on by hand, JPEG off by hand"
+    line.back.click()
     user.wait_until_idle()
-    assert forced(by_hand) == {}
-    assert not listed.isVisible()
+    assert forced_effects(by_hand) == {}
+    assert not line.isVisible()
     switches = by_hand.view("accuracy").table.switches.values()
     assert {switch.currentText() for switch in switches} <= {"plan"}
     user.choose("&Undo")
-    assert forced(by_hand) == {"jpeg": False, "vignetting": True}
+    assert forced_effects(by_hand) == {"jpeg": False, "vignetting": True}
     chosen: list[str] = []
 
     def small(name: str) -> Scene:
@@ -161,8 +161,8 @@ def test_forced_effects_are_listed_and_end_by_a_click_another_preset_and_a_reset
     assert by_hand.store.scene == small(chosen[-1])
     assert simulated == [{}]
     user.choose("&Undo")
-    assert forced(by_hand) == {"jpeg": False, "vignetting": True}
-    for _ in range(2):  # the second time of the scene that it already is
+    assert forced_effects(by_hand) == {"jpeg": False, "vignetting": True}
+    for _ in range(2):  # the second reset leaves the scene unchanged
         user.choose("Reset &scene")
-        assert forced(by_hand) == {}
+        assert forced_effects(by_hand) == {}
         by_hand.store.force("jpeg", True)

@@ -1,4 +1,4 @@
-"""A number with its unit is read as people write it, and keeps every digit."""
+"""Number fields read numbers and units as people write them, and keep every digit."""
 
 import pytest
 from gui.kinds import add_widget, collect
@@ -12,7 +12,7 @@ from occ_model.scene.parameters import PARAMETERS, count, quantity
 
 
 class Field:
-    """A field on the screen, what it told, and a user who types."""
+    """A visible field with a record of its signals, and a user who types."""
 
     def __init__(self, name: str, qtbot: QtBot) -> None:
         declared = PARAMETERS[name]
@@ -46,7 +46,7 @@ class Field:
         ("iso", " 400 ", 400.0, "400"),
     ],
 )
-def test_what_people_write_is_read_to_the_exact_si_value(
+def test_usual_notation_is_read_as_the_exact_si_value(
     qtbot: QtBot, name: str, text: str, value: float, shown: str
 ) -> None:
     field = Field(name, qtbot)
@@ -89,7 +89,7 @@ def test_leaving_an_untouched_field_emits_and_rounds_nothing(qtbot: QtBot) -> No
     assert field.edit.value() == third
 
 
-def test_showing_a_value_emits_nothing_and_drops_typed_text_and_a_refusal_is_emitted_once(
+def test_showing_a_value_silently_replaces_typed_text_and_a_refusal_is_emitted_once(
     qtbot: QtBot,
 ) -> None:
     field = Field("exposure_time", qtbot)
@@ -99,7 +99,7 @@ def test_showing_a_value_emits_nothing_and_drops_typed_text_and_a_refusal_is_emi
     assert field.edit.text() == "68 µs"
     assert field.edited == field.refused == []
     field.enter("soon")
-    field.edit.editingFinished.emit()  # as leaving the field does
+    field.edit.editingFinished.emit()  # as when the field is left
     assert len(field.refused) == 1
 
 
@@ -154,7 +154,7 @@ def test_a_double_click_selects_the_whole_number_and_a_third_click_all(
     assert line.selectedText() == line.text()
 
 
-def test_a_bare_number_that_hardly_means_the_unit_shown_is_asked_for_its_unit(qtbot: QtBot) -> None:
+def test_a_bare_number_that_is_unlikely_in_the_unit_shown_needs_a_unit(qtbot: QtBot) -> None:
     field = Field("switching_frequency", qtbot)
     field.enter("10 kHz")
     field.enter("20000")
@@ -163,7 +163,7 @@ def test_a_bare_number_that_hardly_means_the_unit_shown_is_asked_for_its_unit(qt
     assert sentence.endswith("written with its unit.")
     assert field.edited == [10e3]
     field.enter("20")
-    field.enter("20 MHz")  # beyond the slider, and said so
+    field.enter("20 MHz")  # allowed beyond the slider, with its unit
     assert field.edited == [10e3, 20e3, 20e6]
 
 
@@ -173,14 +173,14 @@ def test_a_bare_number_that_hardly_means_the_unit_shown_is_asked_for_its_unit(qt
 def test_a_whole_number_is_read_in_any_notation_or_refused_once(
     qtbot: QtBot, text: str, value: int | None
 ) -> None:
-    shown, refused, changes = typed(qtbot, text)
-    assert shown == (640 if value is None else value)
+    number, refused, changes = type_number(qtbot, text)
+    assert number == (640 if value is None else value)
     assert changes == ([] if value is None else [value])
     assert len(refused) == (value is None)
 
 
-def typed(qtbot: QtBot, text: str) -> tuple[int, list[str], list[int]]:
-    """Type a text over the number 640 and leave the field."""
+def type_number(qtbot: QtBot, text: str) -> tuple[int, list[str], list[int]]:
+    """Replace the number 640 by a text, leave the field; return number, refusals and changes."""
     field = add_widget(qtbot, CountEdit(count("columns")))
     field.setValue(640)
     changes: list[int] = []

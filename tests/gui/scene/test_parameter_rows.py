@@ -13,8 +13,8 @@ from occ_model.scene.parameter_kinds import Count
 from occ_model.scene.parameters import PARAMETERS, quantity
 
 
-class Told:
-    """A row, and what it told."""
+class RowTrial:
+    """A row with a record of its signals."""
 
     def __init__(self, name: str, qtbot: QtBot) -> None:
         self.row: Any = row_for(PARAMETERS[name])
@@ -37,143 +37,144 @@ class Told:
 def test_a_whole_number_is_emitted_when_its_typing_ends_and_quick_steps_are_one_gesture(
     qtbot: QtBot,
 ) -> None:
-    told = Told("bits", qtbot)
+    trial = RowTrial("bits", qtbot)
     declared = PARAMETERS["bits"]
     assert isinstance(declared, Count)
-    assert (told.row.field.minimum(), told.row.field.maximum()) == (declared.low, declared.high)
-    told.row.show_value(8)
-    told.row.field.selectAll()
-    qtbot.keyClicks(told.row.field, "12")
-    assert told.edits == []
-    qtbot.keyClick(told.row.field, Qt.Key.Key_Return)
-    assert told.values == [12]
-    told.row.show_value(8)
+    assert (trial.row.field.minimum(), trial.row.field.maximum()) == (
+        declared.low,
+        declared.high,
+    )
+    trial.row.show_value(8)
+    trial.row.field.selectAll()
+    qtbot.keyClicks(trial.row.field, "12")
+    assert trial.edits == []
+    qtbot.keyClick(trial.row.field, Qt.Key.Key_Return)
+    assert trial.values == [12]
+    trial.row.show_value(8)
     for _ in range(3):
-        qtbot.keyClick(told.row.field, Qt.Key.Key_Up)
-    assert told.values[1:] == [9, 10, 11]
-    assert len({gesture for _, _, gesture in told.edits[1:]}) == 1
+        qtbot.keyClick(trial.row.field, Qt.Key.Key_Up)
+    assert trial.values[1:] == [9, 10, 11]
+    assert len({gesture for _, _, gesture in trial.edits[1:]}) == 1
 
 
 def test_a_choice_is_emitted_by_its_word(qtbot: QtBot) -> None:
-    told = Told("averaging", qtbot)
-    words = [told.row.field.itemText(place) for place in range(told.row.field.count())]
+    trial = RowTrial("averaging", qtbot)
+    words = [trial.row.field.itemText(place) for place in range(trial.row.field.count())]
     assert words == ["pixel-value", "light"]
-    qtbot.keyClick(told.row.field, Qt.Key.Key_Down)
-    assert told.values == ["light"]
+    qtbot.keyClick(trial.row.field, Qt.Key.Key_Down)
+    assert trial.values == ["light"]
 
 
-def test_a_pattern_is_sent_without_spaces_rubbish_refused_and_an_equal_one_no_change(
+def test_a_pattern_is_sent_without_spaces_or_refused_and_an_equal_one_is_no_change(
     qtbot: QtBot,
 ) -> None:
-    told = Told("pattern", qtbot)
-    qtbot.keyClicks(told.row.field, "0101 0011")
-    qtbot.keyClick(told.row.field, Qt.Key.Key_Return)
-    assert told.values == ["01010011"]
-    told.row.show_value("01010011")
-    qtbot.keyClicks(told.row.field, "2")
-    qtbot.keyClick(told.row.field, Qt.Key.Key_Return)
-    assert told.values == ["01010011"]
-    (sentence,) = told.refused
+    trial = RowTrial("pattern", qtbot)
+    qtbot.keyClicks(trial.row.field, "0101 0011")
+    qtbot.keyClick(trial.row.field, Qt.Key.Key_Return)
+    assert trial.values == ["01010011"]
+    trial.row.show_value("01010011")
+    qtbot.keyClicks(trial.row.field, "2")
+    qtbot.keyClick(trial.row.field, Qt.Key.Key_Return)
+    assert trial.values == ["01010011"]
+    (sentence,) = trial.refused
     assert sentence.startswith("Raw chip pattern cannot be '010100112'")
-    told.row.end_refusal()  # another parameter was changed
-    assert told.row.field.text() == "010100112"
-    assert told.row.notice.text()
-    told.row.show_value("01")
-    assert (told.row.field.text(), told.row.notice.text()) == ("01", "")
-    told.row.show_value("0101")
-    told.row.field.clear()
-    qtbot.keyClicks(told.row.field, "01 01")
-    qtbot.keyClick(told.row.field, Qt.Key.Key_Return)
-    assert told.values == ["01010011"]
-    assert told.row.field.text() == "0101"
+    trial.row.end_refusal()  # another parameter was changed
+    assert trial.row.field.text() == "010100112"
+    assert trial.row.notice.text()
+    trial.row.show_value("01")
+    assert (trial.row.field.text(), trial.row.notice.text()) == ("01", "")
+    trial.row.show_value("0101")
+    trial.row.field.clear()
+    qtbot.keyClicks(trial.row.field, "01 01")
+    qtbot.keyClick(trial.row.field, Qt.Key.Key_Return)
+    assert trial.values == ["01010011"]
+    assert trial.row.field.text() == "0101"
 
 
 @pytest.mark.parametrize("name", ["exposure_time", "gamma"])
 def test_the_slider_ends_at_the_declared_range_and_its_middle_is_their_mean(
     qtbot: QtBot, name: str
 ) -> None:
-    told, declared = Told(name, qtbot), quantity(name)
-    slider = told.row.slider
+    trial, declared = RowTrial(name, qtbot), quantity(name)
+    slider = trial.row.slider
     for position in (slider.minimum(), slider.maximum(), slider.minimum(), slider.maximum() // 2):
         slider.setValue(position)
     low, high = declared.slider
     mean = math.sqrt(low * high) if declared.scale == "log" else (low + high) / 2
-    assert told.values[-3:-1] == [high, low]
-    assert told.values[-1] == pytest.approx(mean, rel=1e-3, abs=1e-3 * (high - low))
-    assert {edit[0] for edit in told.edits} == {name}
+    assert trial.values[-3:-1] == [high, low]
+    assert trial.values[-1] == pytest.approx(mean, rel=1e-3, abs=1e-3 * (high - low))
+    assert {edit[0] for edit in trial.edits} == {name}
 
 
 def test_slider_and_field_show_the_same_value_whichever_is_moved(qtbot: QtBot) -> None:
-    told = Told("distance", qtbot)
-    row = told.row
+    trial = RowTrial("distance", qtbot)
+    row = trial.row
     row.slider.setValue(row.slider.maximum())
     assert row.field.value() == 5.0
     row.field.selectAll()
     qtbot.keyClicks(row.field, "20 cm")
     qtbot.keyClick(row.field, Qt.Key.Key_Return)
     assert row.slider.value() == row.slider.minimum()
-    assert told.values == [5.0, 0.2]
+    assert trial.values == [5.0, 0.2]
 
 
 def test_a_value_beyond_the_slider_is_kept_and_shown(qtbot: QtBot) -> None:
-    told = Told("distance", qtbot)
-    row = told.row
+    trial = RowTrial("distance", qtbot)
+    row = trial.row
     row.show_value(50.0)
     assert row.slider.value() == row.slider.maximum()
     assert row.field.value() == 50.0
     assert row.field.text() == "50 m"
 
 
-def test_one_drag_is_one_gesture_and_so_are_keys_until_a_pause_but_none_of_the_drag(
-    qtbot: QtBot,
-) -> None:
-    told = Told("iso", qtbot)
-    slider = told.row.slider
+def test_a_drag_is_a_gesture_and_keys_until_a_pause_are_another(qtbot: QtBot) -> None:
+    trial = RowTrial("iso", qtbot)
+    slider = trial.row.slider
     for _ in range(2):
         slider.setSliderDown(True)
         for position in (500, 600, 700):
             slider.setValue(position)
         slider.setSliderDown(False)
-    assert len(told.edits) == 6
-    assert len(told.gestures) == 2
+    assert len(trial.edits) == 6
+    assert len(trial.gestures) == 2
     for gestures in (3, 4):
         for _ in range(3):
             qtbot.keyClick(slider, Qt.Key.Key_Right)
-        assert len(told.gestures) == gestures
-        told.row.gestures.end()  # as after a pause
-    told = Told("iso", qtbot)
-    told.row.slider.setSliderDown(True)
-    told.row.slider.setValue(500)
-    told.row.slider.setSliderDown(False)
-    qtbot.keyClick(told.row.field, Qt.Key.Key_Up)
-    assert len(told.edits) == len(told.gestures) == 2
+        assert len(trial.gestures) == gestures
+        trial.row.gestures.end()  # as after a pause
+    trial = RowTrial("iso", qtbot)
+    trial.row.slider.setSliderDown(True)
+    trial.row.slider.setValue(500)
+    trial.row.slider.setSliderDown(False)
+    qtbot.keyClick(trial.row.field, Qt.Key.Key_Up)
+    assert len(trial.edits) == len(trial.gestures) == 2
 
 
 def test_steps_of_the_field_are_one_gesture_until_a_pause(qtbot: QtBot) -> None:
-    told = Told("iso", qtbot)
+    trial = RowTrial("iso", qtbot)
     for gestures in (1, 2):
         for key in (Qt.Key.Key_Up, Qt.Key.Key_Up, Qt.Key.Key_Down):
-            qtbot.keyClick(told.row.field, key)
-        assert len(told.gestures) == gestures
-        told.row.gestures.end()  # as after a pause
-    assert len(told.edits) == 6
+            qtbot.keyClick(trial.row.field, key)
+        assert len(trial.gestures) == gestures
+        trial.row.gestures.end()  # as after a pause
+    assert len(trial.edits) == 6
 
 
 def test_every_number_typed_is_a_gesture_of_its_own(qtbot: QtBot) -> None:
-    told = Told("iso", qtbot)
-    field = told.row.field
+    trial = RowTrial("iso", qtbot)
+    field = trial.row.field
     for text in ("200", "300"):
         qtbot.keyClick(field, Qt.Key.Key_Up)
         field.selectAll()
         qtbot.keyClicks(field, text)
         qtbot.keyClick(field, Qt.Key.Key_Return)
-    assert told.values[1::2] == [200.0, 300.0]
-    assert told.edits[1][2] not in {told.edits[0][2], told.edits[3][2]}
+    assert trial.values[1::2] == [200.0, 300.0]
+    assert trial.edits[1][2] not in {trial.edits[0][2], trial.edits[3][2]}
 
 
 def test_arrow_and_page_keys_move_the_slider(qtbot: QtBot) -> None:
-    told = Told("gamma", qtbot)
-    slider = told.row.slider
+    trial = RowTrial("gamma", qtbot)
+    slider = trial.row.slider
     slider.setValue(500)
     for key, position in (
         (Qt.Key.Key_Right, 501),
@@ -185,18 +186,18 @@ def test_arrow_and_page_keys_move_the_slider(qtbot: QtBot) -> None:
     ):
         qtbot.keyClick(slider, key)
         assert slider.value() == position
-    assert told.values[-2:] == [1.0, 4.0]
+    assert trial.values[-2:] == [1.0, 4.0]
 
 
 def test_the_wheel_scrolls_the_page_until_a_control_is_chosen(qtbot: QtBot) -> None:
-    told = Told("iso", qtbot)
-    told.row.show()
-    slider = told.row.slider
+    trial = RowTrial("iso", qtbot)
+    trial.row.show()
+    slider = trial.row.slider
 
     slider.clearFocus()
     turn_wheel_at(slider, slider.rect().center())
-    assert told.edits == []
+    assert trial.edits == []
     slider.setFocus()
     qtbot.waitUntil(slider.hasFocus)
     turn_wheel_at(slider, slider.rect().center())
-    assert len(told.edits) == 1
+    assert len(trial.edits) == 1

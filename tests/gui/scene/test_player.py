@@ -1,4 +1,4 @@
-"""A slider runs by itself, is undone as one change, and tells where the picture changes."""
+"""A slider that runs by itself is undone as one change; marks show where the picture changes."""
 
 import numpy as np
 import pytest
@@ -30,17 +30,17 @@ def press(bench: ControlsBench, name: str = NAME) -> None:
 def test_a_run_moves_the_scene_and_is_undone_at_once(
     bench: ControlsBench, qtbot: QtBot, small_scene: Scene
 ) -> None:
-    store, seen = bench.scenes, set[float]()
-    store.changed.connect(lambda scene: seen.add(scene.transmitter.switching_frequency))
+    store, values = bench.scenes, set[float]()
+    store.changed.connect(lambda scene: values.add(scene.transmitter.switching_frequency))
     press(bench)
-    qtbot.waitUntil(lambda: len(seen) >= 4)
+    qtbot.waitUntil(lambda: len(values) >= 4)
     press(bench)
     assert bench.controls.player.playing == ""
     store.undo_stack.undo()
     assert store.scene == small_scene
 
 
-def test_a_run_turns_round_at_the_end_and_ends_where_it_is_not_to_loop(
+def test_a_run_turns_back_at_the_end_and_without_loop_ends_at_the_start(
     bench: ControlsBench, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
 ) -> None:
     monkeypatch.setattr("occ_gui.scene.player.SPEEDS", {"normal": 0.2})
@@ -64,7 +64,6 @@ def test_a_value_that_is_entered_ends_the_run_and_another_parameter_does_not(
     bench.scenes.change(switching_frequency=5e3)
     assert player.playing == ""
     assert bench.scenes.scene.transmitter.switching_frequency == 5e3
-    player = bench.controls.player
     with qtbot.waitSignal(bench.scenes.changed):
         press(bench)
     bench.scenes.change(distance=1.5)
@@ -75,13 +74,13 @@ def test_a_value_that_is_entered_ends_the_run_and_another_parameter_does_not(
 
 
 def test_the_menu_sets_speed_and_loop_and_asks_for_a_film(bench: ControlsBench) -> None:
-    player, asked = bench.controls.player, list[str]()
-    player.film_asked.connect(asked.append)
+    player, films = bench.controls.player, list[str]()
+    player.film_asked.connect(films.append)
     entries = {action.text(): action for action in player.menu_of(NAME).actions()}
     entries["&Fast"].trigger()
     entries["&Loop"].trigger()
     entries["Save as &animation…"].trigger()
-    assert (player.speed, player.is_looping, asked) == ("fast", False, [NAME])
+    assert (player.speed, player.is_looping, films) == ("fast", False, [NAME])
     again = {action.text(): action for action in player.menu_of(NAME).actions()}
     assert again["&Fast"].isChecked()
     assert not again["&Loop"].isChecked()
@@ -99,7 +98,7 @@ def test_the_marks_follow_the_scene(application: Application) -> None:
     QToolTip.hideText()
 
 
-def test_a_mark_is_named_wherever_it_stands_and_an_end_gives_way(qtbot: QtBot) -> None:
+def test_a_mark_is_named_at_any_value_and_replaces_an_end_value(qtbot: QtBot) -> None:
     whole, gamma = add_widget(qtbot, QWidget()), quantity("gamma")
     slider = QSlider(Qt.Orientation.Horizontal, whole)
     scale = SliderScale(slider, gamma, whole)
@@ -107,16 +106,16 @@ def test_a_mark_is_named_wherever_it_stands_and_an_end_gives_way(qtbot: QtBot) -
         part.setGeometry(0, 0, 170, 30)
     metrics = QFontMetricsF(scale.text_font())
     low, high = gamma.slider
-    kept = []
+    counts = []
     for fraction in np.linspace(0.0, 1.0, 41):
         scale.show_marks([MarkedValue(float(low + fraction * (high - low)), "t = 1 chip", "")])
         ends, names = scale.texts(metrics)
         assert [name for name, _ in names] == ["t = 1 chip"]
         assert not any(box.intersects(names[0][1]) for _, box in ends)
-        kept.append(len(ends))
+        counts.append(len(ends))
         if fraction == 0.5:
             assert names[0][1].center().x() == pytest.approx(scale.x_of(scale.marks[0].value))
-    assert set(kept) == {1, 2}
-    assert kept[20] == 2, "in the middle both ends keep their values"
+    assert set(counts) == {1, 2}
+    assert counts[20] == 2, "a mark in the middle leaves both end values"
     scale.show_marks([])
     assert len(scale.texts(metrics)[0]) == 2

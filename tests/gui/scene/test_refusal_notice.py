@@ -1,4 +1,4 @@
-"""A refused value has its sentence at its field, until it is mended."""
+"""A refused value has a sentence at its field until it is corrected."""
 
 from dataclasses import replace
 
@@ -16,8 +16,8 @@ from occ_gui.scene.refusal_notice import RefusalNotice
 from occ_model.scene.parameters import PARAMETERS, count
 
 
-def reds(field: QWidget) -> int:
-    """Count the red pixels on the edge of a field."""
+def count_red_pixels(field: QWidget) -> int:
+    """Count the red pixels in the middle row of a field."""
     image = field.grab().toImage()
     middle = image.height() // 2
     return sum(
@@ -26,15 +26,15 @@ def reds(field: QWidget) -> int:
     )
 
 
-def test_a_value_typed_as_it_was_mends_its_field_and_any_change_of_the_scene(
+def test_typing_the_old_value_or_changing_the_scene_ends_a_refusal(
     user: User, application: Application
 ) -> None:
     for name in ("distance", "bits"):
         row = user.row(name)
-        shown = row.field.text()
+        text = row.field.text()
         user.enter(name, "soon")
         assert row.notice.text()
-        user.enter(name, shown)
+        user.enter(name, text)
         assert row.notice.text() == ""
         assert name != "distance" or user.message == ""
     row = user.row("distance")
@@ -50,7 +50,7 @@ def test_a_value_typed_as_it_was_mends_its_field_and_any_change_of_the_scene(
     assert row.notice.text() == user.message == ""
 
 
-def test_a_row_by_itself_ends_its_sentence_when_mended(qtbot: QtBot) -> None:
+def test_a_single_row_ends_its_refusal_when_corrected(qtbot: QtBot) -> None:
     row = row_for(PARAMETERS["distance"])
     assert isinstance(row, QuantityRow)
     qtbot.addWidget(row)
@@ -67,7 +67,7 @@ def type_in(row: QuantityRow, text: str) -> None:
     QTest.keyClick(row.field, Qt.Key.Key_Return)
 
 
-def test_what_the_scene_refuses_is_said_at_the_edited_field(
+def test_a_refusal_of_the_scene_is_shown_at_the_edited_field(
     application: Application, user: User
 ) -> None:
     user.enter("bits", "3")  # the code, 718, has ten
@@ -86,18 +86,18 @@ def test_a_refused_change_names_the_parameters_at_fault() -> None:
     assert at_fault == [("distance",), ("bits",)]
 
 
-def test_a_scene_without_a_picture_says_so_at_its_fields_and_mending_it_leaves_other_refusals(
+def test_fields_show_why_there_is_no_picture_and_a_picture_ends_only_that(
     application: Application, user: User
 ) -> None:
     application.store.change(distance=0.1, yaw=1.2)
     user.wait_until_idle()
-    named = ("distance", "yaw", "pitch")
-    for name in named:
+    names = ("distance", "yaw", "pitch")
+    for name in names:
         assert user.row(name).notice.text() == user.message
     user.enter("distance", "0.11 m")  # no picture either
-    assert all("behind" in user.row(name).notice.text() for name in named)
+    assert all("behind" in user.row(name).notice.text() for name in names)
     user.enter("yaw", "0")
-    assert not any(user.row(name).notice.text() for name in named)
+    assert not any(user.row(name).notice.text() for name in names)
     application.store.change(distance=0.1, yaw=1.2)
     user.wait_until_idle()
     application.controls.show_problem("iso is 0; allowed: 1 to 2.", ("iso",))
@@ -114,10 +114,10 @@ def test_a_refused_field_is_framed_red_and_described(qtbot: QtBot) -> None:
     for widget in (field, notice):
         qtbot.addWidget(widget)
     field.resize(90, 30)
-    before = reds(field)
+    before = count_red_pixels(field)
     notice.show_problem("Columns cannot be 0; allowed: 1 to 2.")
     assert field.accessibleDescription() == notice.text() == "Columns cannot be 0; allowed: 1 to 2."
-    assert reds(field) >= before + 4
+    assert count_red_pixels(field) >= before + 4
     notice.end()
     assert field.accessibleDescription() == ""
-    assert reds(field) == before
+    assert count_red_pixels(field) == before

@@ -20,16 +20,16 @@ def store(qapp: object, small_scene: Scene) -> SceneStore:
 
 
 @pytest.fixture
-def told(store: SceneStore) -> list[Scene]:
+def scenes(store: SceneStore) -> list[Scene]:
     return collect(store.changed)
 
 
 def test_a_change_is_emitted_with_the_new_scene(
-    store: SceneStore, told: list[Scene], small_scene: Scene
+    store: SceneStore, scenes: list[Scene], small_scene: Scene
 ) -> None:
     store.change(iso=200.0, distance=2.0)
-    assert told == [small_scene.replace(iso=200.0, distance=2.0)]
-    assert store.scene == told[0]
+    assert scenes == [small_scene.replace(iso=200.0, distance=2.0)]
+    assert store.scene == scenes[0]
 
 
 @pytest.mark.parametrize(
@@ -39,7 +39,7 @@ def test_a_change_is_emitted_with_the_new_scene(
         ({"iso": 200.0, "distance": 2.0, "exposure_time": 3e-4}, ""),
     ],
 )
-def test_a_scene_that_is_changed_a_little_keeps_the_preset_that_it_was(
+def test_a_scene_that_changes_little_keeps_its_preset(
     store: SceneStore, small_scene: Scene, changes: dict[str, float], preset: str
 ) -> None:
     store.put(small_scene.replace(code=3), "preset phone-68us", preset="phone-68us")
@@ -48,7 +48,7 @@ def test_a_scene_that_is_changed_a_little_keeps_the_preset_that_it_was(
 
 
 @pytest.mark.parametrize(
-    ("changes", "named"),
+    ("changes", "words"),
     [
         ({"iso": -1.0}, "ISO speed cannot be -1;"),
         ({"exposure_time": float("nan")}, "Exposure time cannot be nan"),
@@ -60,37 +60,37 @@ def test_a_scene_that_is_changed_a_little_keeps_the_preset_that_it_was(
 def test_an_impossible_value_is_refused_and_changes_nothing(
     qtbot: QtBot,
     store: SceneStore,
-    told: list[Scene],
+    scenes: list[Scene],
     small_scene: Scene,
     changes: dict[str, Any],
-    named: str,
+    words: str,
 ) -> None:
     with qtbot.waitSignal(store.refused) as refusal:
         store.change(**changes)
     (sentence,) = refusal.args or ("",)
-    assert named in sentence
+    assert words in sentence
     assert sentence.endswith((".", "?"))
     assert store.scene == small_scene
-    assert told == []
+    assert scenes == []
     assert store.undo_stack.count() == 0
 
 
 def test_an_equal_scene_is_no_step_and_not_emitted(
-    store: SceneStore, told: list[Scene], small_scene: Scene
+    store: SceneStore, scenes: list[Scene], small_scene: Scene
 ) -> None:
     store.change(iso=small_scene.camera.iso)
     store.put(small_scene.replace(), "nothing")
-    assert told == []
+    assert scenes == []
     assert store.undo_stack.count() == 0
 
 
 def test_changes_of_one_gesture_are_undone_as_one_step(
-    store: SceneStore, told: list[Scene], small_scene: Scene
+    store: SceneStore, scenes: list[Scene], small_scene: Scene
 ) -> None:
     gesture = new_gesture()
     for iso in (110.0, 120.0, 130.0):
         store.change(gesture, iso=iso)
-    assert [scene.camera.iso for scene in told] == [110.0, 120.0, 130.0]
+    assert [scene.camera.iso for scene in scenes] == [110.0, 120.0, 130.0]
     store.undo_stack.undo()
     assert store.scene == small_scene
     assert not store.undo_stack.canUndo()
@@ -110,7 +110,7 @@ def test_different_gestures_are_steps_of_their_own(
     assert store.scene == small_scene
 
 
-def test_a_gesture_that_ends_where_it_began_leaves_no_step_and_goes_on_after(
+def test_a_gesture_back_at_its_start_leaves_no_step_and_may_continue(
     store: SceneStore, small_scene: Scene
 ) -> None:
     gesture = new_gesture()
@@ -126,20 +126,20 @@ def test_a_gesture_that_ends_where_it_began_leaves_no_step_and_goes_on_after(
 
 
 def test_undo_and_redo_give_exactly_the_same_scenes(
-    store: SceneStore, told: list[Scene], small_scene: Scene
+    store: SceneStore, scenes: list[Scene], small_scene: Scene
 ) -> None:
     store.change(exposure_time=1 / 3 * 1e-4)
     store.put(Scene(), "opening of a file")
     store.change(code=3, averaging="light")
-    forth = [small_scene, *told]
-    told.clear()
+    forward = [small_scene, *scenes]
+    scenes.clear()
     for _ in range(3):
         store.undo_stack.undo()
-    assert told == forth[-2::-1]
-    told.clear()
+    assert scenes == forward[-2::-1]
+    scenes.clear()
     for _ in range(3):
         store.undo_stack.redo()
-    assert told == forth[1:]
+    assert scenes == forward[1:]
 
 
 def test_the_undo_menu_names_the_step(store: SceneStore) -> None:
@@ -150,7 +150,7 @@ def test_the_undo_menu_names_the_step(store: SceneStore) -> None:
 
 
 def test_effects_forced_by_hand_are_undone_and_redone(
-    store: SceneStore, told: list[Scene], small_scene: Scene
+    store: SceneStore, scenes: list[Scene], small_scene: Scene
 ) -> None:
     store.force("jpeg", False)
     store.force("vignetting", True)
@@ -165,7 +165,7 @@ def test_effects_forced_by_hand_are_undone_and_redone(
     store.undo_stack.redo()
     assert store.settings.settings.force == {"jpeg": False}
     assert "JPEG off by hand" in store.undo_stack.undoText()
-    assert (told, store.scene) == ([], small_scene)
+    assert (scenes, store.scene) == ([], small_scene)
 
 
 def test_one_step_changes_scene_and_forced_effects_together(
@@ -227,7 +227,7 @@ def test_a_gesture_that_has_ended_takes_nothing_more() -> None:
     assert gestures.of_change(held=True) != first
 
 
-class Told:
+class SettingsTrial:
     def __init__(self) -> None:
         self.scenes = store_of()
         self.store = self.scenes.settings
@@ -241,39 +241,39 @@ class Told:
 
 
 @pytest.fixture
-def heard() -> Told:
-    return Told()
+def trial() -> SettingsTrial:
+    return SettingsTrial()
 
 
-def test_noise_is_reused_at_first_and_a_setting_that_holds_already_is_not_emitted(
-    heard: Told,
+def test_noise_is_reused_at_first_and_setting_an_equal_value_emits_nothing(
+    trial: SettingsTrial,
 ) -> None:
-    assert heard.store.settings == SimulationSettings(noise="reused")
-    heard.store.set_tolerance(heard.store.settings.tolerance)
-    heard.store.set_observable("image")
-    heard.store.set_noise("reused")
-    heard.switch({})
-    assert heard.changes == []
+    assert trial.store.settings == SimulationSettings(noise="reused")
+    trial.store.set_tolerance(trial.store.settings.tolerance)
+    trial.store.set_observable("image")
+    trial.store.set_noise("reused")
+    trial.switch({})
+    assert trial.changes == []
 
 
-def test_each_change_is_emitted_once_and_leaves_the_rest(heard: Told) -> None:
-    heard.store.set_tolerance(2.0)
-    heard.store.set_observable("profile")
-    heard.store.set_noise("exact")
-    heard.switch({"jpeg": True})
-    heard.switch({"jpeg": True, "flicker": False})
-    heard.switch({"flicker": False})
-    assert heard.store.settings == SimulationSettings(2.0, "profile", {"flicker": False}, "exact")
-    assert heard.changes[-1] == heard.store.settings
-    assert len(heard.changes) == 6
+def test_each_change_is_emitted_once_and_keeps_the_other_settings(trial: SettingsTrial) -> None:
+    trial.store.set_tolerance(2.0)
+    trial.store.set_observable("profile")
+    trial.store.set_noise("exact")
+    trial.switch({"jpeg": True})
+    trial.switch({"jpeg": True, "flicker": False})
+    trial.switch({"flicker": False})
+    assert trial.store.settings == SimulationSettings(2.0, "profile", {"flicker": False}, "exact")
+    assert trial.changes[-1] == trial.store.settings
+    assert len(trial.changes) == 6
 
 
 @pytest.mark.parametrize("tolerance", [-1.0, float("nan")])
-def test_a_tolerance_that_cannot_be_is_refused_with_a_sentence(
-    heard: Told, tolerance: float
+def test_an_impossible_tolerance_is_refused_with_a_sentence(
+    trial: SettingsTrial, tolerance: float
 ) -> None:
-    heard.store.set_tolerance(tolerance)
-    (sentence,) = heard.refusals
+    trial.store.set_tolerance(tolerance)
+    (sentence,) = trial.refusals
     assert sentence.startswith("Tolerance cannot be ")
     assert sentence.endswith(".")
-    assert heard.changes == []
+    assert trial.changes == []

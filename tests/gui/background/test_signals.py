@@ -64,24 +64,6 @@ def test_all_results_arrive_on_this_thread_and_then_the_end(
     assert received.threads == {threading.get_ident()}
 
 
-def test_of_a_request_that_was_replaced_no_more_results_arrive(
-    qtbot: QtBot, queue_of: Callable[..., WorkQueue]
-) -> None:
-    worker = HeldWorker()
-    (channel,) = queue_of(worker).channels
-    received = Received(channel)
-    channel.put("old", jobs("a", "b", "c"))
-    qtbot.waitUntil(lambda: len(worker.held) == 2)
-    channel.put("new", jobs("x"))
-    qtbot.waitUntil(lambda: (0, 2) in worker.abandoned)
-    worker.finish(2)
-    qtbot.waitUntil(lambda: len(worker.held) == 1)
-    worker.finish()
-    qtbot.waitUntil(lambda: channel.is_idle)
-    assert received.results == [("new", "x")]
-    assert received.finished == ["new"]
-
-
 def test_what_is_completed_is_shown_before_the_request_that_replaces_it(
     qtbot: QtBot, queue_of: Callable[..., WorkQueue]
 ) -> None:

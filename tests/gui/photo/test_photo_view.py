@@ -71,20 +71,6 @@ def test_every_channel_and_scan_axis_of_the_model_can_be_chosen(
     assert len(received) == 2
 
 
-def test_a_failed_match_gives_a_sentence_and_the_earlier_match_stays(
-    view: LiveView, photo: Photo, match: Match
-) -> None:
-    view.open(photo)
-    view.show_matched(match)
-    view.show_match_running(True)
-    view.show_match_running(False)
-    view.verdict.show_ended(["No scene explains these stripes."])
-    assert "No scene explains these stripes." in view.verdict.accessibleDescription()
-    assert view.result.isVisible()
-    view.show_match_running(True)
-    assert "No scene" not in view.verdict.accessibleDescription()
-
-
 def test_the_placement_is_shown_and_a_changed_field_alone_moves_the_photo(
     view: LiveView, qtbot: QtBot
 ) -> None:

@@ -138,22 +138,11 @@ def test_without_workers_the_request_fails_or_the_fallback_is_used() -> None:
     assert helped.notices == [("missing", MAP, 1)]
 
 
-def test_the_fallback_continues_if_workers_cannot_be_replaced() -> None:
+def test_without_a_fallback_workers_that_cannot_be_replaced_fail_the_request() -> None:
     class Last(HeldWorker):
         def renew(self) -> None:
             raise NotImplementedError
 
-    fallback = HeldWorker()
-    bench = Bench(Last(), fallback=lambda: fallback)
-    bench.ask(MAP, 1, jobs(0, *"abc"))
-    bench.finish()
-    bench.worker.die()
-    bench.worker = fallback
-    bench.settle()
-    bench.finish_all()
-    assert bench.notices == [("missing", MAP, 1)]
-    assert fallback.sent == ["b", "c"]
-    assert bench.results == ["a", "b", "c"]
     alone = Bench(Last())
     alone.ask(MAP, 1, jobs(0, "a"))
     alone.worker.die()
@@ -202,21 +191,6 @@ def test_jobs_that_cannot_be_made_fail_only_their_own_request(bench: Bench) -> N
     assert [(run, repr(error)) for _, run, error in bench.errors] == [
         (1, "ZeroDivisionError('a mistake')")
     ]
-    assert bench.results == ["s"]
-
-
-def test_a_job_that_cannot_be_sent_fails_only_its_own_request() -> None:
-    class Picky(HeldWorker):
-        def submit(self, job: Job, channel: int, run: int) -> "Future[JobResult]":
-            if channel == MAP:
-                raise TypeError("cannot be sent")
-            return super().submit(job, channel, run)
-
-    bench = Bench(Picky())
-    bench.ask(MAP, 1, jobs(0, "a"))
-    bench.ask(STRIPS, 1, jobs(0, "s"))
-    bench.finish_all()
-    assert [(run, str(error)) for _, run, error in bench.errors] == [(1, "cannot be sent")]
     assert bench.results == ["s"]
 
 

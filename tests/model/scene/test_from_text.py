@@ -5,25 +5,10 @@ from pathlib import Path
 
 import pytest
 from each_case import each_case
-from hypothesis import given
-from hypothesis import strategies as st
 
 from occ_model.errors import ParameterError, SceneFileError
-from occ_model.scene.from_text import change_scene, read_scene_file, write_scene_file
-from occ_model.scene.parameter_kinds import Quantity
-from occ_model.scene.parameters import PARAMETERS
+from occ_model.scene.from_text import change_scene, read_scene_file
 from occ_model.scene.scene import Scene
-
-QUANTITIES = [p for p in PARAMETERS.values() if isinstance(p, Quantity)]
-
-
-@given(data=st.data(), quantity=st.sampled_from(QUANTITIES))
-def test_a_setting_changes_its_parameter_and_nothing_else(
-    data: st.DataObject, quantity: Quantity
-) -> None:
-    value = data.draw(st.floats(quantity.low, quantity.high))
-    scene = change_scene(Scene(), [f"{quantity.name}={value!r} {quantity.unit.symbol}"])
-    assert scene == Scene().replace(**{quantity.name: value})
 
 
 @each_case(
@@ -84,20 +69,6 @@ def test_the_last_of_two_settings_of_one_parameter_holds() -> None:
 def test_a_bad_setting_is_refused_in_a_sentence(setting: str, sentence: str) -> None:
     with pytest.raises(ParameterError, match=sentence):
         change_scene(Scene(), ["gamma=2", setting])
-
-
-def test_a_scene_file_may_have_comments_and_a_byte_order_mark(tmp_path: Path) -> None:
-    path = tmp_path / "scene.toml"
-    for encoding in ("utf-8", "utf-8-sig"):
-        path.write_text(f"# Größe\n{Scene().replace(iso=200).to_toml()}", encoding=encoding)
-        assert read_scene_file(path) == Scene().replace(iso=200)
-
-
-@pytest.mark.parametrize("name", ["scene.toml", "scene.TOML", "a.png.toml", "Szene µ.toml"])
-def test_a_saved_scene_opens_again(tmp_path: Path, name: str) -> None:
-    scene = Scene().replace(switching_frequency=14e3, pattern="0110")
-    write_scene_file(tmp_path / name, scene)
-    assert read_scene_file(tmp_path / name) == scene
 
 
 def test_an_unreadable_scene_file_is_refused_with_the_reason(

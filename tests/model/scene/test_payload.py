@@ -1,6 +1,5 @@
 """Payloads as texts, bytes and bits."""
 
-import numpy as np
 import pytest
 from each_case import each_case
 from hypothesis import given
@@ -102,16 +101,6 @@ def test_without_a_payload_the_code_is_sent(code: int, bits: int) -> None:
     transmitter = occ.Scene().replace(code=code, bits=bits).transmitter
     assert transmitter.payload_bits == bits_of(code, bits)
     assert transmitter.payload_length == bits
-
-
-def test_a_text_is_sent_and_read_from_the_picture() -> None:
-    scene = occ.load_preset("phone-68us").replace(
-        payload="text:HI", rows=200, distance=0.6, line_code="manchester", framing="c-ook"
-    )
-    read = occ.decode(occ.render(scene).image, scene)
-    assert read.failure is None
-    assert read.payload == "HI"
-    np.testing.assert_array_equal(read.bits, scene.transmitter.payload_bits)
 
 
 def test_form_of_names_the_form() -> None:

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scene_values import values_of
 
-from occ_model.errors import OccError, SceneFileError
+from occ_model.errors import SceneFileError
 from occ_model.scene.parameter_kinds import Count
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.parameters.light import MAX_BITS
@@ -149,20 +149,3 @@ def test_an_argument_that_is_no_text_is_refused_in_a_sentence(text: object) -> N
     assert str(refused.value) == (
         f"A scene is read from text (str), not from {type(text).__name__}."
     )
-
-
-@given(data=st.data())
-def test_a_damaged_file_is_a_scene_or_refused(data: st.DataObject) -> None:
-    text = Scene().to_toml()
-    start = data.draw(st.integers(0, len(text)))
-    end = data.draw(st.integers(start, min(len(text), start + 40)))
-    damaged = text[:start] + data.draw(st.text(max_size=5)) + text[end:]
-    read, refusal = None, ""
-    try:
-        read = Scene.from_toml(damaged)
-    except OccError as error:
-        refusal = str(error)
-    if read is None:
-        assert refusal.endswith((".", "?"))
-    else:
-        assert Scene.from_toml(read.to_toml()) == read

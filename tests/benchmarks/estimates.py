@@ -19,7 +19,13 @@ from tqdm import tqdm
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
-from physics.effect_world import large_scene_of, observe_with, present_effects, rms, scene_of
+from physics.effect_world import (
+    change_of,
+    large_scene_of,
+    observe_with,
+    present_effects,
+    scene_of,
+)
 
 import occ_model as occ
 from occ_model.scene.scene import Scene
@@ -36,24 +42,6 @@ KNOWN = 2.0
 """Times its estimate that the limit of an effect is at most where a plan knows what it changes."""
 
 
-class _ChangeOf:
-    """What leaving all but some effects out changes, each set measured once."""
-
-    def __init__(
-        self, scene: Scene, complete: np.ndarray, observable: Observable, seed: int, stretch: float
-    ) -> None:
-        self._seen = scene, observable, seed
-        self._complete, self._stretch = complete, stretch
-        self._known: dict[frozenset[str], float] = {}
-
-    def __call__(self, included: frozenset[str]) -> float:
-        if included not in self._known:
-            scene, observable, seed = self._seen
-            found = observe_with(scene, included, observable, seed)
-            self._known[included] = rms(self._complete - found) * self._stretch
-        return self._known[included]
-
-
 def compared(
     scene: Scene, seed: int, tolerances: tuple[float, ...] = ()
 ) -> Iterator[tuple[str, str, float, float, float]]:
@@ -62,7 +50,7 @@ def compared(
         everything = occ.plan(scene, 0.0, observable)
         effects, stretch = present_effects(everything), everything.stretch
         complete = observe_with(scene, effects, observable, seed)
-        change = _ChangeOf(scene, complete, observable, seed, stretch)
+        change = change_of(scene, complete, observable, seed, stretch)
         for decision in everything.decisions:
             if decision.included:
                 name = decision.effect

@@ -1,6 +1,8 @@
 """A world of scenes wider than the sliders, to test the plan's promise and its estimates."""
 
 import math
+from collections.abc import Callable
+from functools import cache
 
 import numpy as np
 
@@ -155,6 +157,18 @@ def observe_with(
     """Return the observable of a scene with only these effects."""
     force = dict.fromkeys(sorted(effects), True)
     return observe(scene, occ.plan(scene, math.inf, observable, force), seed=seed).astype(float)
+
+
+def change_of(
+    scene: Scene, whole: np.ndarray, observable: Observable, seed: int, stretch: float
+) -> Callable[[frozenset[str]], float]:
+    """Return what all effects but some change, which is simulated once for each set of them."""
+
+    @cache
+    def change(included: frozenset[str]) -> float:
+        return rms(whole - observe_with(scene, included, observable, seed)) * stretch
+
+    return change
 
 
 def rms(change: np.ndarray) -> float:

@@ -5,28 +5,24 @@ from fractions import Fraction
 import mpmath
 import numpy as np
 import pytest
+from hard_cases.references import ExactTimes
 from hypothesis import given
 from hypothesis import strategies as st
 
 import occ_model as occ
 from occ_model.effects.light_effects import ambient_fractions
 from occ_model.scene.scene import Scene
-from occ_model.transmitter.packet import sent_chips
 
 SMALL = Scene().replace(rows=24, columns=256, readout_time=1e-4, distance=0.8)
 
 
 def exact_on_time(scene: Scene, start: Fraction, column: int) -> float:
-    """Add up the lit chips in one column's exposure in exact arithmetic, chip by chip."""
-    chips = sent_chips(scene.transmitter)
-    frequency = Fraction(scene.transmitter.switching_frequency)
-    begin = (start + column * Fraction(scene.camera.readout_time)) * frequency % len(chips)
-    end = begin + Fraction(scene.camera.exposure_time) * frequency
-    lit = Fraction(0)
-    for chip in range(int(begin), int(end) + 1):
-        within = min(end, Fraction(chip + 1)) - max(begin, Fraction(chip))
-        lit += int(chips[chip % len(chips)]) * max(within, Fraction(0))
-    return float(lit / frequency)
+    """Add up the lit chips in one column's exposure in exact arithmetic."""
+    exact = ExactTimes(scene)
+    begin = (start + column * Fraction(scene.camera.readout_time)) * exact.frequency
+    return float(
+        (exact.lit_until(begin + exact.exposure) - exact.lit_until(begin)) / exact.frequency
+    )
 
 
 @given(

@@ -1,18 +1,11 @@
 """Plans must agree with common sense."""
 
-import numpy as np
 import pytest
-from amount import amount
 
 import occ_model as occ
 from occ_model.effects.paper_view import paper_view_of
 from occ_model.effects.registry import EFFECTS
-from occ_model.receiver.decoders import QUICK_DECODERS
 from occ_model.scene.scene import Scene
-from occ_model.study.observation import observe_profile, panel_span
-from occ_model.study.paper_grid import DISTANCES, FREQUENCIES
-
-COLUMNS_ONLY = {"sensor-noise": False, "fixed-pattern": False}
 
 
 def close_up() -> Scene:
@@ -82,49 +75,3 @@ def test_the_papers_scenes_need_sensor_noise_alone(preset: str) -> None:
 @pytest.mark.parametrize("preset", _PAPERS_PRESETS)
 def test_the_profile_of_the_papers_scenes_needs_nothing(preset: str) -> None:
     assert occ.plan(occ.load_preset(preset), 0.5, "profile").included == ()
-
-
-REAL = {"edge_time": 2e-6, "flicker_depth": 0.3}
-
-
-@pytest.mark.parametrize(
-    ("exposure", "light"),
-    [
-        ("phone-68us", {}),
-        ("phone-136us", REAL),
-        pytest.param("phone-68us", REAL, marks=pytest.mark.whole),
-        pytest.param("phone-136us", {}, marks=pytest.mark.whole),
-    ],
-)
-def test_profile_and_image_paths_decode_alike_on_the_papers_grid(
-    exposure: str, light: dict[str, float]
-) -> None:
-    random = np.random.default_rng(1)
-    for frequency in FREQUENCIES[:: amount(2, 1)]:
-        for distance in DISTANCES[:: amount(3, 1)]:
-            scene = occ.load_preset(exposure)
-            scene = scene.replace(switching_frequency=frequency, distance=distance)
-            start = float(random.uniform(0.0, 24.0 / frequency))
-            # All rows of an upright panel are alike, so that a few are as good as 4,608.
-            scene = scene.replace(start_time=start, **few_rows(scene), **light)
-            plan = occ.plan(scene, 0.0, "profile", COLUMNS_ONLY)
-            assert plan.kinds == ({"column"} if light else set())
-            image = occ.render(scene, tolerance=0.0, force=COLUMNS_ONLY).image
-            seen = observe_profile(paper_view_of(scene), panel_span(scene), plan, random)
-            for decoder in QUICK_DECODERS:
-                by_profile = seen.read(scene, decoder)
-                by_image = occ.decode(image, scene, decoder)
-                assert by_profile.region == by_image.region
-                assert (by_profile.code, by_profile.failure) == (by_image.code, by_image.failure)
-                np.testing.assert_array_equal(by_profile.bits, by_image.bits)
-
-
-def few_rows(scene: Scene) -> dict[str, float | int]:
-    """Return parameters for fewer rows, with the same columns and fraction of rows on the panel."""
-    camera, rows = scene.camera, 96
-    diagonal = np.hypot(camera.rows, camera.columns) / np.hypot(rows, camera.columns)
-    return {
-        "rows": rows,
-        "equivalent_focal_length": float(camera.equivalent_focal_length * diagonal),
-        "panel_height": scene.transmitter.panel_height * rows / camera.rows,
-    }

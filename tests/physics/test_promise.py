@@ -8,7 +8,14 @@ from typing import Any, TypeAlias
 import numpy as np
 import pytest
 from amount import amount
-from physics.effect_world import large_scene_of, observe_with, present_effects, rms, scene_of
+from physics.effect_world import (
+    change_of,
+    large_scene_of,
+    observe_with,
+    present_effects,
+    rms,
+    scene_of,
+)
 
 import occ_model as occ
 from occ_model.scene.scene import Scene
@@ -37,11 +44,7 @@ def changes(
     everything = occ.plan(scene, 0.0, observable)
     effects = present_effects(everything)
     whole = observe_with(scene, effects, observable, number)
-
-    @cache
-    def change(included: frozenset[str]) -> float:
-        return rms(whole - observe_with(scene, included, observable, number)) * everything.stretch
-
+    change = change_of(scene, whole, observable, number, everything.stretch)
     pairs = [
         (decision.estimate, decision.limit, change(effects - {decision.effect}))
         for decision in everything.decisions

@@ -220,20 +220,6 @@ class TestCommand:
         assert re.search(r"switching_frequency .*\(given\)", lines)
         assert "if switching" not in lines
 
-    def test_a_square_wave_is_two_chips_a_cycle(
-        self, file: Path, monkeypatch: pytest.MonkeyPatch
-    ) -> None:
-        asked: list[occ.Scene] = []
-
-        def match(_photo: object, scene: occ.Scene, **_: object) -> occ.Match:
-            asked.append(scene)
-            return matched()
-
-        monkeypatch.setattr(match_command, "match_photo", match)
-        assert main(["match", str(file), "--led-frequency", "1kHz"]) == 0
-        (sent,) = (scene.transmitter for scene in asked)
-        assert (sent.pattern, sent.switching_frequency) == ("10", 2e3)
-
     def test_what_cannot_be_matched_gives_a_sentence(
         self, tmp_path: Path, capsys: pytest.CaptureFixture[str]
     ) -> None:

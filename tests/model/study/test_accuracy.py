@@ -16,7 +16,6 @@ from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.study.accuracy import (
     SAMPLES,
     accuracy,
-    exact_lit_fraction,
     point_count,
     sampled_lit_fraction,
 )
@@ -92,13 +91,6 @@ def test_both_noise_sources_have_the_sensors_noise() -> None:
     # The standard error of the root mean square of n numbers is its 1 / sqrt(2 n).
     for point in (drawn, reused):
         assert point.error < 5 * size / np.sqrt(2 * region.rows * region.columns)
-
-
-def test_rational_arithmetic_agrees_with_the_closed_form() -> None:
-    scene = small("phone-136us").replace(start_time=1.25e-4)
-    columns = np.arange(0, 400, 7)
-    exact = exact_lit_fraction(scene, columns) * scene.camera.exposure_time
-    np.testing.assert_allclose(exact, occ.on_time(scene)[columns], rtol=0.0, atol=1e-18)
 
 
 def test_samples_count_chips_that_are_lit() -> None:

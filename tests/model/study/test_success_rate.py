@@ -10,7 +10,6 @@ import pytest
 
 import occ_model as occ
 from occ_model.effects.paper_view import paper_view_of
-from occ_model.receiver.signal import locate
 from occ_model.results.decoding import DecodeResult
 from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.scene import Scene
@@ -50,27 +49,6 @@ def test_the_rate_is_the_fraction_of_correct_bits_and_only_accepted_payloads_are
     asked = scene.replace(code=718)
     assert module.count_right_and_whole(asked, RateSettings(5, ("x",))) == ((17,), (1,))
     assert occ.success_rate(asked, 5, "x") == pytest.approx(100 * 17 / 50)
-
-
-@pytest.mark.parametrize("decoder", ["threshold", "matched"])
-@pytest.mark.parametrize("frequency", [4e3, 10e3, 14e3, 18e3])
-def test_profile_path_and_image_path_give_the_same_rate(
-    scene: Scene, decoder: str, frequency: float
-) -> None:
-    at = scene.replace(switching_frequency=frequency)
-    by_image = occ.success_rate(at, 2, decoder, seed=7, path="image")
-    assert by_image == occ.success_rate(at, 2, decoder, seed=7, path="profile")
-
-
-def test_the_profile_path_finds_the_region_of_the_image(scene: Scene) -> None:
-    random = np.random.default_rng(1)
-    for distance in (0.5, 1.0, 2.5):
-        at = scene.replace(distance=distance)
-        bare = occ.plan(at, tolerance=np.inf)
-        by_profile = observe_profile(paper_view_of(at), panel_span(at), bare, random)
-        image = occ.render(at, tolerance=np.inf).image
-        found = locate(image, at.receiver.bright_fraction)
-        assert by_profile.region == found.region
 
 
 def test_the_profile_path_has_the_images_signal_with_noise(scene: Scene) -> None:

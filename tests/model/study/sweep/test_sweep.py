@@ -7,6 +7,7 @@ from typing import Any, NoReturn
 
 import numpy as np
 import pytest
+from model.study.sweep.conftest import AXES, BOTH
 
 import occ_model as occ
 from occ_model.parallel import process_pool
@@ -17,20 +18,6 @@ from occ_model.scene.scene import Scene
 from occ_model.study.confidence import interval_of_pictures
 from occ_model.study.success_rate import right_bits_of_images
 from occ_model.study.sweep.request_check import build_request
-
-BOTH = ("threshold", "matched")
-AXES = {"switching_frequency": [3e3, 14.65e3, 15e3, 25e3], "distance": [0.6, 1.4, 1.9]}
-
-
-@pytest.fixture(scope="module")
-def scene() -> Scene:
-    return occ.load_preset("phone-136us")
-
-
-@pytest.fixture(scope="module")
-def table(scene: Scene) -> SweepTable:
-    """Run the sweep in this process; all other ways must give the same table."""
-    return occ.sweep(scene, AXES, 3, BOTH, 7)
 
 
 def test_every_point_can_be_measured_again_by_itself(scene: Scene, table: SweepTable) -> None:

@@ -17,6 +17,7 @@ from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 
 import pytest
+from model.study.sweep.conftest import AXES, BOTH
 
 import occ_model as occ
 from occ_model.parallel.job import Job, JobResult
@@ -25,20 +26,6 @@ from occ_model.results.sweep import SweepTable
 from occ_model.scene.scene import Scene
 from occ_model.study.sweep import points
 from occ_model.study.sweep.workers import GivenExecutor
-
-BOTH = ("threshold", "matched")
-AXES = {"switching_frequency": [3e3, 14.65e3, 15e3, 25e3], "distance": [0.6, 1.4, 1.9]}
-
-
-@pytest.fixture(scope="module")
-def scene() -> Scene:
-    return occ.load_preset("phone-136us")
-
-
-@pytest.fixture(scope="module")
-def table(scene: Scene) -> SweepTable:
-    """Run the sweep in this process; all other ways must give the same table."""
-    return occ.sweep(scene, AXES, 3, BOTH, 7)
 
 
 def kill_once(killed: list[int]) -> Callable[[int, int, float], None]:

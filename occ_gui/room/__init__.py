@@ -1,1 +1,1 @@
-"""Pane of the room: plan, picture, and the place of the camera by the picture."""
+"""Pane of the room: plan, picture, and the camera's place found from the picture."""

@@ -1,4 +1,4 @@
-"""What the pane of the room shows: the picture from a place, and what is read of it."""
+"""Jobs of the room's pane: make a picture from a place and read it, or map the floor."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -18,7 +18,7 @@ from occ_model.room.view import aim_of, room_outline, seen_outline
 from occ_model.study.room_map import RoomMapRequest, RoomPoint, places_under, room_map
 
 _WIDTH = 900
-"""Columns of the picture that is shown: area means, as a coarser one would show false stripes."""
+"""Columns of the reduced picture, in area means, because samples would show false stripes."""
 
 SIDE = 5  # places of the map on each side of the floor
 
@@ -28,7 +28,8 @@ class RoomPlan:
     """A room from above: x and y in metres."""
 
     outlines: dict[str, FloatArray]  # of the lamps, by name, each of shape (corners, 2)
-    seen: FloatArray  # what the camera sees at the lamps' height; empty where it does not look up
+    # Corners of what the camera sees at the lamps' height; empty if it does not look up
+    view: FloatArray
     aim: tuple[float, float]  # the middle of what it sees
     height: float  # the lamps' mean height
 
@@ -45,14 +46,14 @@ class Look:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ShownRoom:
-    """A picture of a room, one of it for the screen, and its reading once it is there."""
+    """A picture of a room, a reduced copy for the screen, and its reading once there is one."""
 
     look: Look
-    room: Room  # as it was read: at a photo's camera is the place that was found
+    room: Room  # as used for reading, but with the camera of a photo at the place that was found
     image: ByteArray
-    picture: ByteArray
+    picture: ByteArray  # the reduced copy
     reading: RoomReading | None
-    assumed: tuple[str, ...] = ()  # what is taken as given of a photo's camera; sentences
+    assumed: tuple[str, ...] = ()  # sentences on what is assumed about a photo's camera
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -69,24 +70,24 @@ def plan_of(room: Room) -> RoomPlan:
 
 def show_room(look: Look, report: TaskReporter) -> ShownRoom:
     if look.photo is not None:
-        return _photo(look, look.photo, report)
+        return _show_photo(look, look.photo, report)
     room = look.room
     image = render_room(room, noise="reused").camera_image
-    shown = ShownRoom(look, room, image, _small(image), None)
+    shown = ShownRoom(look, room, image, _reduce(image), None)
     report(shown)
     return replace(shown, reading=read_room(image, room))
 
 
-def _photo(look: Look, path: Path, report: TaskReporter) -> ShownRoom:
+def _show_photo(look: Look, path: Path, report: TaskReporter) -> ShownRoom:
     photo = load_photo(path)
-    report(ShownRoom(look, look.room, photo.image, _small(photo.image), None))
-    found = read_room_photo(photo, look.room, look.focal_length)
-    located = found.reading.located
-    room = found.room if located is None else found.room.replace(camera=located.place)
-    return ShownRoom(look, room, found.image, _small(found.image), found.reading, found.assumed)
+    report(ShownRoom(look, look.room, photo.image, _reduce(photo.image), None))
+    read = read_room_photo(photo, look.room, look.focal_length)
+    located = read.reading.located
+    room = read.room if located is None else read.room.replace(camera=located.place)
+    return ShownRoom(look, room, read.image, _reduce(read.image), read.reading, read.assumed)
 
 
-def _small(image: ByteArray) -> ByteArray:
+def _reduce(image: ByteArray) -> ByteArray:
     scale = min(1.0, _WIDTH / image.shape[1])
     size = (round(image.shape[1] * scale), max(1, round(image.shape[0] * scale)))
     return np.asarray(cv2.resize(image, size, interpolation=cv2.INTER_AREA), dtype=np.uint8)
@@ -94,5 +95,5 @@ def _small(image: ByteArray) -> ByteArray:
 
 def map_room(room: Room, report: Callable[[float], object]) -> FloorMap:
     request = RoomMapRequest(room, *places_under(room, SIDE))
-    found = room_map(request, progress=lambda done, total, _: report(done / total))
-    return FloorMap(request, found)
+    points = room_map(request, progress=lambda done, total, _: report(done / total))
+    return FloorMap(request, points)

@@ -1,4 +1,4 @@
-"""The pane of the room: pictures are taken and read on one thread, the map measured on another."""
+"""Pane of the room: reads pictures on one thread, and measures the map on another."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -32,25 +32,25 @@ class RoomPane(Pane[RoomChoice]):
         self._store, self._first = store, load_room(FIRST_ROOM)
         self.look: Look | None = None
         self.shown: ShownRoom | None = None
-        """The last picture of the present place, once it is read."""
-        self._look: Task[Look, ShownRoom] = Task(show_room, "room")
-        self._look.reported.connect(self._show)
-        self._look.finished.connect(self._show)
-        self._look.failed.connect(self.view.show_failure)
-        self._map: Task[Room, FloorMap] = Task(map_room, "room map", impatient=True)
-        self._map.reported.connect(self.view.show_progress)
-        self._map.finished.connect(self.view.show_map)
-        self._map.failed.connect(self.view.floor.setText)
-        self.tasks = (self._look, self._map)
-        self._mapped: Room | None = None  # the room whose map is shown or measured
-        self._lengths = Gestures()
-        self.view.rooms.textActivated.connect(lambda name: self.take(name, load_room(name)))
+        """The picture from the present place, once it is read."""
+        self._reader: Task[Look, ShownRoom] = Task(show_room, "room")
+        self._reader.reported.connect(self._show)
+        self._reader.finished.connect(self._show)
+        self._reader.failed.connect(self.view.show_failure)
+        self._mapper: Task[Room, FloorMap] = Task(map_room, "room map", impatient=True)
+        self._mapper.reported.connect(self.view.show_progress)
+        self._mapper.finished.connect(self.view.show_map)
+        self._mapper.failed.connect(self.view.floor.setText)
+        self.tasks = (self._reader, self._mapper)
+        self._room_of_map: Room | None = None  # the room whose map is shown or measured
+        self._gestures = Gestures()
+        self.view.rooms.textActivated.connect(lambda name: self.choose(name, load_room(name)))
         self.view.file_asked.connect(self._ask_for_file)
         self.view.photo_asked.connect(self._ask_for_photo)
         self.view.photo_closed.connect(
             lambda: self._edit("closing of the photo", photo=None, focal_length=None)
         )
-        self.view.focal_length_given.connect(self._with_focal_length)
+        self.view.focal_length_entered.connect(self._set_focal_length)
         self.view.map_asked.connect(self._measure)
         self.view.plan.camera_moved.connect(self._move)
         self.view.plan.aim_moved.connect(self._aim)
@@ -67,18 +67,18 @@ class RoomPane(Pane[RoomChoice]):
         is_new = last is None or room.lamps != last.room.lamps
         self.view.show_name(part.name)
         self.view.show_plan(room, plan_of(room), is_new=is_new)
-        if self._mapped is not None and not _have_same_map(room, self._mapped):
-            self._map.cancel()
-            self._mapped = None
+        if self._room_of_map is not None and not _have_same_map(room, self._room_of_map):
+            self._mapper.cancel()
+            self._room_of_map = None
             self.view.show_map(None)
-        self._look.ask(self.look)
+        self._reader.ask(self.look)
 
     def _edit(self, title: str, gesture: int = NO_GESTURE, **changes: Any) -> None:
         workspace = self._store.workspace
         room = replace(workspace.room, **changes)
         self._store.put(replace(workspace, room=room), title, gesture)
 
-    def take(self, name: str, room: Room) -> None:
+    def choose(self, name: str, room: Room) -> None:
         self._edit(f"room {name}", name=name, room=room)
 
     def _move(self, x: float, y: float, gesture: int) -> None:
@@ -95,20 +95,20 @@ class RoomPane(Pane[RoomChoice]):
     def open_photo(self, path: Path) -> None:
         self._edit(f"photo {path.name}", photo=path, focal_length=None)
 
-    def _with_focal_length(self, focal_length: float) -> None:
-        self._edit("focal length of the photo", self._lengths.of_change(),
+    def _set_focal_length(self, focal_length: float) -> None:
+        self._edit("focal length of the photo", self._gestures.of_change(),
                    focal_length=focal_length)  # fmt: skip
 
     def open(self, path: Path) -> None:
-        """Show the room of a file, or why it cannot be read."""
+        """Show the room of a file, or the reason why it cannot be read."""
         try:
-            self.take(path.name, load_room(path))
+            self.choose(path.name, load_room(path))
         except OccError as error:
             self.view.show_failure(str(error))
 
     def _measure(self) -> None:
-        self._mapped = self.room
-        self._map.ask(self.room)
+        self._room_of_map = self.room
+        self._mapper.ask(self.room)
 
     def _ask_for_file(self) -> None:
         chosen, _ = QFileDialog.getOpenFileName(
@@ -132,5 +132,5 @@ class RoomPane(Pane[RoomChoice]):
 
 
 def _have_same_map(now: Room, then: Room) -> bool:
-    """Compare rooms by what a map depends on: the camera's turn and height, not its place."""
+    """Compare rooms without the camera's x and y, on which a map does not depend."""
     return now.replace(x=then.camera.x, y=then.camera.y) == then

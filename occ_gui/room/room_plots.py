@@ -19,16 +19,16 @@ from occ_model.room.pose_fit import Located
 from occ_model.room.room import Place
 
 _DEVIATIONS = 2.0
-_ROUND = np.linspace(0.0, 2.0 * math.pi, 49)
+_CIRCLE = np.linspace(0.0, 2.0 * math.pi, 49)
 
-_SEEN_SIZE = 0.04  # fraction of the plan's width from which an ellipse can be seen
+_VISIBLE_SIZE = 0.04  # fraction of the plan's width that an ellipse needs to be visible
 _MARGIN = 0.8  # metres around the lamps
 
 _DASHES = Qt.PenStyle.DashLine
 
-_ROOM_FOR_NUMBERS = 0.02  # fraction of a picture's height beside it: its first row's number is seen
+_PADDING = 0.02  # fraction of the picture's height, so that the first row's number is not cut off
 
-_NAME = 0.025  # fraction of the picture's height that half a name takes
+_HALF_NAME = 0.025  # half the height of a name, as a fraction of the picture's
 
 
 class PlanPlot(QWidget):
@@ -45,13 +45,13 @@ class PlanPlot(QWidget):
         self.floor = pg.ScatterPlotItem(pen=None, symbol="s")
         self.plot.addItem(self.floor)
         self.lamps = self.plot.add_curve(thin(SIMULATION))
-        self.seen = self.plot.add_curve(thin(PHOTO, _DASHES))
+        self.view = self.plot.add_curve(thin(PHOTO, _DASHES))
         self.ellipse = self.plot.add_curve(thin(BAND))
         self.names: list[pg.TextItem] = []
-        self.found = self.plot.plot([], [], pen=None, symbol="x", symbolBrush=BAND, symbolPen=BAND)
+        self.cross = self.plot.plot([], [], pen=None, symbol="x", symbolBrush=BAND, symbolPen=BAND)
         self.aim = pg.TargetItem((0.0, 0.0), size=30, symbol="t1", pen=pg.mkPen(PHOTO, width=2))
         self.camera = pg.TargetItem((0.0, 0.0), size=14, symbol="o", pen=pg.mkPen(PHOTO, width=2))
-        # Of a camera that looks straight up, the triangle stands around the ring: both can be held.
+        # If the camera looks straight up, the triangle surrounds the ring, and both can be grabbed.
         self.camera.setZValue(self.aim.zValue() + 1.0)
         self._follow(self.camera, self.camera_moved)
         self._follow(self.aim, self.aim_moved)
@@ -83,8 +83,8 @@ class PlanPlot(QWidget):
         connected = np.ones(len(joined), dtype=np.int32)
         connected[ends] = 0
         self.lamps.setData(joined[:, 0], joined[:, 1], connect=connected)
-        closed = np.vstack([plan.seen, plan.seen[:1]]) if len(plan.seen) else plan.seen
-        self.seen.setData(closed[:, 0], closed[:, 1])
+        closed = np.vstack([plan.view, plan.view[:1]]) if len(plan.view) else plan.view
+        self.view.setData(closed[:, 0], closed[:, 1])
         for target, at in ((self.camera, (place.x, place.y)), (self.aim, plan.aim)):
             with QSignalBlocker(target):
                 target.setPos(QPointF(*at))
@@ -113,34 +113,34 @@ class PlanPlot(QWidget):
         """Show a place with its error ellipse; return the factor by which both are enlarged."""
         if located is None:
             self.ellipse.setData([], [])
-            self.found.setData([], [])
+            self.cross.setData([], [])
             return 1.0
         values, axes = np.linalg.eigh(located.covariance[:2, :2])
         lengths = _DEVIATIONS * np.sqrt(np.maximum(values, 0.0))
         width = float(np.ptp(self.plot.getViewBox().viewRange()[0]))
-        needed = _SEEN_SIZE * width / max(float(lengths.max()), 1e-12)
+        needed = _VISIBLE_SIZE * width / max(float(lengths.max()), 1e-12)
         enlarged = 10.0 ** max(0, math.ceil(math.log10(max(needed, 1.0))))
         middle = np.array([true.x, true.y])
         off = (np.array([located.place.x, located.place.y]) - middle) * enlarged
-        circle = np.stack([np.cos(_ROUND), np.sin(_ROUND)]) * lengths[:, None] * enlarged
+        circle = np.stack([np.cos(_CIRCLE), np.sin(_CIRCLE)]) * lengths[:, None] * enlarged
         x, y = (middle + off)[:, None] + axes @ circle
         self.ellipse.setData(x, y)
-        self.found.setData([middle[0] + off[0]], [middle[1] + off[1]])
+        self.cross.setData([middle[0] + off[0]], [middle[1] + off[1]])
         return float(enlarged)
 
-    def show_map(self, found: FloorMap | None) -> None:
-        if found is None:
+    def show_map(self, floor_map: FloorMap | None) -> None:
+        if floor_map is None:
             self.floor.setData([], [])
             return
         brushes = {True: pg.mkBrush(SIMULATION), False: pg.mkBrush(BAND)}
         self.floor.setData(
             [
                 {
-                    "pos": found.request.place(point.index),
+                    "pos": floor_map.request.place(point.index),
                     "brush": brushes[bool(point.sure_places)],
                     "size": 9,
                 }
-                for point in found.points
+                for point in floor_map.points
             ]
         )
 
@@ -159,21 +159,21 @@ class PicturePlot(QWidget):
 
     def show_room(self, shown: ShownRoom) -> None:
         rows, columns = shown.image.shape
-        margin = _NAME * rows
+        margin = _HALF_NAME * rows
         self.image.setImage(shown.picture, levels=(0, 255))
         self.image.setRect(QRectF(-0.5, -0.5, columns, rows))
         self.plot.setXRange(0, columns, padding=0)
-        self.plot.setYRange(0, rows, padding=_ROOM_FOR_NUMBERS)
+        self.plot.setYRange(0, rows, padding=_PADDING)
         for item in self._over:
             self.plot.removeItem(item)
         self._over = []
-        for read in shown.reading.lamps if shown.reading else ():
-            colour = SIMULATION if read.name else BAND
-            closed = np.vstack([read.hull, read.hull[:1]])
+        for lamp in shown.reading.lamps if shown.reading else ():
+            colour = SIMULATION if lamp.name else BAND
+            closed = np.vstack([lamp.hull, lamp.hull[:1]])
             outline = pg.PlotCurveItem(closed[:, 0], closed[:, 1], pen=thin(colour))
-            name = pg.TextItem(read.name or "?", color="w", fill=colour, anchor=(0.5, 0.5))
-            # Of a lamp at the edge too, the whole name is seen.
-            middle = np.clip(read.hull.mean(axis=0), margin, (columns - margin, rows - margin))
+            name = pg.TextItem(lamp.name or "?", color="w", fill=colour, anchor=(0.5, 0.5))
+            # The whole name stays visible, even for a lamp at the edge.
+            middle = np.clip(lamp.hull.mean(axis=0), margin, (columns - margin, rows - margin))
             name.setPos(*middle.tolist())
             for item in (outline, name):
                 self.plot.addItem(item, ignoreBounds=True)

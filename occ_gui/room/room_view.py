@@ -1,4 +1,4 @@
-"""View of a room: its plan, the camera's picture, and the camera's place by the picture."""
+"""View of a room: its plan, the camera's picture, and the place found from the picture."""
 
 import math
 from collections.abc import Sequence
@@ -21,7 +21,8 @@ _LEAST_HEIGHT = 260
 
 _LEGEND = (
     "Drag the ring (the camera) or the triangle (where it looks). Dashed: what it sees at the "
-    "lamps' height. Cross and ellipse: the place that was found, and two standard deviations."
+    "lamps' height. Cross and ellipse: the place found from the picture, and two standard "
+    "deviations."
 )
 
 
@@ -30,12 +31,12 @@ class RoomView(QWidget):
 
     file_asked = Signal()  # the user wants to choose a room file
     photo_asked = Signal()  # the user wants to choose a photo of the room
-    photo_closed = Signal()  # the user wants to see what the camera sees in place of the photo
+    photo_closed = Signal()  # the user wants the simulated picture instead of the photo
 
-    focal_length_given = Signal(float)
+    focal_length_entered = Signal(float)
     """The user enters the photo's equivalent focal length, in metres."""
 
-    map_asked = Signal()  # the user wants the map over the floor measured
+    map_asked = Signal()  # the user wants to measure the map of the floor
 
     def __init__(self, names: Sequence[str]) -> None:
         super().__init__()
@@ -64,13 +65,13 @@ class RoomView(QWidget):
         self.focal_length.setSuffix(" mm equivalent")
         self.focal_length.setKeyboardTracking(False)
         self.focal_length.setAccessibleName("Equivalent focal length of the photo")
-        self.focal_length.setToolTip("That of the photo's lens; what you give is taken as exact.")
-        self.focal_length.valueChanged.connect(lambda mm: self.focal_length_given.emit(1e-3 * mm))
+        self.focal_length.setToolTip("That of the photo's lens; a value entered counts as exact.")
+        self.focal_length.valueChanged.connect(lambda mm: self.focal_length_entered.emit(1e-3 * mm))
         for widget in (self.close_photo, self.focal_length):
             widget.hide()
         self.measure = push_button(
             "&Measure the floor",
-            f"Take a picture at each of {SIDE**2} places below the lamps, and see which is found.",
+            f"Simulate a picture at each of {SIDE**2} places below the lamps, and locate it.",
             self.map_asked,
         )
         self.headline, self.sentences, self.floor = paragraph(), paragraph(), paragraph()
@@ -78,13 +79,13 @@ class RoomView(QWidget):
         self.plan, self.picture = PlanPlot(), PicturePlot()
         for plot in (self.plan, self.picture):
             plot.setMinimumHeight(_LEAST_HEIGHT)
-        chosen = fill(
+        buttons = fill(
             QHBoxLayout(), self.rooms, self.open, self.photo, self.close_photo, self.focal_length,
             self.measure, None,
         )  # fmt: skip
         row = fill(QHBoxLayout(), (self.plan, 1), (self.picture, 1))
         fill(
-            QVBoxLayout(self), chosen, self.headline, self.sentences, (row, 1), paragraph(_LEGEND),
+            QVBoxLayout(self), buttons, self.headline, self.sentences, (row, 1), paragraph(_LEGEND),
             self.floor,
         )  # fmt: skip
 
@@ -93,7 +94,7 @@ class RoomView(QWidget):
         self.rooms.setCurrentIndex(self.rooms.findText(name))
 
     def show_plan(self, room: Room, plan: RoomPlan, *, is_new: bool) -> None:
-        """Show lamps and camera; results of the last picture become outdated."""
+        """Show lamps and camera, and clear the results of the last picture."""
         self.plan.show_plan(plan, room.camera, is_new=is_new)
         self.plan.show_located(None, room.camera)
         self.headline.setText("Looking…")
@@ -123,9 +124,9 @@ class RoomView(QWidget):
     def show_progress(self, fraction: float) -> None:
         self.floor.setText(f"Measuring the floor: {100.0 * fraction:.0f} %")
 
-    def show_map(self, found: FloorMap | None) -> None:
-        self.plan.show_map(found)
-        self.floor.setText(_floor(found) if found else "")
+    def show_map(self, floor_map: FloorMap | None) -> None:
+        self.plan.show_map(floor_map)
+        self.floor.setText(_describe_map(floor_map) if floor_map else "")
 
 
 def _headline(reading: RoomReading) -> str:
@@ -139,13 +140,9 @@ def _headline(reading: RoomReading) -> str:
     return f"I am here: {text}" if reading.is_sure else f"Perhaps here: {text}"
 
 
-def _length(metres: float) -> str:
-    return f"{100.0 * metres:.2g} cm" if metres >= 1e-2 else f"{1e3 * metres:.2g} mm"
-
-
 def _sentences(shown: ShownRoom, reading: RoomReading, enlarged: float) -> str:
-    named = [read.name for read in reading.lamps if read.name]
-    lines = [f"{len(named)} of {len(reading.lamps)} lamps named: {', '.join(named) or 'none'}."]
+    names = [lamp.name for lamp in reading.lamps if lamp.name]
+    lines = [f"{len(names)} of {len(reading.lamps)} lamps named: {', '.join(names) or 'none'}."]
     lines += reading.reasons
     if reading.located is not None:
         place, errors, true = reading.located.place, reading.located.errors, shown.room.camera
@@ -154,7 +151,7 @@ def _sentences(shown: ShownRoom, reading: RoomReading, enlarged: float) -> str:
             ", ".join(_degrees(getattr(place, name)) for name in _ANGLES),
             f"{math.degrees(float(errors[3:].max())):.2g}°",
         ))  # fmt: skip
-        parts = [] if shown.look.photo else [f"{_length(off)} from the true place"]
+        parts = [] if shown.look.photo else [f"{METRE.format(off, 2)} from the true place"]
         parts += [f"drawn {enlarged:g} times larger"] if enlarged > 1.0 else []
         lines.append("; ".join([*parts, f"yaw, pitch, roll: {angles}"]).capitalize() + ".")
     if shown.assumed:
@@ -165,8 +162,8 @@ def _sentences(shown: ShownRoom, reading: RoomReading, enlarged: float) -> str:
 _ANGLES = ("yaw", "pitch", "roll")
 
 
-def _floor(found: FloorMap) -> str:
-    points = found.points
+def _describe_map(floor_map: FloorMap) -> str:
+    points = floor_map.points
     sure = [point for point in points if point.sure_places]
     named, shown, wrong = (
         sum(getattr(point, count) for point in points) for count in ("named", "shown", "wrong")
@@ -176,7 +173,7 @@ def _floor(found: FloorMap) -> str:
         f"{named} of {shown} whole lamps named, {counted(wrong, 'lamp')} named wrongly."
     )
     if sure:
-        text += f" In the median {_length(float(np.median([p.error for p in sure])))} off."
+        text += f" Median error: {METRE.format(float(np.median([p.error for p in sure])), 2)}."
     return text
 
 

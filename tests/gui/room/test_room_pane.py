@@ -1,4 +1,4 @@
-"""The pane of the room shows the place that a picture tells, and follows what is dragged."""
+"""The pane of the room shows the place found from a picture, and follows a dragged camera."""
 
 import math
 import re
@@ -22,7 +22,7 @@ from small_rooms import small_room
 import occ_model as occ
 from occ_gui.app.panes import room
 from occ_gui.room import jobs
-from occ_gui.room.jobs import ShownRoom, map_room, plan_of
+from occ_gui.room.jobs import FloorMap, ShownRoom, map_room, plan_of
 from occ_gui.room.pane import RoomPane
 from occ_gui.values.room_choice import FIRST_ROOM, RoomChoice
 from occ_model.figures.drawing import house_style
@@ -32,43 +32,44 @@ from occ_model.room.room import Place
 from occ_model.room.rooms import load_room
 from occ_model.room.view import aim_at, aim_of, rotation
 from occ_model.scene.scene import Scene
+from occ_model.study.room_map import RoomMapRequest, RoomPoint
 
 ROOM = small_room(turned=0.0, camera=Place(x=0.6, y=0.6, z=-0.2, roll=0.4))
 
 
 @pytest.fixture(scope="module")
-def known() -> dict[tuple[object, ...], Any]:
-    """Keep what was seen and read of rooms by the tests of this file."""
+def results() -> dict[tuple[object, ...], Any]:
+    """Keep the pictures and readings of the tests in this file."""
     return {}
 
 
 @pytest.fixture(autouse=True)
-def each_room_is_seen_and_read_once(
-    known: dict[tuple[object, ...], Any], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def once(work: Callable[..., Any]) -> Callable[..., Any]:
-        def remembered(*asked: Any, **how: Any) -> Any:
-            key = (work, *(each.tobytes() if hasattr(each, "tobytes") else each for each in asked))
-            if key not in known:
-                known[key] = work(*asked, **how)
-            return known[key]
+def cached_jobs(results: dict[tuple[object, ...], Any], monkeypatch: pytest.MonkeyPatch) -> None:
+    """Render and read each room only once."""
 
-        return remembered
+    def cache_results(work: Callable[..., Any]) -> Callable[..., Any]:
+        def look_up(*args: Any, **options: Any) -> Any:
+            key = (work, *(each.tobytes() if hasattr(each, "tobytes") else each for each in args))
+            if key not in results:
+                results[key] = work(*args, **options)
+            return results[key]
+
+        return look_up
 
     for name in ("render_room", "read_room", "room_map"):
-        monkeypatch.setattr(jobs, name, once(getattr(jobs, name)))
+        monkeypatch.setattr(jobs, name, cache_results(getattr(jobs, name)))
 
 
 @pytest.fixture
-def one_look(each_room_is_seen_and_read_once: None, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let every room look as the first: most of what a drag changes follows from no picture."""
-    remembered: Any = jobs
-    frame = remembered.render_room(ROOM, noise="reused")
-    reading = remembered.read_room(frame.camera_image, ROOM)
+def same_picture(cached_jobs: None, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Give every room the picture and reading of the first, which few tests depend on."""
+    room_jobs: Any = jobs
+    frame = room_jobs.render_room(ROOM, noise="reused")
+    reading = room_jobs.read_room(frame.camera_image, ROOM)
     monkeypatch.setattr(jobs, "render_room", lambda *_, **__: frame)
     monkeypatch.setattr(jobs, "read_room", lambda *_: reading)
-    found = SimpleNamespace(reading=reading, room=ROOM, image=frame.camera_image, assumed=())
-    monkeypatch.setattr(jobs, "read_room_photo", lambda *_: found)
+    read = SimpleNamespace(reading=reading, room=ROOM, image=frame.camera_image, assumed=())
+    monkeypatch.setattr(jobs, "read_room_photo", lambda *_: read)
 
 
 @pytest.fixture
@@ -84,20 +85,20 @@ def bench(qtbot: QtBot, small_scene: Scene) -> PaneBench:
 @pytest.fixture
 def pane(bench: PaneBench, qtbot: QtBot) -> RoomPane:
     pane: RoomPane = bench.add(room(bench.store))
-    looked(qtbot, pane)
+    wait_until_read(qtbot, pane)
     return pane
 
 
-def looked(qtbot: QtBot, pane: RoomPane) -> ShownRoom:
+def wait_until_read(qtbot: QtBot, pane: RoomPane) -> ShownRoom:
     qtbot.waitUntil(lambda: pane.is_idle and pane.shown is not None)
     assert pane.shown is not None
     return pane.shown
 
 
 def drag(
-    qtbot: QtBot, view: PlotWidget, item: TargetItem, *way: tuple[float, float], below: float = 0.0
+    qtbot: QtBot, view: PlotWidget, item: TargetItem, *path: tuple[float, float], below: float = 0.0
 ) -> None:
-    """Drag what stands in a plan, held so far below its middle, along some places, in metres."""
+    """Drag an item of a plan along a path, in metres, grabbed so far below its middle."""
     port, box = view.viewport(), view.getViewBox()
 
     def place(x: float, y: float) -> QPoint:
@@ -106,14 +107,14 @@ def drag(
     qtbot.mousePress(
         port, Qt.MouseButton.LeftButton, pos=place(item.pos().x(), item.pos().y() - below)
     )
-    for at in way:
+    for at in path:
         qtbot.mouseMove(port, place(*at))
-        qtbot.wait(20)  # the plot leaves out what comes sooner
-    qtbot.mouseRelease(port, Qt.MouseButton.LeftButton, pos=place(*way[-1]))
+        qtbot.wait(20)  # the plot ignores moves that follow sooner
+    qtbot.mouseRelease(port, Qt.MouseButton.LeftButton, pos=place(*path[-1]))
 
 
-def test_a_drag_is_one_step_and_undo_looks_from_the_former_place(
-    one_look: None, bench: PaneBench, pane: RoomPane, qtbot: QtBot
+def test_a_drag_is_one_step_and_undo_restores_the_former_place(
+    same_picture: None, bench: PaneBench, pane: RoomPane, qtbot: QtBot
 ) -> None:
     plan, stack = pane.view.plan, bench.store.undo_stack
     aside = ROOM.replace(camera=aim_at(ROOM.camera, 0.2, 0.2, plan_of(ROOM).height))
@@ -131,14 +132,14 @@ def test_a_drag_is_one_step_and_undo_looks_from_the_former_place(
         stack.undo()
     assert bench.store.workspace.room == RoomChoice("mine", aside)
     assert (plan.camera.pos().x(), plan.camera.pos().y()) == (0.6, 0.6)
-    assert looked(qtbot, pane).room == aside
+    assert wait_until_read(qtbot, pane).room == aside
     for _ in range(3):
         stack.redo()
     assert pane.room.camera == turned
 
 
-def test_a_camera_that_looks_straight_up_is_moved_by_its_ring_and_turned_by_its_triangle(
-    one_look: None, pane: RoomPane, qtbot: QtBot
+def test_a_camera_that_looks_up_is_moved_by_its_ring_and_turned_by_its_triangle(
+    same_picture: None, pane: RoomPane, qtbot: QtBot
 ) -> None:
     plan, before = pane.view.plan, pane.room.camera
     assert (plan.aim.pos().x(), plan.aim.pos().y()) == pytest.approx((before.x, before.y))
@@ -153,25 +154,25 @@ def test_a_camera_that_looks_straight_up_is_moved_by_its_ring_and_turned_by_its_
     assert (turned.yaw, turned.pitch) != (moved.yaw, moved.pitch)
 
 
-def test_what_is_undone_while_the_pane_is_hidden_is_no_figure_any_more(
-    one_look: None, bench: PaneBench, pane: RoomPane, qtbot: QtBot
+def test_undo_while_the_pane_is_hidden_removes_the_figure(
+    same_picture: None, bench: PaneBench, pane: RoomPane, qtbot: QtBot
 ) -> None:
     pane.view.plan.camera.setPos(0.3, 0.5)
     qtbot.waitUntil(lambda: pane.shown is not None)
     bench.see("room", seen=False)
     bench.store.undo_stack.undo()
     assert pane.shown is None
-    assert looked(qtbot, pane).room == ROOM
+    assert wait_until_read(qtbot, pane).room == ROOM
 
 
 def test_rooms_files_and_photos_are_steps(
-    one_look: None, bench: PaneBench, pane: RoomPane, qtbot: QtBot, tmp_path: Path
+    same_picture: None, bench: PaneBench, pane: RoomPane, qtbot: QtBot, tmp_path: Path
 ) -> None:
     path = tmp_path / "other.toml"
     path.write_text(ROOM.with_sent(code=900).to_toml(), encoding="utf-8")
     pane.open(path)
     pane.open_photo(_photo(tmp_path / "room.jpg", focal_length=26))
-    looked(qtbot, pane)
+    wait_until_read(qtbot, pane)
     for value in (26.25, 26.5):  # as by the arrows of the field
         pane.view.focal_length.setValue(value)
     stack = bench.store.undo_stack
@@ -186,30 +187,30 @@ def test_rooms_files_and_photos_are_steps(
     assert pane.view.rooms.placeholderText() == "mine"
 
 
-def test_the_place_is_told_with_its_errors_and_the_lamps_have_names(
+def test_the_place_is_shown_with_its_errors_and_the_lamps_with_their_names(
     pane: RoomPane, qtbot: QtBot
 ) -> None:
     assert re.match(r"I am here: x 0\.\d+ ± 0\.0\d+ m, y ", pane.view.headline.text())
     assert "4 of 4 lamps named" in pane.view.sentences.text()
     assert "times larger" in pane.view.sentences.text()
-    shown = looked(qtbot, pane)
+    shown = wait_until_read(qtbot, pane)
     assert shown.reading is not None
     located = not_none(shown.reading.located)
-    # The ellipse is that of the covariance, enlarged as is said, about the place that was found.
+    # The ellipse is the covariance's, enlarged by the stated factor, around the place found.
     x, _ = pane.view.plan.ellipse.getData()
     enlarged = float(pane.view.sentences.text().split("drawn ")[1].split(" times")[0])
     assert np.ptp(x) == pytest.approx(4.0 * enlarged * located.errors[0], rel=0.02)
     middle = pane.room.camera.x + enlarged * (located.place.x - pane.room.camera.x)
     assert (x.min() + x.max()) / 2.0 == pytest.approx(middle, abs=1e-9)
-    cross, off = pane.view.plan.found.getData(), located.place.y - pane.room.camera.y
+    cross, off = pane.view.plan.cross.getData(), located.place.y - pane.room.camera.y
     assert np.ravel(cross) == pytest.approx([middle, pane.room.camera.y + enlarged * off])
-    # Of a high picture, too, the number of the first row is not cut off by the plot's edge.
+    # The number of the first row is not cut off, even for a high picture.
     high = np.zeros((2000, 400), np.uint8)
     pane.view.picture.show_room(replace(shown, image=high, picture=high, reading=None))
     assert pane.view.picture.plot.viewRange()[1][0] < -20.0
 
 
-def test_a_dragged_camera_is_looked_from_and_the_old_place_goes(
+def test_a_dragged_camera_is_read_anew_and_the_old_place_removed(
     pane: RoomPane, qtbot: QtBot
 ) -> None:
     pane.view.plan.camera.setPos(0.3, 0.5)
@@ -218,7 +219,7 @@ def test_a_dragged_camera_is_looked_from_and_the_old_place_goes(
     assert pane.view.plan.ellipse.getData()[0] is None or not len(
         pane.view.plan.ellipse.getData()[0]
     )
-    assert looked(qtbot, pane).room.camera.x == 0.3
+    assert wait_until_read(qtbot, pane).room.camera.x == 0.3
     pane.view.plan.aim.setPos(0.9, 0.9)
     assert aim_of(pane.room.camera, plan_of(pane.room).height) == pytest.approx((0.9, 0.9))
     assert pane.room.camera.roll == 0.4
@@ -236,8 +237,8 @@ def test_a_camera_is_aimed_at_a_point_by_turning_it(seed: int) -> None:
     assert math.isclose(turned.roll, place.roll)
 
 
-def test_a_file_is_named_in_place_of_the_room_and_what_is_no_room_or_no_photo_is_told(
-    one_look: None, pane: RoomPane, tmp_path: Path, qtbot: QtBot
+def test_an_opened_file_is_named_and_an_unreadable_room_or_photo_is_reported(
+    same_picture: None, pane: RoomPane, tmp_path: Path, qtbot: QtBot
 ) -> None:
     rooms = pane.view.rooms
     rooms.textActivated.emit("corridor")
@@ -262,8 +263,8 @@ def test_the_first_room_is_one_of_the_program(bench: PaneBench) -> None:
     assert pane.room == load_room(FIRST_ROOM)
 
 
-def test_the_figure_has_the_true_place_and_the_one_found(pane: RoomPane, qtbot: QtBot) -> None:
-    shown = looked(qtbot, pane)
+def test_the_figure_shows_the_true_place_and_the_estimate(pane: RoomPane, qtbot: QtBot) -> None:
+    shown = wait_until_read(qtbot, pane)
     assert shown.reading is not None
     drawing = room_drawing(shown.room, shown.image, shown.reading)
     rows = {row[0]: row for row in drawing.rows()}
@@ -274,29 +275,41 @@ def test_the_figure_has_the_true_place_and_the_one_found(pane: RoomPane, qtbot: 
         assert len(drawing.draw().axes) == 2
 
 
-def test_the_map_is_that_of_the_study_and_goes_with_the_turn_that_it_is_of(
-    one_look: None, pane: RoomPane, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+def test_the_map_is_the_studys_and_is_removed_when_the_camera_turns(
+    same_picture: None, pane: RoomPane, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(jobs, "SIDE", 1)
     view, aim = pane.view, pane.view.plan.aim
-    said: list[str] = []
-    pane.tasks[1].reported.connect(lambda _: said.append(view.floor.text()))
+    texts: list[str] = []
+    pane.tasks[1].reported.connect(lambda _: texts.append(view.floor.text()))
     for is_measured in (False, True):
         view.measure.click()
         if is_measured:
             qtbot.waitUntil(lambda: "Map of the floor" in view.floor.text())
-            found = map_room(pane.room, lambda _: None)
-            assert found.points
-            sure = sum(bool(point.sure_places) for point in found.points)
-            assert f"{sure} of {len(found.points)} places determined" in view.floor.text()
-            assert said[-1] == "Measuring the floor: 100 %"
+            floor_map = map_room(pane.room, lambda _: None)
+            assert floor_map.points
+            sure = sum(bool(point.sure_places) for point in floor_map.points)
+            assert f"{sure} of {len(floor_map.points)} places determined" in view.floor.text()
+            assert texts[-1] == "Measuring the floor: 100 %"
             view.plan.camera.setPos(0.5, 0.5)
-            assert len(view.plan.floor.points()) == len(found.points)
+            assert len(view.plan.floor.points()) == len(floor_map.points)
         aim.setPos(aim.pos().x() + 0.1, aim.pos().y())
         assert view.floor.text() == ""
         assert len(view.plan.floor.points()) == 0
-        looked(qtbot, pane)
+        wait_until_read(qtbot, pane)
         assert view.floor.text() == ""
+
+
+@pytest.mark.parametrize(("metres", "text"), [(1.0, "1 m"), (0.012, "12 mm")])
+def test_the_error_of_a_map_is_written_without_an_exponent(
+    same_picture: None, pane: RoomPane, metres: float, text: str
+) -> None:
+    point = RoomPoint(
+        index=0, shown=4, named=4, misread=0, wrong=0, sure_places=1, error=metres,
+        stated=metres, note="",
+    )  # fmt: skip
+    pane.view.show_map(FloorMap(RoomMapRequest(ROOM, (0.0,), (0.0,)), (point,)))
+    assert pane.view.floor.text().endswith(f"Median error: {text}.")
 
 
 @cache
@@ -306,19 +319,19 @@ def _image() -> Grey:
 
 def _photo(path: Path, **tags: float) -> Path:
     notes = Image.Exif()
-    known = {"focal_length": EQUIVALENT_FOCAL_LENGTH}
-    notes.get_ifd(0x8769).update({known[name]: value for name, value in tags.items()})
+    keys = {"focal_length": EQUIVALENT_FOCAL_LENGTH}
+    notes.get_ifd(0x8769).update({keys[name]: value for name, value in tags.items()})
     Image.fromarray(_image()).save(path, quality=92, exif=notes.tobytes())
     return path
 
 
-def test_a_photo_is_located_and_what_is_assumed_of_its_lens_can_be_given(
+def test_a_photo_is_located_and_its_focal_length_can_be_entered(
     pane: RoomPane, qtbot: QtBot, tmp_path: Path
 ) -> None:
     view = pane.view
     assert not view.focal_length.isVisible()
     pane.open_photo(_photo(tmp_path / "room.jpg", focal_length=26))
-    looked(qtbot, pane)
+    wait_until_read(qtbot, pane)
     assert view.headline.text().startswith("I am here: x 0.")
     assert "as the EXIF data say" in view.sentences.text()
     assert "true place" not in view.sentences.text()
@@ -326,27 +339,27 @@ def test_a_photo_is_located_and_what_is_assumed_of_its_lens_can_be_given(
     assert view.focal_length.isVisible()
     assert view.focal_length.value() == 26.0
     view.focal_length.setValue(26.5)
-    looked(qtbot, pane)
+    wait_until_read(qtbot, pane)
     assert "26.5 mm equivalent, as given" in view.sentences.text()
-    shown = looked(qtbot, pane)
+    shown = wait_until_read(qtbot, pane)
     assert shown.reading is not None
-    drawn = room_drawing(shown.room, shown.image, shown.reading, is_photo=True)
-    rows = {row[0]: row for row in drawn.rows()}
+    drawing = room_drawing(shown.room, shown.image, shown.reading, is_photo=True)
+    rows = {row[0]: row for row in drawing.rows()}
     assert rows["x"][1] is None
     view.close_photo.click()
-    looked(qtbot, pane)
+    wait_until_read(qtbot, pane)
     assert "from the true place" in view.sentences.text()
     assert not view.focal_length.isVisible()
 
 
-def test_another_room_is_looked_for_in_the_photo_and_dragging_leaves_it(
+def test_another_room_is_sought_in_the_photo_and_dragging_closes_the_photo(
     pane: RoomPane, qtbot: QtBot, tmp_path: Path
 ) -> None:
     pane.open_photo(_photo(tmp_path / "room.jpg"))
-    looked(qtbot, pane)
+    wait_until_read(qtbot, pane)
     assert "the photo has no EXIF data on it" in pane.view.sentences.text()
-    pane.take("other", ROOM.with_sent(code=900))
-    looked(qtbot, pane)
+    pane.choose("other", ROOM.with_sent(code=900))
+    wait_until_read(qtbot, pane)
     assert pane.view.headline.text() == "The place is not determined"
     pane.view.plan.camera.setPos(0.3, 0.5)
     assert pane.look is not None

@@ -1,4 +1,4 @@
-"""Sent over received, as bits and as text, with what is wrong marked by shape and colour."""
+"""Sent above received bits and text, with errors marked by shape and colour."""
 
 from collections.abc import Iterable, Sequence
 from html import escape
@@ -19,8 +19,8 @@ _LABEL = 66
 _LEAST_CELL_WIDTH = 9.0  # pixels of a cell below which a digit does not fit
 _BAR_WIDTH = 3  # pixels of a bar and the gap beside it
 _MARK_OVERHANG = 2  # pixels by which a bar of wrong bits is longer than its row at either end
-_MOST_DIGITS = 64  # bits up to which the tool tip writes them out
-_FADED_OPACITY = 0.35  # opacity of bits that are not of the present scene
+_MOST_DIGITS = 64  # most bits that the tool tip writes out
+_FADED_OPACITY = 0.35  # opacity of bits of an earlier scene
 
 _RIGHT = QColor(colours.RIGHT)
 _WRONG = QColor(colours.WRONG)
@@ -74,14 +74,14 @@ class BitStrip(QWidget):
         return QSize(_LABEL + 10 * (_CELL + _GAP), 2 * _CELL + 3 * _GAP)
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return the smallest size: narrower cells in rows of full height."""
+        """Allow narrower cells, in rows of full height."""
         return QSize(_LABEL + 10 * 12, self.sizeHint().height())
 
     @guarded
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        if not self.isEnabled():  # the bits are those of an earlier scene
+        if not self.isEnabled():  # the bits are of an earlier scene
             painter.setOpacity(_FADED_OPACITY)
         rows = (("sent", self.sent), ("received", self._received))
         count = max(1, len(self.sent))
@@ -142,7 +142,7 @@ class BitStrip(QWidget):
         painter.drawText(cell, Qt.AlignmentFlag.AlignCenter, str(bit))
 
 
-_MAX_SHOWN_LETTERS = 120  # letters that are shown; the bits of the others are in the strip of bits
+_MOST_LETTERS = 120  # shown as text; the strip shows the bits of all
 _MISSING = "·"  # in place of a letter that was not received
 
 
@@ -161,24 +161,24 @@ class PayloadText(QLabel):
         self.setVisible(bool(pieces))
         if not pieces:
             return
-        sent = _shortened("".join(piece.sent for piece in pieces))
+        sent = _shorten("".join(piece.sent for piece in pieces))
         wrong = sum(not piece.is_right for piece in pieces)
-        self.setText(f"sent <b>{escape(sent)}</b><br>received <b>{_marked(pieces)}</b>")
-        read = _shortened("".join(piece.received or _MISSING for piece in pieces))
-        self.setAccessibleDescription(received_in_words(sent, read, wrong))
+        self.setText(f"sent <b>{escape(sent)}</b><br>received <b>{_mark_errors(pieces)}</b>")
+        received_text = _shorten("".join(piece.received or _MISSING for piece in pieces))
+        self.setAccessibleDescription(received_in_words(sent, received_text, wrong))
 
 
-def _shortened(text: str) -> str:
-    return text if len(text) <= _MAX_SHOWN_LETTERS else f"{text[: _MAX_SHOWN_LETTERS - 1]}…"
+def _shorten(text: str) -> str:
+    return text if len(text) <= _MOST_LETTERS else f"{text[: _MOST_LETTERS - 1]}…"
 
 
-def _marked(pieces: Iterable[PayloadPiece]) -> str:
-    """Write what was received, with wrong letters crossed out and coloured."""
-    marked, letters = "", 0
+def _mark_errors(pieces: Iterable[PayloadPiece]) -> str:
+    """Write the received payload, with wrong letters crossed out and coloured."""
+    markup, letters = "", 0
     for piece in pieces:
         letters += len(piece.sent)
-        if letters > _MAX_SHOWN_LETTERS:
-            return f"{marked}…"
+        if letters > _MOST_LETTERS:
+            return f"{markup}…"
         text = escape(piece.received or _MISSING)
-        marked += text if piece.is_right else f'<s style="color:{colours.WRONG}">{text}</s>'
-    return marked
+        markup += text if piece.is_right else f'<s style="color:{colours.WRONG}">{text}</s>'
+    return markup

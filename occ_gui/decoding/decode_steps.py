@@ -17,12 +17,12 @@ from occ_model.results.decoding import DecodeResult
 _CHIP_STRIP_HEIGHT = 0.16
 """Height of the strip of chips below the signal, as a fraction of the signal's range."""
 
-_LEAST_HEIGHT = 104  # pixels, with the name of either axis in whole
+_LEAST_HEIGHT = 104  # pixels, in which the names of both axes fit
 _COLOURS = (BAND, SIMULATION)  # colours of the run lengths of zeros and of ones
 
 
 class _LevelAxis(Axis):
-    """An axis without numbers below zero, where only the strip of chips is drawn."""
+    """An axis without numbers below zero, where the strip of chips lies."""
 
     def tickStrings(  # noqa: N802 - pyqtgraph's name
         self, values: list[float], scale: float, spacing: float
@@ -34,9 +34,9 @@ class _LevelAxis(Axis):
 class SignalPlot(QWidget):
     """The signal, its threshold and the chips read; or the signal folded on one packet.
 
-    A decoder that compares the signal with the forward model of a code folds it. One that undoes
-    the exposure shows what is left of the signal then, and one that finds the chips by their light
-    shows that light beside the signal's.
+    A decoder that compares the signal with the forward model of a code folds it; one that undoes
+    the exposure shows the equalized light; one that reads a chip sequence shows the measured light
+    beside the light predicted from the chips.
     """
 
     def __init__(self) -> None:
@@ -64,30 +64,30 @@ class SignalPlot(QWidget):
         fill(QVBoxLayout(self), legend, (self.plot, 1), margins=0, spacing=0)
 
     def show_result(self, result: DecodeResult, packet_columns: float) -> None:
-        """Show the steps of this result, at first two packets of ``packet_columns`` each."""
-        folded, in_light = result.folded is not None, result.light is not None
+        """Show the steps of this result, first in two packets of ``packet_columns`` each."""
+        is_folded, has_light = result.folded is not None, result.light is not None
         if result.folded is not None and result.model is not None:
             self._show_folded(result.folded, result.model)
         elif result.light is not None and result.light_model is not None:
             self._show_columns(result, result.light, "fraction of full light", packet_columns)
-            _draw(self.model, result.light_model)
+            _set_values(self.model, result.light_model)
         elif result.equalized is not None:
             self._show_columns(result, result.equalized, "light", packet_columns)
         else:
             signal = result.signal if result.signal is not None else np.zeros(1)
             self._show_columns(result, signal, "level", packet_columns)
         self.threshold.setVisible(result.threshold is not None)
-        self.chips.setVisible(not folded and bool(result.chips.size))
+        self.chips.setVisible(not is_folded and bool(result.chips.size))
         self.legend.show_line("threshold", result.threshold is not None)
-        self.legend.show_line("model", folded or in_light)
+        self.legend.show_line("model", is_folded or has_light)
         self.legend.show_line("chips", self.chips.isVisible())
         self.setVisible(result.signal is not None)
 
     def _show_folded(self, folded: FloatArray, model: FloatArray) -> None:
         self.plot.setLabel("bottom", "eighth of a chip")
         self.plot.setLabel("left", "lit fraction")
-        _draw(self.signal, folded)
-        _draw(self.model, model)
+        _set_values(self.signal, folded)
+        _set_values(self.model, model)
         self.plot.setXRange(0, len(folded) - 1, padding=0.02)
         self.plot.setYRange(0.0, 1.0, padding=0.05)
 
@@ -96,7 +96,7 @@ class SignalPlot(QWidget):
     ) -> None:
         self.plot.setLabel("bottom", "column of the region")
         self.plot.setLabel("left", label)
-        _draw(self.signal, signal)
+        _set_values(self.signal, signal)
         self.model.setData([], [])
         low, high = float(signal.min()), float(signal.max())
         strip = (high - low or 1.0) * _CHIP_STRIP_HEIGHT
@@ -105,8 +105,8 @@ class SignalPlot(QWidget):
         if result.chip_starts is not None:
             edges = np.append(result.chip_starts, float(len(signal)))
             self._show_chips(result.chips, edges, low, strip)
-        shown = min(float(len(signal) - 1), PACKETS_IN_VIEW * packet_columns)
-        self.plot.setXRange(0, max(shown, 1.0), padding=0.02)
+        span = min(float(len(signal) - 1), PACKETS_IN_VIEW * packet_columns)
+        self.plot.setXRange(0, max(span, 1.0), padding=0.02)
         self.plot.setYRange(low - 2 * strip, high, padding=0.04)
 
     def _show_chips(self, chips: ByteArray, edges: FloatArray, low: float, strip: float) -> None:
@@ -163,11 +163,11 @@ class RunLengthPlot(QWidget):
         ):
             lengths = np.flatnonzero(histogram.counts)
             bars.setOpts(x=lengths, height=sign * histogram.counts[lengths])
-            at = [] if histogram.split is None else [histogram.split + 0.5] * 2
-            split.setData(at, [0, sign * most][: len(at)])
+            x = [] if histogram.split is None else [histogram.split + 0.5] * 2
+            split.setData(x, [0, sign * most][: len(x)])
         self.plot.setXRange(0, longest, padding=0.02)
         self.plot.setYRange(-most, most, padding=0.05)
 
 
-def _draw(curve: pg.PlotDataItem, values: FloatArray) -> None:
+def _set_values(curve: pg.PlotDataItem, values: FloatArray) -> None:
     curve.setData(np.arange(len(values), dtype=np.float64), values)

@@ -31,16 +31,16 @@ _STEPS = {
 
 
 class DecodeView(QWidget):
-    """The result in a sentence, sent and received bits, and the quantities measured on the way."""
+    """The result in a sentence, the sent and received bits, and the quantities measured."""
 
-    decoder_chosen = Signal(str)  # the name of the decoder that the user chose to see
+    decoder_chosen = Signal(str)  # the name of the decoder whose result the user chose
 
     def __init__(self, decoders: Sequence[str] = ()) -> None:
         super().__init__()
         self._names = tuple(decoders)
         self._reading: Reading | None = None
-        self._early: Reading | None = None
-        self._drawn: DecodeResult | None = None
+        self._early_reading: Reading | None = None
+        self._drawn_result: DecodeResult | None = None
         self._is_outdated = False
         self._run = ""
         tip = "Whose result and steps are shown."
@@ -77,12 +77,12 @@ class DecodeView(QWidget):
 
     def show_reading(self, reading: Reading) -> None:
         before = self._reading
-        if before is not None and before.request == reading.request:
-            self._early = before if before.source != reading.source else self._early
-        else:
-            self._early = self._drawn = None
+        if before is None or before.request != reading.request:
+            self._early_reading = self._drawn_result = None
+        elif before.source != reading.source:
+            self._early_reading = before
         self._reading = reading
-        results = self._results(reading)
+        results = self._list_results(reading)
         with QSignalBlocker(self.decoders):
             while self.decoders.count() < len(results):
                 self.decoders.addTab("")
@@ -93,7 +93,7 @@ class DecodeView(QWidget):
         self.strip.setVisible(bool(reading.sent))
         self.left_out.setVisible(bool(reading.called_for))
         self.left_out.setText(left_out_in_words(reading))
-        self._show_chosen()
+        self._show_result()
 
     def show_outdated(self, outdated: bool) -> None:
         reading = self._reading
@@ -102,58 +102,58 @@ class DecodeView(QWidget):
         self._is_outdated = outdated
         self.strip.show_outdated(outdated)
         self._mark_tabs(reading)
-        self.verdict.setText(self._verdict(self._chosen(reading)))
+        self.verdict.setText(self._describe_verdict(reading))
 
     def show_run(self, value: str, _pictured: str) -> None:
         """Show for which value of a running slider the verdict is; empty while none runs."""
         if value != self._run:
             self._run = value
             if self._reading is not None:
-                self.verdict.setText(self._verdict(self._chosen(self._reading)))
+                self.verdict.setText(self._describe_verdict(self._reading))
 
-    def _results(self, reading: Reading) -> tuple[DecodeResult, ...]:
+    def _list_results(self, reading: Reading) -> tuple[DecodeResult, ...]:
         names = dict.fromkeys((*self._names, *reading.results))
         return tuple(result_of(reading, name) for name in names)
 
     def _mark_tabs(self, reading: Reading) -> None:
-        for place, result in enumerate(self._results(reading)):
-            mark = " ✓" if is_right(result, self._sent) else " ✗"
+        for place, result in enumerate(self._list_results(reading)):
+            mark = " ✓" if is_right(result, reading.sent) else " ✗"
             mark = " …" if self._is_outdated else mark
             mark = mark if result.decoder in reading.results else ""
             text = f"{result.decoder}{mark}"
             if text != self.decoders.tabText(place):  # each text lays all tabs out anew
                 self.decoders.setTabText(place, text)
 
-    def _chosen(self, reading: Reading) -> DecodeResult:
-        return self._results(reading)[max(0, self.decoders.currentIndex())]
+    def _find_result(self, reading: Reading) -> DecodeResult:
+        return self._list_results(reading)[max(0, self.decoders.currentIndex())]
 
     def decoder(self) -> str:
         """Return the decoder of the shown result; empty before the first one."""
-        return "" if self._reading is None else self._chosen(self._reading).decoder
+        return "" if self._reading is None else self._find_result(self._reading).decoder
 
     def choose_decoder(self, name: str) -> None:
         if self._reading is not None:
-            names = [result.decoder for result in self._results(self._reading)]
+            names = [result.decoder for result in self._list_results(self._reading)]
             self.decoders.setCurrentIndex(names.index(name))
 
     def _choose(self) -> None:
-        self._show_chosen()
+        self._show_result()
         if self._reading is not None:
-            self.decoder_chosen.emit(self._chosen(self._reading).decoder)
+            self.decoder_chosen.emit(self._find_result(self._reading).decoder)
 
-    def _show_chosen(self) -> None:
+    def _show_result(self) -> None:
         reading = self._reading
         if reading is None:
             return
-        decoded = self._chosen(reading)
-        bits = decoded.bits.tolist()
+        result = self._find_result(reading)
+        bits = result.bits.tolist()
         self.payload.show_payload(reading.request.scene.transmitter.payload, bits)
         self.strip.show_bits(reading.sent, bits)
-        self.verdict.setText(self._verdict(decoded))
-        self.origin.setText(self._origin(reading))
-        self.reason.setText(reason_in(reading, decoded))
+        self.verdict.setText(self._describe_verdict(reading))
+        self.origin.setText(self._describe_origin(reading))
+        self.reason.setText(reason_in(reading, result))
         self.reason.setVisible(bool(self.reason.text()))
-        for name, text in self._measured(decoded).items():
+        for name, text in self._format_quantities(result).items():
             step = self._steps[name]
             if step.text() != text:
                 step.setText(text)
@@ -169,70 +169,65 @@ class DecodeView(QWidget):
         reading = self._reading
         if reading is None:
             return
-        decoded = self._chosen(reading)
-        if not _same_steps(decoded, self._drawn):  # painting takes longer than comparing
-            self._drawn = decoded
-            self.signal.show_result(decoded, reading.packet_columns)
-            self.run_lengths.show_result(decoded)
+        result = self._find_result(reading)
+        if not _look_alike(result, self._drawn_result):  # painting takes longer than comparing
+            self._drawn_result = result
+            self.signal.show_result(result, reading.packet_columns)
+            self.run_lengths.show_result(result)
 
-    def _origin(self, reading: Reading) -> str:
-        """Say what was read, and what it had seemed to be before where that differs."""
-        early = self._early
+    def _describe_origin(self, reading: Reading) -> str:
+        """State what was read, and the early verdict where it differs."""
+        early = self._early_reading
         if reading.source == "profile":
             return "By the column profile; the picture follows."
         if reading.source == "draft":
             return "By a draft of the picture; the exact one follows."
         if early is not None:
-            before, now = (self._in_words(self._chosen(each)) for each in (early, reading))
+            before, now = self._write_verdict(early), self._write_verdict(reading)
             if before != now:
                 is_profile = early.source == "profile"
                 source = "The column profile alone" if is_profile else "Its draft"
-                return f"Read from the picture. {source} had said: {before}."
+                return f"Read from the picture. {source} gave: {before}."
         return "Read from the picture."
 
-    def _in_words(self, decoded: DecodeResult) -> str:
-        verdict = verdict_on(decoded, self._sent)
+    def _write_verdict(self, reading: Reading) -> str:
+        verdict = verdict_on(self._find_result(reading), reading.sent)
         return f"{_MARKS.get(verdict.state, '✗ ')}{verdict.title}"
 
-    def _verdict(self, decoded: DecodeResult) -> str:
-        text = self._in_words(decoded)
+    def _describe_verdict(self, reading: Reading) -> str:
+        text = self._write_verdict(reading)
         if self._is_outdated:
             return f"Earlier scene: {text}"
         return f"{self._run}: {text}" if self._run else text
 
-    @property
-    def _sent(self) -> tuple[int, ...]:
-        return () if self._reading is None else self._reading.sent
-
-    def _bright(self, location: Location | None) -> str | None:
+    def _describe_location(self, location: Location | None) -> str:
         if location is None:  # a row that comes and goes would move those below it
             is_early = self._reading is not None and self._reading.source == "profile"
-            return "known with the picture" if is_early else None
+            return "known with the picture" if is_early else ""
         return (
             f"{location.bright_level}; contours: {location.contours}, grown by {location.growth} px"
         )
 
-    def _measured(self, decoded: DecodeResult) -> dict[str, str]:
-        """Format the measured quantities; empty for a step that was not reached."""
-        region, level, chip = decoded.region, decoded.threshold, decoded.chip_length
-        found: dict[str, str | None] = {
-            "bright": self._bright(decoded.location),
-            "region": None if region is None else f"{region.columns} x {region.rows} px",
-            "threshold": _number("{:.1f} grey levels", level),
-            "chip": _number("{:.2f} columns", chip),
-            "chips": str(decoded.chips.size) if decoded.chips.size else None,
-            "correlation": _number("{:.4f}", decoded.correlation),
-            "confidence": _number("{:.3f}", decoded.confidence),
+    def _format_quantities(self, result: DecodeResult) -> dict[str, str]:
+        """Format the measured quantities; empty where a step was not reached."""
+        region, level, chip = result.region, result.threshold, result.chip_length
+        return {
+            "bright": self._describe_location(result.location),
+            "region": "" if region is None else f"{region.columns} x {region.rows} px",
+            "threshold": _format("{:.1f} grey levels", level),
+            "chip": _format("{:.2f} columns", chip),
+            "chips": str(result.chips.size) if result.chips.size else "",
+            "correlation": _format("{:.4f}", result.correlation),
+            "confidence": _format("{:.3f}", result.confidence),
         }
-        return {name: text or "" for name, text in found.items()}
 
 
-def _number(text: str, value: float | None) -> str | None:
-    return None if value is None else text.format(value)
+def _format(text: str, value: float | None) -> str:
+    return "" if value is None else text.format(value)
 
 
-def _same_steps(one: DecodeResult, other: DecodeResult | None) -> bool:
-    """Return whether two results are drawn alike: by one decoder, from the same signal."""
+def _look_alike(one: DecodeResult, other: DecodeResult | None) -> bool:
+    """Return whether two results look alike: of one decoder, from the same signal."""
     return (
         other is not None
         and one.decoder == other.decoder

@@ -1,4 +1,4 @@
-"""Sent and received, bits and payload: what is wrong or missing is seen without colour."""
+"""Wrong and missing bits and letters are recognized without colour."""
 
 from collections.abc import Callable, Sequence
 
@@ -13,8 +13,7 @@ from occ_model.scene.payload import bits_of_payload
 
 Picture = Callable[[Sequence[int], Sequence[int]], NDArray[np.uint8]]
 
-CLEARLY = 40
-"""Grey levels by which pixels must differ to be distinguished in print."""
+LEAST_CONTRAST = 40  # grey levels by which pixels must differ to be distinguished in print
 
 
 @pytest.fixture
@@ -36,7 +35,7 @@ def picture(strip: BitStrip, grey_picture: Callable[[BitStrip], NDArray[np.uint8
 
 
 def changed_pixels(one: NDArray[np.uint8], other: NDArray[np.uint8]) -> int:
-    return int((np.abs(one.astype(int) - other.astype(int)) > CLEARLY).sum())
+    return int((np.abs(one.astype(int) - other.astype(int)) > LEAST_CONTRAST).sum())
 
 
 @pytest.mark.parametrize(
@@ -50,7 +49,7 @@ def changed_pixels(one: NDArray[np.uint8], other: NDArray[np.uint8]) -> int:
         ([], [1], []),
     ],
 )
-def test_wrong_places_are_those_received_otherwise_than_sent(
+def test_wrong_places_are_those_of_bits_received_other_than_sent(
     strip: BitStrip, sent: list[int], received: list[int], wrong: list[int]
 ) -> None:
     strip.show_bits(sent, received)
@@ -66,15 +65,14 @@ def test_a_wrong_or_missing_bit_differs_from_a_right_one_in_grey_print(
     above, below = slice(0, middle), slice(middle, None)
     assert changed_pixels(right[below], picture([1 - bit], [bit])[below]) >= 20
     assert changed_pixels(right, missing) >= 20
-    # Received bits do not change how the sent ones look.
     assert np.array_equal(right[above], wrong[above])
     assert np.array_equal(right[above], missing[above])
-    # A right bit looks as it was sent.
+    # A right bit looks like the one sent.
     cells = [right[top : top + 24, 66:95] for top in (3, 30)]
     assert np.array_equal(cells[0], cells[1])
 
 
-def test_who_cannot_see_the_strip_can_read_it_and_many_bits_are_counted(
+def test_the_strip_is_described_in_words_in_which_many_bits_are_only_counted(
     strip: BitStrip, picture: Picture
 ) -> None:
     strip.show_bits([1, 0, 1], [1, 1, 1])
@@ -86,12 +84,11 @@ def test_who_cannot_see_the_strip_can_read_it_and_many_bits_are_counted(
     strip.show_bits([0] * 400, [0] * 100 + [1])
     assert strip.toolTip() == "sent 400 bits, received 101, 1 wrong"
     strip.setFixedWidth(70)
-    drawn = picture([1] * 64, [0] * 32)
-    assert drawn.shape == (strip.height(), 70)
+    assert picture([1] * 64, [0] * 32).shape == (strip.height(), 70)
 
 
 @pytest.mark.parametrize(("count", "wrong"), [(40, 39), (4096, 17)])
-def test_one_wrong_bit_among_many_is_seen_in_grey_print(
+def test_one_wrong_bit_among_many_is_visible_in_grey_print(
     picture: Picture, count: int, wrong: int
 ) -> None:
     sent = (np.arange(count) % 3 % 2).tolist()
@@ -100,7 +97,7 @@ def test_one_wrong_bit_among_many_is_seen_in_grey_print(
     assert changed_pixels(picture(sent, sent), picture(sent, received)) >= 4
 
 
-def test_bits_that_are_missing_at_the_end_leave_their_bars_out(picture: Picture) -> None:
+def test_bits_missing_at_the_end_have_no_bars(picture: Picture) -> None:
     sent = [1] * 400
     assert changed_pixels(picture(sent, sent), picture(sent, sent[:200])) > 400
 
@@ -110,42 +107,42 @@ def text(qtbot: QtBot) -> PayloadText:
     return add_widget(qtbot, PayloadText())
 
 
-def flipped(payload: str, *places: int) -> list[int]:
+def flip_bits(payload: str, *places: int) -> list[int]:
     bits = list(bits_of_payload(payload))
     for place in places:
         bits[place] ^= 1
     return bits
 
 
-def test_a_text_received_rightly_is_written_twice_and_a_letter_that_was_not_is_a_dot(
+def test_a_right_text_is_written_twice_and_a_missing_letter_is_a_dot(
     text: PayloadText,
 ) -> None:
-    text.show_payload("text:HELLO", flipped("text:HELLO"))
+    text.show_payload("text:HELLO", flip_bits("text:HELLO"))
     assert text.accessibleDescription() == "sent HELLO, received HELLO, 0 wrong"
     assert "<s" not in text.text()
-    text.show_payload("hex:0aff", flipped("hex:0aff")[:8])
+    text.show_payload("hex:0aff", flip_bits("hex:0aff")[:8])
     assert text.accessibleDescription() == "sent 0aff, received 0a·, 1 wrong"
 
 
 def test_a_letter_with_a_wrong_bit_is_crossed_out(text: PayloadText) -> None:
-    text.show_payload("text:HELLO", flipped("text:HELLO", 24))
+    text.show_payload("text:HELLO", flip_bits("text:HELLO", 24))
     assert text.accessibleDescription() == "sent HELLO, received HEL?O, 1 wrong"
     received = text.text().split("received")[1]
     assert received.count("<s ") == 1
     assert ">?</s>O" in received
 
 
-def test_a_text_is_never_read_as_markup_and_a_long_one_cut(text: PayloadText) -> None:
-    text.show_payload("text:<b>&", flipped("text:<b>&", 3))
+def test_a_text_is_never_taken_as_markup_and_a_long_one_is_cut(text: PayloadText) -> None:
+    text.show_payload("text:<b>&", flip_bits("text:<b>&", 3))
     assert "&lt;b&gt;&amp;" in text.text()
     payload = "text:" + "x" * 512
-    text.show_payload(payload, flipped(payload, 4000))
+    text.show_payload(payload, flip_bits(payload, 4000))
     assert len(text.text()) < 400
     assert text.accessibleDescription().endswith("1 wrong")
 
 
 @pytest.mark.parametrize("payload", ["", "bits:0101"])
-def test_bits_and_codes_stand_in_the_strip_alone(text: PayloadText, payload: str) -> None:
-    text.show_payload("text:A", flipped("text:A"))
+def test_bits_and_codes_are_shown_only_in_the_strip(text: PayloadText, payload: str) -> None:
+    text.show_payload("text:A", flip_bits("text:A"))
     text.show_payload(payload, [0, 1])
     assert text.isHidden()

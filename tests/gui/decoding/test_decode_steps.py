@@ -1,4 +1,4 @@
-"""The decoders' steps are drawn as they were taken."""
+"""The plots show the steps of each decoder."""
 
 import numpy as np
 import pyqtgraph as pg
@@ -24,13 +24,13 @@ def run_length_plot(qtbot: QtBot) -> RunLengthPlot:
 
 
 @pytest.fixture
-def paper(snapshot_of: SnapshotOf) -> Snapshot:
+def snapshot(snapshot_of: SnapshotOf) -> Snapshot:
     return snapshot_of()
 
 
 @pytest.fixture
-def matched(paper: Snapshot) -> DecodeResult:
-    return paper.results["matched"]
+def matched(snapshot: Snapshot) -> DecodeResult:
+    return snapshot.results["matched"]
 
 
 def levels(curve: pg.PlotDataItem) -> list[float]:
@@ -42,34 +42,33 @@ def legend_texts(widget: QWidget) -> list[str]:
     return [label.text() for label in widget.findChildren(QLabel) if label.isVisible()]
 
 
-def test_the_signal_its_threshold_and_one_chips_under_columns_above_it_are_drawn(
-    signal_plot: SignalPlot, paper: Snapshot
+def test_the_signal_its_threshold_and_lit_chips_under_columns_above_it_are_drawn(
+    signal_plot: SignalPlot, snapshot: Snapshot
 ) -> None:
-    decoded = paper.results["threshold"]
-    signal_plot.show_result(decoded, paper.packet_columns)
-    assert decoded.signal is not None
-    assert levels(signal_plot.signal) == decoded.signal.tolist()
+    result = snapshot.results["threshold"]
+    signal_plot.show_result(result, snapshot.packet_columns)
+    assert result.signal is not None
+    assert levels(signal_plot.signal) == result.signal.tolist()
     assert levels(signal_plot.model) == []
     assert signal_plot.threshold.isVisible()
-    assert signal_plot.threshold.value() == decoded.threshold
-    drawn = signal_plot.chips.opts
+    assert signal_plot.threshold.value() == result.threshold
+    bars = signal_plot.chips.opts
     assert signal_plot.chips.isVisible()
-    assert len(drawn["x0"]) == int((decoded.chips == 1).sum())
-    assert decoded.signal is not None
-    assert decoded.threshold is not None
-    assert drawn["y0"].max() + drawn["height"].max() <= decoded.signal.min()
-    assert (drawn["x0"] + drawn["width"]).max() <= len(decoded.signal)
+    assert len(bars["x0"]) == int((result.chips == 1).sum())
+    assert result.threshold is not None
+    assert bars["y0"].max() + bars["height"].max() <= result.signal.min()
+    assert (bars["x0"] + bars["width"]).max() <= len(result.signal)
     first, last = signal_plot.plot.getViewBox().viewRange()[0]
-    assert last - first == pytest.approx(2 * paper.packet_columns, rel=0.1)
-    centres = (drawn["x0"] + drawn["width"] / 2).astype(int)
-    assert (decoded.signal[centres] > decoded.threshold).mean() > 0.98
+    assert last - first == pytest.approx(2 * snapshot.packet_columns, rel=0.1)
+    centres = (bars["x0"] + bars["width"] / 2).astype(int)
+    assert (result.signal[centres] > result.threshold).mean() > 0.98
 
 
-def test_a_folding_decoder_shows_the_folded_signal_and_its_model_which_go_with_it(
-    signal_plot: SignalPlot, paper: Snapshot, matched: DecodeResult
+def test_a_folding_decoder_shows_the_folded_signal_and_its_model_and_others_do_not(
+    signal_plot: SignalPlot, snapshot: Snapshot, matched: DecodeResult
 ) -> None:
-    signal_plot.show_result(paper.results["threshold"], paper.packet_columns)
-    signal_plot.show_result(matched, paper.packet_columns)
+    signal_plot.show_result(snapshot.results["threshold"], snapshot.packet_columns)
+    signal_plot.show_result(matched, snapshot.packet_columns)
     assert matched.folded is not None
     assert matched.model is not None
     assert levels(signal_plot.signal) == matched.folded.tolist()
@@ -78,23 +77,23 @@ def test_a_folding_decoder_shows_the_folded_signal_and_its_model_which_go_with_i
     assert not signal_plot.threshold.isVisible()
     assert "model of the code" in legend_texts(signal_plot)
     assert "threshold" not in legend_texts(signal_plot)
-    signal_plot.show_result(paper.results["threshold"], paper.packet_columns)
+    signal_plot.show_result(snapshot.results["threshold"], snapshot.packet_columns)
     assert levels(signal_plot.model) == []
     assert "model of the code" not in legend_texts(signal_plot)
     assert "level" in signal_plot.plot.getAxis("left").labelText
 
 
-def test_a_step_that_was_not_reached_shows_no_plot_and_no_chips_of_the_last_result(
-    signal_plot: SignalPlot, run_length_plot: RunLengthPlot, paper: Snapshot
+def test_a_step_that_was_not_reached_has_no_plot_and_keeps_no_chips_of_the_last_result(
+    signal_plot: SignalPlot, run_length_plot: RunLengthPlot, snapshot: Snapshot
 ) -> None:
-    nothing = DecodeResult("threshold", failure="No panel found.")
+    nothing = DecodeResult("threshold", failure="No panel result.")
     signal_plot.show_result(nothing, 300.0)
     run_length_plot.show_result(nothing)
     assert not signal_plot.isVisible()
     assert not run_length_plot.isVisible()
-    signal_plot.show_result(paper.results["threshold"], paper.packet_columns)
+    signal_plot.show_result(snapshot.results["threshold"], snapshot.packet_columns)
     flat = DecodeResult("threshold", failure="No stripes.", signal=np.full(50, 7.0))
-    signal_plot.show_result(flat, paper.packet_columns)
+    signal_plot.show_result(flat, snapshot.packet_columns)
     assert signal_plot.isVisible()
     assert not signal_plot.chips.isVisible()
     assert not signal_plot.threshold.isVisible()
@@ -103,7 +102,7 @@ def test_a_step_that_was_not_reached_shows_no_plot_and_no_chips_of_the_last_resu
         assert least >= 100
 
 
-def test_run_lengths_are_counted_ones_up_and_zeros_down(run_length_plot: RunLengthPlot) -> None:
+def test_run_lengths_of_ones_point_up_and_of_zeros_down(run_length_plot: RunLengthPlot) -> None:
     zeros = RunHistogram(np.array([0, 0, 5, 0, 3]), split=2)
     ones = RunHistogram(np.array([0, 7, 0]), split=None)
     run_length_plot.show_result(DecodeResult("threshold", histograms=(zeros, ones)))
@@ -120,21 +119,21 @@ def test_run_lengths_are_counted_ones_up_and_zeros_down(run_length_plot: RunLeng
     assert splits[1] is None or not len(splits[1])
 
 
-def test_the_light_of_the_chips_is_drawn_beside_the_signals_and_the_threshold_in_it(
-    signal_plot: SignalPlot, paper: Snapshot
+def test_predicted_light_is_drawn_beside_the_measured_and_the_threshold_in_equalized_light(
+    signal_plot: SignalPlot, snapshot: Snapshot
 ) -> None:
-    found = occ.decode(paper.frame.image, paper.scene, "sequence")
-    assert found.light is not None
-    assert found.light_model is not None
-    signal_plot.show_result(found, paper.packet_columns)
-    assert levels(signal_plot.signal) == found.light.tolist()
-    assert levels(signal_plot.model) == found.light_model.tolist()
+    result = occ.decode(snapshot.frame.image, snapshot.scene, "sequence")
+    assert result.light is not None
+    assert result.light_model is not None
+    signal_plot.show_result(result, snapshot.packet_columns)
+    assert levels(signal_plot.signal) == result.light.tolist()
+    assert levels(signal_plot.model) == result.light_model.tolist()
     assert "model of the code" in legend_texts(signal_plot)
     assert "threshold" not in legend_texts(signal_plot)
-    found = occ.decode(paper.frame.image, paper.scene, "equalizer")
-    assert found.equalized is not None
-    signal_plot.show_result(found, paper.packet_columns)
-    assert levels(signal_plot.signal) == found.equalized.tolist()
-    assert signal_plot.threshold.value() == found.threshold
-    assert found.equalized.min() < signal_plot.threshold.value() < found.equalized.max()
+    result = occ.decode(snapshot.frame.image, snapshot.scene, "equalizer")
+    assert result.equalized is not None
+    signal_plot.show_result(result, snapshot.packet_columns)
+    assert levels(signal_plot.signal) == result.equalized.tolist()
+    assert signal_plot.threshold.value() == result.threshold
+    assert result.equalized.min() < signal_plot.threshold.value() < result.equalized.max()
     assert "model of the code" not in legend_texts(signal_plot)

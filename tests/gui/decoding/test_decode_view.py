@@ -1,4 +1,4 @@
-"""What the receiver read, in words."""
+"""The pane of decoding states in words what the receiver read."""
 
 from dataclasses import replace
 
@@ -24,7 +24,7 @@ def texts(view: DecodeView) -> set[str]:
     return {label.text() for label in view.findChildren(QLabel) if label.isVisible()}
 
 
-def test_a_code_read_right_is_marked_and_wrong_bits_are_counted(
+def test_a_right_code_is_ticked_and_wrong_bits_are_counted(
     view: DecodeView, snapshot_of: SnapshotOf
 ) -> None:
     view.show_reading(snapshot_of(code=718))
@@ -34,8 +34,8 @@ def test_a_code_read_right_is_marked_and_wrong_bits_are_counted(
     assert view.strip.wrong_places() == []
     snapshot = snapshot_of(code=718)
     received = np.array([1, 0, 1, 1, 0, 0, 1, 1, 0, 1], dtype=np.uint8)  # the last two are wrong
-    decoded = replace(snapshot.results["threshold"], bits=received, code=717)
-    view.show_reading(with_result(snapshot, decoded))
+    result = replace(snapshot.results["threshold"], bits=received, code=717)
+    view.show_reading(with_result(snapshot, result))
     assert view.verdict.text() == "✗ Code 717 read, 2 of 10 bits wrong"
     assert view.strip.wrong_places() == [8, 9]
     assert not view.reason.isVisible()
@@ -51,10 +51,10 @@ def test_a_failure_is_shown_with_its_reason_and_the_bits_read_beside_it(
     assert view.reason.isVisible()
     assert view.reason.text().startswith("Too few chips in view. The panel's image has room for 1 ")
     assert view.reason.text().endswith(f" {symptom(snapshot.results['threshold'].failure or '')}")
-    decoded = DecodeResult(
+    result = DecodeResult(
         "threshold", failure="The chips break the line code.", bits=np.array([0, 0], dtype=np.uint8)
     )
-    view.show_reading(with_result(snapshot_of(code=718), decoded))
+    view.show_reading(with_result(snapshot_of(code=718), result))
     assert view.verdict.text() == "✗ No code read"
     assert view.strip.accessibleDescription() == "sent 1011001110, received 00, 1 wrong"
 
@@ -69,10 +69,10 @@ def test_a_raw_pattern_has_no_bits_to_compare(view: DecodeView, snapshot_of: Sna
     assert view.strip.isVisible()
 
 
-def test_measured_values_are_shown_with_their_units_and_no_old_ones(
+def test_measured_values_have_units_and_earlier_ones_are_removed(
     view: DecodeView, snapshot_of: SnapshotOf
 ) -> None:
-    decoded = DecodeResult(
+    result = DecodeResult(
         "threshold",
         failure="Stopped here.",
         region=Region(0, 200, 100, 1100),
@@ -80,7 +80,7 @@ def test_measured_values_are_shown_with_their_units_and_no_old_ones(
         chip_length=12.5,
         chips=np.ones(77, dtype=np.uint8),
     )
-    view.show_reading(with_result(snapshot_of(), decoded))
+    view.show_reading(with_result(snapshot_of(), result))
     assert {"1000 x 200 px", "123.5 grey levels", "12.50 columns", "77"} <= texts(view)
     units = ("px", "grey levels", "columns")
     view.show_reading(snapshot_of())
@@ -89,17 +89,17 @@ def test_measured_values_are_shown_with_their_units_and_no_old_ones(
     assert not any(text.endswith(units) for text in texts(view))
 
 
-def test_a_slow_decoder_is_asked_for_when_its_tab_is_chosen(
+def test_a_slow_decoder_is_requested_when_its_tab_is_chosen(
     qtbot: QtBot, snapshot_of: SnapshotOf
 ) -> None:
     view = show_widget(qtbot, DecodeView(("threshold", "matched", "equalizer", "sequence")))
     snapshot = snapshot_of(code=5, exposure_time=136e-6, switching_frequency=20e3)
     view.show_reading(snapshot)
-    shown = [view.decoders.tabText(place) for place in range(view.decoders.count())]
-    assert shown == ["threshold ✗", "matched ✓", "equalizer", "sequence"]
-    with qtbot.waitSignal(view.decoder_chosen) as asked:
+    tabs = [view.decoders.tabText(place) for place in range(view.decoders.count())]
+    assert tabs == ["threshold ✗", "matched ✓", "equalizer", "sequence"]
+    with qtbot.waitSignal(view.decoder_chosen) as signal:
         view.decoders.setCurrentIndex(3)
-    assert asked.args == ["sequence"]
+    assert signal.args == ["sequence"]
     assert "takes longer" in view.reason.text()
     read = occ.decode(snapshot.frame.image, snapshot.scene, "sequence")
     view.show_reading(with_result(snapshot, read))
@@ -125,7 +125,7 @@ def test_a_chosen_decoder_stays_chosen_and_shows_its_result(
     assert view.reason.text().endswith(f" {symptom(snapshot.results['threshold'].failure or '')}")
 
 
-def test_why_bits_are_wrong_is_said_too(view: DecodeView, snapshot_of: SnapshotOf) -> None:
+def test_the_cause_of_wrong_bits_is_stated(view: DecodeView, snapshot_of: SnapshotOf) -> None:
     snapshot = snapshot_of(exposure_time=136e-6, iso=12800.0)
     wrong = replace(
         snapshot.results["threshold"], code=1, bits=1 - np.array(snapshot.sent), failure=None
@@ -136,7 +136,7 @@ def test_why_bits_are_wrong_is_said_too(view: DecodeView, snapshot_of: SnapshotO
     assert view.reason.text().startswith("Overexposed. The lit panel would have the level 860.6")
 
 
-def test_a_picture_that_contradicts_its_own_profile_says_so(
+def test_a_contradiction_between_a_picture_and_its_profile_is_stated(
     view: DecodeView, snapshot_of: SnapshotOf
 ) -> None:
     snapshot = snapshot_of(code=718)
@@ -150,9 +150,9 @@ def test_a_picture_that_contradicts_its_own_profile_says_so(
     view.show_reading(with_result(snapshot, failed))
     assert view.verdict.text() == "✗ No code read"
     assert view.origin.text() == (
-        "Read from the picture. The column profile alone had said: ✓ Code 718 read, all bits right."
+        "Read from the picture. The column profile alone gave: ✓ Code 718 read, all bits right."
     )
-    view.decoders.setCurrentIndex(1)  # of which both say the same
+    view.decoders.setCurrentIndex(1)  # both agree on this decoder's code
     assert view.origin.text() == "Read from the picture."
     view.decoders.setCurrentIndex(0)
     view.show_reading(early)  # a profile of another scene contradicts no picture

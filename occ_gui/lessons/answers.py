@@ -1,4 +1,4 @@
-"""The answers given to lessons while the window is open, and their check on a thread."""
+"""Answers to lessons while the window is open, and their check on a thread."""
 
 from dataclasses import dataclass
 
@@ -18,7 +18,7 @@ class MatchedPhoto:
 
 
 @dataclass(frozen=True, slots=True)
-class _Asked:
+class _Question:
     lesson: Lesson
     place: int
     text: str
@@ -27,17 +27,17 @@ class _Asked:
 
 
 class LessonAnswers(QObject):
-    """Checks answers, which may take seconds, and keeps them with the scene they were given at."""
+    """Checks answers, which may take seconds, and keeps each with the scene it was given for."""
 
     checked = Signal(Lesson, int)
     """The lesson and the place of the step whose answer has been checked."""
 
     def __init__(self) -> None:
         super().__init__()
-        self._given: dict[tuple[str, int], tuple[CheckedAnswer, Scene, MatchedPhoto]] = {}
-        self._waiting: list[_Asked] = []  # the answer that is being checked, then those that wait
-        self.runner: Task[_Asked, tuple[_Asked, CheckedAnswer]] = Task(
-            lambda request, _: _check(request), "lesson"
+        self._records: dict[tuple[str, int], tuple[CheckedAnswer, Scene, MatchedPhoto]] = {}
+        self._queue: list[_Question] = []  # the question under check, then those that wait
+        self.runner: Task[_Question, tuple[_Question, CheckedAnswer]] = Task(
+            lambda question, _: _check(question), "lesson"
         )
         self.runner.finished.connect(self._keep)
         self.runner.failed.connect(self._keep_failure)
@@ -51,51 +51,50 @@ class LessonAnswers(QObject):
             photo = MatchedPhoto()
         scene = lesson.steps[place].scene_to_judge(scene)
         pending = CheckedAnswer(text, None, "The model computes…")
-        self._given[lesson.name, place] = (pending, scene, photo)  # the one before is outdated
-        self._waiting.append(_Asked(lesson, place, text, scene, photo))
+        self._records[lesson.name, place] = (pending, scene, photo)  # in place of an earlier one
+        self._queue.append(_Question(lesson, place, text, scene, photo))
         if self.runner.is_idle:
             self._check_next()
 
     def is_checking(self, lesson: Lesson) -> bool:
-        return any(asked.lesson.name == lesson.name for asked in self._waiting)
+        return any(question.lesson.name == lesson.name for question in self._queue)
 
-    def of(self, lesson: Lesson, place: int) -> CheckedAnswer | None:
-        given = self._given.get((lesson.name, place))
-        return None if given is None else given[0]
+    def find_answer(self, lesson: Lesson, place: int) -> CheckedAnswer | None:
+        record = self._records.get((lesson.name, place))
+        return None if record is None else record[0]
 
-    def is_at(self, lesson: Lesson, place: int, scene: Scene) -> bool:
-        """Return whether an answer holds beside a scene: it was checked there, or judges none."""
-        given, step = self._given.get((lesson.name, place)), lesson.steps[place]
-        if given is None or step.check is None or step.own_photo:
+    def is_valid_for(self, lesson: Lesson, place: int, scene: Scene) -> bool:
+        """Return whether an answer was checked for this scene, or depends on none."""
+        record, step = self._records.get((lesson.name, place)), lesson.steps[place]
+        if record is None or step.check is None or step.own_photo:
             return True
-        return given[1] == step.scene_to_judge(scene)
+        return record[1] == step.scene_to_judge(scene)
 
-    def all_of(self, lesson: Lesson) -> tuple[AnsweredStep, ...]:
-        found = []
+    def list_steps(self, lesson: Lesson) -> tuple[AnsweredStep, ...]:
+        steps = []
         for place, step in enumerate(lesson.steps):
-            answer, scene, photo = self._given.get(
-                (lesson.name, place), (None, step.asked, MatchedPhoto())
-            )
-            found.append(AnsweredStep(step, answer, scene, photo.match, photo.name))
-        return tuple(found)
+            none = None, step.asked, MatchedPhoto()
+            answer, scene, photo = self._records.get((lesson.name, place), none)
+            steps.append(AnsweredStep(step, answer, scene, photo.match, photo.name))
+        return tuple(steps)
 
     def _check_next(self) -> None:
-        if self._waiting:
-            self.runner.ask(self._waiting[0])
+        if self._queue:
+            self.runner.ask(self._queue[0])
 
     def _keep_failure(self, sentence: str) -> None:
-        asked = self._waiting[0]
-        self._keep((asked, CheckedAnswer(asked.text.strip(), None, sentence)))
+        question = self._queue[0]
+        self._keep((question, CheckedAnswer(question.text.strip(), None, sentence)))
 
-    def _keep(self, done: tuple[_Asked, CheckedAnswer]) -> None:
-        asked, answer = done
-        del self._waiting[0]
-        key = (asked.lesson.name, asked.place)
-        if key not in {(later.lesson.name, later.place) for later in self._waiting}:
-            self._given[key] = (answer, asked.scene, asked.photo)
-            self.checked.emit(asked.lesson, asked.place)
+    def _keep(self, outcome: tuple[_Question, CheckedAnswer]) -> None:
+        question, answer = outcome
+        del self._queue[0]
+        key = (question.lesson.name, question.place)
+        if key not in {(later.lesson.name, later.place) for later in self._queue}:
+            self._records[key] = (answer, question.scene, question.photo)
+            self.checked.emit(question.lesson, question.place)
 
 
-def _check(asked: _Asked) -> tuple[_Asked, CheckedAnswer]:
-    step = asked.lesson.steps[asked.place]
-    return asked, check_answer(step, asked.text, asked.photo.match, asked.scene)
+def _check(question: _Question) -> tuple[_Question, CheckedAnswer]:
+    step = question.lesson.steps[question.place]
+    return question, check_answer(step, question.text, question.photo.match, question.scene)

@@ -28,10 +28,10 @@ from occ_model.teaching.quantities import QUANTITIES
 
 
 class LessonController(QObject):
-    """Goes from step to step, and keeps the steps reached while the window is open.
+    """Goes from step to step, and remembers the steps reached while the window is open.
 
-    A step sets all that it asks about as in a new window: the scene, how it is simulated, the
-    decoder, and whose picture is shown how. When the lesson ends, the user's own is restored.
+    A step sets scene, simulation, decoder and picture as in a new window; the end of the lesson
+    restores the user's own.
     """
 
     status_message = Signal(str)  # the reason why a step is incomplete
@@ -39,11 +39,10 @@ class LessonController(QObject):
     control_wanted = Signal(str)  # the name of the parameter that a step is about; empty for none
 
     columns_held = Signal(object)
-    """Number of columns that a step keeps in view, so that a change is seen as such; None: the
-    usual."""
+    """Number of columns that a step keeps in view, so that changes are visible; None: the usual."""
 
     equation_wanted = Signal(str)  # the name of the equation that explains a step; empty for none
-    action_wanted = Signal(str)  # what a step has a button for, as the step names it
+    action_wanted = Signal(str)  # the name of the action that the button of a step starts
 
     report_asked = Signal(Lesson)
 
@@ -53,106 +52,106 @@ class LessonController(QObject):
         super().__init__()
         self._store, self._results_store = store, results_store
         self._pane, self._answers = pane, answers
-        self._all = LoadedLessons(())
+        self._loaded = LoadedLessons(())
         self.current: Lesson | None = None
         self._done: dict[str, int] = {}
         self._places: dict[str, int] = {}
         self._user: Workspace | None = None
         self._has_set_room = False
-        self._first: Path | None = None
-        """The photo that was open before the lesson, hidden in a step without one."""
-        self._last: Lesson | None = None
-        answers.checked.connect(self._show_checked)
+        self._first_photo: Path | None = None
+        """The photo that was open before the lesson; steps without a photo hide it."""
+        self._ended_lesson: Lesson | None = None
+        answers.checked.connect(self._show_answer)
         store.select(lambda workspace: workspace.scene).changed.connect(self._follow_scene)
         pane.list.chosen.connect(self.choose)
         for page in (pane.step, pane.end):
             page.list_asked.connect(self.leave)
         pane.step.moved.connect(self.go)
-        pane.step.again_asked.connect(self.set_again)
-        pane.step.control_asked.connect(self._want_control)
+        pane.step.again_asked.connect(self.reset_step)
+        pane.step.control_asked.connect(self._request_control)
         pane.step.answer_given.connect(self._check)
         pane.step.action_asked.connect(self._ask_action)
         pane.end.report_asked.connect(self._ask_report)
-        pane.end.next_asked.connect(self._go_to_following)
+        pane.end.next_asked.connect(self._go_to_next)
 
     def set_seen(self, seen: bool) -> None:
-        """Read the lessons when their pane is shown, unless one is under way."""
-        if seen and self.current is None and self._last is None:
+        """Read the lessons when their pane is shown, unless a lesson is under way."""
+        if seen and self.current is None and self._ended_lesson is None:
             failure = ""
             try:
-                self._all = lessons()
+                self._loaded = lessons()
             except OccError as error:
                 failure = one_line(str(error), LONGEST_TEXT)
             except Exception as error:  # noqa: BLE001 - the window works whatever they contain
                 reason = one_line(f"{type(error).__name__}: {error}")
                 failure = f"The lessons cannot be read: {reason}."
-            self._list(failure)
+            self._list_lessons(failure)
 
-    def _list(self, failure: str = "") -> None:
+    def _list_lessons(self, failure: str = "") -> None:
         reached = self._places | self._done
-        self._pane.list_lessons(self._all.lessons, reached, failure, self._all.problems)
+        self._pane.list_lessons(self._loaded.lessons, reached, failure, self._loaded.problems)
 
     def begin_first(self) -> None:
         self.set_seen(True)
-        if self._all.lessons:
-            self.choose(self._all.lessons[0].name)
+        if self._loaded.lessons:
+            self.choose(self._loaded.lessons[0].name)
 
     def choose(self, name: str) -> None:
-        for lesson in self._all.lessons:
+        for lesson in self._loaded.lessons:
             if lesson.name == name:
                 if self._user is None:
                     self._user = self._store.workspace
-                    self._first = self._user.photo.path
-                self.current, self._last = lesson, None
-                self._go(self._places.get(name, 0))
+                    self._first_photo = self._user.photo.path
+                self.current, self._ended_lesson = lesson, None
+                self._go_to(self._places.get(name, 0))
 
     def go(self, steps: int) -> None:
-        """Go forward or back by some steps; after the last one end the lesson."""
+        """Go forward or back by some steps; end the lesson after its last step."""
         if self.current is None:
             return
         name, count = self.current.name, len(self.current.steps)
         place = self._places[name] + steps
         if place < count:
-            self._go(max(place, 0))
+            self._go_to(max(place, 0))
             return
         self._done[name] = count
         self._places[name] = 0
-        self._last, self.current = self.current, None
+        self._ended_lesson, self.current = self.current, None
         self.control_wanted.emit("")
         self.restore_user()
-        self._show_end(self._last)
+        self._show_end(self._ended_lesson)
 
     def _show_end(self, done: Lesson) -> None:
-        given = [each.answer for each in self._answers.all_of(done)]
-        following = self._following()
-        self._pane.show_end(done, given, "" if following is None else following.title)
+        answers = [each.answer for each in self._answers.list_steps(done)]
+        following = self._find_next()
+        self._pane.show_end(done, answers, "" if following is None else following.title)
         self._pane.end.report.setEnabled(not self._answers.is_checking(done))
 
-    def _following(self) -> Lesson | None:
-        """Return the next lesson in the list, None after the last or where its file is gone."""
-        if self._last is not None and self._last in self._all.lessons:
-            rest = self._all.lessons[self._all.lessons.index(self._last) + 1 :]
+    def _find_next(self) -> Lesson | None:
+        """Return the next lesson in the list; None after the last or where its file is gone."""
+        if self._ended_lesson is not None and self._ended_lesson in self._loaded.lessons:
+            rest = self._loaded.lessons[self._loaded.lessons.index(self._ended_lesson) + 1 :]
             return next(iter(rest), None)
         return None
 
-    def _go_to_following(self) -> None:
-        following = self._following()
+    def _go_to_next(self) -> None:
+        following = self._find_next()
         if following is not None:
             self.choose(following.name)
 
     def leave(self) -> None:
         """End the lesson and return to the list; the step reached is kept."""
-        self.current = self._last = None
+        self.current = self._ended_lesson = None
         self.control_wanted.emit("")
         self.restore_user()
-        self._list()
+        self._list_lessons()
 
     def user_workspace(self) -> Workspace | None:
         """Return what the end of the lesson restores; None if none is under way."""
         user, present = self._user, self._store.workspace
         if user is None:
             return None
-        # A photo that was opened or matched meanwhile stays, and so does all that no step sets.
+        # A photo opened or matched during the lesson stays, and so does all that no step sets.
         photo = present.photo if is_own(present.photo) else user.photo
         return replace(
             present, scene=user.scene, settings=user.settings, preset=user.preset, photo=photo,
@@ -162,37 +161,37 @@ class LessonController(QObject):
         )  # fmt: skip
 
     def restore_user(self) -> None:
-        """Restore the user's own work; the scene in one step to undo."""
+        """Restore the user's own work, with one step of undo for the scene."""
         user, self._user, self._has_set_room = self.user_workspace(), None, False
         self.columns_held.emit(None)
         if user is not None:
             self._store.put(user, "end of the lesson", new_gesture())
             self.pane_wanted.emit("")
 
-    def set_again(self) -> None:
+    def reset_step(self) -> None:
         if self.current is not None:
-            self._set(self.current, self._places[self.current.name])
+            self._set_step(self.current, self._places[self.current.name])
 
-    def _go(self, place: int) -> None:
+    def _go_to(self, place: int) -> None:
         lesson = self.current
         if lesson is None:
             return
         self._places[lesson.name] = place
         self._done.pop(lesson.name, None)
         step = lesson.steps[place]
-        self._pane.show_step(lesson, place, self._answers.of(lesson, place))
+        self._pane.show_step(lesson, place, self._answers.find_answer(lesson, place))
         self.equation_wanted.emit(step.equation)
-        self._set(lesson, place)
+        self._set_step(lesson, place)
         self.control_wanted.emit(step.control)
         self._follow_scene()
 
-    def _set(self, lesson: Lesson, place: int) -> None:
+    def _set_step(self, lesson: Lesson, place: int) -> None:
         step, user = lesson.steps[place], self.user_workspace()
         if user is None:
             return
         self._user = user
         title = f"step {place + 1} of “{lesson.title}”"
-        photo = self._photo_of(step, user.photo)
+        photo = self._choose_photo(step, user.photo)
         self._has_set_room |= step.pane == "room"
         first = Workspace(step.scene)
         workspace = replace(
@@ -208,35 +207,35 @@ class LessonController(QObject):
             self.status_message.emit(f"The photo {step.photo} is missing.")
         self.pane_wanted.emit(step.pane)
 
-    def _photo_of(self, step: LessonStep, users: PhotoChoice) -> PhotoChoice:
+    def _choose_photo(self, step: LessonStep, user_photo: PhotoChoice) -> PhotoChoice:
         """Return the photo of a step: the sample that it names, the user's own, or none."""
         present = self._store.workspace.photo
         samples = {path.stem: path for path in sample_photos()}
-        if step.own_photo and is_own(users):
-            return users  # which the sample would stand in for
+        if step.own_photo and is_own(user_photo):
+            return user_photo  # in place of the sample
         if not step.photo:
-            is_since = is_own(present) and present.path != self._first
-            return present if is_since else replace(users, path=None)
-        wanted = samples.get(step.photo)
-        if wanted is None:
-            return replace(users, path=None)
-        sample = present if present.path == wanted else users.open(wanted)
+            is_new = is_own(present) and present.path != self._first_photo
+            return present if is_new else replace(user_photo, path=None)
+        path = samples.get(step.photo)
+        if path is None:
+            return replace(user_photo, path=None)
+        sample = present if present.path == path else user_photo.open(path)
         return sample.with_known_frequency(step.scene.transmitter.switching_frequency)
 
-    def _step(self) -> LessonStep | None:
+    def _current_step(self) -> LessonStep | None:
         lesson = self.current
         return None if lesson is None else lesson.steps[self._places[lesson.name]]
 
-    def _want_control(self) -> None:
-        step = self._step()
+    def _request_control(self) -> None:
+        step = self._current_step()
         self.control_wanted.emit("" if step is None else step.control)
 
     def _follow_scene(self) -> None:
-        step = self._step()
+        step = self._current_step()
         if step is None:
             return
         scene = self._store.workspace.scene
-        self._pane.step.show_changed(changed_sentence(step, scene))
+        self._pane.step.show_changed(describe_changes(step, scene))
         self._pane.step.show_explanation(explanation(step, scene))
         self._mark_answer()
         if step.animation:
@@ -247,7 +246,7 @@ class LessonController(QObject):
         if lesson is not None:
             place = self._places[lesson.name]
             self._pane.step.answer_field.show_outdated(
-                not self._answers.is_at(lesson, place, self._store.workspace.scene)
+                not self._answers.is_valid_for(lesson, place, self._store.workspace.scene)
             )
 
     def _check(self, text: str) -> None:
@@ -256,28 +255,28 @@ class LessonController(QObject):
             self._pane.step.answer_field.show_waiting()
             results = self._results_store.results
             name = "" if results.photo is None else one_line(results.photo.path.name)
-            found = find_match(results)
-            photo = MatchedPhoto(name, None if found is None else found.match)
+            match = find_match(results)
+            photo = MatchedPhoto(name, None if match is None else match.match)
             self._answers.check(
                 lesson, self._places[lesson.name], text, self._store.workspace.scene, photo
             )
 
-    def _show_checked(self, lesson: Lesson, place: int) -> None:
-        answer = self._answers.of(lesson, place)
+    def _show_answer(self, lesson: Lesson, place: int) -> None:
+        answer = self._answers.find_answer(lesson, place)
         if lesson is self.current and place == self._places[lesson.name] and answer is not None:
             self._pane.step.answer_field.show_checked(answer)
             self._mark_answer()
-        if lesson is self._last:  # its end is shown already, before this answer was checked
+        if lesson is self._ended_lesson:  # its end was shown before this answer was checked
             self._show_end(lesson)
 
     def _ask_action(self) -> None:
-        step = self._step()
+        step = self._current_step()
         if step is not None:
             self.action_wanted.emit(step.action)
 
     def _ask_report(self) -> None:
-        if self._last is not None:
-            self.report_asked.emit(self._last)
+        if self._ended_lesson is not None:
+            self.report_asked.emit(self._ended_lesson)
 
 
 def is_own(photo: PhotoChoice) -> bool:
@@ -287,11 +286,11 @@ def is_own(photo: PhotoChoice) -> bool:
 _MOST_NAMED = 2
 
 
-def changed_sentence(step: LessonStep, scene: Scene) -> str:
-    """State how the scene differs from the step's, and which text is about which.
+def describe_changes(step: LessonStep, scene: Scene) -> str:
+    """State how the scene differs from the step's, and which of them each text is about.
 
-    Empty where the scene is that of the step or of its check, and where the step is about a photo,
-    whose match changes the scene when it is applied.
+    Empty where the scene is that of the step or of its check, and where the step is about a photo:
+    to apply its match changes the scene.
     """
     if step.own_photo or step.photo or scene in {step.scene, step.asked}:
         return ""
@@ -306,5 +305,5 @@ def changed_sentence(step: LessonStep, scene: Scene) -> str:
         named.append(f"{len(changes) - _MOST_NAMED} more")
     return (
         f"You have changed the scene: {' and '.join(named)}. Picture, formula, check and report "
-        "are of your scene; the numbers in the text are of the lesson's own."
+        "belong to your scene, the numbers in the text to the lesson's."
     )

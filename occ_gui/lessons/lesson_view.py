@@ -39,8 +39,8 @@ class EndPage(QWidget):
         )
         self.author = name_widget(
             QLineEdit(placeholderText="Your name, for the report", maxLength=_LONGEST_NAME),
-            "Your name, as it shall stand on the report",
-            "The name that stands on the report; it is kept for the next one.",
+            "Your name on the report",
+            "The name that the report gives; it is kept for the next one.",
         )
         self.all = push_button(
             "All lessons", "Go back to the list, and to your own scene.", self.list_asked
@@ -50,7 +50,7 @@ class EndPage(QWidget):
         )
         content = QWidget()
         fill(QVBoxLayout(content), self.title, self.answers, None, margins=8, spacing=8)
-        # Where the button was that ended the lesson stands one that a second click may press.
+        # The button in the place of Done is one that a second click may press.
         rows = ((self.next,), (self.author,), ((self.report, 1), (self.all, 1)))
         lines = [fill(QHBoxLayout(), *row, margins=(8, 0, 8, 4), spacing=8) for row in rows]
         fill(QVBoxLayout(self), (ScrollPane(content, LEAST_SIZE), 1), *lines, margins=0)
@@ -63,21 +63,21 @@ class EndPage(QWidget):
         self.title.setText(f"Done: {lesson.title}")
         lines = []
         for place, (step, answer) in enumerate(zip(lesson.steps, answers, strict=True), 1):
-            given = "no answer"
+            text = "no answer"
             if answer is not None:
-                given = f"{step.with_unit(answer.text)}. {answer.sentence}"
-            lines.append(f"{place}. {step.question}\n    {given}")
+                text = f"{step.with_unit(answer.text)}. {answer.sentence}"
+            lines.append(f"{place}. {step.question}\n    {text}")
         self.answers.setText("\n\n".join(lines))
 
 
-_LEFT = "text-align: left; padding: 8px;"
+_CHOICE_STYLE = "text-align: left; padding: 8px;"
 
 
 class LessonList(QWidget):
     """A button for each lesson, with its summary below."""
 
     chosen = Signal(str)  # the name of the lesson to begin or continue
-    folder_asked = Signal()  # the folder of the user's own lessons is to be opened
+    folder_asked = Signal()  # to open the folder of the user's own lessons
 
     def __init__(self) -> None:
         super().__init__()
@@ -89,7 +89,7 @@ class LessonList(QWidget):
         self._rows.setSpacing(8)
         self.folder = push_button(
             "Folder of your own lessons",
-            "Open the folder of lessons of your own; the guide tells how to write one.",
+            "Open the folder of your own lessons; the guide explains how to write one.",
             self.folder_asked,
         )
         foot = fill(QHBoxLayout(), None, self.folder)
@@ -98,7 +98,7 @@ class LessonList(QWidget):
 
     def show_lessons(
         self,
-        found: Sequence[Lesson],
+        lessons: Sequence[Lesson],
         reached: Mapping[str, int],
         failure: str,
         problems: Mapping[str, str],
@@ -115,7 +115,7 @@ class LessonList(QWidget):
             box.deleteLater()
         self.choices, self._boxes = [], []
         has_sheets = False
-        for lesson in sorted(found, key=lambda lesson: lesson.is_sheet):
+        for lesson in sorted(lessons, key=lambda lesson: lesson.is_sheet):
             if lesson.is_sheet and not has_sheets:
                 has_sheets = True
                 self._add_box(heading("Lab sheets"))
@@ -128,11 +128,11 @@ class LessonList(QWidget):
     def _add(self, lesson: Lesson, reached: int | None) -> None:
         count = len(lesson.steps)
         title = in_menu(lesson.title)
-        words = {None: f"{title}  ({counted(count, 'step')})", count: f"✓  {title}"}
-        text = words.get(reached, f"{title}  (step {(reached or 0) + 1} of {count})")
+        texts = {None: f"{title}  ({counted(count, 'step')})", count: f"✓  {title}"}
+        text = texts.get(reached, f"{title}  (step {(reached or 0) + 1} of {count})")
         choice = push_button(text, "Set the scene of its step and show its question.")
         choice.setAccessibleDescription(lesson.summary)
-        choice.setStyleSheet(_LEFT)
+        choice.setStyleSheet(_CHOICE_STYLE)
         choice.setProperty("lesson", lesson.name)
         choice.clicked.connect(self._choose)
         self.choices.append(choice)
@@ -153,7 +153,7 @@ class LessonList(QWidget):
         if event.type() == QEvent.Type.PaletteChange:
             for choice in self.choices:
                 choice.setStyleSheet("")
-                choice.setStyleSheet(_LEFT)
+                choice.setStyleSheet(_CHOICE_STYLE)
 
 
 _WANTED_HEIGHT = 320
@@ -170,16 +170,16 @@ class LessonView(QWidget):
 
     def list_lessons(
         self,
-        found: Sequence[Lesson],
+        lessons: Sequence[Lesson],
         reached: Mapping[str, int],
         failure: str,
         problems: Mapping[str, str],
     ) -> None:
-        self.list.show_lessons(found, reached, failure, problems)
+        self.list.show_lessons(lessons, reached, failure, problems)
         self._pages.setCurrentIndex(0)
 
-    def show_step(self, lesson: Lesson, place: int, before: CheckedAnswer | None) -> None:
-        self.step.show_step(lesson, place, before)
+    def show_step(self, lesson: Lesson, place: int, answer: CheckedAnswer | None) -> None:
+        self.step.show_step(lesson, place, answer)
         self._pages.setCurrentIndex(1)
 
     def show_end(

@@ -1,4 +1,4 @@
-"""Connects the lessons with their pane, controls and equations, and writes the report."""
+"""Connects the lessons with their pane, the controls and the equations, and writes reports."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -43,7 +43,7 @@ class LessonReports(QObject):
         super().__init__()
         self._window, self._preferences = window, preferences
         self.runner: Task[_Job, Path] = Task(lambda request, _: _write(request), "lesson report")
-        self.runner.finished.connect(self._report)
+        self.runner.finished.connect(self._announce)
         self.runner.failed.connect(self.status_message)
 
     @property
@@ -54,15 +54,15 @@ class LessonReports(QObject):
         self._preferences.keep(_AUTHOR, one_line(author.strip()))
 
     def ask(self, lesson: Lesson, steps: Sequence[AnsweredStep], author: str) -> None:
-        """Ask for a file, and write the report with this name of the student."""
+        """Ask for a file, and write the report under the student's name."""
         self.keep_author(author)
         start = Path(self._preferences.export_folder, f"{lesson.name}{_ENDING}")
-        chosen, _ = QFileDialog.getSaveFileName(
+        name, _ = QFileDialog.getSaveFileName(
             self._window, "Save the report", str(start),
             "PDF document (*.pdf);;Markdown (*.md);;PNG picture (*.png);;SVG drawing (*.svg)",
         )  # fmt: skip
-        if chosen:
-            path = Path(chosen)
+        if name:
+            path = Path(name)
             path = path if path.suffix else path.with_suffix(_ENDING)
             self.write(path, lesson, steps, self.author)
 
@@ -70,7 +70,7 @@ class LessonReports(QObject):
         self.status_message.emit("Drawing…")
         self.runner.ask(_Job(path, lesson, tuple(steps), author))
 
-    def _report(self, path: Path) -> None:
+    def _announce(self, path: Path) -> None:
         self._preferences.visit_export(path)
         self.status_message.emit(f"Saved {one_line(path.name)}")
 
@@ -85,9 +85,9 @@ def _write(job: _Job) -> Path:
 
 
 class LessonPane(Pane[None]):
-    """The lessons and all that they change; a step marks one of the controls."""
+    """The lessons and what they change; a step marks one of the controls."""
 
-    noted = Signal(str)  # the outcome of an action, for as long as the scene stays
+    noted = Signal(str)  # the outcome of an action, shown until the scene changes
 
     def __init__(
         self,
@@ -114,8 +114,8 @@ class LessonPane(Pane[None]):
         self.controller.report_asked.connect(self._write_report)
         pane.step.explained.connect(self._equations.set_seen)
         pane.list.folder_asked.connect(self.open_folder)
-        for speaker in (self.controller, self.reports):
-            speaker.status_message.connect(self.noted)
+        for source in (self.controller, self.reports):
+            source.status_message.connect(self.noted)
 
     def set_seen(self, seen: bool) -> None:
         self.controller.set_seen(seen)
@@ -127,11 +127,11 @@ class LessonPane(Pane[None]):
             self.noted.emit(str(error))
             return
         if not QDesktopServices.openUrl(QUrl.fromLocalFile(str(folder))):
-            self.noted.emit(f"Your own lessons belong into {folder}")
+            self.noted.emit(f"Put your own lessons into {folder}")
 
     def end(self) -> None:
         self.spotlight.end()
         self.controller.restore_user()
 
     def _write_report(self, lesson: Lesson) -> None:
-        self.reports.ask(lesson, self.answers.all_of(lesson), self._end.author.text())
+        self.reports.ask(lesson, self.answers.list_steps(lesson), self._end.author.text())

@@ -1,4 +1,4 @@
-"""Slow animation of a rolling shutter: columns are exposed one after the other."""
+"""Slow animation of a rolling shutter, which exposes one column after the other."""
 
 from PySide6.QtCore import QRectF, QSize, Qt, QTimer
 from PySide6.QtGui import (
@@ -19,55 +19,55 @@ from occ_gui.widgets.guarded_paint import guarded
 from occ_model.results.teaching import RollingShutter
 
 _LOOP_MS = 9000
-_TURN_MS = 33
-_PAUSE = 0.12  # fraction of a loop for which the finished picture stays
+_FRAME_MS = 33
+_END_PART = 0.12  # fraction of a loop for which the finished picture stays
 
 _LIT, _DARK = QColor("#f2c14e"), QColor("#3c4048")
 _LAMP_HEIGHT, _STRIPE_HEIGHT, _GAP = 18, 26, 6
-_KEYS = (Qt.Key.Key_Space, Qt.Key.Key_Return)
+_PAUSE_KEYS = (Qt.Key.Key_Space, Qt.Key.Key_Return)
 
 
 class ShutterAnimation(QWidget):
     """The LED over time at the top, a bar for each column's exposure, and the stripes below.
 
-    Time runs to the right. A click or the space bar stops it and lets it go on.
+    Time runs to the right. A click or the space bar pauses and resumes it.
     """
 
     def __init__(self) -> None:
         super().__init__()
         self._shutter: RollingShutter | None = None
         self.moment = 0.0  # fraction of the animation that has passed, from 0 to 1
-        self._is_stopped = False
-        self._turns = QTimer(self)
-        self._turns.setInterval(_TURN_MS)
-        self._turns.timeout.connect(self._advance)
+        self._is_paused = False
+        self._timer = QTimer(self)
+        self._timer.setInterval(_FRAME_MS)
+        self._timer.timeout.connect(self._advance)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setAccessibleName("Animation of a rolling shutter")
         self.setAccessibleDescription(
             "Each column gathers light a little later than the one before."
         )
-        self.setToolTip("Click, or press the space bar, to stop and to go on.")
+        self.setToolTip("Click, or press the space bar, to pause and to resume.")
 
     @property
     def is_playing(self) -> bool:
-        return self._turns.isActive()
+        return self._timer.isActive()
 
     def show_shutter(self, shutter: RollingShutter) -> None:
         self._shutter = shutter
         self.update()
 
     def toggle(self) -> None:
-        self._is_stopped = not self._is_stopped
+        self._is_paused = not self._is_paused
         self._run()
 
     def _run(self) -> None:
-        if self.isVisible() and not self._is_stopped:
-            self._turns.start()
+        if self.isVisible() and not self._is_paused:
+            self._timer.start()
         else:
-            self._turns.stop()
+            self._timer.stop()
 
     def _advance(self) -> None:
-        self.moment = (self.moment + _TURN_MS / _LOOP_MS) % 1.0
+        self.moment = (self.moment + _FRAME_MS / _LOOP_MS) % 1.0
         self.update()
 
     def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 - Qt's name
@@ -76,14 +76,14 @@ class ShutterAnimation(QWidget):
 
     def hideEvent(self, event: QHideEvent) -> None:  # noqa: N802 - Qt's name
         super().hideEvent(event)
-        self._turns.stop()
+        self._timer.stop()
 
     def mousePressEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
         self.toggle()
         event.accept()
 
     def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 - Qt's name
-        if event.key() in _KEYS:
+        if event.key() in _PAUSE_KEYS:
             self.toggle()
         else:
             super().keyPressEvent(event)
@@ -99,7 +99,7 @@ class ShutterAnimation(QWidget):
         if self._shutter is None:
             return
         ShutterDrawing(
-            QPainter(self), self, self._shutter, min(self.moment / (1.0 - _PAUSE), 1.0)
+            QPainter(self), self, self._shutter, min(self.moment / (1.0 - _END_PART), 1.0)
         ).draw()
 
 
@@ -145,9 +145,9 @@ class ShutterDrawing:
         ):
             x, y = self._x(start), top + place * step
             width = max(self._x(shutter.exposure_time), 2.0)
-            passed = min(max(self._now - start, 0.0), shutter.exposure_time)
+            elapsed = min(max(self._now - start, 0.0), shutter.exposure_time)
             bar = QRectF(x, y, width, max(step - 1.0, 1.0))
-            filled = QRectF(x, y, width * passed / shutter.exposure_time, bar.height())
+            filled = QRectF(x, y, width * elapsed / shutter.exposure_time, bar.height())
             self.painter.fillRect(filled, mix_colours(_LIT, _DARK, fraction))
             self.painter.setPen(QPen(outline, 1))
             self.painter.drawRect(bar)

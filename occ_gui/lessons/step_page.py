@@ -1,4 +1,4 @@
-"""Page of one step of a lesson: goal, text, question, answer, explanation, and where to go."""
+"""Page of one step of a lesson: goal, text, question, answer, explanation, navigation."""
 
 import html
 import re
@@ -26,13 +26,13 @@ from occ_gui.widgets.text_scale import embolden
 from occ_model.results.teaching import CheckedAnswer, Equation, Lesson
 from occ_model.scene.parameters import PARAMETERS
 
-_INDEX = re.compile(r"\b([A-Za-z]+)_([A-Za-z]+)\b")
-_HEADING = 1.25
+_SUBSCRIPT = re.compile(r"\b([A-Za-z]+)_([A-Za-z]+)\b")
+_HEADING_SCALE = 1.25
 
 
 def typeset(text: str) -> str:
     """Typeset indices such as that of t_r, and escape all else."""
-    return _INDEX.sub(r"<i>\1</i><sub>\2</sub>", html.escape(text, quote=False))
+    return _SUBSCRIPT.sub(r"<i>\1</i><sub>\2</sub>", html.escape(text, quote=False))
 
 
 def paragraph(text: str = "") -> QLabel:
@@ -46,7 +46,7 @@ def typeset_paragraph() -> QLabel:
 
 
 def heading(text: str = "") -> QLabel:
-    return embolden(paragraph(text), _HEADING)
+    return embolden(paragraph(text), _HEADING_SCALE)
 
 
 _LONGEST_ANSWER = 300  # characters of an answer
@@ -68,27 +68,27 @@ class AnswerField(QWidget):
         self.unit = QLabel()
         self.check = push_button("Check", "Compare it with the model (Enter).", self._ask)
         self.field.returnPressed.connect(self._ask)
-        self.field.textEdited.connect(self._forget)
-        self.sentence = name_widget(paragraph(), "What the check says")
-        self._said, self._is_outdated = "", False
+        self.field.textEdited.connect(self._clear_outcome)
+        self.sentence = name_widget(paragraph(), "Result of the check")
+        self._outcome, self._is_outdated = "", False
         row = fill(QHBoxLayout(), self.field, self.unit, self.check, spacing=8)
-        # Above the field, which stands at the lower end of the pane: it stays where it is.
+        # Above the field, which so stays in its place at the lower end of the pane.
         fill(QVBoxLayout(self), self.sentence, row, margins=0, spacing=4)
 
-    def begin(self, unit: str, is_number: bool, before: CheckedAnswer | None) -> None:
+    def begin(self, unit: str, is_number: bool, answer: CheckedAnswer | None) -> None:
         self.unit.setText(unit)
         self.unit.setVisible(bool(unit))
         self.field.setPlaceholderText("a number" if is_number else "in your own words")
         self.check.setText("Check" if is_number else "Keep")
-        self.field.setText("" if before is None else before.text)
-        if before is None:
-            self._forget()
+        self.field.setText("" if answer is None else answer.text)
+        if answer is None:
+            self._clear_outcome()
         else:
-            self.show_checked(before)
+            self.show_checked(answer)
 
     def show_checked(self, answer: CheckedAnswer) -> None:
         self.check.setEnabled(True)
-        self._said = f"{_SIGNS[answer.outcome]}  {answer.sentence}"
+        self._outcome = f"{_SIGNS[answer.outcome]}  {answer.sentence}"
         self._write()
 
     def show_outdated(self, outdated: bool) -> None:
@@ -97,15 +97,15 @@ class AnswerField(QWidget):
             self._write()
 
     def _write(self) -> None:
-        if not self._said:
+        if not self._outcome:
             return
         after = "The scene has changed since: check again."
-        self.sentence.setText(f"{self._said} {after}" if self._is_outdated else self._said)
+        self.sentence.setText(f"{self._outcome} {after}" if self._is_outdated else self._outcome)
         self.sentence.show()
 
     def show_waiting(self) -> None:
         self.check.setEnabled(False)
-        self._said = ""
+        self._outcome = ""
         self.sentence.setForegroundRole(QPalette.ColorRole.WindowText)
         self.sentence.setText("The model computes…")
         self.sentence.show()
@@ -114,18 +114,18 @@ class AnswerField(QWidget):
         if self.field.text().strip():
             self.checked.emit(self.field.text())
 
-    def _forget(self) -> None:
+    def _clear_outcome(self) -> None:
         self.check.setEnabled(True)
-        self._said = ""
+        self._outcome = ""
         self.sentence.clear()
         self.sentence.hide()
 
 
-LEAST_SIZE = QSize(200, 160)  # smallest size in pixels: then a question with its text scrolls
+LEAST_SIZE = QSize(200, 160)  # smallest size in pixels, at which a question with its text scrolls
 
 _EQUATION_HEIGHT = 112
 
-_REVEALING_MS = 100  # how long the explanation is being laid out at most
+_LAYOUT_MS = 100  # longest layout of the explanation
 
 _ANIMATION_HEIGHT = 200
 _ACTIONS = {
@@ -178,7 +178,7 @@ class StepPage(QWidget):
         self.equation = EquationText()
         self.equation.setFixedHeight(_EQUATION_HEIGHT)
         self.reveal = push_button(
-            "Show the explanation", "Show what one finds, to compare with what you found."
+            "Show the explanation", "Show the explanation, to compare with what you found."
         )
         self.reveal.setCheckable(True)
         self.reveal.toggled.connect(self._show_answer)
@@ -210,19 +210,19 @@ class StepPage(QWidget):
             None, margins=8, spacing=8,
         )  # fmt: skip
         self._scroll = ScrollPane(content, LEAST_SIZE)
-        # The text is laid out in several passes: the end lies lower after each.
+        # The text is laid out in several passes, and each moves the end down.
         self._scroll.verticalScrollBar().rangeChanged.connect(self._follow_end)
-        # What is asked stays in view, however long the text above it is.
-        self.asked = QWidget()
+        # The question stays in view, however long the text above it is.
+        self.foot = QWidget()
         below = (8, 0, 8, 4)
-        fill(QVBoxLayout(self.asked), self.question, self.answer_field, margins=below, spacing=4)
+        fill(QVBoxLayout(self.foot), self.question, self.answer_field, margins=below, spacing=4)
         rows = [
             fill(QHBoxLayout(), *((button, 1) for button in buttons), margins=below, spacing=8)
             for buttons in ((self.all, self.again), (self.back, self.next))
         ]
-        fill(QVBoxLayout(self), (self._scroll, 1), self.asked, *rows, margins=0, spacing=4)
+        fill(QVBoxLayout(self), (self._scroll, 1), self.foot, *rows, margins=0, spacing=4)
 
-    def show_step(self, lesson: Lesson, place: int, before: CheckedAnswer | None) -> None:
+    def show_step(self, lesson: Lesson, place: int, answer: CheckedAnswer | None) -> None:
         step, count = lesson.steps[place], len(lesson.steps)
         self.place.setText(f"{lesson.title} · step {place + 1} of {count}")
         self.progress.setRange(0, count)
@@ -238,7 +238,7 @@ class StepPage(QWidget):
         self.action.setText(_ACTIONS.get(step.action, ""))
         self.action.setVisible(bool(step.action))
         unit = step.check.asked_in if step.check else ""
-        self.answer_field.begin(unit, step.check is not None, before)
+        self.answer_field.begin(unit, step.check is not None, answer)
         self._has_equation = bool(step.equation)
         self.reveal.setChecked(False)
         self.back.setEnabled(place > 0)
@@ -262,7 +262,7 @@ class StepPage(QWidget):
         self.explained.emit(shown and self._has_equation)
         if shown:
             self._is_revealing = True
-            QTimer.singleShot(_REVEALING_MS, self, self._end_revealing)
+            QTimer.singleShot(_LAYOUT_MS, self, self._end_revealing)
             self._show_end()
 
     def _follow_end(self) -> None:
@@ -275,5 +275,5 @@ class StepPage(QWidget):
 
     def _show_end(self) -> None:
         last = self.equation if self._has_equation else self.answer
-        # Of a widget with text, ensureWidgetVisible shows no more than its cursor.
+        # Of a widget with text, ensureWidgetVisible shows only the cursor.
         self._scroll.ensureVisible(0, last.geometry().bottom(), 0, 8)

@@ -92,7 +92,7 @@ def forget_lessons(application: Application) -> None:
     lessons.controller.leave()
     lessons.controller._places.clear()
     lessons.controller._done.clear()
-    lessons.answers._given.clear()
+    lessons.answers._records.clear()
 
 
 def state_of(application: Application) -> list[object]:

@@ -204,7 +204,7 @@ def test_a_lab_sheet_has_buttons_for_what_it_asks(
     assert application.view("photo").isVisible()
     lessons = application.shell.pane("lessons")
     assert lessons.controller.current is not None
-    first, *_, last = lessons.answers.all_of(lessons.controller.current)[:4]
+    first, *_, last = lessons.answers.list_steps(lessons.controller.current)[:4]
     assert last.match is application.shell.pane("photo").matching.match is found
     assert last.photo == "led-1khz.jpg"
     assert first.match is None

@@ -26,11 +26,11 @@ class Lessons(ControlsBench):
         self.guide: LessonView = self.pane.view
 
     def answer(self, text: str) -> str:
-        given = self.guide.step.answer_field
-        given.field.setText(text)
-        given.check.click()
+        answer_field = self.guide.step.answer_field
+        answer_field.field.setText(text)
+        answer_field.check.click()
         self.wait_until_idle()
-        return given.sentence.text()
+        return answer_field.sentence.text()
 
     def choose_sent(self, sent: str) -> None:
         workspace = self.store.workspace

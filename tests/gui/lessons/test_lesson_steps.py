@@ -15,7 +15,7 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.files.file_controller import sample_photos
 from occ_gui.lessons import answers
-from occ_gui.lessons.lesson_controller import changed_sentence
+from occ_gui.lessons.lesson_controller import describe_changes
 from occ_gui.lessons.lesson_view import LessonView
 from occ_gui.lessons.step_page import StepPage
 from occ_model.figures import drawing
@@ -39,24 +39,24 @@ def test_a_number_is_checked_against_the_model_and_kept(bench: Lessons, guide: L
     assert "Right" in guide.step.answer_field.sentence.text()
 
 
-def test_an_answer_that_is_still_being_checked_at_the_end_is_recorded_when_it_is(
+def test_an_answer_still_under_check_at_the_end_is_recorded_afterwards(
     bench: Lessons, guide: LessonView, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    go_on, given = Event(), guide.step.answer_field
+    go_on, answer_field = Event(), guide.step.answer_field
 
-    def slow(*question: Any) -> CheckedAnswer:
+    def check_late(*question: Any) -> CheckedAnswer:
         assert go_on.wait(20)
         return check_answer(*question)
 
     guide.list.choices[0].click()
     bench.answer("65")  # near, and recorded until another one is given
-    monkeypatch.setattr(answers, "check_answer", slow)
+    monkeypatch.setattr(answers, "check_answer", check_late)
     for text, button in (("62.5", guide.step.next), ("25", guide.step.next)):
-        given.field.setText(text)
-        given.check.click()
+        answer_field.field.setText(text)
+        answer_field.check.click()
         button.click()
-    given.field.setText("27.6")
-    given.check.click()
+    answer_field.field.setText("27.6")
+    answer_field.check.click()
     guide.step.next.click()
     assert guide.end.isVisible()
     assert guide.end.answers.text().count("The model computes…") == 3
@@ -70,7 +70,7 @@ def test_an_answer_that_is_still_being_checked_at_the_end_is_recorded_when_it_is
     assert guide.end.report.isEnabled()
 
 
-def test_check_formula_explanation_and_report_are_of_the_scene_that_is_shown(
+def test_check_formula_explanation_and_report_use_the_present_scene(
     bench: Lessons, guide: LessonView
 ) -> None:
     guide.list.choices[0].click()
@@ -81,14 +81,13 @@ def test_check_formula_explanation_and_report_are_of_the_scene_that_is_shown(
     assert "18.2 columns" in guide.step.equation.toPlainText()
     assert guide.step.equation.toPlainText().count("Columns") == 1
     assert "own scene (Readout time: 8 µs): One state lasts" in guide.step.answer.text()
-    learning = bench.pane
-    lesson = not_none(learning.controller.current)
-    (first, *others) = learning.answers.all_of(lesson)
+    lesson = not_none(bench.pane.controller.current)
+    (first, *others) = bench.pane.answers.list_steps(lesson)
     assert first.scene == bench.scenes.scene
     assert [each.scene for each in others] == [each.step.asked for each in others]
 
 
-def test_what_a_question_names_is_to_be_set_before_an_answer_is_judged(
+def test_the_values_of_a_question_must_be_set_before_an_answer_is_judged(
     bench: Lessons, guide: LessonView
 ) -> None:
     guide.list.choices[0].click()
@@ -96,11 +95,10 @@ def test_what_a_question_names_is_to_be_set_before_an_answer_is_judged(
     sentence = guide.step.answer_field.sentence
     assert "Right" in bench.answer("25")  # a prediction
     bench.scenes.change(readout_time=20e-6)
-    assert "has changed" not in sentence.text()  # it was about this
+    assert "has changed" not in sentence.text()  # the question is about this value
     bench.scenes.change(readout_time=19e-6)
     assert "has changed" in sentence.text()
-    said = bench.answer("25")
-    assert said == "→  First set Readout time to 20 µs, as in the question."
+    assert bench.answer("25") == "→  First set Readout time to 20 µs, as in the question."
     bench.scenes.change(readout_time=20e-6)
     assert "Right" in bench.answer("25")
     assert "own scene" not in guide.step.answer.text()
@@ -133,7 +131,7 @@ def test_question_answer_and_check_stay_in_view_however_long_the_text(
     qtbot.waitUntil(lambda: not page.answer.visibleRegion().isEmpty())
 
 
-def test_a_step_says_what_is_changed_and_which_numbers_are_of_which_scene(
+def test_a_step_states_what_is_changed_and_which_numbers_belong_to_which_scene(
     bench: Lessons, guide: LessonView
 ) -> None:
     guide.list.choices[0].click()
@@ -142,7 +140,7 @@ def test_a_step_says_what_is_changed_and_which_numbers_are_of_which_scene(
     bench.scenes.change(readout_time=19e-6)
     assert changed.isVisible()
     assert "Readout time is 19 µs instead of 8 µs." in changed.text()
-    assert "check and report are of your scene" in changed.text()
+    assert "check and report belong to your scene" in changed.text()
     guide.step.again.click()
     assert not changed.isVisible()
     bench.scenes.change(readout_time=19e-6)
@@ -169,8 +167,8 @@ def test_the_control_of_a_step_is_marked_and_the_others_are_dimmed(
     for name, row in rows.items():
         assert row.isEnabled() is (name == "readout_time")
     field = bench.row("exposure_time").field
-    told, before = field.toolTip(), bench.scenes.scene
-    assert told.startswith("This step of the lesson is about “Readout time”.")
+    tip, before = field.toolTip(), bench.scenes.scene
+    assert tip.startswith("This step of the lesson is about “Readout time”.")
     bench.enter("exposure_time", "90 µs")
     assert bench.scenes.scene == before
     bench.enter("readout_time", "20 µs")
@@ -179,17 +177,17 @@ def test_the_control_of_a_step_is_marked_and_the_others_are_dimmed(
     assert not bench.pane.spotlight.is_on
     assert rows["iso"].graphicsEffect() is None
     assert all(row.isEnabled() for row in rows.values())
-    assert told.endswith(field.toolTip())
+    assert tip.endswith(field.toolTip())
     assert "This step" not in field.toolTip()
 
 
-def test_the_animation_moves_while_it_is_seen_and_stops_at_a_click(
+def test_the_animation_moves_while_it_is_visible_and_stops_at_a_click(
     bench: Lessons, guide: LessonView, qtbot: QtBot
 ) -> None:
     guide.list.choices[0].click()
     animation = guide.step.animation
-    begun = animation.moment
-    qtbot.waitUntil(lambda: animation.moment > begun)
+    start = animation.moment
+    qtbot.waitUntil(lambda: animation.moment > start)
     qtbot.mouseClick(animation, Qt.MouseButton.LeftButton)
     assert not animation.is_playing
     qtbot.keyClick(animation, Qt.Key.Key_Space)
@@ -213,8 +211,8 @@ def test_the_end_shows_the_answers_and_saves_them_as_a_report(
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: ("", ""))
     guide.end.report.click()
     bench.wait_until_idle()
-    assert list(tmp_path.iterdir()) == [], "it is not wanted"
-    monkeypatch.setitem(drawing.STYLE, "figure.constrained_layout.use", False)  # it is slow
+    assert list(tmp_path.iterdir()) == [], "the dialog was cancelled"
+    monkeypatch.setitem(drawing.STYLE, "figure.constrained_layout.use", False)  # slow
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(path), ""))
     guide.end.report.click()
     bench.wait_until_idle()
@@ -246,7 +244,7 @@ def test_the_end_leads_to_the_next_lesson_and_a_second_click_saves_nothing(
     assert not guide.end.next.isVisible()
 
 
-def test_a_teachers_lesson_is_listed_and_a_bad_one_is_named(
+def test_a_teachers_lesson_is_listed_and_a_damaged_one_is_named(
     bench: Lessons, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     step = 'preset = "phone-68us"\ntext = "a"\nquestion = "b?"\nanswer = "c"'
@@ -296,8 +294,8 @@ def test_a_sample_that_was_open_before_a_lab_sheet_returns_with_the_users_choice
     assert bench.photos.choice.form.sent == "square"
 
 
-def test_a_step_about_a_photo_does_not_mind_that_its_match_was_applied() -> None:
+def test_a_step_about_a_photo_reports_no_change_when_its_match_is_applied() -> None:
     about_photo, about_scene = lessons().lessons[5].steps[0], lessons().lessons[0].steps[0]
-    for step, said in ((about_photo, ""), (about_scene, "You have changed the scene: ISO")):
-        assert changed_sentence(step, step.scene.replace(iso=400.0)).startswith(said)
-        assert bool(changed_sentence(step, step.scene.replace(iso=400.0))) is bool(said)
+    for step, start in ((about_photo, ""), (about_scene, "You have changed the scene: ISO")):
+        assert describe_changes(step, step.scene.replace(iso=400.0)).startswith(start)
+        assert bool(describe_changes(step, step.scene.replace(iso=400.0))) is bool(start)

@@ -89,7 +89,7 @@ def test_a_sample_photo_is_open_only_while_steps_need_it(bench: Lessons, guide: 
     assert opened == ["led-1khz", "packets-6khz", ""]
 
 
-def test_a_photo_of_the_users_own_is_in_sight_where_a_lesson_is_about_it_or_it_was_opened_then(
+def test_the_users_photo_is_shown_where_a_lesson_is_about_it_or_it_was_opened_during_the_lesson(
     bench: Lessons, guide: LessonView, photo_file: Path
 ) -> None:
     bench.photos.open(photo_file)
@@ -123,7 +123,7 @@ def test_a_photo_of_the_users_own_is_in_sight_where_a_lesson_is_about_it_or_it_w
 
 
 @pytest.mark.parametrize("error", [SceneFileError("a <song>."), RecursionError("too <song>")])
-def test_lessons_that_cannot_be_read_give_a_sentence(
+def test_lessons_that_cannot_be_read_are_reported_in_a_sentence(
     qtbot: QtBot, small_scene: Scene, monkeypatch: pytest.MonkeyPatch, error: Exception
 ) -> None:
     def fail() -> None:
@@ -136,13 +136,13 @@ def test_lessons_that_cannot_be_read_give_a_sentence(
 
 
 def test_steps_name_samples_with_their_frequency() -> None:
-    truths = {path.stem: Scene.from_toml(path.with_suffix(".toml").read_text(encoding="utf-8"))
+    scenes = {path.stem: Scene.from_toml(path.with_suffix(".toml").read_text(encoding="utf-8"))
               for path in sample_photos()}  # fmt: skip
     steps = [step for lesson in lessons().lessons for step in lesson.steps if step.photo]
     assert steps
     for step in steps:
-        truth = truths[step.photo].transmitter.switching_frequency
-        assert step.scene.transmitter.switching_frequency == truth, step.goal
+        frequency = scenes[step.photo].transmitter.switching_frequency
+        assert step.scene.transmitter.switching_frequency == frequency, step.goal
 
 
 @pytest.mark.parametrize("is_left", [True, False])
@@ -183,8 +183,8 @@ def test_the_list_follows_the_theme(guide: LessonView) -> None:
         assert (back.lightness() > 128) == is_light, theme
 
 
-def shown(workspace: Workspace) -> tuple[object, ...]:
-    """What a step's question may be about, beside the scene and the photo."""
+def view_of(workspace: Workspace) -> tuple[object, ...]:
+    """Return what a step's question may be about besides the scene and the photo."""
     return (
         workspace.settings, workspace.decoder, workspace.picture_kind, workspace.is_enhanced,
         workspace.overlay, workspace.frame_rate,
@@ -192,23 +192,23 @@ def shown(workspace: Workspace) -> tuple[object, ...]:
 
 
 @pytest.mark.parametrize("number", range(12))
-def test_each_step_sets_what_it_asks_about_and_its_end_gives_it_back(
+def test_each_step_sets_all_that_it_asks_about_and_the_end_restores_it(
     bench: Lessons, guide: LessonView, small_scene: Scene, number: int
 ) -> None:
     first, store = Workspace(small_scene), bench.store
     room = RoomChoice("mine.toml", small_room(), None, 0.03)
-    mine = replace(
+    own = replace(
         store.workspace, settings=replace(FIRST_SETTINGS, tolerance=7.0), decoder="matched",
         picture_kind="receiver", is_enhanced=True, overlay="split", frame_rate=24.0, room=room,
     )  # fmt: skip
-    store.put(mine)
+    store.put(own)
     guide.list.choices[number].click()
     for step in lessons().lessons[number].steps:
         bench.wait_until_idle()
-        assert shown(store.workspace) == shown(first)
+        assert view_of(store.workspace) == view_of(first)
         assert store.workspace.scene == step.scene
         assert store.workspace.room == (first.room if step.pane == "room" else room)
-        # What is tried meanwhile is the lesson's, and not the user's.
+        # Changes during a step belong to the lesson, not to the user's work.
         store.put(
             replace(
                 store.workspace, decoder="sequence", picture_kind="receiver", overlay="difference"
@@ -217,23 +217,23 @@ def test_each_step_sets_what_it_asks_about_and_its_end_gives_it_back(
         guide.step.next.click()
     bench.wait_until_idle()
     assert guide.end.isVisible()
-    assert store.workspace == mine
+    assert store.workspace == own
     guide.end.all.click()
     guide.list.choices[number].click()
     bench.wait_until_idle()
-    assert shown(store.workspace) == shown(first)
+    assert view_of(store.workspace) == view_of(first)
     guide.step.all.click()
     bench.wait_until_idle()
-    assert store.workspace == mine
+    assert store.workspace == own
 
 
 def test_undo_within_a_step_loses_nothing_of_the_users(
     bench: Lessons, guide: LessonView, small_scene: Scene
 ) -> None:
-    mine = replace(
+    own = replace(
         bench.store.workspace, decoder="matched", picture_kind="receiver", is_enhanced=True
     )
-    bench.store.put(mine)
+    bench.store.put(own)
     guide.list.choices[1].click()
     bench.wait_until_idle()
     bench.scenes.undo_stack.undo()
@@ -241,16 +241,16 @@ def test_undo_within_a_step_loses_nothing_of_the_users(
     guide.step.next.click()
     guide.step.all.click()
     bench.wait_until_idle()
-    assert bench.store.workspace == mine
+    assert bench.store.workspace == own
 
 
-def test_a_lesson_has_a_state_of_its_own_and_returns_the_users(
+def test_a_lesson_has_a_state_of_its_own_and_restores_the_users(
     bench: Lessons, guide: LessonView, small_scene: Scene
 ) -> None:
     bench.settings.set_tolerance(7.0)
     bench.settings.set_noise("exact")
     bench.scenes.force("jpeg", True)
-    mine = bench.settings.settings
+    own = bench.settings.settings
     guide.list.choices[0].click()
     bench.wait_until_idle()
     assert bench.settings.settings == FIRST_SETTINGS
@@ -262,5 +262,5 @@ def test_a_lesson_has_a_state_of_its_own_and_returns_the_users(
     guide.step.next.click()
     guide.step.next.click()
     bench.wait_until_idle()
-    assert (bench.scenes.scene, bench.settings.settings) == (small_scene, mine)
+    assert (bench.scenes.scene, bench.settings.settings) == (small_scene, own)
     assert bench.scenes.undo_stack.undoText() == "end of the lesson"

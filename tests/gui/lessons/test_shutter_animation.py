@@ -38,24 +38,24 @@ def drawing(widget: QWidget, shutter: RollingShutter, moment: float) -> ShutterD
     return ShutterDrawing(Mock(), widget, shutter, moment)
 
 
-def filled(drawing: ShutterDrawing) -> list[QRectF]:
+def list_rectangles(drawing: ShutterDrawing) -> list[QRectF]:
     painter: Any = drawing.painter
     return [call.args[0] for call in painter.fillRect.call_args_list]
 
 
-def test_the_stripes_seen_are_those_of_exposures_that_have_ended(
+def test_the_stripes_are_those_of_exposures_that_have_ended(
     drawing: ShutterDrawing, shutter: RollingShutter, moment: float
 ) -> None:
     drawing.draw_stripes()
-    ended = shutter.starts + shutter.exposure_time <= moment * shutter.duration * (1.0 + 1e-9)
-    assert len(filled(drawing)) == int(ended.sum())
-    assert ended.all() == (moment == 1.0)
+    has_ended = shutter.starts + shutter.exposure_time <= moment * shutter.duration * (1.0 + 1e-9)
+    assert len(list_rectangles(drawing)) == int(has_ended.sum())
+    assert has_ended.all() == (moment == 1.0)
 
 
 def test_the_bar_of_a_column_is_filled_as_far_as_its_exposure_has_gone(
     drawing: ShutterDrawing, widget: QWidget, shutter: RollingShutter, moment: float
 ) -> None:
     drawing.draw_bars()
-    gone = np.clip(moment * shutter.duration - shutter.starts, 0.0, shutter.exposure_time)
-    widths = [place.width() for place in filled(drawing)]
-    assert widths == pytest.approx(gone / shutter.duration * widget.width())
+    elapsed = np.clip(moment * shutter.duration - shutter.starts, 0.0, shutter.exposure_time)
+    widths = [place.width() for place in list_rectangles(drawing)]
+    assert widths == pytest.approx(elapsed / shutter.duration * widget.width())

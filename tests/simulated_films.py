@@ -10,8 +10,8 @@ import occ_model as occ
 from occ_model.results.video_reading import MeasuredValue
 from occ_model.scene.payload import bits_of_payload
 from occ_model.scene.recording import Recording, Waypoint
+from occ_model.study.film_study import ShutterTiming
 from occ_model.study.observation import panel_span
-from occ_model.video.counting import ShutterTiming
 from occ_model.video.period import SentPeriod
 from occ_model.video.render import SimulatedVideo, render_video
 

@@ -72,8 +72,12 @@ def _lay_over(view: "ImageView", photo: "Photo", snapshot: Snapshot, mode: str, 
 
     def draw() -> "Drawing":
         from occ_gui.picture.photo_overlay import difference_cells, rect_of
-        from occ_model.figures.overlay import Difference, PhotoLayer
-        from occ_model.figures.window_panes import MOST_CELLS, picture_drawing
+        from occ_model.figures.window_panes import (
+            MOST_CELLS,
+            Difference,
+            PhotoLayer,
+            picture_drawing,
+        )
 
         layer: PhotoLayer | Difference | None = None
         if opacity is not None:

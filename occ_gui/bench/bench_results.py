@@ -15,7 +15,7 @@ from occ_gui.widgets.axes import LogAxis
 from occ_gui.widgets.building import fill, make_read_only
 from occ_gui.widgets.colours import BAND, NOISE, PHOTO, REGION, SIMULATION, lighten_for, thin
 from occ_gui.widgets.plot import Plot, new_plot
-from occ_model.results.bench import BenchBounds, BenchPoint, BenchRequest
+from occ_model.results.bit_errors import BenchBounds, BenchPoint, BenchRequest
 
 RATES, BITS = "rates", "bits"  # what is drawn: bit error rates, or bits a second
 

@@ -17,7 +17,7 @@ from occ_gui.widgets.outdated_mark import DELAY, OutdatedMark
 from occ_gui.widgets.plot import LineLegend, marker
 from occ_gui.widgets.work_bar import WorkBar
 from occ_model.errors import counted
-from occ_model.results.bench import BenchBounds, BenchPoint, BenchRequest
+from occ_model.results.bit_errors import BenchBounds, BenchPoint, BenchRequest
 from occ_model.scene.recording import FRAME_RATE
 
 _GAP = 8  # pixels between check boxes

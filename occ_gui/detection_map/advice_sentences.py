@@ -2,8 +2,12 @@
 
 from dataclasses import dataclass
 
-from occ_model.results.advice import (
+from occ_model.results.bit_errors import FRAMES_A_SECOND
+from occ_model.results.limits import (
     Advice,
+    Limits,
+    RangeEnd,
+    WorkingRange,
     end_text,
     format_value,
     gaps_text,
@@ -14,8 +18,6 @@ from occ_model.results.advice import (
     theory_text,
     two_packets_text,
 )
-from occ_model.results.bit_errors import FRAMES_A_SECOND
-from occ_model.results.limits import Limits, RangeEnd, WorkingRange
 from occ_model.scene.parameters import quantity
 
 _HIGHEST = "highest frequency"

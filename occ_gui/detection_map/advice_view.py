@@ -18,8 +18,8 @@ from occ_gui.detection_map.limit_cards import LimitCards
 from occ_gui.widgets.building import fill, name_widget, paragraph, push_button
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.scroll_pane import ScrollPane
-from occ_model.results.advice import Advice
 from occ_model.results.bit_errors import FRAMES_A_SECOND
+from occ_model.results.limits import Advice
 
 _LEAST = QSize(200, 60)
 

@@ -1,8 +1,8 @@
 """Jobs that search for limits, for worker processes; nothing here needs Qt."""
 
 from occ_model.parallel.job import Heartbeat
-from occ_model.results.advice import Advice
 from occ_model.results.bit_errors import MostBits
+from occ_model.results.limits import Advice
 from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.scene import Scene
 from occ_model.study.limits import advice_of, limits

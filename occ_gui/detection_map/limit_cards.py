@@ -11,9 +11,16 @@ from occ_gui.widgets.building import fill, name_widget, paragraph, push_button
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.text_scale import heading_font
 from occ_model.errors import counted
-from occ_model.results.advice import Advice, format_value, gaps_text, own_text, search_end_text
 from occ_model.results.bit_errors import FRAMES_A_SECOND, MostBits
-from occ_model.results.limits import RangeEnd, WorkingRange
+from occ_model.results.limits import (
+    Advice,
+    RangeEnd,
+    WorkingRange,
+    format_value,
+    gaps_text,
+    own_text,
+    search_end_text,
+)
 from occ_model.scene.units import HERTZ
 
 _PARAMETER = "switching_frequency"

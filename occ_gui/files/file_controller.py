@@ -14,7 +14,7 @@ from occ_gui.scene.scene_store import SceneStore
 from occ_gui.simulation.present_results import Use
 from occ_gui.simulation.snapshot import Snapshot
 from occ_model.errors import OccError, one_line
-from occ_model.files.film_kinds import is_film
+from occ_model.files.reading import is_film
 from occ_model.files.resources import resource_path
 from occ_model.files.writing import PICTURE_ENDINGS, write_image, write_whole
 from occ_model.scene.from_text import SCENE_ENDING, read_scene_file, write_scene_file

@@ -10,8 +10,8 @@ from PySide6.QtWidgets import QInputDialog, QLineEdit, QMessageBox, QWidget
 from occ_gui.scene.scene_store import SceneStore, new_gesture
 from occ_gui.widgets.plain_text import LONGEST_TEXT
 from occ_model.errors import OccError, one_line
-from occ_model.scene.preset_file import Preset
 from occ_model.scene.presets import (
+    Preset,
     all_presets,
     delete_preset,
     preset_named,

@@ -18,8 +18,7 @@ from occ_model.results.decoding import DecodeResult
 from occ_model.results.frame import Frame
 from occ_model.scene.scene import Scene
 from occ_model.simulation.band_model import band_drift, enhanced_band_profile
-from occ_model.simulation.overexposure import overexposed_fraction
-from occ_model.simulation.render import PlannedScene, render_with
+from occ_model.simulation.render import PlannedScene, overexposed_fraction, render_with
 from occ_model.study.cause.cause import cause_of
 from occ_model.study.observation import ProfileReading, read_profile
 

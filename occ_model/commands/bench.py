@@ -9,10 +9,15 @@ from occ_model.commands.progress_bar import progress_bar
 from occ_model.errors import one_line
 from occ_model.files.writing import make_folder
 from occ_model.receiver.decoders import decoders
-from occ_model.results.bench import BenchPoint, BenchRequest
-from occ_model.results.bit_errors import FRAMES_A_SECOND
-from occ_model.study.bench.bench import bench, bench_scene, check_bench
-from occ_model.study.bench.data_set import DataSetReading, load_pictures, read_pictures
+from occ_model.results.bit_errors import FRAMES_A_SECOND, BenchPoint, BenchRequest
+from occ_model.study.bench.bench import (
+    DataSetReading,
+    bench,
+    bench_scene,
+    check_bench,
+    load_pictures,
+    read_pictures,
+)
 from occ_model.study.bit_error_rate import check_frame_rate
 
 _DEFAULT_REQUEST = BenchRequest()

@@ -15,7 +15,7 @@ from occ_model.commands.options import (
 )
 from occ_model.commands.progress_bar import progress_bar
 from occ_model.errors import ParameterError, counted
-from occ_model.files.film_kinds import is_film
+from occ_model.files.reading import is_film
 from occ_model.photo.reading.choices import CHANNELS, SCAN_AXES
 from occ_model.photo.reading.load import load_photo
 from occ_model.program import EXIT_FAILURE

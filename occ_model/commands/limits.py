@@ -14,7 +14,11 @@ from occ_model.commands.options import (
 from occ_model.commands.progress_bar import progress_bar
 from occ_model.program import EXIT_FAILURE
 from occ_model.receiver.decoders import DECODERS
-from occ_model.results.advice import (
+from occ_model.results.bit_errors import FRAMES_A_SECOND
+from occ_model.results.limits import (
+    Limits,
+    RangeEnd,
+    WorkingRange,
     end_text,
     format_gaps,
     format_value,
@@ -25,8 +29,6 @@ from occ_model.results.advice import (
     theory_text,
     two_packets_text,
 )
-from occ_model.results.bit_errors import FRAMES_A_SECOND
-from occ_model.results.limits import Limits, RangeEnd, WorkingRange
 from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.parameters import quantity
 from occ_model.scene.recording import FRAME_RATE

@@ -17,8 +17,7 @@ from occ_model.files.writing import check_image_path, write_image
 from occ_model.results.cause import overexposed_text
 from occ_model.results.frame import PICTURES
 from occ_model.scene.from_text import write_scene_file
-from occ_model.simulation.overexposure import overexposed_fraction
-from occ_model.simulation.render import render_with
+from occ_model.simulation.render import overexposed_fraction, render_with
 
 
 def add_to(commands: Commands) -> None:

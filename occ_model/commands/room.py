@@ -23,8 +23,7 @@ from occ_model.errors import counted, one_line
 from occ_model.files.writing import check_image_path, write_image
 from occ_model.photo.reading.load import load_photo
 from occ_model.program import EXIT_FAILURE, EXIT_INTERRUPTED
-from occ_model.room.locate import RoomReading, read_room
-from occ_model.room.photo import read_room_photo
+from occ_model.room.locate import RoomReading, read_room, read_room_photo
 from occ_model.room.pose_fit import Located
 from occ_model.room.render import RoomFrame, render_room
 from occ_model.room.room import Place, Room

@@ -13,8 +13,13 @@ from occ_model.effects.observed import SampledObservable
 from occ_model.effects.sampled_pixels import SampledPixels
 from occ_model.effects.signal_sampling import SURE_DEVIATIONS, SignalSampling
 from occ_model.effects.simulated_columns import Names
-from occ_model.effects.smoothed_curves import LEAST_SMOOTHING_NOISE, SmoothedCurves, add_unsampled
-from occ_model.effects.unsampled_rims import cut_block_square, unsampled_rim_square
+from occ_model.effects.smoothed_curves import (
+    LEAST_SMOOTHING_NOISE,
+    SmoothedCurves,
+    add_unsampled,
+    cut_block_square,
+    unsampled_rim_square,
+)
 
 _DOUBTED_RIM, _DOUBTED_RIM_OF_FEW = 0.5, 1.0
 """Fraction of a moving rim's pixels of which the sample cannot tell whether they are enhanced: in

@@ -6,10 +6,9 @@ from typing import TypeVar
 
 from occ_model.effects.distortion import Distortion
 from occ_model.effects.effect import Effect
-from occ_model.effects.jpeg import Jpeg
 from occ_model.effects.light_effects import Flicker, LedEdges
 from occ_model.effects.optics_effects import Defocus, Emission, Vignetting
-from occ_model.effects.sensor_effects import FixedPattern, FullWell, SensorNoise
+from occ_model.effects.sensor_effects import FixedPattern, FullWell, Jpeg, SensorNoise
 from occ_model.results.plan import Plan
 
 EFFECTS: tuple[Effect, ...] = (

@@ -1,8 +1,11 @@
-"""The sensor's effects: full well, fixed-pattern gain, shot and read noise."""
+"""Effects of the sensor (full well, fixed pattern, shot and read noise) and of the JPEG file."""
 
+import math
+
+import cv2
 import numpy as np
 
-from occ_model.arrays import FloatArray
+from occ_model.arrays import ByteArray, FloatArray
 from occ_model.camera.photometry import (
     WHITE,
     converter_step,
@@ -11,8 +14,79 @@ from occ_model.camera.photometry import (
     pixel_value,
     saturation_value,
 )
-from occ_model.effects.effect import Cost, NoiseEffect, PixelEffect, Values
+from occ_model.effects.effect import Cost, FileEffect, NoiseEffect, PixelEffect, Values
+from occ_model.errors import ParameterError
+from occ_model.files.writing import LONGEST_SIDE
 from occ_model.scene.scene import Scene
+
+_LUMINANCE_STEPS = (
+    (16, 11, 10, 16, 24, 40, 51, 61),
+    (12, 12, 14, 19, 26, 58, 60, 55),
+    (14, 13, 16, 24, 40, 57, 69, 56),
+    (14, 17, 22, 29, 51, 87, 80, 62),
+    (18, 22, 37, 56, 68, 109, 103, 77),
+    (24, 35, 55, 64, 81, 104, 113, 92),
+    (49, 64, 78, 87, 103, 121, 120, 101),
+    (72, 92, 95, 98, 112, 100, 103, 99),
+)
+"""Steps of the 8 x 8 cosine coefficients at quality 50 (ITU-T T.81, table K.1)."""
+
+
+class Jpeg(FileEffect):
+    """Each block of 8 x 8 pixels is written as cosine coefficients, rounded to steps.
+
+    The cosine transform is orthonormal, so that the mean square error of the pixels is that of the
+    coefficients (Parseval). The receiver enhances the contrast of the picture read from the file.
+    """
+
+    name = "jpeg"
+    label = "JPEG"
+    parameters = ("jpeg_quality",)
+    cost = Cost(pixels=1.5e-3)
+
+    def is_present(self, scene: Scene) -> bool:
+        return scene.camera.jpeg_quality != 0
+
+    def steps(self, scene: Scene) -> FloatArray:
+        return quantization_steps(scene.camera.jpeg_quality)
+
+    def rounding_of_means(self, scene: Scene) -> float:
+        """Return the error by the coefficients of vertical frequency 0: only they change the mean.
+
+        Each has the standard deviation q / sqrt(12) for its step q, and the mean over a block's
+        eight rows an eighth of the root of their summed squares.
+        """
+        if not self.is_present(scene):
+            return 0.0
+        steps = quantization_steps(scene.camera.jpeg_quality)
+        return math.sqrt(float((steps[0] ** 2).sum()) / 12.0) / 8.0
+
+    def check_size(self, scene: Scene, shape: tuple[int, ...]) -> None:
+        if self.is_present(scene) and max(shape) > LONGEST_SIDE["JPEG"]:
+            raise ParameterError.of(
+                "jpeg_quality",
+                f"{scene.camera.jpeg_quality}, and the picture has {shape[0]} rows and "
+                f"{shape[1]} columns",
+                f"0, or up to {LONGEST_SIDE['JPEG']} rows and columns",
+                parameters=("jpeg_quality", "rows", "columns"),
+            )
+
+    def apply(self, scene: Scene, image: ByteArray) -> ByteArray:
+        if not self.is_present(scene):
+            return image
+        quality = [cv2.IMWRITE_JPEG_QUALITY, scene.camera.jpeg_quality]
+        _, file = cv2.imencode(".jpg", image, quality)
+        return np.asarray(cv2.imdecode(file, cv2.IMREAD_GRAYSCALE), dtype=np.uint8)
+
+
+def quantization_steps(quality: int) -> FloatArray:
+    """Return the quantization steps for a quality from 1 to 100, shape (8, 8).
+
+    They are scaled as in the Independent JPEG Group's library, which all common writers follow.
+    """
+    percent = 5000 // quality if quality < 50 else 200 - 2 * quality
+    scaled = (np.array(_LUMINANCE_STEPS) * percent + 50) // 100
+    return np.asarray(np.clip(scaled, 1, 255), dtype=np.float64)
 
 
 class FullWell(PixelEffect):

@@ -1,6 +1,6 @@
-"""The receiver's enhancement, averaged over the noise of a pixel: noise smooths its curve.
+"""The receiver's enhancement averaged over a pixel's noise, which smooths its curve.
 
-Also the changes in few columns, of which a sample may have none or too many.
+Also changes that a sample may miss: in few columns, and at the panel's rims.
 """
 
 from collections.abc import Sequence
@@ -14,6 +14,39 @@ from occ_model.camera.photometry import WHITE
 from occ_model.effects.observed import SampledObservable
 from occ_model.effects.sampled_pixels import SampledPixels
 from occ_model.effects.simulated_columns import Names
+
+_UNSAMPLED_PIXELS = 1.0  # pixels of a rim that may change without being sampled
+
+
+def unsampled_rim_square(pixels: SampledPixels, square: float) -> float:
+    """Return the mean square change of a few pixels of a rim, none of which may be sampled.
+
+    A file spreads it over their block.
+    """
+    if pixels.sample.is_covered:
+        return 0.0
+    found = _UNSAMPLED_PIXELS * square
+    if pixels.file is not None:
+        region = pixels.view.region
+        blocks = min(64.0 / (region.rows * region.columns), pixels.rims.fraction)
+        found += pixels.file.growth_at_rim(blocks, found)
+    return found
+
+
+def cut_block_square(pixels: SampledPixels) -> float:
+    """Return the mean square change by a file of the means of columns beside an upright rim.
+
+    If the rim moves outwards, only a part of its blocks is observed. Where noise spreads the change
+    over the file's steps, it differs from block to block.
+    """
+    file = pixels.file
+    if file is None:
+        return 0.0
+    upright = pixels.rims.fractions[1]
+    added = file.growth_at_rim(upright, upright * pixels.contrast**2 / 8.0)
+    alike = file.undithered_fraction
+    return added * (alike + (1.0 - alike) / file.block_rows)
+
 
 LEAST_SMOOTHING_NOISE = 0.5
 """Noise in grey levels below which single steps of the enhancement remain visible in its mean."""

@@ -13,7 +13,7 @@ from matplotlib.lines import Line2D
 from occ_model import colours
 from occ_model.errors import counted
 from occ_model.figures.drawing import Drawing
-from occ_model.results.bench import HEADER, BenchBounds, BenchPoint, BenchRequest, table_rows
+from occ_model.results.bit_errors import HEADER, BenchBounds, BenchPoint, BenchRequest, table_rows
 from occ_model.scene.provenance import Provenance
 from occ_model.study.bench.bench import bench_bounds, bench_scene
 from occ_model.study.bit_error_rate import check_frame_rate

@@ -1,4 +1,4 @@
-"""Write files completely or not at all, and images in the format of their ending."""
+"""Write files completely or not at all, lock them, and encode images by the file's ending."""
 
 import os
 import re
@@ -6,16 +6,59 @@ import stat
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from errno import EACCES
+from errno import EACCES, EAGAIN
 from io import BytesIO
 from pathlib import Path
 from secrets import token_hex
 from typing import Any, BinaryIO
+from weakref import WeakSet
 
 from occ_model.arrays import ByteArray
 from occ_model.errors import OutputError, one_line
-from occ_model.files.locking import lock
 from occ_model.files.reading import reason_of
+
+_open_here: "WeakSet[BinaryIO]" = WeakSet()
+
+if sys.platform == "win32":
+    import msvcrt
+
+    _FAR = 2**40
+    """Position of a byte beyond any file's end, so that others can still read the file."""
+
+    def take_lock(file: BinaryIO) -> None:
+        place = file.tell()
+        file.seek(_FAR)
+        try:
+            msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)
+        finally:
+            file.seek(place)
+
+else:
+    import fcntl
+
+    def take_lock(file: BinaryIO) -> None:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+
+
+def lock(file: BinaryIO) -> bool | None:
+    """Lock a file until it is closed; return False if another has, None if locks do not exist."""
+    try:
+        take_lock(file)
+    except OSError as error:
+        return False if error.errno in (EACCES, EAGAIN) else None
+    _open_here.add(file)
+    return True
+
+
+def _close_in_child() -> None:
+    """Close the parent's locked files, so that a forked worker that outlives it holds no lock."""
+    for file in list(_open_here):
+        os.close(file.fileno())
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_close_in_child)
+
 
 _FORMATS = {  # formats that can contain any grey picture, by the file's ending
     ".png": "PNG",

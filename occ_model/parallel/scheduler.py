@@ -1,7 +1,7 @@
 """A scheduler, which decides which job goes to the workers next and reports the results."""
 
 from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator, Iterator
 from concurrent.futures import Future
 from dataclasses import dataclass, field
 from itertools import islice
@@ -11,6 +11,7 @@ from typing import Any
 
 from occ_model.parallel.job import (
     NO_PROCESSES,
+    Heartbeat,
     Job,
     JobResult,
     RunListener,
@@ -259,3 +260,54 @@ class Scheduler:
 def _has_result(future: "Future[JobResult]") -> bool:
     """Return whether a job was completed before its worker died."""
     return future.done() and not future.cancelled() and future.exception() is None
+
+
+_BEAT = 0.2  # seconds between two heartbeats while this process waits for workers
+
+
+def results_of(
+    jobs: Iterator[Job],
+    start: Callable[[], Workers],
+    heartbeat: Heartbeat,
+    fallback: Callable[[], Workers] | None = None,
+) -> Generator[Any, None, None]:
+    """Yield the results of jobs in the order in which they are ready; then end the workers.
+
+    Each job is made only when it is needed, so that a limited number is in progress. ``start`` and
+    ``fallback`` are as for a :class:`Scheduler`. An exception of a job is raised here, and
+    WorkersLostError if workers die again and again.
+    """
+    ready = _ResultListener()
+    scheduler = Scheduler(start, fallback)
+    scheduler.put(Run(0, 1, jobs, ready))
+    try:
+        while not ready.is_ended:
+            heartbeat()
+            scheduler.step(_BEAT)
+            yield from ready.take()
+    finally:
+        scheduler.end_workers()
+    if ready.error is not None:
+        raise ready.error
+
+
+class _ResultListener:
+    """Receives the results of one run."""
+
+    def __init__(self) -> None:
+        self._results: list[Any] = []
+        self.is_ended = False
+        self.error: Exception | None = None
+
+    def take(self) -> list[Any]:
+        results, self._results = self._results, []
+        return results
+
+    def take_results(self, _run: int, results: list[Any]) -> None:
+        self._results += results
+
+    def take_end(self, _run: int, error: Exception | None) -> None:
+        self.is_ended, self.error = True, error
+
+    def note_lost_workers(self, _run: int, _missing: Exception | None) -> None:
+        """Do nothing, as the work goes on."""

@@ -26,9 +26,8 @@ from occ_model.room.edge_lines import (
     estimate_variance_ratio,
     fit_line,
 )
-from occ_model.room.lamp_light import LampLight
 from occ_model.room.room import Room, RoomLamp
-from occ_model.room.seen_light import ApparentLight, find_enhancement
+from occ_model.room.seen_light import ApparentLight, LampLight, find_enhancement
 from occ_model.scene.scene import Scene
 
 _EDGE_REACH = 7  # minimum pixels on either side of an expected edge over which light is summed

@@ -1,8 +1,16 @@
-"""The pixels of a picture whose rows differ, which are exposed and stored some rows at a time."""
+"""The pixels of a picture whose rows differ: exposed and stored some rows at a time, in threads.
 
-from collections.abc import Iterator, Sequence
+Threads are faster because NumPy and OpenCV release the interpreter's lock while they compute.
+"""
+
+import os
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import partial
+from itertools import chain, islice
+from typing import TypeVar
 
 import cv2
 import numpy as np
@@ -22,7 +30,41 @@ from occ_model.simulation.columns import ColumnMeans, Columns
 from occ_model.simulation.draft_error import DraftedPanel
 from occ_model.simulation.noise import NOISE_MAKERS, Drawn, NoiseMaker, NoiseSpread
 from occ_model.simulation.stage_timer import StageTimer
-from occ_model.simulation.threads import each_in_threads
+
+_Item = TypeVar("_Item")
+_Result = TypeVar("_Result")
+
+_ITEMS_AHEAD = 2  # items that are prepared in advance for each thread
+
+
+def threads() -> int:
+    """Return the number of threads: one for each core, or fewer if OMP_NUM_THREADS says so."""
+    cores = os.cpu_count() or 1
+    wanted = os.environ.get("OMP_NUM_THREADS", "")
+    return max(1, min(cores, int(wanted))) if wanted.isdecimal() else cores
+
+
+def each_in_threads(work: Callable[[_Item], _Result], items: Iterable[_Item]) -> Iterator[_Result]:
+    """Do some work for each item in threads; yield the results in the order of the items.
+
+    Items are taken in the calling thread, a few in advance, so that random numbers drawn there do
+    not depend on the threads.
+    """
+    count, left = threads(), iter(items)
+    begun = list(islice(left, 2 if count > 1 else 0))
+    items = chain(begun, left)
+    if len(begun) < 2:
+        yield from map(work, items)
+        return
+    waiting: deque[Future[_Result]] = deque()
+    with ThreadPoolExecutor(count, "band") as pool:
+        for item in items:
+            waiting.append(pool.submit(work, item))
+            if len(waiting) > _ITEMS_AHEAD * count:
+                yield waiting.popleft().result()
+        while waiting:
+            yield waiting.popleft().result()
+
 
 _BLOCK = 8  # columns and rows of a block of a JPEG file
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from occ_model.arrays import FloatArray, Pixels
 from occ_model.camera.enhancement import Enhancement, to_bytes
-from occ_model.camera.photometry import FLAT_SPAN
+from occ_model.camera.photometry import FLAT_SPAN, WHITE, saturation_value
 from occ_model.camera.picture_rows import split_into_blocks
 from occ_model.camera.projection import check_size, paint
 from occ_model.effects.effect import NoiseEffect
@@ -31,6 +31,28 @@ from occ_model.simulation.columns import Columns, expose_columns
 from occ_model.simulation.draft_error import DraftedMeans, draft_errors
 from occ_model.simulation.pixels import Pictures, PixelExposure
 from occ_model.simulation.stage_timer import StageTimer
+
+_ROUNDING = 1.0  # grey levels by which a column whose pixels are full may fall short of that
+
+
+def overexposed_fraction(
+    scene: Scene, plan: Plan, profile: FloatArray, corners: FloatArray
+) -> float:
+    """Return the fraction of the panel's columns whose pixels are all white, or full.
+
+    Parameters
+    ----------
+    plan : Plan
+        The effects that the profile is simulated with.
+    profile : ndarray of float64, shape (columns,)
+        Means of the panel's pixels in each column before enhancement, in grey levels.
+    corners : ndarray of float64, shape (4, 2)
+        The panel's corners, each as (column, row).
+    """
+    left, right = float(corners[:, 0].min()), float(corners[:, 0].max())
+    seen = profile[max(0, round(left)) : max(0, round(right) + 1)]
+    limit = saturation_value(scene) if "full-well" in plan else WHITE
+    return float(np.mean(seen >= limit - _ROUNDING)) if seen.size else 0.0
 
 
 def render(

@@ -15,9 +15,8 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from occ_model.errors import ParameterError, shown
 from occ_model.parallel.job import NO_PROCESSES, Heartbeat, Job, JobResult
-from occ_model.results.advice import Advice, TheoryLimits
 from occ_model.results.decoding import PAPER_DECODER
-from occ_model.results.limits import Limits
+from occ_model.results.limits import Advice, Limits, TheoryLimits
 from occ_model.results.sweep_request import RateSettings, SignalPath
 from occ_model.scene.argument_checks import check_count, is_number
 from occ_model.scene.parameters import PARAMETERS

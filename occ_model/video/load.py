@@ -10,8 +10,7 @@ import numpy as np
 
 from occ_model.arrays import ByteArray
 from occ_model.errors import ParameterError, SceneFileError, VideoError, counted, one_line, shown
-from occ_model.files.film_kinds import FIRST_BYTES, container_of
-from occ_model.files.reading import read_start
+from occ_model.files.reading import FIRST_BYTES, container_of, read_start
 from occ_model.photo.reading.choices import SCAN_AXES
 from occ_model.photo.reading.load import roughness_along
 from occ_model.results.video import LATEST_TIME, Video, VideoFrame
@@ -44,7 +43,7 @@ def load_video(path: str | Path, scan_axis: str = "auto", *, channel: str = "lum
     Parameters
     ----------
     path
-        A file of one of the kinds in :mod:`occ_model.files.film_kinds`, recognized by its content.
+        A file of one of the kinds in :mod:`occ_model.files.reading`, recognized by its content.
         Frames are turned upright, and their levels are 0 to 255, whatever range the file uses.
     scan_axis
         ``"columns"`` or ``"lines"`` of the film, or ``"auto"``: found from the first frames and

@@ -17,7 +17,7 @@ from occ_gui.help.pages import CONTENTS, heading_id, pages
 from occ_model.commands.command_line import read_command_line
 from occ_model.commands.listing import framing_table, line_code_table, parameter_table
 from occ_model.effects.registry import EFFECTS
-from occ_model.scene.preset_file import preset_from
+from occ_model.scene.presets import preset_from
 
 CONTRIBUTING = ROOT / ".github" / "CONTRIBUTING.md"
 

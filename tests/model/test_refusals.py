@@ -20,7 +20,7 @@ from simulated_photos import photo_of
 
 import occ_model as occ
 from occ_model.photo.many.row import MatchSettings
-from occ_model.results.bench import BenchRequest
+from occ_model.results.bit_errors import BenchRequest
 from occ_model.scene.payload import MAX_PAYLOAD_BITS
 from occ_model.study.bench.bench import bench
 from occ_model.study.bit_error_rate import check_frame_rate

@@ -8,7 +8,7 @@ import pytest
 from PIL import Image
 
 import occ_model as occ
-from occ_model.effects.jpeg import Jpeg, quantization_steps
+from occ_model.effects.sensor_effects import Jpeg, quantization_steps
 from occ_model.scene.scene import Scene
 
 

@@ -13,7 +13,7 @@ from typing import TypeAlias
 
 from occ_model.errors import ParameterError, PhotoError, shown
 from occ_model.parallel.job import Heartbeat, Job, Workers, WorkersLostError
-from occ_model.parallel.results import results_of
+from occ_model.parallel.scheduler import results_of
 from occ_model.photo.many.row import MatchSettings, row_of
 from occ_model.photo.many.table import table_of
 from occ_model.photo.match import ESTIMATES, PATTERN_SOURCES

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import IO, TYPE_CHECKING, TypeAlias
 
 from occ_model.errors import PhotoError, SceneFileError, one_line
-from occ_model.files.film_kinds import HEIC_BRANDS, HEIF_BRANDS, kind_of_film
+from occ_model.files.reading import HEIC_BRANDS, HEIF_BRANDS, kind_of_film
 from occ_model.photo.reading.limits import (
     allowed_pixels,
     check_decoder,

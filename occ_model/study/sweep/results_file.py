@@ -14,8 +14,7 @@ from types import TracebackType
 from typing import BinaryIO, Generic, Protocol, Self, TypeVar
 
 from occ_model.errors import OutputError, ParameterError, one_line, shown
-from occ_model.files.locking import lock
-from occ_model.files.writing import check_replaceable, write_whole
+from occ_model.files.writing import check_replaceable, lock, write_whole
 
 _LONGEST_LINE = 100_000  # bytes of a line; usual ones have some hundred
 _SYNC_SECONDS = 2.0  # maximum seconds of work lost by a power cut

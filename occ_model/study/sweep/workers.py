@@ -18,7 +18,7 @@ from occ_model.parallel.job import (
     WorkersLostError,
     do_job_apart,
 )
-from occ_model.parallel.results import results_of
+from occ_model.parallel.scheduler import results_of
 from occ_model.study.sweep.results_file import Point
 
 _JOB_SECONDS = 0.1  # duration of a job: long compared to sending it, short for a waiting user

@@ -26,8 +26,7 @@ from occ_gui.bench.pane import BenchController, request_of
 from occ_gui.detection_map.slider_strip_controller import RANK
 from occ_model.errors import ParameterError
 from occ_model.parallel.job import Job, JobResult
-from occ_model.results.bench import BenchPoint, BenchRequest
-from occ_model.results.bit_errors import BitErrors
+from occ_model.results.bit_errors import BenchPoint, BenchRequest, BitErrors
 from occ_model.scene.scene import Scene
 from occ_model.study.bench.bench import measure_bench_point
 

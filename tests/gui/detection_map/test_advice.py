@@ -20,8 +20,15 @@ from occ_gui.detection_map.advice_view import AdviceView
 from occ_model.commands.limits import format_row, sentences
 from occ_model.parallel.job import Job, JobResult
 from occ_model.receiver.decoders import DECODERS
-from occ_model.results.advice import Advice, TheoryLimits
-from occ_model.results.limits import Limits, RangeEnd, ReadInterval, Trial, WorkingRange
+from occ_model.results.limits import (
+    Advice,
+    Limits,
+    RangeEnd,
+    ReadInterval,
+    TheoryLimits,
+    Trial,
+    WorkingRange,
+)
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 from occ_model.study.limits import advice_of

@@ -19,8 +19,7 @@ from occ_gui.values.modes import MODES
 from occ_gui.widgets.badge_row import BadgeLabel
 from occ_gui.widgets.state_look import State
 from occ_model.effects.registry import EFFECTS
-from occ_model.scene.preset_file import Preset
-from occ_model.scene.presets import load_preset, preset_named
+from occ_model.scene.presets import Preset, load_preset, preset_named
 from occ_model.scene.scene import Scene
 
 

@@ -34,8 +34,7 @@ from occ_gui.profile.profile_view import ProfileView
 from occ_gui.welcome.welcome import WelcomeDialog
 from occ_model.photo.reading.load import Photo
 from occ_model.results.accuracy import Forecast
-from occ_model.results.bench import BenchPoint
-from occ_model.results.bit_errors import BitErrors
+from occ_model.results.bit_errors import BenchPoint, BitErrors
 from occ_model.results.match import Alternative
 from occ_model.results.sweep_request import SweepPoint
 from occ_model.scene.scene import Scene

@@ -31,8 +31,7 @@ from occ_model.figures.lesson_report import draw_page
 from occ_model.figures.sweep import sweep_drawing
 from occ_model.figures.transmitter_files import wiring_figure
 from occ_model.figures.window_panes import picture_drawing, profile_drawing
-from occ_model.results.bench import BenchPoint, BenchRequest
-from occ_model.results.bit_errors import BitErrors
+from occ_model.results.bit_errors import BenchPoint, BenchRequest, BitErrors
 from occ_model.results.frame import Frame
 from occ_model.results.sweep import SweepTable
 from occ_model.results.sweep_request import RateSettings, Shown, SweepRequest

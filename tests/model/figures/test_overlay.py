@@ -9,8 +9,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 import occ_model as occ
 from occ_model.arrays import ByteArray
 from occ_model.figures.drawing import Drawing
-from occ_model.figures.overlay import Difference, PhotoLayer
-from occ_model.figures.window_panes import picture_drawing, profile_drawing
+from occ_model.figures.window_panes import Difference, PhotoLayer, picture_drawing, profile_drawing
 from occ_model.results.match import Comparison
 
 SCENE = occ.load_preset("phone-68us").replace(rows=300, columns=400, panel_height=0.01)

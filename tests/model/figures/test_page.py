@@ -14,9 +14,8 @@ import occ_model as occ
 from occ_model.figures.decoding import decode_drawing
 from occ_model.figures.drawing import figure_bytes, house_style
 from occ_model.figures.lesson_report import draw_page
-from occ_model.figures.overlay import Difference, PhotoLayer
 from occ_model.figures.page import break_lines
-from occ_model.figures.window_panes import picture_drawing, profile_drawing
+from occ_model.figures.window_panes import Difference, PhotoLayer, picture_drawing, profile_drawing
 from occ_model.results.frame import Frame
 from occ_model.scene.provenance import Provenance
 

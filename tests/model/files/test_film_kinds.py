@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from occ_model.files.film_kinds import is_film
+from occ_model.files.reading import is_film
 
 PICTURES = [Image.fromarray(np.full((4, 6), 40 * n, dtype=np.uint8)) for n in range(3)]
 

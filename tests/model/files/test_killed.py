@@ -11,7 +11,7 @@ from typing import BinaryIO
 
 import pytest
 
-from occ_model.files import locking, writing
+from occ_model.files import writing
 from occ_model.files.writing import write_atomically, write_whole
 
 PROGRAM = """
@@ -145,7 +145,7 @@ with write_atomically(Path({str(tmp_path / "slow.txt")!r})) as temporary:
 def test_a_file_removed_as_a_leftover_before_it_was_locked_is_created_again(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    real, begun = locking.lock, list[str]()
+    real, begun = writing.lock, list[str]()
 
     def lock_late(file: BinaryIO) -> bool | None:
         if not begun:
@@ -168,7 +168,7 @@ def test_without_locks_files_are_written_and_none_is_taken_for_a_leftover(
     def refuse_lock(_file: object) -> None:
         raise OSError(errno.ENOTSUP, os.strerror(errno.ENOTSUP))
 
-    monkeypatch.setattr(locking, "take_lock", refuse_lock)
+    monkeypatch.setattr(writing, "take_lock", refuse_lock)
     with write_atomically(tmp_path / "slow.txt") as temporary:
         write_whole(tmp_path / "quick.txt", b"quick")
         temporary.write_bytes(b"slow")

@@ -13,7 +13,7 @@ from PIL.PngImagePlugin import PngInfo
 
 from occ_model.errors import PhotoError
 from occ_model.files import reading
-from occ_model.files.film_kinds import is_film
+from occ_model.files.reading import is_film
 from occ_model.photo.reading import tiff
 from occ_model.photo.reading.load import load_photo
 from occ_model.photo.reading.raw import is_raw

@@ -20,7 +20,7 @@ from occ_model.cli import main
 from occ_model.commands.limits import sentences
 from occ_model.files.writing import write_image
 from occ_model.receiver import decoders
-from occ_model.results.bench import BenchRequest
+from occ_model.results.bit_errors import BenchRequest
 from occ_model.results.sweep_request import RateSettings
 from occ_model.study.bench.bench import measure_bench_point
 from occ_model.study.most_bits import most_bits

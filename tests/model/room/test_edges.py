@@ -19,10 +19,9 @@ from occ_model.camera.photometry import (
 from occ_model.effects.light_effects import LedEdges
 from occ_model.room.edge_lines import _BLOCK, Course, Line, estimate_variance_ratio
 from occ_model.room.edges import find_edges
-from occ_model.room.lamp_light import LampLight
 from occ_model.room.render import RoomFrame
 from occ_model.room.room import Place, Room
-from occ_model.room.seen_light import ApparentLight, find_enhancement
+from occ_model.room.seen_light import ApparentLight, LampLight, find_enhancement
 from occ_model.room.view import lamp_scene, scene_with_lamp
 from occ_model.scene.scene import Scene
 

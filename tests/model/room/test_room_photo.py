@@ -13,7 +13,7 @@ from small_rooms import small_room
 import occ_model as occ
 from occ_model.cli import main
 from occ_model.photo.reading.exif import EQUIVALENT_FOCAL_LENGTH, EXPOSURE_TIME
-from occ_model.room.photo import RoomPhoto, read_room_photo
+from occ_model.room.locate import RoomPhoto, read_room_photo
 from occ_model.room.room import Place, Room
 
 

@@ -9,13 +9,11 @@ from occ_model.cli import main
 from occ_model.study.film_study import (
     FRAME_PERIOD,
     PACKET_CHIPS,
+    ShutterTiming,
     example_request,
     film_study,
-    published_rule,
-)
-from occ_model.video.counting import (
-    ShutterTiming,
     mean_packets_received,
+    published_rule,
 )
 
 TIMING = ShutterTiming(Fraction(8000), Fraction(0), Fraction(1, 40_000), 0, 1000)

@@ -18,8 +18,7 @@ from worker_calls import PickledJobs
 import occ_model as occ
 from occ_model.camera.photometry import level_values
 from occ_model.cli import main
-from occ_model.results.advice import end_text
-from occ_model.results.limits import RangeEnd, WorkingRange
+from occ_model.results.limits import RangeEnd, WorkingRange, end_text
 from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.scene import Scene
 from occ_model.study import theory

@@ -24,7 +24,7 @@ from occ_model.figures.decoding import decode_drawing
 from occ_model.files.writing import write_image
 from occ_model.program import EXIT_FAILURE, EXIT_MISUSE
 from occ_model.receiver.decoders import decoder_named
-from occ_model.results.bench import BenchRequest
+from occ_model.results.bit_errors import BenchRequest
 from occ_model.results.sweep_request import RateSettings
 from occ_model.study.bench.bench import measure_bench_point
 from occ_model.study.sweep.points import measure_point

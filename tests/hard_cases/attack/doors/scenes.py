@@ -16,9 +16,8 @@ from hard_cases.attack.doors.typed import check_scene
 from hard_cases.attack.promise import Door
 from occ_model.files.resources import resource_names, resource_text
 from occ_model.scene.from_text import read_scene_file
-from occ_model.scene.preset_file import preset_from
 from occ_model.scene.presets import USER_FOLDER as PRESETS
-from occ_model.scene.presets import presets, unreadable_presets
+from occ_model.scene.presets import preset_from, presets, unreadable_presets
 from occ_model.scene.provenance import Provenance, first_scene_in
 from occ_model.scene.recording import Recording, Waypoint
 from occ_model.teaching.lessons import USER_FOLDER as LESSONS

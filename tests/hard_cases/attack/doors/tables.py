@@ -18,7 +18,7 @@ from occ_model.photo.many.other_programs import lines_to_paste
 from occ_model.results.photo_table import csv_text
 from occ_model.results.sweep import csv_row
 from occ_model.results.sweep_request import RateSettings, SweepPoint, SweepRequest
-from occ_model.study.bench.data_set import COLUMNS, load_pictures, read_pictures
+from occ_model.study.bench.bench import COLUMNS, load_pictures, read_pictures
 from occ_model.study.confidence import interval_of_pictures
 from occ_model.study.sweep.request_check import build_request
 from occ_model.study.sweep.sweep import run_sweep

@@ -10,7 +10,7 @@ from occ_model.arrays import FloatArray
 from occ_model.errors import ParameterError
 from occ_model.figures.bench import bench_drawing
 from occ_model.receiver.decode import decode
-from occ_model.results.bench import HEADER, BenchRequest, table_rows
+from occ_model.results.bit_errors import HEADER, BenchRequest, table_rows
 from occ_model.results.decoding import DecodeResult
 from occ_model.scene.scene import Scene
 from occ_model.study.bench.bench import bench, bench_bounds, bench_scene, bench_signal

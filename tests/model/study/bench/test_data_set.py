@@ -8,9 +8,8 @@ import pytest
 
 from occ_model.camera.exposure import lit_fraction
 from occ_model.errors import OccError
-from occ_model.results.bench import BenchRequest
-from occ_model.study.bench.bench import bench_scene
-from occ_model.study.bench.data_set import load_pictures, read_pictures
+from occ_model.results.bit_errors import BenchRequest
+from occ_model.study.bench.bench import bench_scene, load_pictures, read_pictures
 
 TICK = 1e-7
 FIELDS = "sample_uuid,relative_path,dims,tclk,sampling_ticks,exposure_ticks,txsymbol_ticks"

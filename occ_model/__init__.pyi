@@ -7,38 +7,16 @@ from .camera.projection import panel_corners as panel_corners
 from .effects.plan import plan as plan
 from .errors import (
     BandModelUndefined as BandModelUndefined,
-)
-from .errors import (
     DecodeInputError as DecodeInputError,
-)
-from .errors import (
     MatchError as MatchError,
-)
-from .errors import (
     OccError as OccError,
-)
-from .errors import (
     OutputError as OutputError,
-)
-from .errors import (
     ParameterError as ParameterError,
-)
-from .errors import (
     PhotoError as PhotoError,
-)
-from .errors import (
     PluginError as PluginError,
-)
-from .errors import (
     PresetError as PresetError,
-)
-from .errors import (
     ProjectionError as ProjectionError,
-)
-from .errors import (
     SceneFileError as SceneFileError,
-)
-from .errors import (
     VideoError as VideoError,
 )
 from .photo.chips.read import read_chips as read_chips
@@ -49,30 +27,20 @@ from .photo.many.match_photos import match_photos as match_photos
 from .photo.match import match_photo as match_photo
 from .photo.reading.load import (
     Photo as Photo,
-)
-from .photo.reading.load import (
     load_photo as load_photo,
 )
 from .photo.stripes.find import find_stripes as find_stripes
 from .receiver.decode import decode as decode
-from .receiver.decoder import Decoder as Decoder
-from .receiver.decoder import read_payload as read_payload
+from .receiver.decoder import Decoder as Decoder, read_payload as read_payload
 from .receiver.decoders import decoders as decoders
 from .results.bands import (
     BandAdvice as BandAdvice,
-)
-from .results.bands import (
     BandDepth as BandDepth,
-)
-from .results.bands import (
     EyeFlicker as EyeFlicker,
 )
-from .results.bit_errors import BitErrors as BitErrors
-from .results.bit_errors import MostBits as MostBits
+from .results.bit_errors import BitErrors as BitErrors, MostBits as MostBits
 from .results.decoding import (
     DecodeResult as DecodeResult,
-)
-from .results.decoding import (
     Region as Region,
 )
 from .results.frame import Frame as Frame
@@ -80,106 +48,67 @@ from .results.lamp import Lamp as Lamp
 from .results.limits import Limits as Limits
 from .results.match import (
     Alternative as Alternative,
-)
-from .results.match import (
     ChipReading as ChipReading,
-)
-from .results.match import (
     Comparison as Comparison,
-)
-from .results.match import (
     Match as Match,
-)
-from .results.match import (
     Stripes as Stripes,
 )
 from .results.photo_table import PhotoTable as PhotoTable
 from .results.plan import (
     Decision as Decision,
-)
-from .results.plan import (
     Plan as Plan,
 )
 from .results.sent_packets import PacketReading as PacketReading
 from .results.sweep import SweepTable as SweepTable
 from .results.video import (
     Video as Video,
-)
-from .results.video import (
     VideoFrame as VideoFrame,
 )
 from .results.video_reading import (
     Clock as Clock,
-)
-from .results.video_reading import (
     FilmProgress as FilmProgress,
-)
-from .results.video_reading import (
     FrameReading as FrameReading,
-)
-from .results.video_reading import (
     VideoReading as VideoReading,
 )
 from .room.locate import (
     RoomReading as RoomReading,
-)
-from .room.locate import (
     read_room as read_room,
 )
 from .room.pose_fit import Located as Located
 from .room.reading import ReadLamp as ReadLamp
 from .room.render import (
     RoomFrame as RoomFrame,
-)
-from .room.render import (
     render_room as render_room,
 )
 from .room.room import (
     Place as Place,
-)
-from .room.room import (
     Room as Room,
-)
-from .room.room import (
     RoomLamp as RoomLamp,
 )
 from .room.rooms import (
     load_room as load_room,
-)
-from .room.rooms import (
     rooms as rooms,
 )
 from .scene.presets import (
     delete_preset as delete_preset,
-)
-from .scene.presets import (
     load_preset as load_preset,
-)
-from .scene.presets import (
     presets as presets,
-)
-from .scene.presets import (
     save_preset as save_preset,
 )
 from .scene.recording import (
     Recording as Recording,
-)
-from .scene.recording import (
     Waypoint as Waypoint,
 )
 from .scene.scene import Scene as Scene
 from .scene.simulation_settings import SimulationSettings as SimulationSettings
 from .simulation.band_model import (
     band_lengths as band_lengths,
-)
-from .simulation.band_model import (
     band_profile as band_profile,
 )
 from .simulation.render import render as render
 from .study.accuracy import accuracy as accuracy
 from .study.bands.advice import band_advice as band_advice
-from .study.bands.depth import band_depth as band_depth
-from .study.bands.depth import pulse_depth as pulse_depth
+from .study.bands.depth import band_depth as band_depth, pulse_depth as pulse_depth
 from .study.bands.eye import eye_flicker as eye_flicker
 from .study.bit_error_rate import bit_error_rate as bit_error_rate
 from .study.confidence import wilson_interval as wilson_interval
@@ -189,30 +118,20 @@ from .study.success_rate import success_rate as success_rate
 from .study.sweep.sweep import sweep as sweep
 from .transmitter.framings.framing import (
     Framed as Framed,
-)
-from .transmitter.framings.framing import (
     FrameFormat as FrameFormat,
-)
-from .transmitter.framings.framing import (
     Framing as Framing,
 )
 from .transmitter.line_codes.line_code import (
     Decoded as Decoded,
-)
-from .transmitter.line_codes.line_code import (
     LineCode as LineCode,
 )
 from .transmitter.packet import packet as packet
 from .transmitter.registry import (
     framings as framings,
-)
-from .transmitter.registry import (
     line_codes as line_codes,
 )
 from .transmitter.scheme import (
     Scheme as Scheme,
-)
-from .transmitter.scheme import (
     scheme_of as scheme_of,
 )
 from .version import __version__ as __version__
@@ -220,11 +139,7 @@ from .video.file.write import write_video as write_video
 from .video.load import load_video as load_video
 from .video.reader import (
     VideoReader as VideoReader,
-)
-from .video.reader import (
     decode_frames as decode_frames,
-)
-from .video.reader import (
     decode_video as decode_video,
 )
 from .video.render import render_video as render_video

@@ -9,14 +9,16 @@ from occ_model.errors import ParameterError, SceneFileError, one_line, shown
 from occ_model.scene import toml_format
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.parameters import parameter_named
-from occ_model.scene.parameters.camera import Camera as Camera
-from occ_model.scene.parameters.camera import Lens as Lens
-from occ_model.scene.parameters.camera import Sensor as Sensor
-from occ_model.scene.parameters.light import Surroundings as Surroundings
-from occ_model.scene.parameters.light import Transmitter as Transmitter
-from occ_model.scene.parameters.pose_receiver_model import Model as Model
-from occ_model.scene.parameters.pose_receiver_model import Pose as Pose
-from occ_model.scene.parameters.pose_receiver_model import Receiver as Receiver
+from occ_model.scene.parameters.camera import Camera as Camera, Lens as Lens, Sensor as Sensor
+from occ_model.scene.parameters.light import (
+    Surroundings as Surroundings,
+    Transmitter as Transmitter,
+)
+from occ_model.scene.parameters.pose_receiver_model import (
+    Model as Model,
+    Pose as Pose,
+    Receiver as Receiver,
+)
 
 
 # No slots: with them, ``scene.code = 5`` gives an obscure message about super() in Python 3.11.

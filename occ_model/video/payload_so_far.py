@@ -10,8 +10,7 @@ from occ_model.errors import counted
 from occ_model.receiver.sequence.soft_frame import SoftFrame
 from occ_model.scene.payload import form_of, payload_of_bits
 from occ_model.scene.scene import Scene
-from occ_model.transmitter.framings.raw import FRAMING as RAW
-from occ_model.transmitter.framings.raw import count_length_bits
+from occ_model.transmitter.framings.raw import FRAMING as RAW, count_length_bits
 from occ_model.video.joining import JoinedChips
 from occ_model.video.period import SentPeriod
 from occ_model.video.read_frame import TimedFrame

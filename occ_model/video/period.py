@@ -15,8 +15,7 @@ from occ_model.transmitter.framings.framing import (
     own_preamble,
     preamble_of,
 )
-from occ_model.transmitter.framings.paper import FRAMING as PAPER
-from occ_model.transmitter.framings.paper import HEADER, find_headers
+from occ_model.transmitter.framings.paper import FRAMING as PAPER, HEADER, find_headers
 from occ_model.transmitter.framings.preamble import FRAMING as PREAMBLE
 from occ_model.transmitter.framings.raw import FRAMING as RAW
 from occ_model.transmitter.packet import sent_chips, shortest_period

@@ -10,8 +10,7 @@ from occ_model.camera.pixel_arrays import bytes_of, white_of
 from occ_model.errors import DecodeInputError, ParameterError, shown
 from occ_model.plugins import Faults
 from occ_model.receiver.decoders import decoder_named
-from occ_model.receiver.sequence.soft_frame import SoftFrame
-from occ_model.receiver.sequence.soft_frame import read_frame as read_soft_frame
+from occ_model.receiver.sequence.soft_frame import SoftFrame, read_frame as read_soft_frame
 from occ_model.results.cause import overexposed_text
 from occ_model.results.decoding import PAPER_DECODER
 from occ_model.results.sent_packets import SentPackets

@@ -33,8 +33,7 @@ from occ_gui.app.command_line import THEMES
 from occ_gui.core.workspace import FIRST_SETTINGS, Workspace
 from occ_gui.values.film_choice import FilmChoice
 from occ_gui.values.modes import MODES
-from occ_gui.values.photo_choice import MODES as OVERLAYS
-from occ_gui.values.photo_choice import MatchChoice, PhotoChoice
+from occ_gui.values.photo_choice import MODES as OVERLAYS, MatchChoice, PhotoChoice
 from occ_gui.values.room_choice import RoomChoice
 from occ_model.receiver.decoders import DECODERS
 from occ_model.scene.scene import Scene

@@ -5,8 +5,7 @@ import math
 import mpmath
 import numpy as np
 import pytest
-from hypothesis import assume
-from hypothesis import strategies as st
+from hypothesis import assume, strategies as st
 
 import occ_model as occ
 from hard_cases.laws import cases, record
@@ -14,13 +13,13 @@ from hard_cases.references import decades, within
 from occ_model.camera.exposure import lit_fraction
 from occ_model.camera.photometry import (
     WHITE,
+    ColumnLight as Light,
     level_values,
     luminance_levels,
     luminance_of,
     panel_values,
     pixel_value,
 )
-from occ_model.camera.photometry import ColumnLight as Light
 from occ_model.scene.scene import Camera, Scene
 
 CAMERAS = st.builds(

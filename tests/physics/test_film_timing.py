@@ -6,8 +6,7 @@ import mpmath
 import numpy as np
 import pytest
 from hard_cases.references import ExactTimes
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 import occ_model as occ
 from occ_model.effects.light_effects import ambient_fractions

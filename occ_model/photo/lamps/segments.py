@@ -12,8 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.photo.chips.edges import Edges as ChipEdges
-from occ_model.photo.chips.edges import coherence
+from occ_model.photo.chips.edges import Edges as ChipEdges, coherence
 from occ_model.photo.lamps.edges import Edges, equal_within, matches
 
 _TOLERANCE = 0.04  # maximum distance of an edge from its place, in periods and, besides, in columns

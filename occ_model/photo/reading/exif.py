@@ -14,8 +14,7 @@ from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.parameters.camera import DIAGONAL_35MM
 
 if TYPE_CHECKING:
-    from PIL.Image import Exif
-    from PIL.Image import Image as PillowImage
+    from PIL.Image import Exif, Image as PillowImage
 
 EXIF_IFD = 0x8769
 _DESCRIPTION, _MAKE, _MODEL, _ORIENTATION = 0x010E, 0x010F, 0x0110, 0x0112

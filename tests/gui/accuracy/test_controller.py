@@ -13,8 +13,7 @@ from gui.stores import store_of
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
-from occ_gui.accuracy import controller as module
-from occ_gui.accuracy import cost_measurement
+from occ_gui.accuracy import controller as module, cost_measurement
 from occ_gui.accuracy.controller import AccuracyController
 from occ_gui.accuracy.cost_measurement import CostMeasurement, MeasuredPoint, SceneCosts
 from occ_gui.background.task import Superseded

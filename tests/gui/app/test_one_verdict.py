@@ -21,10 +21,10 @@ from occ_gui.detection_map.colour_map import RATES, to_colours
 from occ_gui.detection_map.map_schedule import MapRequest
 from occ_gui.detection_map.slider_strip_controller import (
     SCENE_IMAGES,
+    RateRequest as Request,
     scene_rate,
     scene_rate_job,
 )
-from occ_gui.detection_map.slider_strip_controller import RateRequest as Request
 from occ_gui.detection_map.worker import SEED, UNSEEN_PARAMETERS, measure_strip, rate_settings
 from occ_gui.simulation.verdict import verdict_on
 from occ_gui.widgets.state_look import State

@@ -11,8 +11,7 @@ from gui.stores import show
 from gui.user import User
 from PIL import Image
 from PySide6.QtCore import Qt
-from PySide6.QtGui import Qt as RichText
-from PySide6.QtGui import QTextDocument
+from PySide6.QtGui import Qt as RichText, QTextDocument
 from PySide6.QtWidgets import QApplication, QLabel, QMenu, QWidget
 from pytestqt.qtbot import QtBot
 

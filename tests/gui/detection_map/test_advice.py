@@ -13,8 +13,7 @@ from PySide6.QtCore import QPoint, QTimer
 from PySide6.QtWidgets import QApplication, QLabel
 from pytestqt.qtbot import QtBot
 
-from occ_gui.detection_map import advice_worker, map_schedule
-from occ_gui.detection_map import search_controller as module
+from occ_gui.detection_map import advice_worker, map_schedule, search_controller as module
 from occ_gui.detection_map.advice_sentences import advice_lines
 from occ_gui.detection_map.advice_view import AdviceView
 from occ_model.commands.limits import format_row, sentences

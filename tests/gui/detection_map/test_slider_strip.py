@@ -16,8 +16,7 @@ from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.background.signals import WorkQueue
-from occ_gui.detection_map import slider_strip_controller as module
-from occ_gui.detection_map import wiring
+from occ_gui.detection_map import slider_strip_controller as module, wiring
 from occ_gui.detection_map.colour_map import RATES, to_colours
 from occ_gui.detection_map.rate_map import lattice
 from occ_gui.detection_map.slider_strip import IMAGES, SliderStrip, SliderStrips

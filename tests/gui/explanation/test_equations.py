@@ -10,8 +10,7 @@ from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QFont
 from pytestqt.qtbot import QtBot
 
-from occ_gui.app.panes import equations as equations_pane
-from occ_gui.app.panes import profile
+from occ_gui.app.panes import equations as equations_pane, profile
 from occ_gui.explanation import equation_text
 from occ_gui.explanation.equation_controller import EquationController
 from occ_gui.explanation.equation_text import EquationText

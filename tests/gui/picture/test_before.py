@@ -12,8 +12,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QImage
 from pytestqt.qtbot import QtBot
 
-from occ_gui.app.panes import picture as picture_pane
-from occ_gui.app.panes import profile
+from occ_gui.app.panes import picture as picture_pane, profile
 from occ_gui.picture.before_controller import BeforeController
 from occ_gui.picture.before_wipe import BeforeWipe
 from occ_gui.picture.picture_pane import PicturePane

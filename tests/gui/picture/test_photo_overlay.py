@@ -8,8 +8,7 @@ import pytest
 from amount import amount
 from gui.kinds import Grey, collect, not_none
 from gui.mouse import drag_mouse
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 from numpy.typing import NDArray
 from PySide6.QtCore import QPointF, QRectF
 from pytestqt.qtbot import QtBot

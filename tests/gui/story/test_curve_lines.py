@@ -5,8 +5,7 @@ from itertools import pairwise
 import cv2
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from occ_gui.story.curve_lines import DASH, keep_extremes, make_lines
 from occ_gui.story.stripes_row import resample, shrink

@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 from gui.kinds import add_widget, collect, show_widget
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 from PySide6.QtCore import QElapsedTimer, QPoint, QRectF, Qt
 from PySide6.QtGui import QColor, QImage, QPainter
 from pytestqt.qtbot import QtBot

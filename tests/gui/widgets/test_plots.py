@@ -4,8 +4,7 @@ import sys
 
 import pytest
 from gui.kinds import add_widget, show_widget
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 from PySide6.QtCore import QEvent, Qt
 from PySide6.QtGui import QColor, QPalette, QPen
 from PySide6.QtWidgets import QApplication, QLabel

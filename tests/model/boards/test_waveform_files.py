@@ -9,8 +9,7 @@ from itertools import pairwise, product
 import numpy as np
 import pytest
 from each_case import each_case
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 import occ_model as occ
 from occ_model.boards.sketch import BOARDS, board_named

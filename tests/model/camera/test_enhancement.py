@@ -5,8 +5,7 @@ import math
 import numpy as np
 import pytest
 from amount import amount
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 from hypothesis.extra import numpy as arrays
 
 from occ_model.camera.enhancement import Enhancement, enhance, to_bytes

@@ -38,8 +38,10 @@ from occ_model.results.sweep_request import RateSettings, Shown, SweepRequest
 from occ_model.results.teaching import AnsweredStep, CheckedAnswer
 from occ_model.study.confidence import wilson_interval
 from occ_model.study.film_study import FilmPoint
-from occ_model.study.paper_grid import DISTANCES as PAPERS_DISTANCES
-from occ_model.study.paper_grid import FREQUENCIES as PAPERS_FREQUENCIES
+from occ_model.study.paper_grid import (
+    DISTANCES as PAPERS_DISTANCES,
+    FREQUENCIES as PAPERS_FREQUENCIES,
+)
 from occ_model.teaching.lessons import lessons
 
 STORED = Path(__file__).with_name("stored")

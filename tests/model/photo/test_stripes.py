@@ -7,8 +7,7 @@ from unittest.mock import Mock
 import numpy as np
 import pytest
 from amount import amount
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 from simulated_photos import photo_of, random_scene, take
 
 import occ_model as occ

@@ -7,8 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 from matches import match_with
 from photo_trials import said_of_negative
 from simulated_photos import photo_of, take

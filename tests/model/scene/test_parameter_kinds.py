@@ -6,8 +6,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from each_case import each_case
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from occ_model.errors import ParameterError
 from occ_model.scene.parameter_kinds import (

@@ -5,8 +5,7 @@ from typing import Any
 
 import pytest
 from each_case import each_case
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from occ_model.errors import ParameterError
 from occ_model.scene.parameter_kinds import Count, Parameter, Quantity

@@ -2,8 +2,7 @@
 
 import pytest
 from each_case import each_case
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 from scene_values import PAYLOADS
 
 import occ_model as occ

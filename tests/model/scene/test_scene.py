@@ -5,8 +5,7 @@ import dataclasses
 import pickle
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 from scene_values import values_of
 
 import occ_model.scene.scene

@@ -6,8 +6,7 @@ from itertools import product
 
 import pytest
 from each_case import each_case
-from hypothesis import assume, given
-from hypothesis import strategies as st
+from hypothesis import assume, given, strategies as st
 
 from occ_model.scene.units import HERTZ, LUX, METRE, NIT, NONE, RADIAN, SECOND, Unit
 

@@ -10,9 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 from amount import amount
-from hypothesis import HealthCheck, given
-from hypothesis import settings as hypothesis_settings
-from hypothesis import strategies as st
+from hypothesis import HealthCheck, given, settings as hypothesis_settings, strategies as st
 from worker_calls import PickledJobs
 
 import occ_model as occ
@@ -21,8 +19,7 @@ from occ_model.cli import main
 from occ_model.results.limits import RangeEnd, WorkingRange, end_text
 from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.scene import Scene
-from occ_model.study import theory
-from occ_model.study import working_range as module
+from occ_model.study import theory, working_range as module
 from occ_model.study.confidence import interval_of_pictures
 from occ_model.study.limits import advice_of
 from occ_model.study.observation import panel_span

@@ -4,8 +4,7 @@ from itertools import groupby
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 import occ_model as occ
 from occ_model.scene.parameters.light import MAX_BITS

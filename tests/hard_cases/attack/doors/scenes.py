@@ -16,12 +16,10 @@ from hard_cases.attack.doors.typed import check_scene
 from hard_cases.attack.promise import Door
 from occ_model.files.resources import resource_names, resource_text
 from occ_model.scene.from_text import read_scene_file
-from occ_model.scene.presets import USER_FOLDER as PRESETS
-from occ_model.scene.presets import preset_from, presets, unreadable_presets
+from occ_model.scene.presets import USER_FOLDER as PRESETS, preset_from, presets, unreadable_presets
 from occ_model.scene.provenance import Provenance, first_scene_in
 from occ_model.scene.recording import Recording, Waypoint
-from occ_model.teaching.lessons import USER_FOLDER as LESSONS
-from occ_model.teaching.lessons import lessons, read_lesson
+from occ_model.teaching.lessons import USER_FOLDER as LESSONS, lessons, read_lesson
 
 _NAMES = ("scene", "photo 1", "a\x1b[31mb", "a\nb", "é", "a" * 200, "-", "phone-68us", "nul")
 """Names of files without their endings."""

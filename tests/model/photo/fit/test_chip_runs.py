@@ -4,8 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import assume, given
-from hypothesis import strategies as st
+from hypothesis import assume, given, strategies as st
 
 from occ_model.photo.fit.chip_runs import chips_as_one, chips_if_longer, is_single_pulse
 from occ_model.photo.fit.initial_search import Search

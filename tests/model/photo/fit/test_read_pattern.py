@@ -4,8 +4,7 @@ from itertools import groupby
 
 import numpy as np
 import pytest
-from hypothesis import assume, example, given
-from hypothesis import strategies as st
+from hypothesis import assume, example, given, strategies as st
 
 from occ_model.arrays import ByteArray
 from occ_model.photo.fit.chip_runs import canonical

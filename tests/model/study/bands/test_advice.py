@@ -5,8 +5,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from amount import amount
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 import occ_model as occ
 from occ_model.results.bands import NO_BARS_DEPTH

@@ -6,8 +6,7 @@ from itertools import product
 import numpy as np
 import pytest
 from each_case import each_case
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from occ_model.transmitter.line_codes import _4b6b, _8b10b, fsk, manchester
 from occ_model.transmitter.line_codes._8b10b import control_word, encode_byte

@@ -51,19 +51,6 @@ def ctrl_c(frame: Any = None) -> None:
 LEFT = [(2, b"own: interrupted.\n")]
 
 
-def test_ctrl_c_ends_preparation_with_a_line_and_raises_during_work(
-    usual: None, written: list[tuple[int, bytes]]
-) -> None:
-    interrupts = Interrupts("own", always_at_once=False)
-    with pytest.raises(ProcessEnded, match="130"):
-        ctrl_c()
-    assert written == LEFT
-    interrupts.end_preparation()
-    with pytest.raises(KeyboardInterrupt):
-        ctrl_c()
-    assert written == LEFT
-
-
 def test_a_window_ends_at_once_during_its_work_too(
     usual: None, written: list[tuple[int, bytes]]
 ) -> None:

@@ -1,6 +1,7 @@
 """The Arduino's sketch, compiled and run: its pin follows the packet."""
 
 from fractions import Fraction
+from itertools import product
 
 import pytest
 from model.boards.simulated_uno import SimulatedUno, missing_tools, worst_error
@@ -32,6 +33,8 @@ CODES = {
     ),
 }
 
+EVERY_DAY = [("the paper's, code 718", 14.7e3), ("the paper's, code 718", 40e3)]
+
 PACKETS = 100
 
 
@@ -54,29 +57,16 @@ def set_cycles(sent: Transmission, cycles: int) -> Transmission:
     return Transmission(sent.scene, sent.board, sent.chips, timing)
 
 
-@pytest.mark.parametrize("frequency", [14.7e3, 40e3])
-def test_the_edges_are_those_of_the_packet(uno: SimulatedUno, frequency: float) -> None:
-    sent = prepare_transmission(PAPER.replace(switching_frequency=frequency), UNO)
+@pytest.mark.parametrize(
+    ("code", "frequency"),
+    [
+        pytest.param(*case, marks=() if case in EVERY_DAY else pytest.mark.whole)
+        for case in product(CODES, FREQUENCIES)
+    ],
+)
+def test_the_edges_are_those_of_the_packet(uno: SimulatedUno, code: str, frequency: float) -> None:
+    sent = prepare_transmission(CODES[code].replace(switching_frequency=frequency), UNO)
     assert measure_edge_error(uno, sent, PACKETS) <= Fraction(1, 1000)
-
-
-@pytest.mark.whole
-def test_the_edges_of_all_codes_and_frequencies_are_those_of_the_packet(
-    uno: SimulatedUno, capsys: pytest.CaptureFixture[str]
-) -> None:
-    """Also prints the frequency that is sent and the worst edge, for each code."""
-    errors, lines = [], ["| code | chips | f, Hz | sent, Hz | ppm | worst edge, chips |"]
-    for name, scene in CODES.items():
-        for frequency in FREQUENCIES:
-            sent = prepare_transmission(scene.replace(switching_frequency=frequency), UNO)
-            errors.append(measure_edge_error(uno, sent, PACKETS))
-            lines.append(
-                f"| {name} | {len(sent.chips)} | {frequency:g} | {float(sent.timing.frequency):.4f}"
-                f" | {float(sent.timing.error_ppm):+.1f} | {float(errors[-1]):.1g} |"
-            )
-    with capsys.disabled():
-        print("", *lines, sep="\n")  # noqa: T201
-    assert max(errors) <= Fraction(1, 1000)
 
 
 def test_a_slow_scene_is_sent_with_a_divided_clock(uno: SimulatedUno) -> None:

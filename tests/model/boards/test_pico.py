@@ -4,7 +4,6 @@ The stand-in counts the cycles of the state machine's one instruction as the RP2
 does: one, and its delay.
 """
 
-import ast
 import sys
 import tracemalloc
 from collections.abc import Callable
@@ -128,19 +127,6 @@ def run_program(
     with pytest.raises(Ended):
         exec(compile(source, "main.py", "exec"), {"__name__": "__main__"})
     return machine
-
-
-def test_the_table_is_the_packet(sent: Transmission) -> None:
-    tree = ast.parse(write_sketch(sent))
-    values = {
-        node.targets[0].id: ast.literal_eval(node.value)
-        for node in tree.body
-        if isinstance(node, ast.Assign)
-        and isinstance(node.targets[0], ast.Name)
-        and isinstance(node.value, ast.Constant)
-    }
-    chips = np.unpackbits(np.frombuffer(values["PACKET"], dtype=np.uint8))[: values["CHIPS"]]
-    np.testing.assert_array_equal(chips, sent.chips)
 
 
 def test_the_state_machine_sends_packets_end_to_end(

@@ -8,7 +8,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QPalette, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
-from occ_gui.accuracy.ways_shown import Way, ways_shown
+from occ_gui.accuracy.named_points import NamedPoint, choose_points
 from occ_gui.widgets.axes import LogAxis
 from occ_gui.widgets.building import fill, push_button
 from occ_gui.widgets.colours import BAND, NOISE, PHOTO, REGION, SIMULATION, lighten_for, thin
@@ -39,7 +39,7 @@ _CURVES = ("integration",)  # the parts whose points are joined
 _OUTDATED_OPACITY = 0.3  # opacity of points that were measured for an earlier scene
 _MARGIN = 0.35  # smallest margin around the points, in powers of ten
 _RING = 10.0  # margin in pixels that the ring around a point needs
-_FARTHEST_POWER = 12.0  # largest and, negated, smallest power of ten that the axes can show
+_FARTHEST_POWER = 12.0  # largest power of ten on the axes; its negative is the smallest
 _LEAST_POWERS = 0.01  # smallest range of the axes, in powers of ten
 
 
@@ -52,11 +52,11 @@ class AccuracyPlot(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self._points: list[AccuracyPoint] = []
-        self._drawn: Sequence[Way] = ()
+        self._named_points: Sequence[NamedPoint] = ()
         self._front: list[AccuracyPoint] = []
-        self._complete: tuple[AccuracyPoint, ...] = ()
-        self._measuring = False
-        self._outdated = False
+        self._last_points: tuple[AccuracyPoint, ...] = ()
+        self._is_measuring = False
+        self._is_outdated = False
         self._fits_points = True
         self.title = ElidedLabel("Error over time", how=Qt.TextElideMode.ElideMiddle)
         self.legend = QLabel(wordWrap=True)
@@ -95,9 +95,9 @@ class AccuracyPlot(QWidget):
         )  # fmt: skip
         self.front_ring = pg.ScatterPlotItem(symbol="o", size=11, brush=None)
         self._floor = pg.InfiniteLine(_FLOOR, angle=0)
-        of_front = (self.front, self.front_points, self.front_ring)
+        front = (self.front, self.front_points, self.front_ring)
         points = (*self.lines.values(), *self.scatters.values(), self.rings)
-        for item in (self._floor, *of_front, *points):
+        for item in (self._floor, *front, *points):
             self.plot.addItem(item, ignoreBounds=True)
 
     def _dress(self, palette: QPalette) -> None:
@@ -107,9 +107,9 @@ class AccuracyPlot(QWidget):
             scatter.setBrush(lighten_for(palette, COLOURS[part]))
         for part, line in self.lines.items():
             line.setPen(self.plot.stroke(thin(lighten_for(palette, COLOURS[part]))))
-        of_front = thin(lighten_for(palette, COLOURS["effects"]))
-        self.front.setPen(self.plot.stroke(of_front))
-        self.front_points.setPen(of_front)
+        front_pen = thin(lighten_for(palette, COLOURS["effects"]))
+        self.front.setPen(self.plot.stroke(front_pen))
+        self.front_points.setPen(front_pen)
         self.front_ring.setPen(ring)
         self._write_legend(palette)
         grey = palette.color(QPalette.ColorRole.Mid)
@@ -133,48 +133,48 @@ class AccuracyPlot(QWidget):
         super().resizeEvent(event)
         self.legend.setVisible(self.height() >= _LEGEND_HEIGHT)
 
-    def show_ways(self, expected: Forecast) -> None:
-        """Draw expected time and error limit of each set of effects that a plan may choose."""
-        timed = zip(expected.effect_sets, expected.effect_set_seconds, strict=True)
-        shown = [(way, s) for way, s in timed if s is not None and way.error < math.inf]
-        shown.sort(key=lambda pair: pair[1])
-        forced = {d.effect for d in expected.plan.decisions if d.forced and d.included}
+    def show_effect_sets(self, forecast: Forecast) -> None:
+        """Draw the forecast time and error limit of each set of effects that a plan may choose."""
+        pairs = zip(forecast.effect_sets, forecast.effect_set_seconds, strict=True)
+        timed_sets = [(each, s) for each, s in pairs if s is not None and each.error < math.inf]
+        timed_sets.sort(key=lambda pair: pair[1])
+        forced = {d.effect for d in forecast.plan.decisions if d.forced and d.included}
         self._front = [
             AccuracyPoint(
                 "effects",
-                ", ".join(sorted(way.effects)) or "no effects",
+                ", ".join(sorted(each.effects)) or "no effects",
                 seconds,
-                way.error,
-                current=way.effects <= set(expected.plan.included) <= way.effects | forced,
-                unit=expected.plan.unit,
+                each.error,
+                current=each.effects <= set(forecast.plan.included) <= each.effects | forced,
+                unit=forecast.plan.unit,
             )
-            for way, seconds in shown
+            for each, seconds in timed_sets
         ]
-        xs, ys = _places(self._front)
+        xs, ys = _logarithms(self._front)
         self.front.setData(xs, ys)
         tips = [
             f"{p.name}: {1e3 * p.seconds:.3g} ms, at most {p.error:.3g} {p.unit}"
             for p in self._front
         ]
         self.front_points.setData(xs, ys, data=tips)
-        self.front_ring.setData(*_places([point for point in self._front if point.current]))
+        self.front_ring.setData(*_logarithms([point for point in self._front if point.current]))
         self._fit()
 
     def _lay_out(self) -> None:
-        self.fit_button = push_button("Fit", "Show all points.", self._fit_again)
+        self.fit_button = push_button("Fit", "Show all points.", self._show_all)
         head = fill(QHBoxLayout(), (self.title, 1), self.fit_button)
         fill(QVBoxLayout(self), head, self.legend, (self.plot, 1), margins=0, spacing=2)
 
     @property
-    def measured(self) -> tuple[AccuracyPoint, ...]:
+    def study_points(self) -> tuple[AccuracyPoint, ...]:
         """All points of the current scene; none while the study is incomplete."""
-        return () if self._measuring or self._outdated else self._complete
+        return () if self._is_measuring or self._is_outdated else self._last_points
 
     def show_unit(self, unit: str) -> None:
         self.plot.setLabel("left", f"error ({unit})")
 
     def show_study_begun(self) -> None:
-        self._measuring, self._outdated, self._points = True, False, []
+        self._is_measuring, self._is_outdated, self._points = True, False, []
         self._show_state("measuring…")
 
     def show_point(self, point: AccuracyPoint, number: int, total: int) -> None:
@@ -183,19 +183,19 @@ class AccuracyPlot(QWidget):
         self._show_state(f"measuring… {number} of {total}")
 
     def show_study_finished(self) -> None:
-        self._measuring, self._complete = False, tuple(self._points)
+        self._is_measuring, self._last_points = False, tuple(self._points)
         self._draw(self._points, 1.0)
         self._show_state("measured")
 
     def show_study_outdated(self) -> None:
-        """Fade the points: they belong to an earlier scene, and no more will be measured."""
-        if self._outdated:  # called at every move of a slider
+        """Fade the points: they belong to an earlier scene, and no more are measured."""
+        if self._is_outdated:  # called at every move of a slider
             return
-        was_measuring, self._measuring, self._outdated = self._measuring, False, True
-        self._draw(self._complete or self._points, _OUTDATED_OPACITY)
+        was_measuring, self._is_measuring, self._is_outdated = self._is_measuring, False, True
+        self._draw(self._last_points or self._points, _OUTDATED_OPACITY)
         if was_measuring:
             self._show_state("stopped")
-        elif self._complete:
+        elif self._last_points:
             self._show_state("of the previous scene")
 
     def show_study_failed(self, sentence: str) -> None:
@@ -206,21 +206,20 @@ class AccuracyPlot(QWidget):
         self.title.set_full_text(f"Error over time: {state}")
 
     def _draw(self, points: Sequence[AccuracyPoint], opacity: float) -> None:
-        self._drawn = ways_shown(points)
-        shown = [way.point for way in self._drawn]
+        self._named_points = choose_points(points)
         for part in ACCURACY_PARTS:
-            of_part = [way for way in self._drawn if way.point.part == part]
-            self.scatters[part].setData(*_places([way.point for way in of_part]), data=of_part)
+            named = [each for each in self._named_points if each.point.part == part]
+            self.scatters[part].setData(*_logarithms([each.point for each in named]), data=named)
             self.scatters[part].setOpacity(opacity)
         for part, line in self.lines.items():
-            chain = [p for p in points if p.part == part and not p.current]
-            line.setData(*_places([point for point in chain if point.name != CLOSED_FORM]))
+            curve = [p for p in points if p.part == part and not p.current]
+            line.setData(*_logarithms([point for point in curve if point.name != CLOSED_FORM]))
             line.setOpacity(opacity)
-        self.rings.setData(*_places([point for point in shown if point.current]))
+        self.rings.setData(*_logarithms([e.point for e in self._named_points if e.point.current]))
         self.rings.setOpacity(opacity)
         self._fit()
 
-    def _fit_again(self) -> None:
+    def _show_all(self) -> None:
         self._fits_points = True
         self._fit()
 
@@ -231,8 +230,8 @@ class AccuracyPlot(QWidget):
         """Show all points; during a study the previous ones too, so that the axes do not jump."""
         if not self._fits_points:
             return
-        before = self._complete if self._measuring else ()
-        xs, ys = _places((*(way.point for way in self._drawn), *before, *self._front))
+        before = self._last_points if self._is_measuring else ()
+        xs, ys = _logarithms((*(each.point for each in self._named_points), *before, *self._front))
         box = self.plot.getViewBox()
         box.setXRange(min(xs, default=-2.0) - _MARGIN, max(xs, default=3.0) + _MARGIN, padding=0)
         top = max(ys, default=2.0)
@@ -240,13 +239,13 @@ class AccuracyPlot(QWidget):
         box.setYRange(_FLOOR - margin, top + margin, padding=0)
 
 
-def _places(points: Sequence[AccuracyPoint]) -> tuple[list[float], list[float]]:
+def _logarithms(points: Sequence[AccuracyPoint]) -> tuple[list[float], list[float]]:
     """Return the decimal logarithms of the times in milliseconds and of the errors in levels."""
     times = [math.log10(max(1e3 * point.seconds, 1e-6)) for point in points]
     return times, [math.log10(max(point.error, LEAST_ERROR)) for point in points]
 
 
-def _describe(way: Way) -> str:
-    point = way.point
+def _describe(named: NamedPoint) -> str:
+    point = named.point
     numbers = f"{1e3 * point.seconds:.3g} ms, {point.error:.3g} {point.unit}"
-    return f"{way.name}: {numbers}\n({ACCURACY_PARTS[point.part]})"
+    return f"{named.name}: {numbers}\n({ACCURACY_PARTS[point.part]})"

@@ -1,17 +1,17 @@
-"""Pane of accuracy and time: table of effects, slider from fast to exact, plot of all ways."""
+"""Pane of accuracy and time: slider from fast to exact, table of effects, plot of all ways."""
 
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from occ_gui.accuracy.accuracy_plot import AccuracyPlot
 from occ_gui.accuracy.cost_measurement import SceneCosts
-from occ_gui.accuracy.cost_sentences import ends_sentence, forecast_sentence, picture_sentence
+from occ_gui.accuracy.cost_sentences import describe_ends, describe_forecast, describe_picture
 from occ_gui.accuracy.effect_detail import EffectDetail
-from occ_gui.accuracy.effect_rows import rows_of, slowest_of
+from occ_gui.accuracy.effect_rows import find_slowest, make_rows
 from occ_gui.accuracy.effect_table import EffectTable
 from occ_gui.accuracy.panels import Panel, Panels
-from occ_gui.accuracy.plan_changes import switch_sentence
-from occ_gui.accuracy.tolerance_slider import ToleranceSlider, marks_of
+from occ_gui.accuracy.plan_changes import describe_switches
+from occ_gui.accuracy.tolerance_slider import ToleranceSlider, list_marks
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.values.simulated import SimulationRequest
 from occ_gui.widgets.building import fill
@@ -21,7 +21,7 @@ from occ_model.results.accuracy import Forecast, MeasuredCosts, TimeFractions
 from occ_model.results.plan import Decision
 from occ_model.scene.simulation_settings import SimulationSettings, unit_of
 
-_TABLE_WIDTH, _PLOT_WIDTH, _DETAIL_WIDTH = 560, 344, 312  # pixels that the parts need side by side
+_TABLE_WIDTH, _PLOT_WIDTH, _DETAIL_WIDTH = 560, 344, 312  # pixels of the parts side by side
 
 
 class AccuracyView(QWidget):
@@ -30,17 +30,17 @@ class AccuracyView(QWidget):
     tolerance_edited = Signal(float)
     refused = Signal(str)  # why an entered value is refused
 
-    accepted = Signal()  # a valid tolerance was entered, also the same as before
+    accepted = Signal()  # a valid tolerance was entered, even if unchanged
 
     def __init__(self) -> None:
         super().__init__()
         self._snapshot: Snapshot | None = None
-        self._drawn: Snapshot | None = None
+        self._drawn_snapshot: Snapshot | None = None
         self._costs: SceneCosts | None = None
         self._forecast: tuple[SimulationRequest, Forecast] | None = None
-        self._seen = False
-        self._switched: tuple[Decision, ...] = ()
-        self._marked: tuple[Decision, ...] = ()
+        self._is_visible = False
+        self._new_decisions: tuple[Decision, ...] = ()
+        self._marked_decisions: tuple[Decision, ...] = ()
         self._selected = self._slowest = ""
         self.tolerance = ToleranceSlider()
         self.tolerance.edited.connect(self.accepted)
@@ -90,11 +90,11 @@ class AccuracyView(QWidget):
         )
 
     @property
-    def of_scene(self) -> tuple[QWidget, ...]:
+    def scene_parts(self) -> tuple[QWidget, ...]:
         return self.table, self.detail
 
     def set_seen(self, seen: bool) -> None:
-        self._seen = seen
+        self._is_visible = seen
         self._redraw()
 
     def show_settings(self, settings: SimulationSettings) -> None:
@@ -111,63 +111,60 @@ class AccuracyView(QWidget):
         self._redraw()
 
     def show_switched(self, switched: tuple[Decision, ...]) -> None:
-        """Mark the effects that the plan has just switched; none when that is no longer news."""
-        if switched != self._switched:
-            self._switched = switched
-            if not switched:  # else it is drawn with its picture, which comes next
+        """Mark the effects that the plan has just switched; none removes the marks."""
+        if switched != self._new_decisions:
+            self._new_decisions = switched
+            if not switched:  # else the marks are drawn with the picture, which follows
                 self._draw()
 
     def show_costs(self, costs: SceneCosts) -> None:
         self._costs = costs
         self._draw()
 
-    def show_forecast(self, request: SimulationRequest, expected: Forecast) -> None:
-        """Show the expected time and error of a picture with the present settings."""
-        self._forecast = (request, expected)
+    def show_forecast(self, request: SimulationRequest, forecast: Forecast) -> None:
+        """Show the forecast time and error of a picture with the present settings."""
+        self._forecast = (request, forecast)
         if not self.tolerance.slider.isSliderDown():
-            self.tolerance.show_marks(marks_of(expected.effect_sets))
-        self.plot.show_ways(expected)
+            self.tolerance.show_marks(list_marks(forecast.effect_sets))
+        self.plot.show_effect_sets(forecast)
         self._draw()
 
     def _redraw(self) -> None:
-        if self._snapshot is None or self._snapshot is self._drawn or not self._seen:
+        if self._snapshot is None or self._snapshot is self._drawn_snapshot or not self._is_visible:
             return
-        self._drawn = self._snapshot
+        self._drawn_snapshot = self._snapshot
         self._draw()
-        if self._marked != self._switched:
-            self._marked = self._switched
-            self.table.bring_into_view(self._new)
-
-    @property
-    def _new(self) -> set[str]:
-        return {decision.effect for decision in self._switched}
+        if self._marked_decisions != self._new_decisions:
+            self._marked_decisions = self._new_decisions
+            self.table.bring_into_view({each.effect for each in self._new_decisions})
 
     def _draw(self) -> None:
         snapshot = self._snapshot
-        if snapshot is None or not self._seen:
+        if snapshot is None or not self._is_visible:
             return
-        frame, costs, pending, ends = snapshot.frame, self._known_costs(snapshot), None, ""
+        frame, costs, forecast, ends = snapshot.frame, self._find_costs(snapshot), None, ""
         if self._forecast is not None and self._forecast[0].scene == snapshot.request.scene:
-            pending = self._forecast[1]
-        same = pending is None or pending.plan.included == frame.plan.included
-        self.table.show_rows(rows_of(frame, costs, self._new, None if same else pending))
-        if same or pending is None:
-            sentence = picture_sentence(costs, snapshot.simulation_seconds, pending)
-            ends = ends_sentence(costs, frame.plan.unit)
+            forecast = self._forecast[1]
+        is_same = forecast is None or forecast.plan.included == frame.plan.included
+        new = {decision.effect for decision in self._new_decisions}
+        self.table.show_rows(make_rows(frame, costs, new, None if is_same else forecast))
+        if is_same or forecast is None:
+            sentence = describe_picture(costs, snapshot.simulation_seconds, forecast)
+            ends = describe_ends(costs, frame.plan.unit)
         else:
-            sentence = forecast_sentence(frame, costs.picture, pending)
-        if self._switched:
-            sentence += " " + switch_sentence(self._switched) + "."
+            sentence = describe_forecast(frame, costs.picture, forecast)
+        if self._new_decisions:
+            sentence += " " + describe_switches(self._new_decisions) + "."
         self.summary.set_full_text(sentence)
         self.ends.set_full_text(ends)
         self.ends.setVisible(bool(ends))
         self._show_detail(costs)
 
-    def _known_costs(self, snapshot: Snapshot) -> MeasuredCosts:
+    def _find_costs(self, snapshot: Snapshot) -> MeasuredCosts:
         picture = TimeFractions.of(snapshot.frame)
         if self._costs is None:
             return MeasuredCosts(picture)
-        return self._costs.of(snapshot.request, picture)
+        return self._costs.find_costs(snapshot.request, picture)
 
     def _select(self, effect: str) -> None:
         self._selected = effect
@@ -176,7 +173,7 @@ class AccuracyView(QWidget):
 
     def _show_detail(self, costs: MeasuredCosts) -> None:
         rows = {row.effect: row for row in self.table.effects.rows}
-        self._slowest = slowest_of(self.table.effects.rows, self._slowest)
+        self._slowest = find_slowest(self.table.effects.rows, self._slowest)
         effect = self._selected or self._slowest
         difference = costs.differences.get(effect)
         self.detail.show_row(rows.get(effect), None if difference is None else difference.crop)

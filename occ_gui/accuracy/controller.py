@@ -16,13 +16,12 @@ from occ_model.study.effect_differences import forecast
 
 IDLE_MS = 700  # milliseconds without a change after which the study starts
 
+_Question: TypeAlias = tuple[SimulationRequest, MeasuredCosts]
+"""A simulation whose time and error are to be predicted from measured costs."""
 
-_Asked: TypeAlias = tuple[SimulationRequest, MeasuredCosts]
-"""A simulation whose time and error are to be predicted from what was measured."""
 
-
-def _predict(asked: _Asked, _report: object) -> tuple[SimulationRequest, Forecast]:
-    request, costs = asked
+def _predict(question: _Question, _report: object) -> tuple[SimulationRequest, Forecast]:
+    request, costs = question
     return request, forecast(request.scene, request.settings, costs)
 
 
@@ -38,8 +37,8 @@ class AccuracyController(QObject):
     ) -> None:
         super().__init__()
         self._scenes, self._simulation, self._pane = scenes, simulation, pane
-        self._seen = False
-        self._done: SimulationRequest | None = None
+        self._is_visible = False
+        self._finished_request: SimulationRequest | None = None
         self._count = 0
         self._costs: SceneCosts | None = None
         self._snapshot: Snapshot | None = None
@@ -51,24 +50,24 @@ class AccuracyController(QObject):
         self.runner.reported.connect(self._show)
         self.runner.finished.connect(self._finish)
         self.runner.failed.connect(self._fail)
-        self.forecasts: Task[_Asked, tuple[SimulationRequest, Forecast]] = Task(
+        self.forecasts: Task[_Question, tuple[SimulationRequest, Forecast]] = Task(
             _predict, "forecast of costs"
         )
-        self.forecasts.finished.connect(lambda found: pane.show_forecast(*found))
+        self.forecasts.finished.connect(lambda answer: pane.show_forecast(*answer))
         for store in (scenes, scenes.settings):
             store.changed.connect(self._restart)
         simulation.runner.idle.connect(self._wait_until_idle)
 
     @property
     def is_idle(self) -> bool:
-        busy = self._idle_timer.isActive() or not self.runner.is_idle
-        return not busy and self.forecasts.is_idle
+        is_busy = self._idle_timer.isActive() or not self.runner.is_idle
+        return not is_busy and self.forecasts.is_idle
 
     def _request(self) -> SimulationRequest:
         return SimulationRequest(self._scenes.scene, self._scenes.settings.settings)
 
     def set_seen(self, seen: bool) -> None:
-        self._seen = seen
+        self._is_visible = seen
         if seen:
             self._predict()
             self._wait_until_idle()
@@ -81,27 +80,28 @@ class AccuracyController(QObject):
     def _restart(self) -> None:
         self._idle_timer.stop()
         self.runner.cancel()
-        self._done = None
+        self._finished_request = None
         self._pane.plot.show_study_outdated()
         self._predict()
         self._wait_until_idle()
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
-        """Predict from the times of these results from now on."""
+        """Predict from the times of this picture from now on."""
         self._snapshot = snapshot
         self._predict()
 
     def _predict(self) -> None:
         """Predict from the last picture if it shows the present scene."""
         snapshot, request = self._snapshot, self._request()
-        if not self._seen or snapshot is None or snapshot.request.scene != request.scene:
+        if not self._is_visible or snapshot is None or snapshot.request.scene != request.scene:
             return
         times = TimeFractions.of(snapshot.frame)
-        costs = MeasuredCosts(times) if self._costs is None else self._costs.of(request, times)
+        known = self._costs
+        costs = MeasuredCosts(times) if known is None else known.find_costs(request, times)
         self.forecasts.ask((request, costs))
 
     def _wait_until_idle(self) -> None:
-        if self._seen and self.runner.is_idle and self._done is None:
+        if self._is_visible and self.runner.is_idle and self._finished_request is None:
             self._idle_timer.start(IDLE_MS)
 
     def _start(self) -> None:
@@ -111,21 +111,21 @@ class AccuracyController(QObject):
         self.runner.ask(self._request())
         self._pane.plot.show_study_begun()
 
-    def _show(self, found: SceneCosts | MeasuredPoint) -> None:
-        if isinstance(found, SceneCosts):
-            self._costs = found
-            self._pane.show_costs(found)
+    def _show(self, report: SceneCosts | MeasuredPoint) -> None:
+        if isinstance(report, SceneCosts):
+            self._costs = report
+            self._pane.show_costs(report)
             self._predict()
             return
         self._count += 1
-        self._pane.plot.show_point(found.point, self._count, found.total)
+        self._pane.plot.show_point(report.point, self._count, report.total)
 
     def _finish(self, _result: object) -> None:
-        self._done = self._request()
+        self._finished_request = self._request()
         self._pane.plot.show_study_finished()
 
     def _fail(self, sentence: str) -> None:
-        self._done = self._request()  # it would fail again
+        self._finished_request = self._request()  # it would fail again
         self._pane.plot.show_study_failed(sentence)
 
     def stop(self) -> None:

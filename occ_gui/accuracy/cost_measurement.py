@@ -14,34 +14,32 @@ from occ_model.simulation.stage_timer import StageTimer
 from occ_model.study.accuracy import accuracy, point_count
 from occ_model.study.effect_differences import CompleteSimulation
 
-_RUNS, _PATIENCE = 5, 1.0  # pictures are made so often in turn; no more often after so many seconds
+_RUNS, _PATIENCE = 5, 1.0  # most runs of each picture, and seconds after which none begins
 
 
 @dataclass(frozen=True, slots=True)
 class SceneCosts:
     request: SimulationRequest
-    # The times of pictures that were made in turn: with the effects of the request's plan, with all
-    # of the scene, with none
+    # Times of pictures made alternately: with the plan's effects, with all of the scene, with none
     pictures: tuple[TimeFractions, ...] = ()
     differences: Mapping[str, EffectDifference] = field(default_factory=dict)
     errors: Mapping[frozenset[str], float] = field(default_factory=dict)
 
-    def of(self, request: SimulationRequest, picture: TimeFractions) -> MeasuredCosts:
-        """Return what is known of a request whose picture took these times.
+    def find_costs(self, request: SimulationRequest, picture: TimeFractions) -> MeasuredCosts:
+        """Return the known costs of a request whose picture took these times.
 
-        Times measured in turn with other pictures replace those of the picture: only they can be
-        compared.
+        Times measured alternately with other pictures replace them: only those can be compared.
         """
         here, there = self.request.settings, request.settings
-        compared = _compared(request) == _compared(self.request)
-        timed = self.request.scene == request.scene and here.noise == there.noise
-        pictures = self.pictures if timed else ()
-        again = (fractions for fractions in pictures if fractions.included == picture.included)
+        is_compared = _comparison_key(request) == _comparison_key(self.request)
+        has_times = self.request.scene == request.scene and here.noise == there.noise
+        pictures = self.pictures if has_times else ()
+        same = (fractions for fractions in pictures if fractions.included == picture.included)
         return MeasuredCosts(
-            next(again, picture),
+            next(same, picture),
             pictures,
-            self.differences if compared else {},
-            self.errors if compared else {},
+            self.differences if is_compared else {},
+            self.errors if is_compared else {},
         )
 
 
@@ -54,45 +52,45 @@ class MeasuredPoint:
 
 
 class CostMeasurement:
-    """Measures on the study's thread; what was compared for the last scene is reused."""
+    """Measures on the study's thread; comparisons for the last scene are reused."""
 
     def __init__(self) -> None:
         self._complete: tuple[object, CompleteSimulation] | None = None
 
     def __call__(self, request: SimulationRequest, report: Report) -> None:
         timer = _CancellableTimer(report)
-        complete = self._complete_of(request, timer)
-        chosen = plan_with(request.scene, request.settings)
-        for effects in (chosen.included, ()):
+        complete = self._simulate(request, timer)
+        plan = plan_with(request.scene, request.settings)
+        for effects in (plan.included, ()):
             complete.error_of(effects, timer)
         costs = SceneCosts(request, errors=complete.errors)
         report(costs)
-        costs = replace(costs, pictures=_in_turn(request, report))
+        costs = replace(costs, pictures=_time_alternately(request, report))
         for effect in complete.effects:
-            found = {**costs.differences, effect: complete.without(effect, timer)}
-            costs = replace(costs, differences=found, errors=complete.errors)
+            differences = {**costs.differences, effect: complete.without(effect, timer)}
+            costs = replace(costs, differences=differences, errors=complete.errors)
             report(costs)
         total = point_count(request.scene, request.settings)
         for point in accuracy(request.scene, request.settings, complete):
-            report(MeasuredPoint(_as_stated(point, costs), total))
+            report(MeasuredPoint(_use_stated_time(point, costs), total))
         report(replace(costs, errors=complete.errors))
 
-    def _complete_of(self, request: SimulationRequest, timer: StageTimer) -> CompleteSimulation:
-        key = _compared(request)
+    def _simulate(self, request: SimulationRequest, timer: StageTimer) -> CompleteSimulation:
+        key = _comparison_key(request)
         if self._complete is None or self._complete[0] != key:
             self._complete = None  # one at a time: its pictures are large
             settings = request.settings
-            made = CompleteSimulation(request.scene, settings.observable, settings.seed, timer)
-            self._complete = (key, made)
+            complete = CompleteSimulation(request.scene, settings.observable, settings.seed, timer)
+            self._complete = (key, complete)
         return self._complete[1]
 
 
-def _compared(request: SimulationRequest) -> tuple[object, ...]:
+def _comparison_key(request: SimulationRequest) -> tuple[object, ...]:
     return request.scene, request.settings.observable, request.settings.seed
 
 
-def _in_turn(request: SimulationRequest, report: Report) -> tuple[TimeFractions, ...]:
-    """Time pictures with the plan's effects, with all and with none: the fastest of some runs."""
+def _time_alternately(request: SimulationRequest, report: Report) -> tuple[TimeFractions, ...]:
+    """Time pictures with the plan's effects, all and none alternately: the fastest of some runs."""
     settings = request.settings
     exact, bare = (replace(settings, tolerance=each, force={}) for each in (0.0, math.inf))
     runs: dict[frozenset[str], list[TimeFractions]] = {}
@@ -107,14 +105,14 @@ def _in_turn(request: SimulationRequest, report: Report) -> tuple[TimeFractions,
     return tuple(TimeFractions.of_runs(each) for each in runs.values())
 
 
-def _as_stated(point: AccuracyPoint, costs: SceneCosts) -> AccuracyPoint:
+def _use_stated_time(point: AccuracyPoint, costs: SceneCosts) -> AccuracyPoint:
     """Return a point with the time that the pane states elsewhere for the same picture."""
     same = (p.seconds for p in costs.pictures if p.included == frozenset(point.effects))
     return point if point.part != "effects" else replace(point, seconds=next(same, point.seconds))
 
 
 class _CancellableTimer(StageTimer):
-    """A timer that ends cancelled work when a stage has ended, not only when all have."""
+    """A timer that ends cancelled work after each stage, not only after the last."""
 
     def __init__(self, report: Report) -> None:
         super().__init__()

@@ -1,4 +1,4 @@
-"""Cells of the table of effects that are drawn: pictures, the errors on their axis, times."""
+"""Painted cells of the table of effects: pictures, errors on their axis, times."""
 
 import math
 from collections.abc import Callable, Sequence
@@ -8,7 +8,7 @@ from PySide6.QtCore import QModelIndex, QObject, QPersistentModelIndex, QPointF,
 from PySide6.QtGui import QImage, QPainter, QPalette, QPen
 from PySide6.QtWidgets import QStyle, QStyledItemDelegate, QStyleOptionViewItem
 
-from occ_gui.accuracy.effect_rows import ELSE, EffectRow, longest_of
+from occ_gui.accuracy.effect_rows import ELSE, EffectRow, longest_time
 from occ_gui.widgets.colours import BAND, SIMULATION, lighten_for
 from occ_gui.widgets.guarded_paint import guarded
 from occ_model.arrays import ByteArray
@@ -17,12 +17,12 @@ _Index = QModelIndex | QPersistentModelIndex
 
 Rows: TypeAlias = Callable[[], Sequence[EffectRow]]
 
-_GAP = 4  # pixels between two things that are drawn side by side
+_GAP = 4  # pixels between two parts of a cell
 _BAR_FRACTION = 0.5  # fraction of the cell's width for the bar; the number takes the rest
 
 
-def image_of(pixels: ByteArray) -> QImage:
-    """Make a grey picture, which keeps a copy of the pixels."""
+def make_image(pixels: ByteArray) -> QImage:
+    """Make a grey image with a copy of the pixels."""
     rows, columns = pixels.shape
     return QImage(pixels.tobytes(), columns, rows, columns, QImage.Format.Format_Grayscale8).copy()
 
@@ -44,18 +44,18 @@ class PictureCell(_EffectCell):
         row = self._rows()[index.row()]
         if row.icon is None:
             return
-        held = self._images.get(index.row())
-        if held is None or held[0] is not row.icon:
-            held = (row.icon, image_of(row.icon.with_effect), image_of(row.icon.without))
-            self._images[index.row()] = held
+        images = self._images.get(index.row())
+        if images is None or images[0] is not row.icon:
+            images = (row.icon, make_image(row.icon.with_effect), make_image(row.icon.without))
+            self._images[index.row()] = images
         area = option.rect.adjusted(_GAP // 2, 1, -_GAP // 2, -1)
-        for place, image in enumerate(held[1:]):
+        for place, image in enumerate(images[1:]):
             width = (area.width() - _GAP) // 2
             left = area.left() + place * (width + _GAP)
-            painter.drawImage(_fitted(QRect(left, area.top(), width, area.height()), image), image)
+            painter.drawImage(_fit(QRect(left, area.top(), width, area.height()), image), image)
 
 
-def _fitted(area: QRect, image: QImage) -> QRect:
+def _fit(area: QRect, image: QImage) -> QRect:
     """Centre an image in an area, shrunk where needed but never enlarged."""
     scale = min(area.width() / image.width(), area.height() / image.height(), 1.0)
     place = QRect(0, 0, round(scale * image.width()), round(scale * image.height()))
@@ -70,7 +70,7 @@ class TimeCell(_EffectCell):
     def paint(self, painter: QPainter, option: QStyleOptionViewItem, index: _Index) -> None:
         super().paint(painter, option, index)
         rows = self._rows()
-        row, largest = rows[index.row()], longest_of(rows)
+        row, largest = rows[index.row()], longest_time(rows)
         if not row.seconds or not largest:
             return
         most = _BAR_FRACTION * option.rect.width()
@@ -93,23 +93,23 @@ _LEAST_LEVELS, _MOST_LEVELS = 0.01, 300.0  # limits of the logarithmic axis of e
 _NUMBER_WIDTH = 44  # pixels of the number beside the axis
 
 
-def axis_of(area: QRect) -> tuple[int, int]:
+def find_axis(area: QRect) -> tuple[int, int]:
     """Return the start and the length of the axis of errors in a cell, in pixels."""
     return area.left() + _GAP, max(area.width() - _NUMBER_WIDTH - 2 * _GAP, 1)
 
 
-def place_of(levels: float, area: QRect) -> float:
+def find_position(levels: float, area: QRect) -> float:
     """Return the position of an error on the axis, clamped to its ends."""
-    left, length = axis_of(area)
+    left, length = find_axis(area)
     if levels <= _LEAST_LEVELS:
         return float(left)
     fraction = math.log(levels / _LEAST_LEVELS) / math.log(_MOST_LEVELS / _LEAST_LEVELS)
     return left + length * min(fraction, 1.0)
 
 
-def levels_at(place: float, area: QRect) -> float:
+def find_levels(place: float, area: QRect) -> float:
     """Return the error at a position: 0 before the axis, and infinity beyond it."""
-    left, length = axis_of(area)
+    left, length = find_axis(area)
     fraction = (place - left) / length
     if fraction <= 0.0:
         return 0.0
@@ -140,16 +140,16 @@ class ErrorCell(_EffectCell):
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         if row.effect != ELSE:
             painter.setPen(text)
-            line = place_of(self._tolerance(), area)
+            line = find_position(self._tolerance(), area)
             painter.drawLine(QPointF(line, area.top()), QPointF(line, area.bottom() + 1))
         if row.estimate is not None and row.levels is not None:
             if row.estimate <= self._tolerance() and colour != text:
                 colour = option.palette.color(QPalette.ColorGroup.Disabled, QPalette.ColorRole.Text)
             painter.setPen(QPen(colour, 1.5))
-            estimate, found = place_of(row.estimate, area), place_of(row.levels, area)
-            painter.drawLine(QPointF(estimate, middle), QPointF(found, middle))
+            estimate, error = find_position(row.estimate, area), find_position(row.levels, area)
+            painter.drawLine(QPointF(estimate, middle), QPointF(error, middle))
             painter.drawLine(QPointF(estimate, middle - 4), QPointF(estimate, middle + 4))
             if row.error[0] not in "≈?":
                 painter.setBrush(colour if row.included else Qt.BrushStyle.NoBrush)
-                painter.drawEllipse(QPointF(found, middle), 3.0, 3.0)
+                painter.drawEllipse(QPointF(error, middle), 3.0, 3.0)
         painter.restore()

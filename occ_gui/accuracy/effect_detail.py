@@ -6,7 +6,7 @@ from PySide6.QtCore import QRect, QSize, Qt
 from PySide6.QtGui import QImage, QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import QSizePolicy, QVBoxLayout, QWidget
 
-from occ_gui.accuracy.effect_cells import image_of
+from occ_gui.accuracy.effect_cells import make_image
 from occ_gui.accuracy.effect_rows import ELSE, EffectRow
 from occ_gui.widgets.building import fill, paragraph
 from occ_gui.widgets.guarded_paint import guarded
@@ -32,7 +32,7 @@ class CropPictures(QWidget):
         if crop is not None:
             self._are_pixels = not crop.is_averaged
             self._images = tuple(
-                image_of(pixels) for pixels in (crop.with_effect, crop.without, crop.difference)
+                make_image(pixels) for pixels in (crop.with_effect, crop.without, crop.difference)
             )
             difference = f"difference × {crop.amplification}"  # noqa: RUF001
             self._captions = ("with it", "without it", difference)
@@ -45,7 +45,7 @@ class CropPictures(QWidget):
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         return self.minimumSizeHint()
 
-    def height_in(self, width: int) -> int:
+    def height_for(self, width: int) -> int:
         if not self._images:
             return 0
         size = self._images[0].size()
@@ -63,13 +63,13 @@ class CropPictures(QWidget):
         scale = min(width / size.width(), height / size.height(), _LARGEST_SCALE)
         if scale >= 1.0 and self._are_pixels:
             scale = int(scale)  # each pixel as a square of whole pixels
-        shown = QSize(round(scale * size.width()), round(scale * size.height()))
-        smooth = scale < 1.0 or not self._are_pixels
-        painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform, smooth)
+        size = QSize(round(scale * size.width()), round(scale * size.height()))
+        is_smooth = scale < 1.0 or not self._are_pixels
+        painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform, is_smooth)
         for place, (image, caption) in enumerate(zip(self._images, self._captions, strict=True)):
-            left = place * (shown.width() + _GAP)
-            painter.drawImage(QRect(left, 0, shown.width(), shown.height()), image)
-            below = QRect(left, shown.height() + 2, max(shown.width(), width), line)
+            left = place * (size.width() + _GAP)
+            painter.drawImage(QRect(left, 0, size.width(), size.height()), image)
+            below = QRect(left, size.height() + 2, max(size.width(), width), line)
             painter.drawText(below, Qt.AlignmentFlag.AlignLeft, caption)
 
 
@@ -90,7 +90,7 @@ class EffectDetail(QWidget):
         self._limit_pictures()
 
     def _limit_pictures(self) -> None:
-        self.pictures.setMaximumHeight(self.pictures.height_in(self.width() - _GAP))
+        self.pictures.setMaximumHeight(self.pictures.height_for(self.width() - _GAP))
 
     def show_row(self, row: EffectRow | None, crop: EffectCrop | None) -> None:
         self.pictures.show_crop(crop)
@@ -99,14 +99,14 @@ class EffectDetail(QWidget):
             texts = ("", "", "")
         else:
             self.title.setText(row.label)
-            texts = (self._place_of(row, crop), row.error_meaning, row.reason)
+            texts = (self._describe_place(row, crop), row.error_meaning, row.reason)
         for label, text in zip((self.place, self.error, self.reason), texts, strict=True):
             label.setText(text)
             label.setVisible(bool(text))
         self._limit_pictures()
 
-    def _place_of(self, row: EffectRow, crop: EffectCrop | None) -> str:
+    def _describe_place(self, row: EffectRow, crop: EffectCrop | None) -> str:
         if crop is None:
-            return "" if row.absent or row.effect == ELSE else "Its pictures are made…"
+            return "" if row.absent or row.effect == ELSE else "Its pictures are being made…"
         where = "Whole panel, averaged" if crop.is_averaged else "Real pixels where it changes most"
         return f"This effect alone. {where}; contrast stretched."

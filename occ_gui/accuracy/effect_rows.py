@@ -1,4 +1,4 @@
-"""Rows of the table of effects: what each shows, and their order.
+"""Rows of the table of effects, and their order.
 
 A proxy model would sort by a strict order; times that are about equal have none.
 """
@@ -16,13 +16,13 @@ from occ_model.scene.simulation_settings import unit_of
 ELSE = "everything else"  # key of the last row, which is no effect
 
 _STAGES = {"light": "Light", "optics": "Optics", "sensor": "Sensor", "processing": "File"}
-"""Stages of the light's path, in words that fit a narrow column."""
+"""Stages of the light's path, in words for a narrow column."""
 
 
 @dataclass(frozen=True, slots=True)
 class EffectRow:
     effect: str  # the effect's name; ``ELSE`` in the last row
-    stage: str  # the stage of the light's way; empty in the last row
+    stage: str  # the stage of the light's path; empty in the last row
     label: str  # the effect's name on the screen
     # What leaving it out would change, None where the scene does not have it; the same as text, and
     # how that is known, as a sentence
@@ -30,26 +30,25 @@ class EffectRow:
     estimate: float | None = None
     error: str = ""
     error_meaning: str = ""
-    # Its time, None where there is none of its own; and by how much it was longer at other times
+    # Its time, None where it has none of its own; and the scatter of repeated measurements
     seconds: float | None = None
     scatter: float = 0.0
     time: str = ""  # the same as text
     reason: str = ""  # the plan's reason, as a sentence
     included: bool = True
-    absent: bool = False  # whether the scene does not have the effect and it is not simulated
+    absent: bool = False  # whether the effect is neither in the scene nor simulated
     new: bool = False  # whether the plan has just switched it
-    # Whether it would be switched on (True) or off (False) by what the controls show
+    # Whether the present controls would switch it on (True) or off (False)
     pending: bool | None = None
-    icon: EffectCrop | None = None  # how it looks, None where that is not known yet
+    icon: EffectCrop | None = None  # None until it is known
 
 
-def rows_of(
+def make_rows(
     frame: Frame, costs: MeasuredCosts, new: Collection[str], forecast: Forecast | None = None
 ) -> tuple[EffectRow, ...]:
     """Return the effects in the order that light passes them, then everything else.
 
-    ``new`` names the effects that the plan has just switched; ``forecast`` is what the controls
-    would give.
+    ``new``: the effects that the plan has just switched; ``forecast``: of the present controls.
     """
     rows = []
     for decision in frame.plan.decisions:
@@ -57,9 +56,9 @@ def rows_of(
         if forecast is not None:
             after = decision.effect in forecast.plan
             pending = after if after != decision.included else None
-        error = _error(decision, costs.differences.get(decision.effect), frame.plan.unit)
+        error = _state_error(decision, costs.differences.get(decision.effect), frame.plan.unit)
         is_new = decision.effect in new
-        rows.append(_row(decision, _STAGES[decision.stage], costs, error, is_new, pending))
+        rows.append(_make_row(decision, costs, error, is_new, pending))
     rest = costs.picture.everything_else
     stages = "\n".join(f"{name}: {milliseconds(s)} ms" for name, s in costs.picture.stages.items())
     reason = f"What belongs to no effect, in ms:\n{stages}"
@@ -69,13 +68,12 @@ def rows_of(
     return (*rows, last)
 
 
-def longest_of(rows: Sequence[EffectRow]) -> float:
+def longest_time(rows: Sequence[EffectRow]) -> float:
     return max((row.seconds for row in rows if row.seconds is not None), default=0.0)
 
 
-def _row(
+def _make_row(
     decision: Decision,
-    stage: str,
     costs: MeasuredCosts,
     error: tuple[str, str],
     new: bool,
@@ -89,12 +87,12 @@ def _row(
     if time and not decision.included:
         time = f"({time})"
     estimate = decision.estimate if decision.limit < math.inf else None
-    found = estimate if difference is None else difference.error
+    error_levels = estimate if difference is None else difference.error
     return EffectRow(
         decision.effect,
-        stage,
+        _STAGES[decision.stage],
         decision.label,
-        found if decision.estimate else None,
+        error_levels if decision.estimate else None,
         decision.limit or None,
         *error,
         seconds if time else None,
@@ -109,7 +107,9 @@ def _row(
     )
 
 
-def _error(decision: Decision, difference: EffectDifference | None, unit: str) -> tuple[str, str]:
+def _state_error(
+    decision: Decision, difference: EffectDifference | None, unit: str
+) -> tuple[str, str]:
     if not decision.estimate:
         return "none", "The scene does not have this effect."
     is_known = decision.limit < math.inf
@@ -149,46 +149,46 @@ Order: TypeAlias = tuple[int, bool]  # a column, and whether its largest value c
 AS_LIGHT_TRAVELS: Order = (STAGE, False)
 
 
-def arranged(
+def sort_rows(
     rows: Sequence[EffectRow], order: Order, present: Sequence[str] = ()
 ) -> tuple[EffectRow, ...]:
     """Sort rows; those without a value come last.
 
-    Rows with about equal times keep their ``present`` order: times that are measured again differ a
-    little, and would shuffle them.
+    Rows with about equal times keep their ``present`` order: repeated measurements differ a little
+    and would shuffle them.
     """
-    column, falls = order
-    kept = [row for row in rows if row.effect == ELSE]
+    column, is_descending = order
+    last = [row for row in rows if row.effect == ELSE]
     effects = [row for row in rows if row.effect != ELSE]
     if column == STAGE:
-        return (*(reversed(effects) if falls else effects), *kept)
+        return (*(reversed(effects) if is_descending else effects), *last)
     if column == EFFECT:
-        effects.sort(key=lambda row: row.label.casefold(), reverse=falls)
-        return (*effects, *kept)
+        effects.sort(key=lambda row: row.label.casefold(), reverse=is_descending)
+        return (*effects, *last)
     unknown = [row for row in effects if _value(row, column) is None]
     known = [row for row in effects if _value(row, column) is not None]
     if column == TIME and {row.effect for row in known} <= set(present):
         known.sort(key=lambda row: present.index(row.effect))
-        _swap_neighbours(known, falls)
+        _swap_neighbours(known, is_descending)
     else:
-        known.sort(key=lambda row: _value(row, column) or 0.0, reverse=falls)
-    return (*known, *unknown, *kept)
+        known.sort(key=lambda row: _value(row, column) or 0.0, reverse=is_descending)
+    return (*known, *unknown, *last)
 
 
 def are_about_equal(one: EffectRow, other: EffectRow) -> bool:
-    """Whether the times of two rows differ by no more than they scatter."""
+    """Return whether the times of two rows differ by no more than their scatter."""
     times = one.seconds or 0.0, other.seconds or 0.0
     scatter = max(one.scatter, other.scatter, LEAST_SCATTER * max(times))
     return abs(times[0] - times[1]) <= scatter
 
 
-def slowest_of(rows: Sequence[EffectRow], before: str = "") -> str:
+def find_slowest(rows: Sequence[EffectRow], before: str = "") -> str:
     """Return the slowest effect of the picture, or ``before`` where it takes about as long."""
-    timed = [r for r in rows if r.seconds is not None and r.included and r.effect != ELSE]
-    if not timed:
+    with_time = [r for r in rows if r.seconds is not None and r.included and r.effect != ELSE]
+    if not with_time:
         return ""
-    slowest = max(timed, key=lambda row: row.seconds or 0.0)
-    equal = (row for row in timed if row.effect == before and are_about_equal(row, slowest))
+    slowest = max(with_time, key=lambda row: row.seconds or 0.0)
+    equal = (row for row in with_time if row.effect == before and are_about_equal(row, slowest))
     return next(equal, slowest).effect
 
 
@@ -196,14 +196,14 @@ def _value(row: EffectRow, column: int) -> float | None:
     return row.seconds if column == TIME else row.levels
 
 
-def _swap_neighbours(rows: list[EffectRow], falls: bool) -> None:
+def _swap_neighbours(rows: list[EffectRow], is_descending: bool) -> None:
     """Swap neighbours that are out of order by more than the scatter."""
-    swapped = True
-    while swapped:
-        swapped = False
+    has_swapped = True
+    while has_swapped:
+        has_swapped = False
         for place in range(len(rows) - 1):
             above, below = rows[place], rows[place + 1]
             is_less = (above.seconds or 0.0) < (below.seconds or 0.0)
-            if is_less == falls and not are_about_equal(above, below):
+            if is_less == is_descending and not are_about_equal(above, below):
                 rows[place], rows[place + 1] = below, above
-                swapped = True
+                has_swapped = True

@@ -1,4 +1,4 @@
-"""Table of effects: a picture, the error, the computing time and a switch for each."""
+"""Table of effects: picture, error, computing time and switch of each."""
 
 from collections.abc import Collection, Mapping, Sequence
 from typing import Any
@@ -15,7 +15,7 @@ from PySide6.QtCore import (
 from PySide6.QtGui import QColor, QMouseEvent, QPalette, QResizeEvent
 from PySide6.QtWidgets import QComboBox, QHeaderView, QTableView
 
-from occ_gui.accuracy.effect_cells import ErrorCell, PictureCell, TimeCell, levels_at
+from occ_gui.accuracy.effect_cells import ErrorCell, PictureCell, TimeCell, find_levels
 from occ_gui.accuracy.effect_rows import (
     AS_LIGHT_TRAVELS,
     EFFECT,
@@ -28,8 +28,8 @@ from occ_gui.accuracy.effect_rows import (
     TIME,
     EffectRow,
     Order,
-    arranged,
-    longest_of,
+    longest_time,
+    sort_rows,
 )
 from occ_gui.widgets.colours import REGION
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
@@ -42,9 +42,9 @@ _TINT.setAlpha(48)
 
 LOWEST_ROW, HIGHEST_ROW = 16, 28  # pixels of a row in a low pane and in a high one
 
-_LEAST_ROWS = 4  # fewest visible rows: the others scroll, so that no window grows beyond its screen
+_LEAST_ROWS = 4  # fewest visible rows; the others scroll, so that the window fits its screen
 
-_ROWS = 11  # rows that the table has room for before it has any
+_ROWS = 11  # rows that an empty table has room for
 
 _PICTURE_WIDTH = 92
 _TIME_WIDTH = 104
@@ -59,10 +59,10 @@ class EffectModel(QAbstractTableModel):
     def __init__(self, parent: QObject) -> None:
         super().__init__(parent)
         self.rows: tuple[EffectRow, ...] = ()
-        self._given: tuple[EffectRow, ...] = ()
+        self._unsorted_rows: tuple[EffectRow, ...] = ()
         self._order: Order = AS_LIGHT_TRAVELS
         self._titles = {
-            STAGE: ("Where", "Where on the light's way it happens."),
+            STAGE: ("Where", "Where on the light's path it occurs."),
             PICTURE: (
                 "with | without",
                 "The effect alone: a part of the panel with it, and without it.",
@@ -81,18 +81,18 @@ class EffectModel(QAbstractTableModel):
             TIME: (
                 "Time (ms)",
                 (
-                    "Its computing time in the picture shown, the shortest of some runs; in "
-                    "brackets, if it were in it.\nSorted by it, effects whose times differ by "
-                    "less than these scatter keep their order."
+                    "Its computing time in this picture, the shortest of some runs; in brackets, "
+                    "the time that it would add.\nEffects whose times differ by less than "
+                    "their scatter keep their order when sorted."
                 ),
             ),
             SWITCH: ("Switch", "Whether the plan decides, or you."),
         }
 
     def show_rows(self, rows: Sequence[EffectRow]) -> None:
-        self._given = tuple(rows)
+        self._unsorted_rows = tuple(rows)
         present = [row.effect for row in self.rows]
-        new = arranged(rows, self._order, present)
+        new = sort_rows(rows, self._order, present)
         if {row.effect for row in new} != set(present):
             self.beginResetModel()
             self.rows = new
@@ -102,21 +102,21 @@ class EffectModel(QAbstractTableModel):
             self._reorder(new)
             return
         before, self.rows = self.rows, new
-        longest = longest_of(before) != longest_of(rows)  # the scale of all bars
+        longest = longest_time(before) != longest_time(rows)  # the scale of all bars
         for place, (old, row) in enumerate(zip(before, rows, strict=True)):
             if old != row or longest:
                 self.dataChanged.emit(self.index(place, STAGE), self.index(place, SWITCH))
 
     def sort(self, column: int, order: Qt.SortOrder = Qt.SortOrder.AscendingOrder) -> None:
-        """Sort by a column; by one without an order, as light passes the effects."""
-        falls = order == Qt.SortOrder.DescendingOrder
-        self._order = (column, falls) if column in SORTED else AS_LIGHT_TRAVELS
-        new = arranged(self._given, self._order)
+        """Sort by a column; by one without an order, as light passes through the effects."""
+        is_descending = order == Qt.SortOrder.DescendingOrder
+        self._order = (column, is_descending) if column in SORTED else AS_LIGHT_TRAVELS
+        new = sort_rows(self._unsorted_rows, self._order)
         if [row.effect for row in new] != [row.effect for row in self.rows]:
             self._reorder(new)
 
     def _reorder(self, rows: tuple[EffectRow, ...]) -> None:
-        """Reorder the same effects, with the selection and the switches."""
+        """Reorder the same effects, together with selection and switches."""
         self.layoutAboutToBeChanged.emit()
         before = self.persistentIndexList()
         effects = [self.rows[index.row()].effect for index in before]
@@ -146,8 +146,8 @@ class EffectModel(QAbstractTableModel):
         if role == Qt.ItemDataRole.TextAlignmentRole:
             return _alignment(section)
         if role == Qt.ItemDataRole.InitialSortOrderRole:
-            falls = section in (ERROR, TIME)
-            return Qt.SortOrder.DescendingOrder if falls else Qt.SortOrder.AscendingOrder
+            is_descending = section in (ERROR, TIME)
+            return Qt.SortOrder.DescendingOrder if is_descending else Qt.SortOrder.AscendingOrder
         return meaning if role == Qt.ItemDataRole.ToolTipRole else None
 
     def data(self, index: _Index, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
@@ -155,8 +155,8 @@ class EffectModel(QAbstractTableModel):
         match role:
             case Qt.ItemDataRole.DisplayRole:
                 place = index.row()
-                goes_on = place > 0 and self.rows[place - 1].stage == row.stage
-                return "" if column == STAGE and goes_on else _text(row, column)
+                is_same = place > 0 and self.rows[place - 1].stage == row.stage
+                return "" if column == STAGE and is_same else _text(row, column)
             case Qt.ItemDataRole.ToolTipRole:
                 return row.error_meaning if column == ERROR and row.error else row.reason
             case Qt.ItemDataRole.TextAlignmentRole:
@@ -206,7 +206,7 @@ class EffectTable(QTableView):
         super().__init__()
         self.effects = EffectModel(self)
         self._tolerance = TOLERANCE.default
-        self._dragged = -1
+        self._dragged_column = -1
         self._widths: dict[int, int] = {}
         self.switches: dict[str, QComboBox] = {}
         self._force: Mapping[str, bool] = {}
@@ -253,20 +253,20 @@ class EffectTable(QTableView):
         self._drag(event, self.columnAt(int(event.position().x())))
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
-        if not self._drag(event, self._dragged):
+        if not self._drag(event, self._dragged_column):
             super().mouseMoveEvent(event)
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
-        self._dragged = -1
+        self._dragged_column = -1
         super().mouseReleaseEvent(event)
 
     def _drag(self, event: QMouseEvent, column: int) -> bool:
         is_pressed = bool(event.buttons() & Qt.MouseButton.LeftButton)
         if column != ERROR or not is_pressed or not self.effects.rows:
             return False
-        self._dragged = column
+        self._dragged_column = column
         area = self.visualRect(self.effects.index(0, ERROR))
-        levels = levels_at(event.position().x(), area)
+        levels = find_levels(event.position().x(), area)
         self.show_tolerance(levels)
         self.tolerance_dragged.emit(levels)
         return True
@@ -296,14 +296,14 @@ class EffectTable(QTableView):
         for place, row in enumerate(self.effects.rows):
             if row.effect == ELSE:
                 continue
-            switch = self._switch(row)
+            switch = self._make_switch(row)
             self.switches[row.effect] = switch
             self.setIndexWidget(self.effects.index(place, SWITCH), switch)
         self.show_force(self._force)
         self._size_columns()
         self._size_rows()
 
-    def _switch(self, row: EffectRow) -> QComboBox:
+    def _make_switch(self, row: EffectRow) -> QComboBox:
         switch = _FlatSwitch()
         switch.setFont(self.font())
         switch.addItems(["plan", "on", "off"])
@@ -330,9 +330,9 @@ class EffectTable(QTableView):
             header.resizeSection(column, width)
             self._widths[column] = width
         header.setSectionResizeMode(EFFECT, QHeaderView.ResizeMode.Stretch)
-        self._leave_room_for_names()
+        self._hide_columns()
 
-    def _leave_room_for_names(self) -> None:
+    def _hide_columns(self) -> None:
         """Hide the least informative columns where names would be cut off."""
         metrics = self.fontMetrics()
         texts = (_text(row, EFFECT) for row in self.effects.rows)
@@ -344,7 +344,7 @@ class EffectTable(QTableView):
             self.setColumnHidden(column, room < 0)
 
     def _title_width(self, column: int) -> int:
-        """Return a title's width, with room for an arrow only where a click sorts, unlike Qt's."""
+        """Return a title's width, unlike Qt's with room for an arrow only where a click sorts."""
         header = self.horizontalHeader()
         header.setSortIndicatorShown(column in SORTED)
         width = header.sectionSizeHint(column)
@@ -354,7 +354,7 @@ class EffectTable(QTableView):
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         super().resizeEvent(event)
         self._size_rows()
-        self._leave_room_for_names()
+        self._hide_columns()
 
     def _size_rows(self) -> None:
         count = max(1, len(self.effects.rows))

@@ -1,4 +1,4 @@
-"""The pane of accuracy and time: the settings of the simulation, and what is measured of it."""
+"""The pane of accuracy and time: the settings of the simulation, and its measured costs."""
 
 from occ_gui.accuracy.accuracy_view import AccuracyView
 from occ_gui.accuracy.controller import AccuracyController
@@ -14,7 +14,7 @@ class AccuracyPane(PiecesPane):
         self.view = view = AccuracyView()
         super().__init__(view, view.show_settings, view.show_switched, self._show_snapshot)
         settings = scenes.settings
-        self.made_of = dict.fromkeys(view.of_scene, of_snapshot)
+        self.made_of = dict.fromkeys(view.scene_parts, of_snapshot)
         self.study = AccuracyController(scenes, simulation, view)
         self.measures = (self.study,)
         view.tolerance_edited.connect(settings.set_tolerance)

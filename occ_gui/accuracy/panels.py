@@ -13,7 +13,7 @@ _GAP = 8
 
 _TALL_HEIGHT = 440  # height in pixels from which panels stand one over the other
 _COLUMNS = 1100  # width in pixels from which a high pane has two columns
-_TOP_FRACTION = 0.56  # largest fraction of the height for the upper panel
+_TOP_FRACTION = 0.56  # largest part of the height for the upper panel
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,30 +21,30 @@ class Panel:
     title: str
     widget: QWidget
     width: int  # the width in pixels that it needs beside others
-    weight: int  # its fraction of the width that is left over
+    weight: int  # weight of its share of the spare width
 
 
 class Panels(QWidget):
-    """A main panel, and two that divide the remaining space or take turns in it."""
+    """A main panel, and two that divide the remaining space or share it behind tabs."""
 
     def __init__(self, main: Panel, second: Panel, third: Panel) -> None:
         super().__init__()
         self._panels = (main, second, third)
-        self._offered: tuple[Panel, ...] = ()
+        self._in_tabs: tuple[Panel, ...] = ()
         self._chosen = main
         for panel in self._panels:
             panel.widget.setParent(self)
         self.tabs = QTabBar(drawBase=False, expanding=False, usesScrollButtons=False)
         self.tabs.currentChanged.connect(self._choose)
-        self._offer(self._panels)
+        self._show_tabs(self._panels)
 
     def show_panel(self, widget: QWidget) -> None:
-        for place, panel in enumerate(self._offered):
+        for place, panel in enumerate(self._in_tabs):
             if panel.widget is widget:
                 self.tabs.setCurrentIndex(place)
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return the size of the largest panel: the others can hide behind it."""
+        """Return the size of the largest panel, behind which the others can hide."""
         sizes = [panel.widget.minimumSizeHint() for panel in self._panels]
         return QSize(max(s.width() for s in sizes), max(s.height() for s in sizes))
 
@@ -57,7 +57,7 @@ class Panels(QWidget):
 
     def _choose(self, tab: int) -> None:
         if tab >= 0:
-            self._chosen = self._offered[tab]
+            self._chosen = self._in_tabs[tab]
             self._arrange()
 
     def _arrange(self) -> None:
@@ -65,34 +65,34 @@ class Panels(QWidget):
         area = self.rect()
         if area.height() < _TALL_HEIGHT:
             fitting = next((n for n in (3, 2) if self._fit(*self._panels[:n])), 1)
-            self._offer(() if fitting == 3 else self._panels[fitting - 1 :])
-            places = self._side_by_side(area, *self._panels[: fitting - 1], self._last(third))
+            self._show_tabs(() if fitting == 3 else self._panels[fitting - 1 :])
+            places = self._divide_width(area, *self._panels[: fitting - 1], self._pick(third))
         elif area.width() >= _COLUMNS:
-            self._offer(())
-            left, right = self._side_by_side(area, main, second).values()
-            top, bottom = self._over_each_other(left)
+            self._show_tabs(())
+            left, right = self._divide_width(area, main, second).values()
+            top, bottom = self._divide_height(left)
             places = {main: top, second: right, third: bottom}
         else:
             fit = self._fit(second, third)
-            self._offer(() if fit else (second, third))
-            top, bottom = self._over_each_other(area)
-            lower = (second, third) if fit else (self._last(third),)
-            places = {main: top, **self._side_by_side(bottom, *lower)}
+            self._show_tabs(() if fit else (second, third))
+            top, bottom = self._divide_height(area)
+            lower = (second, third) if fit else (self._pick(third),)
+            places = {main: top, **self._divide_width(bottom, *lower)}
         for panel in self._panels:
             panel.widget.setVisible(panel in places)
             if panel in places:
                 panel.widget.setGeometry(places[panel])
 
-    def _last(self, otherwise: Panel) -> Panel:
-        return self._chosen if self._offered else otherwise
+    def _pick(self, otherwise: Panel) -> Panel:
+        return self._chosen if self._in_tabs else otherwise
 
     def _fit(self, *panels: Panel) -> bool:
         return sum(panel.width for panel in panels) + (len(panels) - 1) * _GAP <= self.width()
 
-    def _offer(self, panels: tuple[Panel, ...]) -> None:
-        if panels == self._offered:
+    def _show_tabs(self, panels: tuple[Panel, ...]) -> None:
+        if panels == self._in_tabs:
             return
-        self._offered = panels
+        self._in_tabs = panels
         self.tabs.blockSignals(True)
         while self.tabs.count():
             self.tabs.removeTab(0)
@@ -104,7 +104,7 @@ class Panels(QWidget):
         self.tabs.blockSignals(False)
         self.tabs.setVisible(bool(panels))
 
-    def _side_by_side(self, area: QRect, *panels: Panel) -> dict[Panel, QRect]:
+    def _divide_width(self, area: QRect, *panels: Panel) -> dict[Panel, QRect]:
         spare = area.width() - sum(p.width for p in panels) - (len(panels) - 1) * _GAP
         weights = sum(panel.weight for panel in panels)
         places, left = {}, area.left()
@@ -115,10 +115,10 @@ class Panels(QWidget):
             spare, weights = spare - share, weights - panel.weight
         return places
 
-    def _over_each_other(self, area: QRect) -> tuple[QRect, QRect]:
-        """Divide an area between the main panel and what stands below it."""
-        wanted = self._panels[0].widget.sizeHint().height()
-        height = min(wanted, int(_TOP_FRACTION * area.height()))
+    def _divide_height(self, area: QRect) -> tuple[QRect, QRect]:
+        """Divide an area between the main panel and those below it."""
+        height = self._panels[0].widget.sizeHint().height()
+        height = min(height, int(_TOP_FRACTION * area.height()))
         top = QRect(area.left(), area.top(), area.width(), height)
         below = area.adjusted(0, height + _GAP, 0, 0)
         return top, below

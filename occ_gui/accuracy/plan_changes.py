@@ -1,4 +1,4 @@
-"""Changes of the simulation plan: the effects that it last switched in or out."""
+"""Changes of the simulation plan: the effects that it has just switched in or out."""
 
 from collections.abc import Sequence
 
@@ -8,20 +8,20 @@ from occ_gui.simulation.snapshot import Snapshot
 from occ_model.results.frame import Frame
 from occ_model.results.plan import Decision
 
-_NEW_MS = 8000  # for how long what the plan has switched is marked, and stated in the status line
+_NEW_MS = 8000  # for how long a change of the plan is marked and stated in the status line
 
 
-class PlanNews(QObject):
-    """Reports for a while what the plan of the latest picture has switched."""
+class PlanChanges(QObject):
+    """Reports for a while which effects the plan of the latest picture has switched."""
 
-    changed = Signal(object)  # the decisions that are new; none when they are no news any more
+    changed = Signal(object)  # the new decisions; none after a while
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._last: Frame | None = None
         self.pause = QTimer(self, singleShot=True)
         self.pause.setInterval(_NEW_MS)
-        self.pause.timeout.connect(self._forget)
+        self.pause.timeout.connect(self._end)
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
         last, self._last = self._last, snapshot.frame
@@ -33,15 +33,15 @@ class PlanNews(QObject):
             self.changed.emit(tuple(d for d in plan.decisions if d.effect in switched))
             self.pause.start()
 
-    def _forget(self) -> None:
+    def _end(self) -> None:
         self.changed.emit(())
 
 
-def switch_sentence(switched: Sequence[Decision]) -> str:
-    """Name the effects that were switched; their times stand in the table only."""
+def describe_switches(switched: Sequence[Decision]) -> str:
+    """Name the switched effects, whose times only the table gives."""
     parts = []
-    for included, way in ((True, "in"), (False, "out")):
+    for included, direction in ((True, "in"), (False, "out")):
         labels = [decision.label for decision in switched if decision.included is included]
         if labels:
-            parts.append(f"Switched {way}: {', '.join(labels)}")
+            parts.append(f"Switched {direction}: {', '.join(labels)}")
     return ". ".join(parts)

@@ -31,8 +31,8 @@ _OF_DECISION = replace(
 class ToleranceEdit(QuantityEdit):
     """A field for the tolerance, which may be infinite, in levels or in margins."""
 
-    def show_in(self, declared: Quantity) -> None:
-        self._quantity = declared
+    def show_quantity(self, quantity: Quantity) -> None:
+        self._quantity = quantity
         self._show()
 
     def _show(self) -> None:
@@ -67,14 +67,14 @@ class ToleranceSlider(QWidget):
             control.setAccessibleName(TOLERANCE.label)
             keep_wheel_for_scrolling(control)
         self.slider.valueChanged.connect(self._slide)
-        self.field.edited.connect(self._take)
+        self.field.edited.connect(self._set_tolerance)
         self.field.refused.connect(self.refused)
         parts = (QLabel("fast"), (self.slider, 1), QLabel("exact"), self.field)
         fill(QHBoxLayout(self), *parts, margins=0, spacing=8)
         self.show_value(TOLERANCE.default)
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return a height that leaves the text whole within a style's frame."""
+        """Return a height in which the frame of a style does not cut the text."""
         least = super().minimumSizeHint()
         return least.expandedTo(QSize(0, self.field.minimumSizeHint().height()))
 
@@ -85,13 +85,13 @@ class ToleranceSlider(QWidget):
         if unit == self._unit:
             return
         self._unit = unit
-        declared = TOLERANCE if unit == TOLERANCE.unit.symbol else _OF_DECISION
-        self.field.show_in(declared)
-        self._explain(declared)
+        quantity = TOLERANCE if unit == TOLERANCE.unit.symbol else _OF_DECISION
+        self.field.show_quantity(quantity)
+        self._explain(quantity)
 
-    def _explain(self, declared: Quantity) -> None:
+    def _explain(self, quantity: Quantity) -> None:
         meaning = (
-            explain(declared)
+            explain(quantity)
             + "\nFast: infinity, the paper's model without any effect. Exact: 0, all effects."
         )
         for control in (self.slider, self.field):
@@ -123,14 +123,14 @@ class ToleranceSlider(QWidget):
         self.field.set_value(tolerance)
         self.edited.emit(tolerance)
 
-    def _take(self, tolerance: float) -> None:
+    def _set_tolerance(self, tolerance: float) -> None:
         self._place(tolerance)
         self.edited.emit(tolerance)
 
 
-def marks_of(ways: Sequence[EffectSet]) -> tuple[float, ...]:
-    """Return the tolerances at which plans begin, but for those at the slider's ends."""
-    errors = (way.error for way in ways[1:] if 0.0 < way.error < math.inf)
+def list_marks(effect_sets: Sequence[EffectSet]) -> tuple[float, ...]:
+    """Return the tolerances at which plans begin, without those at the slider's ends."""
+    errors = (each.error for each in effect_sets[1:] if 0.0 < each.error < math.inf)
     return tuple(error for error in errors if error > TOLERANCE.at(0.0))
 
 

@@ -135,7 +135,7 @@ def _draw_steps(decoder: str, _pane: object, snapshot: Snapshot) -> Draw:
 
 def accuracy_figure() -> Figure:
     def draw(pane: "AccuracyPane | None", _snapshot: Snapshot) -> Draw:
-        points = () if pane is None else pane.view.plot.measured
+        points = () if pane is None else pane.view.plot.study_points
         if not points:
             raise NothingToDraw(
                 "The cost of accuracy is not measured yet: open its pane and wait a moment."

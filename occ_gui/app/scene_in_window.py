@@ -2,7 +2,7 @@
 
 from PySide6.QtCore import QObject
 
-from occ_gui.accuracy.plan_changes import PlanNews, switch_sentence
+from occ_gui.accuracy.plan_changes import PlanChanges, describe_switches
 from occ_gui.app.parts import Parts
 from occ_gui.picture.before_controller import BeforeController
 from occ_gui.scene.control_panel import MAIN
@@ -20,7 +20,7 @@ class SceneInWindow(QObject):
         super().__init__(parts.window)
         self._parts = parts
         self.before = BeforeController(parts.store.store, parts.results_store.show_before)
-        self.news = PlanNews(self)
+        self.plan_changes = PlanChanges(self)
         self._connect_scene()
         self._connect_simulation()
         self._list_presets()
@@ -48,10 +48,10 @@ class SceneInWindow(QObject):
 
     def _connect_simulation(self) -> None:
         parts, simulation = self._parts, self._parts.simulation
-        self.news.changed.connect(parts.results_store.show_switched)
-        self.news.changed.connect(self._report_switched)
+        self.plan_changes.changed.connect(parts.results_store.show_switched)
+        self.plan_changes.changed.connect(self._report_switched)
         # What the pictures are compared with comes before them.
-        for view in (self.before, parts.pins, self.news, parts.results_store):
+        for view in (self.before, parts.pins, self.plan_changes, parts.results_store):
             simulation.snapshot_ready.connect(view.show_snapshot)
         simulation.reading_shown.connect(parts.results_store.show_reading)
         simulation.picture_ready.connect(parts.results_store.show_picture)
@@ -65,7 +65,7 @@ class SceneInWindow(QObject):
         return pane is not None and pane.map.is_first_answer_awaited
 
     def _report_switched(self, switched: tuple[Decision, ...]) -> None:
-        self._parts.window.show_plan_change(switch_sentence(switched) if switched else "")
+        self._parts.window.show_plan_change(describe_switches(switched) if switched else "")
 
     def _on_snapshot(self, snapshot: Snapshot) -> None:
         self._parts.window.show_timing(snapshot.simulation_seconds, snapshot.reading_seconds)

@@ -1,4 +1,4 @@
-"""The plot shows the points as they come, and until then those before, faint."""
+"""The plot shows points as they are measured, and until then faint earlier ones."""
 
 import math
 from itertools import pairwise
@@ -9,7 +9,7 @@ from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.accuracy.accuracy_plot import COLOURS, SYMBOLS, AccuracyPlot
-from occ_gui.accuracy.ways_shown import ways_shown
+from occ_gui.accuracy.named_points import choose_points
 from occ_gui.widgets.axes import NUMBER_LENGTH, LogAxis
 from occ_model.effects.plan import effect_sets_of
 from occ_model.results.accuracy import LEAST_ERROR, AccuracyPoint, Forecast
@@ -27,7 +27,7 @@ POINTS = (
     AccuracyPoint("draft", "draft 1/4", 3e-3, 0.3),
     AccuracyPoint("noise", "reused plane", 2e-2, 0.01),
 )
-SHOWN = [point for point in POINTS if point.name != "+ Vignetting"]
+NAMED = [point for point in POINTS if point.name != "+ Vignetting"]
 
 
 @pytest.fixture
@@ -42,18 +42,18 @@ def measure(plot: AccuracyPlot, points: tuple[AccuracyPoint, ...] = POINTS) -> N
 
 
 def names(plot: AccuracyPlot) -> list[str]:
-    return [way.point.name for scatter in plot.scatters.values() for way in scatter.data["data"]]
+    return [each.point.name for s in plot.scatters.values() for each in s.data["data"]]
 
 
-def test_each_point_is_at_its_time_and_error_with_its_marker_and_the_present_one_ringed(
+def test_each_point_has_its_time_error_and_marker_and_the_present_one_a_ring(
     plot: AccuracyPlot,
 ) -> None:
     measure(plot)
     for part, scatter in plot.scatters.items():
-        of_part = sorted(1e3 * point.seconds for point in SHOWN if point.part == part)
+        of_part = sorted(1e3 * point.seconds for point in NAMED if point.part == part)
         xs, ys = scatter.getData()
         assert sorted(10**x for x in xs) == pytest.approx(of_part)
-        errors = sorted(max(p.error, LEAST_ERROR) for p in SHOWN if p.part == part)
+        errors = sorted(max(p.error, LEAST_ERROR) for p in NAMED if p.part == part)
         assert sorted(10**y for y in ys) == pytest.approx(errors)
     assert len(set(SYMBOLS.values())) == len({c.name() for c in COLOURS.values()}) == 5
     xs, ys = plot.rings.getData()
@@ -77,7 +77,7 @@ def test_all_points_are_in_view_and_progress_is_shown(plot: AccuracyPlot) -> Non
         assert bottom < math.log10(max(point.error, LEAST_ERROR)) < top
 
 
-def test_the_last_complete_points_stay_faint_until_new_ones_come_and_are_called_so(
+def test_the_last_complete_points_stay_faint_until_new_ones_come_and_the_title_tells_so(
     plot: AccuracyPlot,
 ) -> None:
     measure(plot)
@@ -85,10 +85,10 @@ def test_the_last_complete_points_stay_faint_until_new_ones_come_and_are_called_
     measure(plot, POINTS[:2])
     plot.show_study_outdated()
     assert plot.title.toolTip().endswith(": stopped")
-    assert sorted(names(plot)) == sorted(point.name for point in SHOWN)
+    assert sorted(names(plot)) == sorted(point.name for point in NAMED)
     assert all(scatter.opacity() < 0.5 for scatter in plot.scatters.values())
     plot.show_study_begun()
-    assert sorted(names(plot)) == sorted(point.name for point in SHOWN)
+    assert sorted(names(plot)) == sorted(point.name for point in NAMED)
     plot.show_point(POINTS[0], 1, 7)
     assert names(plot) == ["1 sample"]
     assert all(scatter.opacity() == 1.0 for scatter in plot.scatters.values())
@@ -100,14 +100,14 @@ def test_the_last_complete_points_stay_faint_until_new_ones_come_and_are_called_
     assert plot.title.toolTip().endswith("The panel is behind the camera.")
 
 
-def test_the_present_setting_is_one_point_also_where_it_is_an_end_of_the_ladder() -> None:
+def test_the_present_setting_is_one_point_even_where_it_has_no_effects() -> None:
     bare = AccuracyPoint("effects", "this plan", 1e-3, 15.0, current=True)
     points = [*POINTS[:5], bare]
-    shown = [way.name for way in ways_shown(points) if way.point.part == "effects"]
-    assert shown == ["now: picture, no effects", "picture, all effects"]
+    names = [each.name for each in choose_points(points) if each.point.part == "effects"]
+    assert names == ["now: picture, no effects", "picture, all effects"]
 
 
-def test_a_view_that_the_user_moved_stays_until_asked_to_fit(plot: AccuracyPlot) -> None:
+def test_a_range_that_the_user_chose_stays_until_it_is_fitted(plot: AccuracyPlot) -> None:
     measure(plot, POINTS[:2])
     box = plot.plot.getViewBox()
     box.setRange(xRange=(0.0, 1.0), yRange=(0.0, 1.0), padding=0)
@@ -150,10 +150,10 @@ def test_a_logarithmic_axis_within_a_power_of_ten_is_numbered_at_round_values(
 
 def test_each_plan_is_a_cross_at_the_limit_of_its_error(plot: AccuracyPlot) -> None:
     scene = occ.load_preset("phone-136us-real").replace(rows=200)
-    ways = effect_sets_of(scene, SimulationSettings())
-    seconds = (None, *(1e-3 * (place + 1) for place in range(len(ways) - 1)))
-    plot.show_ways(Forecast(occ.plan(scene), None, None, False, ways, seconds))
-    limits = [max(way.error, LEAST_ERROR) for way in ways[1:] if way.error < math.inf]
+    effect_sets = effect_sets_of(scene, SimulationSettings())
+    seconds = (None, *(1e-3 * (place + 1) for place in range(len(effect_sets) - 1)))
+    plot.show_effect_sets(Forecast(occ.plan(scene), None, None, False, effect_sets, seconds))
+    limits = [max(each.error, LEAST_ERROR) for each in effect_sets[1:] if each.error < math.inf]
     crosses = plot.front_points.points()
     assert [10.0 ** cross.pos().y() for cross in crosses] == pytest.approx(limits)
     assert all(" ms, at most " in cross.data() for cross in crosses)

@@ -1,4 +1,4 @@
-"""Within one move of a slider the user sees which effect came in, and what it costs."""
+"""One move of a slider shows which effects are switched in or out, and their cost."""
 
 import math
 from types import SimpleNamespace
@@ -14,31 +14,31 @@ import occ_model as occ
 from occ_gui.accuracy import controller
 from occ_gui.accuracy.effect_rows import EffectRow
 from occ_gui.accuracy.pane import AccuracyPane
-from occ_gui.accuracy.plan_changes import PlanNews
+from occ_gui.accuracy.plan_changes import PlanChanges
 from occ_gui.app.panes import accuracy
 from occ_model.effects.plan import plan_with
 from occ_model.scene.scene import Scene
 
 
 class Bench(PaneBench):
-    """The pane in front, with the news of the plan."""
+    """The pane in front, with the changes of the plan."""
 
     def __init__(self, qtbot: QtBot, scene: Scene) -> None:
         super().__init__(qtbot, scene)
-        self.news = PlanNews()
-        self.hear_first.append(self.news.show_snapshot)
-        self.news.changed.connect(self.results_store.show_switched)
+        self.plan_changes = PlanChanges()
+        self.hear_first.append(self.plan_changes.show_snapshot)
+        self.plan_changes.changed.connect(self.results_store.show_switched)
         self.pane: AccuracyPane = self.add(accuracy(self.scenes, self.simulation))
         self.view = self.pane.view
         self.simulate()
 
     @property
-    def told(self) -> str:
+    def summary(self) -> str:
         return self.view.summary.toolTip()
 
     def row(self, effect: str) -> EffectRow:
-        (found,) = [row for row in self.view.table.effects.rows if row.effect == effect]
-        return found
+        (row,) = [row for row in self.view.table.effects.rows if row.effect == effect]
+        return row
 
 
 @pytest.fixture
@@ -48,15 +48,13 @@ def bench(qtbot: QtBot, small_scene: Scene, monkeypatch: pytest.MonkeyPatch) -> 
     return Bench(qtbot, small_scene)
 
 
-def test_what_a_change_switches_is_marked_with_its_cost_for_a_while(
-    bench: Bench, qtbot: QtBot
-) -> None:
+def test_switched_effects_are_marked_for_a_while(bench: Bench, qtbot: QtBot) -> None:
     assert not bench.row("led-edges").included
     bench.simulate(edge_time=2e-6)
-    shown = bench.row("led-edges")
-    assert (shown.included, shown.new) == (True, True)
-    assert "Switched in: LED rise and fall." in bench.told
-    bench.simulate(edge_time=2.1e-6)  # the mark stays while the slider goes on
+    edges = bench.row("led-edges")
+    assert (edges.included, edges.new) == (True, True)
+    assert "Switched in: LED rise and fall." in bench.summary
+    bench.simulate(edge_time=2.1e-6)  # the mark stays while the slider moves
     assert bench.row("led-edges").new
     bench.simulate(edge_time=5e-6)
     bench.simulate(vignetting_exponent=4.0)
@@ -65,13 +63,13 @@ def test_what_a_change_switches_is_marked_with_its_cost_for_a_while(
     bench.simulate(edge_time=0.0)
     edges = bench.row("led-edges")
     assert (edges.included, edges.new) == (False, True)
-    assert "Switched out: LED rise and fall." in bench.told
+    assert "Switched out: LED rise and fall." in bench.summary
     bench.simulate(edge_time=5e-6)
     assert bench.row("led-edges").new
-    bench.news.pause.setInterval(0)
-    bench.news.pause.start()
+    bench.plan_changes.pause.setInterval(0)
+    bench.plan_changes.pause.start()
     qtbot.waitUntil(lambda: not bench.row("led-edges").new)
-    assert "Switched" not in bench.told
+    assert "Switched" not in bench.summary
 
 
 def test_each_mark_of_the_slider_has_a_plan_of_its_own(qtbot: QtBot, bench: Bench) -> None:
@@ -113,14 +111,14 @@ def test_both_ends_of_the_slider_are_the_bare_model_and_the_exact_one(bench: Ben
     assert bench.row("sensor-noise").included
 
 
-def test_a_move_of_the_slider_is_answered_before_the_picture_is(qtbot: QtBot, bench: Bench) -> None:
+def test_the_next_plan_is_shown_before_its_picture(qtbot: QtBot, bench: Bench) -> None:
     slider = bench.view.tolerance.slider
     slider.setValue(slider.minimum())
-    qtbot.waitUntil(lambda: "Switches out: " in bench.told)
-    assert bench.told.startswith("Next: ")
+    qtbot.waitUntil(lambda: "Switches out: " in bench.summary)
+    assert bench.summary.startswith("Next: ")
     assert bench.row("sensor-noise").pending is False
     bench.simulate()
-    qtbot.waitUntil(lambda: bench.told.startswith("This picture: "))
+    qtbot.waitUntil(lambda: bench.summary.startswith("This picture: "))
     assert bench.row("sensor-noise").pending is None
 
 
@@ -131,11 +129,11 @@ def test_a_selected_effect_has_the_plans_reason_and_the_time_is_the_sum_of_the_r
     detail = bench.view.detail
     assert detail.title.text() == "Shot and read noise"
     assert "tolerance 0.5" in detail.reason.text()
-    assert bench.told.startswith("This picture: ")
+    assert bench.summary.startswith("This picture: ")
     rows = bench.view.table.effects.rows
     total = sum(row.seconds for row in rows if row.seconds is not None and row.included)
     time = f"{1e3 * total:.0f}" if total >= 0.1 else f"{1e3 * total:.1f}"
-    assert f"{time} ms" in bench.told
+    assert f"{time} ms" in bench.summary
 
 
 def test_a_wrong_tolerance_is_refused_and_the_field_restored(qtbot: QtBot, bench: Bench) -> None:
@@ -150,7 +148,7 @@ def test_a_wrong_tolerance_is_refused_and_the_field_restored(qtbot: QtBot, bench
     assert field.lineEdit().text() == "0.5 levels"
 
 
-def test_errors_of_a_decision_are_counted_in_margins(qtbot: QtBot, bench: Bench) -> None:
+def test_errors_of_a_decision_are_in_margins(qtbot: QtBot, bench: Bench) -> None:
     view = bench.view
     while bench.settings.settings.observable != "decision":
         qtbot.keyClick(view.observable, Qt.Key.Key_Down)
@@ -159,14 +157,14 @@ def test_errors_of_a_decision_are_counted_in_margins(qtbot: QtBot, bench: Bench)
     assert field.lineEdit().text().endswith(" margins")
     assert "margins" in view.plot.plot.getAxis("left").labelText
     assert "margins" in bench.row("sensor-noise").error_meaning
-    assert "levels" not in bench.told
+    assert "levels" not in bench.summary
     field.lineEdit().selectAll()
     qtbot.keyClicks(field, "0.25 margins\r")
     assert bench.settings.settings.tolerance == 0.25
-    refused = collect(view.tolerance.refused)
+    refusals = collect(view.tolerance.refused)
     field.lineEdit().selectAll()
     qtbot.keyClicks(field, "-1\r")
-    assert refused == ["Tolerance cannot be -1 margins; allowed: from 0 margins."]
+    assert refusals == ["Tolerance cannot be -1 margins; allowed: from 0 margins."]
     for control in (field, view.tolerance.slider):
         assert "levels" not in control.toolTip()
     while bench.settings.settings.observable != "image":
@@ -176,7 +174,7 @@ def test_errors_of_a_decision_are_counted_in_margins(qtbot: QtBot, bench: Bench)
     assert "levels" in field.toolTip()
 
 
-def test_a_change_that_is_not_known_has_no_number(bench: Bench) -> None:
+def test_an_unknown_error_has_no_number(bench: Bench) -> None:
     bench.simulate(luminance=0.5)
     row = bench.row("sensor-noise")
     assert (row.error, row.levels) == ("?", None)
@@ -184,15 +182,15 @@ def test_a_change_that_is_not_known_has_no_number(bench: Bench) -> None:
 
 
 def frame_of(*included: str) -> Any:
-    """A picture whose plan includes these of three effects."""
+    """Return a picture whose plan includes these of three effects."""
     decisions = [SimpleNamespace(effect=name) for name in ("a", "b", "c")]
     return SimpleNamespace(plan=SimpleNamespace(included=included, decisions=decisions))
 
 
-def test_what_is_switched_in_or_out_is_told_once() -> None:
-    news = PlanNews()
-    told = collect(news.changed)
+def test_a_change_of_the_plan_is_reported_once() -> None:
+    changes = PlanChanges()
+    reports = collect(changes.changed)
     for included in ("ab", "ab", "bc", "bc"):  # the first picture changes nothing
         snapshot: Any = SimpleNamespace(frame=frame_of(*included))
-        news.show_snapshot(snapshot)
-    assert [[decision.effect for decision in switched] for switched in told] == [["a", "c"]]
+        changes.show_snapshot(snapshot)
+    assert [[decision.effect for decision in report] for report in reports] == [["a", "c"]]

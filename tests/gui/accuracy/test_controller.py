@@ -1,4 +1,4 @@
-"""The study runs while the scene is at rest and somebody looks, and never beside a simulation."""
+"""The study runs while the scene is unchanged and the pane visible, never beside a simulation."""
 
 import math
 import threading
@@ -37,7 +37,7 @@ TOTAL = 3
 
 
 class RecordingPane:
-    """A pane that keeps all that it receives."""
+    """A pane that records all that it receives."""
 
     def __init__(self) -> None:
         self.plot, self.received = self, list[str]()
@@ -67,7 +67,7 @@ class RecordingPane:
 
 
 class Bench:
-    """A controller whose study measures a point whenever it is let."""
+    """A controller whose study measures a point whenever the test allows one."""
 
     def __init__(self, scene: Scene, qtbot: QtBot) -> None:
         self._qtbot = qtbot
@@ -114,7 +114,7 @@ def bench(qtbot: QtBot, small_scene: Scene, monkeypatch: pytest.MonkeyPatch) -> 
     bench.stop()
 
 
-def test_at_rest_and_seen_the_points_come_one_by_one_and_not_again(bench: Bench) -> None:
+def test_while_visible_the_points_come_one_by_one_and_only_once(bench: Bench) -> None:
     bench.controller.set_seen(True)
     bench.allow(1)
     bench.wait_for("point 0 1/3")
@@ -130,7 +130,7 @@ def test_at_rest_and_seen_the_points_come_one_by_one_and_not_again(bench: Bench)
     assert bench.pane.received[-1] == "finished"
 
 
-def test_a_change_cancels_the_study_and_the_next_is_of_it(bench: Bench) -> None:
+def test_a_change_cancels_the_study_and_the_next_one_includes_it(bench: Bench) -> None:
     bench.controller.set_seen(True)
     bench.allow(1)
     bench.wait_for("point 0 1/3")
@@ -156,7 +156,7 @@ def test_hiding_cancels_the_study_and_showing_begins_it_anew(bench: Bench, qtbot
     bench.scenes.change(iso=200.0)
     qtbot.waitUntil(lambda: bench.simulation.runner.is_idle)
     qtbot.wait(2 * IDLE_MS)
-    assert bench.controller.is_idle, "nobody looks"
+    assert bench.controller.is_idle, "the pane is hidden"
     bench.controller.set_seen(True)
     bench.allow(1 + TOTAL)
     bench.wait_until_idle()
@@ -176,7 +176,7 @@ def test_the_study_waits_while_a_picture_is_simulated(
     bench.wait_for("finished")
 
 
-def test_a_study_that_fails_tells_why_and_is_not_tried_again(
+def test_a_study_that_fails_gives_the_reason_and_is_not_repeated(
     bench: Bench, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def refuse(*_arguments: object) -> Iterator[AccuracyPoint]:
@@ -188,7 +188,7 @@ def test_a_study_that_fails_tells_why_and_is_not_tried_again(
     assert bench.pane.received == ["begun", "The panel is behind the camera."]
 
 
-def measured_of(request: SimulationRequest, measurement: CostMeasurement) -> list[object]:
+def collect_reports(request: SimulationRequest, measurement: CostMeasurement) -> list[object]:
     reports: list[object] = []
     measurement(request, reports.append)
     return [report for report in reports if report is not None]
@@ -202,11 +202,11 @@ def tiny() -> SimulationRequest:
 
 @pytest.fixture(scope="module")
 def reports(tiny: SimulationRequest) -> list[object]:
-    """Measure a scene once, for the tests that look at what comes."""
-    return measured_of(tiny, CostMeasurement())
+    """Measure a scene once, for the tests of the reports."""
+    return collect_reports(tiny, CostMeasurement())
 
 
-def test_the_models_own_study_has_as_many_points_as_it_says_after_the_costs_of_effects(
+def test_the_models_study_has_as_many_points_as_stated_after_the_costs_of_effects(
     tiny: SimulationRequest, reports: list[object]
 ) -> None:
     points = [m for m in reports if isinstance(m, MeasuredPoint)]
@@ -222,15 +222,15 @@ def test_the_models_own_study_has_as_many_points_as_it_says_after_the_costs_of_e
     assert len(before) == 1 + len(present)  # one report an effect
 
 
-def test_what_was_compared_of_a_scene_is_not_compared_again(
+def test_the_differences_of_a_scene_are_measured_only_once(
     tiny: SimulationRequest, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     measurement = CostMeasurement()
-    first = [r for r in measured_of(tiny, measurement) if isinstance(r, SceneCosts)][-1]
+    first = [r for r in collect_reports(tiny, measurement) if isinstance(r, SceneCosts)][-1]
     monkeypatch.setattr(effect_differences, "observe", None)  # to use it would fail
     monkeypatch.setattr(cost_measurement, "accuracy", lambda *_: iter(()))
     again = replace(tiny, settings=replace(FIRST_SETTINGS, tolerance=math.inf))
-    later = [r for r in measured_of(again, measurement) if isinstance(r, SceneCosts)][-1]
+    later = [r for r in collect_reports(again, measurement) if isinstance(r, SceneCosts)][-1]
     for effect, difference in first.differences.items():
         assert later.differences[effect] is difference
 
@@ -238,14 +238,14 @@ def test_what_was_compared_of_a_scene_is_not_compared_again(
 def test_cancelled_work_ends_within_the_simulation_of_a_picture(tiny: SimulationRequest) -> None:
     reports: list[object] = []
 
-    def report(something: object) -> None:
-        reports.append(something)
+    def report(message: object) -> None:
+        reports.append(message)
         if len(reports) == 3:
             raise Superseded
 
     with pytest.raises(Superseded):
         CostMeasurement()(tiny, report)
-    assert reports == [None] * 3  # before anything was measured as a whole
+    assert reports == [None] * 3  # before any measurement was complete
 
 
 def test_costs_of_another_scene_or_observable_are_not_used(
@@ -253,42 +253,42 @@ def test_costs_of_another_scene_or_observable_are_not_used(
 ) -> None:
     costs = [r for r in reports if isinstance(r, SceneCosts)][-1]
     times = TimeFractions.of(occ.render(tiny.scene))
-    assert costs.of(tiny, times).differences
+    assert costs.find_costs(tiny, times).differences
     other = replace(tiny, scene=tiny.scene.replace(iso=200.0))
-    assert costs.of(other, times) == MeasuredCosts(times)
-    assert not costs.of(other, times).is_comparable
+    assert costs.find_costs(other, times) == MeasuredCosts(times)
+    assert not costs.find_costs(other, times).is_comparable
     profile = replace(tiny, settings=replace(FIRST_SETTINGS, observable="profile"))
-    assert not costs.of(profile, times).differences
-    assert costs.of(profile, times).others
-    made = tuple(
+    assert not costs.find_costs(profile, times).differences
+    assert costs.find_costs(profile, times).others
+    pictures = tuple(
         TimeFractions(dict.fromkeys(names, 0.1), {"paint": 0.2}, {}, True)
         for names in ([], ["jpeg"], ["jpeg", "vignetting"])
     )
-    costs = SceneCosts(tiny, made)
-    for one in made:
-        shown = replace(one, stages={"paint": 9.0})
-        assert costs.of(tiny, shown).picture is one
+    costs = SceneCosts(tiny, pictures)
+    for one in pictures:
+        again = replace(one, stages={"paint": 9.0})
+        assert costs.find_costs(tiny, again).picture is one
     unlike = TimeFractions({"vignetting": 0.1}, {}, {}, True)
-    assert costs.of(tiny, unlike).picture is unlike
+    assert costs.find_costs(tiny, unlike).picture is unlike
 
 
-def test_all_times_that_are_stated_of_a_scene_are_of_one_measurement(
+def test_all_stated_times_of_a_scene_are_of_one_measurement(
     tiny: SimulationRequest, reports: list[object]
 ) -> None:
     costs = [r for r in reports if isinstance(r, SceneCosts)][-1]
     frame = occ.render(tiny.scene, noise="reused")
-    stated = costs.of(tiny, TimeFractions.of(frame))
-    assert stated.is_comparable
-    assert stated.picture.included == set(frame.plan.included)
+    known_costs = costs.find_costs(tiny, TimeFractions.of(frame))
+    assert known_costs.is_comparable
+    assert known_costs.picture.included == set(frame.plan.included)
     points = [
         m.point for m in reports if isinstance(m, MeasuredPoint) and m.point.part == "effects"
     ]
     (now,) = [point for point in points if point.current]
-    assert now.seconds == stated.picture.seconds
-    (bare,) = [fractions for fractions in stated.others if not fractions.included]
+    assert now.seconds == known_costs.picture.seconds
+    (bare,) = [fractions for fractions in known_costs.others if not fractions.included]
     assert points[0].seconds == bare.seconds
     slower = replace(tiny, settings=replace(FIRST_SETTINGS, noise="exact"))
-    assert not costs.of(slower, TimeFractions.of(frame)).is_comparable
+    assert not costs.find_costs(slower, TimeFractions.of(frame)).is_comparable
 
 
 def test_a_forecast_is_made_at_every_change_of_the_settings(bench: Bench, qtbot: QtBot) -> None:
@@ -298,4 +298,4 @@ def test_a_forecast_is_made_at_every_change_of_the_settings(bench: Bench, qtbot:
     before = len(bench.pane.forecasts)
     bench.settings.set_tolerance(math.inf)
     qtbot.waitUntil(lambda: len(bench.pane.forecasts) > before)
-    assert any(found.plan.tolerance == math.inf for found in bench.pane.forecasts)
+    assert any(each.plan.tolerance == math.inf for each in bench.pane.forecasts)

@@ -1,4 +1,4 @@
-"""The table says what each effect changes and takes, and what the plan does with it."""
+"""The table states the error and time of each effect, and whether the plan includes it."""
 
 import math
 from dataclasses import replace
@@ -10,7 +10,7 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QColor
 from pytestqt.qtbot import QtBot
 
-from occ_gui.accuracy.effect_cells import levels_at, place_of
+from occ_gui.accuracy.effect_cells import find_levels, find_position
 from occ_gui.accuracy.effect_rows import (
     EFFECT,
     ELSE,
@@ -18,8 +18,8 @@ from occ_gui.accuracy.effect_rows import (
     STAGE,
     SWITCH,
     TIME,
-    rows_of,
-    slowest_of,
+    find_slowest,
+    make_rows,
 )
 from occ_gui.accuracy.effect_table import EffectTable
 from occ_model.results.accuracy import (
@@ -43,7 +43,7 @@ def frame(snapshot_of: SnapshotOf) -> Frame:
 
 
 def costs_of(frame: Frame, **measured: EffectDifference) -> MeasuredCosts:
-    differences = {name.replace("_", "-"): found for name, found in measured.items()}
+    differences = {name.replace("_", "-"): each for name, each in measured.items()}
     return MeasuredCosts(TimeFractions.of(frame), differences=differences)
 
 
@@ -57,7 +57,7 @@ def difference(effect: str, error: float) -> EffectDifference:
 def table(qtbot: QtBot, frame: Frame) -> EffectTable:
     table = add_widget(qtbot, EffectTable())
     table.resize(640, 260)
-    table.show_rows(rows_of(frame, costs_of(frame), new=()))
+    table.show_rows(make_rows(frame, costs_of(frame), new=()))
     table.show()
     return table
 
@@ -73,17 +73,17 @@ def test_every_effect_has_a_row_in_the_order_that_light_travels_and_times_add_up
     rows = table.effects.rows
     assert [row.effect for row in rows[:-1]] == [d.effect for d in frame.plan.decisions]
     assert rows[-1].effect == ELSE
-    shown = [table.effects.index(place, STAGE).data() for place in range(len(rows))]
-    stages = [stage for stage in shown if stage]
+    texts = [table.effects.index(place, STAGE).data() for place in range(len(rows))]
+    stages = [stage for stage in texts if stage]
     assert stages == ["Light", "Optics", "Sensor", "File"]
     assert cell(table, "led-edges", STAGE) == "Light"
-    rows = rows_of(frame, costs_of(frame), new=())
+    rows = make_rows(frame, costs_of(frame), new=())
     total = sum(row.seconds for row in rows if row.seconds is not None)
     assert total == pytest.approx(sum(frame.timings.values()), rel=1e-12)
     assert rows[-1].seconds == pytest.approx(3e-3)
 
 
-def test_a_row_says_error_time_and_reason_and_an_absent_effect_is_grey_and_costs_nothing(
+def test_a_row_states_error_time_and_reason_and_an_absent_effect_is_grey(
     table: EffectTable, frame: Frame
 ) -> None:
     (decision,) = [d for d in frame.plan.decisions if d.effect == "led-edges"]
@@ -100,10 +100,10 @@ def test_a_row_says_error_time_and_reason_and_an_absent_effect_is_grey_and_costs
     assert cell(table, "led-edges", EFFECT, ROLE.ForegroundRole) is None
 
 
-def test_a_measured_error_takes_the_place_of_the_estimate(table: EffectTable, frame: Frame) -> None:
+def test_a_measured_error_replaces_the_estimate(table: EffectTable, frame: Frame) -> None:
     (decision,) = [d for d in frame.plan.decisions if d.effect == "led-edges"]
     measured = costs_of(frame, led_edges=difference("led-edges", 0.71))
-    table.show_rows(rows_of(frame, measured, new=()))
+    table.show_rows(make_rows(frame, measured, new=()))
     assert cell(table, "led-edges", ERROR) == "0.71"
     meaning = str(cell(table, "led-edges", ERROR, ROLE.ToolTipRole))
     assert "measured" in meaning
@@ -116,14 +116,14 @@ def test_the_line_of_the_tolerance_is_dragged_along_the_axis_of_errors(
     table.resize(900, 400)
     table.show()
     area = table.visualRect(table.effects.index(2, ERROR))
-    found = collect(table.tolerance_dragged)
+    tolerances = collect(table.tolerance_dragged)
     for levels in (0.1, 5.0, 80.0):
-        at = QPoint(round(place_of(levels, area)), area.center().y())
+        at = QPoint(round(find_position(levels, area)), area.center().y())
         qtbot.mousePress(table.viewport(), Qt.MouseButton.LeftButton, pos=at)
         qtbot.mouseRelease(table.viewport(), Qt.MouseButton.LeftButton, pos=at)
-        assert found[-1] == pytest.approx(levels, rel=0.1)
+        assert tolerances[-1] == pytest.approx(levels, rel=0.1)
     for place, levels in ((area.left() - 5, 0.0), (area.right() + 50, math.inf)):
-        assert levels_at(place, area) == levels
+        assert find_levels(place, area) == levels
 
 
 def test_an_error_has_a_colour_only_beyond_the_tolerance(table: EffectTable) -> None:
@@ -133,19 +133,19 @@ def test_an_error_has_a_colour_only_beyond_the_tolerance(table: EffectTable) -> 
     for tolerance, has_colour in ((limit / 2.0, True), (2.0 * limit, False)):
         table.show_tolerance(tolerance)
         image = table.viewport().grab().toImage()
-        end = image.pixelColor(round(place_of(limit, area)), area.center().y())
+        end = image.pixelColor(round(find_position(limit, area)), area.center().y())
         assert (end.saturation() > 100, end.saturation() < 20) == (has_colour, not has_colour)
 
 
-def test_what_has_just_been_switched_is_tinted(table: EffectTable, frame: Frame) -> None:
-    table.show_rows(rows_of(frame, costs_of(frame), new=("led-edges",)))
+def test_newly_switched_effects_are_tinted(table: EffectTable, frame: Frame) -> None:
+    table.show_rows(make_rows(frame, costs_of(frame), new=("led-edges",)))
     assert cell(table, "led-edges", EFFECT, ROLE.BackgroundRole) is not None
     assert cell(table, "sensor-noise", EFFECT, ROLE.BackgroundRole) is None
-    table.show_rows(rows_of(frame, costs_of(frame), new=()))
+    table.show_rows(make_rows(frame, costs_of(frame), new=()))
     assert cell(table, "led-edges", EFFECT, ROLE.BackgroundRole) is None
 
 
-def test_what_would_be_switched_is_shown_before_it_is(
+def test_pending_switches_are_shown(
     table: EffectTable, frame: Frame, snapshot_of: SnapshotOf
 ) -> None:
     without = replace(
@@ -156,59 +156,59 @@ def test_what_would_be_switched_is_shown_before_it_is(
         ),
     )
     pending = Forecast(without, 0.01, 0.7, is_measured=False)
-    table.show_rows(rows_of(frame, costs_of(frame), (), pending))
+    table.show_rows(make_rows(frame, costs_of(frame), (), pending))
     assert cell(table, "led-edges", EFFECT) == "● → ○ LED rise and fall"
     assert cell(table, "led-edges", EFFECT, ROLE.BackgroundRole) is not None
     assert cell(table, "sensor-noise", EFFECT) == "● Shot and read noise"
 
 
-def test_a_switch_tells_what_is_wanted_of_its_effect_and_shows_what_is_forced(
+def test_a_switch_reports_the_choice_for_its_effect_and_shows_forced_ones(
     table: EffectTable, qtbot: QtBot
 ) -> None:
     effects = [row.effect for row in table.effects.rows if row.effect != ELSE]
     assert list(table.switches) == effects
-    received: list[tuple[str, object]] = []
-    table.switched.connect(lambda *what: received.append(what))
+    choices: list[tuple[str, object]] = []
+    table.switched.connect(lambda *choice: choices.append(choice))
     for key in (Qt.Key.Key_Down, Qt.Key.Key_Down, Qt.Key.Key_Home):
         qtbot.keyClick(table.switches["jpeg"], key)
-    assert received == [("jpeg", True), ("jpeg", False), ("jpeg", None)]
-    received.clear()
+    assert choices == [("jpeg", True), ("jpeg", False), ("jpeg", None)]
+    choices.clear()
     table.show_force({"jpeg": True, "flicker": False})
-    shown = {effect: switch.currentText() for effect, switch in table.switches.items()}
-    assert {e: t for e, t in shown.items() if t != "plan"} == {"jpeg": "on", "flicker": "off"}
+    texts = {effect: switch.currentText() for effect, switch in table.switches.items()}
+    assert {e: t for e, t in texts.items() if t != "plan"} == {"jpeg": "on", "flicker": "off"}
     table.show_force({})
     assert {switch.currentText() for switch in table.switches.values()} == {"plan"}
-    assert received == []
+    assert choices == []
 
 
-def test_the_effect_shown_first_is_the_slowest_in_the_picture_but_for_what_times_scatter(
+def test_the_first_effect_in_detail_is_the_slowest_within_the_scatter_of_times(
     frame: Frame,
 ) -> None:
-    rows = rows_of(frame, costs_of(frame), new=())
-    assert slowest_of(rows) == "sensor-noise"
+    rows = make_rows(frame, costs_of(frame), new=())
+    assert find_slowest(rows) == "sensor-noise"
     slower = replace(frame, timings={**frame.timings, "led-edges": 0.05})
-    assert slowest_of(rows_of(slower, costs_of(slower), new=())) == "led-edges"
-    assert slowest_of([row for row in rows if row.effect == ELSE]) == ""
+    assert find_slowest(make_rows(slower, costs_of(slower), new=())) == "led-edges"
+    assert find_slowest([row for row in rows if row.effect == ELSE]) == ""
     longer = replace(frame, timings={**frame.timings, "led-edges": 0.032})
-    rows = rows_of(longer, costs_of(longer), new=())
-    assert slowest_of(rows) == "led-edges"
-    assert slowest_of(rows, "sensor-noise") == "sensor-noise"
+    rows = make_rows(longer, costs_of(longer), new=())
+    assert find_slowest(rows) == "led-edges"
+    assert find_slowest(rows, "sensor-noise") == "sensor-noise"
 
 
 def click_on(table: EffectTable, column: int, qtbot: QtBot) -> list[str]:
-    """Click on the title of a column; give the effects in their order."""
+    """Click on the title of a column; return the effects in their order."""
     header = table.horizontalHeader()
     place = QPoint(header.sectionViewportPosition(column) + 12, header.height() // 2)
     qtbot.mouseClick(header.viewport(), Qt.MouseButton.LeftButton, pos=place)
     return [row.effect for row in table.effects.rows]
 
 
-def test_a_click_on_a_title_sorts_and_takes_the_switches_along(
+def test_a_click_on_a_title_sorts_rows_and_switches(
     table: EffectTable, frame: Frame, qtbot: QtBot
 ) -> None:
     measured = {"sensor_noise": difference("sensor-noise", 3.0)}
     measured["led_edges"] = difference("led-edges", 7.0)
-    table.show_rows(rows_of(frame, costs_of(frame, **measured), new=()))
+    table.show_rows(make_rows(frame, costs_of(frame, **measured), new=()))
     light = [row.effect for row in table.effects.rows]
     table.choose("led-edges")
     for column, first in ((TIME, "sensor-noise"), (ERROR, "led-edges")):
@@ -228,13 +228,13 @@ def test_a_click_on_a_title_sorts_and_takes_the_switches_along(
     assert click_on(table, STAGE, qtbot) == light
 
 
-def test_times_that_are_measured_again_shuffle_no_rows(
+def test_repeated_measurements_do_not_shuffle_rows(
     table: EffectTable, frame: Frame, qtbot: QtBot
 ) -> None:
     def show(**seconds: float) -> list[str]:
         timings = {name.replace("_", "-"): time for name, time in seconds.items()}
         again = replace(frame, timings={**frame.timings, **timings})
-        table.show_rows(rows_of(again, costs_of(again), new=()))
+        table.show_rows(make_rows(again, costs_of(again), new=()))
         return [row.effect for row in table.effects.rows][:2]
 
     show(led_edges=0.030, sensor_noise=0.031)
@@ -244,13 +244,13 @@ def test_times_that_are_measured_again_shuffle_no_rows(
     assert show(led_edges=0.031, sensor_noise=0.033) == ["led-edges", "sensor-noise"]
 
 
-def test_of_some_runs_each_effect_takes_its_fastest() -> None:
+def test_the_time_of_an_effect_is_the_shortest_of_some_runs() -> None:
     runs = [
         TimeFractions({"jpeg": jpeg, "defocus": defocus}, {"image": image}, {}, True)
         for jpeg, defocus, image in ((4.0, 1.0, 3.0), (2.0, 9.0, 4.0), (2.5, 1.5, 8.0))
     ]
-    found = TimeFractions.of_runs(runs)
-    assert (found.effects, found.stages) == ({"jpeg": 2.0, "defocus": 1.0}, {"image": 3.0})
-    assert found.scatter == {"jpeg": 0.5, "defocus": 0.5}
-    assert found.seconds == 6.0
+    fractions = TimeFractions.of_runs(runs)
+    assert (fractions.effects, fractions.stages) == ({"jpeg": 2.0, "defocus": 1.0}, {"image": 3.0})
+    assert fractions.scatter == {"jpeg": 0.5, "defocus": 0.5}
+    assert fractions.seconds == 6.0
     assert TimeFractions.of_runs(runs[:1]).scatter == {"jpeg": 0.0, "defocus": 0.0}

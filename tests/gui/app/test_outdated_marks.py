@@ -67,7 +67,7 @@ def test_each_pane_is_marked_while_its_result_is_outdated(
         application.story.rows,
         application.view("profile"),
         application.view("decode"),
-        *application.view("accuracy").of_scene,
+        *application.view("accuracy").scene_parts,
         application.shell.pane("equations").view.exposure,
     }
     assert all(mark.isHidden() for mark in marks(application))

@@ -43,9 +43,9 @@ class LessonsInWindow(QObject):
             self._window.hide_pane(self._brought)
             self._brought = ""
         if name:
-            is_new = self._window.is_put_away(name)
+            is_new = self._window.is_hidden(name)
             self._window.bring_into_view(name)
-            if is_new and not self._window.is_put_away(name):
+            if is_new and not self._window.is_hidden(name):
                 self._brought = name
         self.photo_explained.emit(name == "photo")
 

@@ -24,21 +24,21 @@ def connect_story(parts: Parts) -> None:
     _SimulationNaming(parts)
     crosshair, before = story.rows.crosshair, menus.actions["before"]
 
-    pointed = parts.window.pointed
+    readout = parts.window.readout
 
-    def share(name: str, pane: Any) -> None:  # holds no part that holds the shell
+    def share(name: str, pane: Any) -> None:  # refers to no part that refers to the shell
         if name == "equations":
             _link_columns(crosshair, pane.exposure)
         elif name == "picture":
             from occ_gui.window.cursor_readout import follow_pictures
 
-            follow_pictures(pane.view, pointed.set_full_text)
+            follow_pictures(pane.view, readout.set_full_text)
             _before(pane).setChecked(before.isChecked())
             _before(pane).toggled.connect(before.setChecked)
         elif name == "profile":
             from occ_gui.window.cursor_readout import follow_profile
 
-            follow_profile(pane.view, pointed.set_full_text)
+            follow_profile(pane.view, readout.set_full_text)
 
     parts.shell.made.connect(share)
     # What is asked of the picture is seen in the whole one.

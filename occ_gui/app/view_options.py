@@ -29,10 +29,10 @@ class ViewOptions(QObject):
         super().__init__(window)
         self._window, self._store, self._preferences, self._say = window, store, preferences, say
         self.theme, self.text_size, self.brightness = ThemeController(), TextSize(), hold
-        window.dress()
+        window.apply_style()
         self.layout = DockLayout(window, window.modes, preferences)
         self.theme.chosen.connect(self._on_theme)
-        self.theme.coloured.connect(window.dress)
+        self.theme.coloured.connect(window.apply_style)
         self.text_size.chosen.connect(self._on_text_size)
         hold.switched.connect(self._on_hold)
         window.actions_by_name["hold_brightness"].triggered.connect(hold.switch)

@@ -1,4 +1,4 @@
-"""Dialogs that list the menus' entries: the palette finds one, the sheet shows all with keys."""
+"""Dialogs that list the menus' entries: a palette to find one, and a sheet of all shortcuts."""
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -45,45 +45,45 @@ class Command:
     words: str = ""
 
     def matches(self, words: Sequence[str], *, by_name: bool = False) -> bool:
-        """Return whether all words occur in its title or hint, or in what it is found by."""
+        """Return whether all words occur in its title, hint or, unless by name, search words."""
         text = f"{self.title} {self.hint} {'' if by_name else self.words}".casefold()
         return all(word in text for word in words)
 
 
 class CommandPalette(QDialog):
-    """Lists the commands that match the typed text; Enter carries out the selected one."""
+    """Lists the commands that match the typed text; Enter runs the selected one."""
 
     def __init__(self, commands: Sequence[Command], parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setWindowTitle("Find a command")
         self._commands = commands
-        self._matching: list[Command] = []
+        self._matches: list[Command] = []
         self.chosen: Command | None = None
         field = QLineEdit(placeholderText="A few letters of a command or parameter")
-        tip = "Up and down choose, Enter does it, Escape leaves."
-        self.line = name_widget(field, "Words to look for", tip)
+        tip = "Up and Down select, Enter runs the command, Escape closes the list."
+        self.line = name_widget(field, "Search words", tip)
         self.line.textChanged.connect(self._filter)
         self.line.installEventFilter(self)
         self.list = name_widget(QListWidget(), "Commands found")
         self.list.setUniformItemSizes(True)
         self.list.itemActivated.connect(self._accept_chosen)
         self.list.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        self._nothing = QLabel("Nothing by these words.")
+        self._nothing = QLabel("No command has these words.")
         fill(QVBoxLayout(self), self.line, self.list, self._nothing)
         self.resize(_WIDTH, _HEIGHT)
         self._filter("")
 
     def _filter(self, text: str) -> None:
         words = text.casefold().split()
-        found = [command for command in self._commands if command.matches(words)]
-        # Those whose names have the words stand first.
-        self._matching = sorted(found, key=lambda each: not each.matches(words, by_name=True))
+        matches = [command for command in self._commands if command.matches(words)]
+        # Commands whose names contain the words come first.
+        self._matches = sorted(matches, key=lambda each: not each.matches(words, by_name=True))
         self.list.clear()
-        for command in self._matching:
+        for command in self._matches:
             hint = f"    {command.hint}" if command.hint else ""
             self.list.addItem(f"{command.title}{hint}")
         self.list.setCurrentRow(0)
-        self._nothing.setVisible(not self._matching)
+        self._nothing.setVisible(not self._matches)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
         """Move in the list by the arrow keys and choose by Enter while text is typed."""
@@ -100,7 +100,7 @@ class CommandPalette(QDialog):
     def _accept_chosen(self) -> None:
         row = self.list.currentRow()
         if row >= 0:
-            self.chosen = self._matching[row]
+            self.chosen = self._matches[row]
             self.accept()
 
 
@@ -126,7 +126,7 @@ def commands_of(
     bar: QMenuBar, controls: ControlPanel, bring_to_front: Callable[[str], None]
 ) -> list[Command]:
     """List the enabled menu entries, and a command for each parameter that selects its field."""
-    found = [
+    commands = [
         Command(
             f"{path}: {plain(action.text())}",
             action.shortcut().toString(_NATIVE),
@@ -138,11 +138,11 @@ def commands_of(
     ]
     for page, panel in controls.panels.items():
         for name, row in panel.rows.items():
-            found.append(_jump(page, name, row, bring_to_front))
-    return found
+            commands.append(_jump_command(page, name, row, bring_to_front))
+    return commands
 
 
-def _jump(
+def _jump_command(
     page: str, name: str, row: ParameterRow, bring_to_front: Callable[[str], None]
 ) -> Command:
     declared = PARAMETERS[name]
@@ -163,12 +163,12 @@ class ShortcutSheet(QDialog):
     def __init__(self, rows: Iterable[tuple[str, str, str]], parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setWindowTitle("Keyboard shortcuts")
-        shown = list(rows)
-        self.table = make_read_only(QTableWidget(len(shown), 3), "Keyboard shortcuts")
+        lines = list(rows)
+        self.table = make_read_only(QTableWidget(len(lines), 3), "Keyboard shortcuts")
         self.table.setHorizontalHeaderLabels(["Menu", "Does", "Keys"])
         self.table.setShowGrid(False)
         self.table.setAlternatingRowColors(True)
-        for line, texts in enumerate(shown):
+        for line, texts in enumerate(lines):
             for column, text in enumerate(texts):
                 self.table.setItem(line, column, QTableWidgetItem(text))
         header = self.table.horizontalHeader()
@@ -176,7 +176,7 @@ class ShortcutSheet(QDialog):
         header.setSectionResizeMode(1, QHeaderView.ResizeMode.Stretch)
         hint = paragraph(
             "Sliders: arrows and Page Up/Down. Fields: type a number with its unit, such as "
-            "68us or 1/8000 s; Enter takes it. Alt and an underlined letter opens a menu."
+            "68us or 1/8000 s; Enter accepts it. Alt and an underlined letter open a menu."
         )
         buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
         buttons.rejected.connect(self.reject)

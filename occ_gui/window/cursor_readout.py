@@ -14,32 +14,31 @@ from occ_gui.profile.profile_view import ProfileView
 class _Follower(QObject):
     """Shows a text for each position of the mouse in a view, an empty one when it leaves.
 
-    The scene's own signal leaves out positions that follow fast, also that where the mouse stops.
+    The scene's own signal skips positions in quick succession, even that where the mouse stops.
     """
 
-    # A signal, which ends with the label that shows the text: where a window goes with the mouse
-    # in a view, that may go first.
-    pointed = Signal(str)
+    # A signal, because the label that shows the text may be deleted before the view.
+    moved = Signal(str)
 
     def __init__(
         self, view: pg.GraphicsView, text_at: Callable[[QPointF], str], show: Callable[[str], None]
     ) -> None:
         super().__init__(view)
         self._view, self._text_at = view, text_at
-        self.pointed.connect(show)
+        self.moved.connect(show)
         view.viewport().installEventFilter(self)
 
     def eventFilter(self, _watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
         if event.type() == QEvent.Type.Leave:
-            self.pointed.emit("")
+            self.moved.emit("")
         elif event.type() == QEvent.Type.MouseMove and isinstance(event, QMouseEvent):
             point = self._view.mapToScene(event.position().toPoint())
-            self.pointed.emit(self._text_at(QPointF(point)))
+            self.moved.emit(self._text_at(QPointF(point)))
         return False
 
 
 def follow_profile(profile: ProfileView, show: Callable[[str], None]) -> None:
-    """Show column and level under the mouse in the profile; an empty text outside of it."""
+    """Show column and level under the mouse in the profile; an empty text outside."""
 
     def text_at(point: QPointF) -> str:
         box = profile.plot.getViewBox()
@@ -55,22 +54,22 @@ def follow_profile(profile: ProfileView, show: Callable[[str], None]) -> None:
 def follow_pictures(image: ImageView, show: Callable[[str], None]) -> None:
     """Show column, row and level under the mouse in picture and photo; empty outside."""
 
-    def place(pane: PicturePane, point: QPointF) -> tuple[int, int]:
+    def pixel_at(pane: PicturePane, point: QPointF) -> tuple[int, int]:
         at = pane.box.mapSceneToView(point)
         return round(at.x()), round(at.y())
 
-    def in_picture(point: QPointF) -> str:
-        column, row = place(image.simulation, point)
+    def describe_simulation(point: QPointF) -> str:
+        column, row = pixel_at(image.simulation, point)
         levels = image.levels_at(column, row)
         if levels is None:
             return ""
-        of_both = ", ".join(f"{kind} level {level}" for kind, level in levels.items())
-        return f"Simulation: column {column}, row {row}, {of_both}"
+        text = ", ".join(f"{kind} level {level}" for kind, level in levels.items())
+        return f"Simulation: column {column}, row {row}, {text}"
 
-    def in_photo(point: QPointF) -> str:
-        column, row = place(image.photo, point)
+    def describe_photo(point: QPointF) -> str:
+        column, row = pixel_at(image.photo, point)
         level = image.photo.level_at(column, row)
         return "" if level is None else f"Photo: column {column}, row {row}, level {level}"
 
-    _Follower(image.simulation.graphics, in_picture, show)
-    _Follower(image.photo.graphics, in_photo, show)
+    _Follower(image.simulation.graphics, describe_simulation, show)
+    _Follower(image.photo.graphics, describe_photo, show)

@@ -1,4 +1,4 @@
-"""Docks: where a pane floats, which one is the current pane, and the layout that is stored."""
+"""Docks: the dock of a pane, which may float; the current pane; and the stored layout."""
 
 from collections.abc import Mapping
 
@@ -10,13 +10,13 @@ from occ_gui.files.preferences import Preferences
 from occ_gui.values.modes import MODES, PICTURE
 from occ_gui.window.modes import ModeSwitch
 
-_STEP = 24  # pixels by which a floated pane is moved from its place, so that it is seen to float
+_OFFSET = 24  # pixels from its place to which a pane moves, so that it is seen to float
 
 
-def beside(place: QRect, screen: QRect) -> QRect:
-    """Return where a pane floats: near its former place, and whole on the screen."""
+def floating_place(place: QRect, screen: QRect) -> QRect:
+    """Return the place of a floating pane: near its former place, and whole on the screen."""
     size = QSize(min(place.width(), screen.width()), min(place.height(), screen.height()))
-    corner = place.topLeft() + QPoint(_STEP, _STEP)
+    corner = place.topLeft() + QPoint(_OFFSET, _OFFSET)
     return QRect(
         QPoint(
             max(screen.left(), min(corner.x(), screen.right() + 1 - size.width())),
@@ -27,7 +27,7 @@ def beside(place: QRect, screen: QRect) -> QRect:
 
 
 class Dock(QDockWidget):
-    opened_by_user = Signal()  # its entry in the menu has shown it
+    opened_by_user = Signal()  # the user has opened it from the menu
 
     def __init__(self, name: str, title: str, content: QWidget, parent: QWidget) -> None:
         super().__init__(title, parent)
@@ -39,8 +39,8 @@ class Dock(QDockWidget):
         self.toggleViewAction().triggered.connect(self._on_switched)
         self.hide()  # until a mode lays it out
 
-    def _on_switched(self, shown: bool) -> None:
-        if shown:
+    def _on_switched(self, on: bool) -> None:
+        if on:
             self.opened_by_user.emit()
 
     def setVisible(self, visible: bool) -> None:  # noqa: N802 - Qt's name
@@ -61,9 +61,9 @@ class Dock(QDockWidget):
             self._place = QRect(self.mapToGlobal(QPoint()), self.size())
 
     def _on_floated(self, floats: bool) -> None:
-        # Not while the mouse holds it.
+        # Not while the user drags it.
         if floats and self._place.isValid() and QWidget.mouseGrabber() is not self:
-            self.setGeometry(beside(self._place, self.screen().availableGeometry()))
+            self.setGeometry(floating_place(self._place, self.screen().availableGeometry()))
 
 
 class CurrentPane(QObject):
@@ -73,15 +73,15 @@ class CurrentPane(QObject):
         self._docks = docks
         self.name = PICTURE
         for name, dock in docks.items():
-            dock.visibilityChanged.connect(lambda seen, name=name: self._on_seen(name, seen))
+            dock.visibilityChanged.connect(lambda on, name=name: self._on_visibility(name, on))
         application = QApplication.instance()
         if isinstance(application, QApplication):
             application.focusChanged.connect(self._on_focus)
 
-    def _on_seen(self, name: str, seen: bool) -> None:
-        # When the window is first shown all docks become visible without the user's choosing one.
-        tabbed = self._window.tabifiedDockWidgets(self._docks[name])
-        if seen and tabbed and self._window.isActiveWindow():
+    def _on_visibility(self, name: str, is_visible: bool) -> None:
+        # When the window is first shown, docks become visible that the user has not chosen.
+        tabs = self._window.tabifiedDockWidgets(self._docks[name])
+        if is_visible and tabs and self._window.isActiveWindow():
             self.name = name
 
     def _on_focus(self, _before: QWidget | None, now: QWidget | None) -> None:
@@ -113,7 +113,7 @@ class DockLayout(QObject):
         if not geometry.isEmpty():
             self._window.restoreGeometry(geometry)
         layouts = {name: _bytes(recall(f"{_STATE}/{name}")) for name in MODES}
-        self._modes.layouts |= {name: kept for name, kept in layouts.items() if not kept.isEmpty()}
+        self._modes.layouts |= {name: each for name, each in layouts.items() if not each.isEmpty()}
         self._modes.switch(recall(_MODE))
 
     def keep(self) -> None:

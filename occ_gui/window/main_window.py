@@ -26,9 +26,9 @@ _LEAST_BELOW = 530  # pixels of width that each pane below the middle may need
 
 _FIRST_SIZE = QSize(1280, 800)
 _PROPAGATED = Qt.ApplicationAttribute.AA_UseStyleSheetPropagationInWidgetStyles
-_WITH_PICTURE = "photo"  # the pane that goes with the whole picture: the photo stands beside that
+_WITH_PICTURE = "photo"  # the pane shown with the whole picture, which has the photo beside it
 
-_IN_STORY = ("profile", "decode")  # panes that show in detail what the story shows, too
+_IN_STORY = ("profile", "decode")  # panes on a subject that has a row in the story
 
 
 _CONTROLS = {
@@ -54,9 +54,9 @@ class MainWindow(QMainWindow):
     ) -> None:
         super().__init__()
         self.setWindowTitle("Optical Camera Communication")
-        # Else what is inside keeps the colours of the theme that it was first shown in.
+        # Otherwise children keep the colours of the theme in which they were first shown.
         QApplication.setAttribute(_PROPAGATED)
-        self.dress()
+        self.apply_style()
         self.setFocus()  # on no control, until a key or the mouse chooses one
         self.setDockNestingEnabled(True)
         self.setAnimated(False)  # each step of an animation would redraw all plots
@@ -77,7 +77,7 @@ class MainWindow(QMainWindow):
         self._status_line = StatusLine()
         self.setStatusBar(self._status_line)
         line = self._status_line
-        self.reading, self.filming, self.pointed = line.reading, line.filming, line.pointed
+        self.reading, self.filming, self.readout = line.reading, line.filming, line.readout
         self.show_timing = self._status_line.show_timing
         self.show_accuracy = self._status_line.show_accuracy
         self.show_plan_change = self._status_line.show_plan_change
@@ -109,9 +109,9 @@ class MainWindow(QMainWindow):
         return dock
 
     def bring_to_front(self, name: str) -> None:
-        """Show a pane in front of the others in its place, in the mode that is about it.
+        """Show a pane in front of the others in its place.
 
-        A pane that is open in the present mode stays there.
+        The mode changes to the pane's own unless the pane is open in the present one.
         """
         home = self._panes.home_of(name)
         if self.docks[name].isHidden() and home:
@@ -121,7 +121,7 @@ class MainWindow(QMainWindow):
     def _raise(self, name: str) -> None:
         dock = self.docks[name]
         is_new = dock.isHidden()
-        # Qt would widen the window for what the middle needed before its page was changed.
+        # Otherwise Qt would widen the window for the former page of the middle.
         QApplication.sendPostedEvents(None, QEvent.Type.LayoutRequest.value)
         dock.show()
         if is_new:
@@ -130,7 +130,7 @@ class MainWindow(QMainWindow):
         QTimer.singleShot(0, dock, lambda: self._give_place(dock, is_new))
 
     def _join_tabs(self, dock: Dock) -> None:
-        """Let a pane that has just opened be a tab of another one where both have no room.
+        """Make a pane that has just opened a tab of another one if there is no room for both.
 
         Qt would widen the window beyond the screen, and draw one pane over the other.
         """
@@ -152,7 +152,7 @@ class MainWindow(QMainWindow):
             self.tabifyDockWidget(others[-1], dock)
 
     def _give_place(self, dock: Dock, is_new: bool) -> None:
-        """Bring a pane to the front, and let one that has just opened be large enough."""
+        """Bring a pane to the front, and enlarge it if it is too small when it opens."""
         dock.raise_()
         if not is_new or dock.isFloating():
             return
@@ -171,7 +171,7 @@ class MainWindow(QMainWindow):
             self._give_half_height(dock)
 
     def _fit_height(self, dock: Dock) -> bool:
-        """Let a pane be a tab of another one where panes above each other have no room.
+        """Make a pane a tab of another one if there is no room for one above the other.
 
         Qt would make the window higher than the screen. Return whether the pane has moved.
         """
@@ -211,9 +211,9 @@ class MainWindow(QMainWindow):
             self.resizeDocks([dock], [fraction], Qt.Orientation.Vertical)
 
     def bring_into_view(self, name: str) -> None:
-        """Show a pane in front in the present mode, unless the story has a row of the same.
+        """Show a pane in front in the present mode, or the story if it has a row for the pane.
 
-        The mode stays, as a lesson asks for this: in another one the lesson would be gone.
+        The mode stays, because it shows the lesson that asks for the pane.
         """
         if name in _IN_STORY and MODES[self.modes.mode].centre:
             self._story.show_whole_picture(False)
@@ -227,7 +227,7 @@ class MainWindow(QMainWindow):
         if name not in self._panes.shown_in(self.modes.mode):
             self.docks[name].hide()
 
-    def is_put_away(self, name: str) -> bool:
+    def is_hidden(self, name: str) -> bool:
         return self.docks[name].isHidden()
 
     def _show_page(self, page: str) -> None:
@@ -250,21 +250,21 @@ class MainWindow(QMainWindow):
             self.modes.begin()
 
     def focusNextPrevChild(self, next_: bool) -> bool:  # noqa: N802 - Qt's name
-        """Let the Tab key go through toolbar, panes and story as they are read."""
-        found = next_to_focus(self, self.focusWidget(), next_)
-        if found is None:
+        """Let the Tab key go through toolbar, panes and story in reading order."""
+        widget = next_to_focus(self, self.focusWidget(), next_)
+        if widget is None:
             return False
         reason = Qt.FocusReason.TabFocusReason if next_ else Qt.FocusReason.BacktabFocusReason
-        found.setFocus(reason)
-        bring_into_view(found)
+        widget.setFocus(reason)
+        bring_into_view(widget)
         return True
 
-    def dress(self) -> None:
+    def apply_style(self) -> None:
         sheet = style_sheet(QApplication.palette())
         if sheet != self.styleSheet():
             size = self.size()
             self.setStyleSheet(sheet)
-            # Panes ask for more while their parts are styled one after the other.
+            # Panes ask for more space while their parts are restyled one by one.
             if self.isVisible() and not self.isMaximized():
                 QTimer.singleShot(0, self, lambda: self.resize(size))
 

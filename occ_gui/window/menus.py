@@ -16,7 +16,7 @@ from occ_gui.window.theme import THEMES
 from occ_model.errors import one_line
 from occ_model.photo.reading.choices import SCAN_AXES
 
-_SEARCH_WORDS = "search_words"  # the property of an action in which they stand
+_SEARCH_WORDS = "search_words"  # name of an action's property
 
 _FIGURE = "save figure plot pdf png svg csv"
 _TEXT = "font zoom bigger size projector"
@@ -28,7 +28,7 @@ class _Entry(NamedTuple):
     text: str
     keys: QKeySequence.StandardKey | str = ""
     tip: str = ""
-    words: str = ""  # by which it is found besides those of its text
+    words: str = ""  # search words, besides those of its text
     is_checkable: bool = False
 
 
@@ -67,7 +67,7 @@ _EDIT = (
     _SEPARATOR,
     _Entry(
         "hold_brightness", "&Hold brightness", "Ctrl+B",
-        "While on, the ISO speed moves against the exposure time.", is_checkable=True,
+        "While on, the ISO speed is inverse to the exposure time.", is_checkable=True,
     ),
     _Entry("reset_scene", "Reset &scene"),
 )  # fmt: skip
@@ -118,7 +118,7 @@ _LOOK = (
     _Entry("fit", "&Fit pictures", "Ctrl+0", words="zoom whole reset"),
     _Entry(
         "before", "&Before the change", "Ctrl+Alt+Z",
-        "Show the picture before the latest change beside the one now.", is_checkable=True,
+        "Show the picture before the latest change beside the present one.", is_checkable=True,
     ),
     _Entry(
         "measure", "Meas&ure", "Ctrl+Shift+D",
@@ -129,13 +129,13 @@ _LOOK = (
 _SIZES = (
     _Entry(
         "text_larger", "Lar&ger text", _KEYS.ZoomIn,
-        "As for a projector: all text of the window.", f"larger {_TEXT}",
+        "Enlarge all text of the window, for example on a projector.", f"larger {_TEXT}",
     ),
     _Entry("text_smaller", "Smaller te&xt", _KEYS.ZoomOut, words=f"smaller {_TEXT}"),
     _Entry("text_normal", "&Normal text size", "Ctrl+Alt+0", words=f"reset {_TEXT}"),
     _Entry(
         "full_screen", "Fu&ll screen", "F11",
-        "The window as large as the screen, as for a projector.",
+        "Fill the screen with the window, for example on a projector.",
         "projector beamer presentation fullscreen maximize", is_checkable=True,
     ),
     _Entry("reset_layout", "&Reset layout"),
@@ -172,9 +172,9 @@ class Menus(QObject):
         self._make_edit_menu(undo_stack)
         self._make_photo_menu()
         self._make_view_menu(window, docks)
-        self._fill(self._top("help", "&Help"), *_HELP)
+        self._fill(self._add_menu("help", "&Help"), *_HELP)
 
-    def _top(self, name: str, text: str) -> QMenu:
+    def _add_menu(self, name: str, text: str) -> QMenu:
         self.tops[name] = self._bar.addMenu(text)
         return self.tops[name]
 
@@ -191,7 +191,7 @@ class Menus(QObject):
             action.setCheckable(entry.is_checkable)
             action.setProperty(_SEARCH_WORDS, entry.words)
 
-    def _choice(
+    def _add_choice(
         self,
         menu: QMenu,
         prefix: str,
@@ -199,9 +199,10 @@ class Menus(QObject):
         entries: Mapping[str, tuple[str, str, str]],
         keys: str = "",
     ) -> QActionGroup:
-        """Add exclusive entries, in this order: by name text, tip and search words.
+        """Add exclusive entries in the order of ``names``.
 
-        ``keys``: their shortcuts, with braces for an entry's number, which counts from 1.
+        ``entries``: text, tip and search words of each. ``keys``: their shortcuts, with braces for
+        the number of an entry, which counts from 1.
         """
         group = QActionGroup(self)
         for place, name in enumerate(names, 1):
@@ -215,7 +216,7 @@ class Menus(QObject):
         return group
 
     def _make_file_menu(self, window: QMainWindow) -> None:
-        menu = self._top("file", "&File")
+        menu = self._add_menu("file", "&File")
         self._fill(menu, _OPEN_PHOTO)
         self.recent = menu.addMenu("Open &recent")
         self.samples = menu.addMenu("Open sa&mple photo")
@@ -252,7 +253,7 @@ class Menus(QObject):
             action.setProperty(_SEARCH_WORDS, words)
 
     def _make_edit_menu(self, undo_stack: QUndoStack) -> None:
-        menu = self._top("edit", "&Edit")
+        menu = self._add_menu("edit", "&Edit")
         undo = undo_stack.createUndoAction(self, "&Undo")
         redo = undo_stack.createRedoAction(self, "&Redo")
         undo.setShortcut(QKeySequence(_KEYS.Undo))
@@ -263,21 +264,21 @@ class Menus(QObject):
         self._fill(menu, *_EDIT)
 
     def _make_photo_menu(self) -> None:
-        menu = self._top("photo", "&Photo")
+        menu = self._add_menu("photo", "&Photo")
         self._fill(menu, *_PHOTO)
-        self.overlays = self._choice(menu, "show", OVERLAYS, _OVERLAYS, "Ctrl+Alt+{}")
+        self.overlays = self._add_choice(menu, "show", OVERLAYS, _OVERLAYS, "Ctrl+Alt+{}")
         menu.addSeparator()
         axes = menu.addMenu("Photo was s&canned")
-        self.scan_axes = self._choice(axes, "scan", SCAN_AXES, _SCAN_AXES)
+        self.scan_axes = self._add_choice(axes, "scan", SCAN_AXES, _SCAN_AXES)
 
     def _make_view_menu(self, window: QMainWindow, docks: Iterable[QDockWidget]) -> None:
-        menu = self._view = self._top("view", "&View")
+        menu = self._view = self._add_menu("view", "&View")
         modes = menu.addMenu("&Mode")
         modes.setToolTipsVisible(True)
-        self.modes = self._choice(modes, "mode", MODES, _MODES, "Ctrl+{}")
+        self.modes = self._add_choice(modes, "mode", MODES, _MODES, "Ctrl+{}")
         self._fill(menu, *_LOOK)
         theme = self.drop_downs["theme"] = menu.addMenu("&Theme")
-        self.themes = self._choice(theme, "theme", THEMES, _THEMES)
+        self.themes = self._add_choice(theme, "theme", THEMES, _THEMES)
         self._fill(menu, *_SIZES)
         FullScreen(window, self.actions["full_screen"])
         for dock in docks:
@@ -312,7 +313,7 @@ class Menus(QObject):
 
 
 def search_words(action: QAction) -> str:
-    """Return the words by which an entry is found, besides its text."""
+    """Return the search words of an entry besides its text."""
     return str(action.property(_SEARCH_WORDS) or "")
 
 
@@ -330,7 +331,7 @@ def _add_file(menu: QMenu, path: Path, text: str, open_file: Callable[[Path], No
 
 
 class FullScreen(QObject):
-    """Connects the entry of the menu with the window's state, whoever changes it."""
+    """Keeps the entry of the menu and the window's state equal, whichever changes."""
 
     def __init__(self, window: QMainWindow, action: QAction) -> None:
         super().__init__(window)
@@ -339,7 +340,7 @@ class FullScreen(QObject):
         window.installEventFilter(self)
 
     def _show(self, full: bool) -> None:
-        # One bit of the state only, so that a maximized window is one again afterwards.
+        # Only this bit of the state, so that a maximized window is maximized again afterwards.
         state = self._window.windowState()
         flag = Qt.WindowState.WindowFullScreen
         self._window.setWindowState(state | flag if full else state & ~flag)

@@ -1,4 +1,4 @@
-"""Modes: the panes of each task, their places, and the change between modes."""
+"""Modes: the panes and layout of each task, and the change between modes."""
 
 from binascii import crc32
 from collections.abc import Callable, Sequence
@@ -27,16 +27,16 @@ class Panes(dict[str, DeclaredPane]):
     """The panes by name, and which of them each mode shows."""
 
     def shown_in(self, mode: str) -> dict[str, PanePlace]:
-        """Return the places in a mode, of each side the main pane first."""
+        """Return the places of the panes in a mode, the main ones first."""
         places = {name: pane.places[mode] for name, pane in self.items() if mode in pane.places}
         return dict(sorted(places.items(), key=lambda item: not item[1].is_main))
 
     def main_of(self, mode: str) -> str:
-        """Return the pane that a mode is about; empty where it is about the middle."""
+        """Return the main pane of a mode; empty if its subject is in the middle."""
         return next((name for name, at in self.shown_in(mode).items() if at.is_main), "")
 
     def home_of(self, name: str) -> str:
-        """Return the mode that is about a pane; empty where there is none."""
+        """Return the mode whose main pane this is; empty if there is none."""
         return next((mode for mode, place in self[name].places.items() if place.is_main), "")
 
     def arrange(self, window: QMainWindow, mode: str) -> None:
@@ -78,14 +78,14 @@ def _show_as_tabs(
 
 
 _WIDEST_SIDE, _ANY_WIDTH = 360, 16_777_215
-"""Pixels; the latter is Qt's, by which a size is not limited."""
+"""Pixels; the latter is Qt's value for no limit."""
 
 
 class ModeSwitch(QObject):
-    """The present mode of a window, and the layouts of those that were used before.
+    """The present mode of a window, and the layouts of the modes used before.
 
-    ``panes``: they may still be added to until the first mode is shown.
-    ``show_page``: shows a page in the middle by its name, or hides the middle where that is empty.
+    ``panes``: may be added to until the first mode is shown. ``show_page``: shows the page of this
+    name in the middle, or hides the middle if the name is empty.
     """
 
     changed = Signal(str)
@@ -100,9 +100,9 @@ class ModeSwitch(QObject):
         self._window, self.panes, self._show_page = window, panes, show_page
         self.mode = next(iter(MODES))
         self.layouts: dict[str, QByteArray] = {}
-        """Layouts of the other modes when they were left, by name."""
+        """The last layouts of the other modes, by name."""
         self.is_shown = False  # whether the window has been laid out
-        self.version = 0  # the version of stored layouts: one of other panes is ignored
+        self.version = 0  # of stored layouts, so that those of other panes are ignored
 
     def begin(self) -> None:
         """Lay out the present mode, when the window is first shown."""
@@ -136,13 +136,13 @@ class ModeSwitch(QObject):
         size = window.size()
         window.setUpdatesEnabled(False)
         try:
-            # Beside the panes of the mode before it the page might need a wider window, and Qt
-            # would widen it, over the edge of the screen where it is maximized.
+            # The page beside the panes of the former mode might need a wider window, and Qt would
+            # widen it, beyond the edge of the screen if it is maximized.
             for pane in self.panes.values():
                 window.removeDockWidget(pane.dock)
             self._show_page(MODES[self.mode].centre)
             self._limit_sides()
-            # First even where a layout is known: Qt leaves the tabs of the mode before it behind.
+            # Even if a layout is stored, because Qt leaves the tabs of the former mode behind.
             self.panes.arrange(window, self.mode)
             if self.mode in self.layouts:
                 window.restoreState(self.layouts[self.mode], self.version)
@@ -153,9 +153,9 @@ class ModeSwitch(QObject):
             window.setUpdatesEnabled(True)
 
     def _limit_sides(self) -> None:
-        """Give the width that the window gains to the main pane where there is no page.
+        """Without a page, give all width that the window gains to the main pane.
 
-        Qt would divide it between the panes.
+        Qt would divide it among the panes.
         """
         has_page, places = bool(MODES[self.mode].centre), self.panes.shown_in(self.mode)
         for name, pane in self.panes.items():

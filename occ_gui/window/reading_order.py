@@ -1,7 +1,7 @@
-"""Reading order: the order in which the Tab key goes through a window, as its places are read.
+"""Reading order: the Tab key goes through the widgets of a window by rows and columns.
 
-Qt goes by the order in which widgets were made. That of panes, and of what is filled in later, has
-nothing to do with where they stand.
+Qt follows the order in which widgets were made, which for panes and later widgets has nothing to do
+with their places.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -9,16 +9,16 @@ from collections.abc import Callable, Iterator, Sequence
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QWidget
 
-_OVERLAP = 6  # pixels by which the ends of two neighbours may overlap at most and still stand apart
+_OVERLAP = 6  # most pixels by which two widgets may overlap and still count as separate
 
 Span = tuple[int, int]
 
 
 def next_to_focus(window: QWidget, after: QWidget | None, forward: bool) -> QWidget | None:
-    """Return the widget of a window that takes the focus next, None where none does.
+    """Return the widget of a window that gets the focus next; None if there is none.
 
-    ``after``: the widget that has the focus; one that the Tab key does not reach, or none, stands
-    before the first and after the last.
+    ``after``: the widget that has the focus. One that the Tab key does not reach, or None, counts
+    as before the first and after the last.
     """
     stops = list(focus_stops(window))
     if not stops:
@@ -31,14 +31,14 @@ def next_to_focus(window: QWidget, after: QWidget | None, forward: bool) -> QWid
 
 def focus_stops(widget: QWidget) -> Iterator[QWidget]:
     """Yield the widgets that the Tab key reaches, in reading order."""
-    for child in _as_read(_children(widget)):
+    for child in _sort(_children(widget)):
         if child.focusPolicy() & Qt.FocusPolicy.TabFocus and child.focusProxy() is None:
             yield child
         yield from focus_stops(child)
 
 
 def _children(widget: QWidget) -> list[QWidget]:
-    found = [
+    visible = [
         child
         for child in widget.children()
         if isinstance(child, QWidget)
@@ -46,35 +46,35 @@ def _children(widget: QWidget) -> list[QWidget]:
         and child.isEnabled()
     ]
     # A pane behind another one is not hidden: Qt puts it beside the window.
-    place = widget.rect()
-    return [c for c in found if c.geometry().intersects(place)] if widget.isWindow() else found
+    area = widget.rect()
+    return [c for c in visible if c.geometry().intersects(area)] if widget.isWindow() else visible
 
 
-def _as_read(widgets: Sequence[QWidget]) -> list[QWidget]:
-    """Sort neighbours: by rows, within a row by columns, and so on within a column."""
-    for span in (_down, _across):
-        groups = _apart(widgets, span)
+def _sort(widgets: Sequence[QWidget]) -> list[QWidget]:
+    """Sort siblings by rows, those of a row by columns, those of a column by rows and so on."""
+    for span in (_vertical_span, _horizontal_span):
+        groups = _group(widgets, span)
         if len(groups) > 1:
-            return [each for group in groups for each in _as_read(group)]
+            return [each for group in groups for each in _sort(group)]
     return sorted(widgets, key=lambda each: (each.y(), each.x()))
 
 
-def _down(widget: QWidget) -> Span:
-    return _inner(widget.y(), widget.height())
+def _vertical_span(widget: QWidget) -> Span:
+    return _shrink(widget.y(), widget.height())
 
 
-def _across(widget: QWidget) -> Span:
-    return _inner(widget.x(), widget.width())
+def _horizontal_span(widget: QWidget) -> Span:
+    return _shrink(widget.x(), widget.width())
 
 
-def _inner(start: int, length: int) -> Span:
-    """Return a span without its ends, at which it may overlap with the next one."""
+def _shrink(start: int, length: int) -> Span:
+    """Return a span without its ends, which may overlap with its neighbours."""
     end = min(_OVERLAP, length // 4)
     return start + end, start + length - end
 
 
-def _apart(widgets: Sequence[QWidget], span: Callable[[QWidget], Span]) -> list[list[QWidget]]:
-    """Divide widgets into groups whose spans have nothing in common, from first to last."""
+def _group(widgets: Sequence[QWidget], span: Callable[[QWidget], Span]) -> list[list[QWidget]]:
+    """Divide widgets into groups whose spans do not overlap, from first to last."""
     groups: list[list[QWidget]] = []
     end = 0
     for start, stop, place in sorted((*span(w), place) for place, w in enumerate(widgets)):

@@ -11,10 +11,10 @@ from occ_gui.widgets.work_bar import WorkBar
 from occ_model.errors import one_line
 from occ_model.scene.units import SECOND
 
-_MESSAGE_FRACTION, _POINTED_FRACTION, _TIMING_FRACTION = 0.3, 0.4, 0.3
+_MESSAGE_FRACTION, _CURSOR_FRACTION, _TIMING_FRACTION = 0.3, 0.4, 0.3
 """Fractions of the width: least for the message, most for the readouts."""
 
-_SEEN_ANEW = (QEvent.Type.Show, QEvent.Type.Hide, QEvent.Type.Paint)
+_TEXT_EVENTS = (QEvent.Type.Show, QEvent.Type.Hide, QEvent.Type.Paint)
 """Events of a label after which it may show another text."""
 
 _BULLET = "• "
@@ -23,31 +23,31 @@ _GAP = 8  # pixels to the left of a readout
 
 
 class StatusLine(QStatusBar):
-    """A status bar whose texts never overlap: each has its own label, which shortens it by dots.
+    """A status bar whose texts never overlap, because each has its own label, which elides it.
 
-    Qt's own would paint a message below the permanent texts, and cut it off where they begin. The
-    whole text of each label is its tooltip.
+    Qt's own status bar would paint a message below the permanent texts. The whole text of each
+    label is its tooltip.
     """
 
     def __init__(self) -> None:
         super().__init__()
         self._message = self._plan_change = self._times = ""
         self._shows_times = True
-        self._others: list[QLabel] = []
+        self._other_labels: list[QLabel] = []
         self._sentence = ElidedLabel()
         self._sentence.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self._sentence.setAccessibleName("Message")
         self.reading = WorkBar("How much of the photo has been read")
         self.filming = WorkBar("How much of the animation has been written")
-        self.pointed, self.timing = _Readout(), _Readout()
-        # Of a size that no other text takes from it.
+        self.readout, self.timing = _Readout(), _Readout()
+        # Its size is fixed, so that other texts cannot reduce it.
         self.accuracy = BadgeLabel(Badge("accuracy", "", ""))
         self.accuracy.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
         self.accuracy.hide()
         self.addWidget(self._sentence, 1)
-        for widget in (self.reading, self.filming, self.pointed, self.timing, self.accuracy):
+        for widget in (self.reading, self.filming, self.readout, self.timing, self.accuracy):
             self.addPermanentWidget(widget)
-        for readout in (self.pointed, self.timing):
+        for readout in (self.readout, self.timing):
             readout.hide()
 
     def showMessage(self, message: str, timeout: int | None = 0) -> None:  # noqa: ARG002, N802 - Qt's name
@@ -66,20 +66,20 @@ class StatusLine(QStatusBar):
     def leave_to(self, *labels: QLabel) -> None:
         """Suppress messages that one of these labels shows in full while it is visible."""
         for label in labels:
-            self._others.append(label)
+            self._other_labels.append(label)
             label.installEventFilter(self)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
-        if self._message and event.type() in _SEEN_ANEW:
+        if self._message and event.type() in _TEXT_EVENTS:
             self._show_sentence()
         return super().eventFilter(watched, event)
 
     def _is_shown_elsewhere(self) -> bool:
-        texts = (each.text() for each in self._others if each.isVisible())
-        return bool(self._message) and any(self._message in _in_one_line(text) for text in texts)
+        texts = (each.text() for each in self._other_labels if each.isVisible())
+        return bool(self._message) and any(self._message in _join_lines(text) for text in texts)
 
     def show_accuracy(self, badge: Badge | None) -> None:
-        """Show what is left out by hand, always and whole; None for nothing."""
+        """Show the badge of the accuracy, which is never elided; None hides it."""
         self.accuracy.setVisible(badge is not None)
         if badge is not None:
             self.accuracy.show_badge(badge)
@@ -92,22 +92,22 @@ class StatusLine(QStatusBar):
 
     def show_timing(self, simulation: float, reading: float) -> None:
         """Show the seconds of the last simulation and of its decoding."""
-        simulated, read = (SECOND.format(seconds, 3) for seconds in (simulation, reading))
-        self._times = f"simulated in {simulated}, read in {read}"
+        times = (SECOND.format(seconds, 3) for seconds in (simulation, reading))
+        self._times = "simulated in {}, read in {}".format(*times)
         self.show_times(self._shows_times)
 
-    def show_times(self, shown: bool) -> None:
-        self._shows_times = shown
-        self.timing.set_full_text(self._times if shown else "")
+    def show_times(self, on: bool) -> None:
+        self._shows_times = on
+        self.timing.set_full_text(self._times if on else "")
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         super().resizeEvent(event)
         self._sentence.setMinimumWidth(round(_MESSAGE_FRACTION * self.width()))
-        self.pointed.setMaximumWidth(round(_POINTED_FRACTION * self.width()))
+        self.readout.setMaximumWidth(round(_CURSOR_FRACTION * self.width()))
         self.timing.setMaximumWidth(round(_TIMING_FRACTION * self.width()))
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return a width that does not depend on the present one: the window can be narrowed."""
+        """Return a width that does not depend on the texts, so that the window can be narrowed."""
         return QSize(self.reading.minimumSizeHint().width(), super().minimumSizeHint().height())
 
     def _show_sentence(self) -> None:
@@ -115,12 +115,12 @@ class StatusLine(QStatusBar):
         self._sentence.set_full_text("" if is_shown else self._message or self._plan_change)
 
 
-def _in_one_line(text: str) -> str:
+def _join_lines(text: str) -> str:
     return " ".join(text.replace(_BULLET, " ").split())
 
 
 class _Readout(ElidedLabel):
-    """A label as wide as its whole text, where there is space."""
+    """A label as wide as its whole text if there is space."""
 
     def __init__(self) -> None:
         super().__init__()

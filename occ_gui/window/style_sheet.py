@@ -1,7 +1,7 @@
 """Style sheet of the window: frames, paddings and focus, on a grid of 8 pixels.
 
-All colours are roles of the palette, written ``palette(role)`` and filled in here: a widget whose
-background is filled keeps that of the first theme where Qt is left to look the role up.
+All colours are roles of the palette, written ``palette(role)``. They are replaced by colours here,
+because Qt would keep those of the first theme for filled backgrounds.
 """
 
 import re
@@ -164,7 +164,7 @@ _ROLE = re.compile(r"palette\(([\w-]+)\)")
 
 def style_sheet(palette: QPalette) -> str:
     sheet = SHEET.replace("{icons}", resource_path("icons", "style").as_posix())
-    return _ROLE.sub(lambda found: _colour(palette, found[1]), sheet)
+    return _ROLE.sub(lambda match: _colour(palette, match[1]), sheet)
 
 
 def _colour(palette: QPalette, words: str) -> str:

@@ -1,4 +1,4 @@
-"""Text size: all text of the application larger, as for a projector, or smaller again."""
+"""Text size: enlarges all text of the application, for example for a projector."""
 
 from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtWidgets import QApplication, QWidget
@@ -14,8 +14,8 @@ _HAS_SIZE = 0x0002  # the bit of Qt's resolve mask of a font whose size is set
 class TextSize(QObject):
     """The size of all text, relative to that of the system.
 
-    All sizes of text are factors of the application's font. Those of widgets that are there are
-    scaled with it; a widget that is made later begins with the application's font.
+    All text sizes are multiples of the application's font size. Existing widgets are scaled with
+    it, and new widgets start with it.
     """
 
     chosen = Signal(int)  # the size from now on, one of SIZES
@@ -24,13 +24,13 @@ class TextSize(QObject):
         super().__init__()
         self.percent = SIZES[0]
 
-    def larger(self) -> None:
+    def enlarge(self) -> None:
         self.choose(SIZES[min(SIZES.index(self.percent) + 1, len(SIZES) - 1)])
 
-    def smaller(self) -> None:
+    def reduce(self) -> None:
         self.choose(SIZES[max(SIZES.index(self.percent) - 1, 0)])
 
-    def normal(self) -> None:
+    def reset(self) -> None:
         self.choose(SIZES[0])
 
     def choose(self, percent: int) -> None:
@@ -44,14 +44,14 @@ class TextSize(QObject):
     def _scale_to(self, percent: int) -> None:
         factor = percent / self.percent
         self.percent = percent
-        own = [(widget, resize_font(widget.font(), factor)) for widget in _with_own_size()]
+        fonts = [(widget, resize_font(widget.font(), factor)) for widget in _list_own_sizes()]
         QApplication.setFont(resize_font(QApplication.font(), factor))
-        for widget, font in own:
+        for widget, font in fonts:
             widget.setFont(font)
 
 
-def _with_own_size() -> list[QWidget]:
-    """Return the widgets whose size of text was set, and is not that of the widget around."""
+def _list_own_sizes() -> list[QWidget]:
+    """Return the widgets whose text size was set, and is not inherited."""
     return [
         widget
         for widget in QApplication.allWidgets()

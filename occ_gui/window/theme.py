@@ -41,7 +41,7 @@ def palette_of(theme: str) -> QPalette:
 
 
 class ThemeController(QObject):
-    """Sets the application's colours: at once those of the system, later any others."""
+    """Sets the application's colours: those of the system until another theme is chosen."""
 
     chosen = Signal(str)  # the theme that is shown from now on, one of THEMES
     coloured = Signal()  # the application may have other colours
@@ -55,7 +55,7 @@ class ThemeController(QObject):
         show_theme(self.theme)
 
     def choose(self, theme: str) -> None:
-        """Change to a theme; an unknown name means that of the system."""
+        """Change to a theme; an unknown name means the system's."""
         theme = theme if theme in THEMES else THEMES[0]
         if theme == self.theme:
             return
@@ -82,7 +82,7 @@ def show_theme(theme: str) -> bool:
     if application.style().objectName() != _STYLE:
         application.setStyle(_STYLE)
     palette = palette_of(theme)
-    # The text for a disabled one is not part of the key: all colours are compared.
+    # All colours are compared, because the cache key ignores the text of disabled widgets.
     if application.palette() != palette:
         application.setPalette(palette)
     return True

@@ -16,11 +16,11 @@ _NATIVE = QKeySequence.SequenceFormat.NativeText
 
 
 class ToolButton(QToolButton):
-    """Carries out an action, or opens a menu; it is named, enabled and checked as the action is."""
+    """Triggers an action or opens a menu; has the action's name, tooltip and state."""
 
     def __init__(self, drawing: str, action: QAction) -> None:
         super().__init__()
-        self._drawing, self.shown = drawing, action
+        self._drawing, self.source = drawing, action
         self.setAutoRaise(True)
         self.setIconSize(QSize(ICON_SIZE, ICON_SIZE))
         menu = action.menu()
@@ -33,11 +33,11 @@ class ToolButton(QToolButton):
         self._follow()
 
     def draw(self) -> None:
-        found = icon(self._drawing, self.palette(), ICON_SIZE, self.devicePixelRatioF())
-        self.setIcon(found)
+        ratio = self.devicePixelRatioF()
+        self.setIcon(icon(self._drawing, self.palette(), ICON_SIZE, ratio))
 
     def _follow(self) -> None:
-        action = self.shown
+        action = self.source
         if not isValid(action):  # Qt reports changes while it deletes the window
             return
         name = plain(action.text()).rstrip("…")
@@ -45,7 +45,7 @@ class ToolButton(QToolButton):
         self.setAccessibleName(name)
         text = f"{name} ({keys})" if keys else name
         meaning = action.toolTip()
-        if meaning != name:  # where none is given, Qt takes the name
+        if meaning != name:  # Qt returns the name if there is no tooltip
             text = f"{text}\n{meaning}"
         self.setToolTip(in_tool_tip(text))
         self.setEnabled(action.isEnabled())
@@ -63,7 +63,7 @@ class ModeBar(QTabBar):
         super().__init__()
         self._actions = modes.actions()
         self._icons: list[QIcon] = []
-        self._has_icons, self._whole = False, 0
+        self._has_icons, self._full_width = False, 0
         self.setObjectName("modes")
         self.setAccessibleName("Mode")
         self.setToolTip("The task that the window is laid out for.")
@@ -91,27 +91,27 @@ class ModeBar(QTabBar):
         ratio = self.devicePixelRatioF()
         self._icons = [icon(a.data(), self.palette(), ICON_SIZE, ratio) for a in self._actions]
         self._show_icons(True)
-        self._whole = super().sizeHint().width()
+        self._full_width = super().sizeHint().width()
         self.updateGeometry()
         self._fit()
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         hint = super().sizeHint()
-        return QSize(max(hint.width(), self._whole), hint.height())
+        return QSize(max(hint.width(), self._full_width), hint.height())
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         super().resizeEvent(event)
         self._fit()
 
     def _fit(self) -> None:
-        has_room = self.width() >= self._whole
+        has_room = self.width() >= self._full_width
         if self._icons and has_room != self._has_icons:
             self._show_icons(has_room)
 
-    def _show_icons(self, shown: bool) -> None:
-        self._has_icons = shown
-        for place, found in enumerate(self._icons):
-            self.setTabIcon(place, found if shown else QIcon())
+    def _show_icons(self, on: bool) -> None:
+        self._has_icons = on
+        for place, drawing in enumerate(self._icons):
+            self.setTabIcon(place, drawing if on else QIcon())
 
 
 TOOLS = (
@@ -123,9 +123,9 @@ TOOLS = (
 
 
 class ToolBar(QToolBar):
-    """The modes, and icons of entries and menus that are in the menu bar, too.
+    """The modes, and icons for some entries and menus of the menu bar.
 
-    The icons are drawn after the toolbar is first shown, so that the window opens no later.
+    The icons are drawn after the toolbar is first shown, so that they do not delay the window.
     """
 
     def __init__(
@@ -140,9 +140,9 @@ class ToolBar(QToolBar):
         self.setAccessibleName("Toolbar")
         self.setMovable(False)
         self.setIconSize(QSize(ICON_SIZE, ICON_SIZE))
-        # The menu of Qt that hides toolbars would leave no way to show it again.
+        # Qt's own menu could hide the toolbar, and nothing could show it again.
         self.toggleViewAction().setVisible(False)
-        known = {**actions, **{name: menu.menuAction() for name, menu in menus.items()}}
+        sources = {**actions, **{name: menu.menuAction() for name, menu in menus.items()}}
         self.buttons: dict[str, ToolButton] = {}
         self._is_drawn = False
         self.modes = ModeBar(modes)
@@ -150,14 +150,14 @@ class ToolBar(QToolBar):
         space = QWidget()
         space.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
         self.addWidget(space)
-        self._add_tools(known)
+        self._add_tools(sources)
 
-    def _add_tools(self, known: Mapping[str, QAction]) -> None:
+    def _add_tools(self, sources: Mapping[str, QAction]) -> None:
         for group in TOOLS:
             if self.buttons:
                 self.addSeparator()
             for name, drawing in group.items():
-                self.buttons[name] = ToolButton(drawing, known[name])
+                self.buttons[name] = ToolButton(drawing, sources[name])
                 self.addWidget(self.buttons[name])
 
     def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 - Qt's name

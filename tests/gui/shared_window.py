@@ -268,6 +268,6 @@ class SharedWindow:
         QApplication.processEvents()
         # What the status line says of the last change, and of the time that it took.
         window.statusBar().clearMessage()
-        window.pointed.set_full_text("")
+        window.readout.set_full_text("")
         window.show_plan_change("")
         window.show_timing(0.0, 0.0)

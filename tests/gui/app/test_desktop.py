@@ -187,7 +187,7 @@ def test_the_status_line_shows_column_row_and_level_at_the_mouse(
     application.story.show_whole_picture(True)
     pane = application.view("picture").simulation
     frame = not_none(application.view("picture").frame)
-    told = application.window.pointed
+    told = application.window.readout
     view = pane.graphics
     place = view.mapFromScene(pane.box.mapViewToScene(QPointF(40, 30)))
     at = pane.box.mapSceneToView(QPointF(view.mapToScene(place)))

@@ -186,5 +186,5 @@ def test_the_context_menu_copies_the_values_at_the_crosshair_and_the_bar_leads_t
     menu.aboutToHide.emit()
     application.story.verdict.lesson_wanted.emit(AVERAGES_LESSON)
     pane = application.shell.pane("lessons")
-    assert not application.window.is_put_away("lessons")
+    assert not application.window.is_hidden("lessons")
     assert pane.controller.current.name == AVERAGES_LESSON

@@ -83,7 +83,7 @@ def test_the_badge_is_always_whole_on_the_screen(application: Application, user:
         for mode in MODES:
             window.modes.switch(mode)
             window.show_message("Switching frequency is '1,000 Hz', which means 1 Hz. " * 9)
-            window.pointed.set_full_text("Picture: column 1234, row 1200, camera level 123")
+            window.readout.set_full_text("Picture: column 1234, row 1200, camera level 123")
             user.wait_until_idle()
             assert badge.isVisible()
             assert badge.badge.text == "tolerance 10 levels · 3 effects by hand · reused noise"

@@ -1,4 +1,4 @@
-"""Who hears the window is told each value with its unit, and goes on in the order it is read."""
+"""A screen reader reads each value with its unit, and the Tab key follows the reading order."""
 
 from itertools import groupby, pairwise
 
@@ -23,7 +23,7 @@ def face_of(widget: QWidget) -> QAccessibleInterface:
     return not_none(QAccessible.queryAccessibleInterface(widget))
 
 
-def test_a_slider_and_its_field_tell_the_value_with_its_unit(
+def test_a_slider_and_its_field_announce_the_value_with_its_unit(
     application: Application, user: User
 ) -> None:
     for name in MAIN:
@@ -33,17 +33,17 @@ def test_a_slider_and_its_field_tell_the_value_with_its_unit(
             value = row.field.text()
             assert face_of(row.field).text(VALUE) == value
             unit = value.split(" ")[-1] if " " in value else ""
-            told = face_of(row.slider).text(DESCRIPTION)
-            assert told.endswith(unit)
-            expected = pytest.approx(float(value.split(" ")[0]), rel=1e-3)
-            assert float(told.split(" ")[0]) == expected, name
+            text = face_of(row.slider).text(DESCRIPTION)
+            assert text.endswith(unit)
+            number = pytest.approx(float(value.split(" ")[0]), rel=1e-3)
+            assert float(text.split(" ")[0]) == number, name
     user.enter("exposure_time", "250 us")
     slider = application.controls.main_rows()["exposure_time"].slider
     assert face_of(slider).text(DESCRIPTION) == "250 µs"
 
 
 MOST = 150
-"""More keys than any mode has places to stop at."""
+"""More keys than the focus needs to come round in any mode."""
 
 SLACK = 6
 """Pixels by which neighbours may overlap."""
@@ -54,7 +54,7 @@ def place_of(widget: QWidget, window: QWidget) -> QRect:
 
 
 def walk(window: QWidget, key: Qt.Key) -> list[QWidget]:
-    """Press a key until the focus comes round, and give the widgets on its way."""
+    """Press a key until the focus comes round, and return the widgets on its way."""
     window.setFocus()
     stops: list[QWidget] = []
     for _ in range(MOST):
@@ -84,13 +84,13 @@ def show_mode(application: Application, qtbot: QtBot, mode: str) -> None:
     application.window.resize(1280, 800)
     application.window.modes.switch(mode)
     qtbot.waitUntil(lambda: application.is_idle)
-    # Where the mode shows its panes for the first time, the window may have lost it.
+    # When panes are shown for the first time, the window may cease to be active.
     application.window.activateWindow()
     qtbot.waitUntil(application.window.isActiveWindow)
 
 
-def handled(application: Application) -> set[QWidget]:
-    """Return some of what a user handles most."""
+def frequent_controls(application: Application) -> set[QWidget]:
+    """Return some of the controls that users need most."""
     rows = application.controls.main_rows().values()
     buttons = application.window.toolbar.buttons.values()
     return {
@@ -103,7 +103,7 @@ def handled(application: Application) -> set[QWidget]:
 @pytest.mark.parametrize(
     "mode", [pytest.param(m, marks=() if m == "explore" else pytest.mark.whole) for m in MODES]
 )
-def test_the_tab_key_goes_through_every_mode_as_it_is_read_and_back(
+def test_the_tab_key_goes_through_every_mode_in_reading_order_and_back(
     application: Application, qtbot: QtBot, mode: str
 ) -> None:
     window = application.window
@@ -112,27 +112,27 @@ def test_the_tab_key_goes_through_every_mode_as_it_is_read_and_back(
     assert stops[0] is window.toolbar.modes
     assert walk(window, Qt.Key.Key_Backtab) == stops[::-1]
     if mode == "explore":
-        assert handled(application) <= set(stops)
+        assert frequent_controls(application) <= set(stops)
     panes = [pane for pane, _ in groupby(pane_of(stop, window) for stop in stops)]
     assert len(panes) == len(set(panes)), "a pane is left and entered again"
-    ways = [panes, *(list(each) for _, each in groupby(stops, lambda s: pane_of(s, window)))]
-    for way in ways:
-        for one, after in pairwise(way):
+    paths = [panes, *(list(each) for _, each in groupby(stops, lambda s: pane_of(s, window)))]
+    for path in paths:
+        for one, after in pairwise(path):
             if one.isAncestorOf(after):  # which may have been scrolled
                 continue
-            read = comes_after(place_of(after, window), place_of(one, window))
-            assert read, (one, place_of(one, window), after, place_of(after, window))
+            is_next = comes_after(place_of(after, window), place_of(one, window))
+            assert is_next, (one, place_of(one, window), after, place_of(after, window))
 
 
-@pytest.mark.parametrize("made", [(0, 1, 2, 3), (3, 1, 0, 2)])
-def test_rows_come_before_columns_whatever_was_made_first(
-    qtbot: QtBot, made: tuple[int, ...]
+@pytest.mark.parametrize("order", [(0, 1, 2, 3), (3, 1, 0, 2)])
+def test_rows_come_before_columns_in_any_order_of_creation(
+    qtbot: QtBot, order: tuple[int, ...]
 ) -> None:
     window, middle = QMainWindow(), QWidget()
     qtbot.addWidget(window)
     window.setCentralWidget(middle)
     grid = QGridLayout(middle)
-    fields = {place: QLineEdit() for place in made}
+    fields = {place: QLineEdit() for place in order}
     for place, field in fields.items():
         grid.addWidget(field, place // 2, place % 2)
     window.show()

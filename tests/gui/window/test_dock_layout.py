@@ -1,4 +1,4 @@
-"""At the sizes that people use nothing is cut off, squeezed or drawn over."""
+"""At usual sizes of the window no control is cut off, squeezed or covered."""
 
 from collections import defaultdict
 from collections.abc import Iterator
@@ -47,32 +47,32 @@ STATES: tuple[dict[str, Any], ...] = (NO_BAND_MODEL, NO_CODE, MISREAD, MANY_BITS
 
 
 def visible_controls(window: QWidget) -> list[QWidget]:
-    found = [control for kind in CONTROLS for control in window.findChildren(kind)]
+    controls = [control for kind in CONTROLS for control in window.findChildren(kind)]
     return [
         control
-        for control in found
+        for control in controls
         if control.isVisible()
         and not isinstance(control.parentWidget(), QAbstractSpinBox)
-        and not behind(control)
+        and not is_behind(control)
     ]
 
 
-def behind(control: QWidget) -> bool:
-    """Whether it is in a dock that another one lies in front of."""
+def is_behind(control: QWidget) -> bool:
+    """Return whether a control is in a dock behind another one."""
     parent = control.parentWidget()
     while parent is not None and not isinstance(parent, QDockWidget):
         parent = parent.parentWidget()
     return parent is not None and parent.visibleRegion().isEmpty()
 
 
-def scrolled(control: QWidget) -> bool:
+def is_in_scroll_area(control: QWidget) -> bool:
     parent = control.parentWidget()
     while parent is not None and not isinstance(parent, QAbstractScrollArea):
         parent = parent.parentWidget()
     return parent is not None
 
 
-def too_small(control: QWidget) -> bool:
+def is_too_small(control: QWidget) -> bool:
     least = control.minimumSizeHint()
     high = control.height() >= least.height()
     if isinstance(control, QLabel) and control.wordWrap():
@@ -80,12 +80,12 @@ def too_small(control: QWidget) -> bool:
     return control.width() < least.width() or not high
 
 
-def cut_off(control: QWidget) -> bool:
-    """Whether part of it lies outside of what can be seen, or reached by scrolling up and down."""
-    seen = control.visibleRegion().boundingRect()
-    if scrolled(control):
-        return not seen.isEmpty() and seen.width() < control.width()
-    return seen != control.rect()
+def is_cut_off(control: QWidget) -> bool:
+    """Return whether part of a control can neither be seen nor reached by vertical scrolling."""
+    visible = control.visibleRegion().boundingRect()
+    if is_in_scroll_area(control):
+        return not visible.isEmpty() and visible.width() < control.width()
+    return visible != control.rect()
 
 
 def describe(control: QWidget) -> str:
@@ -93,27 +93,27 @@ def describe(control: QWidget) -> str:
     return f"{type(control).__name__} {name!r} {control.geometry()}"
 
 
-def faults(window: QWidget) -> list[str]:
+def find_faults(window: QWidget) -> list[str]:
     controls = visible_controls(window)
-    found = [f"too small: {describe(control)}" for control in controls if too_small(control)]
-    found += [f"cut off: {describe(control)}" for control in controls if cut_off(control)]
+    texts = [f"too small: {describe(control)}" for control in controls if is_too_small(control)]
+    texts += [f"cut off: {describe(control)}" for control in controls if is_cut_off(control)]
     children = defaultdict[QWidget | None, list[QWidget]](list)
     for control in controls:
         children[control.parentWidget()].append(control)
-    found += [
+    texts += [
         f"overlapping: {describe(one)} and {describe(other)}"
         for siblings in children.values()
         for one, other in combinations(siblings, 2)
         if one.geometry().intersects(other.geometry())
     ]
-    return found
+    return texts
 
 
-def axis_labels_cut_off(window: QWidget) -> list[str]:
+def find_cut_axis_labels(window: QWidget) -> list[str]:
     axes = [
         plot.getAxis(side)
         for plot in window.findChildren(pg.PlotWidget)
-        if plot.isVisible() and not behind(plot)
+        if plot.isVisible() and not is_behind(plot)
         for side in ("left", "bottom")
     ]
     return [
@@ -124,10 +124,10 @@ def axis_labels_cut_off(window: QWidget) -> list[str]:
 
 
 def assert_faultless(qtbot: QtBot, window: QWidget, what: object) -> None:
-    """Let the layout come to rest, and see that it came to rest without a fault."""
+    """Wait until the layout has no fault, and check the window's size."""
 
     def check() -> None:
-        assert faults(window) == [], what
+        assert find_faults(window) == [], what
 
     qtbot.waitUntil(check)
     least = window.minimumSizeHint()
@@ -141,8 +141,8 @@ def pages(application: Application) -> Iterator[str]:
         yield tabs.tabText(place)
 
 
-def show_everything_about_the_photo(application: Application) -> None:
-    """Show a match being worked on, its failure, and the result of the one before."""
+def show_all_of_photo(application: Application) -> None:
+    """Show a running match, a failure, and the result of the match before."""
     photo = application.view("photo")
     photo.form.sent.show_key("square")
     photo.form.sent.chosen.emit("square")
@@ -169,7 +169,7 @@ def test_no_control_is_cut_off_squeezed_or_overlapped(
     for mode in MODES:
         application.options.choose_overlay(mode)
         assert_faultless(qtbot, application.window, mode)
-    show_everything_about_the_photo(application)
+    show_all_of_photo(application)
     assert_faultless(qtbot, application.window, "photo matched")
     assert application.window.size() == size
     application.view("profile").enhanced.setChecked(False)
@@ -184,7 +184,7 @@ def test_the_accuracy_pane_is_whole_and_readable_at_every_size(
     application.store.change(**MISREAD, edge_time=5e-6)
     user.wait_until_idle()
     assert_faultless(qtbot, application.window, "accuracy")
-    assert axis_labels_cut_off(application.window) == []
+    assert find_cut_axis_labels(application.window) == []
 
 
 @pytest.mark.parametrize("size", SIZES, ids=lambda size: f"{size.width()}x{size.height()}")
@@ -201,7 +201,7 @@ def test_the_map_is_whole_and_readable_at_every_size(
     view.show_left_out(("Vignetting", "JPEG"))
     assert_faultless(qtbot, application.window, "map")
     for part in (*view.plots.plots, view.plots.bar):
-        assert not part.isVisible() or not cut_off(part), part
+        assert not part.isVisible() or not is_cut_off(part), part
     plot = view.plots.plots[0]
     assert plot.rect().toRectF().contains(plot.area())
     assert plot.area().contains(plot.place_of((1.0, 1.0)))

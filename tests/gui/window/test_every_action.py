@@ -24,13 +24,13 @@ from occ_gui.window.command_lists import entries
 from occ_model.teaching.lessons import lessons
 
 READ_LATER = ("Fit gamma too",)
-"""Boxes that are looked at when a button is pressed, and tell of nothing before."""
+"""Boxes without a connection, because a button reads them."""
 
 CONTROLS = (QAbstractButton, QComboBox, QAbstractSlider, QAbstractSpinBox, QLineEdit, QTabBar)
 
 
 def controls_of(window: QWidget) -> Iterator[QWidget]:
-    """Yield what the user can handle: not what Qt itself puts into lists, tabs and docks."""
+    """Yield the user's controls, without those that Qt itself puts into lists, tabs and docks."""
     for widget in window.findChildren(QWidget):
         parent = widget.parentWidget()
         if (
@@ -66,8 +66,8 @@ SIGNALS = {
 }
 
 
-def missing_of(widget: QWidget) -> list[str]:
-    """Return what a control is without."""
+def list_missing(widget: QWidget) -> list[str]:
+    """Return what a control lacks."""
     is_connected = name_of(widget) in READ_LATER or all(
         sum(map(widget.receivers, names))
         for kind, names in SIGNALS.items()
@@ -78,7 +78,7 @@ def missing_of(widget: QWidget) -> list[str]:
         "name": bool(name_of(widget)),
         "tip": bool(widget.toolTip()),
         "connection": is_connected,
-        "way by the keys": takes_tab or not widget.isEnabled(),
+        "focus by the Tab key": takes_tab or not widget.isEnabled(),
     }
     return [what for what, is_there in needed.items() if not is_there]
 
@@ -87,23 +87,23 @@ def test_each_pane_can_be_hidden_and_shown_and_its_controls_are_named_explained_
     application: Application,
 ) -> None:
     window = application.window
-    named = {step.pane for lesson in lessons().lessons for step in lesson.steps}
-    assert named - {""} <= set(window.docks)
+    names = {step.pane for lesson in lessons().lessons for step in lesson.steps}
+    assert names - {""} <= set(window.docks)
     for name, dock in window.docks.items():
-        assert dock.objectName() == name  # as a saved arrangement names it
+        assert dock.objectName() == name  # which a stored layout contains
         assert dock.windowTitle()
         toggle = dock.toggleViewAction()
         if name not in window.modes.panes.shown_in("explore"):
             assert not dock.isVisible()
             toggle.trigger()
-        for is_seen in (True, False, True):
-            assert dock.isVisible() == toggle.isChecked() == dock.widget().isVisible() == is_seen
+        for on in (True, False, True):
+            assert dock.isVisible() == toggle.isChecked() == dock.widget().isVisible() == on
             toggle.trigger()
     controls = list(controls_of(window))
-    # Panes that are made late are among them.
+    # Among them are those of panes that are made late.
     late = {"Pin A", "Show the explanation", "Column whose exposure is shown"}
     assert late <= set(map(name_of, controls))
-    missing = [(each, missing_of(each)) for each in controls]
+    missing = [(each, list_missing(each)) for each in controls]
     assert [(name_of(each), path_to(each), what) for each, what in missing if what] == []
 
 
@@ -111,7 +111,7 @@ def all_entries(application: Application) -> list[tuple[str, QAction]]:
     return list(entries(application.window.menuBar()))
 
 
-def test_no_two_entries_share_keys_nor_two_of_a_menu_a_letter_that_each_has_or_is_a_name(
+def test_keys_are_unique_and_each_entry_has_a_letter_unique_in_its_menu(
     application: Application,
 ) -> None:
     keys = Counter(
@@ -122,9 +122,9 @@ def test_no_two_entries_share_keys_nor_two_of_a_menu_a_letter_that_each_has_or_i
     menus: list[QMenuBar | QMenu] = [bar, *bar.findChildren(QMenu)]
     for menu in menus:
         letters = Counter(
-            found[1].lower()
+            match[1].lower()
             for action in menu.actions()
-            if (found := re.search(r"&(\w)", action.text().replace("&&", "")))
+            if (match := re.search(r"&(\w)", action.text().replace("&&", "")))
         )
         assert [letter for letter, count in letters.items() if count > 1] == [], letters
     names = {figure.title for figure in application.shell.figures.values()}
@@ -138,7 +138,7 @@ def test_no_two_entries_share_keys_nor_two_of_a_menu_a_letter_that_each_has_or_i
 def test_each_entry_is_connected(application: Application) -> None:
     for path, action in all_entries(application):
         group = action.actionGroup()
-        told = action.receivers("2triggered(bool)") + action.receivers("2toggled(bool)")
+        receivers = action.receivers("2triggered(bool)") + action.receivers("2toggled(bool)")
         if group is not None:
-            told += group.receivers("2triggered(QAction*)")
-        assert told > 0, (path, action.text())
+            receivers += group.receivers("2triggered(QAction*)")
+        assert receivers > 0, (path, action.text())

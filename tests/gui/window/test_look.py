@@ -1,4 +1,4 @@
-"""The look: contrasts of every theme, sizes of text, and a sheet without colours of its own."""
+"""Contrasts of every theme, sizes of text, and a style sheet without colours of its own."""
 
 import re
 from collections.abc import Iterator
@@ -15,7 +15,7 @@ from occ_gui.app.application import Application
 from occ_gui.widgets.colours import contrast
 from occ_gui.widgets.state_look import State, colours_of
 from occ_gui.widgets.text_scale import heading_font
-from occ_gui.window.docks import beside
+from occ_gui.window.docks import floating_place
 from occ_gui.window.style_sheet import SHEET, style_sheet
 from occ_gui.window.text_size import SIZES
 from occ_gui.window.theme import palette_of
@@ -39,7 +39,7 @@ LEAST_CONTRASTS = {
         (ROLE.Accent, ROLE.Button),
     ],
 }  # fmt: skip
-"""Of running text, of other words, and of frames, marks and focus."""
+"""Least contrast of running text, of other words, and of frames, marks and focus."""
 
 
 @pytest.mark.parametrize("theme", THEMES)
@@ -49,8 +49,8 @@ def test_words_and_frames_have_the_contrast_that_they_need(theme: str) -> None:
         for front, back in pairs:
             assert contrast(palette.color(front), palette.color(back)) >= least, (front, back)
     for state in State:
-        found = colours_of(state, palette)
-        assert contrast(found.ink, found.paper) >= 4.5, state
+        colours = colours_of(state, palette)
+        assert contrast(colours.ink, colours.paper) >= 4.5, state
 
 
 @pytest.mark.parametrize("theme", THEMES)
@@ -60,7 +60,7 @@ def test_a_button_can_be_read_in_every_state(
     qtbot: QtBot, theme: str, checked: bool, how: str
 ) -> None:
     palette = palette_of(theme)
-    # Without words: its middle has the colour behind them.
+    # A button without text has the background's colour in its middle.
     button = add_widget(qtbot, QPushButton())
     button.setPalette(palette)
     button.setStyleSheet(style_sheet(palette))
@@ -110,62 +110,62 @@ def test_headings_follow_the_font() -> None:
 
 
 @pytest.mark.parametrize("corner", [QPoint(0, 0), QPoint(900, 500), QPoint(-300, -200)], ids=str)
-def test_a_floated_pane_is_whole_on_the_screen_near_its_place(corner: QPoint) -> None:
+def test_a_floating_pane_is_whole_on_the_screen_near_its_place(corner: QPoint) -> None:
     screen, place = QRect(0, 0, 1280, 800), QRect(corner, QRect(0, 0, 400, 300).size())
-    found = beside(place, screen)
-    assert screen.contains(found)
-    assert found.size() == place.size()
+    floating = floating_place(place, screen)
+    assert screen.contains(floating)
+    assert floating.size() == place.size()
     if screen.contains(place.translated(24, 24)):
-        assert (found.topLeft() - place.topLeft()).manhattanLength() <= 48
+        assert (floating.topLeft() - place.topLeft()).manhattanLength() <= 48
 
 
 def test_a_pane_larger_than_the_screen_is_made_smaller() -> None:
     screen = QRect(100, 0, 800, 600)
-    assert beside(QRect(0, 0, 1000, 900), screen) == screen
+    assert floating_place(QRect(0, 0, 1000, 900), screen) == screen
 
 
 @pytest.mark.qt_log_ignore("This plugin does not support")
-def test_a_floated_pane_lands_beside_its_place(application: Application, qtbot: QtBot) -> None:
+def test_a_floating_pane_is_near_its_place(application: Application, qtbot: QtBot) -> None:
     dock = application.window.docks["controls"]
     place = QRect(dock.mapToGlobal(QPoint()), dock.size())
     dock.setFloating(True)
     screen = dock.screen().availableGeometry()
-    qtbot.waitUntil(lambda: dock.geometry() == beside(place, screen))
+    qtbot.waitUntil(lambda: dock.geometry() == floating_place(place, screen))
     dock.setFloating(False)
 
 
 @pytest.fixture
-def resized(application: Application) -> Iterator[Application]:
-    """Yield a window whose text may be made larger, and make it normal again."""
+def resizable(application: Application) -> Iterator[Application]:
+    """Yield a window and reset its text size afterwards."""
     yield application
-    application.options.text_size.normal()
+    application.options.text_size.reset()
 
 
 def sizes(application: Application) -> list[float]:
     bar, scene = application.story.verdict, application.controls
-    shown = (
+    widgets = (
         bar.title, bar.sentence, scene.panels["Main"].labels["distance"], scene.preset,
         scene.code.bits, application.view("decode").verdict, application.view("accuracy").table,
     )  # fmt: skip
-    QApplication.processEvents()  # Qt tells its windows of another font by an event
-    return [widget.font().pointSizeF() for widget in shown]
+    QApplication.processEvents()  # windows receive another font by an event
+    return [widget.font().pointSizeF() for widget in widgets]
 
 
-def test_every_text_grows_alike_which_is_kept_for_the_next_start_and_comes_back(
-    resized: Application, user: User
+def test_all_text_grows_by_one_factor_which_is_stored_and_can_be_reset(
+    resizable: Application, user: User
 ) -> None:
-    before, system = sizes(resized), QApplication.font().pointSizeF()
+    before, system = sizes(resizable), QApplication.font().pointSizeF()
     user.choose("Lar&ger text")
-    assert resized.preferences.recall("view/text_percent") == str(SIZES[1])
+    assert resizable.preferences.recall("view/text_percent") == str(SIZES[1])
     assert user.message == f"Text at {SIZES[1]} %"
     user.choose("Lar&ger text")
     factor = SIZES[-1] / SIZES[0]
     assert QApplication.font().pointSizeF() == pytest.approx(factor * system)
-    assert sizes(resized) == pytest.approx([factor * size for size in before])
+    assert sizes(resizable) == pytest.approx([factor * size for size in before])
     user.choose("Lar&ger text")  # there is none larger
-    assert sizes(resized) == pytest.approx([factor * size for size in before])
-    made_later = QLabel("new")
-    assert made_later.font().pointSizeF() == pytest.approx(factor * system)
+    assert sizes(resizable) == pytest.approx([factor * size for size in before])
+    label = QLabel("new")
+    assert label.font().pointSizeF() == pytest.approx(factor * system)
     user.choose("Smaller te&xt")
     user.choose("&Normal text size")
-    assert sizes(resized) == pytest.approx(before)
+    assert sizes(resizable) == pytest.approx(before)

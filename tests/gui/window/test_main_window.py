@@ -1,4 +1,4 @@
-"""Menus, files that are dropped, and the full screen."""
+"""Menus, dropped files and the full screen."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -17,24 +17,24 @@ from occ_gui.window.menus import FullScreen
 
 def menus(menu: QWidget) -> Iterator[QMenu]:
     for action in menu.actions():
-        below = action.menu()
-        if isinstance(below, QMenu):
-            yield below
-            yield from menus(below)
+        submenu = action.menu()
+        if isinstance(submenu, QMenu):
+            yield submenu
+            yield from menus(submenu)
 
 
 def entries(menu: QMenu) -> list[QAction]:
     return [a for a in menu.actions() if not a.isSeparator() and a.menu() is None]
 
 
-def test_what_cannot_be_done_is_not_offered_and_every_picture_and_plot_has_a_name(
+def test_impossible_actions_are_disabled_and_every_picture_and_plot_has_a_name(
     application: Application,
 ) -> None:
     by_text = {a.text(): a for menu in menus(application.window.menuBar()) for a in entries(menu)}
     with_photo = ("&Close photo", "&Match", "&Apply", "Save match", "&Use this")
     for text in (*with_photo, "&Undo", "&Redo"):
-        (found,) = [action for key, action in by_text.items() if key.startswith(text)]
-        assert not found.isEnabled(), text
+        (entry,) = [action for key, action in by_text.items() if key.startswith(text)]
+        assert not entry.isEnabled(), text
     graphics = application.window.findChildren(QGraphicsView)
     assert len(graphics) >= 3
     for view in (*graphics, *application.window.findChildren(QProgressBar)):
@@ -60,27 +60,26 @@ def test_one_entry_of_a_choice_is_marked_at_a_time(
 def test_the_window_alone_takes_drops_of_files_and_reports_them(
     application: Application, tmp_path: Path
 ) -> None:
-    reported = collect(application.window.dropped)
+    drops = collect(application.window.dropped)
     files, text = QMimeData(), QMimeData()
     files.setUrls([QUrl.fromLocalFile(str(tmp_path / "a.png")), QUrl("https://example.org/b")])
     text.setText("a.png")
     place = application.window.rect().center()
     how = Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
-    for data, is_taken in ((text, False), (files, True)):
+    for data, is_accepted in ((text, False), (files, True)):
         enter = QDragEnterEvent(place, Qt.DropAction.CopyAction, data, *how)
         enter.ignore()
         QApplication.sendEvent(application.window, enter)
-        assert enter.isAccepted() == is_taken
+        assert enter.isAccepted() == is_accepted
     drop = QDropEvent(place, Qt.DropAction.CopyAction, files, *how)
     QApplication.sendEvent(application.window, drop)
-    assert reported == [[tmp_path / "a.png"]]
-    takers = [w for w in application.window.findChildren(QWidget) if w.acceptDrops()]
-    assert takers == []
+    assert drops == [[tmp_path / "a.png"]]
+    assert not any(w.acceptDrops() for w in application.window.findChildren(QWidget))
 
 
 @pytest.fixture
 def window(qtbot: QtBot) -> QMainWindow:
-    """Show a window of its own."""
+    """Show an empty window."""
     return show_widget(qtbot, QMainWindow(), 500, 300)
 
 

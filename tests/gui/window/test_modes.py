@@ -1,4 +1,4 @@
-"""Modes: a layout for each task, reached by keys and tabs, that comes back as it was left."""
+"""Modes: a layout for each task, chosen by keys and tabs, which keeps the user's changes."""
 
 from functools import partial
 from itertools import combinations
@@ -21,11 +21,11 @@ def bar(application: Application) -> QTabBar:
     return application.window.toolbar.modes
 
 
-def shown(application: Application) -> set[str]:
+def open_panes(application: Application) -> set[str]:
     return {name for name, dock in application.window.docks.items() if not dock.isHidden()}
 
 
-def in_front(application: Application, name: str) -> bool:
+def is_in_front(application: Application, name: str) -> bool:
     return not application.window.docks[name].visibleRegion().isEmpty()
 
 
@@ -33,14 +33,14 @@ def panes_of(application: Application, mode: str) -> set[str]:
     return {*application.window.modes.panes.shown_in(mode)}
 
 
-def test_panes_declare_places_in_modes_that_there_are_one_of_which_is_the_main_one(
+def test_panes_declare_places_in_every_mode_one_of_them_as_its_main_pane(
     application: Application,
 ) -> None:
     panes = application.window.modes.panes
     assert {mode for pane in panes.values() for mode in pane.places} == {*MODES}
     for mode, layout in MODES.items():
         mains = [name for name, place in panes.shown_in(mode).items() if place.is_main]
-        # Explore is about the story in the middle.
+        # The subject of Explore is the story in the middle.
         assert len(mains) == (0 if layout.centre == STORY and mode != "lessons" else 1), mode
 
 
@@ -51,7 +51,7 @@ def test_control_and_a_digit_choose_a_mode(application: Application, qtbot: QtBo
         qtbot.keyClick(application.window, Qt.Key(Qt.Key.Key_1 + place), CONTROL)
         assert application.window.modes.mode == mode
         assert bar(application).currentIndex() == place
-        assert shown(application) == panes_of(application, mode)
+        assert open_panes(application) == panes_of(application, mode)
         assert application.story.isVisible() == bool(MODES[mode].centre)
 
 
@@ -72,7 +72,7 @@ def test_the_tabs_choose_a_mode_by_the_arrow_keys_and_a_screen_reader_hears_it(
     assert [tab.state().selected for tab in tabs] == [name == "limits" for name in NAMES]
 
 
-def test_a_mode_comes_back_as_it_was_left_and_a_pane_that_is_open_stays_in_it(
+def test_a_mode_keeps_its_layout_and_a_pane_that_is_open_in_it_stays_there(
     application: Application, qtbot: QtBot
 ) -> None:
     window = application.window
@@ -80,17 +80,17 @@ def test_a_mode_comes_back_as_it_was_left_and_a_pane_that_is_open_stays_in_it(
     window.docks["controls"].hide()
     window.addDockWidget(RIGHT, window.docks["equations"])
     window.docks["equations"].show()
-    left = shown(application)
+    left = open_panes(application)
     window.modes.switch("effects")
-    assert shown(application) == panes_of(application, "effects")
+    assert open_panes(application) == panes_of(application, "effects")
     window.modes.switch("limits")
-    assert shown(application) == left == {"map", "bench", "bands", "equations"}
+    assert open_panes(application) == left == {"map", "bench", "bands", "equations"}
     window.actions_by_name["reset_layout"].trigger()
-    assert shown(application) == panes_of(application, "limits")
+    assert open_panes(application) == panes_of(application, "limits")
     window.modes.switch("effects")
     window.docks["map"].toggleViewAction().trigger()
     window.bring_to_front("map")
-    qtbot.waitUntil(lambda: in_front(application, "map"))
+    qtbot.waitUntil(lambda: is_in_front(application, "map"))
     assert window.modes.mode == "effects"
 
 
@@ -105,13 +105,13 @@ def test_a_hidden_pane_is_shown_in_the_mode_about_it(
         window.modes.switch("effects" if pane != "accuracy" else "limits")
         window.docks[pane].hide()
         window.bring_to_front(pane)
-        qtbot.waitUntil(partial(in_front, application, pane))
+        qtbot.waitUntil(partial(is_in_front, application, pane))
         assert window.modes.mode == home
     window.modes.switch("explore")
     window.tabifyDockWidget(window.docks["profile"], window.docks["decode"])
     for pane in ("decode", "profile", "decode"):
         window.bring_to_front(pane)
-        qtbot.waitUntil(partial(in_front, application, pane))
+        qtbot.waitUntil(partial(is_in_front, application, pane))
 
 
 def test_a_pane_that_opens_below_a_lesson_has_a_good_part_of_its_height(
@@ -126,16 +126,16 @@ def test_a_pane_that_opens_below_a_lesson_has_a_good_part_of_its_height(
 
 
 class Widths(QObject):
-    """Notes every width that a window takes."""
+    """Records every width of a window."""
 
     def __init__(self, window: QWidget) -> None:
         super().__init__(window)
-        self.seen: set[int] = set()
+        self.values: set[int] = set()
         window.installEventFilter(self)
 
     def eventFilter(self, _of: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
         if isinstance(event, QResizeEvent):
-            self.seen.add(event.size().width())
+            self.values.add(event.size().width())
         return False
 
 
@@ -147,14 +147,14 @@ def test_no_change_of_the_mode_widens_the_window_even_for_a_moment(
     QApplication.processEvents()
     widths = Widths(window)  # a maximized window would keep the largest of them
     for mode in ("effects", "photo", "lessons"):
-        for shown_mode in (mode, "explore", mode):
-            window.modes.switch(shown_mode)
+        for each in (mode, "explore", mode):
+            window.modes.switch(each)
             QApplication.processEvents()
-    assert widths.seen <= {1000}
+    assert widths.values <= {1000}
 
 
-@pytest.mark.own_window  # each pane is made when it is first seen
-def test_panes_that_have_no_room_side_by_side_share_a_place_and_the_window_stays_as_wide(
+@pytest.mark.own_window  # each pane is made when it is first open_panes
+def test_panes_without_room_side_by_side_become_tabs_and_the_window_keeps_its_width(
     application: Application, qtbot: QtBot
 ) -> None:
     window = application.window
@@ -166,17 +166,17 @@ def test_panes_that_have_no_room_side_by_side_share_a_place_and_the_window_stays
             window.docks[pane].toggleViewAction().trigger()
         else:
             window.bring_to_front(pane)
-        qtbot.waitUntil(partial(in_front, application, pane))
+        qtbot.waitUntil(partial(is_in_front, application, pane))
         qtbot.wait(SETTLED_MS)
-    assert widths.seen <= {1280}
-    seen = [dock for dock in window.docks.values() if not dock.visibleRegion().isEmpty()]
-    for one, other in combinations(seen, 2):
+    assert widths.values <= {1280}
+    visible = [dock for dock in window.docks.values() if not dock.visibleRegion().isEmpty()]
+    for one, other in combinations(visible, 2):
         assert not one.geometry().intersects(other.geometry()), (one.objectName(), other)
 
 
-@pytest.mark.own_window  # each pane is made when it is first seen
+@pytest.mark.own_window  # each pane is made when it is first open_panes
 @pytest.mark.parametrize("by_menu", [False, True])
-def test_panes_that_have_no_room_above_one_another_share_a_place_and_the_window_stays_as_high(
+def test_panes_without_room_above_one_another_become_tabs_and_the_window_keeps_its_height(
     application: Application, qtbot: QtBot, by_menu: bool
 ) -> None:
     window = application.window
@@ -188,7 +188,7 @@ def test_panes_that_have_no_room_above_one_another_share_a_place_and_the_window_
             window.docks[pane].toggleViewAction().trigger()
         else:
             window.bring_into_view(pane)
-        qtbot.waitUntil(partial(in_front, application, pane))
+        qtbot.waitUntil(partial(is_in_front, application, pane))
         qtbot.wait(SETTLED_MS)
         assert window.height() == 800, pane
-    assert not window.docks["accuracy"].visibleRegion().isEmpty()  # the mode's own is not covered
+    assert not window.docks["accuracy"].visibleRegion().isEmpty()  # the mode's main pane

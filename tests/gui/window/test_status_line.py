@@ -1,4 +1,4 @@
-"""The texts of the status line never overlap: what is too long ends in dots."""
+"""The texts of the status line never overlap, and a text that is too long ends in dots."""
 
 import pytest
 from gui.kinds import show_widget
@@ -9,11 +9,11 @@ from pytestqt.qtbot import QtBot
 from occ_gui.window.status_line import StatusLine
 
 LONG = "Switching frequency is '1,000 Hz', which means 1 Hz or 1 kHz, " * 6
-POINTED = "Picture: column 1234, row 1200, camera level 123, receiver level 234"
+READOUT = "Picture: column 1234, row 1200, camera level 123, receiver level 234"
 
 
 def texts_of(bar: QStatusBar) -> list[tuple[QLabel, QRect]]:
-    """Find the labels that are seen in a status bar, with their places in it."""
+    """Find the visible labels of a status bar, with their places in it."""
     labels = [label for label in bar.findChildren(QLabel) if label.isVisible() and label.text()]
     return [
         (label, QRect(label.mapTo(bar, label.rect().topLeft()), label.size())) for label in labels
@@ -21,13 +21,13 @@ def texts_of(bar: QStatusBar) -> list[tuple[QLabel, QRect]]:
 
 
 def check_texts(bar: QStatusBar) -> None:
-    """Check that no text leaves its label, and no label another or the bar."""
-    found = texts_of(bar)
-    for label, place in found:
+    """Check that no text exceeds its label, and that labels do not overlap or exceed the bar."""
+    texts = texts_of(bar)
+    for label, place in texts:
         width = label.fontMetrics().horizontalAdvance(label.text())
         assert width <= label.contentsRect().width()
         assert bar.rect().contains(place)
-        assert not any(place.intersects(other) for one, other in found if one is not label)
+        assert not any(place.intersects(other) for one, other in texts if one is not label)
 
 
 @pytest.fixture
@@ -36,9 +36,9 @@ def line(qtbot: QtBot) -> StatusLine:
 
 
 @pytest.mark.parametrize(
-    ("width", "points", "works"), [(300, 24, True), (800, 9, False), (1280, 16, True)]
+    ("width", "points", "is_reading"), [(300, 24, True), (800, 9, False), (1280, 16, True)]
 )
-def test_texts_never_overlap(line: StatusLine, width: int, points: int, works: bool) -> None:
+def test_texts_never_overlap(line: StatusLine, width: int, points: int, is_reading: bool) -> None:
     font = line.font()
     font.setPointSize(points)
     line.setFont(font)
@@ -46,9 +46,9 @@ def test_texts_never_overlap(line: StatusLine, width: int, points: int, works: b
     for message in ("", "Saved scene.toml", LONG):
         line.showMessage(message)
         line.show_plan_change(LONG)
-        line.pointed.set_full_text(POINTED)
+        line.readout.set_full_text(READOUT)
         line.show_timing(1.2345, 0.6789)
-        line.reading.setVisible(works)
+        line.reading.setVisible(is_reading)
         QApplication.processEvents()
         assert len(texts_of(line)) >= (3 if width > 300 else 0)
         check_texts(line)
@@ -64,7 +64,7 @@ def test_a_long_message_ends_in_dots_and_is_whole_in_the_tip(line: StatusLine) -
     assert line.currentMessage() == LONG
 
 
-def test_the_change_of_the_plan_is_said_until_the_next_message_or_its_end(
+def test_a_change_of_the_plan_is_shown_until_the_next_message_or_its_end(
     line: StatusLine, qtbot: QtBot
 ) -> None:
     def texts() -> list[str]:
@@ -83,12 +83,12 @@ def test_the_change_of_the_plan_is_said_until_the_next_message_or_its_end(
     qtbot.waitUntil(lambda: texts() == [])
 
 
-def test_a_readout_is_whole_where_there_is_space(line: StatusLine) -> None:
+def test_a_readout_is_whole_if_there_is_space(line: StatusLine) -> None:
     line.resize(1600, 24)
-    for text in (POINTED[:30], POINTED):
-        line.pointed.set_full_text(text)
+    for text in (READOUT[:30], READOUT):
+        line.readout.set_full_text(text)
         QApplication.processEvents()
-        assert line.pointed.text() == text
+        assert line.readout.text() == text
 
 
 def test_times_are_shown_to_three_digits(line: StatusLine) -> None:

@@ -1,4 +1,4 @@
-"""The toolbar: icons of menu entries, named, sharp on every screen and in every theme."""
+"""The toolbar: named icons of menu entries, sharp on every screen and in every theme."""
 
 from gui.kinds import add_widget
 from PySide6.QtGui import QColor, QUndoCommand, QUndoStack
@@ -16,13 +16,13 @@ from occ_gui.window.toolbar import TOOLS, ToolButton
 
 
 def test_each_button_is_an_entry_of_the_menus(application: Application) -> None:
-    # Qt's own menu offers nothing that could not be undone there.
+    # Qt's own menu cannot hide the toolbar, as it could not show it again.
     assert not application.window.toolbar.toggleViewAction().isVisible()
     bar = application.window.menuBar()
-    known = {action for _, action in entries(bar)}
-    known |= {menu.menuAction() for menu in bar.findChildren(QMenu)}
+    actions = {action for _, action in entries(bar)}
+    actions |= {menu.menuAction() for menu in bar.findChildren(QMenu)}
     buttons = application.window.toolbar.buttons
-    assert {button.shown for button in buttons.values()} <= known
+    assert {button.source for button in buttons.values()} <= actions
     assert {"open_photo", "undo", "redo", "before", "pin_a", "pin_b"} <= set(buttons)
     assert {"fit", "export", "theme"} <= set(buttons)
 
@@ -42,7 +42,7 @@ def test_a_click_does_what_the_entry_does(application: Application) -> None:
 
 def test_tooltips_name_the_keys_of_the_entry(application: Application) -> None:
     for name, button in application.window.toolbar.buttons.items():
-        keys = button.shown.shortcut().toString(button.shown.shortcut().SequenceFormat.NativeText)
+        keys = button.source.shortcut().toString(button.source.shortcut().SequenceFormat.NativeText)
         assert button.accessibleName() in button.toolTip(), name
         assert keys in button.toolTip(), name
 
@@ -50,14 +50,14 @@ def test_tooltips_name_the_keys_of_the_entry(application: Application) -> None:
 def test_every_icon_is_drawn_in_one_colour_and_in_the_pixels_of_the_screen(qapp: object) -> None:
     drawings = {drawing for group in TOOLS for drawing in group.values()}
     for name in {*drawings, *MODES}:
-        drawn = pixmap(name, QColor("#336699"), 20, 2.0)
-        assert (drawn.width(), drawn.devicePixelRatio()) == (40, 2.0)
-        image = drawn.toImage()
+        icon = pixmap(name, QColor("#336699"), 20, 2.0)
+        assert (icon.width(), icon.devicePixelRatio()) == (40, 2.0)
+        image = icon.toImage()
         colours = [image.pixelColor(x, y) for x in range(40) for y in range(40)]
         assert {colour.name() for colour in colours if colour.alpha() == 255} == {"#336699"}, name
 
 
-def test_another_theme_draws_the_icons_anew_and_has_a_sheet_of_its_colours(
+def test_another_theme_redraws_the_icons_and_has_a_style_sheet_of_its_colours(
     application: Application, qtbot: QtBot
 ) -> None:
     button = application.window.toolbar.buttons["theme"]
@@ -74,7 +74,7 @@ def test_another_theme_draws_the_icons_anew_and_has_a_sheet_of_its_colours(
     application.options.theme.choose("system")
 
 
-def test_a_button_asks_nothing_of_an_entry_that_is_deleted(qtbot: QtBot) -> None:
+def test_a_button_ignores_an_entry_that_is_deleted(qtbot: QtBot) -> None:
     stack = QUndoStack()
     undo = stack.createUndoAction(stack)
     stack.push(QUndoCommand("change of ISO speed"))

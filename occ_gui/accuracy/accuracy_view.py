@@ -14,9 +14,8 @@ from occ_gui.accuracy.plan_changes import describe_switches
 from occ_gui.accuracy.tolerance_slider import ToleranceSlider, list_marks
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.values.simulated import SimulationRequest
-from occ_gui.widgets.building import fill
+from occ_gui.widgets.building import KeyedComboBox, fill
 from occ_gui.widgets.elided_label import ElidedLabel
-from occ_gui.widgets.keyed_combo_box import KeyedComboBox
 from occ_model.results.accuracy import Forecast, MeasuredCosts, TimeFractions
 from occ_model.results.plan import Decision
 from occ_model.scene.simulation_settings import SimulationSettings, unit_of

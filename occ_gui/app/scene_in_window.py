@@ -7,7 +7,7 @@ from occ_gui.app.parts import Parts
 from occ_gui.picture.before_controller import BeforeController
 from occ_gui.scene.control_panel import MAIN
 from occ_gui.scene.forced_effects import accuracy_badge, describe_accuracy
-from occ_gui.shell.status import entries_of
+from occ_gui.shell.results import entries_of
 from occ_gui.simulation.snapshot import Snapshot
 from occ_model.results.plan import Decision
 from occ_model.scene.scene import Scene

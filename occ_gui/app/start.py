@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from occ_gui.core.workspace import Workspace
-from occ_gui.values.photo_choice import PhotoChoice
+from occ_gui.values.choices import PhotoChoice
 from occ_model.errors import OccError
 from occ_model.files.writing import make_folder, make_private
 from occ_model.scene.scene import Scene

@@ -7,8 +7,8 @@ from PySide6.QtCore import QObject
 
 from occ_gui.core.store import Store
 from occ_gui.scene.control_panel import ControlPanel
-from occ_gui.shell.results import ResultsStore
-from occ_gui.shell.status import (
+from occ_gui.shell.results import (
+    ResultsStore,
     Until,
     make_remark,
     next_change,

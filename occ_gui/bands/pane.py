@@ -8,7 +8,7 @@ from occ_gui.bands.bands_view import BandsView
 from occ_gui.bands.jobs import ShownBands, shown_bands
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Pane
-from occ_gui.widgets.scroll_pane import ScrollPane
+from occ_gui.widgets.building import ScrollPane
 from occ_model.scene.scene import Scene
 from occ_model.study.bands.advice import as_bright
 

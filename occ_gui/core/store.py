@@ -8,7 +8,7 @@ from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QUndoCommand, QUndoStack
 
 from occ_gui.core.workspace import UndoState, Workspace
-from occ_gui.values.room_choice import RoomChoice
+from occ_gui.values.choices import RoomChoice
 from occ_model.errors import OccError, one_line
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.parameters import PARAMETERS

@@ -5,9 +5,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Self
 
-from occ_gui.values.film_choice import FilmChoice
-from occ_gui.values.photo_choice import PhotoChoice
-from occ_gui.values.room_choice import RoomChoice
+from occ_gui.values.choices import FilmChoice, PhotoChoice, RoomChoice
 from occ_gui.values.simulated import Pins
 from occ_model.results.decoding import PAPER_DECODER
 from occ_model.results.frame import PICTURES

@@ -9,7 +9,7 @@ from occ_gui.decoding.decode_view import DecodeView
 from occ_gui.shell.feature import Pane
 from occ_gui.shell.results import of_reading
 from occ_gui.simulation.snapshot import Reading
-from occ_gui.widgets.scroll_pane import ScrollPane
+from occ_gui.widgets.building import ScrollPane
 from occ_model.receiver.decoders import decoders
 
 _LEAST = QSize(320, 264)

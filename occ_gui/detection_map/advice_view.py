@@ -15,9 +15,8 @@ from PySide6.QtWidgets import (
 
 from occ_gui.detection_map.advice_sentences import AdviceLine, advice_lines, say_what_holds
 from occ_gui.detection_map.limit_cards import LimitCards
-from occ_gui.widgets.building import fill, name_widget, paragraph, push_button
+from occ_gui.widgets.building import ScrollPane, fill, name_widget, paragraph, push_button
 from occ_gui.widgets.elided_label import ElidedLabel
-from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_model.results.bit_errors import FRAMES_A_SECOND
 from occ_model.results.limits import Advice
 

@@ -1,14 +1,186 @@
-"""The pane of map, limits and advice, with the controllers that measure for it."""
+"""The pane of map, limits and advice, and the controllers that measure for it."""
 
 from dataclasses import replace
+from functools import partial
 
-from occ_gui.detection_map.map_controller import DetectionMapController
+from PySide6.QtCore import QObject
+
+from occ_gui.background.result_age import ResultAges
+from occ_gui.background.signals import JobChannel
+from occ_gui.core.store import NO_GESTURE
+from occ_gui.detection_map.map_schedule import MapRequest
 from occ_gui.detection_map.map_view import MapView
+from occ_gui.detection_map.rate_map import PointFacts, RateMap, TheoryFields
 from occ_gui.detection_map.search_controller import AdvisorController, MostBitsController
 from occ_gui.detection_map.wiring import BackgroundRates
+from occ_gui.detection_map.worker import UNSEEN_PARAMETERS, find_left_out
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Pane
 from occ_model.receiver.decoders import DECODERS, QUICK_DECODERS
+from occ_model.results.sweep_request import SweepPoint
+from occ_model.scene.parameters import quantity
+from occ_model.study.sweep.points import MeasuredPoints, rate_intervals
+
+FIRST_AXES = ("switching_frequency", "distance")
+
+
+class DetectionMapController(QObject):
+    def __init__(self, scenes: SceneStore, channel: JobChannel, pane: MapView) -> None:
+        super().__init__()
+        self._scenes = scenes
+        self.channel, self._pane = channel, pane
+        bits = scenes.store.select(lambda workspace: (workspace.shown, workspace.frame_rate))
+        bits.changed.connect(lambda chosen: pane.show_bits(*chosen))
+        self._axes = FIRST_AXES
+        self._with_image_effects = True
+        self._seen = False
+        self._asked: MapRequest | None = None
+        self._shown: MapRequest | None = None
+        self._awaited: MapRequest | None = None
+        self.map: RateMap | None = None
+        self._ages = ResultAges(self._request())
+        channel.results_ready.connect(self._take)
+        channel.finished.connect(self._finish)
+        channel.failed.connect(self._fail)
+        channel.status_message.connect(pane.show_failure)
+        for store in (scenes, scenes.settings):
+            store.changed.connect(self._follow_change)
+
+    @property
+    def is_first_answer_awaited(self) -> bool:
+        """Whether the first points of a map are being measured and are not slow; thread-safe."""
+        return self._awaited is not None
+
+    @property
+    def is_current(self) -> bool:
+        return self.map is not None and self._shown == self._request()
+
+    @property
+    def full(self) -> "tuple[RateMap, MapRequest] | None":
+        """The map and its request; None while points are missing."""
+        if self.map is None or self._shown is None or not self.is_current:
+            return None
+        return (self.map, self._shown) if self.map.least_images else None
+
+    def _request(self) -> MapRequest:
+        x, y = self._axes
+        given = {name: quantity(name).default for name in self._axes}
+        scene = self._scenes.scene.replace(**{**UNSEEN_PARAMETERS, **given})
+        return MapRequest(scene, x, y, self._scenes.settings.settings, self._with_image_effects)
+
+    def set_seen(self, seen: bool) -> None:
+        self._seen = seen
+        if seen:
+            self._follow_change()
+        else:
+            self._stop()
+
+    def choose_axes(self, x: str, y: str) -> None:
+        """Set the axes; if the user chooses the parameter of the other axis, the axes swap."""
+        before = self._axes
+        if x == y:
+            x, y = (x, before[0]) if x == before[1] else (before[1], y)
+        self._axes = (x, y)
+        self._pane.show_axes(x, y)
+        self._follow_change()
+
+    def use_image_effects(self, wanted: bool) -> None:
+        """Set whether image effects are simulated, row by row, or left out."""
+        self._with_image_effects = wanted
+        self._follow_change()
+
+    def _follow_change(self) -> None:
+        if not self._seen:
+            return
+        self._pane.show_scene(self._scenes.scene)
+        self._show_left_out()
+        request = self._request()
+        self._ages.begin(request)
+        self._show_age()
+        if request == self._asked:
+            return
+        self._asked = request
+        self._pane.show_failure("")
+        held = self.map if request == self._shown else None
+        known = request.empty_map() if held is None else held
+        self._awaited = request if held is None else None
+        found_slow = partial(self._end_wait, request)
+        jobs = request.jobs(known.images.copy(), known.theory is None, found_slow)
+        self.channel.put(request, jobs)
+
+    def _show_left_out(self) -> None:
+        scene, settings = self._scenes.scene, self._scenes.settings.settings
+        self._pane.show_left_out(() if self._with_image_effects else find_left_out(scene, settings))
+
+    def _end_wait(self, request: MapRequest) -> None:
+        if self._awaited is request:
+            self._awaited = None
+
+    def _take(self, request: MapRequest, results: list[MeasuredPoints | TheoryFields]) -> None:
+        self._end_wait(request)
+        if request != self._shown or self.map is None:
+            self.map, self._shown = request.empty_map(), request
+        for result in results:
+            if isinstance(result, TheoryFields):
+                self.map.theory = result
+            else:
+                self.map.enter(list(result.points), result.images)
+        self._show_age()
+        self._pane.show_map(self.map)
+        self._show_progress()
+
+    def _show_age(self) -> None:
+        self._pane.show_age(0.0 if self._shown is None else self._ages.age(self._shown))
+
+    def _show_progress(self) -> None:
+        assert self.map is not None  # noqa: S101 - it is called when there is a map
+        total = self.map.images.size
+        self._pane.show_progress(self.map.known, total, self.map.least_images)
+
+    def _finish(self, request: MapRequest) -> None:
+        if request == self._shown:
+            self._show_progress()
+
+    def _fail(self, sentence: str) -> None:
+        self._awaited = None
+        self._pane.show_failure(sentence)
+
+    def _stop(self) -> None:
+        self.channel.cancel()
+        self._asked = self._awaited = None
+
+    def point_at(self, place: tuple[int, int] | None) -> None:
+        """Show what is known about a point, given by its indices along both axes."""
+        shown = self.map
+        x, y = -1, -1
+        if place is not None and shown is not None:
+            x, y = (int(owner[place]) for owner in shown.find_owners())
+        if shown is None or x < 0:
+            self._pane.show_facts(None)
+            return
+        index, sent = x * shown.shape[1] + y, int(shown.sent[x, y])
+        right = tuple(int(count) for count in shown.right[x, y])
+        ends = rate_intervals(SweepPoint(index, sent, right), max(1, int(shown.images[x, y])))
+        counts = tuple(
+            (name, count, low, high)
+            for name, count, (low, high) in zip(shown.decoders, right, ends, strict=True)
+        )
+        self._pane.show_facts(
+            PointFacts(
+                shown.x_values[x], shown.y_values[y], counts, sent,
+                int(shown.images[x, y]), shown.notes.get(index, ""),
+                tuple(int(count) for count in shown.whole[x, y]),
+                float(shown.most_bits(self._scenes.store.workspace.frame_rate)[x, y]),
+            )
+        )  # fmt: skip
+
+    def go_to(self, place: tuple[int, int]) -> None:
+        """Set the scene to a point, given by its indices along both axes, in one undo step."""
+        shown = self.map
+        if shown is not None:
+            x, y = place
+            changes = {shown.x: shown.x_values[x], shown.y: shown.y_values[y]}
+            self._scenes.change(NO_GESTURE, **changes)
 
 
 class MapPane(Pane[None]):

@@ -12,17 +12,18 @@ from typing import Any, TypeVar
 from occ_gui.core.store import History, StepChange
 from occ_gui.core.workspace import FIRST_SETTINGS, UndoState, Workspace
 from occ_gui.files.preferences import text_of
-from occ_gui.values.film_choice import FRAMES, FilmChoice
-from occ_gui.values.photo_choice import (
+from occ_gui.values.choices import (
+    FRAMES,
     KNOWN,
     MODES,
     SENT,
+    FilmChoice,
     LoadOptions,
     MatchChoice,
     PhotoChoice,
     PhotoFrame,
+    RoomChoice,
 )
-from occ_gui.values.room_choice import RoomChoice
 from occ_gui.values.simulated import PinnedScene, Pins, SimulationRequest
 from occ_model.camera.projection import MAX_PIXELS
 from occ_model.effects.registry import NAMES

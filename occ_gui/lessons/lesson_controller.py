@@ -13,7 +13,7 @@ from occ_gui.lessons.lesson_view import LessonView
 from occ_gui.photo.shown_photo import find_match
 from occ_gui.scene.scene_store import new_gesture
 from occ_gui.shell.results import ResultsStore
-from occ_gui.values.photo_choice import PhotoChoice
+from occ_gui.values.choices import PhotoChoice
 from occ_gui.widgets.columns import PACKETS_IN_VIEW
 from occ_gui.widgets.plain_text import LONGEST_TEXT
 from occ_model.errors import OccError, one_line

@@ -13,9 +13,8 @@ from PySide6.QtWidgets import (
 )
 
 from occ_gui.lessons.step_page import LEAST_SIZE, StepPage, heading, paragraph
-from occ_gui.widgets.building import fill, name_widget, push_button
+from occ_gui.widgets.building import ScrollPane, fill, name_widget, push_button
 from occ_gui.widgets.plain_text import in_menu
-from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_model.errors import counted
 from occ_model.results.teaching import CheckedAnswer, Lesson
 

@@ -12,7 +12,7 @@ from occ_gui.photo.photo_work import match
 from occ_gui.photo.shown_photo import ShownPhoto
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.results import ResultsStore
-from occ_gui.values.photo_choice import MatchChoice
+from occ_gui.values.choices import MatchChoice
 from occ_gui.values.photo_results import FoundMatch, MatchRequest
 from occ_model.errors import OccError
 from occ_model.photo.reading.load import Photo

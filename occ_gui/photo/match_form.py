@@ -10,9 +10,15 @@ from occ_gui.scene.number_edits import QuantityEdit
 from occ_gui.scene.parameter_rows import explain
 from occ_gui.scene.refusal_notice import RefusalNotice
 from occ_gui.scene.scene_store import new_gesture
-from occ_gui.values.photo_choice import KNOWN, MatchChoice
-from occ_gui.widgets.building import check_box, fill, name_widget, paragraph, push_button
-from occ_gui.widgets.keyed_combo_box import KeyedComboBox
+from occ_gui.values.choices import KNOWN, MatchChoice
+from occ_gui.widgets.building import (
+    KeyedComboBox,
+    check_box,
+    fill,
+    name_widget,
+    paragraph,
+    push_button,
+)
 from occ_model.results.match import counterpart
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene

@@ -1,10 +1,11 @@
-"""The pane of the photo: shows the settings and results, and turns the user's input into edits."""
+"""The pane of the photo: shows settings and results, turns input into edits, and finds lamps."""
 
 from dataclasses import replace
 
 from pyqtgraph.GraphicsScene.mouseEvents import MouseClickEvent
+from PySide6.QtCore import QObject
 
-from occ_gui.photo.lamp_search import LampSearch
+from occ_gui.background.task import Task
 from occ_gui.photo.lamp_views import LampOutlines
 from occ_gui.photo.many.many_controller import ManyPhotosController
 from occ_gui.photo.match_controller import MatchController, cure_of_match
@@ -13,6 +14,7 @@ from occ_gui.photo.photo_view import PhotoView
 from occ_gui.photo.photo_work import (
     chip_reading,
     comparison_inputs,
+    find_lamps,
     photo_profile,
     stripe_search,
 )
@@ -21,10 +23,34 @@ from occ_gui.photo.window_actions import WindowActions
 from occ_gui.picture.image_view import ImageView
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Pane
-from occ_gui.shell.results import ResultsStore
-from occ_gui.shell.status import make_remark, next_match
-from occ_gui.values.photo_choice import MODES, MatchChoice, Placed, Placement
+from occ_gui.shell.results import ResultsStore, make_remark, next_match
+from occ_gui.values.choices import MODES, MatchChoice, Placed, Placement
+from occ_model.photo.reading.load import Photo
 from occ_model.results.decoding import Region
+from occ_model.results.lamp import Lamp
+
+
+class LampSearch(QObject):
+    def __init__(self, photos: PhotoController, results_store: ResultsStore) -> None:
+        super().__init__()
+        self._photos = photos
+        self.task: Task[Photo, tuple[Lamp, ...]] = Task(
+            find_lamps, "search for lamps", impatient=True
+        )
+        self.task.finished.connect(lambda lamps: self._put(is_searched=False, lamps=lamps))
+        self.task.failed.connect(lambda why: self._put(is_searched=False, why_no_lamps=why))
+        results_store.select(lambda results: results.photo).changed.connect(self.task.cancel)
+
+    def find(self) -> None:
+        document = self._photos.document
+        if document is not None:
+            self._put(is_searched=True, lamps=(), why_no_lamps="")
+            self.task.ask(document.photo)
+
+    def _put(self, **changes: object) -> None:
+        document = self._photos.document
+        if document is not None:
+            self._photos.put(replace(document, **changes))  # type: ignore[arg-type]  # its fields
 
 
 class PhotoPane(Pane[ShownPhoto]):

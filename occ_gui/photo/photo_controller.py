@@ -11,7 +11,7 @@ from occ_gui.background.task import Report, Task
 from occ_gui.core.store import Store
 from occ_gui.shell.result_updater import ResultUpdater
 from occ_gui.shell.results import Results, ResultsStore
-from occ_gui.values.photo_choice import PhotoChoice, PhotoSource
+from occ_gui.values.choices import PhotoChoice, PhotoSource
 from occ_gui.values.photo_results import PhotoDocument
 
 KEPT_PHOTOS = 3  # photos kept to be shown again at once: two of a lesson, and the user's own

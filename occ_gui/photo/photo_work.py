@@ -12,7 +12,7 @@ from occ_gui.photo.shown_photo import Part, ShownPhoto, part_of
 from occ_gui.shell.result_updater import ResultUpdater
 from occ_gui.shell.results import Results, ResultsStore
 from occ_gui.simulation.snapshot import Reading
-from occ_gui.values.photo_choice import MatchChoice
+from occ_gui.values.choices import MatchChoice
 from occ_gui.values.photo_results import FoundMatch, MatchRequest, PhotoProfile, StripeSearch
 from occ_model.camera.enhancement import enhance
 from occ_model.errors import MatchError

@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QVBoxLayout, QWi
 from occ_gui.scene.number_edits import DecimalEdit
 from occ_gui.scene.parameter_rows import explain
 from occ_gui.scene.refusal_notice import RefusalNotice
-from occ_gui.values.photo_choice import LARGEST_SCALE, LEAST_SCALE, Placement
+from occ_gui.values.choices import LARGEST_SCALE, LEAST_SCALE, Placement
 from occ_gui.widgets.building import fill, name_widget, push_button
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
 from occ_model.scene.parameter_kinds import Quantity

@@ -9,7 +9,7 @@ from occ_gui.core.store import Store
 from occ_gui.core.workspace import Workspace
 from occ_gui.shell.results import Results, ResultsStore
 from occ_gui.simulation.snapshot import ColumnView, Reading
-from occ_gui.values.photo_choice import PhotoChoice, PhotoFrame, Placement
+from occ_gui.values.choices import PhotoChoice, PhotoFrame, Placement
 from occ_gui.values.photo_results import FoundMatch, PhotoDocument, StripeSearch
 from occ_model.errors import ParameterError
 from occ_model.photo.reading.load import Photo, region_within

@@ -13,9 +13,8 @@ from occ_gui.picture.picture_pane import PicturePane
 from occ_gui.shell.feature import PiecesPane
 from occ_gui.shell.results import of_picture
 from occ_gui.simulation.snapshot import Picture, Reading, Snapshot
-from occ_gui.values.photo_choice import MODES, Placement
-from occ_gui.widgets.building import fill
-from occ_gui.widgets.keyed_combo_box import KeyedComboBox
+from occ_gui.values.choices import MODES, Placement
+from occ_gui.widgets.building import KeyedComboBox, fill
 from occ_model.photo.reading.load import Photo
 from occ_model.results.frame import PICTURES, Frame
 

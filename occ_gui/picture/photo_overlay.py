@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QStyleOptionGraphicsItem, QWidget
 
 from occ_gui.picture.averaged_image import AveragedImage
 from occ_gui.simulation.snapshot import halved
-from occ_gui.values.photo_choice import MODES, Placement
+from occ_gui.values.choices import MODES, Placement
 from occ_gui.widgets.colours import PHOTO, REGION
 from occ_gui.widgets.guarded_paint import guarded
 from occ_model.arrays import ByteArray, FloatArray

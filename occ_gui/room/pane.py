@@ -13,8 +13,8 @@ from occ_gui.room.jobs import FloorMap, Look, ShownRoom, map_room, plan_of, show
 from occ_gui.room.room_view import RoomView
 from occ_gui.scene.scene_store import Gestures
 from occ_gui.shell.feature import Pane
-from occ_gui.values.room_choice import FIRST_ROOM, RoomChoice
-from occ_gui.widgets.scroll_pane import ScrollPane
+from occ_gui.values.choices import FIRST_ROOM, RoomChoice
+from occ_gui.widgets.building import ScrollPane
 from occ_model.errors import OccError
 from occ_model.room.room import Place, Room
 from occ_model.room.rooms import load_room, rooms

@@ -6,8 +6,8 @@ from PySide6.QtWidgets import QGraphicsOpacityEffect, QWidget
 
 from occ_gui.scene.control_panel import ControlPanel
 from occ_gui.scene.parameter_panel import ParameterPanel
+from occ_gui.widgets.building import bring_into_view
 from occ_gui.widgets.frame_over import FrameOver
-from occ_gui.widgets.scroll_pane import bring_into_view
 from occ_model.scene.parameters import PARAMETERS
 
 _DIMMING = 0.75

@@ -1,4 +1,4 @@
-"""Results: everything computed for the workspace, as one value that all panes read."""
+"""Results: all that is computed for the workspace, as one value, and the status line's sentence."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 from PySide6.QtCore import QObject, Signal
 
 from occ_gui.core.store import Selection
+from occ_gui.core.workspace import Workspace
 from occ_gui.simulation.snapshot import Picture, Reading, Snapshot
 from occ_gui.values.remarks import Failure, Remark
 from occ_gui.values.simulated import SimulationRequest
@@ -22,6 +23,7 @@ if TYPE_CHECKING:  # a window without a photo or film starts without them
     from occ_model.photo.reading.load import Photo
     from occ_model.results.match import ChipReading
     from occ_model.results.video import Video
+
 
 T = TypeVar("T")
 
@@ -115,3 +117,47 @@ class ResultsStore(QObject):
 
     def show_switched(self, switched: tuple[Decision, ...]) -> None:
         self.put(replace(self.results, switched=switched))
+
+
+Until: TypeAlias = Callable[[Workspace, Results], object]
+"""Returns the part of the state that a sentence is about: it holds until that part changes."""
+
+
+def next_sentence(_workspace: Workspace, _results: Results) -> object:
+    return None
+
+
+def entries_of(workspace: Workspace) -> tuple[object, ...]:
+    """Return what the user enters: the scene, the settings, and fields of panes of their own."""
+    film = workspace.film
+    fields = (workspace.room, film.recording, film.frames, workspace.frame_rate)
+    return (workspace.scene, workspace.settings, *fields)
+
+
+def next_change(workspace: Workspace, _results: Results) -> object:
+    return entries_of(workspace)
+
+
+def next_picture(_workspace: Workspace, results: Results) -> object:
+    return results.snapshot
+
+
+def next_photo(_workspace: Workspace, results: Results) -> object:
+    return results.photo
+
+
+def next_match(_workspace: Workspace, results: Results) -> object:
+    document = results.document
+    return None if document is None else (document.photo, document.found)
+
+
+def make_remark(sentence: str, until: Until, workspace: Workspace, results: Results) -> Remark:
+    return Remark(sentence, until, until(workspace, results))
+
+
+def status_message(workspace: Workspace, results: Results) -> str:
+    """Return the sentence of the status line; empty where none holds any more."""
+    last = results.remark
+    if last is None or last.until(workspace, results) != last.state:
+        return ""
+    return last.sentence

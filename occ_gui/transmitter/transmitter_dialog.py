@@ -13,8 +13,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from occ_gui.widgets.building import fill, paragraph
-from occ_gui.widgets.keyed_combo_box import KeyedComboBox
+from occ_gui.widgets.building import KeyedComboBox, fill, paragraph
 
 _FIGURE = QSize(700, 553)  # size of the wiring on the screen, in the proportions of its figure
 

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Self
 
-from occ_gui.values.photo_choice import LoadOptions, MatchChoice, PhotoFrame, PhotoSource
+from occ_gui.values.choices import LoadOptions, MatchChoice, PhotoFrame, PhotoSource
 from occ_model.arrays import FloatArray
 from occ_model.results.decoding import Region
 from occ_model.scene.scene import Scene

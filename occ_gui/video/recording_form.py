@@ -5,7 +5,7 @@ from PySide6.QtWidgets import QFormLayout, QHBoxLayout, QSizePolicy, QWidget
 
 from occ_gui.scene.number_edits import CountEdit, QuantityEdit
 from occ_gui.scene.parameter_rows import explain
-from occ_gui.values.film_choice import FIRST_FRAMES, FRAMES as COUNTS
+from occ_gui.values.choices import FIRST_FRAMES, FRAMES as COUNTS
 from occ_gui.widgets.building import fill, name_widget, paragraph, push_button
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
 from occ_gui.widgets.work_bar import WorkBar

@@ -17,8 +17,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from occ_gui.video.film_reading import Marks, MarkState
-from occ_gui.video.mark_look import LOOKS, brush_of, draw_mark
+from occ_gui.video.film_reading import LOOKS, Marks, MarkState, brush_of, draw_mark
 from occ_gui.widgets.columns import round_step
 from occ_gui.widgets.guarded_paint import guarded
 

@@ -12,7 +12,7 @@ from occ_gui.background.task import Report
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Pane
 from occ_gui.shell.results import ResultsStore
-from occ_gui.values.film_choice import FilmChoice
+from occ_gui.values.choices import FilmChoice
 from occ_gui.video.film_controller import FilmController
 from occ_gui.video.film_reading import Marks, MarkState, frame_marks
 from occ_gui.video.frame_jobs import ShownFrame

@@ -1,19 +1,107 @@
-"""Functions that fill a layout, or make and name a widget, in one call."""
+"""Functions that make, name or lay out widgets in one call; boxes of choices; scrolling panes."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any, TypeAlias, TypeVar
 
-from PySide6.QtCore import Qt, SignalInstance
+from PySide6.QtCore import QEvent, QObject, QSize, Qt, Signal, SignalInstance
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QBoxLayout,
     QCheckBox,
+    QComboBox,
+    QFrame,
     QLabel,
     QLayout,
     QPushButton,
+    QScrollArea,
+    QSizePolicy,
     QTableView,
+    QTabWidget,
     QWidget,
 )
+
+from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
+
+
+class ScrollPane(QScrollArea):
+    """Shows a widget that is as wide as the pane, and as high as it needs to be."""
+
+    def __init__(self, content: QWidget, least: QSize) -> None:
+        super().__init__()
+        self._least = least
+        self.setWidgetResizable(True)
+        self.setFrameShape(QFrame.Shape.NoFrame)
+        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.setWidget(content)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
+        handled = super().eventFilter(watched, event)
+        if event.type() == QEvent.Type.LayoutRequest and watched is self.widget():
+            self.updateGeometry()
+        return handled
+
+    def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Return the least size, no narrower than the content, which only scrolls vertically."""
+        content = self.widget()
+        if content is None:
+            return self._least
+        least, bar = content.minimumSizeHint(), self.verticalScrollBar().sizeHint().width()
+        width = max(self._least.width(), least.width() + bar)
+        return QSize(width, min(self._least.height(), least.height()))
+
+
+def bring_into_view(widget: QWidget, margin: int = 50) -> None:
+    """Select the tabs and scroll the areas that contain a widget, so that it is visible."""
+    scrolled: list[QScrollArea] = []
+    page, around = widget, widget.parentWidget()
+    while around is not None:
+        tabs = around.parentWidget()
+        if isinstance(around, QScrollArea):
+            scrolled.append(around)
+        elif isinstance(tabs, QTabWidget):
+            tabs.setCurrentWidget(page)
+        page, around = around, tabs
+    for area in scrolled:  # only now, when a page that was never in front has been laid out
+        area.ensureWidgetVisible(widget, 0, margin)
+
+
+_POPUP_MARGIN = 36  # pixels for margins and scroll bar of the list
+
+
+class KeyedComboBox(QComboBox):
+    """A combo box that emits the key of the chosen word; if fixed, it is as wide as its words."""
+
+    chosen = Signal(str)
+
+    def __init__(
+        self, name: str, meaning: str, words: Mapping[str, str], *, is_fixed: bool = False
+    ) -> None:
+        super().__init__()
+        for key, word in words.items():
+            self.addItem(word, key)
+        self.setAccessibleName(name)
+        self.setToolTip(meaning)
+        width, adjust = QSizePolicy.Policy, QComboBox.SizeAdjustPolicy
+        self.setSizePolicy(width.Fixed if is_fixed else width.Expanding, width.Fixed)
+        self.setSizeAdjustPolicy(
+            adjust.AdjustToContents if is_fixed else adjust.AdjustToMinimumContentsLengthWithIcon
+        )
+        keep_wheel_for_scrolling(self)
+        self.activated.connect(lambda: self.chosen.emit(self.key()))
+
+    def showPopup(self) -> None:  # noqa: N802 - Qt's name
+        """Open the list as wide as its widest word, even if the box is narrower."""
+        words = (self.itemText(place) for place in range(self.count()))
+        widest = max(map(self.fontMetrics().horizontalAdvance, words), default=0)
+        self.view().setMinimumWidth(widest + _POPUP_MARGIN)
+        super().showPopup()
+
+    def key(self) -> str:
+        return str(self.currentData())
+
+    def show_key(self, key: str) -> None:
+        self.setCurrentIndex(self.findData(key))
+
 
 Box = TypeVar("Box", bound=QBoxLayout)
 Part: TypeAlias = QWidget | QLayout | int | tuple[Any, ...] | None

@@ -23,9 +23,8 @@ from PySide6.QtWidgets import (
 
 from occ_gui.scene.control_panel import ControlPanel
 from occ_gui.scene.parameter_rows import ParameterRow
-from occ_gui.widgets.building import fill, make_read_only, name_widget, paragraph
+from occ_gui.widgets.building import bring_into_view, fill, make_read_only, name_widget, paragraph
 from occ_gui.widgets.plain_text import plain
-from occ_gui.widgets.scroll_pane import bring_into_view
 from occ_gui.window.menus import search_words
 from occ_model.scene.parameters import PARAMETERS
 

@@ -9,8 +9,8 @@ from PySide6.QtWidgets import QApplication, QLabel, QMainWindow, QWidget
 from occ_gui.scene.control_panel import ControlPanel
 from occ_gui.story.story_view import StoryView
 from occ_gui.values.modes import MODES, PICTURE, PanePlace, Places, Side
+from occ_gui.widgets.building import bring_into_view
 from occ_gui.widgets.event_filters import leave_drops_to_window
-from occ_gui.widgets.scroll_pane import bring_into_view
 from occ_gui.window.docks import Dock
 from occ_gui.window.menus import Menus
 from occ_gui.window.modes import DeclaredPane, ModeSwitch, Panes

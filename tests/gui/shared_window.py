@@ -31,10 +31,14 @@ from pytestqt.qtbot import QtBot
 from occ_gui.app.application import Application
 from occ_gui.app.command_line import THEMES
 from occ_gui.core.workspace import FIRST_SETTINGS, Workspace
-from occ_gui.values.film_choice import FilmChoice
+from occ_gui.values.choices import (
+    MODES as OVERLAYS,
+    FilmChoice,
+    MatchChoice,
+    PhotoChoice,
+    RoomChoice,
+)
 from occ_gui.values.modes import MODES
-from occ_gui.values.photo_choice import MODES as OVERLAYS, MatchChoice, PhotoChoice
-from occ_gui.values.room_choice import RoomChoice
 from occ_model.receiver.decoders import DECODERS
 from occ_model.scene.scene import Scene
 

@@ -13,7 +13,7 @@ from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.photo.photo_work import put_known_values
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.results import ResultsStore
-from occ_gui.values.photo_choice import MatchChoice
+from occ_gui.values.choices import MatchChoice
 from occ_gui.values.photo_results import ListedRows
 from occ_model.errors import OccError
 from occ_model.results.match import counterpart

@@ -9,9 +9,8 @@ from PySide6.QtWidgets import QHBoxLayout, QTableView, QVBoxLayout, QWidget
 
 from occ_gui.photo.many.rows_model import KNOWN, NOTE, PHOTO, PhotoRowsModel
 from occ_gui.photo.match_figures import WHAT_ERRORS_MEAN, PasteLines, condition, warn_of_stale
-from occ_gui.widgets.building import fill, name_widget, paragraph, push_button
+from occ_gui.widgets.building import ScrollPane, fill, name_widget, paragraph, push_button
 from occ_gui.widgets.plain_text import copy_text
-from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_gui.widgets.work_bar import WorkBar
 from occ_model.errors import counted
 from occ_model.photo.many.other_programs import frame_readout_time, lines_to_paste, stated_lines

@@ -15,7 +15,7 @@ from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.app.application import Application
-from occ_gui.values.photo_choice import Placement
+from occ_gui.values.choices import Placement
 from occ_model.errors import MatchError
 from occ_model.photo.comparison import RIM
 from occ_model.scene.scene import Scene

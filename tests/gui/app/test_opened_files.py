@@ -11,7 +11,7 @@ from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.app.application import Application
-from occ_gui.export.jobs import ExportJob
+from occ_gui.export.export_controller import ExportJob
 from occ_gui.files import file_controller
 from occ_model.scene.scene import Scene
 

@@ -88,7 +88,7 @@ BEGIN = """
 import sys
 import occ_model as occ
 from occ_gui.app.command_line import start
-from occ_gui.core.workspace import Workspace
+from occ_gui.core.store import Workspace
 
 qt, application = start(Workspace(occ.load_preset("phone-68us").replace(rows=200)), ["occ-gui"])
 pictures = []

@@ -15,8 +15,8 @@ import occ_model as occ
 from occ_gui.background.signals import WorkQueue
 from occ_gui.core.workspace import FIRST_SETTINGS
 from occ_gui.detection_map import map_schedule
-from occ_gui.detection_map.map_controller import DetectionMapController
 from occ_gui.detection_map.map_view import MapView
+from occ_gui.detection_map.pane import DetectionMapController
 from occ_gui.detection_map.rate_map import RateMap
 from occ_gui.detection_map.worker import IMAGE_EFFECTS
 from occ_model.parallel.job import Job, JobResult

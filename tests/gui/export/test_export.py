@@ -18,7 +18,7 @@ import occ_model as occ
 from occ_gui.app.panes import accuracy, bands, decoding, detection_map, photo, picture, profile
 from occ_gui.detection_map.map_schedule import SHAPE, MapRequest
 from occ_gui.detection_map.rate_map import RateMap, lattice
-from occ_gui.export import jobs
+from occ_gui.export import export_controller
 from occ_gui.files.file_controller import FileController
 from occ_gui.files.preferences import Preferences
 from occ_gui.photo.photo_controller import PhotoController
@@ -348,9 +348,9 @@ def test_the_drawing_is_done_off_the_windows_thread_and_exports_that_come_quickl
     from PySide6.QtCore import QThread
 
     threads: list[bool] = []
-    work = jobs.export
+    work = export_controller.export
 
-    def note(job: jobs.ExportJob) -> jobs.ExportResult:
+    def note(job: export_controller.ExportJob) -> export_controller.ExportResult:
         threads.append(QThread.currentThread() is bench.window.thread())
         return work(job)
 

@@ -131,7 +131,7 @@ import os
 from pathlib import Path
 from PySide6.QtWidgets import QApplication
 from occ_gui.app.start import kept_settings
-from occ_gui.core.workspace import Workspace
+from occ_gui.core.store import Workspace
 from occ_gui.files.preferences import Preferences
 from occ_gui.files.session import SessionFile, state_folder
 from occ_gui.files.session_record import KeptSession

@@ -23,8 +23,8 @@ from occ_gui.core.workspace import Workspace
 from occ_gui.files import session as session_module
 from occ_gui.files.session import Session, SessionFile, restore_workspace
 from occ_gui.files.session_record import KeptSession
+from occ_gui.values.choices import RoomChoice
 from occ_gui.values.modes import MODES
-from occ_gui.values.room_choice import RoomChoice
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 

@@ -13,9 +13,14 @@ from occ_gui.core.store import History, StepChange
 from occ_gui.core.workspace import FIRST_SETTINGS, UndoState, Workspace
 from occ_gui.files.session import LARGEST_FILE, SessionFile
 from occ_gui.files.session_record import KeptSession, make_record, read_session
-from occ_gui.values.film_choice import FilmChoice
-from occ_gui.values.photo_choice import LoadOptions, MatchChoice, PhotoChoice, PhotoFrame
-from occ_gui.values.room_choice import RoomChoice
+from occ_gui.values.choices import (
+    FilmChoice,
+    LoadOptions,
+    MatchChoice,
+    PhotoChoice,
+    PhotoFrame,
+    RoomChoice,
+)
 from occ_gui.values.simulated import PinnedScene, SimulationRequest
 from occ_model.results.decoding import Region
 from occ_model.scene.recording import Recording

@@ -14,7 +14,7 @@ from occ_gui.core.workspace import FIRST_SETTINGS, Workspace
 from occ_gui.files.file_controller import sample_photos
 from occ_gui.lessons import lesson_controller
 from occ_gui.lessons.lesson_view import LessonView
-from occ_gui.values.room_choice import RoomChoice
+from occ_gui.values.choices import RoomChoice
 from occ_gui.window.theme import ThemeController
 from occ_model.errors import SceneFileError
 from occ_model.scene.scene import Scene

@@ -15,7 +15,7 @@ from occ_gui.photo.shown_photo import ShownPhoto
 from occ_gui.photo.window_actions import WindowActions
 from occ_gui.shell.results import ResultsStore
 from occ_gui.simulation.snapshot import Reading
-from occ_gui.values.photo_choice import MatchChoice, PhotoChoice, PhotoSource
+from occ_gui.values.choices import MatchChoice, PhotoChoice, PhotoSource
 from occ_gui.values.photo_results import FoundMatch, PhotoDocument
 from occ_model.photo.reading.load import Photo
 from occ_model.results.bands import Cure

@@ -16,7 +16,7 @@ from pytestqt.qtbot import QtBot
 import occ_model as occ
 from occ_gui.photo.match_controller import MatchController
 from occ_gui.photo.shown_photo import PartEdits
-from occ_gui.values.photo_choice import LoadOptions, MatchChoice
+from occ_gui.values.choices import LoadOptions, MatchChoice
 from occ_gui.values.photo_results import ListedRows
 from occ_model.errors import MatchError
 from occ_model.photo.reading.load import Photo

@@ -11,7 +11,7 @@ from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
-from occ_gui.values.photo_choice import MatchChoice
+from occ_gui.values.choices import MatchChoice
 from occ_model.photo.match import ESTIMATES, PATTERN_SOURCES
 from occ_model.photo.reading.load import Photo
 from occ_model.results.match import Match

@@ -19,7 +19,7 @@ from occ_gui.files.session_record import read_session
 from occ_gui.photo.many.rows_model import VERDICT
 from occ_gui.photo.pane import PhotoPane
 from occ_gui.picture.image_view import ImageView
-from occ_gui.values.photo_choice import LoadOptions, PhotoChoice, Placed, Placement
+from occ_gui.values.choices import LoadOptions, PhotoChoice, Placed, Placement
 from occ_gui.values.photo_results import FoundMatch, ListedRows
 from occ_model.photo.reading.load import Photo
 from occ_model.results.decoding import Region

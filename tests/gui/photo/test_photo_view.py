@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QPushButton, QWidget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.photo.photo_verdict import STEPS, PhotoSteps
-from occ_gui.values.photo_choice import Placement
+from occ_gui.values.choices import Placement
 from occ_model.photo.reading.choices import CHANNELS, SCAN_AXES
 from occ_model.photo.reading.load import Photo
 from occ_model.results.match import Match

@@ -16,11 +16,11 @@ from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.photo import photo_work
-from occ_gui.photo.lamp_search import LampSearch
+from occ_gui.photo.pane import LampSearch
 from occ_gui.photo.photo_work import photo_profile
 from occ_gui.photo.shown_photo import PartEdits
 from occ_gui.simulation.snapshot import Snapshot
-from occ_gui.values.photo_choice import Placed, Placement
+from occ_gui.values.choices import Placed, Placement
 from occ_gui.values.photo_results import FoundMatch, PhotoProfile
 from occ_model.camera.enhancement import enhance
 from occ_model.errors import MatchError

@@ -18,7 +18,7 @@ from occ_gui.picture.before_wipe import BeforeWipe
 from occ_gui.picture.picture_pane import PicturePane
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.simulation.snapshot import Snapshot
-from occ_gui.values.room_choice import RoomChoice
+from occ_gui.values.choices import RoomChoice
 from occ_model.results.frame import PICTURES
 from occ_model.scene.scene import Scene
 

@@ -15,7 +15,7 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.picture.averaged_image import AveragedImage
 from occ_gui.picture.photo_overlay import PhotoOverlay, cell_means, difference_cells, rect_of
-from occ_gui.values.photo_choice import LARGEST_SCALE, LEAST_SCALE, Placement
+from occ_gui.values.choices import LARGEST_SCALE, LEAST_SCALE, Placement
 
 SIDE = 200
 

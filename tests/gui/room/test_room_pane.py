@@ -24,7 +24,7 @@ from occ_gui.app.panes import room
 from occ_gui.room import jobs
 from occ_gui.room.jobs import FloorMap, ShownRoom, map_room, plan_of
 from occ_gui.room.pane import RoomPane
-from occ_gui.values.room_choice import FIRST_ROOM, RoomChoice
+from occ_gui.values.choices import FIRST_ROOM, RoomChoice
 from occ_model.figures.drawing import house_style
 from occ_model.figures.room import room_drawing
 from occ_model.photo.reading.exif import EQUIVALENT_FOCAL_LENGTH

@@ -7,8 +7,8 @@ import pytest
 from gui.kinds import SnapshotOf
 
 from occ_gui.core.workspace import Workspace
-from occ_gui.shell.results import Results
-from occ_gui.shell.status import (
+from occ_gui.shell.results import (
+    Results,
     Until,
     make_remark,
     next_change,
@@ -18,7 +18,7 @@ from occ_gui.shell.status import (
     next_sentence,
     status_message,
 )
-from occ_gui.values.photo_choice import LoadOptions, PhotoSource
+from occ_gui.values.choices import LoadOptions, PhotoSource
 from occ_gui.values.photo_results import FoundMatch, PhotoDocument
 from occ_model.photo.reading.load import Photo
 from occ_model.scene.scene import Scene

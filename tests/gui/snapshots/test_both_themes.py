@@ -16,8 +16,7 @@ from occ_gui.detection_map.limit_cards import LimitCards
 from occ_gui.photo.photo_verdict import PhotoVerdictBar
 from occ_gui.simulation.snapshot import Picture
 from occ_gui.story.story_view import StoryView
-from occ_gui.video.film_reading import Marks, frame_marks
-from occ_gui.video.mark_look import MarkLegend
+from occ_gui.video.film_reading import MarkLegend, Marks, frame_marks
 from occ_gui.video.timeline import Timeline
 from occ_gui.widgets.state_look import State
 from occ_gui.window.style_sheet import style_sheet

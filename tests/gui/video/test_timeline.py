@@ -9,8 +9,7 @@ from PySide6.QtGui import QColor, QImage, QPainter
 from pytestqt.qtbot import QtBot
 
 from occ_gui.video.film_controller import FilmPlayer
-from occ_gui.video.film_reading import Marks, MarkState, frame_marks
-from occ_gui.video.mark_look import draw_mark
+from occ_gui.video.film_reading import Marks, MarkState, draw_mark, frame_marks
 from occ_gui.video.timeline import Timeline, tick_step
 from occ_gui.window.theme import palette_of
 

@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
-from occ_gui.values.film_choice import FilmChoice
+from occ_gui.values.choices import FilmChoice
 from occ_gui.video.film_reading import MarkState
 from occ_gui.video.wiring import VideoWiring
 from occ_model.results.video import Video

@@ -10,11 +10,9 @@ from PySide6.QtWidgets import QApplication, QLabel, QTabWidget, QVBoxLayout, QWi
 from pytestqt.qtbot import QtBot
 
 from occ_gui.widgets.axes import LogAxis
-from occ_gui.widgets.building import fill
+from occ_gui.widgets.building import KeyedComboBox, ScrollPane, bring_into_view, fill
 from occ_gui.widgets.elided_label import ElidedLabel
-from occ_gui.widgets.keyed_combo_box import KeyedComboBox
 from occ_gui.widgets.plain_text import in_tool_tip
-from occ_gui.widgets.scroll_pane import ScrollPane, bring_into_view
 from occ_gui.widgets.text_scale import embolden, resize_font
 from occ_gui.widgets.unchanged import are_same
 

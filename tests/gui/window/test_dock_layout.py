@@ -29,7 +29,7 @@ from pytestqt.qtbot import QtBot
 from occ_gui.app.application import Application
 from occ_gui.core.workspace import Workspace
 from occ_gui.detection_map.rate_map import RateMap, lattice
-from occ_gui.values.photo_choice import MODES
+from occ_gui.values.choices import MODES
 from occ_model.results.sweep_request import SweepPoint
 from occ_model.scene.scene import Scene
 

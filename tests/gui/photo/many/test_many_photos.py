@@ -20,7 +20,7 @@ from occ_gui.photo.many.many_view import ManyPhotosView
 from occ_gui.photo.many.rows_model import ESTIMATE, EXPOSURE, KNOWN, NOTE, PHOTO, VERDICT
 from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.shell.results import ResultsStore
-from occ_gui.values.photo_choice import LoadOptions, MatchChoice
+from occ_gui.values.choices import LoadOptions, MatchChoice
 from occ_model.photo.many import match_photos
 from occ_model.photo.many.other_programs import stated_lines
 from occ_model.photo.many.row import MatchSettings

@@ -33,9 +33,14 @@ def session_text() -> str:
     from occ_gui.core.workspace import UndoState, Workspace
     from occ_gui.files.session import SessionFile
     from occ_gui.files.session_record import KeptSession
-    from occ_gui.values.film_choice import FilmChoice
-    from occ_gui.values.photo_choice import LoadOptions, MatchChoice, PhotoChoice, PhotoFrame
-    from occ_gui.values.room_choice import RoomChoice
+    from occ_gui.values.choices import (
+        FilmChoice,
+        LoadOptions,
+        MatchChoice,
+        PhotoChoice,
+        PhotoFrame,
+        RoomChoice,
+    )
     from occ_gui.values.simulated import PinnedScene, SimulationRequest
     from occ_model.room.rooms import load_room
     from occ_model.scene.recording import Recording

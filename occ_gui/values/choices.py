@@ -1,4 +1,4 @@
-"""What the user has set about photos: which one is open, how it is loaded and what is matched."""
+"""What the user has set about rooms, films and photos: which one is open, and how it is used."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
@@ -8,11 +8,58 @@ from typing import TYPE_CHECKING, Self
 
 from occ_model.photo.reading.choices import CHANNELS, SCAN_AXES
 from occ_model.results.decoding import Region
+from occ_model.scene.recording import Recording
 
-if TYPE_CHECKING:
+if TYPE_CHECKING:  # a window that shows none starts without them
     from occ_model.results.lamp import Lamp
+    from occ_model.room.room import Room
 
 _openings = count(1)
+
+FIRST_FRAMES, FRAMES = 60, range(2, 100_001)
+"""Number of frames of the simulated film at first, and the numbers that are allowed."""
+
+
+@dataclass(frozen=True, slots=True)
+class FilmSource:
+    """An opened file, and the axis of its pictures that the shutter scanned."""
+
+    path: Path
+    axis: str
+    opening: int
+
+
+@dataclass(frozen=True, slots=True)
+class FilmChoice:
+    # The film that is open, or is being loaded; None if there is only the simulated one
+    path: Path | None = None
+    axis: str = SCAN_AXES[0]  # the axis of its pictures that the shutter scanned, one of SCAN_AXES
+    opening: int = 0  # counts the openings, so that opening a file again loads it again
+    # How the simulated film is recorded, and how many frames it has
+    recording: Recording = field(default_factory=Recording)
+    frames: int = FIRST_FRAMES
+
+    @property
+    def source(self) -> FilmSource | None:
+        return None if self.path is None else FilmSource(self.path, self.axis, self.opening)
+
+    def open(self, path: Path | None, axis: str = SCAN_AXES[0]) -> Self:
+        return replace(self, path=path, axis=axis, opening=next(_openings))
+
+
+FIRST_ROOM = "office"
+
+
+@dataclass(frozen=True, slots=True)
+class RoomChoice:
+    name: str = FIRST_ROOM  # of the built-in room, or of the file, that the room comes from
+    # The room with the camera where the user has put it; None for the first room unchanged
+    room: "Room | None" = None
+    # The photo of the room that is shown in place of the simulated picture
+    photo: Path | None = None
+    # Equivalent focal length of the photo in metres; None for that in its file, or the room's
+    focal_length: float | None = None
+
 
 MODES = ("beside", "blend", "split", "difference")
 """Ways of showing a photo with the simulated picture."""

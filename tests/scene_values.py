@@ -2,6 +2,8 @@
 
 from hypothesis import strategies as st
 
+from occ_model.scene.light_samples import canonical_samples
+from occ_model.scene.light_text import LightText
 from occ_model.scene.parameter_kinds import ChipPattern, Choice, Count, Parameter, Payload, Quantity
 
 _LETTERS = st.characters(exclude_categories=["Cs"])
@@ -13,6 +15,27 @@ PAYLOADS: st.SearchStrategy[str] = st.one_of(
     st.text("01", min_size=1, max_size=40).map("bits:{}".format),
 )
 """Texts, bytes and bits in their shortest form, and nothing."""
+
+_FRACTIONS = st.floats(0.0, 1.0)
+
+LEVEL_LINES: st.SearchStrategy[str] = st.lists(_FRACTIONS.map(repr), min_size=1, max_size=12).map(
+    " ".join
+)
+
+_ROWS = st.lists(st.tuples(st.floats(1e-6, 1.0), _FRACTIONS), min_size=2, max_size=12)
+
+
+def _rows_text(rows: list[tuple[float, float]]) -> str:
+    seconds = [sum(length for length, _ in rows[:number]) for number in range(len(rows))]
+    return canonical_samples(
+        "\n".join(f"{at!r},{level!r}" for at, (_, level) in zip(seconds, rows, strict=True))
+    )
+
+
+LIGHT_TEXTS = {
+    "levels": LEVEL_LINES,
+    "waveform_file": st.one_of(st.just(""), _ROWS.map(_rows_text)),
+}
 
 
 def values_of(parameter: Parameter) -> st.SearchStrategy[float | int | str]:
@@ -28,3 +51,5 @@ def values_of(parameter: Parameter) -> st.SearchStrategy[float | int | str]:
             return st.text("01", max_size=40)
         case Payload():
             return PAYLOADS
+        case LightText():
+            return LIGHT_TEXTS[parameter.name]

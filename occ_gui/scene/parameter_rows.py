@@ -9,11 +9,12 @@ from occ_gui.scene.scene_store import Gestures
 from occ_gui.widgets.building import fill
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling, leave_undo_to_window
 from occ_model.errors import ParameterError
+from occ_model.scene.declaration import Declaration
+from occ_model.scene.light_text import LightText
 from occ_model.scene.parameter_kinds import (
     ChipPattern,
     Choice,
     Count,
-    Declaration,
     OpenChoice,
     Parameter,
     ParameterValue,
@@ -223,7 +224,7 @@ class OpenChoiceRow(ChoiceRow):
 class PatternRow(ParameterRow):
     """A text field for a pattern or payload; unreadable text stays, with the reason."""
 
-    def __init__(self, declared: ChipPattern | Payload) -> None:
+    def __init__(self, declared: ChipPattern | Payload | LightText) -> None:
         super().__init__(declared)
         self._declared = declared
         self._value_text = ""
@@ -269,7 +270,7 @@ def row_for(declared: Parameter) -> ParameterRow:
             return OpenChoiceRow(declared)
         case Choice():
             return ChoiceRow(declared)
-        case ChipPattern() | Payload():
+        case ChipPattern() | Payload() | LightText():
             return PatternRow(declared)
 
 

@@ -21,7 +21,8 @@ from occ_model.receiver.decode import decode
 from occ_model.results.cause import symptom
 from occ_model.results.decoding import PAPER_DECODER, DecodeResult
 from occ_model.results.frame import Frame
-from occ_model.scene.parameter_kinds import Quantity, in_sentence
+from occ_model.scene.declaration import in_sentence
+from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import parameter_named
 from occ_model.scene.provenance import Provenance
 from occ_model.scene.scene import Scene

@@ -15,7 +15,7 @@ from occ_model.figures.drawing import THRESHOLD, Drawing
 from occ_model.figures.window_panes import caption, write_caption
 from occ_model.results.cause import Cause, symptom
 from occ_model.results.decoding import DecodeResult
-from occ_model.scene.parameter_kinds import in_sentence
+from occ_model.scene.declaration import in_sentence
 from occ_model.scene.scene import Scene
 
 _ABOVE_LEGEND = 20  # points from the axes to the title

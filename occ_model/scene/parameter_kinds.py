@@ -8,45 +8,16 @@ from dataclasses import dataclass
 from numbers import Integral, Real
 from typing import Literal, TypeAlias
 
-from occ_model.errors import ParameterError, shown
+from occ_model.errors import shown
 from occ_model.plugins import plugin_names
+from occ_model.scene.declaration import Declaration
+from occ_model.scene.light_text import LightText
 from occ_model.scene.payload import PAYLOADS, canonical_payload, typed_form
-from occ_model.scene.units import LONGEST_TEXT, Unit
+from occ_model.scene.units import Unit
 
 ParameterValue: TypeAlias = float | int | str
 
 MAX_PATTERN_CHIPS = 4096
-
-
-def in_sentence(label: str) -> str:
-    """Return a label within a sentence, where ISO, LED and JPEG stay in capitals."""
-    return label if label[:2].isupper() else label[:1].lower() + label[1:]
-
-
-@dataclass(frozen=True, slots=True)
-class Declaration:
-    name: str  # The identifier, as in a scene file
-    label: str  # Its usual name in the field, as on screen
-    symbol: str  # Its symbol in the paper's equations, empty if it has none
-    meaning: str
-
-    @property
-    def in_sentence(self) -> str:
-        """The label inside a sentence."""
-        return in_sentence(self.label)
-
-    def refuse(self, problem: str, allowed: str) -> ParameterError:
-        """Return the error for a ``problem``, a verb and the value such as "is 3 m"."""
-        verb, _, value = problem.partition(" ")
-        return ParameterError.of(self.name, value, allowed, verb=verb, parameters=(self.name,))
-
-    def check_length(self, text: str, allowed: str) -> None:
-        """Refuse a text that is too long for a number."""
-        if len(text) > LONGEST_TEXT:
-            raise self.refuse(
-                f"is a text of {len(text):,} characters",
-                f"{allowed}, written in up to {LONGEST_TEXT} characters",
-            )
 
 
 def _as_whole_number(value: object) -> int | None:
@@ -307,7 +278,7 @@ class ChipPattern(Declaration):
         return value
 
 
-Parameter: TypeAlias = Quantity | Count | Choice | ChipPattern | Payload
+Parameter: TypeAlias = Quantity | Count | Choice | ChipPattern | Payload | LightText
 
 _ALL_DIGITS = 17
 

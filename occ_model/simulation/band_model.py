@@ -4,6 +4,8 @@ A chip has h_c = (t_LED - t) / t_r columns of one state, and a change of state h
 of transition. The model is undefined if the exposure is longer than the switching period.
 """
 
+from fractions import Fraction
+
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
@@ -57,11 +59,11 @@ def band_profile(scene: Scene) -> FloatArray:
     """
     complete, transition = band_lengths(scene)
     chips = sent_chips(scene.transmitter)
-    phases = column_phases(scene, len(chips))
+    phases = column_phases(scene, Fraction(scene.transmitter.switching_frequency), len(chips))
     if scene.model.band_reading == "aligned":
         exposure = scene.camera.exposure_time * scene.transmitter.switching_frequency
         positions, lit = _knots(chips, max(0.0, 1.0 - exposure), exposure, between_equal=exposure)
-        columns: FloatArray = phases.chip + phases.fraction
+        columns: FloatArray = phases.whole + phases.fraction
     else:
         positions, lit = _literal_knots(chips, complete, transition)
         if positions[-1] == 0:
@@ -69,7 +71,7 @@ def band_profile(scene: Scene) -> FloatArray:
                 f"The band model is undefined here: a chip of {complete + transition:.2g} columns "
                 "rounds to none."
             )
-        columns = np.arange(0.5, len(phases.chip))
+        columns = np.arange(0.5, len(phases.whole))
         columns += _literal_start(scene, chips, positions)
     dark, bright = level_values(scene)
     values = np.interp(np.mod(columns, positions[-1]), positions, lit)
@@ -122,7 +124,9 @@ def _literal_knots(
 
 def _literal_start(scene: Scene, chips: ByteArray, positions: FloatArray) -> float:
     """Return the column of the packet's polyline at which the picture starts."""
-    start = column_phases(scene, len(chips), columns=1)
-    chip = int(start.chip[0])
+    start = column_phases(
+        scene, Fraction(scene.transmitter.switching_frequency), len(chips), columns=1
+    )
+    chip = int(start.whole[0])
     into_chip = float(start.fraction[0]) * scene.transmitter.switching_period
     return float(positions[2 * chip]) + round(into_chip / scene.camera.readout_time)

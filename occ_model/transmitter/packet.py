@@ -6,6 +6,8 @@ from functools import lru_cache
 import numpy as np
 
 from occ_model.arrays import ByteArray, IndexArray
+from occ_model.errors import ParameterError
+from occ_model.scene.light_words import PICTURE_ONLY
 from occ_model.scene.scene import Scene, Transmitter
 from occ_model.transmitter.framings.paper import HEADER
 from occ_model.transmitter.line_codes import differential_manchester
@@ -30,8 +32,24 @@ def packet_length(bits: int) -> int:
     return len(HEADER) + 2 * bits
 
 
+def check_code(transmitter: Transmitter, instead: str = PICTURE_ONLY) -> None:
+    """Refuse a light that is no code; ``instead`` says what to ask of it."""
+    if transmitter.light != "code":
+        raise ParameterError.of(
+            "light", transmitter.light, f"code; of this light, {instead}",
+            condition="where chips are sent or read", parameters=("light",),
+        )  # fmt: skip
+
+
 def sent_chips(transmitter: Transmitter) -> ByteArray:
-    """Return one period of the chips sent, a raw pattern or a packet; read-only."""
+    """Return one period of the chips sent, a raw pattern or a packet; read-only.
+
+    Raises
+    ------
+    ParameterError
+        Another light than a code is sent.
+    """
+    check_code(transmitter)
     if transmitter.pattern:
         return _pattern_chips(transmitter.pattern)
     return _payload_chips(
@@ -87,5 +105,10 @@ def packet(scene: Scene) -> ByteArray:
     ndarray of uint8, shape (chips,), read-only
         For the paper's scheme these are the header 1 1 1 0 and two chips a bit; for a raw pattern
         they are the pattern.
+
+    Raises
+    ------
+    ParameterError
+        The scene's light is no code.
     """
     return sent_chips(scene.transmitter)

@@ -29,6 +29,8 @@ from occ_model.boards.sketch import BOARDS
 from occ_model.cli import main
 from occ_model.figures.bands import bands_drawing, flicker_drawing
 from occ_model.receiver.decoders import DECODERS
+from occ_model.scene.light_samples import MOST_LEVELS, MOST_SAMPLES
+from occ_model.scene.light_text import LightText
 from occ_model.scene.parameter_kinds import ChipPattern, Choice, ParameterValue, Payload
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
@@ -62,6 +64,14 @@ _MULTIPLIED = (
 )  # fmt: skip
 """Frequencies, times and sizes whose products are numbers of things."""
 
+_LIGHT_TEXTS = {
+    "levels": ("0", f"{' '.join(map(str, range(MOST_LEVELS)))} / {MOST_LEVELS}"),
+    "waveform_file": (
+        "0,1\n1e-300,0\n1\n",
+        "".join(f"{second},{second % 7 / 7}\n" for second in range(MOST_SAMPLES)),
+    ),
+}  # fmt: skip
+
 
 def base() -> Scene:
     """Make a small picture with every effect of a real camera."""
@@ -76,6 +86,8 @@ def ends(name: str) -> tuple[ParameterValue, ...]:
         return declared.choices
     if isinstance(declared, ChipPattern):
         return "", ("1101" * declared.most)[: declared.most]
+    if isinstance(declared, LightText):
+        return _LIGHT_TEXTS[name]
     if isinstance(declared, Payload):
         return "bits:1", _LONGEST_PAYLOAD
     return declared.low, declared.high
@@ -83,7 +95,11 @@ def ends(name: str) -> tuple[ParameterValue, ...]:
 
 def cases() -> list[Case]:
     """Return all parameters by themselves, pairs that multiply, and the longest packets."""
-    alone = [{name: end} for name in PARAMETERS for end in ends(name)]
+    alone = [
+        {"light": declared.lights[0] if declared.lights else "code", name: end}
+        for name, declared in PARAMETERS.items()
+        for end in ends(name)
+    ]
     paired = [
         {one: end, other: other_end}
         for one, other in combinations(_MULTIPLIED, 2)

@@ -14,9 +14,10 @@ from occ_model.camera.optics import Gain, Optics
 from occ_model.camera.photometry import saturation_value
 from occ_model.camera.projection import rotation_of
 from occ_model.effects.effect import NoiseEffect, OpticsEffect
-from occ_model.effects.light_effects import Flicker, ambient_fractions, exposure_response
+from occ_model.effects.light_effects import Flicker, ambient_fractions
 from occ_model.effects.optics_effects import Emission, Vignetting
 from occ_model.effects.sensor_effects import FixedPattern, SensorNoise
+from occ_model.light.sent import flicker_of
 from occ_model.scene.scene import Scene
 
 mpmath.mp.dps = 50
@@ -41,7 +42,7 @@ def test_flicker_is_that_of_its_integral_in_fifty_digits(
     length = Fraction(frequency) * Fraction(exposure)
     turn = mpmath.mpf(length.numerator) / length.denominator
     exact = mpmath.sinpi(turn) / (mpmath.pi * turn)
-    found = exposure_response(scene)
+    found = flicker_of(scene).response(Fraction(scene.camera.exposure_time))
     relative = float(abs(found - exact) / abs(exact)) if exact else abs(found)
     record("flicker's part of an exposure, relative", "F t 1e-11 to 1e9, +- 1 ulp", relative, 1e-15)
     worst = 0.0
@@ -70,7 +71,7 @@ def test_whole_cycles_leave_nothing_and_short_exposures_all(
 ) -> None:
     scene = Scene().replace(flicker_frequency=frequency, exposure_time=exposure, flicker_depth=1.0)
     turn = Fraction(frequency) * Fraction(exposure)
-    found = exposure_response(scene)
+    found = flicker_of(scene).response(Fraction(scene.camera.exposure_time))
     if turn.denominator == 1:
         assert found == 0.0
         assert not Flicker().is_present(scene)

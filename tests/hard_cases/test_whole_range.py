@@ -9,12 +9,13 @@ from typing import TypeVar
 import numpy as np
 from each_case import each_case
 from hypothesis import strategies as st
-from scene_values import PAYLOADS
+from scene_values import values_of
 
 import occ_model as occ
 from hard_cases.laws import cases, record
 from hard_cases.references import PATTERNS, decades, signed_decades, within
 from occ_model.effects.registry import NAMES
+from occ_model.scene.light_text import LightText
 from occ_model.scene.parameter_kinds import ChipPattern, Choice, Count, Payload
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
@@ -30,8 +31,8 @@ def quantities(name: str) -> st.SearchStrategy[float | int | str]:
         return st.sampled_from(declared.choices)
     if isinstance(declared, ChipPattern):
         return PATTERNS
-    if isinstance(declared, Payload):
-        return PAYLOADS
+    if isinstance(declared, Payload | LightText):
+        return values_of(declared)
     if isinstance(declared, Count):
         return st.integers(declared.low, declared.high)
     low, high, default = declared.low, declared.high, declared.default

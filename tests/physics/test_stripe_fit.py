@@ -10,12 +10,12 @@ from simulated_photos import photo_of, random_scene, take
 
 import occ_model as occ
 from occ_model.camera.photometry import luminance_of
+from occ_model.light.waveform import Waveform
 from occ_model.photo.fit.camera_response import camera_tones
 from occ_model.photo.fit.initial_search import Search
 from occ_model.photo.fit.least_squares import StripeModel
 from occ_model.photo.fit.timing import Timing
 from occ_model.transmitter.packet import sent_chips
-from occ_model.transmitter.waveform import Waveform
 
 CHIPS = sent_chips(occ.Scene().transmitter)
 

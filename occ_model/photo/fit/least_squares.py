@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.camera.photometry import FLAT_SPAN, WHITE
+from occ_model.light.waveform import Waveform
 from occ_model.photo.fit.chip_runs import chips_as_one
 from occ_model.photo.fit.damped_least_squares import DIFFERENCE, minimized
 from occ_model.photo.fit.normal_equations import LitColumns, NormalEquations
@@ -23,7 +24,6 @@ from occ_model.photo.fit.timing import SHORTEST_EXPOSURE, Timing
 from occ_model.photo.stripes.envelope import LEAST_SWING, smooth_shapes, weighted_correlation
 from occ_model.photo.stripes.period import correlated_columns
 from occ_model.scene.parameters import quantity
-from occ_model.transmitter.waveform import Waveform
 
 Tone = Callable[[FloatArray, float], FloatArray]
 """A camera's response: from lit fractions and gamma to pixel values between any two levels."""

@@ -6,7 +6,8 @@ from fractions import Fraction
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
-from occ_model.transmitter.waveform import Duration, PhasesInPeriod, Waveform
+from occ_model.light.times import Duration, PhasesInPeriod
+from occ_model.light.waveform import Waveform
 
 SHORTEST_EXPOSURE = 1e-3  # shortest exposure in chips: shorter ones make the same stripes
 
@@ -32,7 +33,7 @@ class Timing:
         chip = np.floor(place)
         phases = PhasesInPeriod((chip % waveform.period).astype(np.int64), place - chip)
         exposure = Duration.of(Fraction(self.exposure), waveform.period)
-        lit = waveform.lit_chips(phases, exposure) / exposure.in_chips(waveform.period)
+        lit = waveform.light_in(phases, exposure) / exposure.in_units(waveform.period)
         return np.clip(lit, 0.0, 1.0)
 
     def lit_slopes(self, lit: FloatArray, chips: ByteArray) -> FloatArray:

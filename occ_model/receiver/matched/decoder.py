@@ -111,9 +111,11 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
 
 def _start_bins(columns: int, scene: Scene, period: int) -> IndexArray:
     # The signal may start at any column, because the packet's phase is unknown.
-    phases = column_phases(scene, period, columns=columns)
+    phases = column_phases(
+        scene, Fraction(scene.transmitter.switching_frequency), period, columns=columns
+    )
     bins = period * BINS_PER_CHIP
-    return np.rint((phases.chip + phases.fraction) * BINS_PER_CHIP).astype(np.int64) % bins
+    return np.rint((phases.whole + phases.fraction) * BINS_PER_CHIP).astype(np.int64) % bins
 
 
 def _widest_gap(counts: IndexArray) -> int:

@@ -11,10 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from occ_model.arrays import FloatArray, IndexArray, Pixels
+from occ_model.light.times import Duration, PhasesInPeriod
+from occ_model.light.waveform import Waveform
 from occ_model.transmitter.framings.paper import HEADER
 from occ_model.transmitter.packet import bits_of, packet_length, packets_of_codes
 from occ_model.transmitter.scheme import Scheme
-from occ_model.transmitter.waveform import Duration, PhasesInPeriod, Waveform
 
 BINS_PER_CHIP = 8  # so that an edge is known to a sixteenth of a chip
 
@@ -68,7 +69,7 @@ def chip_response(period: int, exposure: Fraction) -> FloatArray:
     bins = np.arange(period * BINS_PER_CHIP)
     starts = PhasesInPeriod(bins // BINS_PER_CHIP, (bins % BINS_PER_CHIP) / BINS_PER_CHIP)
     duration = Duration.of(exposure, period)
-    return Waveform(first_chip).lit_chips(starts, duration) / duration.in_chips(period)
+    return Waveform(first_chip).light_in(starts, duration) / duration.in_units(period)
 
 
 def sums_of_halves(values: FloatArray, bits: int) -> tuple[FloatArray, FloatArray]:

@@ -5,17 +5,24 @@ from dataclasses import dataclass
 
 from occ_model import plugins
 from occ_model.errors import ParameterError, counted
+from occ_model.scene.light_samples import LEVELS, SAMPLES, canonical_levels
+from occ_model.scene.light_text import canonical_file
 from occ_model.scene.parameters.group import (
     Group,
     choice_field,
     count_field,
+    light_text_field,
     open_choice_field,
     pattern_field,
     payload_field,
     quantity_field,
 )
 from occ_model.scene.payload import bits_of_payload
-from occ_model.scene.units import HERTZ, LUX, METRE, NIT, NONE, RADIAN, SECOND
+from occ_model.scene.units import HERTZ, LUX, METRE, NIT, NONE, PERCENT, RADIAN, SECOND
+
+LIGHTS = ("code", "lamp", "mains", "waveform", "pulses")
+
+_CODE, _LAMP, _MAINS, _WAVEFORM, _PULSES = ((light,) for light in LIGHTS)
 
 MAX_BITS = 16
 
@@ -25,42 +32,99 @@ MAX_PREAMBLE_CHIPS = 64
 @dataclass(frozen=True, kw_only=True)
 class Transmitter(Group):
     # fmt: off
-    code: int = count_field(
-        "Code", "", "The number sent, from 0 to 2^bits - 1.", 0, 2**MAX_BITS - 1, 718
+    light: str = choice_field(
+        "Light", "",
+        "A code, a dimmed lamp, a lamp on the mains, a waveform of any levels, or short flashes.",
+        LIGHTS, "code",
     )
-    bits: int = count_field("Bits", "", "How many bits the code has.", 2, MAX_BITS, 10)
+    lamp_frequency: float = quantity_field(
+        "Lamp frequency", "F", "Cycles per second of a blinking lamp.",
+        unit=HERTZ, low=0.01, high=1e9, slider=(50.0, 20e3), scale="log", default=1000.0,
+        lights=_LAMP,
+    )
+    duty: float = quantity_field(
+        "Duty cycle", "D", "Fraction of each cycle in which the lamp is lit, from its start on.",
+        unit=PERCENT, low=0.0, high=1.0, slider=(0.0, 1.0), scale="linear", default=0.5,
+        lights=_LAMP,
+    )
+    depth: float = quantity_field(
+        "Lamp's depth", "",
+        "Light that the lamp loses between its pulses, as a fraction; 100 %: it is dark there.",
+        unit=PERCENT, low=0.0, high=1.0, slider=(0.0, 1.0), scale="linear", default=1.0,
+        lights=_LAMP,
+    )
+    mains_frequency: float = quantity_field(
+        "Mains frequency", "", "Frequency of the mains; a lamp's light swings at twice that.",
+        unit=HERTZ, low=1.0, high=1000.0, slider=(45.0, 65.0), scale="linear", default=50.0,
+        lights=_MAINS,
+    )
+    mains_depth: float = quantity_field(
+        "Mains depth", "",
+        "Amplitude of the light's swing as a fraction of its mean: 1 + m cos(4 pi F x), also of "
+        "the surroundings.",
+        unit=PERCENT, low=0.0, high=1.0, slider=(0.0, 1.0), scale="linear", default=0.3,
+        lights=_MAINS,
+    )
+    levels: str = light_text_field(
+        "Levels", "", "Levels of light sent over and over, one each switching period.",
+        "0 1 2 3 / 3", LEVELS, canonical_levels, lights=_WAVEFORM,
+    )
+    waveform_file: str = light_text_field(
+        "Recorded waveform", "",
+        "Seconds and levels of light, sent over and over in place of the levels above.",
+        "", SAMPLES, canonical_file, empty="the levels", lights=_WAVEFORM,
+    )
+    pulse_frequency: float = quantity_field(
+        "Flash frequency", "", "Flashes per second.",
+        unit=HERTZ, low=0.01, high=1e9, slider=(1.0, 1e3), scale="log", default=60.0,
+        lights=_PULSES,
+    )
+    pulse_length: float = quantity_field(
+        "Flash length", "", "How long a flash lasts; steady light where the next one has begun.",
+        unit=SECOND, low=1e-9, high=100.0, slider=(1e-5, 1e-2), scale="log", default=500e-6,
+        lights=_PULSES,
+    )
+    code: int = count_field(
+        "Code", "", "The number sent, from 0 to 2^bits - 1.", 0, 2**MAX_BITS - 1, 718,
+        lights=_CODE,
+    )
+    bits: int = count_field(
+        "Bits", "", "How many bits the code has.", 2, MAX_BITS, 10, lights=_CODE
+    )
     payload: str = payload_field(
         "Payload", "", "Text, bytes or bits that are sent in place of the code; empty: the code.",
-        "",
+        "", lights=_CODE,
     )
     line_code: str = open_choice_field(
         "Line code", "", "The rule that turns bits into chips.",
         ("differential-manchester", "manchester", "nrz", "4b6b", "8b10b", "fsk"),
         "differential-manchester",
-        group=plugins.LINE_CODES,
+        group=plugins.LINE_CODES, lights=_CODE,
     )
     framing: str = open_choice_field(
         "Framing", "",
         "How the chips show where a payload starts, and whether it was read correctly.",
         ("paper", "preamble", "c-ook", "raw"), "paper", group=plugins.FRAMINGS,
+        lights=_CODE,
     )
     preamble: str = pattern_field(
         "Preamble", "",
         "Chips that start a frame of the framings preamble and raw; empty: the line code's own.",
-        "", most=MAX_PREAMBLE_CHIPS, empty="the line code's own",
+        "", most=MAX_PREAMBLE_CHIPS, empty="the line code's own", lights=_CODE,
     )
     error_correction: str = choice_field(
         "Error correction", "", "Bytes added to the payload, which let wrong ones be corrected.",
-        ("none", "reed-solomon"), "none",
+        ("none", "reed-solomon"), "none", lights=_CODE,
     )
     pattern: str = pattern_field(
         "Raw chip pattern", "", "Chips sent over and over in place of packets; empty: packets.",
-        "",
+        "", lights=_CODE,
     )
     switching_frequency: float = quantity_field(
         "Switching frequency", "f",
-        "Chips sent per second; one chip lasts the switching period t_LED = 1/f.",
+        "Chips or levels sent per second; one lasts the switching period t_LED = 1/f.",
         unit=HERTZ, low=1.0, high=1e9, slider=(500.0, 100e3), scale="log", default=10e3,
+        lights=_CODE + _WAVEFORM,
     )
     luminance: float = quantity_field(
         "Luminance", "L_v", "Luminance of the lit panel.",

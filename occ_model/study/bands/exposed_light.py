@@ -11,7 +11,9 @@ from itertools import pairwise
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
-from occ_model.transmitter.waveform import EdgedWaveform, PhasesInPeriod
+from occ_model.light.edged import EdgedWaveform
+from occ_model.light.times import PhasesInPeriod
+from occ_model.light.waveform import Waveform
 
 # Of three nodes of Gauss and Legendre from 0 to 1, which integrate a quadratic's square exactly.
 _PLACES: FloatArray = 0.5 + np.sqrt(0.15) * np.array([-1.0, 0.0, 1.0])
@@ -102,7 +104,7 @@ def _sharp(chips: ByteArray, exposure: Fraction) -> ExposedLight:
 def _ramped(chips: ByteArray, exposure: Fraction, edge: Fraction) -> ExposedLight:
     """Return the light for an LED with rise and fall times."""
     period = len(chips)
-    waveform = EdgedWaveform(chips, edge)
+    waveform = EdgedWaveform(Waveform(chips), edge)
     mean = float(Fraction(int(chips.sum()), period) * exposure)
     places = sorted({each % 1 for each in (Fraction(0), edge, -exposure, edge - exposure)})
 
@@ -113,7 +115,7 @@ def _ramped(chips: ByteArray, exposure: Fraction, edge: Fraction) -> ExposedLigh
             chip = (np.arange(period, dtype=np.int64) + whole) % period
             return PhasesInPeriod(chip, np.full(period, float(moved - whole)))
 
-        return waveform.lit_chips(starts, exposure) - mean
+        return waveform.light_in(starts, exposure) - mean
 
     at = [light(place) for place in places]
     at.append(np.roll(at[0], -1))

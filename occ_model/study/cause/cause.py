@@ -21,7 +21,7 @@ from occ_model.parallel.job import Heartbeat
 from occ_model.receiver.decoders import DECODERS
 from occ_model.results.cause import Cause, Remedy
 from occ_model.results.sweep_request import SignalPath
-from occ_model.scene.parameter_kinds import in_sentence
+from occ_model.scene.declaration import in_sentence
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings

@@ -13,6 +13,7 @@ from photo_trials import said_of_negative
 from simulated_photos import photo_of, take
 
 import occ_model as occ
+from occ_model.light.waveform import Waveform
 from occ_model.photo.evidence.doubts import _doubts_by_reading
 from occ_model.photo.evidence.hypothesis import Hypothesis
 from occ_model.photo.fit.chip_runs import pulse, runs_of
@@ -23,7 +24,6 @@ from occ_model.photo.match import _Case
 from occ_model.photo.match_facts import match_facts
 from occ_model.photo.stripes.evenly_lit import EvenProfile
 from occ_model.results.match import PLAIN_STRIPES
-from occ_model.transmitter.waveform import Waveform
 
 
 # tests/benchmarks/matching.py tries 400: these two were once said to be explained.

@@ -48,7 +48,13 @@ def test_no_value_has_both_a_source_and_an_assumption(name: str) -> None:
 def test_a_value_other_than_nothing_has_a_source_or_a_reason(name: str) -> None:
     preset = preset_named(name)
     notes = {**preset.sources, **preset.assumed}
-    values = {parameter for parameter in PARAMETERS if preset.scene.value(parameter) not in (0, "")}
+    values = {
+        parameter
+        for parameter, declared in PARAMETERS.items()
+        if declared.is_of(preset.scene.transmitter.light)
+        and parameter != "light"
+        and preset.scene.value(parameter) not in (0, "")
+    }
     assert values <= {parameter for parameter, note in notes.items() if len(note.split()) > 1}
 
 

@@ -8,6 +8,7 @@ from simulated_photos import photo_of
 
 import occ_model as occ
 from occ_model.arrays import ByteArray
+from occ_model.light.waveform import Waveform
 from occ_model.photo.chips.edges import (
     Edges,
     chips_between,
@@ -17,7 +18,6 @@ from occ_model.photo.chips.edges import (
 )
 from occ_model.photo.chips.read import in_phase
 from occ_model.photo.fit.timing import Timing
-from occ_model.transmitter.waveform import Waveform
 
 
 def random_chips(seed: int, count: int = 60) -> ByteArray:

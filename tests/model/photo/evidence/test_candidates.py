@@ -7,6 +7,7 @@ import pytest
 from simulated_photos import take
 
 import occ_model as occ
+from occ_model.light.waveform import Waveform
 from occ_model.photo.evidence.candidates import Candidates
 from occ_model.photo.evidence.hypothesis import Hypothesis
 from occ_model.photo.evidence.other_codes import nearest_other
@@ -17,7 +18,6 @@ from occ_model.photo.fit.least_squares import StripeFit
 from occ_model.photo.fit.timing import Timing
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.packet import sent_chips
-from occ_model.transmitter.waveform import Waveform
 
 NEAR = occ.load_preset("phone-68us").replace(
     rows=60, columns=1200, distance=0.3, enhancement="none", averaging="light", code=345,

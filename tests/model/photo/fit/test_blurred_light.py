@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pytest
 
+from occ_model.light.waveform import Waveform
 from occ_model.photo.fit.seen_stripes import BlurredLight, BlurShape, blur_kernel
 from occ_model.photo.fit.timing import Timing
-from occ_model.transmitter.waveform import Waveform
 
 CODES = ("10", "0110", "1100", "10011010", "0111011")
 TIMINGS = (Timing(0.13, 0.7, 3.3, 2.2), Timing(0.31, 5.4, 0.2, 2.2), Timing(0.05, 11.5, -7.6, 2.2))

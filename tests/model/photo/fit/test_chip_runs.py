@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from hypothesis import assume, given, strategies as st
 
+from occ_model.light.waveform import Waveform
 from occ_model.photo.fit.chip_runs import chips_as_one, chips_if_longer, is_single_pulse
 from occ_model.photo.fit.initial_search import Search
 from occ_model.photo.fit.least_squares import StripeModel
 from occ_model.photo.fit.timing import Timing
-from occ_model.transmitter.waveform import Waveform
 
 COLUMNS = 300
 SQUARE = np.array([1, 0], dtype=np.uint8)

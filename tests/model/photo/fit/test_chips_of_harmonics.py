@@ -5,6 +5,7 @@ import itertools
 import numpy as np
 import pytest
 
+from occ_model.light.waveform import Waveform
 from occ_model.photo.fit.chips_of_harmonics import (
     ReadPattern,
     best_chips,
@@ -16,7 +17,6 @@ from occ_model.photo.fit.chips_of_harmonics import (
 )
 from occ_model.photo.fit.seen_stripes import BlurredLight
 from occ_model.photo.fit.timing import Timing
-from occ_model.transmitter.waveform import Waveform
 
 CHIPS = np.array([1, 0, 0, 1, 1, 0, 1, 0, 1, 1, 1, 0], dtype=np.uint8)
 PERIOD, COLUMNS = 60.0, 400

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from occ_model.light.waveform import Waveform
 from occ_model.photo.fit import exposure_modes, joint_estimate
 from occ_model.photo.fit.best_timing import Explanation
 from occ_model.photo.fit.camera_response import CameraTone
@@ -28,7 +29,6 @@ from occ_model.photo.fit.joint_fit import JointFit
 from occ_model.photo.fit.least_squares import StripeFit, StripeModel, exposure_deviation
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.stripes.evenly_lit import EvenProfile
-from occ_model.transmitter.waveform import Waveform
 
 RANDOM = np.random.default_rng(3)
 PARTS = RANDOM.normal(size=(9, 9))

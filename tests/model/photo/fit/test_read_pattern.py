@@ -7,11 +7,11 @@ import pytest
 from hypothesis import assume, example, given, strategies as st
 
 from occ_model.arrays import ByteArray
+from occ_model.light.waveform import Waveform
 from occ_model.photo.fit.chip_runs import canonical
 from occ_model.photo.fit.chips_of_harmonics import ReadPattern
 from occ_model.photo.fit.read_pattern import read_otherwise, read_patterns
 from occ_model.photo.fit.timing import Timing
-from occ_model.transmitter.waveform import Waveform
 
 PATTERNS = st.lists(st.integers(0, 1), min_size=2, max_size=26).map(
     lambda chips: np.array(chips, dtype=np.uint8)

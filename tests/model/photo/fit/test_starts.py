@@ -9,12 +9,12 @@ import pytest
 from simulated_photos import photo_of
 
 import occ_model as occ
+from occ_model.light.waveform import Waveform
 from occ_model.photo.fit import best_timing
 from occ_model.photo.fit.camera_response import CameraTone, camera_tones
 from occ_model.photo.fit.exposure_modes import alike_among, alike_starts, scanned_starts
 from occ_model.photo.fit.initial_search import Search
 from occ_model.photo.fit.timing import Timing
-from occ_model.transmitter.waveform import Waveform
 
 CHIPS = np.array([1, 0, 0, 1, 1, 0, 1, 0, 1, 1], dtype=np.uint8)
 TIMING = Timing(0.07, 1.3, 0.3, 2.2)

@@ -6,10 +6,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from occ_model.light.waveform import Waveform
 from occ_model.photo.fit.least_squares import StripeModel, level_freedom
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.stripes.envelope import smooth_shapes
-from occ_model.transmitter.waveform import Waveform
 
 CHIPS = np.array([1, 0, 0, 1, 1, 0, 1, 0], dtype=np.uint8)
 COLUMNS = 300

@@ -1,0 +1,112 @@
+"""The light that a transmitter sends, of any kind, as a waveform or a cosine."""
+
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import lru_cache
+from itertools import pairwise
+
+import numpy as np
+
+from occ_model.light.cosine import Cosine
+from occ_model.light.waveform import Waveform
+from occ_model.scene.light_samples import levels_of, samples_of
+from occ_model.scene.scene import Scene, Transmitter
+from occ_model.transmitter.packet import sent_chips
+
+HARMONIC = 2  # cycles of a mains lamp's light for each of the mains
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class PiecewiseLight:
+    """Light that repeats, constant on each piece."""
+
+    waveform: Waveform
+    rate: Fraction  # Units of the waveform per second, exact
+
+    @property
+    def period(self) -> Fraction:
+        """Seconds after which the waveform is sent again."""
+        return self.waveform.period / self.rate
+
+    @property
+    def mean(self) -> float:
+        """Mean light, 1 being the panel fully lit."""
+        return float(self.waveform.mean)
+
+
+Light = PiecewiseLight | Cosine
+
+
+def light_of(transmitter: Transmitter) -> Light:
+    """Return the light that a transmitter sends; equal transmitters send the same object."""
+    sent = transmitter
+    match sent.light:
+        case "lamp":
+            return _blinking(sent.lamp_frequency, Fraction(sent.duty), sent.depth)
+        case "pulses":
+            lit = Fraction(sent.pulse_length) * Fraction(sent.pulse_frequency)
+            return _blinking(sent.pulse_frequency, min(lit, Fraction(1)), 1.0)
+        case "mains":
+            return _mains(sent.mains_frequency, sent.mains_depth)
+        case "waveform":
+            if sent.waveform_file:
+                return _recorded(sent.waveform_file)
+            return _levels(sent.levels, sent.switching_frequency)
+    return _chips(sent_chips(sent).tobytes(), sent.switching_frequency)
+
+
+def light_period(transmitter: Transmitter) -> Fraction:
+    """Return the seconds after which a transmitter's light repeats, exact."""
+    light = light_of(transmitter)
+    return 1 / Fraction(light.frequency) if isinstance(light, Cosine) else light.period
+
+
+def flicker_of(scene: Scene) -> Cosine:
+    """Return the surroundings' light as a multiple of its mean: a mains lamp lights them, too."""
+    light = light_of(scene.transmitter)
+    if isinstance(light, Cosine):
+        return light
+    around = scene.surroundings
+    return Cosine(around.flicker_frequency, around.flicker_depth, around.flicker_phase)
+
+
+@lru_cache(maxsize=256)
+def _chips(chips: bytes, frequency: float) -> PiecewiseLight:
+    return PiecewiseLight(_waveform_of_chips(chips), Fraction(frequency))
+
+
+@lru_cache(maxsize=16)
+def _waveform_of_chips(chips: bytes) -> Waveform:
+    return Waveform(np.frombuffer(chips, dtype=np.uint8))
+
+
+@lru_cache(maxsize=64)
+def _blinking(frequency: float, duty: Fraction, depth: float) -> PiecewiseLight:
+    """Return the light that is full for a fraction of each cycle, from its start on."""
+    pieces = [(1.0, duty), (1.0 - depth, 1 - duty)]
+    levels, lengths = zip(*((level, length) for level, length in pieces if length), strict=True)
+    exact = [int(level) if level in (0.0, 1.0) else level for level in levels]
+    waveform = Waveform(exact, lengths)
+    return PiecewiseLight(waveform, waveform.period * Fraction(frequency))
+
+
+@lru_cache(maxsize=8)
+def _levels(line: str, frequency: float) -> PiecewiseLight:
+    return PiecewiseLight(Waveform(levels_of(line)), Fraction(frequency))
+
+
+@lru_cache(maxsize=4)
+def _recorded(samples: str) -> PiecewiseLight:
+    seconds, levels = samples_of(samples)
+    lengths = [Fraction(last) - Fraction(first) for first, last in pairwise(seconds)]
+    return PiecewiseLight(Waveform(levels, lengths), len(levels) / sum(lengths, Fraction(0)))
+
+
+@lru_cache(maxsize=8)
+def _mains(frequency: float, depth: float) -> Cosine:
+    return Cosine(HARMONIC * frequency, depth)
+
+
+def forget_lights() -> None:
+    for cached in (_chips, _waveform_of_chips, _blinking, _levels, _recorded, _mains):
+        cached.cache_clear()

@@ -1,0 +1,63 @@
+"""What a transmitter's light is called in sentences, and the lamp that it is like."""
+
+from dataclasses import dataclass
+
+from occ_model.scene.scene import Transmitter
+from occ_model.scene.units import HERTZ, PERCENT, SECOND
+
+PICTURE_ONLY = "ask for its picture, its spectrum or its bars"  # of a light that is no code
+
+
+@dataclass(frozen=True, slots=True)
+class BlinkingLamp:
+    """A lamp that is lit once in each cycle."""
+
+    frequency: float  # Hz
+    duty: float  # Fraction of a cycle in which it is lit
+    depth: float = 1.0  # Fraction of the light that it loses in the rest
+
+    @property
+    def words(self) -> str:
+        dimmed = f", depth {PERCENT.format(self.depth, 3)}" if self.depth != 1.0 else ""
+        duty = PERCENT.format(self.duty, 3)
+        return f"lamp of {HERTZ.format(self.frequency, 4)}, duty {duty}{dimmed}"
+
+
+def blinking_lamp(transmitter: Transmitter) -> BlinkingLamp | None:
+    """Return the lamp that a transmitter is; None if its light is none of one pulse a cycle.
+
+    A raw pattern of chips with one pulse is a lamp as well.
+    """
+    sent = transmitter
+    if sent.light == "lamp":
+        return BlinkingLamp(sent.lamp_frequency, sent.duty, sent.depth)
+    if sent.light == "pulses":
+        duty = min(sent.pulse_length * sent.pulse_frequency, 1.0)
+        return BlinkingLamp(sent.pulse_frequency, duty)
+    if sent.light == "code" and (sent.pattern + sent.pattern[:1]).count("01") == 1:
+        chips = len(sent.pattern)
+        return BlinkingLamp(sent.switching_frequency / chips, sent.pattern.count("1") / chips)
+    return None
+
+
+def describe_light(transmitter: Transmitter) -> str:
+    """Return what is sent, as a noun in a sentence."""
+    sent = transmitter
+    frequency = HERTZ.format(sent.switching_frequency, 4)
+    match sent.light:
+        case "mains":
+            depth = PERCENT.format(sent.mains_depth, 3)
+            return f"lamp on the mains of {HERTZ.format(sent.mains_frequency, 4)}, depth {depth}"
+        case "waveform" if sent.waveform_file:
+            *rows, end = sent.waveform_file.splitlines()
+            return f"recorded waveform, {len(rows):,} levels in {SECOND.format(float(end), 4)}"
+        case "waveform":
+            count = len(sent.levels.partition("/")[0].split())
+            return f"waveform of {count} levels at {frequency}"
+        case "pulses":
+            length = SECOND.format(sent.pulse_length, 4)
+            return f"flashes of {length} at {HERTZ.format(sent.pulse_frequency, 4)}"
+    lamp = blinking_lamp(sent)
+    if lamp is not None:
+        return lamp.words
+    return f"{f'pattern of {len(sent.pattern)} chips' if sent.pattern else 'code'} at {frequency}"

@@ -9,6 +9,7 @@ import argparse
 import os
 import subprocess
 import sys
+from collections.abc import Callable
 from fractions import Fraction
 from itertools import count
 from math import inf
@@ -48,6 +49,14 @@ def _new_profile(scene: Scene) -> FloatArray:
 _PAPER, _WITH_LENS = occ.load_preset("phone-136us"), occ.load_preset("phone-136us-real")
 
 
+def _ratio(
+    what: str, wanted: str, work: Callable[[], object], other: Callable[[], object], **how: int
+) -> Row:
+    """Compare a work with another one."""
+    a, b = side_by_side(work, other, **how)
+    return Row(what, f"{a / b:.2f} ({a:.2f} ms)", wanted)
+
+
 def profile_cost() -> Row:
     scene = occ.load_preset("phone-68us")
     short = scene.replace(exposure_time=0.5 * scene.transmitter.switching_period)
@@ -64,21 +73,19 @@ def frame_cost() -> Row:
     image = occ.render(_PAPER, tolerance=inf).image
     start = count()
     # Each time another scene, as while a slider moves.
-    a, b = side_by_side(
-        lambda: occ.render(_PAPER.replace(start_time=1e-7 * next(start)), tolerance=inf), image.copy
-    )
-    return Row(
-        "noise-free full phone frame against a plain copy of it",
-        f"{a / b:.2f} ({a:.2f} ms, {b:.2f} ms)",
-        "at most 6",
-    )
+    return _ratio(
+        "noise-free full phone frame against a plain copy of it", "at most 6",
+        lambda: occ.render(_PAPER.replace(start_time=1e-7 * next(start)), tolerance=inf),
+        image.copy,
+    )  # fmt: skip
 
 
 def tilted_frame_cost() -> Row:
     scene = _PAPER.replace(roll=0.3, yaw=0.3)
     image = occ.render(scene, tolerance=inf).image
-    a, b = side_by_side(lambda: occ.render(scene, tolerance=inf), image.copy)
-    return Row("the same with the panel tilted", f"{a / b:.2f} ({a:.2f} ms)", "")
+    return _ratio(
+        "the same with the panel tilted", "", lambda: occ.render(scene, tolerance=inf), image.copy
+    )
 
 
 def reused_noise_cost() -> Row:
@@ -137,12 +144,10 @@ def planning_cost() -> Row:
         occ.plan(moved, observable="image")
         occ.plan(moved, observable="signal")
 
-    a, b = side_by_side(plans, lambda: occ.render(_PAPER, tolerance=inf), rounds=21)
-    return Row(
-        "its plans for picture and signal, against a noise-free frame",
-        f"{a / b:.2f} ({a:.1f} ms)",
-        "",
-    )
+    return _ratio(
+        "its plans for picture and signal, against a noise-free frame", "",
+        plans, lambda: occ.render(_PAPER, tolerance=inf), rounds=21,
+    )  # fmt: skip
 
 
 def complete_memory() -> Row:
@@ -153,12 +158,10 @@ def complete_memory() -> Row:
 
 def decode_cost() -> Row:
     image = occ.render(_PAPER, tolerance=inf).image
-    a, b = side_by_side(lambda: occ.decode(image, _PAPER), image.copy)
-    return Row(
-        "threshold decoding of a full phone frame against a plain copy of it",
-        f"{a / b:.2f} ({a:.2f} ms)",
-        "at most 30",
-    )
+    return _ratio(
+        "threshold decoding of a full phone frame against a plain copy of it", "at most 30",
+        lambda: occ.decode(image, _PAPER), image.copy,
+    )  # fmt: skip
 
 
 def _read_by_profile(scene: Scene) -> None:
@@ -166,52 +169,37 @@ def _read_by_profile(scene: Scene) -> None:
 
 
 def profile_cost_with_reading() -> Row:
-    a, b = side_by_side(lambda: _read_by_profile(_PAPER), lambda: _new_profile(_PAPER), rounds=401)
-    return Row(
-        "profile simulated and read by threshold, against simulating it alone",
-        f"{a / b:.2f} ({a:.2f} ms)",
-        "under 0.5 ms",
-    )
+    return _ratio(
+        "profile simulated and read by threshold, against simulating it alone", "under 0.5 ms",
+        lambda: _read_by_profile(_PAPER), lambda: _new_profile(_PAPER), rounds=401,
+    )  # fmt: skip
 
 
 def profile_path_cost() -> Row:
-    a, b = side_by_side(
+    return _ratio(
+        "the same by way of the image, against by way of the profile", "",
         lambda: occ.decode(occ.render(_PAPER, tolerance=inf).image, _PAPER),
         lambda: _read_by_profile(_PAPER),
-    )
-    return Row(
-        "the same by way of the image, against by way of the profile",
-        f"{a / b:.0f} ({a:.1f} ms)",
-        "",
-    )
+    )  # fmt: skip
 
 
 def matched_cost() -> Row:
     profile = enhance(occ.column_profile(_PAPER), _PAPER.model.enhancement)
-    a, b = side_by_side(
+    return _ratio(
+        "matched decoding of a profile against threshold decoding", "under 2 ms",
         lambda: occ.decode(profile, _PAPER, "matched"),
-        lambda: occ.decode(profile, _PAPER, "threshold"),
-        rounds=201,
-    )
-    return Row(
-        "matched decoding of a profile against threshold decoding",
-        f"{a / b:.2f} ({a:.2f} ms)",
-        "under 2 ms",
-    )
+        lambda: occ.decode(profile, _PAPER, "threshold"), rounds=201,
+    )  # fmt: skip
 
 
 def code_templates_cost() -> Row:
     profile = enhance(occ.column_profile(_PAPER), _PAPER.model.enhancement)
     exposures = (Fraction(n, 977) for n in count(1000))
-    a, b = side_by_side(
+    return _ratio(
+        "forward model of all 1024 codes, once a setting, against one matched decoding", "",
         lambda: make_code_templates(10, next(exposures)),
         lambda: occ.decode(profile, _PAPER, "matched"),
-    )
-    return Row(
-        "forward model of all 1024 codes, once a setting, against one matched decoding",
-        f"{a / b:.2f} ({a:.2f} ms)",
-        "",
-    )
+    )  # fmt: skip
 
 
 def long_code_cost() -> Row:

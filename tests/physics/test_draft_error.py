@@ -117,6 +117,18 @@ def test_fewer_rows_have_a_larger_error() -> None:
 ROWS, STEP = 64, 4
 
 
+def drafted(
+    columns: int, rows: int, shown: int | None = None, blur: float = 0.0, rounding: float = 0.0
+) -> DraftedPanel:
+    """Draft so many rows, on all or on some of whose picture's rows the panel lies."""
+    high = rows * STEP
+    low = high if shown is None else shown
+    outline = np.array([[0.0, 0.0], [columns, 0.0], [columns, low], [0.0, low]]) - 0.5
+    return DraftedPanel(
+        range(0, high, STEP), slice(0, columns), outline, (high, columns), blur, rounding
+    )
+
+
 def _none_short(_rows: np.ndarray, _times: int) -> dict[str, np.ndarray]:
     raise AssertionError("every column has parts enough")
 
@@ -129,13 +141,8 @@ def test_of_independent_noise_it_is_that_of_the_means_with_a_margin_of_five_devi
     stated = []
     for _ in range(40):
         image = np.rint(random.normal(120.0, 12.0, (ROWS, columns))).astype(np.uint8)
-        high = ROWS * STEP
-        outline = np.array([[0.0, 0.0], [columns, 0.0], [columns, high], [0.0, high]]) - 0.5
-        panel = DraftedPanel(
-            range(0, high, STEP), slice(0, columns), outline, (high, columns), 0.0, 0.0
-        )
-        means = DraftedMeans(image, image.mean(axis=0), np.array([120.0]), 1.0)
-        stated.append(draft_errors(panel, {"profile": means}, _none_short)["profile"])
+        means = {"profile": DraftedMeans(image, image.mean(axis=0), np.array([120.0]), 1.0)}
+        stated.append(draft_errors(drafted(columns, ROWS), means, _none_short)["profile"])
     # The whole picture's mean has its own noise, over more rows.
     deviation = 12.0 / math.sqrt(ROWS) * math.sqrt(1.0 + 1.0 / STEP)
     # Eight neighbouring columns count as one independent estimate of a variance.
@@ -145,15 +152,11 @@ def test_of_independent_noise_it_is_that_of_the_means_with_a_margin_of_five_devi
 
 @pytest.mark.parametrize("rounding", [0.02, 0.1, 0.5])
 def test_the_rounding_of_a_file_counts_by_its_deviation_a_block(rounding: float) -> None:
-    columns, high = 80, ROWS * STEP
-    image = np.full((ROWS, columns), 120, dtype=np.uint8)
-    outline = np.array([[0.0, 0.0], [columns, 0.0], [columns, high], [0.0, high]]) - 0.5
+    image = np.full((ROWS, 80), 120, dtype=np.uint8)
     means = DraftedMeans(image, image.mean(axis=0), np.array([120.0]), 1.0)
 
     def stated(of_a_block: float) -> float:
-        panel = DraftedPanel(
-            range(0, high, STEP), slice(0, columns), outline, (high, columns), 0.0, of_a_block
-        )
+        panel = drafted(80, ROWS, rounding=of_a_block)
         return draft_errors(panel, {"profile": means}, _none_short)["profile"]
 
     assert stated(0.0) == 0.0
@@ -195,23 +198,19 @@ def test_only_whole_parts_within_the_panel_count() -> None:
 
 
 def test_columns_of_few_rows_are_compared_with_all_of_them() -> None:
-    columns, high = 40, ROWS * STEP
-    outline = np.array([[0.0, 0.0], [columns, 0.0], [columns, 9.0], [0.0, 9.0]]) - 0.5
+    columns = 40
     image = np.full((ROWS, columns), 100, dtype=np.uint8)
-    drafted = DraftedMeans(image, np.full(columns, 100.0), np.array([100.0]), 1.0)
+    means = DraftedMeans(image, np.full(columns, 100.0), np.array([100.0]), 1.0)
     random = np.random.default_rng(2)
 
     def stated(deviation: float, rounding: float = 0.0, most: int = 400) -> float:
-        panel = DraftedPanel(
-            range(0, high, STEP), slice(0, columns), outline, (high, columns), 0.0, rounding
-        )
-
         def exposed(shown: np.ndarray, times: int) -> dict[str, np.ndarray]:
             assert times == 7  # six differences of five blocks of columns
             assert np.flatnonzero(shown).tolist() == list(range(9))
             return {"profile": 93.0 + deviation * random.standard_normal((most, columns))}
 
-        return draft_errors(panel, {"profile": drafted}, exposed)["profile"]
+        panel = drafted(columns, ROWS, shown=9, rounding=rounding)
+        return draft_errors(panel, {"profile": means}, exposed)["profile"]
 
     assert stated(0.0) == pytest.approx(7.0)
     margin = 1.0 + 5.0 / math.sqrt(2.0 * columns / 8)
@@ -274,16 +273,12 @@ def test_an_enhancement_makes_a_files_rounding_larger_and_never_smaller(
 
 def test_the_blurred_rim_that_is_left_out_is_whole() -> None:
     """Its reach is rounded up to whole rows of the draft."""
-    columns, high = 32, 40 * 4
-    image = np.full((40, columns), 100, dtype=np.uint8)
+    image = np.full((40, 32), 100, dtype=np.uint8)
     image[:8] = image[-8:] = 60
-    outline = np.array([[0.0, 0.0], [columns, 0.0], [columns, high], [0.0, high]]) - 0.5
-    means = DraftedMeans(image, np.full(columns, 100.0), np.array([60.0, 100.0]), 1.0)
+    means = DraftedMeans(image, np.full(32, 100.0), np.array([60.0, 100.0]), 1.0)
 
     def stated(blur: float) -> float:
-        panel = DraftedPanel(
-            range(0, high, 4), slice(0, columns), outline, (high, columns), blur, 0.0
-        )
+        panel = drafted(32, 40, blur=blur)
         return draft_errors(panel, {"profile": means}, _none_short)["profile"]
 
     # Even less than a row of blur leaves out the block at either rim, all of whose rows differ.

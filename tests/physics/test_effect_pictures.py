@@ -12,6 +12,7 @@ from occ_model.camera.projection import row_spans
 from occ_model.effects.light_effects import Flicker, LedEdges
 from occ_model.effects.registry import EFFECTS, NAMES
 from occ_model.effects.sensor_effects import FullWell
+from occ_model.results.frame import Frame
 from occ_model.scene.scene import Scene
 
 ROWS, COLUMNS = 200, 400
@@ -42,15 +43,28 @@ def whole(scene: Scene) -> Scene:
     return scene.replace(**ALL, iso=20.0, luminance=1e5, illuminance=3e4)
 
 
+def pixels_inside(frame: Frame) -> np.ndarray:
+    """Return which pixels lie on the panel."""
+    first, last = row_spans(frame.corners, ROWS, COLUMNS)
+    column = np.arange(COLUMNS)
+    return np.asarray((column >= first[:, None]) & (column < last[:, None]))
+
+
+def means_inside(frame: Frame) -> tuple[np.ndarray, np.ndarray]:
+    """Return which columns show the panel, and the means of its pixels in them."""
+    inside = pixels_inside(frame)
+    seen = np.asarray(inside.any(axis=0))
+    assert 0.2 < seen.mean() < 1.0
+    return seen, frame.image.sum(axis=0, where=inside)[seen] / inside.sum(axis=0)[seen]
+
+
 @pytest.mark.parametrize("enhancement", ["none", "stretch", "equalization"])
 def test_without_a_limit_the_picture_is_the_papers(scene: Scene, enhancement: str) -> None:
     complete = whole(scene).replace(enhancement=enhancement, roll=0.3)
     frame = occ.render(complete, tolerance=math.inf)
     assert frame.plan.included == ()
     np.testing.assert_array_equal(frame.profile, occ.column_profile(complete))
-    first, last = row_spans(frame.corners, ROWS, COLUMNS)
-    column = np.arange(COLUMNS)
-    inside = (column >= first[:, None]) & (column < last[:, None])
+    inside = pixels_inside(frame)
     dark = occ.column_profile(complete.replace(pattern="0"))[0]
     expected = np.where(inside, frame.signal, np.rint(dark))
     np.testing.assert_array_equal(frame.image, expected)
@@ -115,12 +129,7 @@ def test_the_profile_is_the_mean_of_the_panels_pixels(
     # A panel that is straight and sharp, so that its pixels are known.
     complete = complete.replace(radial_k1=0.0, point_spread=0.0)
     frame = occ.render(complete, tolerance=0, force=force)
-    first, last = row_spans(frame.corners, ROWS, COLUMNS)
-    column = np.arange(COLUMNS)
-    inside = (column >= first[:, None]) & (column < last[:, None])
-    seen = inside.any(axis=0)
-    means = frame.image.sum(axis=0, where=inside)[seen] / inside.sum(axis=0)[seen]
-    assert 0.2 < seen.mean() < 1.0
+    seen, means = means_inside(frame)
     largest = 0.51 if effects != "noise" else 0.25  # noise dithers the rounding
     np.testing.assert_allclose(frame.profile[seen], means, rtol=0, atol=largest)
 
@@ -137,12 +146,7 @@ def test_the_signal_is_the_mean_of_the_panels_enhanced_pixels(
     # A panel that is straight and sharp, so that its pixels are known.
     frame = occ.render(complete.replace(radial_k1=0.0, point_spread=0.0), tolerance=0)
     assert {"image", "noise"} <= frame.plan.kinds
-    first, last = row_spans(frame.corners, ROWS, COLUMNS)
-    column = np.arange(COLUMNS)
-    inside = (column >= first[:, None]) & (column < last[:, None])
-    seen = inside.any(axis=0)
-    assert 0.2 < seen.mean() < 1.0
-    means = frame.image.sum(axis=0, where=inside)[seen] / inside.sum(axis=0)[seen]
+    seen, means = means_inside(frame)
     np.testing.assert_allclose(frame.signal[seen], means, rtol=0, atol=1e-9)
 
 

@@ -17,7 +17,7 @@ from every_error import (
 from gui.conftest import LazyWorkers
 from gui.soak_actions import FileDialogs
 from gui.user import User
-from model.plugins.installed_package import forget_plugins, install
+from model.plugins.installed_package import importable
 from PIL import Image
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QTextDocumentFragment
@@ -197,13 +197,10 @@ def own_preset(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, small_scene: Sce
 
 
 @pytest.fixture(autouse=True)
-def broken_plugin(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+def broken_plugin(tmp_path: Path) -> Iterator[None]:
     """Install a line code that cannot be imported."""
-    install(tmp_path, "broken", {plugins.LINE_CODES: {"mine": "broken:code"}}, "1 / 0\n")
-    monkeypatch.syspath_prepend(str(tmp_path))
-    forget_plugins()
-    yield
-    forget_plugins()
+    with importable(tmp_path, "broken", {plugins.LINE_CODES: {"mine": "broken:code"}}, "1 / 0\n"):
+        yield
 
 
 @pytest.fixture

@@ -16,7 +16,7 @@ from typing import Any, ClassVar
 
 import pytest
 from gui.soak_actions import FileDialogs, Monkey, smaller, smaller_lessons
-from model.plugins.installed_package import forget_plugins, install
+from model.plugins.installed_package import importable
 from PySide6.QtGui import QGuiApplication
 from pytestqt.qtbot import QtBot
 
@@ -89,17 +89,12 @@ fails = occ.Decoder("fails", "Fails", fail)
 
 
 @pytest.fixture
-def some_plugins(
-    tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch
-) -> Iterator[None]:
+def some_plugins(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
     """Let there be a decoder of another package that works, and one that fails."""
     folder = tmp_path_factory.mktemp("plug-ins")
     offered = {name: f"soaked:{name}" for name in ("reads", "fails")}
-    install(folder, "soaked", {plugins.DECODERS: offered}, PLUGINS)
-    monkeypatch.syspath_prepend(folder)
-    forget_plugins()
-    yield
-    forget_plugins()
+    with importable(folder, "soaked", {plugins.DECODERS: offered}, PLUGINS):
+        yield
 
 
 @pytest.fixture

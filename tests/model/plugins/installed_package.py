@@ -2,7 +2,8 @@
 
 import importlib.metadata
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from importlib.metadata import EntryPoint
 from pathlib import Path
 from types import ModuleType
@@ -59,6 +60,19 @@ def install(
         for group, objects in entry_points.items()
     )
     (description / "entry_points.txt").write_text("\n".join(groups), encoding="utf-8")
+
+
+@contextmanager
+def importable(
+    folder: Path, package: str, entry_points: Mapping[str, Mapping[str, str]], module: str
+) -> Iterator[None]:
+    """Install a package where Python looks for packages, until the context ends."""
+    install(folder, package, entry_points, module)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.syspath_prepend(folder)
+        forget_plugins()
+        yield
+    forget_plugins()
 
 
 def offer(monkeypatch: pytest.MonkeyPatch, **decoders: Callable[..., DecodeResult]) -> None:

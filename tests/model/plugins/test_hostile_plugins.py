@@ -11,7 +11,7 @@ from typing import NoReturn
 import numpy as np
 import pytest
 from hard_cases.attack.doors.plugins import installed
-from model.plugins.installed_package import forget_plugins, install
+from model.plugins.installed_package import importable
 
 import occ_model as occ
 from occ_model import plugins
@@ -166,19 +166,16 @@ def named(names: list[str], module: str = "hostile") -> dict[str, str]:
 
 
 @pytest.fixture(autouse=True)
-def _hostile(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+def _hostile(tmp_path: Path) -> Iterator[None]:
     """Install hostile plug-ins, which no other test sees."""
     groups = {
         plugins.DECODERS: named(DECODERS) | {"broken": "broken_import:DECODER"},
         plugins.LINE_CODES: named(CODES),
         plugins.FRAMINGS: named(FRAMINGS),
     }
-    install(tmp_path, "hostile", groups, MODULE)
     (tmp_path / "broken_import.py").write_text("raise SystemExit('no licence')\n")
-    monkeypatch.syspath_prepend(tmp_path)
-    forget_plugins()
-    yield
-    forget_plugins()
+    with importable(tmp_path, "hostile", groups, MODULE):
+        yield
 
 
 def decode(decoder: str) -> occ.DecodeResult:

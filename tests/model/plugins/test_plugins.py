@@ -15,7 +15,7 @@ import pytest
 from documents import FOLDER, blocks, text_of
 from each_case import each_case
 from hard_cases.attack.doors.plugins import RUBBISH, check_read
-from model.plugins.installed_package import install
+from model.plugins.installed_package import importable, install
 
 import occ_model as occ
 from occ_model import plugins
@@ -96,13 +96,10 @@ GROUPS = (plugins.DECODERS, plugins.LINE_CODES, plugins.FRAMINGS)
 
 
 @pytest.fixture
-def _installed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+def _installed(tmp_path: Path) -> Iterator[None]:
     names = dict.fromkeys((*OTHERWISE, "good-1_a"), "named:it")
-    install(tmp_path, "named", dict.fromkeys(GROUPS, names), "it = 1")
-    monkeypatch.syspath_prepend(tmp_path)
-    plugins._found.cache_clear()
-    yield
-    plugins._found.cache_clear()
+    with importable(tmp_path, "named", dict.fromkeys(GROUPS, names), "it = 1"):
+        yield
 
 
 @pytest.mark.usefixtures("_installed")

@@ -23,7 +23,7 @@ class Application(Parts):
         super().__init__(workspace, preferences)
         for feature in features(self):
             self.shell.add(feature, self.window)
-        # After the panes: what they show comes before what is said of it.
+        # After the panes, so that these change before their marks do.
         self.outdated = OutdatedMarks(self.results_store, self.simulation, self.window)
         self.outdated.mark_pane("story", self.shell.pane("story"))
         self.shell.made.connect(self.outdated.mark_pane)
@@ -45,18 +45,18 @@ class Application(Parts):
 
     def _connect_parts(self) -> None:
         window, story = self.window, self.story
-        # What concerns more than the present scene stays until the next sentence.
-        for said in (self.error_reports.reported, self.session.status_message):
-            said.connect(self.messages.say)
-        for noted in (
+        # Messages about more than the present scene stay until the next one.
+        for signal in (self.error_reports.reported, self.session.status_message):
+            signal.connect(self.messages.say)
+        for signal in (
             self.presets.status_message, self.files.status_message, self.present.status_message,
             self.editor.brightness.status_message, self.shell.said, self.lessons.noted,
             self.pins.status_message,
         ):  # fmt: skip
-            noted.connect(self.messages.note)
+            signal.connect(self.messages.note)
         window.leave_messages_to(story.verdict.sentence, story.verdict.wrapped)
-        for end in (self._begin_to_end, self.session.end, self.stop):
-            window.closing.connect(end)
+        for step in (self._prepare_to_close, self.session.end, self.stop):
+            window.closing.connect(step)
         self.session.written.connect(self._keep_view)
         self.shell.accepted.connect(self.messages.accept)
         self.shell.made.connect(self._on_made)
@@ -91,10 +91,10 @@ class Application(Parts):
         scan_axis.changed.connect(lambda axis: menus.show_choice(menus.scan_axes, axis))
 
     def _make_photo_pane(self) -> None:
-        self.shell.pane("photo")  # before there is something to show
+        self.shell.pane("photo")  # before the photo is read
 
     def _say_undone(self) -> None:
-        # What has changed may be in another mode. In a menu, a doubled & is one.
+        # The change may be invisible in this mode. Texts of menus double an &.
         step = self.store.undo_stack.redoText().replace("&&", "&")
         self.messages.note(f"Undone: {step}.")
 
@@ -104,11 +104,11 @@ class Application(Parts):
 
     def _connect_strips(self) -> None:
         self.controls.add_foot(self.slider_strips.legend)
-        shown = self.window.actions_by_name["slider_strips"]
-        shown.toggled.connect(self.slider_strips.set_shown)
-        shown.triggered.connect(self.preferences.keep_slider_strips)
+        entry = self.window.actions_by_name["slider_strips"]
+        entry.toggled.connect(self.slider_strips.set_shown)
+        entry.triggered.connect(self.preferences.keep_slider_strips)
         self.slider_strips.set_shown(self.preferences.slider_strips)
-        shown.setChecked(self.preferences.slider_strips)
+        entry.setChecked(self.preferences.slider_strips)
 
     @property
     def is_idle(self) -> bool:
@@ -120,11 +120,11 @@ class Application(Parts):
         return self.background_rates.is_idle and self.shell.is_measured
 
     def resume(self, workspace: Workspace) -> None:
-        """Restore what an earlier window left, without a step to undo."""
+        """Restore the workspace of an earlier window, without a step to undo."""
         self.store.store.put(workspace)
 
     def _user_workspace(self) -> Workspace:
-        """Return what the user has set, without what a lesson shows in its place."""
+        """Return the user's own workspace, even while a lesson shows another."""
         return self.lessons.user_workspace() or self.store.store.workspace
 
     def _keep_view(self) -> None:
@@ -144,13 +144,13 @@ class Application(Parts):
         lessons.set_seen(True)
         lessons.choose(name)
 
-    def _begin_to_end(self) -> None:
-        # What follows waits for work, and somebody may lose patience first.
+    def _prepare_to_close(self) -> None:
+        # At once, because the next steps wait for work, and the user may kill the program.
         self.session.write()
         for who in all_at_work():
-            self.messages.say(f"{who} is waited for.")
+            self.messages.say(f"{who} has not finished yet; please wait.")
             self.window.repaint()
-        self.simulation.stop()  # of the scene that is restored no picture is needed
+        self.simulation.stop()  # the scene that is restored needs no picture
         self.lessons.end()
 
     def stop(self) -> None:

@@ -38,16 +38,16 @@ if TYPE_CHECKING:
 
     from occ_gui.app.application import Application
 
-_IMPORT = builtins.__import__  # what carries out an import before Qt is there
+_IMPORT = builtins.__import__  # Python's own, which Qt for Python replaces
 
 _DISPLAYS = ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")
 """Environment variables, one of which names the display."""
 
 THEMES = ("system", "light", "dark")
 
-_TURN_MS = 200
+_CHECK_MS = 200  # interval at which Python handles signals
 
-_TURN_S = 0.001  # time slice of a thread while others wait
+_TIME_SLICE = 0.001  # seconds that a thread may run while others wait
 _LARGEST_SIDE = 16384  # pixels of a side of the window; a larger window cannot be drawn
 _PATIENCE_MS = 60_000  # longest time that a screenshot waits for the picture
 
@@ -64,10 +64,10 @@ def read_command_line(arguments: Sequence[str] | None) -> Callable[[], int]:
 
 
 def begin(options: argparse.Namespace) -> Start:
-    """Read what the window starts with."""
+    """Read the scene, settings and session that the window starts with."""
     _check_qt()
     settings = simulation_settings_of(options)
-    own = settings == simulation_settings_of(make_parser().parse_args([]))
+    own = settings != simulation_settings_of(make_parser().parse_args([]))
     return start_of(options, scene_of(options), settings, own)
 
 
@@ -80,7 +80,7 @@ def _check_qt() -> None:
             "what is needed: \"pip install 'occ-explorer[gui]'\"."
         )
     try:
-        import PySide6.QtWidgets  # noqa: F401 - it links what Qt needs of the system
+        import PySide6.QtWidgets  # noqa: F401 - it links the system libraries that Qt needs
     except ImportError as error:
         missing = missing_libraries()
         reason = sentence_about(missing) if missing else f"Qt cannot be loaded: {error}."
@@ -92,7 +92,7 @@ def make_parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"%(prog)s {occ.__version__}")
     add_scene_options(parser)
     add_simulation_options(parser)
-    # Noise that is fast enough for sliders; a preset that is named precedes the last session.
+    # Noise that is fast enough for sliders; a preset that is named replaces the last session.
     parser.set_defaults(noise="reused", preset=DefaultOption(DEFAULT_PRESET))
     parser.add_argument(
         "files", nargs="*", type=Path, metavar="FILE", help="open a scene (.toml) or photos"
@@ -134,15 +134,15 @@ def _size(text: str) -> tuple[int, int]:
 
 
 def _run(options: argparse.Namespace) -> int:
-    begun = begin(options)
+    start_state = begin(options)
     _prepare(options)
-    qt, application = start(begun.first, sys.argv[:1], begun.preferences)
+    qt, application = start(start_state.first, sys.argv[:1], start_state.preferences)
     _check_pane(options.dock, application)
     if not (options.screenshot or options.size):
         from occ_gui.app.display import open_first
 
         open_first(application.window, qt.primaryScreen().availableGeometry())
-    begun.restore(application, with_photo=options.photo is None)
+    start_state.restore(application, with_photo=options.photo is None)
     if options.theme:
         application.options.theme.choose(options.theme)
     if options.size:
@@ -163,10 +163,10 @@ def _run(options: argparse.Namespace) -> int:
     from occ_gui.widgets.icons import program_icon
 
     application.window.setWindowIcon(program_icon())
-    if begun.is_new and not (options.files or options.photo or options.mode or options.dock):
+    if start_state.is_new and not (options.files or options.photo or options.mode or options.dock):
         application.shell.pane("welcome").show_once()
     code = qt.exec()
-    leave_plugins(code, begun.preferences)
+    leave_plugins(code, start_state.preferences)
     return code
 
 
@@ -186,11 +186,11 @@ def _check_pane(name: str | None, application: "Application") -> None:
 
 
 def leave_plugins(code: int, preferences: "QSettings | None") -> None:
-    """End the process at once if a plug-in hangs: a usual exit would wait for it."""
+    """End the process at once if a plug-in hangs, because a usual exit would wait for it."""
     hung = all_at_work()
     if hung:
         for who in hung:
-            say("occ-gui", f"{who} does not come back: the window has ended without it.")
+            say("occ-gui", f"{who} does not return: the window has ended without it.")
         if preferences is not None:
             preferences.sync()
         os._exit(code)
@@ -210,7 +210,7 @@ def _prepare(options: argparse.Namespace) -> None:
         check_files(options)
         check_replaceable(options.screenshot)  # before a window is drawn
         os.environ["QT_QPA_PLATFORM"] = "offscreen"
-        # A photo that cannot be read must fail here, not show as an empty pane in the picture.
+        # A photo that cannot be read is refused here, and not drawn as an empty pane.
         if options.photo:
             occ.load_photo(options.photo)
 
@@ -219,12 +219,12 @@ def _close_on_interrupt(application: "Application") -> None:
     from PySide6.QtCore import QTimer
 
     window = application.window
-    # Not at once: the signal may come while the window paints, and Qt would paint on without it.
+    # Not at once, because the window may be painting when the signal comes.
     signal.signal(signal.SIGINT, lambda *_: QTimer.singleShot(0, window, window.close))
-    # Python handles signals only while it runs: this timer makes Qt call it.
-    turns = QTimer(application)
-    turns.timeout.connect(lambda: None)
-    turns.start(_TURN_MS)
+    # Python handles signals only while it runs, so this timer makes Qt call it.
+    timer = QTimer(application)
+    timer.timeout.connect(lambda: None)
+    timer.start(_CHECK_MS)
 
 
 def start(
@@ -232,7 +232,7 @@ def start(
 ) -> "tuple[QApplication, Application]":
     """Create the application with a hidden window; without ``preferences`` nothing is stored."""
     if sys.platform == "linux" and not any(os.environ.get(name) for name in _DISPLAYS):
-        # Qt would print several lines about it.
+        # Qt would print several lines instead.
         from occ_gui.app.display import NO_DISPLAY
 
         raise occ.OccError(NO_DISPLAY)
@@ -241,8 +241,8 @@ def start(
     from PySide6.QtCore import QLocale
     from PySide6.QtWidgets import QApplication
 
-    # PySide puts its own in its place, which reads the source of each module that is imported, to
-    # see whether it asks for snake_case names; ours never do. A thirteenth of the start's time.
+    # PySide's own import searches the source of each module for a request of snake_case names. Ours
+    # have none, and the search takes a thirteenth of the start.
     builtins.__import__ = _IMPORT
     from occ_gui.app.application import Application
     from occ_gui.app.error_reports import log_qt_messages
@@ -251,14 +251,14 @@ def start(
     from occ_gui.window.theme import show_theme
 
     # Short time slices, because the threads that start processes delay that of the window.
-    sys.setswitchinterval(_TURN_S)
+    sys.setswitchinterval(_TIME_SLICE)
     log_qt_messages(_end_without_display)
     # Numbers have the same form in the whole window as in files and sentences.
     QLocale.setDefault(QLocale.c())
     qt = QApplication(arguments)
     qt.setDesktopFileName(PROGRAM)
     log_qt_messages()
-    show_theme(THEMES[0])  # before there are panes that would have to follow
+    show_theme(THEMES[0])  # before there are panes to redraw
     garbage = GarbageCollector(qt)
     application = Application(workspace, preferences)
     garbage.spare()
@@ -267,8 +267,7 @@ def start(
 
 
 def _end_without_display() -> NoReturn:
-    # The display is named but does not answer, or its plug-in cannot be loaded: Qt finds out, and
-    # would abort the process.
+    # The display does not answer, or its plug-in cannot be loaded: Qt would abort the process.
     from occ_gui.app.display import reason_for_no_window
 
     say("occ-gui", reason_for_no_window())
@@ -300,7 +299,7 @@ def wait_until_shown(application: "Application", measured: bool = False) -> None
             QApplication.processEvents()  # paints, which may start more work
     if failures:
         raise occ.OccError(failures[0])
-    # A map of whole pictures goes on for minutes, and says how far it is.
+    # A map of whole pictures takes minutes, and shows its progress.
     if not (is_done or _is_idle(application, measured=False)):
         raise occ.OccError(f"There was no picture after {_PATIENCE_MS // 1000} s.")
 

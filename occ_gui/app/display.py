@@ -47,9 +47,9 @@ def unlisted_library(names: tuple[str, ...]) -> str | None:
             if plugin.is_file():
                 ctypes.CDLL(str(plugin))
         except OSError as error:
-            found = _MISSING.match(str(error))
-            if found:
-                return found[1]
+            match = _MISSING.match(str(error))
+            if match:
+                return match[1]
     return None
 
 
@@ -67,5 +67,5 @@ def open_first(window: QWidget, screen: QRect) -> None:
     """Place a window; maximize it where its place is the whole screen."""
     place = first_place(screen)
     window.setGeometry(place)
-    if place == screen:  # its frame too must fit
+    if place == screen:  # the frame must fit, too
         window.setWindowState(Qt.WindowState.WindowMaximized)

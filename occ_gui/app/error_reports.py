@@ -30,12 +30,12 @@ HARMLESS_MESSAGE = "This plugin does not support propagateSizeHints()"
 """Qt's message for every window on a platform that has no windows."""
 
 
-_ON_THE_WAY = re.compile(r"(Error calling Python override of [\w:]+\(\): )+")
+_PREFIX = re.compile(r"(Error calling Python override of [\w:]+\(\): )+")
 """Prefix of Qt for Python to the text of an exception that was raised in an event handler."""
 
 
 class LastMessages(logging.Handler):
-    """Keeps the last log messages for the report of a mistake."""
+    """Keeps the last log messages for the error report."""
 
     def __init__(self) -> None:
         super().__init__(logging.WARNING)
@@ -83,7 +83,7 @@ class ErrorReports(QObject):
             return
         self._known.add(key)
         _log.error("unhandled", exc_info=(kind, error, trace))
-        text = _ON_THE_WAY.sub("", str(error))
+        text = _PREFIX.sub("", str(error))
         reason = one_line(f"{kind.__name__}: {text}".rstrip(": ."))
         self.reported.emit(f"Something went wrong: {reason}. Your work is still there.")
 

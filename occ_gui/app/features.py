@@ -136,8 +136,8 @@ def _show_palette(parts: Parts) -> None:
     from occ_gui.window.command_lists import CommandPalette, commands_of
 
     window = parts.window
-    found = commands_of(window.menuBar(), parts.controls, window.bring_to_front)
-    palette = CommandPalette(found, window)
+    commands = commands_of(window.menuBar(), parts.controls, window.bring_to_front)
+    palette = CommandPalette(commands, window)
     chosen = palette.chosen if palette.exec() else None
     palette.deleteLater()
     if chosen is not None:

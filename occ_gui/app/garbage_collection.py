@@ -1,11 +1,11 @@
-"""Cyclic garbage collection on the window's thread only, and memory returned at rest.
+"""Cyclic garbage collection on the window's thread only, and return of freed memory.
 
 By default Python collects on the thread that happens to allocate. If a worker thread so destroys a
 widget, it waits for Qt's lock, while the window's thread, which may hold that lock, waits for the
 interpreter: a deadlock.
 
-What pictures have taken and freed, the C library keeps: a hundred megabytes after a few minutes of
-work. It returns them on request, which takes some milliseconds.
+The C library keeps the memory of freed pictures, a hundred megabytes after a few minutes of work.
+It returns it on request, which takes some milliseconds.
 """
 
 import ctypes
@@ -18,7 +18,7 @@ from PySide6.QtCore import QObject, QTimer
 _INTERVAL_MS = 250
 
 _REST_S = 2.0  # how long the program is idle before memory is returned
-_IDLE_FRACTION = 0.1  # fraction of a processor that an idle program takes at most
+_IDLE_FRACTION = 0.1  # largest fraction of a processor that an idle program uses
 
 _WORTH_S = 1.0  # least processor time of work, in seconds, after which memory is returned
 
@@ -35,8 +35,8 @@ class GarbageCollector(QObject):
     def __init__(self, parent: QObject) -> None:
         super().__init__(parent)
         gc.disable()
-        self._looked, self._used = time.monotonic(), time.process_time()
-        self._idle = self._worked = 0.0
+        self._last_time, self._last_use = time.monotonic(), time.process_time()
+        self._idle_time = self._work_time = 0.0
         self._timer = QTimer(self)
         self._timer.timeout.connect(self.collect)
         self._timer.start(_INTERVAL_MS)
@@ -59,16 +59,17 @@ class GarbageCollector(QObject):
         due = [old for old in range(3) if counts[old] > limits[old] > 0]
         if due:
             gc.collect(due[-1])
-        self._rest()
+        self._return_memory()
 
-    def _rest(self) -> None:
-        """Return memory once after each work, as soon as nothing is done for a while."""
-        now, used = time.monotonic(), time.process_time()
-        passed, taken = now - self._looked, used - self._used
-        self._looked, self._used = now, used
-        self._worked += taken
-        self._idle = self._idle + passed if taken <= _IDLE_FRACTION * passed else 0.0
-        if self._idle >= _REST_S and self._worked >= _WORTH_S:
+    def _return_memory(self) -> None:
+        """Return memory once after each period of work, when the program has become idle."""
+        now, use = time.monotonic(), time.process_time()
+        interval, work = now - self._last_time, use - self._last_use
+        self._last_time, self._last_use = now, use
+        self._work_time += work
+        is_idle = work <= _IDLE_FRACTION * interval
+        self._idle_time = self._idle_time + interval if is_idle else 0.0
+        if self._idle_time >= _REST_S and self._work_time >= _WORTH_S:
             gc.collect()
             give_memory_back()
-            self._worked = 0.0
+            self._work_time = 0.0

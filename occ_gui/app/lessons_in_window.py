@@ -1,4 +1,4 @@
-"""Lessons in the window: what their steps show and do there, beside their own pane."""
+"""Lessons in the window: shows the panes that their steps need, and carries out their actions."""
 
 from typing import Any
 
@@ -23,7 +23,7 @@ class LessonsInWindow(QObject):
     def __init__(self, window: MainWindow, shell: Shell) -> None:
         super().__init__()
         self._window, self._shell = window, shell
-        self._brought = ""  # the pane that a step has opened; empty for none
+        self._opened_pane = ""  # the pane that a step has opened; empty for none
         shell.made.connect(self._connect)
 
     def _connect(self, name: str, pane: Any) -> None:
@@ -39,14 +39,14 @@ class LessonsInWindow(QObject):
         self._window.actions_by_name[_ENTRY_OF_ACTION[action]].trigger()
 
     def _show_pane_of_step(self, name: str) -> None:
-        if self._brought not in {"", name}:  # beside it the next one might need a larger screen
-            self._window.hide_pane(self._brought)
-            self._brought = ""
+        if self._opened_pane not in {"", name}:  # the screen may be too small for both
+            self._window.hide_pane(self._opened_pane)
+            self._opened_pane = ""
         if name:
             is_new = self._window.is_hidden(name)
             self._window.bring_into_view(name)
             if is_new and not self._window.is_hidden(name):
-                self._brought = name
+                self._opened_pane = name
         self.photo_explained.emit(name == "photo")
 
     def user_workspace(self) -> Workspace | None:

@@ -44,8 +44,8 @@ def picture(store: Store, about_photo: Callable[[], str]) -> Feature[Any]:
     """Declare the pane in place of the story's rows; ``about_photo`` returns the caption."""
 
     def part(workspace: Workspace, results: Results) -> tuple[object, ...]:
-        there = (results.before, results.picture, results.snapshot, results.reading)
-        return (workspace.picture_kind, workspace.overlay, *there)
+        shown = (results.before, results.picture, results.snapshot, results.reading)
+        return (workspace.picture_kind, workspace.overlay, *shown)
 
     return Feature(
         name="picture",
@@ -97,8 +97,8 @@ def photo(
         if has_photo:
             from occ_gui.photo.shown_photo import find_match
 
-            found = find_match(results)
-            has_match = found is not None and found.match is not None
+            outcome = find_match(results)
+            has_match = outcome is not None and outcome.match is not None
         return {
             **dict.fromkeys(_WITH_PHOTO, has_photo),
             **dict.fromkeys(_WITH_MATCH, has_match),
@@ -271,7 +271,7 @@ def room(store: Store) -> Feature[Any]:
         help="rooms.md",
         make=later("occ_gui.room.pane:RoomPane", store),
         part=lambda workspace, _: workspace.room,
-        updates_hidden=True,  # its figure can be exported, and undo does not ask what is seen
+        updates_hidden=True,  # its figure can be exported, and its steps undone, while it is hidden
         figures=(room_figure(),),
     )
 

@@ -51,11 +51,11 @@ class Parts(QObject):
         # Simulates the first picture while the panes are created.
         self.simulation = SimulationController(self.store)
         self.present = PresentResults(self.simulation)
-        self.controls = _controls()
+        self.controls = _make_controls()
         self.slider_strips = SliderStrips(self.controls.main_rows())
         self.results_store = ResultsStore()
         self.shell = Shell(store, self.results_store)
-        centre = self._middle()
+        centre = self._make_centre()
         self.story: StoryView = self.view("story")
         self.window = MainWindow(
             self.controls, centre, self.story, undo_stack=self.store.undo_stack
@@ -80,13 +80,13 @@ class Parts(QObject):
         """Return the view of a pane, which is made if needed."""
         return self.shell.pane(name).view
 
-    def _middle(self) -> QWidget:
-        """Return the story, with a place for the whole picture in it."""
+    def _make_centre(self) -> QWidget:
+        """Make the story, with a place for the whole picture in it."""
         whole = self.shell.embed(panes.picture(self.store.store, self.about_photo))
         return self.shell.embed(story(self.store, self.simulation, whole, [*DECODERS]))
 
     def about_photo(self) -> str:
-        """Return the photo's name and what its match is worth; empty if none is open."""
+        """Return the photo's name and the verdict on its match; empty if none is open."""
         pane = self.shell.find_pane("photo")
         return "" if pane is None else str(pane.verdict.about())
 
@@ -94,8 +94,8 @@ class Parts(QObject):
         return self.present.latest is not None or self.simulation.runner.is_idle
 
 
-def _controls() -> ControlPanel:
-    """Make the controls; those of the effects in the order that light passes them."""
+def _make_controls() -> ControlPanel:
+    """Make the controls, those of the effects in the order of the light's path."""
     effects = dict.fromkeys(name for effect in EFFECTS for name in effect.parameters)
     stages = {name: e.stage for e in reversed(EFFECTS) for name in e.parameters}
     return ControlPanel([*effects], {name: stages[name] for name in effects})

@@ -17,16 +17,16 @@ from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 
 LIBRARIES = ("PySide6-Essentials", "pyqtgraph", "numpy", "opencv-contrib-python-headless", "Pillow")
-"""Packages whose versions decide what is seen."""
+"""Packages on whose versions results and appearance depend."""
 
 _SIZE = (640, 480)
 
 
 def report_text(scene: Scene, settings: SimulationSettings, messages: Iterable[str]) -> str:
-    """Return the report, with ``~`` for the user's folder; a message may still name a file."""
+    """Return the report, with ``~`` for the user's folder; messages may still name files."""
     screen = QGuiApplication.primaryScreen()
     home = str(Path.home())
-    logged = [line.replace(home, "~") for line in messages] or ["nothing was logged"]
+    lines = [line.replace(home, "~") for line in messages] or ["nothing was logged"]
     return "\n".join(
         [
             f"occ-explorer {occ.__version__}, Python {platform.python_version()}",
@@ -38,7 +38,7 @@ def report_text(scene: Scene, settings: SimulationSettings, messages: Iterable[s
             f"{settings}",
             "",
             "Last messages:",
-            *logged,
+            *lines,
             "",
             "Scene:",
             scene.to_toml(),
@@ -57,16 +57,16 @@ def show_report(window: QWidget, text: str) -> None:
     dialog = QDialog(window)
     dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
     dialog.setWindowTitle("Report")
-    shown = name_widget(QPlainTextEdit(text, readOnly=True), "Text of the report")
-    shown.setFont(QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont))
+    field = name_widget(QPlainTextEdit(text, readOnly=True), "Text of the report")
+    field.setFont(QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont))
     buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
     copy = buttons.addButton("&Copy", QDialogButtonBox.ButtonRole.ActionRole)
     buttons.rejected.connect(dialog.reject)
     advice = paragraph(
-        "Copy this into a report of a mistake. Read it first: a message may name a file."
+        "Copy this into your report of an error. Read it first: a message may name a file."
     )
-    # The status line is behind the dialog.
+    # Not in the status line, which the dialog may cover.
     copy.clicked.connect(lambda: advice.setText(copy_text(text)))
-    fill(QVBoxLayout(dialog), advice, shown, buttons)
+    fill(QVBoxLayout(dialog), advice, field, buttons)
     dialog.resize(*_SIZE)
     dialog.open()

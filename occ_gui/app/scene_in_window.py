@@ -1,4 +1,4 @@
-"""The scene in the window: its controls, presets and refusals, and the results that are shown."""
+"""The scene in the window: connects its controls, presets, refusals and results."""
 
 from PySide6.QtCore import QObject
 
@@ -50,7 +50,7 @@ class SceneInWindow(QObject):
         parts, simulation = self._parts, self._parts.simulation
         self.plan_changes.changed.connect(parts.results_store.show_switched)
         self.plan_changes.changed.connect(self._report_switched)
-        # What the pictures are compared with comes before them.
+        # The pictures last, because they are compared with what the others hold.
         for view in (self.before, parts.pins, self.plan_changes, parts.results_store):
             simulation.snapshot_ready.connect(view.show_snapshot)
         simulation.reading_shown.connect(parts.results_store.show_reading)

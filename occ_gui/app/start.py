@@ -33,7 +33,7 @@ class DefaultOption(str):
 
 @dataclass(frozen=True, slots=True)
 class Start:
-    workspace: Workspace  # what the command line asks for, or the last session has left
+    workspace: Workspace  # that of the command line, or of the last session
     # Whether the command line names a scene, which takes precedence over the last session's
     is_scene_asked: bool
     preferences: "QSettings | None" = None  # the stored preferences; None where nothing is stored
@@ -44,14 +44,14 @@ class Start:
     @property
     def is_new(self) -> bool:
         """Whether neither the command line nor an earlier session determines what to show."""
-        is_left = self.session_file is not None and self.session_file.last is not None
-        return not self.is_scene_asked and (self.fresh or not is_left)
+        has_session = self.session_file is not None and self.session_file.last is not None
+        return not self.is_scene_asked and (self.fresh or not has_session)
 
     @property
     def first(self) -> Workspace:
         """The workspace that a window is made with; the rest follows once it is connected."""
-        begin = Workspace(self.workspace.scene, self.workspace.settings)
-        return self.workspace.undo_state.put_into(begin)
+        first = Workspace(self.workspace.scene, self.workspace.settings)
+        return self.workspace.undo_state.put_into(first)
 
     def restore(self, application: "Application", with_photo: bool) -> None:
         """Restore the session in a window before it is shown, and store it from now on."""
@@ -67,23 +67,24 @@ class Start:
 
 
 def start_of(options: Namespace, scene: Scene, settings: SimulationSettings, own: bool) -> Start:
-    """Return what the window starts with; ``own``: whether the settings are the defaults."""
-    asked = bool(options.scene or options.settings or not isinstance(options.preset, DefaultOption))
+    """Return what a window starts with; ``own``: whether the settings are not the defaults."""
+    is_default = isinstance(options.preset, DefaultOption)
+    has_scene = not is_default or bool(options.scene or options.settings)
     first = Workspace(scene, settings)
     if options.screenshot:  # it does not depend on the last session
-        return Start(first, asked, fresh=True)
+        return Start(first, has_scene, fresh=True)
     from occ_gui.files.session import SessionFile, restore_workspace, state_folder
 
     file = SessionFile(state_folder())
     if not options.fresh:
-        first = restore_workspace(file, first, is_scene_asked=asked, are_settings_asked=not own)
-    return Start(first, asked, kept_settings(), file, options.fresh)
+        first = restore_workspace(file, first, is_scene_asked=has_scene, are_settings_asked=own)
+    return Start(first, has_scene, open_preferences(), file, options.fresh)
 
 
-def kept_settings() -> "QSettings":
-    """Open the stored preferences: in the folder that the environment names, or Qt's.
+def open_preferences() -> "QSettings":
+    """Open the stored preferences, in the folder that the environment names or in Qt's.
 
-    Their file, which holds paths of photos, is readable by nobody else: Qt keeps its permissions.
+    Only the user can read their file, which contains paths of photos; Qt keeps its permissions.
     """
     from PySide6.QtCore import QSettings
 

@@ -1,4 +1,4 @@
-"""Status messages: what is said in the status line, for as long as it holds, and at fields."""
+"""Status messages: sentences in the status line for as long as they apply, and at fields."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -23,7 +23,7 @@ from occ_model.scene.parameters import PARAMETERS
 
 
 class StatusMessages(QObject):
-    """Says sentences, and shows the one that holds of workspace and results."""
+    """Shows the sentence that applies to workspace and results."""
 
     def __init__(
         self, window: MainWindow, controls: ControlPanel, store: Store, results_store: ResultsStore
@@ -32,7 +32,7 @@ class StatusMessages(QObject):
         self._window, self._controls = window, controls
         self._store, self._results_store = store, results_store
         self._shown: tuple[Remark | None, str] = (None, "")
-        self._failing: tuple[str, ...] = ()  # the fields with the sentence of a failure
+        self._failed_fields: tuple[str, ...] = ()  # those with the sentence of a failure
         store.select(lambda workspace: workspace).changed.connect(self._show)
         results_store.changed.connect(self._show)
         results_store.select(lambda results: results.failure).changed.connect(self._mark)
@@ -45,8 +45,8 @@ class StatusMessages(QObject):
             self._window.show_message(shown[1])
 
     def _mark(self, failure: Failure | None) -> None:
-        self._controls.end_refusals(self._failing)
-        self._failing = () if failure is None else failure.parameters
+        self._controls.end_refusals(self._failed_fields)
+        self._failed_fields = () if failure is None else failure.parameters
         if failure is not None:
             self._controls.show_problem(failure.sentence, failure.parameters)
 
@@ -60,18 +60,18 @@ class StatusMessages(QObject):
         self.say(sentence, next_change)
 
     def say_failure(self, sentence: str, parameters: Sequence[str] = ()) -> None:
-        """Show why a scene has no picture, also at the fields concerned, until the next picture."""
+        """Show, until the next picture, why a scene has none, also at the fields concerned."""
         self.say(sentence, next_picture)
         failure = Failure(sentence, tuple(parameters))
         self._results_store.put(replace(self._results_store.results, failure=failure))
 
     def say_of_photo(self, sentence: str) -> None:
-        """Show why a photo cannot be read, until the next one is."""
+        """Show why a photo cannot be read, until another one is read."""
         self.say(sentence, next_photo)
 
     def accept(self) -> None:
-        """Let what was refused go, since something allowed was entered."""
+        """Remove refusals, because an allowed value was entered."""
         last = self._results_store.results.remark
         if last is not None and last.until is next_change:
             self._results_store.put(replace(self._results_store.results, remark=None))
-        self._controls.end_refusals(name for name in PARAMETERS if name not in self._failing)
+        self._controls.end_refusals(name for name in PARAMETERS if name not in self._failed_fields)

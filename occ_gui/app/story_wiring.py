@@ -1,4 +1,4 @@
-"""Connections of the story: what its choices change in other panes, and theirs in it."""
+"""Connections of the story with the other panes."""
 
 from typing import TYPE_CHECKING, Any
 
@@ -21,7 +21,7 @@ def connect_story(parts: Parts) -> None:
     story, menus = parts.story, parts.window.menus
     parts.simulation.draft_for(lambda: _rows_per_pixel(story, parts.shell))
     parts.lessons.columns_held.connect(story.rows.hold_columns)
-    _SimulationNaming(parts)
+    _VerdictChoice(parts)
     crosshair, before = story.rows.crosshair, menus.actions["before"]
 
     readout = parts.window.readout
@@ -33,18 +33,18 @@ def connect_story(parts: Parts) -> None:
             from occ_gui.window.cursor_readout import follow_pictures
 
             follow_pictures(pane.view, readout.set_full_text)
-            _before(pane).setChecked(before.isChecked())
-            _before(pane).toggled.connect(before.setChecked)
+            _before_button(pane).setChecked(before.isChecked())
+            _before_button(pane).toggled.connect(before.setChecked)
         elif name == "profile":
             from occ_gui.window.cursor_readout import follow_profile
 
             follow_profile(pane.view, readout.set_full_text)
 
     parts.shell.made.connect(share)
-    # What is asked of the picture is seen in the whole one.
+    # Overlays and the picture before a change are drawn in the whole picture only.
     menus.overlays.triggered.connect(lambda: story.show_whole_picture(True))
-    before.toggled.connect(_WholePictureWhileAsked(story).show)
-    before.toggled.connect(lambda on: _before(parts.shell.pane("picture")).setChecked(on))
+    before.toggled.connect(_WholePictureForBefore(story).show)
+    before.toggled.connect(lambda on: _before_button(parts.shell.pane("picture")).setChecked(on))
     menus.actions["measure"].toggled.connect(story.switch_measuring)
     rows = story.rows
     rows.setContextMenuPolicy(Qt.ContextMenuPolicy.CustomContextMenu)
@@ -64,14 +64,14 @@ def story_menu(parts: Parts) -> QMenu:
     return menu
 
 
-def _before(pane: "PicturesPane") -> QAbstractButton:
+def _before_button(pane: "PicturesPane") -> QAbstractButton:
     return pane.view.before.chosen
 
 
-class _SimulationNaming(QObject):
-    """Shows first what the mode is about, and names the simulation where a photo is shown, too.
+class _VerdictChoice(QObject):
+    """Shows the verdict that the mode is about, and labels the simulation's if there is a photo.
 
-    A slot, not a function: the signal of the photos would hold that beyond the window's end.
+    An object, because the photos' signal would keep a function beyond the window's end.
     """
 
     def __init__(self, parts: Parts) -> None:
@@ -83,9 +83,9 @@ class _SimulationNaming(QObject):
         parts.photos.opened.connect(self.show)
         parts.lessons.photo_explained.connect(self.note_step)
         parts.story.verdict.changed.connect(self._show_simulation)
-        parts.shell.made.connect(self.take)
+        parts.shell.made.connect(self.add_photo)
 
-    def take(self, name: str, pane: Any) -> None:
+    def add_photo(self, name: str, pane: Any) -> None:
         """Show the verdict on the photo, too, once its pane is made."""
         if name != "photo":
             return
@@ -123,16 +123,16 @@ def _link_columns(crosshair: Crosshair, exposure: "ExposureController") -> None:
     follow()
 
 
-class _WholePictureWhileAsked(QObject):
-    """Shows the whole picture while something needs it, and then what was there before."""
+class _WholePictureForBefore(QObject):
+    """Shows the whole picture while it is compared, and afterwards what was shown before."""
 
     def __init__(self, story: StoryView) -> None:
         super().__init__(story)
         self._story = story
         self._showed_rows = False
 
-    def show(self, asked: bool) -> None:
-        if asked:
+    def show(self, on: bool) -> None:
+        if on:
             self._showed_rows = not self._story.shows_whole_picture
             self._story.show_whole_picture(True)
         elif self._showed_rows:

@@ -8,9 +8,9 @@ import shlex
 import shutil
 from collections.abc import Iterable, Mapping
 
-# What Qt links but its wheel leaves to the system, each with the Debian package that brings it.
-# What these link in turn is left out: where that is missing, they do not load either. Debian 13 and
-# Ubuntu 24.04 renamed libglib2.0-0; apt-get still finds it there by its old name.
+# The libraries that Qt links but its wheel lacks, each with its Debian package. Those that these
+# link in turn are not listed, because these do not load without them. Debian 13 and Ubuntu 24.04
+# renamed libglib2.0-0, which apt-get still finds by its old name.
 LIBRARIES = {
     "libEGL.so.1": "libegl1",
     "libGL.so.1": "libgl1",
@@ -19,7 +19,7 @@ LIBRARIES = {
     "libglib-2.0.so.0": "libglib2.0-0",
     "libxkbcommon.so.0": "libxkbcommon0",
 }
-# What Qt links besides, to open windows on a display of either kind.
+# The libraries that Qt links besides, for displays of either kind.
 DISPLAY_LIBRARIES = {
     "xcb": {
         "libX11-xcb.so.1": "libx11-xcb1",

@@ -1,4 +1,4 @@
-"""Films in the window: opened when their pane is first shown."""
+"""Films in the window: opens, saves and closes them."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class VideoPane(QObject):
-    """Opens, saves and closes films; a film is opened when its pane is first shown."""
+    """Opens, saves and closes films; a film is read when its pane is first shown."""
 
     def __init__(
         self, window: MainWindow, shell: Shell, store: Store, files: FileController

@@ -1,4 +1,4 @@
-"""Options of the view: theme, size of text, layout, and what is held; stored for the next start."""
+"""Options of the view: theme, text size, layout and held brightness, stored for the next start."""
 
 from collections.abc import Callable
 from dataclasses import replace

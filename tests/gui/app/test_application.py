@@ -1,4 +1,4 @@
-"""The whole window: input changes scene, picture and panes, and what is invalid is answered."""
+"""The whole window: input changes scene, picture and panes, and invalid input is refused."""
 
 import gc
 import logging
@@ -25,7 +25,7 @@ from occ_gui.widgets.elided_label import ElidedLabel
 from occ_model.scene.scene import Scene
 
 
-def test_a_key_on_a_slider_changes_scene_field_and_picture_and_undo_and_redo_bring_them_back(
+def test_a_key_on_a_slider_changes_scene_field_and_picture_and_can_be_undone_and_redone(
     qtbot: QtBot, application: Application, user: User, grey_picture: GreyPicture
 ) -> None:
     row = user.row("distance")
@@ -64,7 +64,7 @@ def test_a_typed_number_reaches_the_profile_and_bits_the_decode_result(
     assert application.view("decode").strip.accessibleDescription().startswith("sent 0000000101")
 
 
-def test_the_window_tells_how_long_simulating_and_reading_took_and_its_version(
+def test_the_window_shows_the_times_of_simulation_and_reading_and_its_version(
     qtbot: QtBot, application: Application, user: User, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     labels = application.window.statusBar().findChildren(QLabel)
@@ -75,10 +75,10 @@ def test_the_window_tells_how_long_simulating_and_reading_took_and_its_version(
     application.window.show_timing(0.0123, 0.0091)
     # The label takes its new width when the event loop runs.
     qtbot.waitUntil(lambda: "simulated in 12.3 ms, read in 9.1 ms" in {x.text() for x in labels})
-    told: list[str] = []
-    monkeypatch.setattr(QMessageBox, "about", lambda *texts: told.append(texts[2]))
+    abouts: list[str] = []
+    monkeypatch.setattr(QMessageBox, "about", lambda *texts: abouts.append(texts[2]))
     user.choose("&About")
-    assert occ.__version__ in told[0]
+    assert occ.__version__ in abouts[0]
 
 
 def open_and_close(qtbot: QtBot, scene: Scene) -> None:
@@ -86,29 +86,29 @@ def open_and_close(qtbot: QtBot, scene: Scene) -> None:
     application.window.show()
     for pane in application.window.docks:
         application.window.bring_to_front(pane)
-        if pane != "controls":  # the others are made when they are first seen
+        if pane != "controls":  # the others are made when they are first shown
             application.shell.pane(pane)
     qtbot.waitUntil(lambda: application.is_idle)
-    arrived: list[int] = []
+    sizes: list[int] = []
     application.simulation.snapshot_shown.connect(
-        lambda shown: arrived.append(shown.frame.image.size)
+        lambda snapshot: sizes.append(snapshot.frame.image.size)
     )
     application.store.change(rows=4608)
     application.window.actions_by_name["quit"].trigger()
     QApplication.processEvents()
-    assert arrived == []
+    assert sizes == []
     assert not application.window.isVisible()
     application.window.deleteLater()
     QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
 
 
-def test_quitting_during_a_simulation_delivers_nothing_and_nothing_of_an_application_outlives_it(
+def test_quitting_during_a_simulation_delivers_no_picture_and_leaves_no_widget(
     qtbot: QtBot, small_scene: Scene
 ) -> None:
     gc.collect()
     before = QApplication.topLevelWidgets()
     open_and_close(qtbot, small_scene.replace(rows=60, columns=400))
-    for _ in range(2):  # what a first pass frees may hold widgets of another cycle
+    for _ in range(2):  # the first pass may free what keeps widgets of another cycle
         gc.collect()
     assert [widget for widget in QApplication.topLevelWidgets() if widget not in before] == []
 
@@ -116,7 +116,7 @@ def test_quitting_during_a_simulation_delivers_nothing_and_nothing_of_an_applica
 BEHIND_THE_CAMERA: dict[str, Any] = {"distance": 0.1, "yaw": 1.2}
 
 
-def test_a_sentence_stands_once_and_goes_once_the_scene_has_a_picture_and_an_intermediate_has_none(
+def test_a_failure_is_shown_in_one_place_until_a_picture_and_not_for_intermediate_scenes(
     application: Application, user: User, qtbot: QtBot
 ) -> None:
     application.store.change(**BEHIND_THE_CAMERA)
@@ -127,7 +127,7 @@ def test_a_sentence_stands_once_and_goes_once_the_scene_has_a_picture_and_an_int
     application.store.change(distance=1.0, yaw=0.0)
     user.wait_until_idle()
     assert user.message == ""
-    # No sentence stands in the status line beside the one in view.
+    # The status line does not repeat the sentence that is in view.
     window = application.window
     (line,) = [
         label
@@ -136,9 +136,9 @@ def test_a_sentence_stands_once_and_goes_once_the_scene_has_a_picture_and_an_int
     ]
     application.store.change(distance=0.05, yaw=1.2)
     user.wait_until_idle()
-    said = window.statusBar().currentMessage()
-    assert said.startswith("With these angles")
-    qtbot.waitUntil(lambda: said in application.story.verdict.accessibleDescription())
+    message = window.statusBar().currentMessage()
+    assert message.startswith("With these angles")
+    qtbot.waitUntil(lambda: message in application.story.verdict.accessibleDescription())
     qtbot.waitUntil(lambda: not line.text())
     window.toolbar.modes.setCurrentIndex(1)  # the photo's, without the banner of the simulation
     qtbot.waitUntil(lambda: line.toolTip() != "")
@@ -150,15 +150,15 @@ def test_a_sentence_stands_once_and_goes_once_the_scene_has_a_picture_and_an_int
     assert not window.statusBar().currentMessage()
 
 
-def test_an_exception_in_a_slot_is_a_sentence_and_in_the_log_and_the_window_works_on(
+def test_an_exception_in_a_slot_is_reported_and_logged_and_the_window_works_on(
     application: Application, user: User, qtbot: QtBot, caplog: pytest.LogCaptureFixture
 ) -> None:
-    def broken() -> None:
+    def fail() -> None:
         raise ZeroDivisionError("a mistake")
 
     with capture_exceptions(), caplog.at_level(logging.ERROR):
         application.error_reports.install()
-        QTimer.singleShot(0, broken)
+        QTimer.singleShot(0, fail)
         qtbot.waitUntil(lambda: bool(user.message))
         application.error_reports.remove()
     assert "ZeroDivisionError: a mistake" in user.message
@@ -169,7 +169,7 @@ def test_an_exception_in_a_slot_is_a_sentence_and_in_the_log_and_the_window_work
     assert (application.store.scene.camera.iso, user.message) == (456.0, "")
 
 
-def test_the_status_line_says_what_the_plan_switches_and_what_its_pane_refuses(
+def test_the_status_line_shows_what_the_plan_switches_and_what_its_pane_refuses(
     application: Application, user: User, qtbot: QtBot
 ) -> None:
     def tips() -> list[str]:
@@ -182,14 +182,14 @@ def test_the_status_line_says_what_the_plan_switches_and_what_its_pane_refuses(
     news.timeout.emit()
     qtbot.waitUntil(lambda: not tips())
     view = application.view("accuracy")
-    assert view.table.effects.rows == ()  # nothing is drawn that nobody sees
+    assert view.table.effects.rows == ()  # a hidden table is not filled
     view.tolerance.refused.emit("Tolerance cannot be little.")
     assert user.message == "Tolerance cannot be little."
     application.settings.set_tolerance(-1.0)
     assert user.message.startswith("Tolerance cannot be -1")
 
 
-def test_what_was_refused_goes_with_the_next_accepted_change(
+def test_the_next_accepted_change_removes_a_refusal(
     application: Application, user: User, tmp_path: Path
 ) -> None:
     damaged = tmp_path / "damaged.toml"
@@ -210,7 +210,7 @@ def test_what_was_refused_goes_with_the_next_accepted_change(
 
 
 @pytest.mark.whole
-def test_each_preset_says_nothing(application: Application, user: User) -> None:
+def test_no_preset_shows_a_message(application: Application, user: User) -> None:
     for _ in occ.presets():
         name = user.choose_next_preset()
         assert user.message == "", name

@@ -32,14 +32,14 @@ def camera_scene(small_scene: Scene) -> Scene:
 
 
 @pytest.fixture
-def taken(tmp_path: Path, camera_scene: Scene) -> Path:
+def photo_path(tmp_path: Path, camera_scene: Scene) -> Path:
     path = tmp_path / "taken.png"
     Image.fromarray(occ.render(camera_scene).image).save(path)
     return path
 
 
 def choose_square_wave(application: Application) -> None:
-    """Say what the lamp of the photo sends."""
+    """Enter what the lamp of the photo sends."""
     form = application.view("photo").form
     form.sent.show_key("square")
     form.square.set_value(SENT["switching_frequency"] / 2)
@@ -47,9 +47,9 @@ def choose_square_wave(application: Application) -> None:
 
 @pytest.fixture
 def matched(
-    application: Application, user: User, taken: Path, remembered_matches: None
+    application: Application, user: User, photo_path: Path, remembered_matches: None
 ) -> Application:
-    application.files.open_photo(taken)
+    application.files.open_photo(photo_path)
     user.wait_until_idle()
     choose_square_wave(application)
     user.choose("&Match photo")
@@ -57,10 +57,10 @@ def matched(
 
 
 def test_opening_a_photo_brings_its_pane_to_the_front_once(
-    qtbot: QtBot, application: Application, user: User, taken: Path
+    qtbot: QtBot, application: Application, user: User, photo_path: Path
 ) -> None:
     docks = application.window.docks
-    application.files.open_photo(taken)
+    application.files.open_photo(photo_path)
     user.wait_until_idle()
     qtbot.waitUntil(lambda: not docks["photo"].visibleRegion().isEmpty())
     assert not_none(application.results_store.results.document).requested is None
@@ -71,42 +71,46 @@ def test_opening_a_photo_brings_its_pane_to_the_front_once(
 
 
 def test_reading_a_photo_shows_progress_and_a_cancel_button(
-    application: Application, user: User, taken: Path, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+    application: Application,
+    user: User,
+    photo_path: Path,
+    qtbot: QtBot,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    go_on = threading.Event()
+    is_released = threading.Event()
     load = occ.load_photo
 
-    def held(*asked: Any, progress: Callable[[float], object], **how: Any) -> occ.Photo:
+    def wait_and_load(*args: Any, progress: Callable[[float], object], **options: Any) -> occ.Photo:
         progress(0.5)
-        assert go_on.wait(10.0)
-        return load(*asked, progress=progress, **how)
+        assert is_released.wait(10.0)
+        return load(*args, progress=progress, **options)
 
-    monkeypatch.setattr(occ, "load_photo", held)
+    monkeypatch.setattr(occ, "load_photo", wait_and_load)
     bar = application.window.reading
-    application.photos.open(taken, match=True)
+    application.photos.open(photo_path, match=True)
     qtbot.waitUntil(bar.isVisible)
     qtbot.waitUntil(lambda: bar.progress.value() == bar.progress.maximum() // 2)
     bar.cancel.click()
     assert not bar.isVisible()
     assert application.shell.pane("photo").is_idle
-    go_on.set()
-    application.files.open_photo(taken)
+    is_released.set()
+    application.files.open_photo(photo_path)
     user.wait_until_idle()
     assert not bar.isVisible()
     assert application.shell.pane("photo").matching.photo is not None
     assert application.shell.pane("photo").matching.match is None
 
 
-def test_a_match_finds_the_readout_time_one_step_applies_it_and_it_lies_on_the_photo(
+def test_a_match_finds_the_readout_time_and_applying_it_in_one_step_places_the_photo(
     matched: Application, user: User, small_scene: Scene
 ) -> None:
     assert matched.store.scene == small_scene
-    found = not_none(matched.shell.pane("photo").matching.match)
-    assert found.readout_time == pytest.approx(SENT["readout_time"], rel=5e-3)
+    match = not_none(matched.shell.pane("photo").matching.match)
+    assert match.readout_time == pytest.approx(SENT["readout_time"], rel=5e-3)
     steps = matched.store.undo_stack.count()
     user.choose("&Apply to the scene")
     assert matched.store.undo_stack.count() == steps + 1
-    assert matched.store.scene == found.scene
+    assert matched.store.scene == match.scene
     user.choose("&Undo")
     assert matched.store.scene == small_scene
     corner = matched.shell.pane("photo").placement
@@ -115,7 +119,7 @@ def test_a_match_finds_the_readout_time_one_step_applies_it_and_it_lies_on_the_p
     user.wait_until_idle()
     assert matched.shell.pane("photo").placement == Placement()
     columns, levels = matched.view("profile").photo.getOriginalDataset()
-    assert columns[0] == found.region.first_column + RIM
+    assert columns[0] == match.region.first_column + RIM
     simulated = matched.view("profile").simulation.getOriginalDataset()[1][columns.astype(int)]
     assert np.corrcoef(levels, simulated)[0, 1] > 0.98
     user.choose("&Undo")
@@ -128,17 +132,17 @@ def test_a_match_finds_the_readout_time_one_step_applies_it_and_it_lies_on_the_p
     assert matched.shell.pane("photo").placement == Placement(200.0, 50.0)
     assert matched.view("photo").placement.column.value() == 200.0
     columns, _ = matched.view("profile").photo.getOriginalDataset()
-    assert columns[0] == 200 + found.region.first_column + RIM
+    assert columns[0] == 200 + match.region.first_column + RIM
     matched.view("photo").placement.reset.click()
     assert matched.shell.pane("photo").placement == before
 
 
 def test_match_actions_are_enabled_with_a_photo_or_a_match(
-    application: Application, user: User, taken: Path, remembered_matches: None
+    application: Application, user: User, photo_path: Path, remembered_matches: None
 ) -> None:
     actions = application.window.actions_by_name
     with_photo, with_match = ("match", "use_settings"), ("apply_match", "save_match")
-    application.files.open_photo(taken)
+    application.files.open_photo(photo_path)
     user.wait_until_idle()
     assert all(actions[name].isEnabled() for name in with_photo)
     assert not any(actions[name].isEnabled() for name in with_match)
@@ -149,11 +153,11 @@ def test_match_actions_are_enabled_with_a_photo_or_a_match(
     assert not any(actions[name].isEnabled() for name in (*with_photo, *with_match))
 
 
-def test_only_the_match_that_was_asked_for_with_a_photo_is_applied_by_itself(
-    application: Application, user: User, taken: Path, monkeypatch: pytest.MonkeyPatch,
+def test_only_a_match_requested_with_the_photo_is_applied_automatically(
+    application: Application, user: User, photo_path: Path, monkeypatch: pytest.MonkeyPatch,
     remembered_matches: None,
 ) -> None:  # fmt: skip
-    def refuse(*_asked: object, **_how: object) -> None:
+    def refuse(*_args: object, **_options: object) -> None:
         raise MatchError("No scene explains these stripes.")
 
     matching = application.shell.pane("photo").matching
@@ -161,25 +165,25 @@ def test_only_the_match_that_was_asked_for_with_a_photo_is_applied_by_itself(
     scene = application.store.scene
     with monkeypatch.context() as patched:
         patched.setattr(occ, "match_photo", refuse)
-        application.photos.open(taken, match=True)
+        application.photos.open(photo_path, match=True)
         user.wait_until_idle()
         user.wait_until_idle()
     assert "No scene explains" in user.message
-    application.photos.open(taken)
+    application.photos.open(photo_path)
     user.wait_until_idle()
     assert matching.match is None
     user.choose("&Match photo")
     assert matching.match is not None
     assert application.store.scene == scene
     application.photos.close()
-    application.photos.open(taken, match=True)
+    application.photos.open(photo_path, match=True)
     user.wait_until_idle()
     user.wait_until_idle()
     readout = application.store.scene.camera.readout_time
     assert readout == pytest.approx(SENT["readout_time"], rel=5e-3)
 
 
-def test_the_mode_of_the_photo_says_first_what_holds_for_the_photo(
+def test_the_mode_photo_shows_the_verdict_on_the_photo_instead_of_the_simulations(
     matched: Application, user: User
 ) -> None:
     story, verdict = matched.story, matched.view("photo").verdict
@@ -188,15 +192,13 @@ def test_the_mode_of_the_photo_says_first_what_holds_for_the_photo(
     assert not story.verdict.isVisible()
     match = not_none(matched.shell.pane("photo").matching.match)
     assert verdict.heading.startswith(f"Photo: {match.verdict}")
-    chips = {chip.key: chip for chip in verdict.badges.badges}
-    assert (chips["simulation"].text, chips["simulation"].state) == (
-        story.verdict.heading,
-        story.verdict.state,
-    )
+    badges = {badge.key: badge for badge in verdict.badges.badges}
+    simulation = badges["simulation"]
+    assert (simulation.text, simulation.state) == (story.verdict.heading, story.verdict.state)
     assert story.verdict.heading.startswith("Simulation: ")
-    assert "applied" in chips
+    assert "applied" in badges
     user.choose("&Apply to the scene")
-    assert "applied" not in {chip.key for chip in verdict.badges.badges}
+    assert "applied" not in {badge.key for badge in verdict.badges.badges}
     matched.window.modes.switch("explore")
     assert story.verdict.isVisible()
     assert not verdict.isVisible()

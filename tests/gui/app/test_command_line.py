@@ -1,4 +1,4 @@
-"""``occ-gui`` from the command line: screenshots, and wrong options answered in sentences."""
+"""``occ-gui`` from the command line: screenshots, and sentences that refuse wrong options."""
 
 import sys
 from pathlib import Path
@@ -17,28 +17,28 @@ from occ_gui.detection_map.wiring import BackgroundRates
 DISPLAYS = ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")
 
 REGION = (0xE6, 0x9F, 0x00)
-"""The colour of the rectangle round what the decoder read."""
+"""Colour of the rectangle around the region that the decoder read."""
 
 SMALL = "--set=rows=200"
-"""What makes a picture quickly simulated."""
+"""Option for a picture that is simulated quickly."""
 
 NOISE = (0xCC, 0x79, 0xA7)
-"""The colour of the points that an accuracy study gives last."""
+"""Colour of the last points of an accuracy study."""
 
 
 def is_one_sentence(text: str) -> bool:
     return text.startswith("occ-gui: ") and text.endswith(".\n") and text.count("\n") == 1
 
 
-def test_a_screenshot_of_the_size_asked_for_is_written(
+def test_a_screenshot_of_the_requested_size_is_written(
     tmp_path: Path, starts: Starts, photo_file: Path
 ) -> None:
     picture = tmp_path / "window.png"
-    ended = starts.run(
+    process = starts.run(
         "--screenshot", picture, "--size", "1920x1080", "--photo", photo_file,
         "--overlay", "split", "--dock", "photo", SMALL, program=UNMEASURED,
     )  # fmt: skip
-    assert (ended.returncode, ended.stdout, ended.stderr) == (0, "", "")
+    assert (process.returncode, process.stdout, process.stderr) == (0, "", "")
     with Image.open(picture) as image:
         assert image.format == "PNG"
         assert image.size == (1920, 1080)
@@ -46,26 +46,26 @@ def test_a_screenshot_of_the_size_asked_for_is_written(
     assert REGION in colours, "the picture was taken before the simulation was shown"
 
 
-def test_a_scene_without_a_picture_is_no_screenshot(application: Application) -> None:
+def test_a_scene_without_a_picture_has_no_screenshot(application: Application) -> None:
     application.store.change(distance=0.1, yaw=1.2)
     with pytest.raises(occ.OccError, match="behind the camera"):
         wait_until_shown(application)
 
 
-def test_a_screenshot_waits_for_the_study_in_view_and_the_rates_beside_the_sliders(
+def test_a_screenshot_waits_for_the_visible_study_and_the_rates_at_the_sliders(
     application: Application, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    looks = list[bool]()
-    # The rates are there a while after all else.
-    monkeypatch.setattr(BackgroundRates, "is_idle", property(lambda _: looks.count(True) > 2))
+    states = list[bool]()
+    # The rates finish after all other work.
+    monkeypatch.setattr(BackgroundRates, "is_idle", property(lambda _: states.count(True) > 2))
     application.store.change(rows=60, columns=100)
     application.settings.set_tolerance(2.0)
     application.window.bring_to_front("accuracy")
     timer = QTimer(application.window)
-    timer.timeout.connect(lambda: looks.append(application.is_idle))
+    timer.timeout.connect(lambda: states.append(application.is_idle))
     timer.start(20)
     take_screenshot(application, tmp_path / "w.png")
-    assert looks.count(True) > 2
+    assert states.count(True) > 2
     with Image.open(tmp_path / "w.png") as image:
         colours = {colour for _, colour in image.convert("RGB").getcolors(2**24) or []}
     assert NOISE in colours, "the picture was taken before the last points were shown"
@@ -86,26 +86,26 @@ def test_a_screenshot_is_not_written_over_the_photo(
     assert photo.read_bytes() == before
 
 
-def test_a_screenshot_that_cannot_be_is_answered_in_a_sentence_and_leaves_no_file(
+def test_an_impossible_screenshot_is_refused_in_a_sentence_and_leaves_no_file(
     tmp_path: Path, starts: Starts
 ) -> None:
     folder, flat = tmp_path / "out", tmp_path / "flat.png"
     folder.mkdir()
     Image.new("L", (100, 60), 90).save(flat)  # without stripes
-    ended = starts.run(
+    process = starts.run(
         "--screenshot", folder / "w.png", "--photo", flat, "--match", SMALL, program=UNMEASURED
     )
-    assert ended.returncode == 2
-    assert is_one_sentence(ended.stderr)
+    assert process.returncode == 2
+    assert is_one_sentence(process.stderr)
     assert list(folder.iterdir()) == []
     assert sorted(tmp_path.iterdir()) == [flat, folder]
 
 
-def test_a_pane_that_there_is_not_is_answered_with_those_that_there_are(starts: Starts) -> None:
-    ended = starts.run("--dock", "histogram", SMALL, program=UNMEASURED)
-    assert (ended.returncode, ended.stdout) == (2, "")
-    assert is_one_sentence(ended.stderr)
-    assert "no pane 'histogram'; allowed: controls, decode, photo" in ended.stderr
+def test_an_unknown_pane_is_refused_with_a_list_of_all(starts: Starts) -> None:
+    process = starts.run("--dock", "histogram", SMALL, program=UNMEASURED)
+    assert (process.returncode, process.stdout) == (2, "")
+    assert is_one_sentence(process.stderr)
+    assert "no pane 'histogram'; allowed: controls, decode, photo" in process.stderr
 
 
 def refusal(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> str:
@@ -123,7 +123,7 @@ def refusal(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> str:
 
 
 @pytest.mark.parametrize(
-    ("arguments", "named"),
+    ("arguments", "words"),
     [
         (["--set", "iso=lots"], "iso"),
         (["--set", "iso"], "'iso'"),
@@ -141,17 +141,17 @@ def refusal(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> str:
         (["--screenshot", "/"], ".png"),
         (["--screenshot", "/none/w.png"], "/none"),
         (["--screenshot", "w.png", "--photo", "missing.jpg"], "missing.jpg"),
-        # An unknown preset ends the program, should the size be let through.
+        # The unknown preset ends the program in case the size is accepted.
         *(
             ([f"--size={size}", "--preset", "none at all"], repr(size))
             for size in ("big", "1280x800x3", "99999x99999", "-5x100")
         ),
     ],
 )
-def test_a_mistake_is_answered_before_any_window(
-    capsys: pytest.CaptureFixture[str], arguments: list[str], named: str
+def test_a_mistake_is_refused_before_any_window(
+    capsys: pytest.CaptureFixture[str], arguments: list[str], words: str
 ) -> None:
-    assert named in refusal(arguments, capsys)
+    assert words in refusal(arguments, capsys)
 
 
 def test_a_wrong_option_is_refused_in_one_line(capsys: pytest.CaptureFixture[str]) -> None:
@@ -160,7 +160,7 @@ def test_a_wrong_option_is_refused_in_one_line(capsys: pytest.CaptureFixture[str
     assert len(last) < 1100
 
 
-def test_without_a_display_a_screenshot_is_offered(
+def test_without_a_display_a_screenshot_is_suggested(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     for name in DISPLAYS:
@@ -170,9 +170,9 @@ def test_without_a_display_a_screenshot_is_offered(
 
 
 def test_a_display_that_does_not_answer_gives_a_sentence(starts: Starts) -> None:
-    ended = starts.run(QT_QPA_PLATFORM="xcb", DISPLAY=":59999")
-    assert ended.returncode == 2
-    *_, sentence = ended.stderr.splitlines(keepends=True)
+    process = starts.run(QT_QPA_PLATFORM="xcb", DISPLAY=":59999")
+    assert process.returncode == 2
+    *_, sentence = process.stderr.splitlines(keepends=True)
     assert is_one_sentence(sentence)
     missing = missing_libraries("xcb")
     assert all(library in sentence for library in missing or ["no display"])

@@ -1,4 +1,4 @@
-"""A desktop program: titles, themes, keys, the palette, the pointer, and held brightness."""
+"""Title, themes, keys, the palette, the readout at the mouse, and held brightness."""
 
 from functools import partial
 from pathlib import Path
@@ -36,10 +36,10 @@ from occ_model.scene.scene import Scene
 def test_save_asks_for_a_file_once_and_the_title_marks_changes(
     application: Application, user: User, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    asked: list[str] = []
+    dialogs: list[str] = []
 
     def ask(*_arguments: object) -> tuple[str, str]:
-        asked.append("")
+        dialogs.append("")
         return str(tmp_path / "mine"), ""
 
     monkeypatch.setattr(QFileDialog, "getSaveFileName", ask)
@@ -47,7 +47,7 @@ def test_save_asks_for_a_file_once_and_the_title_marks_changes(
     for iso in ("200", "300"):
         user.enter("iso", iso)
         user.choose("&Save scene")
-    assert asked == [""]
+    assert dialogs == [""]
     assert window.windowTitle().startswith("mine.toml[*]")
     assert not window.isWindowModified()
     user.enter("iso", "400")
@@ -57,7 +57,7 @@ def test_save_asks_for_a_file_once_and_the_title_marks_changes(
     assert "iso = 300.0" in (tmp_path / "mine.toml").read_text(encoding="utf-8")
 
 
-def test_reset_is_one_step_and_an_animation_is_asked_for_in_the_menu(
+def test_reset_is_one_step_and_the_menu_offers_an_animation(
     application: Application, user: User, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     user.enter("iso", "200")
@@ -66,12 +66,12 @@ def test_reset_is_one_step_and_an_animation_is_asked_for_in_the_menu(
     assert application.presets.name_of(application.store.scene) == "phone-68us"
     application.store.undo_stack.undo()
     assert application.store.scene == before
-    asked: list[str] = []
+    paths: list[str] = []
     monkeypatch.setattr(
-        QFileDialog, "getSaveFileName", lambda *words: (asked.append(words[2]), ("", ""))[1]
+        QFileDialog, "getSaveFileName", lambda *words: (paths.append(words[2]), ("", ""))[1]
     )
     user.choose("Distance…")
-    assert [Path(path).name for path in asked] == ["distance.gif"]
+    assert [Path(path).name for path in paths] == ["distance.gif"]
 
 
 def lightness_of_the_plots(application: Application) -> set[bool]:
@@ -80,7 +80,7 @@ def lightness_of_the_plots(application: Application) -> set[bool]:
     return {plot.backgroundBrush().color().lightness() > 128 for plot in plots}
 
 
-def test_the_theme_changes_everything_that_is_drawn(
+def test_the_theme_changes_all_drawings(
     application: Application, user: User, grey_picture: GreyPicture
 ) -> None:
     themes = application.options.theme
@@ -106,7 +106,7 @@ def test_the_theme_changes_everything_that_is_drawn(
     assert QApplication.palette().color(QPalette.ColorRole.Window) == before
 
 
-def test_the_sheet_lists_every_entry_with_keys_and_every_pane_has_a_page_and_its_heading(
+def test_the_sheet_lists_every_entry_with_keys_and_every_pane_has_a_page_of_the_manual(
     application: Application, qtbot: QtBot
 ) -> None:
     rows = list(shortcuts_of(application.window.menuBar()))
@@ -127,12 +127,12 @@ def test_the_sheet_lists_every_entry_with_keys_and_every_pane_has_a_page_and_its
         assert manual.browser.source().fileName() == name
 
 
-def test_the_palette_does_what_a_few_letters_find_by_keys_only(
+def test_the_palette_finds_and_runs_a_command_by_keys_only(
     application: Application, qtbot: QtBot
 ) -> None:
-    done: list[str] = []
+    runs: list[str] = []
     commands = [
-        Command(f"File: {name}", "", partial(done.append, name))
+        Command(f"File: {name}", "", partial(runs.append, name))
         for name in ("Save scene", "Save scene as…", "Quit")
     ]
     palette = CommandPalette(commands, application.window)
@@ -149,12 +149,12 @@ def test_the_palette_does_what_a_few_letters_find_by_keys_only(
     assert palette.chosen is None
 
 
-def test_the_palette_finds_an_entry_by_what_it_is_for_and_jumps_to_every_parameter(
+def test_the_palette_finds_an_entry_by_its_search_words_and_jumps_to_a_parameter(
     application: Application,
 ) -> None:
     window = application.window
-    found = commands_of(window.menuBar(), application.controls, window.bring_to_front)
-    palette = CommandPalette(found, window)
+    commands = commands_of(window.menuBar(), application.controls, window.bring_to_front)
+    palette = CommandPalette(commands, window)
     for words, title in (
         ("gif", "Animation of a slider: Exposure time"),
         ("animation", "Animation of a slider: Exposure time"),
@@ -166,19 +166,19 @@ def test_the_palette_finds_an_entry_by_what_it_is_for_and_jumps_to_every_paramet
         ("projector", "Full screen"),
     ):
         palette.line.setText(words)
-        listed = [palette.list.item(place).text() for place in range(palette.list.count())]
-        assert any(title in text for text in listed), (words, title, listed)
-        named = [words in text.casefold() for text in listed]
-        assert named == sorted(named, reverse=True), words  # those of the name first
-    (jump,) = [command for command in found if command.matches(["f-number", "main"])]
-    (other,) = [command for command in found if command.matches(["panel and camera", "gamma"])][:1]
+        texts = [palette.list.item(place).text() for place in range(palette.list.count())]
+        assert any(title in text for text in texts), (words, title, texts)
+        by_name = [words in text.casefold() for text in texts]
+        assert by_name == sorted(by_name, reverse=True), words  # matches in the name come first
+    (jump,) = [each for each in commands if each.matches(["f-number", "main"])]
+    other = next(each for each in commands if each.matches(["panel and camera", "gamma"]))
     window.activateWindow()
     for command in (other, jump):
         command.run()
         QApplication.processEvents()
-        focused = not_none(window.focusWidget())
-        assert focused.isVisible()
-    assert focused is application.controls.main_rows()["f_number"].field
+        field = not_none(window.focusWidget())
+        assert field.isVisible()
+    assert field is application.controls.main_rows()["f_number"].field
 
 
 def test_the_status_line_shows_column_row_and_level_at_the_mouse(
@@ -187,25 +187,25 @@ def test_the_status_line_shows_column_row_and_level_at_the_mouse(
     application.story.show_whole_picture(True)
     pane = application.view("picture").simulation
     frame = not_none(application.view("picture").frame)
-    told = application.window.readout
+    readout = application.window.readout
     view = pane.graphics
     place = view.mapFromScene(pane.box.mapViewToScene(QPointF(40, 30)))
     at = pane.box.mapSceneToView(QPointF(view.mapToScene(place)))
     column, row = round(at.x()), round(at.y())
     qtbot.mouseMove(view.viewport(), QPoint(place))
     levels = [int(image[row, column]) for image in (frame.camera_image, frame.image)]
-    expected = "Simulation: column {}, row {}, camera level {}, receiver level {}"
-    qtbot.waitUntil(lambda: told.toolTip() == expected.format(column, row, *levels))
+    text = "Simulation: column {}, row {}, camera level {}, receiver level {}"
+    qtbot.waitUntil(lambda: readout.toolTip() == text.format(column, row, *levels))
     application.window.bring_to_front("profile")
     QApplication.processEvents()
     plot = application.view("profile").plot
     place = plot.mapFromScene(plot.getViewBox().sceneBoundingRect().center())
     qtbot.mouseMove(plot.viewport(), QPoint(place))
-    qtbot.waitUntil(lambda: told.text().startswith("Profile: column "))
+    qtbot.waitUntil(lambda: readout.text().startswith("Profile: column "))
 
 
 @pytest.fixture
-def held(qtbot: QtBot) -> tuple[SceneStore, SceneEditor, list[str]]:
+def hold(qtbot: QtBot) -> tuple[SceneStore, SceneEditor, list[str]]:
     store = store_of(Scene().replace(exposure_time=100e-6, iso=200.0))
     editor = SceneEditor(store)
     messages = collect(editor.brightness.status_message)
@@ -217,10 +217,10 @@ def product(store: SceneStore) -> float:
     return store.scene.camera.iso * store.scene.camera.exposure_time
 
 
-def test_iso_moves_against_the_exposure_a_gesture_is_a_step_and_stops_at_its_limit_with_a_sentence(
-    held: Any,
+def test_held_brightness_sets_the_iso_speed_in_the_same_step_and_reports_its_limit(
+    hold: Any,
 ) -> None:
-    store, editor, messages = held
+    store, editor, messages = hold
     before, light = store.scene, product(store)
     gesture = new_gesture()
     for time in (90e-6, 50e-6, 60e-6):
@@ -238,8 +238,8 @@ def test_iso_moves_against_the_exposure_a_gesture_is_a_step_and_stops_at_its_lim
     assert product(store) == pytest.approx(light, rel=1e-12)
 
 
-def test_a_brightness_set_by_hand_is_the_one_that_is_held(held: Any) -> None:
-    store, editor, _ = held
+def test_a_brightness_set_by_hand_is_held_from_then_on(hold: Any) -> None:
+    store, editor, _ = hold
     editor.edit("iso", 400.0, new_gesture())
     editor.edit("exposure_time", 50e-6, new_gesture())
     assert store.scene.camera.iso == pytest.approx(800.0)
@@ -248,14 +248,14 @@ def test_a_brightness_set_by_hand_is_the_one_that_is_held(held: Any) -> None:
     assert store.scene.camera.iso == pytest.approx(800.0)
 
 
-def test_the_view_menu_hides_the_strips_and_it_is_remembered(
+def test_the_view_menu_hides_the_strips_and_the_choice_is_stored(
     qtbot: QtBot, small_scene: Scene, tmp_path: Path
 ) -> None:
     def settings() -> QSettings:
         return QSettings(str(tmp_path / "settings.ini"), QSettings.Format.IniFormat)
 
-    kept = settings()
-    application = Application(Workspace(small_scene), kept)
+    stored = settings()
+    application = Application(Workspace(small_scene), stored)
     application.window.show()
     strips = application.slider_strips.strips.values()
     assert all(strip.isVisible() for strip in strips)
@@ -265,16 +265,16 @@ def test_the_view_menu_hides_the_strips_and_it_is_remembered(
     assert application.background_rates.slider_strips.is_idle
     application.window.close()
     application.window.deleteLater()
-    kept.sync()
+    stored.sync()
     assert not Preferences(settings()).slider_strips
     assert Preferences(None).slider_strips
 
 
-def test_each_door_of_the_welcome_page_leads_to_its_mode(
+def test_each_button_of_the_welcome_page_leads_to_its_mode(
     application: Application, user: User, small_scene: Scene, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    asked: list[object] = []
-    monkeypatch.setattr(QFileDialog, "getOpenFileNames", lambda *a: asked.append(a) or ("", ""))
+    dialogs: list[object] = []
+    monkeypatch.setattr(QFileDialog, "getOpenFileNames", lambda *a: dialogs.append(a) or ("", ""))
     page = application.shell.pane("welcome")
     for door, mode in (("photo", "photo"), ("explore", "explore"), ("learn", "lessons")):
         assert application.store.scene == small_scene
@@ -283,6 +283,6 @@ def test_each_door_of_the_welcome_page_leads_to_its_mode(
         user.wait_until_idle()
         assert application.window.modes.mode == mode
         assert page.dialog is None
-        assert len(asked) == 1  # by the first door alone
+        assert len(dialogs) == 1  # opened by the first button only
     place = application.shell.pane("lessons").view.step.place.text()
     assert place == "What is a rolling shutter? · step 1 of 3"

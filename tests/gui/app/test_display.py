@@ -1,4 +1,4 @@
-"""The display: a missing library is named, and the first window is whole on any screen."""
+"""The display: missing libraries are named, and the first window is whole on any screen."""
 
 import ctypes
 import shlex
@@ -18,7 +18,7 @@ SCREENS = [(0, 28, 1024, 740), (60, 0, 1920, 1080), (0, 0, 2560, 1600), (-1920, 
 
 
 def refuse(monkeypatch: pytest.MonkeyPatch, reason: str) -> None:
-    """Let no library be loaded, for this reason."""
+    """Let loading any library fail with this reason."""
 
     def load(_path: str) -> None:
         raise OSError(reason)
@@ -44,7 +44,7 @@ def test_all_missing_libraries_are_named_with_the_line_that_installs_them(
     assert "libxcb" not in reason_for_no_window()
 
 
-def test_a_library_that_no_table_lists_is_named_too_and_without_one_the_display(
+def test_a_missing_library_that_no_table_lists_is_named_or_else_the_display(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     refuse(monkeypatch, "libnew.so.0: cannot open shared object file: No such file")

@@ -27,15 +27,15 @@ STILL_THERE = "Your work is still there."
 
 
 @pytest.fixture
-def said() -> list[str]:
+def sentences() -> list[str]:
     return []
 
 
 @pytest.fixture
-def reports(qapp: QApplication, said: list[str]) -> Iterator[ErrorReports]:
-    """Take all exceptions, in place of the tests' own hook."""
+def reports(qapp: QApplication, sentences: list[str]) -> Iterator[ErrorReports]:
+    """Handle all exceptions instead of the tests' own hook."""
     reports = ErrorReports()
-    reports.reported.connect(said.append)
+    reports.reported.connect(sentences.append)
     before = (sys.excepthook, threading.excepthook)
     with capture_exceptions():
         reports.install()
@@ -44,59 +44,59 @@ def reports(qapp: QApplication, said: list[str]) -> Iterator[ErrorReports]:
     assert (sys.excepthook, threading.excepthook) == before
 
 
-def test_a_sentence_of_one_line_names_the_mistake_and_not_what_it_passed_through(
-    reports: ErrorReports, said: list[str]
+def test_a_sentence_of_one_line_names_the_error_without_qts_prefix(
+    reports: ErrorReports, sentences: list[str]
 ) -> None:
-    passed = "Error calling Python override of QObject::eventFilter(): " * 2
-    reports.report(ZeroDivisionError, ZeroDivisionError(f"{passed}a mistake"), None)
-    assert "Something went wrong: ZeroDivisionError: a mistake." in said[-1]
+    prefix = "Error calling Python override of QObject::eventFilter(): " * 2
+    reports.report(ZeroDivisionError, ZeroDivisionError(f"{prefix}a mistake"), None)
+    assert "Something went wrong: ZeroDivisionError: a mistake." in sentences[-1]
     reports.report(ValueError, ValueError("two\nlines\x1b" + "x" * 5000), None)
-    message = said[-1]
+    message = sentences[-1]
     assert message.isprintable()
     assert len(message) < 400
 
 
-def broken(*_arguments: object, **_named: object) -> None:
+def fail(*_arguments: object, **_options: object) -> None:
     raise ZeroDivisionError("a mistake")
 
 
-def test_a_repeated_exception_is_reported_once(reports: ErrorReports, said: list[str]) -> None:
+def test_a_repeated_exception_is_reported_once(reports: ErrorReports, sentences: list[str]) -> None:
     for _ in range(50):
         try:
-            broken()
+            fail()
         except ZeroDivisionError as error:
             sys.excepthook(type(error), error, error.__traceback__)
-    assert len(said) == 1
+    assert len(sentences) == 1
     logging.getLogger("occ_gui").warning("the lamp is %s", "off")
     logging.getLogger("occ_gui").debug("and this is not wanted")
     assert reports.last.lines[-1].endswith("the lamp is off")
 
 
 def test_an_exception_in_a_thread_is_a_sentence(
-    reports: ErrorReports, said: list[str], qtbot: QtBot
+    reports: ErrorReports, sentences: list[str], qtbot: QtBot
 ) -> None:
-    thread = threading.Thread(target=broken)
+    thread = threading.Thread(target=fail)
     thread.start()
     thread.join()
-    qtbot.waitUntil(lambda: bool(said))
-    assert STILL_THERE in said[-1]
+    qtbot.waitUntil(lambda: bool(sentences))
+    assert STILL_THERE in sentences[-1]
 
 
-def test_an_exception_while_something_is_painted_is_a_sentence_and_it_is_painted_the_next_time(
-    qtbot: QtBot, small_scene: Scene, reports: ErrorReports, said: list[str],
+def test_an_exception_while_painting_is_reported_and_the_next_painting_works(
+    qtbot: QtBot, small_scene: Scene, reports: ErrorReports, sentences: list[str],
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:  # fmt: skip
     bench = PaneBench(qtbot, small_scene)
     image = bench.add(picture(bench.store, str)).view
     with monkeypatch.context() as patched:
-        patched.setattr(QPainter, "drawImage", broken)
+        patched.setattr(QPainter, "drawImage", fail)
         bench.simulate()
         QApplication.processEvents()
         image.simulation.fit()
         bench.window.grab()
-        assert STILL_THERE in said[-1]
+        assert STILL_THERE in sentences[-1]
     bench.window.grab()
-    assert len(said) == 1
+    assert len(sentences) == 1
 
 
 def test_all_our_own_painting_is_guarded() -> None:
@@ -112,8 +112,8 @@ def test_all_our_own_painting_is_guarded() -> None:
 
 
 @pytest.fixture
-def logged(caplog: pytest.LogCaptureFixture) -> Iterator[pytest.LogCaptureFixture]:
-    """Log Qt's messages during one test; the handler of the test run is put back after it."""
+def qt_log(caplog: pytest.LogCaptureFixture) -> Iterator[pytest.LogCaptureFixture]:
+    """Log Qt's messages during one test, and restore the handler of the test run."""
     before = qInstallMessageHandler(None)
     log_qt_messages()
     with caplog.at_level(logging.DEBUG, logger="qt"):
@@ -121,23 +121,23 @@ def logged(caplog: pytest.LogCaptureFixture) -> Iterator[pytest.LogCaptureFixtur
     qInstallMessageHandler(before)
 
 
-def test_a_message_keeps_its_level_and_its_words(logged: pytest.LogCaptureFixture) -> None:
-    given_up: list[str] = []
-    log_qt_messages(lambda: given_up.append("by no message that is not fatal"))  # type: ignore[arg-type,return-value]
+def test_a_message_keeps_its_level_and_text(qt_log: pytest.LogCaptureFixture) -> None:
+    ends: list[str] = []
+    log_qt_messages(lambda: ends.append("only after a fatal message"))  # type: ignore[arg-type,return-value]
     qDebug("a detail")
     qWarning(HARMLESS_MESSAGE)  # a platform's note on every window
     qWarning("an odd thing")
     qCritical("a bad thing")
-    assert logged.record_tuples == [
+    assert qt_log.record_tuples == [
         ("qt", logging.DEBUG, "a detail"),
         ("qt", logging.DEBUG, HARMLESS_MESSAGE),
         ("qt", logging.WARNING, "an odd thing"),
         ("qt", logging.ERROR, "a bad thing"),
     ]
-    assert given_up == []
+    assert ends == []
 
 
-def test_it_has_the_version_and_the_scene_and_hides_the_users_folder() -> None:
+def test_the_report_has_version_and_scene_and_hides_the_users_folder() -> None:
     scene = occ.load_preset("phone-68us")
     text = report_text(scene, SimulationSettings(), [])
     assert occ.__version__ in text
@@ -147,16 +147,16 @@ def test_it_has_the_version_and_the_scene_and_hides_the_users_folder() -> None:
     assert "~" in text
 
 
-def test_it_is_shown_and_copied(qtbot: QtBot) -> None:
+def test_the_report_is_shown_and_copied(qtbot: QtBot) -> None:
     window = add_widget(qtbot, QWidget())
-    shown = report_text(Scene().replace(iso=456.0), SimulationSettings(), [])
-    assert "iso = 456" in shown
-    show_report(window, shown)
+    text = report_text(Scene().replace(iso=456.0), SimulationSettings(), [])
+    assert "iso = 456" in text
+    show_report(window, text)
     (dialog,) = window.findChildren(QDialog)
     (field,) = dialog.findChildren(QPlainTextEdit)
-    assert field.toPlainText() == shown
+    assert field.toPlainText() == text
     (copy,) = [b for b in dialog.findChildren(QPushButton) if b.text() == "&Copy"]
     copy.click()
-    assert QGuiApplication.clipboard().text() == shown
+    assert QGuiApplication.clipboard().text() == text
     assert any(label.text().startswith("Copied: ") for label in dialog.findChildren(QLabel))
     dialog.reject()

@@ -16,7 +16,7 @@ from occ_gui.app.garbage_collection import GarbageCollector
 
 
 class Cycle:
-    """Something that only the cyclic collector frees; it notes on which thread."""
+    """An object that only the cyclic collector frees; records on which thread."""
 
     freed_on: ClassVar[list[threading.Thread]] = []
 
@@ -35,8 +35,8 @@ def test_garbage_is_freed_by_the_window_and_never_by_a_worker(qtbot: QtBot) -> N
     Cycle()
     collector.collect()
     assert Cycle.freed_on == [], "little has been allocated"
-    kept: list[list[int]] = []
-    worker = threading.Thread(target=lambda: kept.extend([n] for n in range(200_000)))
+    objects: list[list[int]] = []
+    worker = threading.Thread(target=lambda: objects.extend([n] for n in range(200_000)))
     worker.start()
     worker.join()
     assert Cycle.freed_on == []
@@ -46,13 +46,13 @@ def test_garbage_is_freed_by_the_window_and_never_by_a_worker(qtbot: QtBot) -> N
     owner.deleteLater()
 
 
-def test_memory_is_given_back_once_after_each_work_and_at_rest_only(
+def test_memory_is_returned_once_after_each_period_of_work_when_idle(
     qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    clock, given, told = [0.0, 0.0], list[float](), list[float]()
+    clock, returns, ends = [0.0, 0.0], list[float](), list[float]()
     monkeypatch.setattr(time, "monotonic", lambda: clock[0])
     monkeypatch.setattr(time, "process_time", lambda: clock[1])
-    monkeypatch.setattr(garbage_collection, "give_memory_back", lambda: given.append(clock[0]))
+    monkeypatch.setattr(garbage_collection, "give_memory_back", lambda: returns.append(clock[0]))
     owner = QObject()
     collector = GarbageCollector(owner)
     for busy, seconds in ((0.9, 3), (0.01, 10), (0.9, 3), (0.01, 10), (0.9, 0.5), (0.01, 10)):
@@ -60,20 +60,20 @@ def test_memory_is_given_back_once_after_each_work_and_at_rest_only(
             clock[0] += 0.25
             clock[1] += 0.25 * busy
             collector.collect()
-        told.append(clock[0])
-    assert len(given) == 2, "not again after half a second of work"
-    assert told[0] + 2.0 <= given[0] <= told[0] + 3.0
-    assert told[2] + 2.0 <= given[1] <= told[2] + 3.0
+        ends.append(clock[0])
+    assert len(returns) == 2, "not again after half a second of work"
+    assert ends[0] + 2.0 <= returns[0] <= ends[0] + 3.0
+    assert ends[2] + 2.0 <= returns[1] <= ends[2] + 3.0
     owner.deleteLater()
 
 
-def test_freed_arrays_are_no_longer_the_programs(qtbot: QtBot) -> None:
-    def resident() -> int:
+def test_the_memory_of_freed_arrays_is_returned(qtbot: QtBot) -> None:
+    def measure_memory() -> int:
         return int(Path("/proc/self/statm").read_text(encoding="ascii").split()[1]) * 4096
 
-    # Between blocks that stay, so that the heap's end cannot simply be cut off.
+    # Every other block stays, so that the heap cannot simply be cut off at its end.
     blocks = [np.ones(100_000, np.uint8) for _ in range(1000)]
-    before = resident()
+    before = measure_memory()
     del blocks[::2]
     garbage_collection.give_memory_back()
-    assert before - resident() > 20e6
+    assert before - measure_memory() > 20e6

@@ -31,16 +31,16 @@ def guide(
 
 
 def choose_sent(application: Application, sent: str) -> None:
-    chosen = application.view("photo").form.sent
-    chosen.show_key(sent)
-    chosen.chosen.emit(sent)
+    combo_box = application.view("photo").form.sent
+    combo_box.show_key(sent)
+    combo_box.chosen.emit(sent)
 
 
-def in_front(application: Application, name: str) -> bool:
+def is_in_front(application: Application, name: str) -> bool:
     return not application.window.docks[name].visibleRegion().isEmpty()
 
 
-def test_a_step_sets_its_scene_and_shows_its_question_and_the_pane_that_the_story_does_not_have(
+def test_a_step_sets_its_scene_and_shows_its_question_and_a_pane_without_a_row_in_the_story(
     application: Application, guide: LessonView, user: User, qtbot: QtBot, small_scene: Scene
 ) -> None:
     lesson = smaller_lessons().lessons[0]
@@ -52,7 +52,7 @@ def test_a_step_sets_its_scene_and_shows_its_question_and_the_pane_that_the_stor
     assert guide.step.question.text() == step.question
     assert "step 1 of 3" in guide.step.place.text()
     assert not guide.step.back.isEnabled()
-    # The row of the story shows the profile, and all the larger without another pane of it.
+    # The row of the story shows the profile, larger than beside a pane of it.
     assert step.pane == "profile"
     assert application.story.rows.profile.isVisible()
     assert application.window.docks["profile"].isHidden()
@@ -62,10 +62,10 @@ def test_a_step_sets_its_scene_and_shows_its_question_and_the_pane_that_the_stor
     lesson = next(each for each in lessons().lessons if each.steps[0].pane == "accuracy")
     guide.list.choices[lessons().lessons.index(lesson)].click()
     user.wait_until_idle()
-    qtbot.waitUntil(lambda: in_front(application, "accuracy"))
+    qtbot.waitUntil(lambda: is_in_front(application, "accuracy"))
 
 
-def test_a_step_about_a_photo_shows_its_verdict_first_and_takes_its_frequency_as_certain(
+def test_a_step_about_a_photo_shows_its_verdict_and_treats_its_frequency_as_certain(
     application: Application, guide: LessonView, user: User
 ) -> None:
     story, photo = application.story, application.view("photo")
@@ -113,12 +113,8 @@ def test_a_crash_during_a_lesson_leaves_the_users_own_state(
     assert Scene.from_toml(record["scene"]) == before.scene
     assert record["settings"] == asdict(before.settings)
     assert application.store.store.workspace.decoder == "threshold"
-    shown = record["view"]
-    assert (shown["decoder"], shown["picture_kind"], shown["is_enhanced"]) == (
-        "matched",
-        "receiver",
-        True,
-    )
+    values = [record["view"][name] for name in ("decoder", "picture_kind", "is_enhanced")]
+    assert values == ["matched", "receiver", True]
     assert record["photo"]["path"] == str(photo_file)
     guide.step.all.click()
     user.wait_until_idle()
@@ -136,33 +132,33 @@ def test_a_window_closed_during_a_lesson_keeps_the_users_scene(
     small_scene: Scene,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    written: list[tuple[Scene, str]] = []
+    records: list[tuple[Scene, str]] = []
     session, store = application.session, application.store.store
     monkeypatch.setattr(
-        session, "end", lambda: written.append((store.workspace.scene, store.workspace.decoder))
+        session, "end", lambda: records.append((store.workspace.scene, store.workspace.decoder))
     )
     store.put(replace(store.workspace, decoder="matched"))
     guide.list.choices[0].click()
     user.wait_until_idle()
     assert application.store.scene != small_scene
     application.window.close()
-    assert written == [(small_scene, "matched")]
+    assert records == [(small_scene, "matched")]
 
 
-def test_a_lesson_keeps_as_many_columns_in_view_while_the_scene_is_changed(
+def test_a_lesson_keeps_the_number_of_visible_columns_while_the_scene_changes(
     application: Application, guide: LessonView, user: User
 ) -> None:
     story = application.story
     usual = story.rows.axis.span
     guide.list.choices[0].click()
     user.wait_until_idle()
-    held = story.rows.axis.span
+    span = story.rows.axis.span
     assert story.rows.ranges["packets"].text() == "250 columns"
-    assert held == pytest.approx(250, rel=0.05)
+    assert span == pytest.approx(250, rel=0.05)
     for readout in (20e-6, 4e-6):
         application.store.change(readout_time=readout)
         user.wait_until_idle()
-        assert story.rows.axis.span == pytest.approx(held)
+        assert story.rows.axis.span == pytest.approx(span)
     guide.step.all.click()
     user.wait_until_idle()
     assert story.rows.ranges["packets"].text() == "2 packets"
@@ -172,11 +168,11 @@ def test_a_lesson_keeps_as_many_columns_in_view_while_the_scene_is_changed(
     assert story.rows.ranges["packets"].text() == "2 cycles"
 
 
-def test_a_lab_sheet_has_buttons_for_what_it_asks(
+def test_a_lab_sheet_has_buttons_for_its_actions(
     application: Application, guide: LessonView, user: User, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    found = match_with(scene=occ.Scene().replace(readout_time=12.8e-6))
-    monkeypatch.setattr(occ, "match_photo", lambda *_, **__: found)
+    match = match_with(scene=occ.Scene().replace(readout_time=12.8e-6))
+    monkeypatch.setattr(occ, "match_photo", lambda *_, **__: match)
     (sheet,) = [choice for choice in guide.list.choices if "readout" in choice.text()]
     sheet.click()
     assert not guide.step.action.isVisible()
@@ -184,13 +180,13 @@ def test_a_lab_sheet_has_buttons_for_what_it_asks(
         guide.step.next.click()
     user.wait_until_idle()
     assert guide.step.action.text() == "Match the photo"
-    given = guide.step.answer_field
+    form = guide.step.answer_field
 
     def answer() -> str:
-        given.field.setText("12.8")
-        given.check.click()
+        form.field.setText("12.8")
+        form.check.click()
         user.wait_until_idle()
-        return str(given.sentence.text())
+        return str(form.sentence.text())
 
     assert "Match the photo first" in answer()
     guide.step.action.click()
@@ -205,7 +201,7 @@ def test_a_lab_sheet_has_buttons_for_what_it_asks(
     lessons = application.shell.pane("lessons")
     assert lessons.controller.current is not None
     first, *_, last = lessons.answers.list_steps(lessons.controller.current)[:4]
-    assert last.match is application.shell.pane("photo").matching.match is found
+    assert last.match is application.shell.pane("photo").matching.match is match
     assert last.photo == "led-1khz.jpg"
     assert first.match is None
     guide.step.all.click()

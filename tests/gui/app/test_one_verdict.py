@@ -1,4 +1,4 @@
-"""The window, the model and the study say the same of a scene."""
+"""The window, the model and the studies agree about a scene."""
 
 import csv
 import math
@@ -43,7 +43,7 @@ from occ_model.study.working_range import working_range
 
 @cache
 def frontier_scenes(count: int) -> tuple[Scene, ...]:
-    """Small pictures of the paper's phones and tablets, near where their codes cease to be read."""
+    """Return scenes with the paper's cameras near the end of the decoder's working range."""
     random = np.random.default_rng(21)
     names = [name for name in occ.presets() if not name.endswith("-real")]
     return tuple(_frontier_scene(names[number % len(names)], random) for number in range(count))
@@ -66,8 +66,8 @@ def _frontier_scene(name: str, random: np.random.Generator) -> Scene:
 
 
 @pytest.mark.whole
-def test_the_study_says_what_the_pictures_show() -> None:
-    """Where all or none of 40 images are read, another picture differs once in some dozens."""
+def test_the_study_agrees_with_the_pictures() -> None:
+    """If all or none of 40 images are read, another picture differs once in some dozens."""
     scenes = frontier_scenes(amount(4, 12))
     surprises = sure = 0
     for number, scene in enumerate(scenes):
@@ -82,21 +82,21 @@ def test_the_study_says_what_the_pictures_show() -> None:
     assert surprises <= math.ceil(0.05 * sure)
 
 
-def test_a_picture_that_the_studies_would_contradict_says_what_it_lacks(
+def test_a_picture_that_studies_may_contradict_states_what_it_leaves_out(
     application: Application, user: User
 ) -> None:
     scene = occ.load_preset("phone-136us").replace(rows=800, switching_frequency=14.6e3)
     application.store.put(scene, "another scene")
     user.wait_until_idle()
-    lacks = application.view("decode").left_out
-    assert lacks.isHidden()
+    label = application.view("decode").left_out
+    assert label.isHidden()
     application.settings.set_observable("profile")  # its means hide what the signal shows
     user.wait_until_idle()
-    assert not lacks.isHidden()
-    assert "Shot and read noise" in lacks.text()
+    assert not label.isHidden()
+    assert "Shot and read noise" in label.text()
     application.settings.set_observable("signal")
     user.wait_until_idle()
-    assert lacks.isHidden()
+    assert label.isHidden()
 
 
 @cache
@@ -115,19 +115,19 @@ EACH_DECODER = [
 
 
 @pytest.mark.parametrize("decoder", EACH_DECODER)
-def test_six_doors_give_the_same_number(
+def test_six_ways_give_the_same_rate(
     decoder: str,
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    """Strip, map, limits, both commands of the shell, and banner, asked the same."""
+    """Compare strip, map, working range, two commands of the shell, and banner."""
     scene = scene_of(decoder).replace(**UNSEEN_PARAMETERS)
     settings, images = SimulationSettings(), SCENE_IMAGES
     frequency = scene.transmitter.switching_frequency
     banner = scene_rate_job(Request(scene, settings, decoder))
     rate = not_none(scene_rate(do_job(banner, lambda: None).value))
-    wanted = occ.success_rate(scene, images, decoder)
+    percent = occ.success_rate(scene, images, decoder)
     own_place: dict[str, ParameterValue] = {"switching_frequency": frequency}
     at = ((0, own_place),)
     elsewhere = scene.replace(switching_frequency=5e3)
@@ -136,9 +136,9 @@ def test_six_doors_give_the_same_number(
         lambda: None,
     ).points[0]  # fmt: skip
     request = MapRequest(elsewhere, "switching_frequency", "distance", settings)
-    asked = request.sweep(images, (decoder,))
-    there = ((0, own_place | {"distance": scene.pose.distance}),)
-    of_map = measure_points(asked.scene, asked.settings, there, lambda: None).points[0]
+    sweep = request.sweep(images, (decoder,))
+    cell = ((0, own_place | {"distance": scene.pose.distance}),)
+    of_map = measure_points(sweep.scene, sweep.settings, cell, lambda: None).points[0]
     counts = RateSettings(images, (decoder,), SEED)
     monkeypatch.setattr(module, "STEP", 1e9)  # no values between the scene's own and the ends
     monkeypatch.setattr(module, "END_RATIO", 1e9)
@@ -151,11 +151,11 @@ def test_six_doors_give_the_same_number(
     ]) == 0  # fmt: skip
     lines = [line for line in table.read_text(encoding="utf-8").splitlines() if line[0] != "#"]
     (line,) = csv.DictReader(lines)
-    assert float(line["success rate (%)"]) == wanted
-    assert 100.0 * rate.fraction == pytest.approx(wanted, abs=1e-9)
-    assert 100.0 * strip.right[0] / strip.sent == wanted
-    assert 100.0 * of_map.right[0] / of_map.sent == wanted
-    assert own.rate == wanted
+    assert float(line["success rate (%)"]) == percent
+    assert 100.0 * rate.fraction == pytest.approx(percent, abs=1e-9)
+    assert 100.0 * strip.right[0] / strip.sent == percent
+    assert 100.0 * of_map.right[0] / of_map.sent == percent
+    assert own.rate == percent
     assert (float(line["95 % from (%)"]), float(line["95 % to (%)"])) == (own.low, own.high)
     assert (100.0 * rate.low, 100.0 * rate.high) == pytest.approx((own.low, own.high))
     scene_file.write_text(scene.to_toml(), encoding="utf-8")
@@ -169,24 +169,24 @@ def test_six_doors_give_the_same_number(
 
 
 @pytest.mark.parametrize("decoder", EACH_DECODER)
-def test_the_verdict_on_a_picture_is_what_the_study_counts_of_it(decoder: str) -> None:
+def test_the_verdict_on_a_picture_agrees_with_the_studys_count(decoder: str) -> None:
     scene = scene_of(decoder)
     sent = scene.transmitter.payload_bits
     duration = len(occ.packet(scene)) * scene.transmitter.switching_period
-    counted = right_bits_of_images(scene, RateSettings(6, (decoder,), SEED, path="image"))
-    for image, (right,) in enumerate(counted):
+    counts = right_bits_of_images(scene, RateSettings(6, (decoder,), SEED, path="image"))
+    for image, (right,) in enumerate(counts):
         random = np.random.default_rng(np.random.SeedSequence(SEED, spawn_key=(image,)))
-        taken = scene.replace(start_time=float(random.uniform(0.0, duration)))
+        at_start = scene.replace(start_time=float(random.uniform(0.0, duration)))
         seed = int(random.integers(2**32))
-        frame = occ.render(taken, observable="signal", seed=seed)
-        verdict = verdict_on(occ.decode(frame.image, taken, decoder), sent)
+        frame = occ.render(at_start, observable="signal", seed=seed)
+        verdict = verdict_on(occ.decode(frame.image, at_start, decoder), sent)
         assert (verdict.state is State.GOOD) == (right == len(sent))
         assert (verdict.state is State.BAD) == (right == 0)
 
 
 @pytest.fixture
 def workers(monkeypatch: pytest.MonkeyPatch, inline_workers: InlineWorkers) -> None:
-    """Have workers of the window, whichever of its parts begins to measure first."""
+    """Run all measurements of the window in this process."""
     monkeypatch.setattr(slider_strip_controller, "POSITIONS", 3)
     monkeypatch.setattr(wiring, "new_workers", lambda: inline_workers)
 
@@ -195,7 +195,7 @@ def workers(monkeypatch: pytest.MonkeyPatch, inline_workers: InlineWorkers) -> N
 def test_strip_and_banner_state_the_rate_of_the_study(
     workers: None, application: Application, user: User, qtbot: QtBot
 ) -> None:
-    """At the handle as anywhere: the picture shown is another fact, which the banner states."""
+    """Check that the rate at the handle is the study's, too, and not that of the shown picture."""
     application.store.put(
         application.store.scene.replace(rows=300, switching_frequency=3.4e3), "an edge"
     )
@@ -205,18 +205,18 @@ def test_strip_and_banner_state_the_rate_of_the_study(
     qtbot.waitUntil(lambda: own.rate is not None)
     rate = occ.success_rate(scene, 20)
     assert 5.0 < rate < 99.0
-    # Some pictures are read in part: bits a second count whole ones, which the banner tells, too.
+    # Some pictures are read in part. Bits a second count whole ones, which the banner states, too.
     (whole,) = count_right_and_whole(scene, RateSettings(20, ("threshold",), SEED))[1]
     assert own.rate is not None
     assert own.rate.whole == whole
     assert {round(100.0 * s.present.fraction, 9) for s in strips.values() if s.present} == {rate}
-    shown = {chip.key: chip.text for chip in application.story.verdict.badges.badges}
-    assert shown["rate"] == f"of 20 pictures: {rate:.3g} % of bits"
+    badges = {badge.key: badge.text for badge in application.story.verdict.badges.badges}
+    assert badges["rate"] == f"of 20 pictures: {rate:.3g} % of bits"
     strip = strips["iso"]
     assert f"{rate:.3g} % of the bits of 20 pictures" in strip.toolTip()
     strip.show_fractions((0.0,) * 9)
-    wanted = to_colours(np.array([[rate]]), 0.0, 100.0, RATES)[0, 0, :3].tolist()
-    seen = strip.grab().toImage().pixelColor(round(handle_middle(strip.slider) - strip.x() + 9), 3)
-    assert [seen.red(), seen.green(), seen.blue()] == wanted
+    colour = to_colours(np.array([[rate]]), 0.0, 100.0, RATES)[0, 0, :3].tolist()
+    pixel = strip.grab().toImage().pixelColor(round(handle_middle(strip.slider) - strip.x() + 9), 3)
+    assert [pixel.red(), pixel.green(), pixel.blue()] == colour
     application.store.change(switching_frequency=14e3)
     assert {s.present for s in strips.values()} == {None}

@@ -1,4 +1,4 @@
-"""Files in the window: opened by menus, dropped or again, shown in the panes, and saved."""
+"""Files in the window: opened by menu or drop, listed, shown in the panes, and saved."""
 
 import shutil
 from pathlib import Path
@@ -24,7 +24,7 @@ def camera_scene(small_scene: Scene) -> Scene:
 
 
 @pytest.fixture
-def taken(photo_file: Path) -> Path:
+def photo_copy(photo_file: Path) -> Path:
     return Path(shutil.copy(photo_file, photo_file.with_name("taken.png")))
 
 
@@ -34,7 +34,7 @@ def entries(menu: QMenu) -> list[str]:
 
 @pytest.fixture
 def samples(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, camera_scene: Scene) -> Path:
-    """Put a sample photo with its scene in place of those of the program."""
+    """Replace the program's sample photos by one with its scene."""
     folder = tmp_path / "resources" / "photos"
     folder.mkdir(parents=True)
     Image.fromarray(occ.render(camera_scene).image).save(folder / "led-1khz-panel.jpg")
@@ -44,7 +44,7 @@ def samples(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, camera_scene: Scene
 
 
 @pytest.mark.own_window
-def test_a_sample_is_opened_with_its_scene_and_not_remembered_and_without_any_none_is_offered(
+def test_a_sample_is_opened_with_its_scene_and_not_listed_as_recent(
     samples: Path, user: User, application: Application, camera_scene: Scene,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:  # fmt: skip
@@ -62,15 +62,15 @@ def test_a_sample_is_opened_with_its_scene_and_not_remembered_and_without_any_no
     assert not menu.isEnabled()
 
 
-def test_files_that_were_opened_are_listed_and_opened_again_and_missing_ones_are_removed(
-    application: Application, user: User, taken: Path, photo_file: Path, tmp_path: Path
+def test_recent_files_are_listed_and_reopened_and_missing_ones_are_removed(
+    application: Application, user: User, photo_copy: Path, photo_file: Path, tmp_path: Path
 ) -> None:
     recent = application.window.menus.recent
     assert not recent.isEnabled()
     scene = tmp_path / "a&b.toml"
     saved = application.store.scene.replace(iso=99.0)
     scene.write_text(saved.to_toml(), encoding="utf-8")
-    for path in (taken, photo_file):
+    for path in (photo_copy, photo_file):
         application.files.open_photo(path)
         user.wait_until_idle()
     application.files.open_scene(scene)
@@ -94,11 +94,11 @@ def test_files_that_were_opened_are_listed_and_opened_again_and_missing_ones_are
     application.files.open_photo(photo_file)
     user.wait_until_idle()
     assert photo_file.name in user.message
-    assert application.preferences.files == (), "what could not be read is not remembered"
+    assert application.preferences.files == (), "a file that cannot be read is not listed"
 
 
-def test_a_dropped_photo_and_scene_are_opened_and_what_is_not_shown_is_reported(
-    application: Application, user: User, photo_file: Path, taken: Path, qtbot: QtBot,
+def test_a_dropped_photo_and_scene_are_opened_and_ignored_files_are_reported(
+    application: Application, user: User, photo_file: Path, photo_copy: Path, qtbot: QtBot,
     tmp_path: Path,
 ) -> None:  # fmt: skip
     scenes = [tmp_path / "one.toml", tmp_path / "other.toml"]
@@ -111,9 +111,9 @@ def test_a_dropped_photo_and_scene_are_opened_and_what_is_not_shown_is_reported(
     assert application.store.scene == saved
     assert application.window.windowTitle().startswith("stripes.png")
     # Photos that are dropped together become a table.
-    application.window.dropped.emit([photo_file, taken])
+    application.window.dropped.emit([photo_file, photo_copy])
     user.wait_until_idle()
-    assert application.view("photo").many.rows.paths == (photo_file, taken)
+    assert application.view("photo").many.rows.paths == (photo_file, photo_copy)
     qtbot.waitUntil(lambda: application.view("photo").many.isVisible())  # across the bottom
     assert application.window.actions_by_name["match_all"].isEnabled()
     assert application.window.windowTitle().startswith("stripes.png")
@@ -122,7 +122,7 @@ def test_a_dropped_photo_and_scene_are_opened_and_what_is_not_shown_is_reported(
 TITLE = "Optical Camera Communication"
 
 
-def test_an_open_photo_stands_in_the_title_and_is_turned_and_laid_over_by_the_menu(
+def test_an_open_photo_is_named_in_the_title_and_the_menu_turns_and_overlays_it(
     application: Application, user: User, photo_file: Path
 ) -> None:
     close = user.entry("&Close photo")
@@ -146,7 +146,7 @@ def test_an_open_photo_stands_in_the_title_and_is_turned_and_laid_over_by_the_me
     assert not application.view("picture").photo.isVisible()
 
 
-def test_a_full_disk_while_saving_keeps_the_old_file_and_says_so(
+def test_a_full_disk_while_saving_keeps_the_old_file_and_is_reported(
     application: Application, user: User, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     path = tmp_path / "scene.toml"
@@ -156,12 +156,12 @@ def test_a_full_disk_while_saving_keeps_the_old_file_and_says_so(
     assert application.window.isWindowModified()
     write = Path.write_bytes
 
-    def full(place: Path, content: bytes) -> int:
+    def fail_to_write(place: Path, content: bytes) -> int:
         write(place, content[:9])
         raise OSError(28, "No space left on device")
 
     with monkeypatch.context() as patched:
-        patched.setattr(Path, "write_bytes", full)
+        patched.setattr(Path, "write_bytes", fail_to_write)
         application.window.actions_by_name["save_scene"].trigger()
         assert "No space left on device" in user.message
     assert path.read_bytes() == old
@@ -172,10 +172,10 @@ def test_a_full_disk_while_saving_keeps_the_old_file_and_says_so(
     assert path.read_bytes() != old
 
 
-def test_exported_figures_are_of_the_scene_just_chosen(
+def test_exported_figures_show_the_scene_just_chosen(
     application: Application, user: User, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Drawing them takes a minute: their scenes are looked at before."""
+    """Check the scenes before drawing, which takes a minute."""
     export, jobs = application.shell.pane("export"), list[ExportJob]()
     monkeypatch.setattr(export, "_put", jobs.append)
     application.store.change(distance=1.3)
@@ -183,9 +183,9 @@ def test_exported_figures_are_of_the_scene_just_chosen(
     export.export("profile", tmp_path / "profile.png")
     export.copy("profile")
     user.wait_until_idle()
-    every, one, copied = jobs
+    every, one, copy = jobs
     assert every.folder == tmp_path
     assert len(every.requests) > 3
-    assert len(one.requests) == len(copied.requests) == 1
+    assert len(one.requests) == len(copy.requests) == 1
     for job in jobs:
         assert {request.scene for request in job.requests} == {application.store.scene}

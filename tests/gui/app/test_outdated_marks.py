@@ -1,4 +1,4 @@
-"""What a pane shows of an earlier scene is marked; its verdict is never the present one's."""
+"""Results of an earlier scene are marked, and its verdict is never shown as the present one's."""
 
 from dataclasses import replace
 from threading import Event
@@ -44,15 +44,15 @@ def test_a_verdict_does_not_wait_for_the_picture(
     qtbot.waitUntil(lambda: decode.verdict.text() == "✗ No code read")
     assert tabs(application) == ["✗", "✗"]
     assert decode.origin.text() == "By the column profile; the picture follows."
-    shown = not_none(application.view("profile").reading)
-    assert shown.scene == application.store.scene
+    reading = not_none(application.view("profile").reading)
+    assert reading.scene == application.store.scene
     held.set()
     user.wait_until_idle()
     assert decode.verdict.text() == "✗ No code read"
     assert decode.origin.text() == "Read from the picture."
 
 
-@pytest.mark.own_window  # those are marked that have been made
+@pytest.mark.own_window  # only panes that have been made are marked
 @pytest.mark.parametrize("jpeg", [pytest.param(0, marks=pytest.mark.whole), 60])
 def test_each_pane_is_marked_while_its_result_is_outdated(
     application: Application, user: User, held: Event, qtbot: QtBot, jpeg: int
@@ -74,7 +74,7 @@ def test_each_pane_is_marked_while_its_result_is_outdated(
     application.store.change(iso=60.0, jpeg_quality=jpeg)
     outdated = application.outdated
     late = outdated.marks(of_picture, of_snapshot, *((of_reading,) if jpeg else ()))
-    # A reading that is late on a busy machine is marked until it is there.
+    # On a busy machine the reading may be late, too, and is marked until then.
     qtbot.waitUntil(lambda: all(mark.isHidden() != (mark in late) for mark in marks(application)))
     assert {mark.accessibleName() for mark in late} == {"computing…"}
     held.set()
@@ -85,11 +85,11 @@ def test_each_pane_is_marked_while_its_result_is_outdated(
 def test_after_a_refusal_the_last_picture_is_marked_as_older(
     application: Application, user: User, qtbot: QtBot, small_scene: Scene
 ) -> None:
-    shown = application.view("picture").frame
+    frame = application.view("picture").frame
     application.store.change(distance=0.1, yaw=1.2)
     user.wait_until_idle()
     qtbot.waitUntil(lambda: not any(mark.isHidden() for mark in marks(application)[:5]))
-    assert application.view("picture").frame is shown
+    assert application.view("picture").frame is frame
     assert application.story.verdict.title.text() == "No picture of this scene"
     earlier = f"Earlier scene: {RIGHT}"
     strip = application.view("decode").strip
@@ -107,7 +107,7 @@ def test_after_a_refusal_the_last_picture_is_marked_as_older(
 
 
 class Simulation(QObject):
-    """A simulation whose results are delivered by hand, at times set by hand."""
+    """A simulation whose results the test delivers, at times that it sets."""
 
     submitted = Signal()
     failed = Signal(str)
@@ -128,7 +128,7 @@ class Simulation(QObject):
 
 
 class Verdict:
-    """A pane that notes whether its verdict is the present one's."""
+    """A pane that records whether its verdict is outdated, and the values of a run."""
 
     def __init__(self) -> None:
         self.outdated: list[bool] = []
@@ -142,7 +142,7 @@ class Verdict:
 
 
 class Drag:
-    """A slider that is moved every 16 ms while pictures take some time each."""
+    """A slider that moves every 16 ms while each picture takes some time."""
 
     def __init__(self, qtbot: QtBot, snapshot_of: SnapshotOf) -> None:
         self.pane = pane = QWidget()
@@ -157,18 +157,18 @@ class Drag:
         self.simulation, self.verdict = Simulation(self.latest), Verdict()
         results_store = self.simulation.results_store
         self.outdated = OutdatedMarks(results_store, self.simulation, pane)  # type: ignore[arg-type]
-        shown: Pane[None] = Pane(pane)
-        shown.made_of, shown.verdicts = {pane: of_snapshot}, (self.verdict,)
-        self.outdated.mark_pane("pane", shown)
+        marked: Pane[None] = Pane(pane)
+        marked.made_of, marked.verdicts = {pane: of_snapshot}, (self.verdict,)
+        self.outdated.mark_pane("pane", marked)
         self.outdated.mark(pane, of_picture)
         self.simulation.deliver(self.snapshots[0])
 
     def move(
         self, takes: int, milliseconds: int = 960, of: OutdatedMark | None = None
     ) -> list[bool]:
-        """Move, and return at each millisecond whether the pane was marked, as results are.
+        """Move the slider, and return for each millisecond whether the mark was visible.
 
-        Pictures take so many milliseconds; while one is at work, only the newest move waits.
+        Each picture takes so many milliseconds, during which only the newest move waits.
         """
         marked: list[bool] = []
         at_work: tuple[Snapshot, int] | None = None
@@ -197,13 +197,13 @@ def test_a_drag_with_fast_pictures_is_never_marked(drag: Drag) -> None:
     assert set(drag.verdict.outdated) == {False}
 
 
-def test_a_drag_with_slow_pictures_is_marked_and_stays_so(drag: Drag) -> None:
+def test_a_drag_with_slow_pictures_is_marked_without_flicker(drag: Drag) -> None:
     marked = drag.move(takes=round(3e3 * DELAY))
     first = marked.index(True)
     assert all(marked[first:])
 
 
-def test_a_slow_verdict_is_the_present_ones_after_the_drag_and_does_not_flicker_before(
+def test_a_slow_verdict_is_outdated_without_flicker_until_after_the_drag(
     drag: Drag, qtbot: QtBot
 ) -> None:
     drag.move(takes=round(3e3 * VERDICT_DELAY))
@@ -214,7 +214,7 @@ def test_a_slow_verdict_is_the_present_ones_after_the_drag_and_does_not_flicker_
     qtbot.waitUntil(lambda: not drag.verdict.outdated[-1])
 
 
-def test_a_run_with_slow_pictures_marks_no_picture_and_tells_its_value(drag: Drag) -> None:
+def test_a_run_with_slow_pictures_marks_no_picture_and_states_its_value(drag: Drag) -> None:
     (picture,) = drag.outdated.marks(of_picture)
     drag.outdated.follow_run("iso")
     marked = drag.move(takes=round(3e3 * DELAY), of=picture)
@@ -222,11 +222,11 @@ def test_a_run_with_slow_pictures_marks_no_picture_and_tells_its_value(drag: Dra
     marked = drag.move(takes=round(3e3 * DELAY))
     assert set(drag.verdict.outdated) == {False}
     first = marked.index(True)
-    assert all(marked[first:])  # results that no verdict tells of are marked, without flicker
-    assert all(drag.move(takes=14))  # also where they are soon there again
+    assert all(marked[first:])  # results without a verdict are marked without flicker
+    assert all(drag.move(takes=14))  # even if they arrive soon
     drag.move(takes=round(3e3 * DELAY))
-    read = not_none(of_reading(drag.simulation.results_store.results))
-    assert drag.verdict.runs[-1] == (f"ISO speed {read.scene.camera.iso:.4g}", "")
+    reading = not_none(of_reading(drag.simulation.results_store.results))
+    assert drag.verdict.runs[-1] == (f"ISO speed {reading.scene.camera.iso:.4g}", "")
     drag.outdated.follow_run("")
     assert drag.verdict.runs[-1] == ("", "")
     drag.simulation.now += DELAY
@@ -234,7 +234,7 @@ def test_a_run_with_slow_pictures_marks_no_picture_and_tells_its_value(drag: Dra
     assert not picture.isHidden()
 
 
-def test_a_picture_behind_the_reading_of_a_run_has_its_own_value(drag: Drag) -> None:
+def test_a_picture_older_than_the_reading_of_a_run_has_its_own_value(drag: Drag) -> None:
     drag.outdated.follow_run("iso")
     later = drag.snapshots[9]
     drag.simulation.change(later)

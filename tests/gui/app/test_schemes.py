@@ -1,4 +1,4 @@
-"""Line codes, framings and payloads, chosen and typed at the window."""
+"""Line codes, framings and payloads that the user chooses or types."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -17,8 +17,7 @@ from occ_model.scene.from_text import change_scene
 
 def row(application: Application, name: str) -> ParameterRow:
     panels = application.controls.panels.values()
-    (found,) = [panel.rows[name] for panel in panels if name in panel.rows]
-    return found
+    return next(panel.rows[name] for panel in panels if name in panel.rows)
 
 
 def choose(application: Application, user: User, name: str, choice: str) -> None:
@@ -66,7 +65,7 @@ PAPER, C_OOK = dict[str, str](), {"line_code": "4b6b", "framing": "c-ook"}
     ],
     ids=["emoji", "digits", "hex"],
 )
-def test_all_places_say_that_what_was_typed_is_sent(
+def test_all_panes_show_that_the_typed_payload_is_sent(
     application: Application,
     user: User,
     qtbot: QtBot,
@@ -74,7 +73,7 @@ def test_all_places_say_that_what_was_typed_is_sent(
     letters: str | list[str],
     scheme: dict[str, str],
 ) -> None:
-    # Near enough for two packets of the longest.
+    # The distance is small enough for two packets with the longest payload.
     application.store.put(application.store.scene.replace(distance=0.6, **scheme), "scheme")
     field = row(application, "payload")
     assert isinstance(field, PatternRow)
@@ -102,7 +101,7 @@ def test_all_places_say_that_what_was_typed_is_sent(
     assert rows.light.describe_sent() == "code 718, 10 bits"
 
 
-def test_a_code_and_a_framing_that_do_not_fit_are_told_at_both_fields(
+def test_incompatible_line_code_and_framing_are_refused_at_both_fields(
     application: Application, user: User
 ) -> None:
     choose(application, user, "line_code", "nrz")
@@ -140,9 +139,9 @@ def test_decoders_of_plugins_have_tabs_and_say_why_they_fail(
     view = application.view("decode")
     tabs = [view.decoders.tabText(place) for place in range(view.decoders.count())]
     assert tabs[-2:] == ["nothing", "gone"]
-    # Plug-ins are looked for once the first picture is there.
+    # Plug-ins are sought after the first picture.
     qtbot.waitUntil(lambda: application.story.decoder.findData("nothing") >= 0)
-    for place, said in ((-2, "Nothing is looked for."), (-1, "The plug-in 'gone' of the package")):
+    for place, text in ((-2, "Nothing is looked for."), (-1, "The plug-in 'gone' of the package")):
         view.decoders.setCurrentIndex(len(tabs) + place)
         user.wait_until_idle()
-        assert said in view.reason.text()
+        assert text in view.reason.text()

@@ -19,14 +19,14 @@ from occ_model import plugins
 KINDS = ("window", "screenshot")
 
 _LATEST = 2.0
-"""Seconds after which the last moment is: the window is shown then, and its processes work."""
+"""Seconds to the last moment, when the window is shown and its processes work."""
 
 
 def every_kind_and_moment() -> Iterator[ParameterSet]:
-    """Pair both kinds of start with each moment; every day each moment has one kind."""
+    """Pair both kinds of start with each moment; the quick tests run one kind for each."""
     for place, kind in itertools.product(range(MOMENTS), KINDS):
-        everyday = KINDS[place % len(KINDS)] == kind
-        yield pytest.param(kind, place, marks=() if everyday else pytest.mark.whole)
+        is_quick = KINDS[place % len(KINDS)] == kind
+        yield pytest.param(kind, place, marks=() if is_quick else pytest.mark.whole)
 
 
 @pytest.mark.parametrize(("kind", "place"), list(every_kind_and_moment()))
@@ -68,18 +68,18 @@ def test_the_help_is_shown_in_any_encoding(starts: Starts) -> None:
         assert option in done.stdout
 
 
-def test_a_plug_in_that_hangs_is_named_and_left_behind(
+def test_the_process_ends_without_a_plug_in_that_hangs_and_names_it(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    left: list[int] = []
-    monkeypatch.setattr(os, "_exit", left.append)
+    exits: list[int] = []
+    monkeypatch.setattr(os, "_exit", exits.append)
     command_line.leave_plugins(0, None)
-    assert left == []
+    assert exits == []
     with plugins.at_work("The plug-in 'sleeper' of the package 'hanging'"):
         command_line.leave_plugins(0, None)
-    assert left == [0]
+    assert exits == [0]
     assert capsys.readouterr().err == (
-        "occ-gui: The plug-in 'sleeper' of the package 'hanging' does not come back: the window "
+        "occ-gui: The plug-in 'sleeper' of the package 'hanging' does not return: the window "
         "has ended without it.\n"
     )
 
@@ -114,12 +114,11 @@ application.window.close()
 """
 
 
-def test_what_is_slow_follows_the_first_picture_and_numbers_are_alike_in_any_locale() -> None:
-    # Qt takes the way of writing numbers from the name alone, whether there is such a locale or
-    # not.
-    here = {**os.environ, "QT_QPA_PLATFORM": "offscreen", "LC_ALL": "de_DE.UTF-8"}
+def test_slow_imports_follow_the_first_picture_and_no_locale_changes_numbers() -> None:
+    # Qt takes the format of numbers from the locale's name, even if it is not installed.
+    variables = {**os.environ, "QT_QPA_PLATFORM": "offscreen", "LC_ALL": "de_DE.UTF-8"}
     done = subprocess.run(
-        [sys.executable, "-c", BEGIN], env=here, capture_output=True, text=True, check=True
+        [sys.executable, "-c", BEGIN], env=variables, capture_output=True, text=True, check=True
     )
     assert done.stdout.splitlines() == ["[]", "[]", "[]", "1234.50 2.5"]
 
@@ -128,10 +127,10 @@ PROJECT = Path(__file__).resolve().parents[3]
 
 
 def test_no_property_of_qt_is_set_by_a_keyword_starting_with_i() -> None:
-    # PySide finds the setter by the capital of its first letter, which depends on the locale.
-    given = [
+    # PySide derives the setter from the first letter in upper case, which depends on the locale.
+    calls = [
         f"{path.name}: {call}"
         for path in (PROJECT / "occ_gui").rglob("*.py")
         for call in re.findall(r"\bQ[A-Z]\w+\([^()]*\bi\w*=[^()]*\)", path.read_text("utf-8"))
     ]
-    assert given == []
+    assert calls == []

@@ -1,4 +1,4 @@
-"""The story stands on the first screen, and says and shows the same as the other panes."""
+"""The story is on the first screen, and agrees with the other panes."""
 
 from pathlib import Path
 
@@ -19,12 +19,12 @@ from occ_gui.widgets.state_look import State
 
 
 def place_in(window: QWidget, part: QWidget) -> QRect:
-    """Return where a widget lies in the window, as far as it is seen."""
-    seen = part.visibleRegion().boundingRect()
-    return QRect(part.mapTo(window, seen.topLeft()), seen.size())
+    """Return the place of a widget's visible part in the window."""
+    visible = part.visibleRegion().boundingRect()
+    return QRect(part.mapTo(window, visible.topLeft()), visible.size())
 
 
-def test_what_the_program_is_for_stands_on_the_first_screen(
+def test_controls_verdict_and_rows_are_on_the_first_screen(
     application: Application, qtbot: QtBot
 ) -> None:
     window, story = application.window, application.story
@@ -34,13 +34,13 @@ def test_what_the_program_is_for_stands_on_the_first_screen(
     assert len(sliders) == len(MAIN) == 6
     rows = story.rows
     for part in (*sliders, story.verdict, rows.light, rows.stripes, rows.profile, rows.code):
-        seen = place_in(window, part)
-        assert seen.size() == part.size(), part
-        assert window.rect().contains(seen)
+        place = place_in(window, part)
+        assert place.size() == part.size(), part
+        assert window.rect().contains(place)
     assert rows.profile.band is not None
 
 
-def test_the_bar_and_the_decoding_pane_say_the_same(application: Application, user: User) -> None:
+def test_the_bar_and_the_decoding_pane_agree(application: Application, user: User) -> None:
     application.store.change(exposure_time=136e-6, switching_frequency=16e3)
     user.wait_until_idle()
     pane, bar = application.view("decode"), application.story.verdict
@@ -68,14 +68,14 @@ def test_a_decoder_is_chosen_in_the_story_or_by_its_tab(
         story.decoder.chosen.emit(name)
         user.wait_until_idle()
         assert pane.decoder() == name
-        decoded = not_none(story.rows.result)
-        assert decoded.decoder == name
-        assert decoded.code == 718
+        result = not_none(story.rows.result)
+        assert result.decoder == name
+        assert result.code == 718
     pane.decoders.setCurrentIndex(0)
     assert story.decoder.key() == "threshold"
 
 
-def test_thumbnail_or_picture_before_open_the_whole_picture_and_lead_back(
+def test_the_whole_picture_opens_by_thumbnail_or_comparison_and_closes_again(
     application: Application, qtbot: QtBot
 ) -> None:
     story = application.story
@@ -96,7 +96,7 @@ def test_thumbnail_or_picture_before_open_the_whole_picture_and_lead_back(
     story.show_whole_picture(True)
     before.setChecked(True)
     before.setChecked(False)
-    assert story.shows_whole_picture, "the mode may be about it"
+    assert story.shows_whole_picture, "it was shown before"
     story.show_whole_picture(False)
     story.rows.axis.zoom(0.5, 1500.0)
     application.window.actions_by_name["fit"].trigger()
@@ -121,14 +121,16 @@ def test_the_receivers_picture_is_chosen_in_all_panes(application: Application) 
     assert not application.store.store.workspace.is_enhanced
 
 
-def test_the_mouse_reads_all_rows_out(application: Application, qtbot: QtBot) -> None:
+def test_the_mouse_selects_the_column_of_the_readout(
+    application: Application, qtbot: QtBot
+) -> None:
     rows = application.story.rows
     row = rows.profile
     column = round((rows.axis.first + rows.axis.last) / 2)
     qtbot.mouseMove(row, QPoint(round(row.x_of(column)), row.height() // 2))
-    pointed = rows.crosshair.mouse_column
-    assert pointed == pytest.approx(column, abs=1)
-    assert application.story.readout.toolTip().startswith(f"column {pointed}  ·  ")
+    at_mouse = rows.crosshair.mouse_column
+    assert at_mouse == pytest.approx(column, abs=1)
+    assert application.story.readout.toolTip().startswith(f"column {at_mouse}  ·  ")
     QApplication.sendEvent(row, QEvent(QEvent.Type.Leave))
     assert rows.crosshair.mouse_column is None
     assert application.story.readout.toolTip().startswith(f"column {rows.crosshair.column}  ·  ")
@@ -142,10 +144,10 @@ def test_an_open_photo_is_drawn_in_the_story(
     application.files.open_photo(photo_file)
     user.wait_until_idle()
     assert application.story.shows_whole_picture
-    photo, shown = rows.profile.photo, application.view("profile").photo_levels
+    photo, levels = rows.profile.photo, application.view("profile").photo_levels
     assert photo is not None
-    assert shown is not None
-    np.testing.assert_array_equal(photo[1], shown)
+    assert levels is not None
+    np.testing.assert_array_equal(photo[1], levels)
     assert "fitted" in rows.legend.keys
     application.photos.close()
     user.wait_until_idle()
@@ -170,7 +172,7 @@ def test_the_equations_explain_the_column_that_the_story_shows(
     assert crosshair.column == pane.column.value() == 655
 
 
-def test_the_context_menu_copies_the_values_at_the_crosshair_and_the_bar_leads_to_a_lesson(
+def test_the_context_menu_copies_values_and_the_bar_opens_a_lesson(
     application: Application, user: User
 ) -> None:
     user.wait_until_idle()

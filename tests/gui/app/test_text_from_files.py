@@ -1,4 +1,4 @@
-"""Text from files is text: names, titles and notes never become marks of Qt's."""
+"""Names, titles and notes from files are shown as plain text, never as markup."""
 
 import os
 from collections.abc import Iterator
@@ -30,11 +30,11 @@ TAG = "<img src=nothing.png>"
 NAME = f"{TAG} & <b>bold\n\x1b[31m\u202egnp"
 SHOWN = f"{TAG} & <b>bold\\n\\x1b[31m\\u202egnp"
 MODEL = 0x0110
-"""Of a camera, among the notes in a photo."""
+"""EXIF tag of the camera's model."""
 
 
-def seen(tip: str) -> str:
-    """Return what a tooltip shows, as Qt reads it."""
+def render_tip(tip: str) -> str:
+    """Return the text that Qt shows for a tooltip."""
     if not RichText.mightBeRichText(tip):
         return tip
     document = QTextDocument()
@@ -53,7 +53,7 @@ def hostile_photo(tmp_path: Path, photo_file: Path) -> Path:
 
 
 def texts(window: QWidget) -> Iterator[str]:
-    """Yield every text of a window in which Qt would find rich text."""
+    """Yield every text of a window that Qt may interpret as rich text."""
     for widget in window.findChildren(QWidget):
         yield widget.toolTip()
         if isinstance(widget, QLabel) and widget.textFormat() != Qt.TextFormat.PlainText:
@@ -65,16 +65,16 @@ def texts(window: QWidget) -> Iterator[str]:
 
 @pytest.mark.parametrize("text", [NAME, TAG, "a < b & c", "&lt;b&gt;", "1\n2 <b>3</b>\n4", "<!--"])
 def test_a_tool_tip_shows_a_text_letter_by_letter(qapp: QApplication, text: str) -> None:
-    assert seen(in_tool_tip(text)).split() == text.split()
-    assert seen(in_tool_tip(text)).count("\n") == text.count("\n")
+    assert render_tip(in_tool_tip(text)).split() == text.split()
+    assert render_tip(in_tool_tip(text)).count("\n") == text.count("\n")
 
 
 def test_a_label_and_its_tool_tip_show_the_same_line(qtbot: QtBot) -> None:
     label = show_widget(qtbot, ElidedLabel(NAME), 4000, 20)
-    assert (label.text(), seen(label.toolTip())) == (SHOWN, SHOWN)
+    assert (label.text(), render_tip(label.toolTip())) == (SHOWN, SHOWN)
 
 
-def test_no_name_of_a_file_and_no_note_in_it_becomes_a_mark(
+def test_neither_a_files_name_nor_its_notes_become_markup(
     application: Application, user: User, hostile_photo: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv(USER_FOLDER, str(hostile_photo.parent / "presets"))
@@ -84,15 +84,15 @@ def test_no_name_of_a_file_and_no_note_in_it_becomes_a_mark(
     application.files.open_file(hostile_photo)
     user.wait_until_idle()
     facts = application.view("photo").facts
-    assert seen(facts.name.toolTip()).endswith(f"{SHOWN}.png")
-    assert seen(facts.size_line.toolTip()).startswith(f"{TAG}, ")
+    assert render_tip(facts.name.toolTip()).endswith(f"{SHOWN}.png")
+    assert render_tip(facts.size_line.toolTip()).startswith(f"{TAG}, ")
     assert window.windowTitle().startswith(f"{SHOWN}.png")
     combo = application.controls.preset
     place = combo.findData("hostile")
-    assert seen(combo.itemData(place, Qt.ItemDataRole.ToolTipRole)) == SHOWN
+    assert render_tip(combo.itemData(place, Qt.ItemDataRole.ToolTipRole)) == SHOWN
     recent = window.menus.recent.actions()[0]
     assert plain(recent.text()) == f"{SHOWN}.png"
-    assert seen(recent.toolTip()).endswith(f"{SHOWN}.png")
+    assert render_tip(recent.toolTip()).endswith(f"{SHOWN}.png")
     scene = hostile_photo.with_suffix(".toml")
     application.files.save_scene(scene)
     assert window.statusBar().currentMessage() == f"Saved {SHOWN}.toml"
@@ -101,8 +101,7 @@ def test_no_name_of_a_file_and_no_note_in_it_becomes_a_mark(
     assert window.statusBar().currentMessage() == f"Opened {SHOWN}.toml"
     undo = application.store.undo_stack.undoText()
     assert plain(undo) == f"opening of {SHOWN}.toml"
-    marked = [text for text in texts(window) if RichText.mightBeRichText(text) and "<img" in text]
-    assert not marked
+    assert not any(RichText.mightBeRichText(text) and "<img" in text for text in texts(window))
     delete_preset("hostile")
     application.presets.update()
     assert combo.findData("hostile") == -1
@@ -113,7 +112,7 @@ def test_a_scene_files_name_does_not_mark_a_change(application: Application) -> 
     assert application.window.windowTitle().startswith("a[*][*]b.toml[*]")
 
 
-def test_a_lessons_title_is_text(
+def test_a_lessons_title_is_plain_text(
     application: Application, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     hostile = tuple(replace(each, title=f"{TAG} & co") for each in lessons().lessons)
@@ -129,7 +128,7 @@ def test_a_lessons_title_is_text(
     assert view.step.place.text().startswith(f"{TAG} & co · step 1")
 
 
-def test_a_name_that_is_no_utf_8_is_shown_and_remembered(
+def test_a_name_that_is_not_utf_8_is_shown_and_listed(
     application: Application, user: User, photo_file: Path
 ) -> None:
     path = Path(os.fsdecode(os.fsencode(photo_file.parent) + b"/caf\xe9.png"))

@@ -130,7 +130,7 @@ KEEP = """
 import os
 from pathlib import Path
 from PySide6.QtWidgets import QApplication
-from occ_gui.app.start import kept_settings
+from occ_gui.app.start import open_preferences
 from occ_gui.core.store import Workspace
 from occ_gui.files.preferences import Preferences
 from occ_gui.files.session import SessionFile, state_folder
@@ -139,7 +139,7 @@ from occ_model.scene.scene import Scene
 
 os.umask(0o022)
 app = QApplication([])
-file, settings = SessionFile(state_folder()), kept_settings()
+file, settings = SessionFile(state_folder()), open_preferences()
 preferences = Preferences(settings)
 for name in ("a.png", "b.png"):
     preferences.add(Path(name))
@@ -179,8 +179,8 @@ def test_what_the_program_keeps_about_the_user_is_readable_by_nobody_else(
 
 
 READ_SETTINGS = """
-from occ_gui.app.start import kept_settings
-print(kept_settings().value("view/strips"))
+from occ_gui.app.start import open_preferences
+print(open_preferences().value("view/strips"))
 """
 
 

@@ -152,9 +152,9 @@ def map_figure(store: Store) -> Figure:
             raise NothingToDraw(
                 "The detection map is not complete yet: open its pane and wait a moment."
             )
-        from occ_gui.detection_map.map_schedule import table_of
+        from occ_gui.detection_map.map_schedule import make_table
 
-        table = table_of(*complete, store.workspace.frame_rate)
+        table = make_table(*complete, store.workspace.frame_rate)
         return later("occ_model.figures.sweep:sweep_drawing", table, store.workspace.shown)
 
     return Figure(name="map", title="Detection map", draw=draw)

@@ -62,7 +62,7 @@ class SceneInWindow(QObject):
 
     def _is_map_awaited(self) -> bool:
         pane = self._parts.shell.find_pane("map")
-        return pane is not None and pane.map.is_first_answer_awaited
+        return pane is not None and pane.map.awaits_first_points
 
     def _report_switched(self, switched: tuple[Decision, ...]) -> None:
         self._parts.window.show_plan_change(describe_switches(switched) if switched else "")

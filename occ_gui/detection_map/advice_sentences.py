@@ -32,25 +32,25 @@ class AdviceLine:
     is_common: bool = False  # whether the line is the same for every decoder
 
 
-def advice_lines(advice: Advice, frames_a_second: float = FRAMES_A_SECOND) -> list[AdviceLine]:
-    lines = [AdviceLine(_title(advice.limits), is_title=True)]
+def make_advice_lines(advice: Advice, frames_a_second: float = FRAMES_A_SECOND) -> list[AdviceLine]:
+    lines = [AdviceLine(_make_title(advice.limits), is_title=True)]
     if advice.cause:
         lines.append(AdviceLine(f"It does not read the scene as it is. {advice.cause}"))
-    for found, theory, low, high in (
+    for values, theory, low, high in (
         (advice.limits.frequency, advice.frequency, "lowest frequency", _HIGHEST),
         (advice.limits.exposure, advice.exposure, "shortest exposure", "longest exposure"),
     ):
-        parameter, lowest, highest = found.parameter, found.lowest, found.highest
+        parameter, lowest, highest = values.parameter, values.lowest, values.highest
         if lowest is None or highest is None:
-            lines.append(AdviceLine(_say_nothing_read(advice.limits, found)))
+            lines.append(AdviceLine(_explain_unread(advice.limits, values)))
         else:
-            lines += [_line(parameter, low, lowest), _line(parameter, high, highest)]
-        if found.gaps:
-            lines.append(AdviceLine(gaps_text(found)))
-        if found.most_chips is not None:
-            lines.append(AdviceLine(search_end_text(found)))
-        if found.faults:
-            lines.append(AdviceLine(found.faults))
+            lines += [_make_line(parameter, low, lowest), _make_line(parameter, high, highest)]
+        if values.gaps:
+            lines.append(AdviceLine(gaps_text(values)))
+        if values.most_chips is not None:
+            lines.append(AdviceLine(search_end_text(values)))
+        if values.faults:
+            lines.append(AdviceLine(values.faults))
         if theory.two_packets is not None:
             lines.append(AdviceLine(two_packets_text(theory.two_packets)))
         lines.append(AdviceLine(theory_text(parameter, theory), is_common=True))
@@ -59,14 +59,14 @@ def advice_lines(advice: Advice, frames_a_second: float = FRAMES_A_SECOND) -> li
     return lines
 
 
-def line_on_highest_frequency(advice: Advice) -> AdviceLine:
-    found = advice.limits.frequency
-    if found.highest is None:
-        return AdviceLine(_say_nothing_read(advice.limits, found))
-    return _line(found.parameter, _HIGHEST, found.highest)
+def make_frequency_line(advice: Advice) -> AdviceLine:
+    frequencies = advice.limits.frequency
+    if frequencies.highest is None:
+        return AdviceLine(_explain_unread(advice.limits, frequencies))
+    return _make_line(frequencies.parameter, _HIGHEST, frequencies.highest)
 
 
-def say_what_holds(parameters: frozenset[str]) -> str:
+def describe_outdated(parameters: frozenset[str]) -> str:
     """State that the advice is for an earlier scene, and which of its limits still hold."""
     text = "This advice is for the scene before the change."
     if not parameters:
@@ -75,32 +75,31 @@ def say_what_holds(parameters: frozenset[str]) -> str:
     return f"{text} Its limits for the {names} still hold."
 
 
-def _say_nothing_read(limits: Limits, found: WorkingRange) -> str:
-    if found.best is None:
-        return found.failure or ""
-    low, high, place = (
-        format_value(found.parameter, value) for value in (*found.searched, found.best.value)
-    )
-    name, best = quantity(found.parameter).in_sentence, found.best
+def _explain_unread(limits: Limits, values: WorkingRange) -> str:
+    best, parameter = values.best, values.parameter
+    if best is None:
+        return values.failure or ""
+    low, high, place = (format_value(parameter, v) for v in (*values.searched, best.value))
+    name = quantity(parameter).in_sentence
     return (
         f"It reads {limits.rate:g} % of the bits at no {name} from {low} to {high}. The most "
         f"it reads is {best.right} of {best.sent} bits, at {place}."
     )
 
 
-def _title(found: Limits) -> str:
-    scene = found.scene
+def _make_title(limits: Limits) -> str:
+    scene = limits.scene
     values = (
         format_value(name, float(scene.value(name)))
         for name in ("switching_frequency", "exposure_time", "distance")
     )
     return (
-        f"The {found.decoder} decoder, {found.rate:g} % of the bits of "
-        f"{sent_text(found.scene)}, at {', '.join(values)}"
+        f"The {limits.decoder} decoder, {limits.rate:g} % of the bits of "
+        f"{sent_text(scene)}, at {', '.join(values)}"
     )
 
 
-def _line(parameter: str, what: str, end: RangeEnd) -> AdviceLine:
+def _make_line(parameter: str, what: str, end: RangeEnd) -> AdviceLine:
     sentence = f"The {what} that it reads is {format_value(parameter, end.value)}: "
     sentence += end_text(parameter, end)
     if end.inside is None:

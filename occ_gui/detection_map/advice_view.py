@@ -13,7 +13,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from occ_gui.detection_map.advice_sentences import AdviceLine, advice_lines, say_what_holds
+from occ_gui.detection_map.advice_sentences import AdviceLine, describe_outdated, make_advice_lines
 from occ_gui.detection_map.limit_cards import LimitCards
 from occ_gui.widgets.building import ScrollPane, fill, name_widget, paragraph, push_button
 from occ_gui.widgets.elided_label import ElidedLabel
@@ -42,7 +42,7 @@ class AdviceView(QWidget):
         self.destinations: dict[QPushButton, tuple[str, QLabel]] = {}
         """The parameter that each button changes, and the sentence beside it."""
         self._common: list[str] = []
-        self._ended = ""
+        self._end_sentence = ""
         self.back = push_button("Back to the map", "Show the map again.", self.back_asked)
         self.again = push_button(
             "Ask again", "Search for the limits of the current scene.", self.asked
@@ -64,8 +64,8 @@ class AdviceView(QWidget):
         self.content = QWidget()
         column = QVBoxLayout(self.content)
         self._column = fill(column, self.hint, (None, 1), margins=(0, 0, 4, 0))
-        scrolled = ScrollPane(self.content, _LEAST)
-        fill(QVBoxLayout(self), head, (scrolled, 1), margins=(4, 2, 4, 2))
+        scroll_pane = ScrollPane(self.content, _LEAST)
+        fill(QVBoxLayout(self), head, (scroll_pane, 1), margins=(4, 2, 4, 2))
 
     def _show_running(self, running: bool) -> None:
         self.progress.setVisible(running)
@@ -96,7 +96,7 @@ class AdviceView(QWidget):
     def show_advice(self, advice: Advice) -> None:
         self.hint.hide()
         self.cards.show_advice(advice)
-        for line in advice_lines(advice, self._frames_a_second):
+        for line in make_advice_lines(advice, self._frames_a_second):
             if not line.is_common:
                 self._add(line, advice.limits.decoder)
             elif line.text not in self._common:
@@ -105,7 +105,7 @@ class AdviceView(QWidget):
                 self._add_common(line)
 
     def show_advice_ended(self, sentence: str) -> None:
-        self._ended = sentence
+        self._end_sentence = sentence
         self.cards.show_ended(sentence)
         self.state.set_full_text(sentence)
         self._show_running(False)
@@ -115,17 +115,14 @@ class AdviceView(QWidget):
         self.cards.show_outdated(outdated and "switching_frequency" not in reachable)
         if not self.lines:
             return
-        text = say_what_holds(reachable)
-        self.state.set_full_text(text if outdated else self._ended)
+        text = describe_outdated(reachable)
+        self.state.set_full_text(text if outdated else self._end_sentence)
         for line in self.lines:
             for label in line.findChildren(QLabel):
                 label.setEnabled(not outdated)
         for button, (parameter, label) in self.destinations.items():
             for part in (button, label):
                 part.setEnabled(not outdated or parameter in reachable)
-
-    def sentences(self) -> list[str]:
-        return [label.text() for line in self.lines for label in line.findChildren(QLabel)]
 
     def _add_common(self, line: AdviceLine) -> None:
         self._common.append(line.text)
@@ -144,13 +141,13 @@ class AdviceView(QWidget):
         label.setFont(font)
         layout = fill(QHBoxLayout(row), (label, 1), margins=0)
         if line.destination is not None:
-            button = self._destination(*line.destination, decoder)
+            button = self._make_button(*line.destination, decoder)
             self.destinations[button] = (line.destination[0], label)
             layout.addWidget(button, 0, Qt.AlignmentFlag.AlignTop)
         self._column.insertWidget(place, row)
         self.lines.append(row)
 
-    def _destination(self, name: str, value: float, text: str, decoder: str) -> QPushButton:
+    def _make_button(self, name: str, value: float, text: str, decoder: str) -> QPushButton:
         return push_button(
             f"Take me to {text}",
             f"Change the scene to {text}, where it read every bit.",

@@ -13,11 +13,11 @@ def advise(
     scene: Scene, settings: RateSettings, decoder: str, rate: float, heartbeat: Heartbeat
 ) -> Advice:
     """Find the limits of a decoder's working range, and the theoretical limits."""
-    found = limits(
+    searched = limits(
         scene, decoder, rate=rate, images=settings.images, seed=settings.seed,
         tolerance=settings.tolerance, force=settings.force, path=settings.path, heartbeat=heartbeat,
     )  # fmt: skip
-    return advice_of(found)
+    return advice_of(searched)
 
 
 def search_most_bits(
@@ -25,5 +25,5 @@ def search_most_bits(
 ) -> MostBits:
     most = 1.0 / (scene.camera.columns * scene.camera.readout_time)
     frames = min(frames_a_second, most)
-    (found,) = most_bits(scene, (decoder,), frames_a_second=frames, heartbeat=heartbeat)
-    return found
+    (best,) = most_bits(scene, (decoder,), frames_a_second=frames, heartbeat=heartbeat)
+    return best

@@ -29,16 +29,16 @@ def colour_table(name: str) -> ByteArray:
 
 def to_colours(values: FloatArray, low: float, high: float, name: str) -> ByteArray:
     """Map values, shape (x, y), to colours, shape (x, y, 4); not-a-number becomes transparent."""
-    there = np.isfinite(values)
-    fraction = np.where(there, (values - low) / (high - low), 0.0)
+    is_known = np.isfinite(values)
+    fraction = np.where(is_known, (values - low) / (high - low), 0.0)
     steps = np.rint(np.clip(fraction, 0.0, 1.0) * (_STEPS - 1)).astype(np.int64)
     colours = np.empty((*values.shape, 4), dtype=np.uint8)
     colours[..., :3] = colour_table(name)[steps]
-    colours[..., 3] = np.where(there, 255, 0)
+    colours[..., 3] = np.where(is_known, 255, 0)
     return colours
 
 
-def image_of(colours: ByteArray) -> QImage:
+def make_image(colours: ByteArray) -> QImage:
     """Make an image of colours, shape (x, y, 4), with the first y at the bottom."""
     rows = np.ascontiguousarray(colours.transpose(1, 0, 2)[::-1])
     height, width = rows.shape[:2]

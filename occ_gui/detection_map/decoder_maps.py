@@ -13,7 +13,7 @@ from occ_gui.detection_map.colour_map import (
     RATES,
     ColourBar,
     colour_table,
-    image_of,
+    make_image,
     to_colours,
 )
 from occ_gui.detection_map.map_plot import STYLES, MapPlot, Point
@@ -44,8 +44,8 @@ class MapPlots(QWidget):
         self._rates: RateMap | None = None
         self._theory: TheoryFields | None = None
         self._lines: dict[str, list[FloatArray]] = {}
-        self._hidden: set[str] = set()
-        self._bar_drawn = ""
+        self._hidden_limits: set[str] = set()
+        self._bar_key = ""
         self.plots = tuple(self._new_plot() for _ in decoders)
         self.bar = ColourBar()
         self._grid = QGridLayout()
@@ -60,18 +60,18 @@ class MapPlots(QWidget):
         self._place_plots()
 
     def _place_plots(self) -> None:
-        shown = [plot for plot in self.plots if not plot.isHidden()]
-        in_rows = len(shown) > _MOST_IN_A_ROW and self.height() >= _LEAST_HEIGHT_OF_TWO_ROWS
-        columns = -(-len(shown) // 2) if in_rows else max(len(shown), 1)
+        visible = [plot for plot in self.plots if not plot.isHidden()]
+        in_rows = len(visible) > _MOST_IN_A_ROW and self.height() >= _LEAST_HEIGHT_OF_TWO_ROWS
+        columns = -(-len(visible) // 2) if in_rows else max(len(visible), 1)
         if columns == self._columns:
             return
         self._columns = columns
         for plot in self.plots:
             self._grid.removeWidget(plot)
-        for place, plot in enumerate(shown):
+        for place, plot in enumerate(visible):
             self._grid.addWidget(plot, place // columns, place % columns)
         for row in range(2):
-            self._grid.setRowStretch(row, int(row * columns < len(shown)))
+            self._grid.setRowStretch(row, int(row * columns < len(visible)))
         for column in range(len(self.plots)):
             self._grid.setColumnStretch(column, int(column < columns))
 
@@ -82,18 +82,18 @@ class MapPlots(QWidget):
         plot.pointed.connect(self.pointed)
         return plot
 
-    def _names(self) -> tuple[str, ...]:
+    def _list_names(self) -> tuple[str, ...]:
         return self._decoders if self._what == "both" else (self._what,)
 
     def _name_plots(self) -> None:
-        names = self._names()
+        names = self._list_names()
         for plot, name in zip(self.plots, names, strict=False):
             plot.title = self._title(name)
             plot.setAccessibleName(f"Detection map: {plot.title}")
         for place, plot in enumerate(self.plots):
             plot.setVisible(place < len(names))
         self._place_plots()
-        self._bar_drawn = ""
+        self._bar_key = ""
 
     def _title(self, name: str) -> str:
         if name == "difference":
@@ -108,14 +108,14 @@ class MapPlots(QWidget):
 
     def show_bits(self, shown: Shown, frames_a_second: float) -> None:
         self._shown, self._frames_a_second = shown, frames_a_second
-        self._bar_drawn = ""
+        self._bar_key = ""
         self._redraw()
 
     def show_limit(self, limit: str, shown: bool) -> None:
         if shown:
-            self._hidden.discard(limit)
+            self._hidden_limits.discard(limit)
         else:
-            self._hidden.add(limit)
+            self._hidden_limits.add(limit)
         self._show_lines()
 
     def limits(self) -> Collection[str]:
@@ -142,7 +142,7 @@ class MapPlots(QWidget):
     def _redraw(self) -> None:
         scheme = DIFFERENCES if self._what == "difference" else RATES
         low, high = self._scale(scheme)
-        if self._bar_drawn != f"{scheme} {high}":
+        if self._bar_key != f"{scheme} {high}":
             self._draw_bar(scheme)
         rates = self._rates
         if rates is None:
@@ -150,9 +150,10 @@ class MapPlots(QWidget):
         owners = rates.find_owners()
         unknown = owners[0] < 0
         refused = np.where(unknown, 0, rates.find_refused()[owners])
-        for plot, name in zip(self.plots, self._names(), strict=False):
+        for plot, name in zip(self.plots, self._list_names(), strict=False):
             values = np.where(unknown, np.nan, self._values(rates, name)[owners])
-            plot.show_picture(image_of(to_colours(values, low, high, scheme)), rates.shape, refused)
+            image = make_image(to_colours(values, low, high, scheme))
+            plot.show_picture(image, rates.shape, refused)
         self._show_lines()
 
     def _scale(self, scheme: str) -> tuple[float, float]:
@@ -165,16 +166,16 @@ class MapPlots(QWidget):
 
     def _values(self, rates: RateMap, name: str) -> FloatArray:
         if name == "difference":
-            return self._of(rates, self._decoders[1]) - self._of(rates, self._decoders[0])
-        return self._of(rates, name)
+            return self._select(rates, self._decoders[1]) - self._select(rates, self._decoders[0])
+        return self._select(rates, name)
 
-    def _of(self, rates: RateMap, decoder: str) -> FloatArray:
+    def _select(self, rates: RateMap, decoder: str) -> FloatArray:
         if self._shown == "rate":
             return rates.rates(decoder)
         return rates.bits_a_second(decoder, self._frames_a_second)
 
     def _show_lines(self) -> None:
-        lines = {key: found for key, found in self._lines.items() if key not in self._hidden}
+        lines = {key: each for key, each in self._lines.items() if key not in self._hidden_limits}
         for plot in self.plots:
             plot.lines = lines
             plot.update()
@@ -183,9 +184,9 @@ class MapPlots(QWidget):
         table = colour_table(scheme)
         low, high = self._scale(scheme)
         opaque = np.full((len(table), 1), 255, dtype=np.uint8)
-        image: QImage = image_of(np.hstack([table, opaque])[None])
+        image: QImage = make_image(np.hstack([table, opaque])[None])
         numbers = tuple(
-            (fraction, self._number(low + fraction * (high - low), bool(low)))
+            (fraction, self._format(low + fraction * (high - low), bool(low)))
             for fraction in (0.0, 0.25, 0.5, 0.75, 1.0)
         )
         name = "Fraction of the bits that are read correctly, in percent"
@@ -194,9 +195,9 @@ class MapPlots(QWidget):
         if self._shown == "bits":
             name = "Net bits a second, counting only pictures with every bit read correctly"
         self.bar.show_colours(image, numbers, name)
-        self._bar_drawn = f"{scheme} {high}"
+        self._bar_key = f"{scheme} {high}"
 
-    def _number(self, value: float, signed: bool) -> str:
+    def _format(self, value: float, signed: bool) -> str:
         if self._shown == "bits":
             return f"{value:+,.0f}" if signed and value else f"{value:,.0f}"
         return f"{value:+.0f} %" if signed and value else f"{value:.0f} %"
@@ -210,9 +211,9 @@ _LIMITS = {
 }
 """Name and meaning of the line of each limit."""
 
-_SAMPLE = QSize(28, 12)
+_SWATCH = QSize(28, 12)
 
-_REDRAWN_AT = (QEvent.Type.PaletteChange, QEvent.Type.DevicePixelRatioChange)
+_REDRAW_EVENTS = (QEvent.Type.PaletteChange, QEvent.Type.DevicePixelRatioChange)
 
 
 class MapLegend(QWidget):
@@ -220,15 +221,15 @@ class MapLegend(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self.buttons = {key: self._button(key, *words) for key, words in _LIMITS.items()}
+        self.buttons = {key: self._make_button(key, *words) for key, words in _LIMITS.items()}
         fill(QHBoxLayout(self), *self.buttons.values(), (None, 1), margins=0, spacing=2)
-        self._draw_samples()
+        self._draw_swatches()
 
-    def _button(self, key: str, text: str, meaning: str) -> QToolButton:
+    def _make_button(self, key: str, text: str, meaning: str) -> QToolButton:
         style = Qt.ToolButtonStyle.ToolButtonTextBesideIcon
         button = QToolButton(toolButtonStyle=style, autoRaise=True)
         button.setText(text)
-        button.setIconSize(_SAMPLE)
+        button.setIconSize(_SWATCH)
         name_widget(button, text, meaning).setCheckable(True)
         button.setChecked(True)
         button.setEnabled(False)
@@ -237,21 +238,21 @@ class MapLegend(QWidget):
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
         super().changeEvent(event)
-        if event.type() in _REDRAWN_AT:
-            self._draw_samples()
+        if event.type() in _REDRAW_EVENTS:
+            self._draw_swatches()
 
-    def _draw_samples(self) -> None:
+    def _draw_swatches(self) -> None:
         for key, button in self.buttons.items():
-            button.setIcon(QIcon(self._sample(STYLES[key])))
+            button.setIcon(QIcon(self._draw_swatch(STYLES[key])))
 
-    def _sample(self, style: Qt.PenStyle) -> QPixmap:
+    def _draw_swatch(self, style: Qt.PenStyle) -> QPixmap:
         scale = self.devicePixelRatioF()
-        pixmap = QPixmap(_SAMPLE * scale)
+        pixmap = QPixmap(_SWATCH * scale)
         pixmap.setDevicePixelRatio(scale)
         pixmap.fill(Qt.GlobalColor.transparent)
         painter = QPainter(pixmap)
         painter.setPen(QPen(self.palette().color(QPalette.ColorRole.WindowText), 2, style))
-        painter.drawLine(0, _SAMPLE.height() // 2, _SAMPLE.width(), _SAMPLE.height() // 2)
+        painter.drawLine(0, _SWATCH.height() // 2, _SWATCH.width(), _SWATCH.height() // 2)
         painter.end()
         return pixmap
 

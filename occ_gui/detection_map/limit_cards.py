@@ -6,7 +6,7 @@ from PySide6.QtCore import QEvent, QTimer, Signal
 from PySide6.QtGui import QHideEvent, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QWidget
 
-from occ_gui.detection_map.advice_sentences import line_on_highest_frequency
+from occ_gui.detection_map.advice_sentences import make_frequency_line
 from occ_gui.widgets.building import fill, name_widget, paragraph, push_button
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.text_scale import heading_font
@@ -50,9 +50,9 @@ class LimitCards(QWidget):
             card.chosen.connect(self._go)
         self.frames_a_second = FRAMES_A_SECOND  # for computing bits a second
         self._is_complete = self._is_running = self._is_outdated = False
-        self.waiting = QTimer(self, singleShot=True)
-        self.waiting.setInterval(REST_MS)
-        self.waiting.timeout.connect(self.asked)
+        self.rest_timer = QTimer(self, singleShot=True)
+        self.rest_timer.setInterval(REST_MS)
+        self.rest_timer.timeout.connect(self.asked)
 
     def _go(self, frequency: float, decoder: str) -> None:
         self.destination_chosen.emit(_PARAMETER, frequency, decoder)
@@ -63,15 +63,15 @@ class LimitCards(QWidget):
 
     def hideEvent(self, event: QHideEvent) -> None:  # noqa: N802 - Qt's name
         super().hideEvent(event)
-        self.waiting.stop()
+        self.rest_timer.stop()
 
     def _plan(self) -> None:
-        is_wanted = self._is_outdated or not self._is_complete
-        if is_wanted and not self._is_running and self.isVisible():
-            self.waiting.start()
+        is_needed = self._is_outdated or not self._is_complete
+        if is_needed and not self._is_running and self.isVisible():
+            self.rest_timer.start()
 
     def show_begun(self) -> None:
-        self.waiting.stop()
+        self.rest_timer.stop()
         self._is_running, self._is_outdated = True, False
         for card in self.cards.values():
             card.show_searching()
@@ -79,14 +79,14 @@ class LimitCards(QWidget):
     def show_advice(self, advice: Advice) -> None:
         card = self.cards.get(advice.limits.decoder)
         if card is not None:
-            line = line_on_highest_frequency(advice)
-            found = advice.limits.frequency
+            line = make_frequency_line(advice)
+            frequencies = advice.limits.frequency
             bits = own_text(advice.limits, self.frames_a_second)
-            to = "" if found.most_chips is None else search_end_text(found)
-            texts = (advice.cause, line.text, found.faults, gaps_text(found), to, bits)
+            end = "" if frequencies.most_chips is None else search_end_text(frequencies)
+            texts = (advice.cause, line.text, frequencies.faults, gaps_text(frequencies), end, bits)
             tip = "\n".join(text for text in texts if text)
-            card.show_limit(found.highest, tip, advice.limits.rate)
-            card.show_range(found, "" if found.intervals else advice.cause)
+            card.show_limit(frequencies.highest, tip, advice.limits.rate)
+            card.show_range(frequencies, "" if frequencies.intervals else advice.cause)
 
     def show_ended(self, why_not: str = "") -> None:
         self._is_running, self._is_complete = False, not why_not
@@ -98,7 +98,7 @@ class LimitCards(QWidget):
         self._is_outdated = outdated
         for card in self.cards.values():
             card.set_outdated(outdated)
-        self.waiting.stop()
+        self.rest_timer.stop()
         self._plan()
 
 
@@ -162,9 +162,9 @@ class LimitCard(QFrame):
         # The button names the frequency: it lies inside the limit, not on it.
         self.go.setText("Go" if destination is None else f"Go to {_format_frequency(destination)}")
         self._place_button()
-        self._show_way()
+        self._update_button()
 
-    def _show_way(self) -> None:
+    def _update_button(self) -> None:
         """Enable the button if the limit is of the present scene; else explain why it is not."""
         self.go.setEnabled(self._destination is not None and not self._is_outdated)
         self.go.setToolTip(
@@ -195,16 +195,16 @@ class LimitCard(QFrame):
         limit = f"at least {value}" if end.fails is None else f"{value} ({rate:g} %)"
         self._show(limit, text, None if inside is None else inside.value)
 
-    def show_range(self, found: WorkingRange, cause: str = "") -> None:
+    def show_range(self, frequencies: WorkingRange, cause: str = "") -> None:
         """Show the frequencies read; ``cause``: why none is, where that is known."""
-        texts = [text for text in (cause, "a plug-in failed" if found.faults else "") if text]
-        if found.gaps:
-            end, after = found.gaps[0]
-            more = len(found.gaps) - 1
+        texts = [text for text in (cause, "a plug-in failed" if frequencies.faults else "") if text]
+        if frequencies.gaps:
+            end, after = frequencies.gaps[0]
+            more = len(frequencies.gaps) - 1
             gap = f"gap {_format_frequency(end.value)} to {_format_frequency(after.value)}"
             texts.insert(0, f"{gap} and {counted(more, 'gap')} more" if more else gap)
-        if found.lowest is not None:
-            texts.insert(0, f"from {_format_frequency(found.lowest.value)}")
+        if frequencies.lowest is not None:
+            texts.insert(0, f"from {_format_frequency(frequencies.lowest.value)}")
         self.range.set_full_text("; ".join(texts))
 
     def set_outdated(self, outdated: bool) -> None:
@@ -217,7 +217,7 @@ class LimitCard(QFrame):
             else f"{self._decoder.capitalize()}: up to"
         )
         self._place_button()
-        self._show_way()
+        self._update_button()
 
 
 _DIGITS = 3
@@ -262,15 +262,15 @@ class MostBitsCard(QFrame):
         self._is_running, self._is_outdated = True, False
         self._show()
 
-    def show_tried(self, decoder: str, pictures: int) -> None:
+    def show_progress(self, decoder: str, pictures: int) -> None:
         self._state = f"searching with {decoder}, {counted(pictures, 'picture')} tried"
         self._show()
 
-    def show_found(self, found: MostBits) -> None:
-        if found.scene is None:
-            self._failures.append(f"{found.decoder}: {found.failure} {found.faults}".strip())
-        elif self._best is None or found.bits_a_second > self._best.bits_a_second:
-            self._best = found
+    def show_result(self, result: MostBits) -> None:
+        if result.scene is None:
+            self._failures.append(f"{result.decoder}: {result.failure} {result.faults}".strip())
+        elif self._best is None or result.bits_a_second > self._best.bits_a_second:
+            self._best = result
         self._show()
 
     def show_ended(self, sentence: str) -> None:
@@ -288,14 +288,14 @@ class MostBitsCard(QFrame):
         self.go.setVisible(best is not None)
         self.go.setEnabled(not self._is_outdated)
         self.text.setEnabled(not self._is_outdated)
-        self.text.set_full_text(self._with_state(self._sentence(best)))
+        self.text.set_full_text(self._with_state(self._describe(best)))
 
     def _with_state(self, sentence: str) -> str:
         """Append the progress of the search, or the reasons why it has no result."""
         parts = (sentence, self._state, *(self._failures if self._best is None else ()))
         return "; ".join(part for part in parts if part)
 
-    def _sentence(self, best: MostBits | None) -> str:
+    def _describe(self, best: MostBits | None) -> str:
         if best is None or best.scene is None:
             return "Which code, frequency and number of bits carry most?"
         sent = best.scene.transmitter

@@ -49,20 +49,20 @@ def ticks(quantity: Quantity, most: int) -> list[Tick]:
     factor = axis_unit(quantity)[1]
     values = _log_values if quantity.scale == "log" else _linear_values
     low, high = (end / factor for end in quantity.slider)
-    chosen = values(low, high, max(2, most))
-    return [Tick(quantity.fraction(value * factor), f"{value:g}") for value in chosen]
+    numbers = values(low, high, max(2, most))
+    return [Tick(quantity.fraction(value * factor), f"{value:g}") for value in numbers]
 
 
 def _log_values(low: float, high: float, most: int) -> list[float]:
     powers = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
-    found: list[float] = []
+    within: list[float] = []
     for steps in ((1.0, 2.0, 5.0), (1.0, 3.0), (1.0,)):
         # Rounded as decimal text: 2e-05, not 2.0000000000000003e-05.
         values = [float(f"{step}e{power}") for power in powers for step in steps]
-        found = [v for v in values if low * (1 - 1e-9) <= v <= high * (1 + 1e-9)]
-        if len(found) <= most:
+        within = [v for v in values if low * (1 - 1e-9) <= v <= high * (1 + 1e-9)]
+        if len(within) <= most:
             break
-    return found[:: math.ceil(len(found) / most)] if found else [low, high]
+    return within[:: math.ceil(len(within) / most)] if within else [low, high]
 
 
 def _linear_values(low: float, high: float, most: int) -> list[float]:
@@ -115,10 +115,10 @@ class MapPlot(QWidget):
         self._axes: tuple[Quantity, Quantity] | None = None
         self._shape = (1, 1)
         self._image = QImage()
-        self._refused: Sequence[tuple[int, int]] = ()
+        self._refused_cells: Sequence[tuple[int, int]] = ()
         self._cursor: tuple[int, int] | None = None
         self._area = QRectF()
-        self._area_of: tuple[QSize, bool] | None = None
+        self._area_key: tuple[QSize, bool] | None = None
         self.setMouseTracking(True)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
@@ -132,20 +132,20 @@ class MapPlot(QWidget):
 
     def show_axes(self, x: Quantity, y: Quantity) -> None:
         self._axes = (x, y)
-        self._image, self._refused, self.lines = QImage(), (), {}
+        self._image, self._refused_cells, self.lines = QImage(), (), {}
         self._cursor = None
         self.update()
 
     def show_picture(self, image: QImage, shape: tuple[int, int], refused: IndexArray) -> None:
         self._image, self._shape = image, shape
-        self._refused = [(int(x), int(y)) for x, y in zip(*refused.nonzero(), strict=True)]
+        self._refused_cells = [(int(x), int(y)) for x, y in zip(*refused.nonzero(), strict=True)]
         self.update()
 
     def area(self) -> QRectF:
         """Return the rectangle inside the axes, in pixels."""
-        known = (self.size(), bool(self.title))
-        if self._area_of != known:
-            self._area_of, self._area = known, self._find_area()
+        key = (self.size(), bool(self.title))
+        if self._area_key != key:
+            self._area_key, self._area = key, self._find_area()
         return self._area
 
     def _find_area(self) -> QRectF:
@@ -183,7 +183,7 @@ class MapPlot(QWidget):
         painter.fillRect(area, self.palette().color(QPalette.ColorRole.Base))
         painter.drawImage(area, self._image)
         hatch = QBrush(self.palette().color(QPalette.ColorRole.Mid), Qt.BrushStyle.BDiagPattern)
-        for cell in self._refused:
+        for cell in self._refused_cells:
             painter.fillRect(self._cell(*cell), hatch)
         painter.setPen(self.palette().color(QPalette.ColorRole.Mid))
         painter.drawRect(area)
@@ -219,17 +219,17 @@ class MapPlot(QWidget):
                 spot, Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter, tick.text
             )
         below = QRectF(area.left(), self.height() - line, area.width(), line)
-        painter.drawText(below, centre, self._title_within(x, area.width()))
+        painter.drawText(below, centre, self._fit_title(x, area.width()))
         painter.drawText(QRectF(area.left(), 0, area.width(), line), centre, self.title)
         painter.save()
         painter.translate(0, area.bottom())
         painter.rotate(-90)
         painter.drawText(
-            QRectF(0, 0, area.height(), line), centre, self._title_within(y, area.height())
+            QRectF(0, 0, area.height(), line), centre, self._fit_title(y, area.height())
         )
         painter.restore()
 
-    def _title_within(self, quantity: Quantity, width: float) -> str:
+    def _fit_title(self, quantity: Quantity, width: float) -> str:
         metrics = self.fontMetrics()
         whole = axis_title(quantity)
         if metrics.horizontalAdvance(whole) <= width:
@@ -241,29 +241,29 @@ class MapPlot(QWidget):
         pen = QPen(_INK, 1.6, STYLES[key])
         casing = QPen(_CASING, 3.6)
         for line in lines:
-            path = QPolygonF([self.place_of(point) for point in self._to_edges(line)])
+            path = QPolygonF([self.place_of(point) for point in self._extend_to_edges(line)])
             for each in (casing, pen):
                 painter.setPen(each)
                 painter.drawPolyline(path)
 
-    def _to_edges(self, line: FloatArray) -> list[Point]:
+    def _extend_to_edges(self, line: FloatArray) -> list[Point]:
         """Extend a line that ends at the centres of the outermost cells to the edge of the map."""
         points: list[Point] = [(float(x), float(y)) for x, y in line]
         if len(points) < 2 or self._image.isNull():
             return points
         first, last = points[0], points[-1]
-        ahead = self._beyond(points[1], first)
-        behind = self._beyond(points[-2], last)
+        ahead = self._find_exit(points[1], first)
+        behind = self._find_exit(points[-2], last)
         return [*([ahead] if ahead else []), *points, *([behind] if behind else [])]
 
-    def _beyond(self, before: Point, end: Point) -> Point | None:
+    def _find_exit(self, before: Point, end: Point) -> Point | None:
         """Return where a line leaves the map; None if it ends inside the range of both axes."""
         steps = []
         for from_, to, count in zip(before, end, self._shape, strict=True):
-            way, margin = to - from_, 0.5 / max(count - 1, 1)
+            change, margin = to - from_, 0.5 / max(count - 1, 1)
             is_at_end = min(abs(to), abs(1.0 - to)) < _END_TOLERANCE
-            if is_at_end and way and (way > 0.0) == (to > 0.5):
-                steps.append(margin / abs(way))
+            if is_at_end and change and (change > 0.0) == (to > 0.5):
+                steps.append(margin / abs(change))
         if not steps:
             return None
         step = min(steps)
@@ -313,8 +313,8 @@ class MapPlot(QWidget):
         if start is None:
             x, y = self.setting or (0.5, 0.5)
             start = (round(x * (self._shape[0] - 1)), round(y * (self._shape[1] - 1)))
-        moved = zip(start, (across, up), self._shape, strict=True)
-        x, y = (min(max(place + step, 0), count - 1) for place, step, count in moved)
+        axes = zip(start, (across, up), self._shape, strict=True)
+        x, y = (min(max(place + step, 0), count - 1) for place, step, count in axes)
         self._point_at((int(x), int(y)))
 
     def _point_at(self, cell: tuple[int, int] | None) -> None:

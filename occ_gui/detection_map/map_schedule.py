@@ -24,7 +24,7 @@ less than a second."""
 
 IMAGES = (1, 2, 5)  # images of each point, in successive stages
 
-COARSE, FINE, SURE = 0, 2, 4
+COARSE, FINE, MORE_IMAGES = 0, 2, 4
 """Priorities: first points, all points, more images of each point. Strips come in between."""
 
 _THEORY_SHAPES = ((7, 5), (17, 9))
@@ -53,24 +53,24 @@ class MapRequest:
 
     def sweep(self, images: int, decoders: tuple[str, ...] = QUICK_DECODERS) -> SweepRequest:
         axes = {self.x: lattice(self.x, SHAPE[0]), self.y: lattice(self.y, SHAPE[1])}
-        measured = rate_settings(self.settings, images, decoders, self.with_image_effects)
-        return SweepRequest(self.scene, axes, measured)
+        settings = rate_settings(self.settings, images, decoders, self.with_image_effects)
+        return SweepRequest(self.scene, axes, settings)
 
     def jobs(
-        self, images: IndexArray, with_theory: bool, found_slow: Callable[[], object] = lambda: None
+        self, images: IndexArray, with_theory: bool, on_slow: Callable[[], object] = lambda: None
     ) -> Iterator[Job]:
-        """Yield the remaining jobs; call ``found_slow`` if the first points already take long."""
-        slow = self.with_image_effects and bool(find_left_out(self.scene, self.settings))
-        if slow:
-            found_slow()
-        yield from map_jobs(tuple(map(self.sweep, IMAGES)), images, with_theory, slow)
+        """Yield the remaining jobs; call ``on_slow`` if the first points already take long."""
+        is_slow = self.with_image_effects and bool(find_left_out(self.scene, self.settings))
+        if is_slow:
+            on_slow()
+        yield from map_jobs(tuple(map(self.sweep, IMAGES)), images, with_theory, is_slow)
 
 
-def table_of(
-    rates: RateMap, asked: MapRequest, frames_a_second: float = FRAMES_A_SECOND
+def make_table(
+    rates: RateMap, map_request: MapRequest, frames_a_second: float = FRAMES_A_SECOND
 ) -> SweepTable:
     """Return a complete map as a table, a copy that later points do not change."""
-    request = asked.sweep(rates.least_images, rates.decoders)
+    request = map_request.sweep(rates.least_images, rates.decoders)
     settings = replace(request.settings, frames_a_second=frames_a_second)
     sent, right = rates.sent.copy(), rates.right.copy()
     ends = np.array(
@@ -88,7 +88,7 @@ def table_of(
 
 
 def map_jobs(
-    requests: tuple[SweepRequest, ...], images: IndexArray, with_theory: bool, slow: bool
+    requests: tuple[SweepRequest, ...], images: IndexArray, with_theory: bool, is_slow: bool
 ) -> Iterator[Job]:
     """Yield the jobs of a map.
 
@@ -98,24 +98,25 @@ def map_jobs(
     order = list(first.in_order_of_work())
     done = images.ravel()
     for stride in STRIDES:
-        on = _on_lattice(first.shape, stride)
-        new = [i for i in order if on[i] and done[i] < first.settings.images]
-        done = np.where(on, np.maximum(done, first.settings.images), done)
-        jobs = _jobs(first, new, slow)
-        coarse = stride == STRIDES[0]
+        is_on = _on_lattice(first.shape, stride)
+        new = [i for i in order if is_on[i] and done[i] < first.settings.images]
+        done = np.where(is_on, np.maximum(done, first.settings.images), done)
+        jobs = _jobs(first, new, is_slow)
+        is_coarse = stride == STRIDES[0]
         if with_theory and stride != STRIDES[-1]:
             # Last, so that it runs in a process that has no more points to measure.
-            jobs = (*jobs, _theory(first, _THEORY_SHAPES[0 if coarse else 1]))
+            jobs = (*jobs, _theory_job(first, _THEORY_SHAPES[0 if is_coarse else 1]))
         # Slow points take too long to be finished for an outdated request.
         for job in jobs:
-            yield replace(job, rank=COARSE if coarse else FINE, uninterruptible=coarse and not slow)
+            rank = COARSE if is_coarse else FINE
+            yield replace(job, rank=rank, uninterruptible=is_coarse and not is_slow)
     for request in others:
         new = [i for i in order if done[i] < request.settings.images]
-        for job in _jobs(request, new, slow):
-            yield replace(job, rank=SURE)
+        for job in _jobs(request, new, is_slow):
+            yield replace(job, rank=MORE_IMAGES)
 
 
-def _theory(request: SweepRequest, shape: tuple[int, int]) -> Job:
+def _theory_job(request: SweepRequest, shape: tuple[int, int]) -> Job:
     x, y = request.axes
     return Job(theory_fields, (request.scene, x, y, shape))
 
@@ -125,9 +126,9 @@ def _on_lattice(shape: tuple[int, ...], stride: int) -> IndexArray:
     return np.asarray(np.logical_and.outer(*along).ravel())
 
 
-def _jobs(request: SweepRequest, indices: list[int], slow: bool) -> tuple[Job, ...]:
+def _jobs(request: SweepRequest, indices: list[int], is_slow: bool) -> tuple[Job, ...]:
     """Make a job of each line of points, along which decoders can reuse what they prepare."""
-    if slow:
+    if is_slow:
         return tuple(_job(request, (index,)) for index in indices)
     along_y = request.shape[1]
     first, second = islice(request.in_order_of_work(), 2)

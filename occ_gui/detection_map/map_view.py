@@ -27,7 +27,7 @@ class MapView(QWidget):
 
     axes_chosen = Signal(str, str)  # the parameters that the user chose for the axes, x and y
 
-    def __init__(self, decoders: Sequence[str], advised: Sequence[str] | None = None) -> None:
+    def __init__(self, decoders: Sequence[str], for_advice: Sequence[str] | None = None) -> None:
         super().__init__()
         self._failure = self._refusal = ""
         self._progress = "measuring the first points…"
@@ -52,7 +52,7 @@ class MapView(QWidget):
         self.status = name_widget(ElidedLabel(how=Qt.TextElideMode.ElideMiddle), "State of the map")
         self.left_out = name_widget(ElidedLabel(), "Effects that the map leaves out")
         self.left_out.hide()
-        self.advice = AdviceView(decoders if advised is None else advised)
+        self.advice = AdviceView(decoders if for_advice is None else for_advice)
         self.cards = self.advice.cards
         self.most_bits = MostBitsCard()
         self._lay_out()
@@ -105,11 +105,11 @@ class MapView(QWidget):
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         super().resizeEvent(event)
-        with_cards = self.height() >= _LEAST_HEIGHT_WITH_CARDS
+        has_cards = self.height() >= _LEAST_HEIGHT_WITH_CARDS
         for card in (self.cards, self.most_bits):
-            card.setVisible(with_cards)
+            card.setVisible(has_cards)
         # In a low pane, the button shares the line of the state.
-        line = self._searches if with_cards else self._state
+        line = self._searches if has_cards else self._state
         if line.indexOf(self.advise) == -1:
             line.addWidget(self.advise)
 
@@ -183,18 +183,18 @@ class MapView(QWidget):
             progress = self._progress.replace("{what}", self.shown.currentText())
             text = self._failure or self._refusal or progress
         else:
-            counts = self._counts(facts) if facts.sent else ""
+            counts = self._describe_counts(facts) if facts.sent else ""
             known = "; ".join(text for text in (counts, facts.note) if text)
-            text = f"{self._position(facts)}: {known}"
+            text = f"{self._describe_place(facts)}: {known}"
         if self._is_outdated and not self._failure:
             text = f"Earlier scene: {text}"
         self.status.set_full_text(text)
 
-    def _position(self, facts: PointFacts) -> str:
+    def _describe_place(self, facts: PointFacts) -> str:
         x, y = (quantity(name) for name in self._axes)
         return f"{x.format(facts.x, 4)}, {y.format(facts.y, 4)}"
 
-    def _counts(self, facts: PointFacts) -> str:
+    def _describe_counts(self, facts: PointFacts) -> str:
         if self.shown.key() == "bits":
             return "; ".join(
                 f"{decoder} {facts.most_bits * whole / facts.images:,.0f} bits a second, "

@@ -30,16 +30,16 @@ class DetectionMapController(QObject):
         self._scenes = scenes
         self.channel, self._pane = channel, pane
         bits = scenes.store.select(lambda workspace: (workspace.shown, workspace.frame_rate))
-        bits.changed.connect(lambda chosen: pane.show_bits(*chosen))
+        bits.changed.connect(lambda choice: pane.show_bits(*choice))
         self._axes = FIRST_AXES
         self._with_image_effects = True
-        self._seen = False
-        self._asked: MapRequest | None = None
-        self._shown: MapRequest | None = None
-        self._awaited: MapRequest | None = None
+        self._is_visible = False
+        self._last_request: MapRequest | None = None
+        self._map_request: MapRequest | None = None
+        self._awaited_request: MapRequest | None = None
         self.map: RateMap | None = None
         self._ages = ResultAges(self._request())
-        channel.results_ready.connect(self._take)
+        channel.results_ready.connect(self._enter)
         channel.finished.connect(self._finish)
         channel.failed.connect(self._fail)
         channel.status_message.connect(pane.show_failure)
@@ -47,29 +47,29 @@ class DetectionMapController(QObject):
             store.changed.connect(self._follow_change)
 
     @property
-    def is_first_answer_awaited(self) -> bool:
+    def awaits_first_points(self) -> bool:
         """Whether the first points of a map are being measured and are not slow; thread-safe."""
-        return self._awaited is not None
+        return self._awaited_request is not None
 
     @property
     def is_current(self) -> bool:
-        return self.map is not None and self._shown == self._request()
+        return self.map is not None and self._map_request == self._request()
 
     @property
-    def full(self) -> "tuple[RateMap, MapRequest] | None":
+    def full(self) -> tuple[RateMap, MapRequest] | None:
         """The map and its request; None while points are missing."""
-        if self.map is None or self._shown is None or not self.is_current:
+        if self.map is None or self._map_request is None or not self.is_current:
             return None
-        return (self.map, self._shown) if self.map.least_images else None
+        return (self.map, self._map_request) if self.map.least_images else None
 
     def _request(self) -> MapRequest:
         x, y = self._axes
-        given = {name: quantity(name).default for name in self._axes}
-        scene = self._scenes.scene.replace(**{**UNSEEN_PARAMETERS, **given})
+        defaults = {name: quantity(name).default for name in self._axes}
+        scene = self._scenes.scene.replace(**{**UNSEEN_PARAMETERS, **defaults})
         return MapRequest(scene, x, y, self._scenes.settings.settings, self._with_image_effects)
 
     def set_seen(self, seen: bool) -> None:
-        self._seen = seen
+        self._is_visible = seen
         if seen:
             self._follow_change()
         else:
@@ -84,28 +84,28 @@ class DetectionMapController(QObject):
         self._pane.show_axes(x, y)
         self._follow_change()
 
-    def use_image_effects(self, wanted: bool) -> None:
+    def use_image_effects(self, used: bool) -> None:
         """Set whether image effects are simulated, row by row, or left out."""
-        self._with_image_effects = wanted
+        self._with_image_effects = used
         self._follow_change()
 
     def _follow_change(self) -> None:
-        if not self._seen:
+        if not self._is_visible:
             return
         self._pane.show_scene(self._scenes.scene)
         self._show_left_out()
         request = self._request()
         self._ages.begin(request)
         self._show_age()
-        if request == self._asked:
+        if request == self._last_request:
             return
-        self._asked = request
+        self._last_request = request
         self._pane.show_failure("")
-        held = self.map if request == self._shown else None
-        known = request.empty_map() if held is None else held
-        self._awaited = request if held is None else None
-        found_slow = partial(self._end_wait, request)
-        jobs = request.jobs(known.images.copy(), known.theory is None, found_slow)
+        present = self.map if request == self._map_request else None
+        rates = request.empty_map() if present is None else present
+        self._awaited_request = request if present is None else None
+        on_slow = partial(self._end_wait, request)
+        jobs = request.jobs(rates.images.copy(), rates.theory is None, on_slow)
         self.channel.put(request, jobs)
 
     def _show_left_out(self) -> None:
@@ -113,13 +113,13 @@ class DetectionMapController(QObject):
         self._pane.show_left_out(() if self._with_image_effects else find_left_out(scene, settings))
 
     def _end_wait(self, request: MapRequest) -> None:
-        if self._awaited is request:
-            self._awaited = None
+        if self._awaited_request is request:
+            self._awaited_request = None
 
-    def _take(self, request: MapRequest, results: list[MeasuredPoints | TheoryFields]) -> None:
+    def _enter(self, request: MapRequest, results: list[MeasuredPoints | TheoryFields]) -> None:
         self._end_wait(request)
-        if request != self._shown or self.map is None:
-            self.map, self._shown = request.empty_map(), request
+        if request != self._map_request or self.map is None:
+            self.map, self._map_request = request.empty_map(), request
         for result in results:
             if isinstance(result, TheoryFields):
                 self.map.theory = result
@@ -130,7 +130,7 @@ class DetectionMapController(QObject):
         self._show_progress()
 
     def _show_age(self) -> None:
-        self._pane.show_age(0.0 if self._shown is None else self._ages.age(self._shown))
+        self._pane.show_age(0.0 if self._map_request is None else self._ages.age(self._map_request))
 
     def _show_progress(self) -> None:
         assert self.map is not None  # noqa: S101 - it is called when there is a map
@@ -138,48 +138,48 @@ class DetectionMapController(QObject):
         self._pane.show_progress(self.map.known, total, self.map.least_images)
 
     def _finish(self, request: MapRequest) -> None:
-        if request == self._shown:
+        if request == self._map_request:
             self._show_progress()
 
     def _fail(self, sentence: str) -> None:
-        self._awaited = None
+        self._awaited_request = None
         self._pane.show_failure(sentence)
 
     def _stop(self) -> None:
         self.channel.cancel()
-        self._asked = self._awaited = None
+        self._last_request = self._awaited_request = None
 
     def point_at(self, place: tuple[int, int] | None) -> None:
         """Show what is known about a point, given by its indices along both axes."""
-        shown = self.map
+        rates = self.map
         x, y = -1, -1
-        if place is not None and shown is not None:
-            x, y = (int(owner[place]) for owner in shown.find_owners())
-        if shown is None or x < 0:
+        if place is not None and rates is not None:
+            x, y = (int(owner[place]) for owner in rates.find_owners())
+        if rates is None or x < 0:
             self._pane.show_facts(None)
             return
-        index, sent = x * shown.shape[1] + y, int(shown.sent[x, y])
-        right = tuple(int(count) for count in shown.right[x, y])
-        ends = rate_intervals(SweepPoint(index, sent, right), max(1, int(shown.images[x, y])))
+        index, sent = x * rates.shape[1] + y, int(rates.sent[x, y])
+        right = tuple(int(count) for count in rates.right[x, y])
+        ends = rate_intervals(SweepPoint(index, sent, right), max(1, int(rates.images[x, y])))
         counts = tuple(
             (name, count, low, high)
-            for name, count, (low, high) in zip(shown.decoders, right, ends, strict=True)
+            for name, count, (low, high) in zip(rates.decoders, right, ends, strict=True)
         )
         self._pane.show_facts(
             PointFacts(
-                shown.x_values[x], shown.y_values[y], counts, sent,
-                int(shown.images[x, y]), shown.notes.get(index, ""),
-                tuple(int(count) for count in shown.whole[x, y]),
-                float(shown.most_bits(self._scenes.store.workspace.frame_rate)[x, y]),
+                rates.x_values[x], rates.y_values[y], counts, sent,
+                int(rates.images[x, y]), rates.notes.get(index, ""),
+                tuple(int(count) for count in rates.whole[x, y]),
+                float(rates.most_bits(self._scenes.store.workspace.frame_rate)[x, y]),
             )
         )  # fmt: skip
 
     def go_to(self, place: tuple[int, int]) -> None:
         """Set the scene to a point, given by its indices along both axes, in one undo step."""
-        shown = self.map
-        if shown is not None:
+        rates = self.map
+        if rates is not None:
             x, y = place
-            changes = {shown.x: shown.x_values[x], shown.y: shown.y_values[y]}
+            changes = {rates.x: rates.x_values[x], rates.y: rates.y_values[y]}
             self._scenes.change(NO_GESTURE, **changes)
 
 
@@ -191,11 +191,11 @@ class MapPane(Pane[None]):
         super().__init__(view)
         self.view = view
         store, queue = scenes.store, background_rates.queue
-        of_map, of_advice, of_most = map(background_rates.channel, ("map", "advice", "most bits"))
-        self.map = DetectionMapController(scenes, of_map, view)
-        self.advisor = AdvisorController(scenes, queue, of_advice, view.advice)
-        self.most_bits = MostBitsController(scenes, queue, of_most, view.most_bits)
-        self.measures = (of_map, of_advice, of_most)
+        channels = tuple(map(background_rates.channel, ("map", "advice", "most bits")))
+        self.map = DetectionMapController(scenes, channels[0], view)
+        self.advisor = AdvisorController(scenes, queue, channels[1], view.advice)
+        self.most_bits = MostBitsController(scenes, queue, channels[2], view.most_bits)
+        self.measures = channels
         view.axes_chosen.connect(self.map.choose_axes)
         view.plots.picked.connect(self.map.go_to)
         view.plots.pointed.connect(self.map.point_at)

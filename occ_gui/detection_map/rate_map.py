@@ -27,8 +27,8 @@ LINES = ("band", "null", "packets", "saturation")
 
 def lattice(name: str, count: int) -> tuple[float, ...]:
     """Return values spaced evenly over a slider's range, on its scale."""
-    declared = quantity(name)
-    return tuple(declared.at(place / (count - 1)) for place in range(count))
+    parameter = quantity(name)
+    return tuple(parameter.at(place / (count - 1)) for place in range(count))
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -49,7 +49,7 @@ class TheoryFields:
         # Imported with the first map, not when the window starts.
         from contourpy import LineType, contour_generator
 
-        found = {}
+        lines = {}
         for limit, sides in self.sides.items():
             contours = contour_generator(
                 *self.places,
@@ -57,8 +57,8 @@ class TheoryFields:
                 corner_mask=False,
                 line_type=LineType.Separate,
             )
-            found[limit] = [np.asarray(line) for line in contours.lines(0.0)]
-        return found
+            lines[limit] = [np.asarray(line) for line in contours.lines(0.0)]
+        return lines
 
 
 @dataclass(frozen=True, slots=True)
@@ -153,8 +153,8 @@ class RateMap:
     def explain_refusal(self) -> str:
         """Return why all known points are refused, or that a plug-in has failed; else empty."""
         sent = self.sent.ravel()
-        some = np.any(sent > 0)
-        return next((note for at, note in self.notes.items() if sent[at] or not some), "")
+        has_rate = np.any(sent > 0)
+        return next((note for at, note in self.notes.items() if sent[at] or not has_rate), "")
 
     def find_owners(self) -> tuple[IndexArray, IndexArray]:
         """Return the indices of the known point whose rate each point shows, along x and y.
@@ -166,7 +166,7 @@ class RateMap:
         for stride in STRIDES:
             near = [np.rint(np.arange(n) / stride).astype(np.int64) * stride for n in self.shape]
             near_x, near_y = (np.minimum(p, n - 1) for p, n in zip(near, self.shape, strict=True))
-            there = self.images[np.ix_(near_x, near_y)] > 0
-            x[there] = np.broadcast_to(near_x[:, None], self.shape)[there]
-            y[there] = np.broadcast_to(near_y, self.shape)[there]
+            is_known = self.images[np.ix_(near_x, near_y)] > 0
+            x[is_known] = np.broadcast_to(near_x[:, None], self.shape)[is_known]
+            y[is_known] = np.broadcast_to(near_y, self.shape)[is_known]
         return x, y

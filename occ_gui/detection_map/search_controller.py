@@ -32,9 +32,9 @@ _USUAL_IMAGES = len(SEARCHED) * usual_images(IMAGES, READ_RATE)
 _ADVICE_COUNTERS = range(1, len(DECODERS) + 1)
 _MOST_COUNTER = len(DECODERS) + 1  # counter of the pictures tried in the search for most bits
 
-LOOK_MS = 100
+PROGRESS_MS = 100
 
-ASKED, IN_TURN = -1, 3
+FIRST_RANK, IN_TURN_RANK = -1, 3
 """Priorities: before all else if the user asks; otherwise after all points of a visible map, but
 before more images of them."""
 
@@ -45,7 +45,7 @@ class SearchController(QObject):
     A subclass returns the present request from :meth:`_request`.
     """
 
-    _cancelled = _changed = ""  # what the pane says when the search was cancelled or has stopped
+    cancel_text = change_text = ""  # what the pane shows after the user, or a change, ends a search
 
     def __init__(
         self,
@@ -53,47 +53,47 @@ class SearchController(QObject):
         queue: WorkQueue,
         channel: JobChannel,
         counters: Sequence[int],
-        show_found: Callable[[Any], None],
-        show_ended: Callable[[str], None],
+        show_result: Callable[[Any], None],
+        show_end: Callable[[str], None],
     ) -> None:
         super().__init__()
         self._scenes, self._queue, self.channel = scenes, queue, channel
-        self._counters, self._show_found, self._end = counters, show_found, show_ended
-        self._asked: Any = None
-        self._done = self._counted = 0
-        self._look = QTimer(self)
-        self._look.setInterval(LOOK_MS)
-        self._look.timeout.connect(self._check_progress)
-        channel.results_ready.connect(self._take)
+        self._counters, self._show_result, self._end = counters, show_result, show_end
+        self._last_request: Any = None
+        self._result_count = self._start_count = 0
+        self._timer = QTimer(self)
+        self._timer.setInterval(PROGRESS_MS)
+        self._timer.timeout.connect(self._check_progress)
+        channel.results_ready.connect(self._show_results)
         channel.finished.connect(self._finish)
         channel.failed.connect(self._end)
         scenes.changed.connect(self._follow_change)
 
     def _begin(self, request: Any, jobs: Iterator[Job]) -> None:
-        self._asked, self._done, self._counted = request, 0, self._count()
+        self._last_request, self._result_count, self._start_count = request, 0, self._count()
         self.channel.put(request, jobs)
-        self._look.start()
+        self._timer.start()
 
-    def _show_result(self, decoder: str, changes: Mapping[str, ParameterValue]) -> None:
+    def _go_to(self, decoder: str, changes: Mapping[str, ParameterValue]) -> None:
         """Set the scene to a result in one undo step, and show what its decoder reads."""
         self._scenes.change(NO_GESTURE, **changes)
         store = self._scenes.store
         store.put(replace(store.workspace, decoder=decoder))
 
     def cancel(self) -> None:
-        """Stop the search; what was found so far stays."""
+        """Stop the search; its results so far stay."""
         if not self.channel.is_idle:
             self.channel.cancel()
-            self._end(self._cancelled)
+            self._end(self.cancel_text)
 
     def _follow_change(self) -> None:
-        if self._asked is None:
+        if self._last_request is None:
             return
-        outdated = self._request() != self._asked
-        if outdated and not self.channel.is_idle:
+        is_outdated = self._request() != self._last_request
+        if is_outdated and not self.channel.is_idle:
             self.channel.cancel()
-            self._end(self._changed)
-        self._show_outdated(outdated)
+            self._end(self.change_text)
+        self._show_outdated(is_outdated)
 
     def _finish(self, _request: object) -> None:
         self._end("")
@@ -103,19 +103,19 @@ class SearchController(QObject):
 
     def _check_progress(self) -> None:
         if self.channel.is_idle:
-            self._look.stop()
+            self._timer.stop()
         else:
-            self._show_tried(self._count() - self._counted)
+            self._show_progress(self._count() - self._start_count)
 
-    def _take(self, _request: object, results: list[Any]) -> None:
-        self._done += len(results)
-        for found in results:
-            self._show_found(found)
+    def _show_results(self, _request: object, results: list[Any]) -> None:
+        self._result_count += len(results)
+        for result in results:
+            self._show_result(result)
 
     def _request(self) -> Any:
         raise NotImplementedError
 
-    def _show_tried(self, pictures: int) -> None:
+    def _show_progress(self, pictures: int) -> None:
         raise NotImplementedError
 
     def _show_outdated(self, outdated: bool) -> None:
@@ -128,7 +128,7 @@ class AdviceRequest:
     settings: SimulationSettings
     with_image_effects: bool
 
-    def without(self, name: str) -> "AdviceRequest":
+    def omit_value(self, name: str) -> "AdviceRequest":
         """Return the request without the value of a parameter that its limits do not depend on."""
         scene = self.scene.replace(**{name: quantity(name).default})
         return replace(self, scene=scene)
@@ -140,46 +140,46 @@ class AdviceRequest:
 
 
 class AdvisorController(SearchController):
-    _cancelled, _changed = "Cancelled.", "The scene has changed; ask again."
+    cancel_text, change_text = "Cancelled.", "The scene has changed; ask again."
 
     def __init__(
         self, scenes: SceneStore, queue: WorkQueue, channel: JobChannel, pane: AdviceView
     ) -> None:
-        shown = pane.show_advice, pane.show_advice_ended
-        super().__init__(scenes, queue, channel, _ADVICE_COUNTERS, *shown)
+        shows = pane.show_advice, pane.show_advice_ended
+        super().__init__(scenes, queue, channel, _ADVICE_COUNTERS, *shows)
         self._pane = pane
         self._with_image_effects = True
         scenes.settings.changed.connect(self._follow_change)
 
-    def use_image_effects(self, wanted: bool) -> None:
+    def use_image_effects(self, used: bool) -> None:
         """Set whether image effects are simulated, row by row, or left out."""
-        self._with_image_effects = wanted
+        self._with_image_effects = used
         self._follow_change()
 
     def _request(self) -> AdviceRequest:
         settings = self._scenes.settings.settings
         return AdviceRequest(self._scenes.scene, settings, self._with_image_effects)
 
-    def start(self, rank: int = ASKED) -> None:
+    def start(self, rank: int = FIRST_RANK) -> None:
         """Search for the limits of the present scene."""
         request = self._request()
-        without = () if self._with_image_effects else find_left_out(request.scene, request.settings)
-        self._pane.show_advice_begun(without)
+        omitted = () if self._with_image_effects else find_left_out(request.scene, request.settings)
+        self._pane.show_advice_begun(omitted)
         self._begin(request, request.jobs(rank))
 
     def search_in_turn(self) -> None:
         """Search for the limits of the present scene, after the points of the map."""
-        self.start(IN_TURN)
+        self.start(IN_TURN_RANK)
 
     def go_to_limit(self, name: str, value: float, decoder: str) -> None:
-        self._show_result(decoder, {name: value})
+        self._go_to(decoder, {name: value})
 
-    def _show_tried(self, pictures: int) -> None:
+    def _show_progress(self, pictures: int) -> None:
         self._pane.show_advice_progress(min(pictures / (_USUAL_IMAGES * len(DECODERS)), 0.99))
 
     def _show_outdated(self, outdated: bool) -> None:
-        asked, present = self._asked, self._request()
-        reachable = [name for name in SEARCHED if asked.without(name) == present.without(name)]
+        last, present = self._last_request, self._request()
+        reachable = [name for name in SEARCHED if last.omit_value(name) == present.omit_value(name)]
         self._pane.show_advice_outdated(outdated, frozenset(reachable))
 
 
@@ -191,19 +191,19 @@ class MostBitsRequest:
     def jobs(self) -> Iterator[Job]:
         for decoder in most_bits.DECODERS:
             arguments = (self.scene, decoder, self.frames_a_second)
-            yield Job(search_most_bits, arguments, _MOST_COUNTER, ASKED)
+            yield Job(search_most_bits, arguments, _MOST_COUNTER, FIRST_RANK)
 
 
 class MostBitsController(SearchController):
     """Searches for the code, frequency and number of bits that carry most bits a second."""
 
-    _cancelled, _changed = "cancelled", "the scene has changed"
+    cancel_text, change_text = "cancelled", "the scene has changed"
 
     def __init__(
         self, scenes: SceneStore, queue: WorkQueue, channel: JobChannel, pane: MostBitsCard
     ) -> None:
-        shown = pane.show_found, pane.show_ended
-        super().__init__(scenes, queue, channel, [_MOST_COUNTER], *shown)
+        shows = pane.show_result, pane.show_ended
+        super().__init__(scenes, queue, channel, [_MOST_COUNTER], *shows)
         self._pane = pane
         frame_rate = scenes.store.select(lambda workspace: workspace.frame_rate)
         frame_rate.changed.connect(self._follow_change)
@@ -219,15 +219,15 @@ class MostBitsController(SearchController):
         self._begin(request, request.jobs())
         self._check_progress()
 
-    def go(self, found: MostBits) -> None:
-        scene = most_bits.example_of(found)
+    def go(self, result: MostBits) -> None:
+        scene = most_bits.example_of(result)
         if scene is not None:
             changes = {name: scene.value(name) for name in most_bits.VARIED}
-            self._show_result(found.decoder, changes)
+            self._go_to(result.decoder, changes)
 
-    def _show_tried(self, pictures: int) -> None:
-        if self._done < len(most_bits.DECODERS):
-            self._pane.show_tried(most_bits.DECODERS[self._done], pictures)
+    def _show_progress(self, pictures: int) -> None:
+        if self._result_count < len(most_bits.DECODERS):
+            self._pane.show_progress(most_bits.DECODERS[self._result_count], pictures)
 
     def _show_outdated(self, outdated: bool) -> None:
         self._pane.show_outdated(outdated)

@@ -7,7 +7,7 @@ from PySide6.QtCore import QEvent, QObject, QPointF, QRectF, QSize, Qt, QTimer, 
 from PySide6.QtGui import QPainter, QPaintEvent, QPalette
 from PySide6.QtWidgets import QSizePolicy, QSlider, QWidget
 
-from occ_gui.detection_map.colour_map import RATES, image_of, to_colours
+from occ_gui.detection_map.colour_map import RATES, make_image, to_colours
 from occ_gui.scene.parameter_rows import QuantityRow
 from occ_gui.scene.slider_scale import slider_handle, slider_travel
 from occ_gui.widgets.guarded_paint import guarded
@@ -21,7 +21,7 @@ _BAR, _GAP = QSize(56, 6), 6  # the bar of the legend, and the pixels beside it
 
 _OUTDATED_OPACITY = 0.35
 
-_AT_HANDLE = 3  # pixels on each side of the handle with the colour of the present scene
+_HANDLE_MARGIN = 3  # pixels on each side of the handle with the colour of the present scene
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +40,7 @@ class SceneRate:
 
 
 class SliderStrip(QWidget):
-    """A thin bar as long as the way of the slider's handle; grey where no rate is known."""
+    """A thin bar as long as the path of the slider's handle; grey where no rate is known."""
 
     def __init__(self, slider: QSlider, label: str) -> None:
         super().__init__()
@@ -49,9 +49,9 @@ class SliderStrip(QWidget):
         self.present: SceneRate | None = None  # the success rate at the scene's own value
         slider.valueChanged.connect(self.update)
         self._is_outdated = self._is_faded = False
-        self._fading = QTimer(self, singleShot=True)
-        self._fading.setInterval(round(1e3 * DELAY))
-        self._fading.timeout.connect(self._fade)
+        self._fade_timer = QTimer(self, singleShot=True)
+        self._fade_timer.setInterval(round(1e3 * DELAY))
+        self._fade_timer.timeout.connect(self._fade)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.setAccessibleName(f"Reading along {label}")
         self._explain()
@@ -73,12 +73,12 @@ class SliderStrip(QWidget):
                 f"({low:.1f} to {high:.1f} %)."
             )
         good = sum(fraction > 0.99 for fraction in known)
-        read = f"read at {good} of {len(known)} positions"
+        summary = f"read at {good} of {len(known)} positions"
         if self._is_outdated:
             text += "\nComputing; the colours are of an earlier scene."
-            read = f"earlier scene: {read}"
+            summary = f"earlier scene: {summary}"
         self.setToolTip(text)
-        self.setAccessibleDescription(read)
+        self.setAccessibleDescription(summary)
 
     def show_fractions(self, fractions: tuple[float | None, ...]) -> None:
         """Show the fraction of bits read at positions of the slider; None where unknown."""
@@ -100,9 +100,9 @@ class SliderStrip(QWidget):
         self._is_outdated = outdated
         self._explain()
         if outdated:
-            self._fading.start()
+            self._fade_timer.start()
         else:
-            self._fading.stop()
+            self._fade_timer.stop()
             self._is_faded = False
             self.update()
 
@@ -119,14 +119,14 @@ class SliderStrip(QWidget):
     def span(self) -> tuple[float, float]:
         """Return the x of the handle's centre at both ends of the slider, in the strip's pixels."""
         first, last = slider_travel(self.slider)
-        away = self.slider.x() - self.x()
-        return first + away, last + away
+        offset = self.slider.x() - self.x()
+        return first + offset, last + offset
 
-    def _at_handle(self) -> QRectF:
+    def _handle_area(self) -> QRectF:
         left, right = slider_handle(self.slider)
-        away = self.slider.x() - self.x()
-        return QRectF(left + away, 0, right - left, self.height()).adjusted(
-            -_AT_HANDLE, 0, _AT_HANDLE, 0
+        offset = self.slider.x() - self.x()
+        return QRectF(left + offset, 0, right - left, self.height()).adjusted(
+            -_HANDLE_MARGIN, 0, _HANDLE_MARGIN, 0
         )
 
     @guarded
@@ -143,11 +143,11 @@ class SliderStrip(QWidget):
             fractions = np.array(
                 [[np.nan if fraction is None else fraction] for fraction in self.fractions]
             )
-            painter.drawImage(whole, image_of(to_colours(fractions, 0.0, 1.0, RATES)))
+            painter.drawImage(whole, make_image(to_colours(fractions, 0.0, 1.0, RATES)))
         painter.setOpacity(1.0)
         if self.present is not None:
-            colour = image_of(to_colours(np.array([[self.present.fraction]]), 0.0, 1.0, RATES))
-            painter.drawImage(self._at_handle(), colour)
+            colour = make_image(to_colours(np.array([[self.present.fraction]]), 0.0, 1.0, RATES))
+            painter.drawImage(self._handle_area(), colour)
         painter.setClipping(False)
         painter.setPen(self.palette().color(QPalette.ColorRole.Mid))
         painter.setBrush(Qt.BrushStyle.NoBrush)
@@ -186,7 +186,7 @@ class StripLegend(QWidget):
             if text is None:
                 fractions = np.linspace(0.0, 1.0, _BAR.width())[:, None]
                 place = QRectF(QPointF(left, middle - _BAR.height() / 2), _BAR.toSizeF())
-                painter.drawImage(place, image_of(to_colours(fractions, 0.0, 1.0, RATES)))
+                painter.drawImage(place, make_image(to_colours(fractions, 0.0, 1.0, RATES)))
                 left += _BAR.width() + _GAP
                 continue
             width = self.fontMetrics().horizontalAdvance(text)

@@ -34,29 +34,29 @@ class RateRequest:
     settings: SimulationSettings
     decoder: str
 
-    def without(self, name: str) -> "RateRequest":
+    def omit_value(self, name: str) -> "RateRequest":
         """Return the request for the strip of a slider, without the value of that slider."""
-        given = {**UNSEEN_PARAMETERS, name: quantity(name).default}
-        return replace(self, scene=self.scene.replace(**given))
+        defaults = {**UNSEEN_PARAMETERS, name: quantity(name).default}
+        return replace(self, scene=self.scene.replace(**defaults))
 
 
 class RateController(QObject):
     """Measures success rates for the present scene, settings and decoder while they are visible.
 
     A subclass compares the present request with the last one in :meth:`_follow_change`, puts jobs
-    into the channel in :meth:`_measure`, and handles their results in :meth:`_take`.
+    into the channel in :meth:`_measure`, and handles their results in :meth:`_show_results`.
     """
 
     def __init__(self, scenes: SceneStore, channel: JobChannel) -> None:
         super().__init__()
         self._scenes, self._channel = scenes, channel
         self._decoder = PAPER_DECODER
-        self._seen = False
-        self._asked: RateRequest | None = None
-        self._resting = QTimer(self, singleShot=True)
-        self._resting.setInterval(round(1e3 * PAUSE))
-        self._resting.timeout.connect(self._measure)
-        channel.results_ready.connect(self._take)
+        self._is_visible = False
+        self._last_request: RateRequest | None = None
+        self._rest_timer = QTimer(self, singleShot=True)
+        self._rest_timer.setInterval(round(1e3 * PAUSE))
+        self._rest_timer.timeout.connect(self._measure)
+        channel.results_ready.connect(self._show_results)
         for store in (scenes, scenes.settings):
             store.changed.connect(self._follow_change)
         decoder = scenes.store.select(lambda workspace: workspace.decoder)
@@ -64,21 +64,21 @@ class RateController(QObject):
 
     @property
     def is_idle(self) -> bool:
-        return self._channel.is_idle and not self._resting.isActive()
+        return self._channel.is_idle and not self._rest_timer.isActive()
 
     def set_seen(self, seen: bool) -> None:
-        self._seen = seen
+        self._is_visible = seen
         if seen:
             self._follow_change()
         else:
-            self._resting.stop()
+            self._rest_timer.stop()
             self._channel.cancel()
-            self._forget()
+            self._reset()
 
-    def _forget(self) -> None:
-        self._asked = None
+    def _reset(self) -> None:
+        self._last_request = None
 
-    def _present(self) -> RateRequest:
+    def _request(self) -> RateRequest:
         decoder = self._scenes.store.workspace.decoder
         return RateRequest(self._scenes.scene, self._scenes.settings.settings, decoder)
 
@@ -88,7 +88,7 @@ class RateController(QObject):
     def _measure(self) -> None:
         raise NotImplementedError
 
-    def _take(self, request: RateRequest, results: list[Any]) -> None:
+    def _show_results(self, request: RateRequest, results: list[Any]) -> None:
         raise NotImplementedError
 
 
@@ -107,19 +107,19 @@ def strip_jobs(
     request can stop. This generator runs when the work begins, so that finding out whether points
     are slow does not delay a slider.
     """
-    slow = bool(find_left_out(present.scene, present.settings))
+    is_slow = bool(find_left_out(present.scene, present.settings))
     done: set[int] = set()
     for stride in STRIDES:
-        now = set(range(0, POSITIONS, stride)) - done
-        done |= now
-        is_first = stride == STRIDES[0] and not slow
+        new = set(range(0, POSITIONS, stride)) - done
+        done |= new
+        is_first = stride == STRIDES[0] and not is_slow
         for name, (request, places) in missing.items():
-            for part in _parts(sorted(now & places), slow):
+            for part in _divide(sorted(new & places), is_slow):
                 yield replace(_job(request, name, part), uninterruptible=is_first)
 
 
-def _parts(places: list[int], slow: bool) -> list[list[int]]:
-    if slow:
+def _divide(places: list[int], is_slow: bool) -> list[list[int]]:
+    if is_slow:
         return [[place] for place in places]
     return [places] if places else []
 
@@ -145,41 +145,41 @@ class SliderStripController(RateController):
         super().__init__(scenes, channel)
 
     def _follow_change(self) -> None:
-        if not self._seen:
+        if not self._is_visible:
             return
-        request = self._present()
-        if request == self._asked:
+        request = self._request()
+        if request == self._last_request:
             return
-        is_first, self._asked = self._asked is None, request
+        is_first, self._last_request = self._last_request is None, request
         for name in self._pane.strips:
-            wanted = request.without(name)
+            strip_request = request.omit_value(name)
             known = self._known.get(name)
-            is_present = known is not None and known[0] == wanted
+            is_present = known is not None and known[0] == strip_request
             self._pane.strips[name].show_outdated(known is not None and not is_present)
-            there = set(known[1]) if known is not None and is_present else set()
-            self._missing[name] = (wanted, set(range(POSITIONS)) - there)
+            places = set(known[1]) if known is not None and is_present else set()
+            self._missing[name] = (strip_request, set(range(POSITIONS)) - places)
         if is_first:
             self._measure()
         else:
-            self._resting.start()
+            self._rest_timer.start()
 
     def _measure(self) -> None:
-        request = self._asked
+        request = self._last_request
         if request is not None:
             missing, self._missing = self._missing, {}
             self._channel.put(request, strip_jobs(missing, request))
 
-    def _take(self, request: RateRequest, results: list[StripPoints]) -> None:
+    def _show_results(self, request: RateRequest, results: list[StripPoints]) -> None:
         for result in results:
-            wanted = request.without(result.name)
+            strip_request = request.omit_value(result.name)
             known = self._known.get(result.name)
-            if known is None or known[0] != wanted:
-                known = self._known[result.name] = (wanted, {})
+            if known is None or known[0] != strip_request:
+                known = self._known[result.name] = (strip_request, {})
             known[1].update({point.index: fraction_of(point) for point in result.points})
         for name in {result.name for result in results}:
-            wanted, fractions = self._known[name]
+            strip_request, fractions = self._known[name]
             strip = self._pane.strips[name]
-            strip.show_outdated(wanted != self._present().without(name))
+            strip.show_outdated(strip_request != self._request().omit_value(name))
             strip.show_fractions(tuple(_nearest(fractions, place) for place in range(POSITIONS)))
 
 
@@ -208,8 +208,8 @@ class SceneRateController(RateController):
         super().__init__(scenes, channel)
         self.rate: SceneRate | None = None
 
-    def _forget(self) -> None:
-        super()._forget()
+    def _reset(self) -> None:
+        super()._reset()
         self._show(None)
 
     def _show(self, rate: SceneRate | None) -> None:
@@ -218,21 +218,21 @@ class SceneRateController(RateController):
             self.changed.emit(rate)
 
     def _follow_change(self) -> None:
-        present = self._present()
+        present = self._request()
         request = replace(present, scene=present.scene.replace(**UNSEEN_PARAMETERS))
-        if not self._seen or request == self._asked:
+        if not self._is_visible or request == self._last_request:
             return
         self._channel.cancel()
-        self._forget()
-        self._asked = request
-        self._resting.start()
+        self._reset()
+        self._last_request = request
+        self._rest_timer.start()
 
     def _measure(self) -> None:
-        if self._asked is not None:
-            self._channel.put(self._asked, iter([scene_rate_job(self._asked)]))
+        if self._last_request is not None:
+            self._channel.put(self._last_request, iter([scene_rate_job(self._last_request)]))
 
-    def _take(self, request: RateRequest, results: list[MeasuredPoints]) -> None:
-        if request == self._asked and results:
+    def _show_results(self, request: RateRequest, results: list[MeasuredPoints]) -> None:
+        if request == self._last_request and results:
             self._show(scene_rate(results[-1]))
 
 

@@ -50,12 +50,12 @@ class BackgroundRates(QObject):
         self, scenes: SceneStore, strips: SliderStrips, may_begin: Callable[[], bool]
     ) -> None:
         super().__init__()
-        self._may_begin, self._was_there = may_begin, False
+        self._may_begin, self._was_ready = may_begin, False
         self._scenes, self._strips = scenes, strips
         self._start = QTimer(self, singleShot=True)
         self._start.setInterval(START_MS)
         self._start.timeout.connect(self._begin)
-        strips.seen.connect(self._see_strips)
+        strips.seen.connect(self._follow_strips)
 
     @cached_property
     def queue(self) -> "WorkQueue":
@@ -64,8 +64,8 @@ class BackgroundRates(QObject):
         # Looked up when it is called, so that tests can replace it.
         return WorkQueue(len(CHANNELS), lambda: new_workers())
 
-    def channel(self, of: str) -> "JobChannel":
-        return self.queue.channels[CHANNELS.index(of)]
+    def channel(self, user: str) -> "JobChannel":
+        return self.queue.channels[CHANNELS.index(user)]
 
     @cached_property
     def slider_strips(self) -> "SliderStripController":
@@ -77,10 +77,10 @@ class BackgroundRates(QObject):
     def scene_rate(self) -> "SceneRateController":
         from occ_gui.detection_map.slider_strip_controller import SceneRateController
 
-        own = SceneRateController(self._scenes, self.channel("scene rate"))
-        own.changed.connect(self._strips.show_present)
-        own.changed.connect(self.rate_changed)
-        return own
+        controller = SceneRateController(self._scenes, self.channel("scene rate"))
+        controller.changed.connect(self._strips.show_present)
+        controller.changed.connect(self.rate_changed)
+        return controller
 
     @property
     def is_idle(self) -> bool:
@@ -92,8 +92,8 @@ class BackgroundRates(QObject):
 
     def _begin(self) -> None:
         # Not in the event that delivers the picture, so that it is painted first.
-        was_there, self._was_there = self._was_there, self._may_begin()
-        if was_there and self._was_there:
+        was_ready, self._was_ready = self._was_ready, self._may_begin()
+        if was_ready and self._was_ready:
             self._set_seen(True)
         else:
             self._start.start()
@@ -102,7 +102,7 @@ class BackgroundRates(QObject):
         self.slider_strips.set_seen(seen)
         self.scene_rate.set_seen(seen)
 
-    def _see_strips(self, seen: bool) -> None:
+    def _follow_strips(self, seen: bool) -> None:
         if seen:
             self._start.start()
             return

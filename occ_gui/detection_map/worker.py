@@ -59,12 +59,12 @@ def rate_settings(
 def find_left_out(scene: Scene, settings: SimulationSettings) -> tuple[str, ...]:
     """Return the names of the effects that a profile cannot show; none if there is no picture."""
     try:
-        decided = plan(scene, settings.tolerance, "signal", settings.force).decisions
-        effects = tuple(d.label for d in decided if d.kind == "image" and d.included)
-        level = panel_span(scene) is not None
+        decisions = plan(scene, settings.tolerance, "signal", settings.force).decisions
+        effects = tuple(d.label for d in decisions if d.kind == "image" and d.included)
+        is_level = panel_span(scene) is not None
     except OccError:
         return ()
-    return effects if level else ("a panel that is not level", *effects)
+    return effects if is_level else ("a panel that is not level", *effects)
 
 
 def measure_strip(
@@ -92,15 +92,15 @@ def theory_fields(
         for j, at_y in enumerate(places[1].tolist()):
             try:
                 values = {x: quantity(x).at(at_x), y: quantity(y).at(at_y)}
-                found = _sides(scene.replace(**values))
+                point_sides = _find_sides(scene.replace(**values))
             except OccError:
                 continue
-            for name, side in found.items():
+            for name, side in point_sides.items():
                 sides[name][i, j] = side
     return TheoryFields(places, sides)
 
 
-def _sides(scene: Scene) -> dict[str, float]:
+def _find_sides(scene: Scene) -> dict[str, float]:
     frequency = scene.transmitter.switching_frequency
     packets = theory.two_packets_frequency(scene)
     white = theory.saturation_exposure(scene)

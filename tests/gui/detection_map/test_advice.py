@@ -1,4 +1,4 @@
-"""The advice states in sentences what the model's own search finds, and leads to it."""
+"""The advice states the limits that the model's search finds, and leads to them."""
 
 import re
 from concurrent.futures import Future
@@ -14,7 +14,7 @@ from PySide6.QtWidgets import QApplication, QLabel
 from pytestqt.qtbot import QtBot
 
 from occ_gui.detection_map import advice_worker, map_schedule, search_controller as module
-from occ_gui.detection_map.advice_sentences import advice_lines
+from occ_gui.detection_map.advice_sentences import make_advice_lines
 from occ_gui.detection_map.advice_view import AdviceView
 from occ_model.commands.limits import format_row, sentences
 from occ_model.parallel.job import Job, JobResult
@@ -43,7 +43,7 @@ LONG_INSIDE = Trial(194e-6, 200, 200, 83.9, 100.0, 20, 20)
 TOO_LONG = Trial(197e-6, 180, 200, 85.1, 93.4, 20, 18)
 
 
-def found(scene: Scene, decoder: str = "threshold", **_: Any) -> Limits:
+def find_limits(scene: Scene, decoder: str = "threshold", **_: Any) -> Limits:
     own = Trial(10e3, 200, 200, 83.9, 100.0, 20, 20)
     frequency = WorkingRange(
         "switching_frequency",
@@ -66,11 +66,15 @@ def found(scene: Scene, decoder: str = "threshold", **_: Any) -> Limits:
     return Limits(scene, decoder, 99.0, 20, 1, frequency, exposure)
 
 
+def list_texts(view: AdviceView) -> list[str]:
+    return [label.text() for line in view.lines for label in line.findChildren(QLabel)]
+
+
 def advice_on(scene: Scene) -> Advice:
-    """Compare limits with theory for another scene than the given one."""
+    """Return limits of a scene, with theoretical ones of another."""
     frequencies = TheoryLimits(7353.0, 14706.0, two_packets=3468.0)
     exposures = TheoryLimits(100e-6, 200e-6, saturation=1.17e-3)
-    return Advice(found(scene), frequencies, exposures)
+    return Advice(find_limits(scene), frequencies, exposures)
 
 
 @pytest.fixture
@@ -84,10 +88,8 @@ def advised(
 ) -> MapBench:
     """Ask for advice, and wait for it."""
     map_bench.workers = inline_workers
-    monkeypatch.setattr(advice_worker, "limits", found)
-    monkeypatch.setattr(
-        map_bench.pane.map, "set_seen", lambda _: None
-    )  # the map is not tested here
+    monkeypatch.setattr(advice_worker, "limits", find_limits)
+    monkeypatch.setattr(map_bench.pane.map, "set_seen", lambda _: None)  # not tested here
     map_bench.see("map")
     map_bench.view.advise.click()
     qtbot.waitUntil(lambda: map_bench.pane.advisor.channel.is_idle)
@@ -95,7 +97,7 @@ def advised(
 
 
 def test_the_sentences_hold_value_bits_interval_limit_and_theory(small_scene: Scene) -> None:
-    lines = [line.text for line in advice_lines(advice_on(small_scene))]
+    lines = [line.text for line in make_advice_lines(advice_on(small_scene))]
     assert lines[1].startswith("The lowest frequency that it reads is 14.7 kHz: ")
     assert lines[2] == (
         "The highest frequency that it reads is 14.7 kHz: there it read 100 % in 20 images "
@@ -116,14 +118,14 @@ def test_the_sentences_hold_value_bits_interval_limit_and_theory(small_scene: Sc
     assert "above 1.17 ms, columns that are lit throughout are white" in lines[7]
 
 
-def test_an_end_with_errors_all_round_leads_nowhere(small_scene: Scene) -> None:
+def test_an_end_without_a_sure_value_has_no_destination(small_scene: Scene) -> None:
     advice = advice_on(small_scene)
-    found = advice.limits.frequency
-    ends = (found.intervals[0].lowest, found.intervals[-1].highest)
+    frequencies = advice.limits.frequency
+    ends = (frequencies.intervals[0].lowest, frequencies.intervals[-1].highest)
     interval = ReadInterval(*(replace(end, inside=None) for end in ends))
-    only = replace(found, intervals=(interval,))
+    only = replace(frequencies, intervals=(interval,))
     doubtful = replace(advice, limits=replace(advice.limits, frequency=only))
-    line = advice_lines(doubtful)[2]
+    line = make_advice_lines(doubtful)[2]
     assert line.text.endswith("No value within the limits is sure to be read.")
     assert line.destination is None
 
@@ -135,7 +137,7 @@ def test_where_nothing_is_read_the_models_sentence_is_shown(small_scene: Scene) 
         for name, searched in (("switching_frequency", (500.0, 100e3)), ("exposure_time", (1, 3)))
     ]
     limits = Limits(small_scene, "threshold", 99.0, 20, 1, *ranges)
-    lines = advice_lines(advice_of(limits))
+    lines = make_advice_lines(advice_of(limits))
     assert lines[1].text == (
         "It reads 99 % of the bits at no switching frequency from 500 Hz to 100 kHz. The most it "
         "reads is 120 of 200 bits, at 2 kHz."
@@ -144,36 +146,35 @@ def test_where_nothing_is_read_the_models_sentence_is_shown(small_scene: Scene) 
     assert all(line.destination is None for line in lines)
 
 
-def test_why_the_scene_itself_is_not_read_comes_first_in_window_and_shell(
+def test_the_cause_of_an_unread_scene_comes_first_in_window_and_shell(
     small_scene: Scene,
 ) -> None:
     white = small_scene.replace(exposure_time=136e-6, iso=12800.0)
-    limits = replace(found(white), frequency=replace(found(white).frequency, own=UNREAD))
+    limits = find_limits(white)
+    limits = replace(limits, frequency=replace(limits.frequency, own=UNREAD))
     advice = advice_of(limits)
     assert advice.cause.startswith("Overexposed. The lit panel would have the level 860.6")
-    said = f"does not read the scene as it is. {advice.cause}"
-    assert advice_lines(advice)[1].text == f"It {said}"
-    assert sentences([limits])[0] == f"The threshold decoder {said}"
-    assert advice_of(found(small_scene)).cause == ""
+    text = f"does not read the scene as it is. {advice.cause}"
+    assert make_advice_lines(advice)[1].text == f"It {text}"
+    assert sentences([limits])[0] == f"The threshold decoder {text}"
+    assert advice_of(find_limits(small_scene)).cause == ""
 
 
 def test_window_and_shell_state_the_same_numbers(small_scene: Scene) -> None:
     advice = advice_on(small_scene)
     shell = " ".join([format_row(advice.limits), *sentences([advice.limits])])
-    for line in advice_lines(advice):
+    for line in make_advice_lines(advice):
         if line.destination is not None:
             assert line.destination[2] in shell
-            assert all(
-                counted in shell for counted in re.findall(r"\d+ % in \d+ images", line.text)
-            )
+            assert all(text in shell for text in re.findall(r"\d+ % in \d+ images", line.text))
     (bits,) = re.findall(r"%\): (\S+) bits a second", " ".join(
-        line.text for line in advice_lines(advice)))  # fmt: skip
+        line.text for line in make_advice_lines(advice)))  # fmt: skip
     assert format_row(advice.limits).split()[-1] == bits
 
 
 def test_every_decoder_is_searched_and_each_end_has_a_button(advised: MapBench) -> None:
     advice = advised.view.advice
-    titles = [text for text in advice.sentences() if text.startswith("The ")]
+    titles = [text for text in list_texts(advice) if text.startswith("The ")]
     for decoder in DECODERS:
         assert any(title.startswith(f"The {decoder} decoder, 99 %") for title in titles)
     assert len(advice.destinations) == 3 * len(DECODERS)
@@ -192,7 +193,7 @@ def test_a_destination_button_changes_the_scene_in_one_step(advised: MapBench) -
         assert button.text() == text
         button.click()
         assert advised.scenes.scene == before.replace(**{name: value})
-        assert advised.store.workspace.decoder == "threshold", "the limit is another decoder's"
+        assert advised.store.workspace.decoder == "threshold", "the decoder of the limit"
         label = quantity(name).label.lower()
         assert advised.view.advice.state.toolTip() == (
             "This advice is for the scene before the change. "
@@ -212,7 +213,7 @@ def test_a_refusal_of_the_model_is_shown(
     assert "A raw pattern holds no code" in advised.view.advice.state.toolTip()
 
 
-class Never(InlineWorkers):
+class EndlessWorkers(InlineWorkers):
     """Workers that do not end before their work is abandoned."""
 
     def __init__(self) -> None:
@@ -232,10 +233,10 @@ class Never(InlineWorkers):
 def test_a_search_ends_when_it_is_cancelled_the_scene_changes_or_the_window_stops(
     qtbot: QtBot, map_bench: MapBench, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    map_bench.workers = Never()
-    monkeypatch.setattr(module, "LOOK_MS", 5)
+    map_bench.workers = EndlessWorkers()
+    monkeypatch.setattr(module, "PROGRESS_MS", 5)
     advice, advisor = map_bench.view.advice, map_bench.pane.advisor
-    for end, said in (
+    for end, text in (
         (advice.cancel.click, "Cancelled."),
         (lambda: map_bench.scenes.change(iso=200.0), "The scene has changed; ask again."),
     ):
@@ -243,24 +244,24 @@ def test_a_search_ends_when_it_is_cancelled_the_scene_changes_or_the_window_stop
         assert not advisor.channel.is_idle
         end()
         assert advisor.channel.is_idle
-        assert advice.state.toolTip() == said
+        assert advice.state.toolTip() == text
     map_bench.view.advise.click()
-    looks = advisor.findChildren(QTimer)
-    assert any(look.isActive() for look in looks)
+    timers = advisor.findChildren(QTimer)
+    assert any(timer.isActive() for timer in timers)
     map_bench.shell.stop()
-    qtbot.waitUntil(lambda: not any(look.isActive() for look in looks))
+    qtbot.waitUntil(lambda: not any(timer.isActive() for timer in timers))
 
 
 def test_only_a_search_that_the_user_starts_comes_before_the_map(
     qtbot: QtBot, map_bench: MapBench
 ) -> None:
-    map_bench.workers = never = Never()
+    map_bench.workers = workers = EndlessWorkers()
     map_bench.view.cards.asked.emit()
-    qtbot.waitUntil(lambda: bool(never.jobs))
-    in_turn = never.jobs[0].rank
+    qtbot.waitUntil(lambda: bool(workers.jobs))
+    in_turn = workers.jobs[0].rank
     map_bench.view.advise.click()
-    qtbot.waitUntil(lambda: never.jobs[-1].rank < map_schedule.COARSE)
-    assert map_schedule.FINE < in_turn < map_schedule.SURE
+    qtbot.waitUntil(lambda: workers.jobs[-1].rank < map_schedule.COARSE)
+    assert map_schedule.FINE < in_turn < map_schedule.MORE_IMAGES
 
 
 def test_sentences_about_every_decoder_are_shown_once_at_the_end(
@@ -270,37 +271,30 @@ def test_sentences_about_every_decoder_are_shown_once_at_the_end(
         advice = advice_on(small_scene)
         view.show_advice(replace(advice, limits=replace(advice.limits, decoder=decoder)))
     QApplication.processEvents()
-    labels = [label for format_row in view.lines for label in format_row.findChildren(QLabel)]
+    labels = [label for row in view.lines for label in row.findChildren(QLabel)]
     labels.sort(key=lambda label: label.mapTo(view.content, QPoint()).y())
-    shown = [label.text() for label in labels]
-    common = shown.index("For every decoder")
-    assert [text for text in shown[common:] if text in shown[:common]] == []
-    assert sum("By theory" in text for text in shown) == 2
-    assert all("By theory" not in text for text in shown[:common])
-    titles = [text for text in shown[:common] if " decoder, " in text]
+    texts = [label.text() for label in labels]
+    common = texts.index("For every decoder")
+    assert [text for text in texts[common:] if text in texts[:common]] == []
+    assert sum("By theory" in text for text in texts) == 2
+    assert all("By theory" not in text for text in texts[:common])
+    titles = [text for text in texts[:common] if " decoder, " in text]
     assert [title.split()[1] for title in titles] == ["threshold", "matched"]
 
 
-def test_outdated_advice_is_dimmed_and_leads_only_where_it_still_holds(advised: MapBench) -> None:
+def test_outdated_advice_is_dimmed_and_leads_only_to_valid_limits(advised: MapBench) -> None:
     advice = advised.view.advice
 
     def state() -> tuple[set[bool], list[bool]]:
-        labels = {
-            label.isEnabled()
-            for format_row in advice.lines
-            for label in format_row.findChildren(QLabel)
-        }
+        labels = {each.isEnabled() for row in advice.lines for each in row.findChildren(QLabel)}
         return labels, [button.isEnabled() for button in [*advice.destinations][:3]]
 
     assert state() == ({True}, [True, True, True])
     advised.scenes.change(switching_frequency=9e3)  # its limits do not depend on it
     assert state() == ({True, False}, [True, False, False])
-    (format_row,) = [
-        format_row
-        for format_row in advice.lines
-        if next(iter(advice.destinations)) in format_row.children()
-    ]
-    assert all(label.isEnabled() for label in format_row.findChildren(QLabel))
+    first = next(iter(advice.destinations))
+    (row,) = [row for row in advice.lines if first in row.children()]
+    assert all(label.isEnabled() for label in row.findChildren(QLabel))
     advised.scenes.change(iso=200.0)
     assert state() == ({False}, [False, False, False])
     advised.scenes.undo_stack.undo()

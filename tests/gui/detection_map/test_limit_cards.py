@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 import pytest
-from gui.detection_map.test_advice import BAD, GOOD, INSIDE, advice_on
+from gui.detection_map.test_advice import BAD, GOOD, INSIDE, advice_on, list_texts
 from gui.kinds import add_widget
 from pytestqt.qtbot import QtBot
 
@@ -25,8 +25,9 @@ def with_end(scene: Scene, end: RangeEnd | None) -> Advice:
     """Return advice with this upper end of the range of frequencies."""
     limits = advice_on(scene).limits
     (interval,) = limits.frequency.intervals
-    found = replace(limits.frequency, intervals=(replace(interval, highest=end),) if end else ())
-    return advice_of(replace(limits, frequency=found))
+    intervals = (replace(interval, highest=end),) if end else ()
+    frequency = replace(limits.frequency, intervals=intervals)
+    return advice_of(replace(limits, frequency=frequency))
 
 
 def test_a_card_states_what_the_page_of_advice_states(qtbot: QtBot, small_scene: Scene) -> None:
@@ -36,16 +37,16 @@ def test_a_card_states_what_the_page_of_advice_states(qtbot: QtBot, small_scene:
     view.show_advice(advice_on(small_scene))
     card = cards.cards["threshold"]
     assert card.value.text() == "14.7 kHz (99 %)"
-    (sentence,) = [text for text in view.sentences() if text.startswith("The highest frequency")]
-    (bits,) = [text for text in view.sentences() if "bits a second" in text]
+    (sentence,) = [text for text in list_texts(view) if text.startswith("The highest frequency")]
+    (bits,) = [text for text in list_texts(view) if "bits a second" in text]
     assert "120 bits a second" in bits
     assert card.value.toolTip() == f"{sentence}\n{bits}"
     assert card.range.toolTip() == "from 14.7 kHz"
     assert cards.cards["matched"].value.text() == ""
-    found = advice_on(small_scene)
-    failing = replace(found.limits.frequency, faults="A plug-in failed.")
-    view.show_advice(replace(found, limits=replace(found.limits, frequency=failing)))
-    assert "A plug-in failed." in view.sentences()
+    limits = advice_on(small_scene).limits
+    failing = replace(limits.frequency, faults="A plug-in failed.")
+    view.show_advice(replace(advice_on(small_scene), limits=replace(limits, frequency=failing)))
+    assert "A plug-in failed." in list_texts(view)
     assert card.value.toolTip() == f"{sentence}\nA plug-in failed.\n{bits}"
     assert card.range.toolTip() == "from 14.7 kHz; a plug-in failed"
 
@@ -58,16 +59,16 @@ def test_where_nothing_is_read_the_card_says_why(cards: LimitCards, small_scene:
 
 
 def test_go_leads_to_where_every_bit_was_read(cards: LimitCards, small_scene: Scene) -> None:
-    told: list[tuple[str, float, str]] = []
-    cards.destination_chosen.connect(lambda *to: told.append(to))
+    destinations: list[tuple[str, float, str]] = []
+    cards.destination_chosen.connect(lambda *to: destinations.append(to))
     cards.show_advice(advice_on(small_scene))
     button = cards.cards["threshold"].go
     assert format_value("switching_frequency", INSIDE.value) in button.text()
     button.click()
-    assert told == [("switching_frequency", INSIDE.value, "threshold")]
+    assert destinations == [("switching_frequency", INSIDE.value, "threshold")]
 
 
-def test_a_search_without_an_end_says_so_and_without_a_destination_the_button_is_disabled(
+def test_a_limit_without_an_end_is_marked_and_without_a_destination_the_button_is_disabled(
     cards: LimitCards, small_scene: Scene
 ) -> None:
     cards.show_advice(with_end(small_scene, RangeEnd(GOOD, None, INSIDE)))
@@ -79,29 +80,28 @@ def test_a_search_without_an_end_says_so_and_without_a_destination_the_button_is
 
 
 def test_gaps_are_counted_beside_the_first(cards: LimitCards, small_scene: Scene) -> None:
-    advice = advice_on(small_scene)
-    found = advice.limits.frequency
+    frequencies = advice_on(small_scene).limits.frequency
     for gaps, end in ((1, "14.7 kHz"), (2, "and 1 gap more"), (3, "and 2 gaps more")):
-        several = replace(found, intervals=(gaps + 1) * found.intervals)
+        several = replace(frequencies, intervals=(gaps + 1) * frequencies.intervals)
         cards.cards["threshold"].show_range(several)
         text = cards.cards["threshold"].range.toolTip()
         assert text.startswith("from 14.7 kHz; gap 14.7 kHz to 14.7 kHz")
         assert text.endswith(end)
 
 
-def test_limits_are_asked_for_once_while_cards_are_seen_and_not_for_a_scene_that_came_back(
+def test_visible_cards_request_limits_once_and_not_for_a_scene_that_returns(
     cards: LimitCards, small_scene: Scene, qtbot: QtBot
 ) -> None:
     cards.show_outdated(True)
-    assert not cards.waiting.isActive()
+    assert not cards.rest_timer.isActive()
     cards.show()
-    assert cards.waiting.isActive()
+    assert cards.rest_timer.isActive()
     cards.hide()
-    assert not cards.waiting.isActive()
+    assert not cards.rest_timer.isActive()
     cards.show()
     with qtbot.waitSignal(cards.asked):
         pass
-    assert not cards.waiting.isActive()
+    assert not cards.rest_timer.isActive()
     card = cards.cards["threshold"]
     cards.show_begun()
     assert card.value.text() == "…"
@@ -109,11 +109,11 @@ def test_limits_are_asked_for_once_while_cards_are_seen_and_not_for_a_scene_that
     cards.show_ended()
     assert card.go.isEnabled()
     cards.show_outdated(True)
-    assert cards.waiting.isActive()
+    assert cards.rest_timer.isActive()
     assert not card.go.isEnabled()
     assert "earlier scene" in card.name.text()
     cards.show_outdated(False)
-    assert not cards.waiting.isActive()
+    assert not cards.rest_timer.isActive()
     with qtbot.waitSignal(cards.asked):
         cards.show_outdated(True)
     cards.show_outdated(False)
@@ -122,10 +122,10 @@ def test_limits_are_asked_for_once_while_cards_are_seen_and_not_for_a_scene_that
     cards.show_ended("The scene has changed; ask again.")
     cards.show_outdated(True)
     cards.show_outdated(False)
-    assert cards.waiting.isActive()
+    assert cards.rest_timer.isActive()
 
 
-def test_a_search_without_a_limit_says_why(cards: LimitCards, small_scene: Scene) -> None:
+def test_a_search_that_fails_gives_the_reason(cards: LimitCards, small_scene: Scene) -> None:
     why = "A raw pattern holds no code; a success rate needs packets."
     cards.show_begun()
     cards.show_ended(why)
@@ -139,7 +139,7 @@ def test_a_search_without_a_limit_says_why(cards: LimitCards, small_scene: Scene
     assert card.name.text() == "Threshold: up to"
 
 
-def test_a_search_that_has_found_nothing_yet_says_what_will_appear(
+def test_a_search_without_results_yet_states_what_will_appear(
     small_scene: Scene, qtbot: QtBot
 ) -> None:
     view = AdviceView()

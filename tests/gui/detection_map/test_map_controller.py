@@ -1,4 +1,4 @@
-"""The map agrees with a sweep, follows the scene, and costs nothing while it is hidden."""
+"""The map agrees with a sweep, follows the scene, and measures nothing while it is hidden."""
 
 from collections.abc import Callable, Iterator
 from typing import Any
@@ -29,12 +29,12 @@ IMAGES = (1, 2)
 FREQUENCY, DISTANCE = "switching_frequency", "distance"
 
 
-def all_shown(show: Mock) -> list[Any]:
+def first_arguments(show: Mock) -> list[Any]:
     return [call.args[0] for call in show.call_args_list]
 
 
-def shown(show: Mock) -> Any:
-    return all_shown(show)[-1]
+def last_argument(show: Mock) -> Any:
+    return first_arguments(show)[-1]
 
 
 class Bench:
@@ -80,14 +80,14 @@ def test_the_map_is_the_sweeps_table_of_the_same_points_along_both_sliders(
     bench_of: Callable[..., Bench],
 ) -> None:
     bench = bench_of()
-    found = bench.look()
-    axes = {FREQUENCY: found.x_values, DISTANCE: found.y_values}
+    rates = bench.look()
+    axes = {FREQUENCY: rates.x_values, DISTANCE: rates.y_values}
     table = occ.sweep(bench.scenes.scene, axes, images=IMAGES[-1], decoder=QUICK_DECODERS)
-    assert found.least_images == IMAGES[-1]
+    assert rates.least_images == IMAGES[-1]
     for decoder in QUICK_DECODERS:
-        np.testing.assert_array_equal(found.rates(decoder), table.rates(decoder))
-    assert (found.x_values[0], found.x_values[-1]) == (500.0, 100e3)
-    assert (found.y_values[0], found.y_values[-1]) == (0.2, 5.0)
+        np.testing.assert_array_equal(rates.rates(decoder), table.rates(decoder))
+    assert (rates.x_values[0], rates.x_values[-1]) == (500.0, 100e3)
+    assert (rates.y_values[0], rates.y_values[-1]) == (0.2, 5.0)
 
 
 def test_a_coarse_map_comes_first_and_no_point_is_measured_again(
@@ -126,7 +126,7 @@ def test_nothing_is_measured_while_the_map_is_hidden(
     assert len(bench.workers.jobs) == before
 
 
-def test_a_change_that_the_map_does_not_depend_on_measures_nothing(
+def test_a_change_that_does_not_affect_the_map_measures_nothing(
     bench_of: Callable[..., Bench],
 ) -> None:
     bench = bench_of()
@@ -142,28 +142,28 @@ def test_the_point_at_the_mouse_has_the_interval_of_its_pictures(
     bench_of: Callable[..., Bench],
 ) -> None:
     bench = bench_of()
-    found = bench.look()
+    rates = bench.look()
     bench.controller.point_at((3, 3))
-    facts = not_none(shown(bench.pane.show_facts))
-    assert (facts.x, facts.y, facts.sent) == (found.x_values[3], found.y_values[3], 20)
+    facts = not_none(last_argument(bench.pane.show_facts))
+    assert (facts.x, facts.y, facts.sent) == (rates.x_values[3], rates.y_values[3], 20)
     for name, right, low, high in facts.counts:
-        assert 100 * right / facts.sent == found.rates(name)[3, 3]
+        assert 100 * right / facts.sent == rates.rates(name)[3, 3]
         assert (low, high) == interval_of_pictures(right, facts.sent, facts.images)
     bench.controller.point_at(None)
-    assert shown(bench.pane.show_facts) is None
+    assert last_argument(bench.pane.show_facts) is None
 
 
-def test_what_the_model_refuses_is_hatched_and_says_why(bench_of: Callable[..., Bench]) -> None:
-    # A panel that is so steep reaches behind a camera that is close.
+def test_refused_points_are_hatched_and_give_the_reason(bench_of: Callable[..., Bench]) -> None:
+    # So steep a panel reaches behind a close camera.
     bench = bench_of(yaw=1.0, panel_width=2.0)
-    found = bench.look()
-    refused = found.find_refused() != 0
+    rates = bench.look()
+    refused = rates.find_refused() != 0
     assert refused[:, 0].all()
     assert not refused[:, -1].any()
-    np.testing.assert_array_equal(np.isnan(found.rates("threshold")), refused)
+    np.testing.assert_array_equal(np.isnan(rates.rates("threshold")), refused)
     bench.controller.point_at((0, 0))
-    assert shown(bench.pane.show_facts) is not None
-    assert shown(bench.pane.show_facts).note
+    assert last_argument(bench.pane.show_facts) is not None
+    assert last_argument(bench.pane.show_facts).note
 
 
 def test_image_effects_are_simulated_or_left_out_with_a_note(
@@ -171,13 +171,13 @@ def test_image_effects_are_simulated_or_left_out_with_a_note(
 ) -> None:
     bench = bench_of(vignetting_exponent=8.0, rows=40, columns=60)
     bench.look()
-    assert shown(bench.pane.show_left_out) == ()
+    assert last_argument(bench.pane.show_left_out) == ()
     settings = bench.workers.jobs[0].arguments[1]
     assert (settings.force, settings.path) == ({}, "auto")
     bench.workers.jobs.clear()
     bench.controller.use_image_effects(False)
     bench.wait_until_idle()
-    assert shown(bench.pane.show_left_out) == ("Vignetting",)
+    assert last_argument(bench.pane.show_left_out) == ("Vignetting",)
     settings = bench.workers.jobs[0].arguments[1]
     assert settings.force == dict.fromkeys(IMAGE_EFFECTS, False)
 
@@ -192,12 +192,12 @@ def test_a_failure_is_shown_and_the_last_map_stays(bench_of: Callable[..., Bench
     bench.workers.result = refuse
     bench.scenes.change(iso=200.0)
     assert bench.wait_until_idle() is before
-    assert list(filter(None, all_shown(bench.pane.show_failure))) == [
+    assert list(filter(None, first_arguments(bench.pane.show_failure))) == [
         "The work in the background failed: MemoryError: no memory."
     ]
 
 
-def test_the_pane_follows_the_axes_what_is_shown_and_the_pictures_a_second(
+def test_the_pane_follows_axes_shown_values_and_frame_rate(
     bench_of: Callable[..., Bench],
 ) -> None:
     bench = bench_of()
@@ -211,18 +211,18 @@ def test_the_pane_follows_the_axes_what_is_shown_and_the_pictures_a_second(
     assert bench.pane.show_bits.call_args.args == ("bits", 12.0)
 
 
-def test_the_theoretical_limits_lie_where_theory_says(
+def test_the_theoretical_limits_are_those_of_theory(
     bench_of: Callable[..., Bench],
 ) -> None:
     bench = bench_of()
-    found = bench.look()
-    assert found.theory is not None
-    along, _ = found.theory.places
+    rates = bench.look()
+    assert rates.theory is not None
+    along, _ = rates.theory.places
     exposure = bench.scenes.scene.camera.exposure_time
     frequencies = 500.0 * 200.0**along
     for name, limit in (("band", 1 / exposure), ("null", 2 / exposure)):
         np.testing.assert_array_equal(
-            found.theory.sides[name][:, 0] > 0, frequencies > limit, err_msg=name
+            rates.theory.sides[name][:, 0] > 0, frequencies > limit, err_msg=name
         )
 
 
@@ -232,47 +232,45 @@ def few_points(bench_of: Callable[..., Bench], monkeypatch: pytest.MonkeyPatch) 
     monkeypatch.setattr(map_schedule, "SHAPE", (3, 2))
 
 
-def test_a_map_of_an_earlier_scene_ages_until_the_next_is_there(
+def test_a_map_of_an_earlier_scene_ages_until_the_next_one_comes(
     bench_of: Callable[..., Bench], few_points: None
 ) -> None:
     bench = bench_of()
     bench.look()
-    assert set(all_shown(bench.pane.show_age)) == {0.0}
+    assert set(first_arguments(bench.pane.show_age)) == {0.0}
     bench.pane.show_age.reset_mock()
     bench.scenes.change(start_time=1e-3)  # the map does not depend on it
-    assert set(all_shown(bench.pane.show_age)) == {0.0}
+    assert set(first_arguments(bench.pane.show_age)) == {0.0}
     bench.scenes.change(exposure_time=136e-6)
-    assert shown(bench.pane.show_age) > 0.0
+    assert last_argument(bench.pane.show_age) > 0.0
     bench.wait_until_idle()
-    assert shown(bench.pane.show_age) == 0.0
+    assert last_argument(bench.pane.show_age) == 0.0
 
 
-def test_a_first_answer_is_awaited_until_it_is_there_or_found_to_take_long(
+def test_first_points_are_awaited_until_they_come_or_turn_out_to_be_slow(
     bench_of: Callable[..., Bench], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     bench = bench_of()
     controller = bench.controller
-    awaited: list[tuple[int, bool]] = []
-    monkeypatch.setattr(
-        bench.pane, "show_map", lambda rates: awaited.append((rates.known, waits()))
-    )
+    waits_at_maps: list[bool] = []
+    monkeypatch.setattr(bench.pane, "show_map", lambda _: waits_at_maps.append(waits()))
 
     def waits() -> bool:
-        return controller.is_first_answer_awaited
+        return controller.awaits_first_points
 
     assert not waits()
     controller.set_seen(True)
     assert waits()
     bench.wait_until_idle()
-    assert awaited
-    assert not any(waiting for _, waiting in awaited)
+    assert waits_at_maps
+    assert not any(waits_at_maps)
     assert controller.full is not None
     assert controller.full[0] is controller.map
     bench.scenes.change(iso=200.0)
     assert waits()
     controller.set_seen(False)
     assert not waits()
-    assert controller.full is None, "it is of its own scene alone"
+    assert controller.full is None, "the map is of another scene"
 
 
 @pytest.mark.parametrize("with_image_effects", [False, True])
@@ -281,6 +279,6 @@ def test_only_rows_of_pictures_take_long(small_scene: Scene, with_image_effects:
     request = map_schedule.MapRequest(
         scene, FREQUENCY, DISTANCE, FIRST_SETTINGS, with_image_effects
     )
-    told: list[int] = []
-    next(request.jobs(request.empty_map().images, False, lambda: told.append(1)))
-    assert bool(told) == with_image_effects
+    calls: list[int] = []
+    next(request.jobs(request.empty_map().images, False, lambda: calls.append(1)))
+    assert bool(calls) == with_image_effects

@@ -1,4 +1,4 @@
-"""The pane of the map: what is drawn where, what a click does, and how it is closed."""
+"""The pane of the map: its drawing, clicks on it, and its end."""
 
 from collections.abc import Callable
 from typing import Any
@@ -65,7 +65,7 @@ def test_the_status_shows_rate_bits_and_interval_or_why_not(view: MapView) -> No
     assert view.status.toolTip() == "7 of 91 points measured"
 
 
-def test_a_plug_in_that_fails_is_named_beside_the_rate_and_for_the_whole_map(view: MapView) -> None:
+def test_a_plug_in_that_fails_is_named_for_a_point_and_for_the_map(view: MapView) -> None:
     fault = "With the own decoder a plug-in failed in 2 of 2 readings; first: It cannot."
     rates = whole((10, 10), refused=(45,))
     rates.enter([SweepPoint(3, 10, (0, 0), fault, (0, 0))], 1)
@@ -90,7 +90,7 @@ def view(qtbot: QtBot, small_scene: Scene) -> MapView:
     return view
 
 
-def test_a_known_point_fills_its_cells_until_finer_ones_come() -> None:
+def test_a_known_point_fills_cells_until_finer_ones_come() -> None:
     rates = rates_of({0: (10, 10)})
     x, _ = rates.find_owners()
     assert (x[:3, :3] == 0).all()
@@ -104,19 +104,19 @@ def test_a_known_point_fills_its_cells_until_finer_ones_come() -> None:
 def test_a_click_or_arrow_keys_and_enter_choose_a_cell(qtbot: QtBot, view: MapView) -> None:
     view.show_map(whole((10, 10)))
     plot = view.plots.plots[0]
-    picked = collect(view.plots.picked)
+    picks = collect(view.plots.picked)
     for cell in ((0, 0), (12, 6), (5, 3)):
         place = plot.place_of((cell[0] / 12, cell[1] / 6)).toPoint()
         qtbot.mouseClick(plot, Qt.MouseButton.LeftButton, pos=place)
-        assert picked[-1] == cell
+        assert picks[-1] == cell
     qtbot.mouseClick(plot, Qt.MouseButton.LeftButton, pos=QPoint(1, 1))
-    assert len(picked) == 3
-    pointed = collect(view.plots.pointed)
+    assert len(picks) == 3
+    places = collect(view.plots.pointed)
     qtbot.keyClick(plot, Qt.Key.Key_Right)
     qtbot.keyClick(plot, Qt.Key.Key_Up)
     qtbot.keyClick(plot, Qt.Key.Key_Return)
-    assert pointed[1] == (pointed[0][0], pointed[0][1] + 1)
-    assert picked[3:] == [pointed[-1]]
+    assert places[1] == (places[0][0], places[0][1] + 1)
+    assert picks[3:] == [places[-1]]
 
 
 def test_refused_points_are_hatched_and_look_like_no_rate(
@@ -145,13 +145,13 @@ def test_both_decoders_one_or_their_difference_are_shown(view: MapView) -> None:
     ):
         view.what.show_key(what)
         view.what.chosen.emit(what)
-        shown = [plot for plot in view.plots.plots if plot.isVisible()]
-        assert [plot.title for plot in shown] == titles
-        assert all(plot.accessibleName().endswith(plot.title) for plot in shown)
+        visible = [plot for plot in view.plots.plots if plot.isVisible()]
+        assert [plot.title for plot in visible] == titles
+        assert all(plot.accessibleName().endswith(plot.title) for plot in visible)
     assert view.plots.bar.accessibleName().startswith("Difference")
 
 
-def test_a_rate_has_its_own_colour_and_the_limits_not_hidden_their_lines(view: MapView) -> None:
+def test_a_rate_has_its_own_colour_and_each_visible_limit_a_line(view: MapView) -> None:
     rates = whole((5, 10))
     view.show_map(rates)
     plot = view.plots.plots[0]
@@ -159,8 +159,8 @@ def test_a_rate_has_its_own_colour_and_the_limits_not_hidden_their_lines(view: M
     image = plot.grab().toImage()
     at = plot.place_of((2 / 12, 2 / 6)).toPoint()
     expected = to_colours(np.full((1, 1), 50.0), 0.0, 100.0, RATES)[0, 0, :3].tolist()
-    seen = image.pixelColor(at)
-    assert [seen.red(), seen.green(), seen.blue()] == pytest.approx(expected, abs=2)
+    colour = image.pixelColor(at)
+    assert [colour.red(), colour.green(), colour.blue()] == pytest.approx(expected, abs=2)
     line = [np.array([[0.1, 0.1], [0.9, 0.9]])]
     theory = Mock(spec=TheoryFields)
     theory.lines.return_value = {"band": line, "null": line}
@@ -172,7 +172,7 @@ def test_a_rate_has_its_own_colour_and_the_limits_not_hidden_their_lines(view: M
     assert list(plot.lines) == ["band", "null"]
 
 
-def test_rates_get_evenly_lighter_differences_from_the_middle() -> None:
+def test_colours_of_rates_become_lighter_and_the_middle_of_differences_is_grey() -> None:
     steps = to_colours(np.linspace(0.0, 100.0, 9)[None], 0.0, 100.0, RATES)[0, :, :3]
     light = steps.astype(float) @ np.array([0.2126, 0.7152, 0.0722])
     assert (np.diff(light) > 0).all()
@@ -199,34 +199,35 @@ def test_a_line_lies_where_the_value_is_zero_and_is_closed_around_a_maximum() ->
 @pytest.mark.parametrize("name", MAP_PARAMETERS)
 @pytest.mark.parametrize("most", [3, 8])
 def test_the_numbers_of_an_axis_are_round_and_as_dense_as_allowed(name: str, most: int) -> None:
-    """Steps of an even axis are 1, 2 or 5 times a power of ten, and the finer ones too many.
+    """Steps of a linear axis are 1, 2 or 5 times a power of ten, and finer ones would be too many.
 
-    A logarithmic one has one, two and five of each power of ten; or one and three; or one.
+    A logarithmic axis has one, two and five of each power of ten; or one and three; or one.
     """
-    found, declared = ticks(quantity(name), most), quantity(name)
-    places = [tick.place for tick in found]
-    assert 1 <= len(found) <= most + 1
+    parameter = quantity(name)
+    numbers = ticks(parameter, most)
+    places = [tick.place for tick in numbers]
+    assert 1 <= len(numbers) <= most + 1
     assert places == sorted(places)
     assert all(0.0 <= place <= 1.0 for place in places)
-    assert axis_title(declared)
-    if declared.scale == "linear":
+    assert axis_title(parameter)
+    if parameter.scale == "linear":
         step = np.diff(places).max()
         assert np.diff(places) == pytest.approx(step)
         assert step < 2.5 / most * (1.0 + 1e-6)
     else:
-        begins = {f"{float(tick.text):e}"[0] for tick in found}
-        assert begins <= {"1", "2", "5"} or begins <= {"1", "3"}
+        digits = {f"{float(tick.text):e}"[0] for tick in numbers}
+        assert digits <= {"1", "2", "5"} or digits <= {"1", "3"}
 
 
 def test_each_number_of_the_axes_stands_beside_its_tick(view: MapView) -> None:
     view.show_axes(FREQUENCY, DISTANCE)
     plot, painter = view.plots.plots[0], Mock()
     plot.draw_axes(painter, plot.area())
-    drawn = [call.args for call in painter.drawLine.call_args_list]
+    lines = [call.args for call in painter.drawLine.call_args_list]
     texts = [(place, text) for place, _, text in (c.args for c in painter.drawText.call_args_list)]
     numbers = [place for place, text in texts if text.replace(".", "").isdigit()]
-    assert len(numbers) == len(drawn) > 5
-    for (start, end), number in zip(drawn, numbers, strict=True):
+    assert len(numbers) == len(lines) > 5
+    for (start, end), number in zip(lines, numbers, strict=True):
         middle = number.center()
         is_below = start.x() == end.x()
         beside = (middle.x(), start.x()) if is_below else (middle.y(), start.y())
@@ -244,7 +245,7 @@ def test_a_click_on_the_map_is_undone_as_one_step(map_bench: MapBench) -> None:
     assert scenes.scene == before
 
 
-def test_a_pane_that_is_made_late_shows_the_rate_that_was_chosen_meanwhile(
+def test_a_pane_made_later_shows_the_frame_rate_chosen_before(
     map_bench: MapBench,
 ) -> None:
     show(map_bench.store, frame_rate=24.0)
@@ -259,21 +260,21 @@ def test_stopping_ends_the_workers(qtbot: QtBot, map_bench: MapBench) -> None:
     assert map_bench.workers.closed == 1
 
 
-def test_a_map_of_an_earlier_scene_says_so_at_once_and_is_dimmed_later(view: MapView) -> None:
-    said = (
+def test_a_map_of_an_earlier_scene_is_marked_at_once_and_dimmed_later(view: MapView) -> None:
+    text = (
         "91 points, each in the middle of its cell; images a point: 20 or more; "
         "colour: success rate"
     )
     view.show_map(whole((5, 10)))
     view.show_progress(91, 91, 20)
     view.show_age(0.01)
-    assert view.status.toolTip() == f"Earlier scene: {said}"
+    assert view.status.toolTip() == f"Earlier scene: {text}"
     assert view.outdated.isHidden()
     view.show_age(1.0)
     assert view.outdated.isVisible()
     view.show_age(0.0)
     assert view.outdated.isHidden()
-    assert view.status.toolTip() == said
+    assert view.status.toolTip() == text
 
 
 @pytest.fixture
@@ -286,7 +287,7 @@ def rates(view: MapView) -> RateMap:
     return rates
 
 
-def test_bits_a_second_are_shown_of_whole_payloads(view: MapView, rates: RateMap) -> None:
+def test_bits_a_second_count_only_whole_payloads(view: MapView, rates: RateMap) -> None:
     # Nine of ten bits are a success rate of 90 %, and no payload.
     assert rates.bits_a_second(DECODERS[0], 25.0)[0, 0] == pytest.approx(250.0)
     assert rates.bits_a_second(DECODERS[1], 25.0)[0, 0] == 0.0
@@ -306,9 +307,7 @@ def bar_numbers(view: MapView) -> list[str]:
     return [text for _, text in view.plots.bar.numbers]
 
 
-def test_the_bar_of_bits_goes_from_none_to_the_most_that_are_possible(
-    view: MapView, rates: RateMap
-) -> None:
+def test_the_bar_of_bits_goes_from_zero_to_the_most_possible(view: MapView, rates: RateMap) -> None:
     most = float(rates.most_bits(25.0).max())
     assert most > float(rates.most_bits(25.0).min())
     assert bar_numbers(view)[0] == "0"

@@ -1,8 +1,7 @@
-"""The card of most bits states the model's own result, and leads to a scene that is read."""
+"""The card of most bits states the model's result, and leads to a scene that is read."""
 
 from collections.abc import Iterator
 from dataclasses import replace
-from types import SimpleNamespace
 
 import pytest
 from gui.conftest import InlineWorkers, LazyWorkers
@@ -23,14 +22,14 @@ LENGTHS = dict(zip(DECODERS, (112, 185, 40), strict=True))
 """Bits per picture that the fake decoders read."""
 
 
-def found_by(decoder: str, scene: Scene, frames: float = 30.0) -> MostBits:
+def result_of(decoder: str, scene: Scene, frames: float = 30.0) -> MostBits:
     sent = reset_searched(scene).replace(
         payload="bits:" + "0" * LENGTHS[decoder], switching_frequency=28.8e3
     )
     return MostBits(decoder, sent, 10, frames * LENGTHS[decoder], frames, 66)
 
 
-def none_by(decoder: str) -> MostBits:
+def failure_of(decoder: str) -> MostBits:
     return MostBits(decoder, None, 10, 0.0, 30.0, 0, "None of 9 combinations was read.")
 
 
@@ -43,15 +42,15 @@ def buttons(card: MostBitsCard) -> set[str]:
     return {b.text() for b in (card.search, card.cancel, card.go) if b.isVisible()}
 
 
-def test_the_card_asks_searches_and_leads_there(card: MostBitsCard, small_scene: Scene) -> None:
+def test_the_card_searches_and_shows_the_best(card: MostBitsCard, small_scene: Scene) -> None:
     assert card.text.toolTip() == "Which code, frequency and number of bits carry most?"
     assert buttons(card) == {"Search"}
     card.show_begun()
-    card.show_tried("threshold", 12)
+    card.show_progress("threshold", 12)
     assert "searching with threshold, 12 pictures tried" in card.text.toolTip()
     assert buttons(card) == {"Cancel"}
     for decoder in DECODERS:
-        card.show_found(found_by(decoder, small_scene))
+        card.show_result(result_of(decoder, small_scene))
     assert card.text.toolTip().startswith("So far: 5,550 bits a second")
     card.show_ended("")
     assert card.text.toolTip() == (
@@ -60,11 +59,11 @@ def test_the_card_asks_searches_and_leads_there(card: MostBitsCard, small_scene:
     assert buttons(card) == {"Go"}
 
 
-def test_a_cancelled_or_earlier_result_is_marked_and_none_says_why(
+def test_a_cancelled_or_earlier_result_is_marked_and_none_gives_the_reason(
     card: MostBitsCard, small_scene: Scene
 ) -> None:
     card.show_begun()
-    card.show_found(found_by("threshold", small_scene))
+    card.show_result(result_of("threshold", small_scene))
     card.show_ended("cancelled")
     assert card.text.toolTip().startswith("So far: 3,360 bits a second")
     assert card.text.toolTip().endswith("; cancelled")
@@ -74,7 +73,7 @@ def test_a_cancelled_or_earlier_result_is_marked_and_none_says_why(
     assert buttons(card) == {"Search", "Go"}
     assert not card.go.isEnabled()
     card.show_begun()
-    card.show_found(replace(none_by("threshold"), faults="A plug-in failed."))
+    card.show_result(replace(failure_of("threshold"), faults="A plug-in failed."))
     card.show_ended("")
     assert "threshold: None of 9 combinations was read. A plug-in failed." in card.text.toolTip()
     assert buttons(card) == {"Search"}
@@ -104,16 +103,16 @@ def bench(
     def most_bits(
         scene: Scene, decoders: tuple[str], *, frames_a_second: float, **_: object
     ) -> tuple[MostBits]:
-        return (found_by(decoders[0], scene, frames_a_second),)
+        return (result_of(decoders[0], scene, frames_a_second),)
 
     monkeypatch.setattr(advice_worker, "most_bits", most_bits)
-    made = Bench(small_scene, card, inline_workers)
-    yield made
-    made.controller.cancel()
-    made.queue.stop()
+    bench = Bench(small_scene, card, inline_workers)
+    yield bench
+    bench.controller.cancel()
+    bench.queue.stop()
 
 
-def test_go_makes_the_scene_what_was_found_in_one_step(bench: Bench, qtbot: QtBot) -> None:
+def test_go_applies_the_result_in_one_step(bench: Bench, qtbot: QtBot) -> None:
     before = bench.scenes.scene
     bench.card.search.click()
     qtbot.waitUntil(lambda: bench.controller.channel.is_idle)
@@ -122,28 +121,26 @@ def test_go_makes_the_scene_what_was_found_in_one_step(bench: Bench, qtbot: QtBo
     scene = bench.scenes.scene
     assert bench.scenes.store.workspace.decoder == "equalizer"
     assert scene.transmitter.payload_length == LENGTHS["equalizer"]
-    assert "1" in scene.transmitter.payload, "zeros alone are no payload like those it was tried on"
-    kept = {name: before.value(name) for name in VARIED}
-    assert scene.replace(**kept) == before
-    assert bench.card.go.isEnabled(), "what was found does not depend on what it chose"
+    assert "1" in scene.transmitter.payload, "zeros alone are not typical of the payloads tried"
+    values = {name: before.value(name) for name in VARIED}
+    assert scene.replace(**values) == before
+    assert bench.card.go.isEnabled(), "the result does not depend on the values that it sets"
     bench.scenes.undo_stack.undo()
     assert bench.scenes.scene == before
 
 
-def test_a_look_after_the_last_decoder_finds_nothing_more_to_count(
-    bench: Bench, qtbot: QtBot
-) -> None:
+def test_progress_after_the_last_decoder_changes_nothing(bench: Bench, qtbot: QtBot) -> None:
     bench.card.search.click()
     qtbot.waitUntil(lambda: bench.controller.channel.is_idle)
-    shown = bench.card.text.toolTip()
-    (look,) = bench.controller.findChildren(QTimer)
+    before = bench.card.text.toolTip()
+    (timer,) = bench.controller.findChildren(QTimer)
     with qtbot.captureExceptions() as raised:
-        look.timeout.emit()
+        timer.timeout.emit()
     assert raised == []
-    assert bench.card.text.toolTip() == shown
+    assert bench.card.text.toolTip() == before
 
 
-def test_another_distance_or_frame_rate_makes_it_outdated(bench: Bench, qtbot: QtBot) -> None:
+def test_another_distance_or_frame_rate_outdates_the_result(bench: Bench, qtbot: QtBot) -> None:
     bench.card.search.click()
     qtbot.waitUntil(lambda: bench.controller.channel.is_idle)
     show(bench.scenes.store, frame_rate=24.0)
@@ -155,17 +152,17 @@ def test_another_distance_or_frame_rate_makes_it_outdated(bench: Bench, qtbot: Q
 
 
 def test_more_pictures_than_can_be_read_out_are_not_counted(small_scene: Scene) -> None:
-    seen = SimpleNamespace(value=0.0)
+    frame_rates = list[float]()
 
     def most_bits(*_: object, frames_a_second: float, **__: object) -> tuple[int]:
-        seen.value = frames_a_second
+        frame_rates.append(frames_a_second)
         return (0,)
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(advice_worker, "most_bits", most_bits)
         advice_worker.search_most_bits(small_scene, "threshold", 1e4, lambda: None)
     camera = small_scene.camera
-    assert seen.value == pytest.approx(1.0 / (camera.columns * camera.readout_time))
+    assert frame_rates == pytest.approx([1.0 / (camera.columns * camera.readout_time)])
 
 
 def test_a_search_is_cancelled_by_the_user_or_by_another_scene(

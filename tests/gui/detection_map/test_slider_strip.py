@@ -36,7 +36,7 @@ Fractions = tuple[float | None, ...]
 
 
 class RecordingStrip:
-    """A strip that records what it is asked to show."""
+    """A strip that records what it shows."""
 
     fractions: Fractions = ()
     outdated = False
@@ -67,7 +67,7 @@ class Bench:
         return {name: strip.outdated for name, strip in self.strips.items()}
 
     def measured(self) -> list[str]:
-        """Name the sliders along which was measured, and forget it."""
+        """Return the sliders along which was measured since the last call."""
         names = [str(job.arguments[2]) for job in self.workers.jobs]
         self.workers.jobs.clear()
         return names
@@ -111,14 +111,14 @@ def test_nothing_is_measured_while_the_strips_are_hidden(bench: Bench, qtbot: Qt
     assert set(bench.wait_until_idle()["iso"]) == {None}
 
 
-def test_where_a_plug_in_fails_no_rate_is_known() -> None:
+def test_where_a_plug_in_fails_the_rate_is_unknown() -> None:
     failed, read = (SweepPoint(0, 20, (0,), note, (0,)) for note in ("A plug-in failed.", ""))
     assert module.scene_rate(MeasuredPoints((failed,), 2, 0.0)) is None
     assert not_none(module.scene_rate(MeasuredPoints((read,), 2, 0.0))).fraction == 0.0
     assert (module.fraction_of(failed), module.fraction_of(read)) == (None, 0.0)
 
 
-def test_moving_a_slider_leaves_its_own_strip_as_it_is(bench: Bench) -> None:
+def test_moving_a_slider_does_not_change_its_own_strip(bench: Bench) -> None:
     bench.controller.set_seen(True)
     before = bench.wait_until_idle()
     bench.measured()
@@ -129,7 +129,7 @@ def test_moving_a_slider_leaves_its_own_strip_as_it_is(bench: Bench) -> None:
     assert after["iso"] != before["iso"]
 
 
-def test_a_movement_is_measured_once_where_it_ends(bench: Bench) -> None:
+def test_rates_are_measured_once_at_the_end_of_a_movement(bench: Bench) -> None:
     bench.controller.set_seen(True)
     bench.wait_until_idle()
     bench.measured()
@@ -139,7 +139,7 @@ def test_a_movement_is_measured_once_where_it_ends(bench: Bench) -> None:
     earlier = RateRequest(scenes.scene, scenes.settings.settings, decoder)
     bench.scenes.change(switching_frequency=40e3)
     assert bench.outdated() == {"switching_frequency": False, "iso": True}
-    # It was measured too late.
+    # A result for an earlier request.
     bench.queue.channels[0].results_ready.emit(earlier, [StripPoints("iso", ())])
     assert bench.outdated()["iso"]
     bench.wait_until_idle()
@@ -161,7 +161,7 @@ def strips(qtbot: QtBot, small_scene: Scene) -> SliderStrips:
     return strips
 
 
-def test_a_strip_begins_and_ends_where_the_handle_does(strips: SliderStrips) -> None:
+def test_a_strip_is_as_long_as_the_path_of_the_handle(strips: SliderStrips) -> None:
     assert tuple(strips.strips) == MAIN
     for name, row in strips.rows.items():
         strip = strips.strips[name]
@@ -176,44 +176,44 @@ def test_a_strip_begins_and_ends_where_the_handle_does(strips: SliderStrips) -> 
         assert strip.height() == 6
 
 
-def test_a_strip_has_the_colours_of_the_map_and_says_what_it_is(strips: SliderStrips) -> None:
+def test_a_strip_has_the_colours_of_the_map_and_explains_itself(strips: SliderStrips) -> None:
     strip = strips.strips["iso"]
     strip.show_fractions((0.0, 0.5, None, 1.0))
     strip.show_present(None)
     picture, (first, last) = strip.grab().toImage(), strip.span()
-    wanted = to_colours(np.array([[0.0, 50.0, 100.0]]), 0.0, 100.0, RATES)[0, :, :3].tolist()
-    seen = []
+    expected = to_colours(np.array([[0.0, 50.0, 100.0]]), 0.0, 100.0, RATES)[0, :, :3].tolist()
+    colours = []
     for fraction in (0.1, 0.35, 0.65, 0.9):
         colour = picture.pixelColor(round(first + fraction * (last - first)), 3)
-        seen.append([colour.red(), colour.green(), colour.blue()])
-    unknown = seen.pop(2)
-    assert seen == wanted
-    assert unknown not in wanted
+        colours.append([colour.red(), colour.green(), colour.blue()])
+    unknown = colours.pop(2)
+    assert colours == expected
+    assert unknown not in expected
     assert "read at 1 of 3" in strip.accessibleDescription()
     for strip in strips.strips.values():
         assert strip.accessibleName().startswith("Reading along ")
         assert "grey unknown" in strip.toolTip()
 
 
-def test_an_outdated_strip_says_so_at_once_and_fades_later(qtbot: QtBot) -> None:
+def test_an_outdated_strip_is_marked_at_once_and_fades_later(qtbot: QtBot) -> None:
     row = QuantityRow(quantity("iso"))
     strip = SliderStrip(row.slider, "ISO speed")
     for widget in (row, strip):
         qtbot.addWidget(widget)
     strip.resize(200, 6)
     strip.show_fractions((1.0,) * 5)
-    shown = strip.grab().toImage()
+    before = strip.grab().toImage()
     strip.show_outdated(True)
     assert strip.accessibleDescription() == "earlier scene: read at 5 of 5 positions"
     assert "of an earlier scene" in strip.toolTip()
-    assert strip.grab().toImage() == shown
-    qtbot.waitUntil(lambda: strip.grab().toImage() != shown)
+    assert strip.grab().toImage() == before
+    qtbot.waitUntil(lambda: strip.grab().toImage() != before)
     strip.show_outdated(False)
-    assert strip.grab().toImage() == shown
+    assert strip.grab().toImage() == before
     assert strip.accessibleDescription() == "read at 5 of 5 positions"
 
 
-def test_the_legend_shows_and_says_what_the_colours_mean_and_gives_way_to_the_sliders(
+def test_the_legend_explains_the_colours_and_leaves_its_space_to_the_sliders(
     strips: SliderStrips,
 ) -> None:
     legend = strips.legend
@@ -226,25 +226,24 @@ def test_the_legend_shows_and_says_what_the_colours_mean_and_gives_way_to_the_sl
     legend.resize(legend.sizeHint())
     picture = legend.grab().toImage()
     middle = [picture.pixelColor(x, picture.height() // 2) for x in range(picture.width())]
-    seen = {(colour.red(), colour.green(), colour.blue()) for colour in middle}
+    colours = {(colour.red(), colour.green(), colour.blue()) for colour in middle}
     ends = to_colours(np.array([[0.0], [1.0]]), 0.0, 1.0, RATES)[:, 0, :3]
-    assert {tuple(end) for end in ends.tolist()} <= seen
+    assert {tuple(end) for end in ends.tolist()} <= colours
 
 
-def test_the_strips_begin_a_while_after_the_picture_has_come(
+def test_the_strips_begin_a_while_after_the_first_picture(
     qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(wiring, "START_MS", 1)
     row = add_widget(qtbot, QuantityRow(quantity("iso")))
-    strips, asked = SliderStrips({"iso": row}), list[bool]()
-    there = [False, False, True, True]
+    strips, answers = SliderStrips({"iso": row}), list[bool]()
 
     def has_picture() -> bool:
-        asked.append(there[min(len(asked), len(there) - 1)])
-        return asked[-1]
+        answers.append(len(answers) >= 2)
+        return answers[-1]
 
     measuring = BackgroundRates(store_of(), strips, has_picture)
     strips.seen.emit(True)
     qtbot.waitUntil(lambda: measuring.queue.workers is not None)  # something is measured
-    assert asked == [False, False, True, True]
+    assert answers == [False, False, True, True]
     measuring.stop()

@@ -194,6 +194,21 @@ def test_jobs_that_cannot_be_made_fail_only_their_own_request(bench: Bench) -> N
     assert bench.results == ["s"]
 
 
+def test_a_job_that_cannot_be_sent_fails_only_its_own_request() -> None:
+    class Picky(HeldWorker):
+        def submit(self, job: Job, channel: int, run: int) -> "Future[JobResult]":
+            if channel == MAP:
+                raise TypeError("cannot be sent")
+            return super().submit(job, channel, run)
+
+    bench = Bench(Picky())
+    bench.ask(MAP, 1, jobs(0, "a"))
+    bench.ask(STRIPS, 1, jobs(0, "s"))
+    bench.finish_all()
+    assert [(run, str(error)) for _, run, error in bench.errors] == [(1, "cannot be sent")]
+    assert bench.results == ["s"]
+
+
 def test_an_unexpected_error_at_the_start_fails_only_the_request() -> None:
     worker, mistakes = HeldWorker(), [ValueError("a mistake")]
 

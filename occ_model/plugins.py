@@ -60,14 +60,10 @@ def _found(group: str) -> "dict[str, EntryPoint]":
         return {}
     found: dict[str, EntryPoint] = {}
     for entry in offered:
-        if _is_name(entry.name):
+        # Names are shown in lists and written to scene files; a package may have any.
+        if isinstance(entry.name, str) and _NAME.fullmatch(entry.name):
             found.setdefault(entry.name, entry)
     return found
-
-
-def _is_name(name: object) -> bool:
-    """Whether a name is safe in lists, scene files and names of files; a package may have any."""
-    return isinstance(name, str) and _NAME.fullmatch(name) is not None
 
 
 def plugin_names(group: str) -> tuple[str, ...]:

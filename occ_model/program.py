@@ -63,8 +63,11 @@ def _prepare_and_run(
         if is_process:
             open_streams(needs_output=not is_window)
             interrupts = Interrupts(name, always_at_once=is_window)
-        _show_any_letter()
-        _check_output(needed=not is_window)
+        if isinstance(sys.stdout, TextIOWrapper):
+            # As standard error does with letters that its encoding lacks.
+            sys.stdout.reconfigure(errors="replace")
+        if sys.stdout is None and not is_window:
+            raise OutputError("Standard output is closed; send it to a file or to the null device.")
         work = prepare()
         if is_process:
             interrupts.end_preparation()
@@ -158,17 +161,6 @@ def _null() -> "TextIO":
     return open(os.devnull, "w", encoding="utf-8")  # noqa: PTH123 - for as long as we run
 
 
-def _show_any_letter() -> None:
-    """Replace letters that standard output's encoding lacks, as standard error does."""
-    if isinstance(sys.stdout, TextIOWrapper):
-        sys.stdout.reconfigure(errors="replace")
-
-
-def _check_output(needed: bool) -> None:
-    if needed and sys.stdout is None:
-        raise OutputError("Standard output is closed; send it to a file or to the null device.")
-
-
 def _flush_output() -> None:
     if sys.stdout is not None:
         sys.stdout.flush()
@@ -182,7 +174,10 @@ def discard(stream: "TextIO | None") -> None:
 
 def _say_failure(name: str, error: Exception) -> int:
     """Report an error that nothing else in the program has reported; return the exit code."""
-    _discard_unwritten_output()
+    try:
+        _flush_output()
+    except (OSError, ValueError):
+        discard(sys.stdout)
     if isinstance(error, BrokenPipeError):  # the reader of our output has closed it on purpose
         return EXIT_FAILURE
     if isinstance(error, MemoryError):
@@ -198,13 +193,6 @@ def _say_failure(name: str, error: Exception) -> int:
         kind, text = type(error).__name__, one_line(" ".join(str(error).split()))
         say(name, f"A mistake in this program, {_place(error.__traceback__)}: {kind}: {text}.")
     return EXIT_FAILURE
-
-
-def _discard_unwritten_output() -> None:
-    try:
-        _flush_output()
-    except (OSError, ValueError):
-        discard(sys.stdout)
 
 
 def _place(trace: TracebackType | None) -> str:

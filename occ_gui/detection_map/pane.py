@@ -11,7 +11,11 @@ from occ_gui.core.store import NO_GESTURE
 from occ_gui.detection_map.map_schedule import MapRequest
 from occ_gui.detection_map.map_view import MapView
 from occ_gui.detection_map.rate_map import PointFacts, RateMap, TheoryFields
-from occ_gui.detection_map.search_controller import AdvisorController, MostBitsController
+from occ_gui.detection_map.search_controller import (
+    IN_TURN_RANK,
+    AdvisorController,
+    MostBitsController,
+)
 from occ_gui.detection_map.wiring import BackgroundRates
 from occ_gui.detection_map.worker import UNSEEN_PARAMETERS, find_left_out
 from occ_gui.scene.scene_store import SceneStore
@@ -210,7 +214,7 @@ class MapPane(Pane[None]):
         view.image_effects.toggled.connect(self.map.use_image_effects)
         view.image_effects.toggled.connect(self.advisor.use_image_effects)
         view.advice.asked.connect(self.advisor.start)
-        view.advice.cards.asked.connect(self.advisor.search_in_turn)
+        view.advice.cards.asked.connect(lambda: self.advisor.start(IN_TURN_RANK))
         view.advice.cancelled.connect(self.advisor.cancel)
         view.advice.destination_chosen.connect(self.advisor.go_to_limit)
         view.most_bits.asked.connect(self.most_bits.start)

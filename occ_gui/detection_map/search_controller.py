@@ -167,10 +167,6 @@ class AdvisorController(SearchController):
         self._pane.show_advice_begun(omitted)
         self._begin(request, request.jobs(rank))
 
-    def search_in_turn(self) -> None:
-        """Search for the limits of the present scene, after the points of the map."""
-        self.start(IN_TURN_RANK)
-
     def go_to_limit(self, name: str, value: float, decoder: str) -> None:
         self._go_to(decoder, {name: value})
 

@@ -19,7 +19,6 @@ from occ_gui.detection_map.worker import (
 )
 from occ_gui.scene.scene_store import SceneStore
 from occ_model.parallel.job import Job
-from occ_model.results.decoding import PAPER_DECODER
 from occ_model.results.sweep_request import SweepPoint
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
@@ -50,7 +49,6 @@ class RateController(QObject):
     def __init__(self, scenes: SceneStore, channel: JobChannel) -> None:
         super().__init__()
         self._scenes, self._channel = scenes, channel
-        self._decoder = PAPER_DECODER
         self._is_visible = False
         self._last_request: RateRequest | None = None
         self._rest_timer = QTimer(self, singleShot=True)

@@ -1,9 +1,4 @@
-"""The manual's pages, their order and search, and a browser for them with links and a style."""
-
-import re
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
-from pathlib import Path
+"""A browser for local Markdown pages, with pictures, headings as link targets, and a style."""
 
 from PySide6.QtCore import QEvent, Qt, QUrl
 from PySide6.QtGui import (
@@ -21,84 +16,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QTextBrowser
 
-from occ_model.files.resources import resource_path
-
-CONTENTS = "index.md"
-
-GUIDE = "guide.md"
-
-_LISTED = re.compile(r"^\* \[([^\]]+)\]\(([\w-]+\.md)\)", re.MULTILINE)
-
-
-def docs_folder() -> Path:
-    """Return the folder of the pages; raises OSError if the program is installed without them."""
-    # If the program runs from an archive, this copies the pictures as well.
-    resource_path("pictures")
-    return resource_path("docs")
-
-
-def pages(folder: Path) -> list[tuple[str, str]]:
-    """List title and file name of every page, in the order of the table of contents.
-
-    Raises OSError if the table of contents cannot be read.
-    """
-    text = (folder / CONTENTS).read_text(encoding="utf-8")
-    return [("Contents", CONTENTS), *_LISTED.findall(text)]
-
-
-def heading_id(text: str) -> str:
-    """Return the anchor of a heading, as common Markdown viewers make it."""
-    return re.sub(r"[^\w\- ]", "", text.strip().lower()).replace(" ", "-")
-
-
-_HEADING = re.compile(r"#+ (.+)")
-
-
-@dataclass(frozen=True, slots=True)
-class Section:
-    title: str
-    """The page's title in the table of contents, followed by the heading of a section in it."""
-    link: str  # page and heading, such as ``guide.md#set-up-a-scene``
-    heading: str
-    text: str
-
-
-def sections(folder: Path) -> list[Section]:
-    """Read the sections of all pages, in the order of the table of contents and without it."""
-    found = []
-    for title, name in pages(folder):
-        parts = _parts((folder / name).read_text(encoding="utf-8"))
-        for place, (heading, text) in enumerate(parts):
-            shown, link = (title, name) if place == 0 else (f"{title}: {heading}", "")
-            found.append(Section(shown, link or f"{name}#{heading_id(heading)}", heading, text))
-    return found[1:]
-
-
-def _parts(page: str) -> Iterator[tuple[str, str]]:
-    """Divide a page into headings and the text below each; a # in an example is no heading."""
-    heading, lines, is_example = "", list[str](), False
-    for line in page.splitlines():
-        is_example ^= line.startswith("```")
-        match = None if is_example else _HEADING.match(line)
-        if match is None:
-            lines.append(line)
-            continue
-        if heading:
-            yield heading, "\n".join(lines)
-        heading, lines = match[1], []
-    yield heading, "\n".join(lines)
-
-
-def search(of: Sequence[Section], text: str) -> list[Section]:
-    """Return the sections that contain every word, first those that contain them in the title."""
-    words = text.lower().split()
-
-    def has_all(where: str) -> bool:
-        return all(word in where.lower() for word in words)
-
-    there = [section for section in of if has_all(f"{section.title}\n{section.text}")]
-    return sorted(there, key=lambda section: not has_all(section.title))
-
+from occ_gui.help.pages import heading_id
 
 _MARGIN = 12
 _IMAGE = QTextDocument.ResourceType.ImageResource

@@ -16,15 +16,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from occ_gui.help.help_browser import (
-    GUIDE,
-    HelpBrowser,
-    Section,
-    docs_folder,
-    pages,
-    search,
-    sections,
-)
+from occ_gui.help.help_browser import HelpBrowser
+from occ_gui.help.pages import GUIDE, Section, docs_folder, pages, search, sections
 from occ_gui.shell.feature import Service
 from occ_gui.widgets.building import fill, name_widget
 

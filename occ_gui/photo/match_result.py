@@ -122,10 +122,6 @@ class MatchResult(QWidget):
             self.cure_asked,
         )
 
-    @property
-    def values(self) -> dict[str, QLabel]:
-        return self.figures.labels
-
     def show_match(
         self,
         match: Match,

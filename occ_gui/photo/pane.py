@@ -137,10 +137,6 @@ class PhotoPane(Pane[ShownPhoto]):
 
     # Showing the part.
 
-    @property
-    def placement(self) -> Placement:
-        return self._shown.placement
-
     def show_part(self, part: ShownPhoto) -> None:
         shown, self._shown = self._shown, part
         self._show(part, shown)

@@ -20,13 +20,11 @@ class Gain:
     ) -> Self:
         def recalled(rows: FloatArray, columns: slice) -> Pixels:
             place = (rows[0], rows[-1], len(rows), columns.start, columns.stop)
-            return MEMORY.recall((stage, *depends_on, *place), lambda: at(rows, columns), _as_tuple)
+            return MEMORY.recall(
+                (stage, *depends_on, *place), lambda: at(rows, columns), lambda one: (one,)
+            )
 
         return cls(stage, recalled)
-
-
-def _as_tuple(factors: Pixels) -> tuple[Pixels]:
-    return (factors,)
 
 
 STAGE = "optics"  # the stage that gets the time of no effect in particular

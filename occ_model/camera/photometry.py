@@ -152,13 +152,9 @@ def values_of(electrons: FloatArray, scene: Scene) -> FloatArray:
     return pixel_value(electrons / electrons_per_luminance(scene), scene.camera)
 
 
-def converter_step(scene: Scene) -> float:
-    """Return the electrons for each step of the converter, whose range ends at white."""
-    return _converter_step(scene.camera, scene.sensor)
-
-
 @lru_cache(maxsize=8)
-def _converter_step(camera: Camera, sensor: Sensor) -> float:
+def converter_step(camera: Camera, sensor: Sensor) -> float:
+    """Return the electrons for each step of the converter, whose range ends at white."""
     brightest = luminance_of(np.array([WHITE]), camera)
     largest = float(brightest[0]) * _electrons_per_luminance(camera, sensor)
     return min(largest, sensor.full_well) / float(2**sensor.adc_bits)

@@ -82,7 +82,8 @@ def _run(options: argparse.Namespace) -> int:
     region = None if options.region is None else parse_region(options.region)
     scene = scene_of(options)
     if options.led_frequency is not None:
-        scene = _send_square_wave(scene, options.led_frequency)
+        frequency = replace(SQUARE_FREQUENCY, name="--led-frequency").parse(options.led_frequency)
+        scene = send_square_wave(scene, frequency)
     if options.more:
         return run_many(options, scene)
     photo = load_photo(options.file, options.scan_axis, channel=options.channel)
@@ -151,11 +152,6 @@ def _run_lamps(photo: Photo, scene: Scene, options: argparse.Namespace) -> int:
 def _assumption_of_match(match: Match, options: argparse.Namespace) -> str:
     known = match.known
     return assumption_of(known, getattr(match, known), match.pattern, options)
-
-
-def _send_square_wave(scene: Scene, text: str) -> Scene:
-    """Let a scene send a square wave; an error about the value names the option."""
-    return send_square_wave(scene, replace(SQUARE_FREQUENCY, name="--led-frequency").parse(text))
 
 
 def _report_lines(match: Match, assumption: str, noted: float | None) -> list[str]:

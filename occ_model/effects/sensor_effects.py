@@ -150,5 +150,6 @@ class SensorNoise(NoiseEffect):
         return True
 
     def spread(self, scene: Scene, values: FloatArray) -> FloatArray:
-        constant = scene.sensor.read_noise**2 + converter_step(scene) ** 2 / 12.0
+        step = converter_step(scene.camera, scene.sensor)
+        constant = scene.sensor.read_noise**2 + step**2 / 12.0
         return deviation(values, scene, lambda electrons: np.asarray(electrons + constant))

@@ -238,7 +238,8 @@ class Scheduler:
     def _recover(self, workers: Workers, error: Exception) -> None:
         """Replace workers that died, and put their jobs back."""
         for future, (run, job) in reversed(list(self._in_flight.items())):
-            if not _has_result(future):
+            has_result = future.done() and not future.cancelled() and future.exception() is None
+            if not has_result:
                 del self._in_flight[future]
                 run.waiting.appendleft(job)
         self._losses += 1
@@ -255,11 +256,6 @@ class Scheduler:
                 self._fail(run, WorkersLostError(reason_of(error), self._losses))
             else:
                 run.listener.note_lost_workers(run.number, missing)
-
-
-def _has_result(future: "Future[JobResult]") -> bool:
-    """Return whether a job was completed before its worker died."""
-    return future.done() and not future.cancelled() and future.exception() is None
 
 
 _BEAT = 0.2  # seconds between two heartbeats while this process waits for workers

@@ -178,7 +178,6 @@ class ChipFit:
 
     chip_length: float
     widening: float
-    misfit: float  # RMS distance from whole chips, plus penalties
 
     def count_chips(self, runs: Runs) -> IndexArray:
         sign = np.where(runs.values == 1, 1.0, -1.0)
@@ -269,4 +268,4 @@ def _find_best_fit(
         has_header = ((ones >= min(_HEADER_RUNS)) & (ones <= max(_HEADER_RUNS))).any(axis=1)
         misfit += np.where(has_header, 0.0, _NO_HEADER_PENALTY)
     best = int(misfit.argmin())
-    return ChipFit(float(chip_length[best]), float(widening[best]), float(misfit[best]))
+    return ChipFit(float(chip_length[best]), float(widening[best]))

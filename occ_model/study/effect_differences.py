@@ -5,7 +5,6 @@ from functools import lru_cache
 
 import cv2
 import numpy as np
-from numpy.typing import NDArray
 
 from occ_model.arrays import ByteArray, FloatArray, Pixels
 from occ_model.camera.photometry import WHITE
@@ -37,7 +36,8 @@ class CompleteSimulation:
         self._seen = self._simulate(self.effects, observable, timer)
         self._bare = self._simulate((), "image", timer)
         size = self._seen.size
-        self._places = np.arange(size) if size <= _SAMPLES else _draw_places(size)
+        random = np.random.default_rng(0)
+        self._places = np.arange(size) if size <= _SAMPLES else random.integers(0, size, _SAMPLES)
         self._differences: dict[str, EffectDifference] = {}
         self._errors = {frozenset(self.effects): 0.0}
 
@@ -109,10 +109,6 @@ def plan_of_effects(scene: Scene, observable: Observable, effects: Iterable[str]
 
 def rms(values: Pixels | FloatArray) -> float:
     return float(np.sqrt(np.mean(np.square(values.ravel(), dtype=np.float64))))
-
-
-def _draw_places(size: int) -> NDArray[np.int64]:
-    return np.random.default_rng(0).integers(0, size, _SAMPLES)
 
 
 CROP = (64, 112)  # rows and columns of a crop for close inspection

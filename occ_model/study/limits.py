@@ -188,17 +188,15 @@ class _SearchRunner:
 
     def _report(self, read: int, asked: tuple[Any, ...]) -> None:
         self._heartbeat()
-        self._progress(min(read / self._usual, 0.99), _describe_search(asked))
+        _, name, _, settings, *_ = asked
+        what = f"{PARAMETERS[name].in_sentence}, {settings.decoders[0]} decoder"
+        self._progress(min(read / self._usual, 0.99), what)
 
 
 def _unwrap_result(result: JobResult) -> Any:
     if result.error is not None:
         raise result.error
     return result.value
-
-
-def _describe_search(asked: tuple[Any, ...]) -> str:
-    return f"{PARAMETERS[asked[1]].in_sentence}, {asked[3].decoders[0]} decoder"
 
 
 def _check_wanted_rate(rate: object) -> float:

@@ -63,11 +63,6 @@ class Scheme:
         """Number of chips of one period, the same for all payloads."""
         return len(self.encode(np.zeros(self.bits, dtype=np.uint8)))
 
-    @property
-    def chips_a_bit(self) -> float:
-        """Chips sent for each bit of the payload, with all overhead."""
-        return self.length / self.bits
-
     def encode(self, bits: ArrayLike) -> ByteArray:
         """Turn a payload into one period of the chips sent.
 

@@ -13,7 +13,7 @@ from each_case import each_case
 
 import occ_model as occ
 from occ_gui.app.command_line import read_command_line as read_gui_line
-from occ_gui.help.help_browser import CONTENTS, heading_id, pages
+from occ_gui.help.pages import CONTENTS, heading_id, pages
 from occ_model.commands.command_line import read_command_line
 from occ_model.commands.listing import framing_table, line_code_table, parameter_table
 from occ_model.effects.registry import EFFECTS

@@ -7,7 +7,7 @@ from typing import Any
 from mkdocs.config.defaults import MkDocsConfig
 from mkdocs.structure.files import File, Files
 
-from occ_gui.help.help_browser import heading_id
+from occ_gui.help.pages import heading_id
 
 PICTURES = Path(__file__).parents[2] / "pictures"
 

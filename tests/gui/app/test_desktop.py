@@ -17,8 +17,8 @@ from pytestqt.qtbot import QtBot
 from occ_gui.app.application import Application
 from occ_gui.core.workspace import Workspace
 from occ_gui.files.preferences import Preferences
-from occ_gui.help.help_browser import docs_folder, heading_id
 from occ_gui.help.help_window import HelpWindow
+from occ_gui.help.pages import docs_folder, heading_id
 from occ_gui.scene.scene_editor import SceneEditor
 from occ_gui.scene.scene_store import SceneStore, new_gesture
 from occ_gui.values.modes import PICTURE

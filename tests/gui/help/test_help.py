@@ -16,17 +16,9 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.app.panes import bands, manual as declaration, spectrum
 from occ_gui.help import help_window
-from occ_gui.help.help_browser import (
-    CONTENTS,
-    GUIDE,
-    HelpBrowser,
-    Section,
-    docs_folder,
-    pages,
-    search,
-    sections,
-)
+from occ_gui.help.help_browser import HelpBrowser
 from occ_gui.help.help_window import HelpWindow
+from occ_gui.help.pages import CONTENTS, GUIDE, Section, docs_folder, pages, search, sections
 from occ_model.scene.scene import Scene
 
 ROOT = Path(__file__).parents[3]
@@ -209,7 +201,7 @@ def test_pages_and_pictures_come_out_of_an_archive(tmp_path: Path) -> None:
                 packed.write(file, Path("occ_model", file.relative_to(ROOT)))
     program = (
         f"import sys; sys.path.insert(0, {str(archive)!r})\n"
-        "from occ_gui.help.help_browser import docs_folder, pages\n"
+        "from occ_gui.help.pages import docs_folder, pages\n"
         "folder = docs_folder()\n"
         "print(len(pages(folder)), (folder / '../pictures/window.png').is_file())\n"
     )

@@ -20,7 +20,7 @@ def test_results_stand_with_uncertainty_in_the_screens_units(
     view.open(replace(photo, exposure_time=1 / 16000))
     view.result.show_certain({"switching_frequency": 2e3})
     view.show_matched(match)
-    texts = {name: label.text() for name, label in view.result.values.items()}
+    texts = {name: label.text() for name, label in view.result.figures.labels.items()}
     assert texts["readout_time"] == "14.57770 ± 0.00027 µs"
     assert texts["exposure_time"] == "62.50 ± 0.21 µs"
     assert texts["noted"] == "62.5 µs"
@@ -33,21 +33,21 @@ def test_results_stand_with_uncertainty_in_the_screens_units(
     assert texts["periods"] == f"{3 * 2e3 * 14.5777e-6 / 4:.3g}"
     assert texts["exposed"] == "0.125"
     assert texts["duty"] == "lit for 50 % of a period"
-    assert view.result.values["pattern"].toolTip() == "1010 (read from the photo)"
-    assert "one standard deviation" in view.result.values["exposure_time"].toolTip()
+    assert view.result.figures.labels["pattern"].toolTip() == "1010 (read from the photo)"
+    assert "one standard deviation" in view.result.figures.labels["exposure_time"].toolTip()
     spreads = {**match.uncertainties, "exposure_time": 15e-6}
     view.show_matched(replace(match, exposure_time=6e-6, uncertainties=spreads))
-    assert view.result.values["exposure_time"].text() == "below 36 µs (6 ± 15 µs)"
+    assert view.result.figures.labels["exposure_time"].text() == "below 36 µs (6 ± 15 µs)"
     spreads["exposure_time"] = 29e-6
     view.show_matched(replace(match, exposure_time=55e-6, uncertainties=spreads))
-    assert view.result.values["exposure_time"].text() == "below 110 µs (55 ± 29 µs)"
+    assert view.result.figures.labels["exposure_time"].text() == "below 110 µs (55 ± 29 µs)"
 
 
 def test_a_lamp_that_blinks_with_any_duty_is_known_by_its_cycles(
     view: LiveView, match: Match
 ) -> None:
     view.show_matched(replace(match, pattern="1" * 30 + "0" * 20, switching_frequency=50e3))
-    shown = view.result.values
+    shown = view.result.figures.labels
     assert shown["switching_frequency"].text() == "50 kHz: blinks at 1 kHz (assumed)"
     assert shown["duty"].text() == "lit for 60 % of a period (given)"
     said = "What follows holds if it is a lamp of 1 kHz (50 kHz chips)."
@@ -61,7 +61,7 @@ def test_one_photo_gives_the_frames_readout_and_lines_for_other_programs(
     view.show_matched(match)
     paste = view.result.paste
     assert view.result.condition.text() == "What follows holds if f = 2 kHz."
-    assert view.result.values["frame"].text() == "14.57770 ± 0.00027 ms"
+    assert view.result.figures.labels["frame"].text() == "14.57770 ± 0.00027 ms"
     assert (paste.lines, paste.why_none.isVisible()) == ({}, True)
     view.result.show_certain({"switching_frequency": 2e3})
     assert not view.result.condition.isVisible()
@@ -125,7 +125,7 @@ def test_without_a_match_there_is_nothing_to_apply(
 
 def estimates(view: LiveView) -> list[str]:
     names = ("readout_time", "switching_frequency", "exposure_time")
-    return [view.result.values[name].text() for name in names]
+    return [view.result.figures.labels[name].text() for name in names]
 
 
 def test_a_result_that_depends_on_an_assumed_value_says_so_until_it_is_confirmed(
@@ -168,9 +168,9 @@ def test_a_doubtful_exposure_is_stated_beside_sure_values(view: LiveView, match:
     assert result.verdict.reasons.text().splitlines() == [
         f"• {ONLY} {REASONS[0]}", f"• {REASONS[1]}",
     ]  # fmt: skip
-    assert result.values["exposure_time"].text() == "62.50 ± 0.21 µs (doubtful)"
-    assert result.values["start_time"].text().endswith(" (doubtful)")
-    assert "doubtful" not in result.values["readout_time"].text()
+    assert result.figures.labels["exposure_time"].text() == "62.50 ± 0.21 µs (doubtful)"
+    assert result.figures.labels["start_time"].text().endswith(" (doubtful)")
+    assert "doubtful" not in result.figures.labels["readout_time"].text()
     view.show_matched(replace(match, reasons=REASONS[:1], exposure_reasons=REASONS[1:]))
     assert result.verdict.word.text() == "◐ doubtful"
     assert result.verdict.reasons.text() == "\n".join(f"• {reason}" for reason in REASONS)
@@ -178,9 +178,9 @@ def test_a_doubtful_exposure_is_stated_beside_sure_values(view: LiveView, match:
 
 def test_other_explanations_are_stated_with_their_assumptions(view: LiveView, match: Match) -> None:
     view.show_matched(match)
-    assert not view.result.values["alternative"].isVisible()
+    assert not view.result.figures.labels["alternative"].isVisible()
     view.show_matched(replace(match, alternatives=(READ, PLAIN)))
-    assert view.result.values["alternative"].text().splitlines() == [
+    assert view.result.figures.labels["alternative"].text().splitlines() == [
         "• chips that were read: correlation 0.950, log-likelihood lower by 3.2; "
         "readout time 7.2 µs, exposed for 80 µs",
         "• a smooth curve: correlation 0.910, log-likelihood higher by 12.3",

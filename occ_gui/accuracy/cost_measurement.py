@@ -30,9 +30,9 @@ class SceneCosts:
 
         Times measured alternately with other pictures replace them: only those can be compared.
         """
-        here, there = self.request.settings, request.settings
+        own, other = self.request.settings, request.settings
         is_compared = _comparison_key(request) == _comparison_key(self.request)
-        has_times = self.request.scene == request.scene and here.noise == there.noise
+        has_times = self.request.scene == request.scene and own.noise == other.noise
         pictures = self.pictures if has_times else ()
         same = (fractions for fractions in pictures if fractions.included == picture.included)
         return MeasuredCosts(

@@ -61,7 +61,7 @@ def make_rows(
         rows.append(_make_row(decision, costs, error, is_new, pending))
     rest = costs.picture.everything_else
     stages = "\n".join(f"{name}: {milliseconds(s)} ms" for name, s in costs.picture.stages.items())
-    reason = f"What belongs to no effect, in ms:\n{stages}"
+    reason = f"Time that belongs to no effect, in ms:\n{stages}"
     last = EffectRow(
         ELSE, "", "Everything else", seconds=rest, time=milliseconds(rest), reason=reason
     )

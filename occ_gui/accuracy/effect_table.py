@@ -86,7 +86,7 @@ class EffectModel(QAbstractTableModel):
                     "their scatter keep their order when sorted."
                 ),
             ),
-            SWITCH: ("Switch", "Whether the plan decides, or you."),
+            SWITCH: ("Switch", "Whether the plan or you decide."),
         }
 
     def show_rows(self, rows: Sequence[EffectRow]) -> None:

@@ -179,9 +179,9 @@ class DecodeView(QWidget):
         """State what was read, and the early verdict where it differs."""
         early = self._early_reading
         if reading.source == "profile":
-            return "By the column profile; the picture follows."
+            return "Read from the column profile; the picture follows."
         if reading.source == "draft":
-            return "By a draft of the picture; the exact one follows."
+            return "Read from a draft of the picture; the exact one follows."
         if early is not None:
             before, now = self._write_verdict(early), self._write_verdict(reading)
             if before != now:

@@ -78,10 +78,7 @@ class MapView(QWidget):
             "a video with one payload in each picture.",
             {"rate": "success rate", "bits": "bits a second"},
         )
-        tip = (
-            "Pictures a second, each with another payload; at most as many are counted as can be "
-            "read out."
-        )
+        tip = "Pictures a second, each with its own payload; at most as many as can be read out."
         self.frame_rate = name_widget(QuantityEdit(FRAME_RATE), FRAME_RATE.label, tip)
         self.frame_rate.hide()
 

@@ -139,7 +139,7 @@ class DetectionMapController(QObject):
     def _show_progress(self) -> None:
         assert self.map is not None  # noqa: S101 - it is called when there is a map
         total = self.map.images.size
-        self._pane.show_progress(self.map.known, total, self.map.least_images)
+        self._pane.show_progress(self.map.known_count, total, self.map.least_images)
 
     def _finish(self, request: MapRequest) -> None:
         if request == self._map_request:

@@ -114,7 +114,7 @@ class RateMap:
                 self.notes[point.index] = point.note
 
     @property
-    def known(self) -> int:
+    def known_count(self) -> int:
         return int(np.count_nonzero(self.images))
 
     @property

@@ -70,7 +70,7 @@ class AnswerField(QWidget):
         self.field = name_widget(QLineEdit(maxLength=_LONGEST_ANSWER), "Your answer", tip)
         leave_undo_to_window(self.field)
         self.unit = QLabel()
-        self.check = push_button("Check", "Compare it with the model (Enter).", self._ask)
+        self.check = push_button("Check", "Compare your answer with the model (Enter).", self._ask)
         self.field.returnPressed.connect(self._ask)
         self.field.textEdited.connect(self._clear_outcome)
         self.sentence = name_widget(paragraph(), "Result of the check")
@@ -163,7 +163,7 @@ class StepPage(QWidget):
             self.control_asked,
             name="Show the control of this step",
         )
-        self.changed = name_widget(paragraph(), "Your changes of the scene")
+        self.changed = name_widget(paragraph(), "Your changes to the scene")
         self.changed.hide()
         self.action = push_button(
             "", "Do what this step is about.", self.action_asked, name="Do what this step asks for"
@@ -195,7 +195,7 @@ class StepPage(QWidget):
             "All lessons", "Go back to the list, and to your own scene.", self.list_asked
         )
         self.back = push_button(
-            "Back", "Go to the step before, and set its scene.", lambda: self.moved.emit(-1)
+            "Back", "Go to the previous step, and set its scene.", lambda: self.moved.emit(-1)
         )
         self.next = push_button(
             "Next", "Go to the next step, and set its scene.", lambda: self.moved.emit(1)

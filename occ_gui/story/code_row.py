@@ -204,7 +204,7 @@ class CodeRow(StoryRow):
         self._draw_bits(painter, place, result, bits)
         return spans
 
-    def draw_beside(self, painter: QPainter, area: QRectF) -> None:
+    def draw_gutter(self, painter: QPainter, area: QRectF) -> None:
         painter.setPen(self.colour(QPalette.ColorRole.WindowText))
         is_text = bool(self.letters) and self._form == "text"
         letters = "text" if is_text else "bytes"

@@ -66,7 +66,7 @@ class LightRow(StoryRow):
             self._scene.transmitter, self._scene.camera.readout_time,
             self._scene.model.start_time, self._has_edges, self._sent_bits,
         )  # fmt: skip
-        if inputs != self._drawn_inputs:  # an exposure time changes only the window
+        if inputs != self._drawn_inputs:  # a new exposure time changes only the window
             self._drawn_inputs = inputs
             self.redraw()
 
@@ -211,7 +211,7 @@ class LightRow(StoryRow):
             what = f"“{one_line(sent.payload.partition(':')[2], _MOST_LETTERS)}”"
         return f"{what}, {counted(len(self._sent_bits), 'bit')}"
 
-    def draw_beside(self, painter: QPainter, area: QRectF) -> None:
+    def draw_gutter(self, painter: QPainter, area: QRectF) -> None:
         light = self._light_area(area)
         painter.setPen(self.colour(QPalette.ColorRole.WindowText))
         for text, y in (("on", light.top()), ("off", light.bottom())):

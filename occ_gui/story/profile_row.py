@@ -191,7 +191,7 @@ class ProfileRow(StoryRow):
         y = (low + high) / 2
         painter.drawLine(QPointF(area.left(), y), QPointF(area.right(), y))
 
-    def draw_beside(self, painter: QPainter, area: QRectF) -> None:
+    def draw_gutter(self, painter: QPainter, area: QRectF) -> None:
         painter.setPen(self.colour(QPalette.ColorRole.WindowText))
         unit = QRectF(4, 3 + painter.fontMetrics().lineSpacing(), area.left(), self.height())
         left = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop

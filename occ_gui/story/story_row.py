@@ -81,8 +81,8 @@ class StoryRow(QWidget):
         """Draw what depends on the results, clipped to an area."""
         raise NotImplementedError
 
-    def draw_beside(self, painter: QPainter, area: QRectF) -> None:
-        """Draw what stands at the left of the area, beside the row's name."""
+    def draw_gutter(self, painter: QPainter, area: QRectF) -> None:
+        """Draw what stands in the gutter, beside the row's name."""
 
     def draw_markers(self, painter: QPainter, area: QRectF) -> None:
         """Draw the marks of the chosen column."""
@@ -138,7 +138,7 @@ class StoryRow(QWidget):
         painter.restore()
         painter.setFont(self._gutter_font())
         self._draw_name(painter)
-        self.draw_beside(painter, area)
+        self.draw_gutter(painter, area)
         painter.end()
         return picture
 

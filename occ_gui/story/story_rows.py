@@ -57,7 +57,7 @@ class StoryRows(QWidget):
                 "Show all columns of the panel, and follow it.",
                 lambda _=False, name=name: self.choose_range(name),
             )
-            button.setParent(self)  # owned until laid out elsewhere: it would outlive the rows
+            button.setParent(self)  # owned until laid out: else it would outlive the rows
             button.setCheckable(True)
         self._mark_range()
         self._label_range(has_packets=True)

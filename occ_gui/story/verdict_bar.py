@@ -38,9 +38,7 @@ def make_badges(reading: Reading, decoder: str) -> Iterator[Badge]:
         yield Badge("overexposed", text, overexposed_text(reading.overexposed), State.DOUBTFUL)
     scene = reading.scene
     ratio = scene.camera.exposure_time / scene.transmitter.switching_period
-    meaning = (
-        "The exposure time over the time that a chip lasts. Above 1 no column sees one chip alone."
-    )
+    meaning = "Exposure time over chip duration. Above 1, no column sees a single chip."
     yield Badge("ratio", f"t / t<sub>LED</sub> = {ratio:.3g}", meaning)
     if reading.band_undefined:
         yield Badge("band", "band model ends here", reading.band_undefined)
@@ -57,10 +55,10 @@ def make_rate_badge(rate: SceneRate) -> Badge:
     """Return the success rate of pictures that begin at any time."""
     text = f"of {rate.images} pictures: {100.0 * rate.fraction:.3g} % of bits"
     meaning = (
-        f"This picture is one; of {rate.images} that begin at any time "
-        f"{100.0 * rate.fraction:.3g} % of the bits are "
-        f"read (95 % interval {100.0 * rate.low:.1f} to {100.0 * rate.high:.1f} %), and every bit "
-        f"of {rate.whole} pictures. The strips show the same percentage."
+        f"This is one picture. Of {rate.images} with different start times, "
+        f"{100.0 * rate.fraction:.3g} % of the bits are read (95 % interval {100.0 * rate.low:.1f} "
+        f"to {100.0 * rate.high:.1f} %), and every bit of {rate.whole} pictures. The strips show "
+        "the same percentage."
     )
     state = State.DOUBTFUL if rate.fraction else State.BAD
     return Badge("rate", text, meaning, State.GOOD if rate.fraction >= _GOOD_RATE else state)
@@ -87,9 +85,8 @@ def _list_other_decoders(reading: Reading, decoder: str) -> list[Badge]:
         return []
     names = ", ".join(others)
     meaning = (
-        f"Of the decoders that every picture is read with ({', '.join(READ_BY_ALL)}), these too "
-        f"read the code from the same signal, all bits right: {names}. The others read it where "
-        "they are chosen."
+        f"Every picture is read with the decoders {', '.join(READ_BY_ALL)}; of these, {names} also "
+        "read all bits. Other decoders read a picture when they are chosen."
     )
     text = f"also read: {names}" if decoder in right else f"read by: {names}"
     return [Badge("others", text, meaning, State.GOOD)]
@@ -224,7 +221,7 @@ class VerdictBar(StateBar):
             first, more, _ = reason.partition(";")
             return [reason, f"{first}."] if more else [reason]
         if verdict.state in (State.BAD, State.DOUBTFUL):  # the exposure would seem to be the cause
-            return ["" if verdict.reason else "The decoder itself does not notice that."]
+            return ["" if verdict.reason else "The decoder does not detect this."]
         scene = reading.scene
         exposure = SECOND.format(scene.camera.exposure_time, 4)
         period = SECOND.format(scene.transmitter.switching_period, 4)

@@ -69,7 +69,7 @@ class _PaintedMaps:
         self._show_map(rates)
         for plot in self._pane.plots:
             plot.repaint()
-        coarse = self._controller.is_current and rates.known >= _COARSE_POINTS
+        coarse = self._controller.is_current and rates.known_count >= _COARSE_POINTS
         self.times.append((perf_counter(), coarse, self._controller.full is not None))
 
     def end(self) -> None:

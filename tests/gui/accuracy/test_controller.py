@@ -72,7 +72,7 @@ class Bench:
     def __init__(self, scene: Scene, qtbot: QtBot) -> None:
         self._qtbot = qtbot
         self._allowed = threading.Semaphore(0)
-        self.measured: list[SimulationRequest] = []
+        self.requests: list[SimulationRequest] = []
         self.scenes = store_of(scene)
         self.settings = self.scenes.settings
         self.simulation = SimulationController(self.scenes)
@@ -84,7 +84,7 @@ class Bench:
     def study(
         self, scene: Scene, settings: SimulationSettings, _complete: object
     ) -> Iterator[AccuracyPoint]:
-        self.measured.append(SimulationRequest(scene, settings))
+        self.requests.append(SimulationRequest(scene, settings))
         for number in range(TOTAL):
             assert self._allowed.acquire(timeout=PATIENCE_S)
             yield AccuracyPoint("effects", f"point {number}", 1e-3, 0.1)
@@ -122,7 +122,7 @@ def test_while_visible_the_points_come_one_by_one_and_only_once(bench: Bench) ->
     bench.allow(2)
     bench.wait_until_idle()
     assert bench.pane.received == ["begun", "point 0 1/3", "point 1 2/3", "point 2 3/3", "finished"]
-    assert bench.measured == [SimulationRequest(bench.scenes.scene, FIRST_SETTINGS)]
+    assert bench.requests == [SimulationRequest(bench.scenes.scene, FIRST_SETTINGS)]
     bench.controller.set_seen(False)
     bench.controller.set_seen(True)
     assert bench.controller.runner.is_idle
@@ -142,7 +142,7 @@ def test_a_change_cancels_the_study_and_the_next_one_includes_it(bench: Bench) -
     bench.wait_until_idle()
     after = bench.pane.received[4:]
     assert after == ["begun", "point 0 1/3", "point 1 2/3", "point 2 3/3", "finished"]
-    assert bench.measured[-1] == SimulationRequest(bench.scenes.scene, bench.settings.settings)
+    assert bench.requests[-1] == SimulationRequest(bench.scenes.scene, bench.settings.settings)
 
 
 def test_hiding_cancels_the_study_and_showing_begins_it_anew(bench: Bench, qtbot: QtBot) -> None:
@@ -170,7 +170,7 @@ def test_the_study_waits_while_a_picture_is_simulated(
     assert not bench.simulation.runner.is_idle
     bench.controller.set_seen(True)
     qtbot.waitUntil(lambda: bench.controller.is_idle)
-    assert bench.measured == []
+    assert bench.requests == []
     held.set()
     bench.allow(TOTAL)
     bench.wait_for("finished")

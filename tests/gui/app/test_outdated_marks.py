@@ -43,7 +43,7 @@ def test_a_verdict_does_not_wait_for_the_picture(
     application.store.change(switching_frequency=500.0)
     qtbot.waitUntil(lambda: decode.verdict.text() == "✗ No code read")
     assert tabs(application) == ["✗", "✗"]
-    assert decode.origin.text() == "By the column profile; the picture follows."
+    assert decode.origin.text() == "Read from the column profile; the picture follows."
     reading = not_none(application.view("profile").reading)
     assert reading.scene == application.store.scene
     held.set()

@@ -142,7 +142,7 @@ def test_a_contradiction_between_a_picture_and_its_profile_is_stated(
     snapshot = snapshot_of(code=718)
     early = not_none(reading_by_profile(snapshot.request))
     view.show_reading(early)
-    assert view.origin.text() == "By the column profile; the picture follows."
+    assert view.origin.text() == "Read from the column profile; the picture follows."
     view.show_reading(snapshot)
     assert view.origin.text() == "Read from the picture."
     failed = DecodeResult("threshold", failure="No.")

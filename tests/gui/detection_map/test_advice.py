@@ -83,7 +83,7 @@ def view(qtbot: QtBot) -> AdviceView:
 
 
 @pytest.fixture
-def advised(
+def advice_bench(
     qtbot: QtBot, map_bench: MapBench, inline_workers: Any, monkeypatch: pytest.MonkeyPatch
 ) -> MapBench:
     """Ask for advice, and wait for it."""
@@ -172,8 +172,8 @@ def test_window_and_shell_state_the_same_numbers(small_scene: Scene) -> None:
     assert format_row(advice.limits).split()[-1] == bits
 
 
-def test_every_decoder_is_searched_and_each_end_has_a_button(advised: MapBench) -> None:
-    advice = advised.view.advice
+def test_every_decoder_is_searched_and_each_end_has_a_button(advice_bench: MapBench) -> None:
+    advice = advice_bench.view.advice
     titles = [text for text in list_texts(advice) if text.startswith("The ")]
     for decoder in DECODERS:
         assert any(title.startswith(f"The {decoder} decoder, 99 %") for title in titles)
@@ -181,36 +181,36 @@ def test_every_decoder_is_searched_and_each_end_has_a_button(advised: MapBench) 
     assert advice.again.isVisible()
 
 
-def test_a_destination_button_changes_the_scene_in_one_step(advised: MapBench) -> None:
-    before = advised.scenes.scene
+def test_a_destination_button_changes_the_scene_in_one_step(advice_bench: MapBench) -> None:
+    before = advice_bench.scenes.scene
     for place, text, name, value in (
         (0, "Take me to 14.55 kHz", "switching_frequency", 14.55e3),
         (1, "Take me to 10 µs", "exposure_time", 10e-6),
         (2, "Take me to 194 µs", "exposure_time", 194e-6),
     ):
-        advised.choose_decoder("matched")
-        button = [*advised.view.advice.destinations][place]
+        advice_bench.choose_decoder("matched")
+        button = [*advice_bench.view.advice.destinations][place]
         assert button.text() == text
         button.click()
-        assert advised.scenes.scene == before.replace(**{name: value})
-        assert advised.store.workspace.decoder == "threshold", "the decoder of the limit"
+        assert advice_bench.scenes.scene == before.replace(**{name: value})
+        assert advice_bench.store.workspace.decoder == "threshold", "the decoder of the limit"
         label = quantity(name).label.lower()
-        assert advised.view.advice.state.toolTip() == (
+        assert advice_bench.view.advice.state.toolTip() == (
             "This advice is for the scene before the change. "
             f"Its limits for the {label} still hold."
         )
-        advised.scenes.undo_stack.undo()
-        assert advised.scenes.scene == before
+        advice_bench.scenes.undo_stack.undo()
+        assert advice_bench.scenes.scene == before
 
 
 def test_a_refusal_of_the_model_is_shown(
-    qtbot: QtBot, advised: MapBench, monkeypatch: pytest.MonkeyPatch
+    qtbot: QtBot, advice_bench: MapBench, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.undo()
-    advised.scenes.change(pattern="1100")
-    advised.view.advice.again.click()
-    qtbot.waitUntil(lambda: advised.pane.advisor.channel.is_idle)
-    assert "A raw pattern holds no code" in advised.view.advice.state.toolTip()
+    advice_bench.scenes.change(pattern="1100")
+    advice_bench.view.advice.again.click()
+    qtbot.waitUntil(lambda: advice_bench.pane.advisor.channel.is_idle)
+    assert "A raw pattern holds no code" in advice_bench.view.advice.state.toolTip()
 
 
 class EndlessWorkers(InlineWorkers):
@@ -218,16 +218,16 @@ class EndlessWorkers(InlineWorkers):
 
     def __init__(self) -> None:
         super().__init__()
-        self.held: list[Future[JobResult]] = []
+        self.futures: list[Future[JobResult]] = []
 
     def submit(self, job: Job, channel: int, run: int) -> "Future[JobResult]":
         self.jobs.append(job)
-        self.held.append(Future())
-        return self.held[-1]
+        self.futures.append(Future())
+        return self.futures[-1]
 
     def abandon(self, channel: int, run: int) -> None:
-        while self.held:
-            self.held.pop().set_result(JobResult(is_abandoned=True))
+        while self.futures:
+            self.futures.pop().set_result(JobResult(is_abandoned=True))
 
 
 def test_a_search_ends_when_it_is_cancelled_the_scene_changes_or_the_window_stops(
@@ -282,40 +282,40 @@ def test_sentences_about_every_decoder_are_shown_once_at_the_end(
     assert [title.split()[1] for title in titles] == ["threshold", "matched"]
 
 
-def test_outdated_advice_is_dimmed_and_leads_only_to_valid_limits(advised: MapBench) -> None:
-    advice = advised.view.advice
+def test_outdated_advice_is_dimmed_and_leads_only_to_valid_limits(advice_bench: MapBench) -> None:
+    advice = advice_bench.view.advice
 
     def state() -> tuple[set[bool], list[bool]]:
         labels = {each.isEnabled() for row in advice.lines for each in row.findChildren(QLabel)}
         return labels, [button.isEnabled() for button in [*advice.destinations][:3]]
 
     assert state() == ({True}, [True, True, True])
-    advised.scenes.change(switching_frequency=9e3)  # its limits do not depend on it
+    advice_bench.scenes.change(switching_frequency=9e3)  # its limits do not depend on it
     assert state() == ({True, False}, [True, False, False])
     first = next(iter(advice.destinations))
     (row,) = [row for row in advice.lines if first in row.children()]
     assert all(label.isEnabled() for label in row.findChildren(QLabel))
-    advised.scenes.change(iso=200.0)
+    advice_bench.scenes.change(iso=200.0)
     assert state() == ({False}, [False, False, False])
-    advised.scenes.undo_stack.undo()
-    advised.scenes.undo_stack.undo()
+    advice_bench.scenes.undo_stack.undo()
+    advice_bench.scenes.undo_stack.undo()
     assert state() == ({True}, [True, True, True])
-    advised.view.image_effects.click()
+    advice_bench.view.image_effects.click()
     assert state() == ({False}, [False, False, False])
 
 
 def test_the_buttons_of_the_cards_are_enabled_again_when_their_scene_returns(
-    advised: MapBench,
+    advice_bench: MapBench,
 ) -> None:
-    cards = advised.view.advice.cards.cards.values()
-    first = advised.scenes.scene
-    advised.scenes.change(iso=200.0)
+    cards = advice_bench.view.advice.cards.cards.values()
+    first = advice_bench.scenes.scene
+    advice_bench.scenes.change(iso=200.0)
     for card in cards:
         assert not card.go.isEnabled()
         assert "earlier scene" in card.go.toolTip()
-    advised.scenes.put(first, "preset")
+    advice_bench.scenes.put(first, "preset")
     for card in cards:
         assert card.go.isEnabled()
         assert "14.55 kHz" in card.go.toolTip()
     card.go.click()
-    assert advised.scenes.scene == first.replace(switching_frequency=INSIDE.value)
+    assert advice_bench.scenes.scene == first.replace(switching_frequency=INSIDE.value)

@@ -63,10 +63,10 @@ class Bench:
         self._qtbot.waitUntil(lambda: self.controller.is_idle)
         return {name: strip.fractions for name, strip in self.strips.items()}
 
-    def outdated(self) -> dict[str, bool]:
+    def list_outdated(self) -> dict[str, bool]:
         return {name: strip.outdated for name, strip in self.strips.items()}
 
-    def measured(self) -> list[str]:
+    def list_measured(self) -> list[str]:
         """Return the sliders along which was measured since the last call."""
         names = [str(job.arguments[2]) for job in self.workers.jobs]
         self.workers.jobs.clear()
@@ -98,14 +98,14 @@ def test_a_strip_is_the_success_rate_along_its_slider(bench: Bench) -> None:
 def test_nothing_is_measured_while_the_strips_are_hidden(bench: Bench, qtbot: QtBot) -> None:
     bench.scenes.change(exposure_time=136e-6)
     qtbot.wait(30)
-    assert bench.measured() == []
+    assert bench.list_measured() == []
     bench.controller.set_seen(True)
     bench.wait_until_idle()
-    assert set(bench.measured()) == set(NAMES)
+    assert set(bench.list_measured()) == set(NAMES)
     bench.controller.set_seen(False)
     bench.scenes.change(exposure_time=68e-6)
     qtbot.wait(30)
-    assert bench.measured() == []
+    assert bench.list_measured() == []
     bench.scenes.change(pattern="10")
     bench.controller.set_seen(True)
     assert set(bench.wait_until_idle()["iso"]) == {None}
@@ -121,10 +121,10 @@ def test_where_a_plug_in_fails_the_rate_is_unknown() -> None:
 def test_moving_a_slider_does_not_change_its_own_strip(bench: Bench) -> None:
     bench.controller.set_seen(True)
     before = bench.wait_until_idle()
-    bench.measured()
+    bench.list_measured()
     bench.scenes.change(switching_frequency=40e3)
     after = bench.wait_until_idle()
-    assert set(bench.measured()) == {"iso"}
+    assert set(bench.list_measured()) == {"iso"}
     assert after["switching_frequency"] == before["switching_frequency"]
     assert after["iso"] != before["iso"]
 
@@ -132,23 +132,23 @@ def test_moving_a_slider_does_not_change_its_own_strip(bench: Bench) -> None:
 def test_rates_are_measured_once_at_the_end_of_a_movement(bench: Bench) -> None:
     bench.controller.set_seen(True)
     bench.wait_until_idle()
-    bench.measured()
-    assert bench.outdated() == dict.fromkeys(NAMES, False)
+    bench.list_measured()
+    assert bench.list_outdated() == dict.fromkeys(NAMES, False)
     scenes = bench.scenes
     decoder = scenes.store.workspace.decoder
     earlier = RateRequest(scenes.scene, scenes.settings.settings, decoder)
     bench.scenes.change(switching_frequency=40e3)
-    assert bench.outdated() == {"switching_frequency": False, "iso": True}
+    assert bench.list_outdated() == {"switching_frequency": False, "iso": True}
     # A result for an earlier request.
     bench.queue.channels[0].results_ready.emit(earlier, [StripPoints("iso", ())])
-    assert bench.outdated()["iso"]
+    assert bench.list_outdated()["iso"]
     bench.wait_until_idle()
-    of_one = bench.measured()
+    of_one = bench.list_measured()
     for frequency in (20e3, 25e3, 30e3):
         bench.scenes.change(switching_frequency=frequency)
     bench.wait_until_idle()
-    assert bench.measured() == of_one != []
-    assert bench.outdated() == dict.fromkeys(NAMES, False)
+    assert bench.list_measured() == of_one != []
+    assert bench.list_outdated() == dict.fromkeys(NAMES, False)
 
 
 @pytest.fixture

@@ -73,8 +73,8 @@ def test_back_next_and_again_set_the_scene_and_progress_is_kept_and_ticked(
 
 
 def test_a_sample_photo_is_open_only_while_steps_need_it(bench: Lessons, guide: LessonView) -> None:
-    opened: list[str] = []
-    bench.photos.opened.connect(lambda p: opened.append("" if p is None else p.path.stem))
+    names: list[str] = []
+    bench.photos.opened.connect(lambda p: names.append("" if p is None else p.path.stem))
     guide.list.choices[5].click()
     bench.wait_until_idle()
     assert bench.scenes.scene == lessons().lessons[5].steps[0].scene
@@ -82,11 +82,11 @@ def test_a_sample_photo_is_open_only_while_steps_need_it(bench: Lessons, guide: 
     bench.wait_until_idle()
     guide.step.next.click()
     bench.wait_until_idle()
-    assert opened == ["led-1khz", "packets-6khz"]
+    assert names == ["led-1khz", "packets-6khz"]
     guide.step.all.click()
     guide.list.choices[1].click()
     bench.wait_until_idle()
-    assert opened == ["led-1khz", "packets-6khz", ""]
+    assert names == ["led-1khz", "packets-6khz", ""]
 
 
 def test_the_users_photo_is_shown_where_a_lesson_is_about_it_or_it_was_opened_during_the_lesson(

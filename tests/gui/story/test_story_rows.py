@@ -64,10 +64,10 @@ def test_rows_kept_from_an_earlier_scene_equal_those_drawn_anew(
         snapshot = snapshot_of(**{name: value})
         rows.show_picture(Picture.of(snapshot.frame, "camera", snapshot.request))
         rows.show_reading(snapshot)
-        kept = rows.grab().toImage()
+        before = rows.grab().toImage()
         for row in all_rows(rows):
             row.redraw()
-        assert kept == rows.grab().toImage(), name
+        assert before == rows.grab().toImage(), name
 
 
 def test_the_stripes_show_each_column_at_its_place(
@@ -80,8 +80,8 @@ def test_the_stripes_show_each_column_at_its_place(
     inside = range(int(rows.axis.first) + 2, int(rows.axis.last) - 2)
     chosen = rows.crosshair.column
     levels = [drawn[round(rows.stripes.x_of(column))] for column in inside if column != chosen]
-    wanted = [means[column] for column in inside if column != chosen]
-    np.testing.assert_allclose(levels, wanted, atol=1.0)
+    expected = [means[column] for column in inside if column != chosen]
+    np.testing.assert_allclose(levels, expected, atol=1.0)
 
 
 def test_a_draft_shows_the_stripes_at_the_same_place(
@@ -90,8 +90,8 @@ def test_a_draft_shows_the_stripes_at_the_same_place(
     exact, view = grey_picture(rows.stripes), rows.stripes.thumbnail.view
     draft = occ.render(snapshot.frame.scene, tolerance=np.inf, rows_step=7)
     rows.show_picture(Picture.of(draft, "camera", snapshot.request))
-    shown = grey_picture(rows.stripes)
-    np.testing.assert_array_equal(shown[:, GUTTER:], exact[:, GUTTER:])
+    drafted = grey_picture(rows.stripes)
+    np.testing.assert_array_equal(drafted[:, GUTTER:], exact[:, GUTTER:])
     assert rows.stripes.thumbnail.view.top() == pytest.approx(view.top(), abs=7)
     assert rows.stripes.thumbnail.view.height() == pytest.approx(view.height(), abs=14)
 
@@ -109,8 +109,8 @@ def test_the_stripes_are_the_rows_of_a_draft_that_show_the_panel(
     rows.show_picture(Picture.of(draft, "camera"))
     first, last = rows.stripes.panel_rows()
     ends = draft.corners[:, 1].min(), draft.corners[:, 1].max()
-    wanted = [row for row in draft.rows if ends[0] <= row <= ends[1]]
-    assert list(draft.rows[first:last]) == wanted
+    expected = [row for row in draft.rows if ends[0] <= row <= ends[1]]
+    assert list(draft.rows[first:last]) == expected
     assert rows.stripes.rows_per_pixel() == rows_per_pixel
 
 
@@ -148,14 +148,14 @@ def test_the_bits_at_the_crosshair_are_those_read_and_it_has_no_column_outside_t
 ) -> None:
     code, result = rows.code, snapshot.results["threshold"]
     assert code.edges is not None
-    read: dict[int | None, int | None] = {}
+    bits: dict[int | None, int | None] = {}
     for field in code.fields:
         rows.crosshair.point_at((code.edges[field.first] + code.edges[field.last]) / 2)
         values = read_out(rows)
-        read[values.bit] = values.value
+        bits[values.bit] = values.value
         assert values.state is (State.NEUTRAL if field.bit is None else State.GOOD)
-    assert read.pop(None) is None
-    assert read == dict(enumerate(result.bits.tolist()))
+    assert bits.pop(None) is None
+    assert bits == dict(enumerate(result.bits.tolist()))
     assert code.accessibleDescription() == "sent 1011001110, received 1011001110, 0 wrong"
     chosen = rows.crosshair.column
     for column in (-3.0, len(snapshot.profile) + 2.0):
@@ -168,12 +168,12 @@ def test_the_bits_at_the_crosshair_are_those_read_and_it_has_no_column_outside_t
 def test_dragging_the_window_chooses_the_column_it_begins_at(rows: StoryRows, qtbot: QtBot) -> None:
     light = rows.light
     window = not_none(light.exposure_window())
-    grabbed = (window[0] + window[1]) / 2
+    middle = (window[0] + window[1]) / 2
     button = Qt.MouseButton.LeftButton
-    qtbot.mousePress(light, button, pos=place_of(light, grabbed))
-    for moved in (20, 60, 100):
-        qtbot.mouseMove(light, place_of(light, grabbed + moved))
-    qtbot.mouseRelease(light, button, pos=place_of(light, grabbed + 100))
+    qtbot.mousePress(light, button, pos=place_of(light, middle))
+    for distance in (20, 60, 100):
+        qtbot.mouseMove(light, place_of(light, middle + distance))
+    qtbot.mouseRelease(light, button, pos=place_of(light, middle + 100))
     moved_window = not_none(light.exposure_window())
     assert rows.crosshair.column == moved_window[0]
     # A pixel of the mouse is less than one column here.

@@ -146,8 +146,8 @@ def test_a_badge_tells_where_the_band_model_ends(bar: VerdictBar, snapshot_of: S
 
 
 def test_a_good_verdict_states_a_large_error(bar: VerdictBar, small_scene: Scene) -> None:
-    read = simulate(small_scene)
-    bar.show_reading(read)
+    snapshot = simulate(small_scene)
+    bar.show_reading(snapshot)
     assert bar.heading == "Code 718 read, all bits right"
     for settings in (
         replace(FIRST_SETTINGS, tolerance=math.inf), replace(FIRST_SETTINGS, tolerance=30.0),
@@ -163,7 +163,7 @@ def test_a_good_verdict_states_a_large_error(bar: VerdictBar, small_scene: Scene
     early = not_none(reading_by_profile(rough.request, planned))
     bar.show_reading(early)
     assert bar.heading == heading
-    bar.show_reading(replace(read, error=math.inf))
+    bar.show_reading(replace(snapshot, error=math.inf))
     assert bar.heading.endswith("(an unknown part left out)")
 
 
@@ -209,10 +209,10 @@ def test_badges_that_do_not_fit_are_counted(
     hidden = len(row.badges) - sum(label.badge in row.badges for label in shown)
     assert (hidden == 0) == (width == 900)
     assert any(label.badge.text == f"+ {hidden}" for label in shown) == (hidden > 0)
-    made, badges = len(row.findChildren(BadgeLabel)), row.badges
+    count, badges = len(row.findChildren(BadgeLabel)), row.badges
     for some in ((), badges):
         row.show_badges(some)
-    assert len(row.findChildren(BadgeLabel)) == made  # as making them takes long
+    assert len(row.findChildren(BadgeLabel)) == count  # making them takes long
 
 
 def test_the_simulation_is_named_where_a_photo_is_shown_too(
@@ -262,21 +262,20 @@ def test_an_earlier_choice_does_not_change_which_decoders_are_named(
     bar.show_reading(snapshot)
     before = bar.badges.badges
     matched = snapshot.results["matched"]
-    tried_before = with_result(snapshot, replace(matched, decoder="sequence"))
-    bar.show_reading(tried_before)
+    bar.show_reading(with_result(snapshot, replace(matched, decoder="sequence")))
     assert bar.badges.badges == before
 
 
 def test_the_cause_comes_first_and_its_step_is_a_button(
     bar: VerdictBar, snapshot_of: SnapshotOf
 ) -> None:
-    chosen = collect(bar.step_chosen)
+    steps = collect(bar.step_chosen)
     bar.show_reading(snapshot_of(exposure_time=136e-6, switching_frequency=20e3))
     assert bar.title.text() == "No code: beyond the null at 14.7 kHz"
     assert "leaves 26 % of the swing of alternating chips." in bar.accessibleDescription()
     assert bar.step.text() == "Try the matched decoder"
     bar.step.click()
-    assert [step.decoder for step in chosen] == ["matched"]
+    assert [step.decoder for step in steps] == ["matched"]
     bar.show_reading(snapshot_of())
     assert bar.step.isHidden()
 
@@ -323,7 +322,7 @@ def test_before_the_cause_is_known_no_symptom_is_the_title(
     assert bar.accessibleDescription() == f"No code read. {unread.results['threshold'].failure}"
     wrong = alter(unread, code=1, bits=1 - np.array(unread.sent, dtype=np.uint8), failure=None)
     bar.show_reading(replace(wrong, causes={}))
-    assert bar.accessibleDescription().endswith("The decoder itself does not notice that.")
+    assert bar.accessibleDescription().endswith("The decoder does not detect this.")
 
 
 def test_a_code_that_is_read_beyond_a_period_leads_to_its_lesson(
@@ -333,10 +332,10 @@ def test_a_code_that_is_read_beyond_a_period_leads_to_its_lesson(
     assert bar.step.isHidden()
     bar.show_reading(snapshot_of(exposure_time=136e-6, switching_frequency=10e3))
     assert bar.state is State.GOOD
-    with qtbot.waitSignal(bar.lesson_wanted) as wanted:
+    with qtbot.waitSignal(bar.lesson_wanted) as signal:
         bar.step.click()
     names = {lesson.name for lesson in lessons().lessons}
-    assert wanted.args[0] in names
+    assert signal.args[0] in names
     bar.show_outdated(True)
     assert bar.step.isHidden()
 

@@ -43,9 +43,10 @@ class LessonsInWindow(QObject):
             self._window.hide_pane(self._opened_pane)
             self._opened_pane = ""
         if name:
-            is_new = self._window.is_hidden(name)
+            dock = self._window.docks[name]
+            is_new = dock.isHidden()
             self._window.bring_into_view(name)
-            if is_new and not self._window.is_hidden(name):
+            if is_new and not dock.isHidden():
                 self._opened_pane = name
         self.photo_explained.emit(name == "photo")
 

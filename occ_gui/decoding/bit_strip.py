@@ -7,7 +7,7 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPalette, QPen
 from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
 
-from occ_gui.simulation.verdict import received_in_words, wrong_places
+from occ_gui.simulation.verdict import describe_received, wrong_places
 from occ_gui.widgets.guarded_paint import guarded
 from occ_model import colours
 from occ_model.scene.payload import PayloadPiece, compare_payload
@@ -61,7 +61,7 @@ class BitStrip(QWidget):
             text = f"sent {len(self.sent)} bits, received {len(self._received)}, {len(wrong)} wrong"
         else:
             sent, received = ("".join(map(str, bits)) for bits in (self.sent, self._received))
-            text = received_in_words(sent, received, len(wrong))
+            text = describe_received(sent, received, len(wrong))
         if not self.isEnabled():
             text = f"earlier scene: {text}"
         self.setAccessibleDescription(text)
@@ -165,7 +165,7 @@ class PayloadText(QLabel):
         wrong = sum(not piece.is_right for piece in pieces)
         self.setText(f"sent <b>{escape(sent)}</b><br>received <b>{_mark_errors(pieces)}</b>")
         received_text = _shorten("".join(piece.received or _MISSING for piece in pieces))
-        self.setAccessibleDescription(received_in_words(sent, received_text, wrong))
+        self.setAccessibleDescription(describe_received(sent, received_text, wrong))
 
 
 def _shorten(text: str) -> str:

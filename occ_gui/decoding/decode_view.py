@@ -10,7 +10,13 @@ from PySide6.QtWidgets import QFormLayout, QLabel, QSizePolicy, QTabBar, QVBoxLa
 from occ_gui.decoding.bit_strip import BitStrip, PayloadText
 from occ_gui.decoding.decode_steps import RunLengthPlot, SignalPlot
 from occ_gui.simulation.snapshot import Reading
-from occ_gui.simulation.verdict import is_right, left_out_in_words, reason_in, result_of, verdict_on
+from occ_gui.simulation.verdict import (
+    describe_missing,
+    is_right,
+    reason_in,
+    result_of,
+    verdict_on,
+)
 from occ_gui.widgets.building import fill, name_widget, paragraph
 from occ_gui.widgets.state_look import State
 from occ_gui.widgets.text_scale import embolden
@@ -91,8 +97,8 @@ class DecodeView(QWidget):
         self._mark_tabs(reading)
         self.origin.show()
         self.strip.setVisible(bool(reading.sent))
-        self.left_out.setVisible(bool(reading.called_for))
-        self.left_out.setText(left_out_in_words(reading))
+        self.left_out.setVisible(bool(reading.missing_effects))
+        self.left_out.setText(describe_missing(reading))
         self._show_result()
 
     def show_outdated(self, outdated: bool) -> None:

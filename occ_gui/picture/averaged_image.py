@@ -10,7 +10,7 @@ from PySide6.QtCore import QPointF, QRect, QRectF, Qt
 from PySide6.QtGui import QFontMetricsF, QImage, QPainter, QTransform
 from PySide6.QtWidgets import QStyleOptionGraphicsItem, QWidget
 
-from occ_gui.simulation.snapshot import halved
+from occ_gui.simulation.snapshot import halve
 from occ_gui.widgets.guarded_paint import guarded
 from occ_model.arrays import ByteArray
 
@@ -134,7 +134,7 @@ def _mean_of_cells(pixels: ByteArray, columns: int, rows: int) -> ByteArray:
     that halving leaves out is smaller than a pixel of the screen.
     """
     while pixels.shape[0] >= 2 * rows and pixels.shape[1] >= 2 * columns:
-        pixels = halved(pixels)
+        pixels = halve(pixels)
     if pixels.shape == (rows, columns):
         return pixels
     smaller = cv2.resize(pixels, (columns, rows), interpolation=cv2.INTER_AREA)

@@ -10,7 +10,7 @@ from PySide6.QtGui import QImage, QPainter
 from PySide6.QtWidgets import QStyleOptionGraphicsItem, QWidget
 
 from occ_gui.picture.averaged_image import AveragedImage
-from occ_gui.simulation.snapshot import halved
+from occ_gui.simulation.snapshot import halve
 from occ_gui.values.choices import MODES, Placement
 from occ_gui.widgets.colours import PHOTO, REGION
 from occ_gui.widgets.guarded_paint import guarded
@@ -137,7 +137,7 @@ def _halve(
 ) -> tuple[ByteArray, FloatArray, FloatArray]:
     """Halve an image, which is fast, while a cell spans at least four of its pixels."""
     while min(_span(x), _span(y)) >= 4.0 and min(pixels.shape) >= 2:
-        pixels = halved(pixels)
+        pixels = halve(pixels)
         rows, columns = pixels.shape
         x, y = np.minimum(x / 2, columns), np.minimum(y / 2, rows)
     return pixels, x, y

@@ -11,7 +11,7 @@ from occ_gui.background.task import Report, Task
 from occ_gui.scene.forced_effects import forced_text
 from occ_gui.scene.parameter_rows import explain
 from occ_gui.scene.scene_store import SceneStore, new_gesture
-from occ_gui.simulation.jobs import explained, snapshot_of
+from occ_gui.simulation.jobs import explain_failures, snapshot_of
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.simulation.verdict import cause_in, is_right, reason_in
 from occ_gui.values.simulated import PinnedScene, Pins, SimulationRequest
@@ -298,4 +298,4 @@ def _simulate_all(pins: dict[str, SimulationRequest], report: Report) -> None:
     """Simulate the pictures of pins, and leave out pins that have none."""
     for name, pin in pins.items():
         with suppress(OccError):
-            report((name, explained(snapshot_of(pin, render_with(pin.scene, pin.settings)))))
+            report((name, explain_failures(snapshot_of(pin, render_with(pin.scene, pin.settings)))))

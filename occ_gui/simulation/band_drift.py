@@ -1,14 +1,14 @@
-"""Words for the band model's drift: its bands run off those of the simulation."""
+"""Sentences on the drift of the band model's bands away from those of the simulation."""
 
 from occ_gui.simulation.snapshot import ColumnView
 from occ_model.scene.parameters import PARAMETERS
 
 _FIELD = PARAMETERS["band_reading"].label
-_MIN_VISIBLE_DRIFT = 0.05  # drift in columns per packet below which it is not seen
+_MIN_VISIBLE_DRIFT = 0.05  # columns per packet
 
 
 def drift_of(reading: ColumnView) -> str:
-    """State by how much the band model drifts; empty where it does not."""
+    """State by how much the band model drifts; empty if it does not."""
     columns = abs(reading.band_drift)
     if columns < _MIN_VISIBLE_DRIFT:
         return ""
@@ -17,26 +17,26 @@ def drift_of(reading: ColumnView) -> str:
 
 
 def drift_sentence(reading: ColumnView) -> str:
-    """State the drift with its reason in a line; empty where there is none."""
+    """State the drift and its reason in a line; empty if there is none."""
     if not (drift := drift_of(reading)):
         return ""
     return f"The band model {drift}: it rounds, and skips the exposure between equal chips."
 
 
-def what_is_compared() -> str:
-    """Describe what the band model is compared with, where its bands lie where they are sent."""
+def explain_comparison() -> str:
+    """Describe how to compare the band model with the simulation if it does not drift."""
     return (
-        "The band model is drawn with the exact length of each run of chips, so that its bands lie "
-        "where those of the simulation do: compare the width and levels of the bands of a packet. "
-        f"Read literally, in whole columns, it drifts: the field “{_FIELD}” under Model."
+        "The band model is drawn with exact run lengths, so that its bands coincide with those of "
+        "the simulation: compare the width and levels of the bands in a packet. "
+        f"Read literally, in whole columns, it drifts: see the field “{_FIELD}” under Model."
     )
 
 
-def why_it_drifts() -> str:
-    """Explain the drift, and what can be done about it."""
+def explain_drift() -> str:
+    """Explain the drift, and how to avoid it."""
     return (
         "The band model rounds each band to whole columns, and leaves out the exposure between two "
-        "equal chips. Both add up along the picture, so that its bands drift away from those of "
-        f"the simulation. The field “{_FIELD}” under Model aligns them: exact run lengths, so that "
-        "width and levels of the bands can be compared packet by packet."
+        "equal chips. Both errors add up along the picture, so that its bands drift away from "
+        f"those of the simulation. The field “{_FIELD}” under Model can select exact run lengths, "
+        "with which width and levels of the bands can be compared packet by packet."
     )

@@ -1,4 +1,4 @@
-"""Jobs of the simulation: read a scene by its profile at once, its draft, and its picture."""
+"""Jobs of the simulation: read a scene by its profile, simulate its draft and its picture."""
 
 from collections import deque
 from collections.abc import Mapping
@@ -8,7 +8,7 @@ from typing import Any
 
 import occ_model as occ
 from occ_gui.simulation.snapshot import Reading, Snapshot
-from occ_gui.simulation.verdict import unread_by
+from occ_gui.simulation.verdict import failed_decoders
 from occ_gui.values.simulated import LEAST_DRAFT_STEP, SimulationRequest
 from occ_model.effects.plan import name_effects_for_signal
 from occ_model.errors import PluginError
@@ -23,29 +23,28 @@ from occ_model.study.cause.cause import cause_of
 from occ_model.study.observation import ProfileReading, read_profile
 
 LONGEST_DRAFT = 0.016
-"""Seconds that a draft and its reading may take: the window needs as long to show them."""
+"""Most seconds for a draft and its reading; the window needs as long to show them."""
 
-THINNEST_ROW = 4  # rows of the screen that a row of a draft fills at most
+MOST_THINNING = 4  # most rows of the screen that a row of a draft fills
 
-LEAST_ROWS = 64  # fewest rows of a thinned draft: still fewer save no time, and show too little
+LEAST_ROWS = 64  # fewest rows of a thinned draft: fewer save no time, and show too little
 
 _SPEED_MARGIN = 3.0
 """Factor by which a thinned draft must beat its time limit before its rows are doubled.
 
-More than 2: thinning a slow draft can no more than halve its time, so that it is not made finer and
-thinner in turn.
+It exceeds 2, because thinning at most halves the time: the number of rows cannot alternate.
 """
 
 
 class DraftRows:
     """Chooses which rows of a picture its draft has.
 
-    Each row of a draft fills one row of the screen, or 2 or 4 where drafts are late. A single late
-    one changes nothing: the machine may have been busy with other things.
+    Each row of a draft fills one row of the screen, or 2 or 4 if drafts are late. A single late one
+    changes nothing, because the machine may have been busy.
     """
 
     def __init__(self) -> None:
-        self._thinned = 1
+        self._thinning = 1
         self._seconds: deque[float] = deque(maxlen=2)
 
     def step(self, rows: int, rows_per_pixel: float) -> int:
@@ -53,54 +52,53 @@ class DraftRows:
 
         ``rows_per_pixel``: rows of the picture that fall on a pixel of the screen.
         """
-        shown = max(LEAST_DRAFT_STEP, int(rows_per_pixel))
-        wanted = shown * self._thinned
-        return min(max(shown, min(wanted, rows // LEAST_ROWS)), rows)
+        finest = max(LEAST_DRAFT_STEP, int(rows_per_pixel))
+        return min(max(finest, min(finest * self._thinning, rows // LEAST_ROWS)), rows)
 
     def record_time(self, seconds: float) -> None:
-        """Record the seconds that the last draft and its reading have taken."""
+        """Record the duration of the last draft and its reading."""
         self._seconds.append(seconds)
         if len(self._seconds) < 2:
             return
-        if min(self._seconds) > LONGEST_DRAFT and self._thinned < THINNEST_ROW:
-            self._change(2 * self._thinned)
-        elif max(self._seconds) < LONGEST_DRAFT / _SPEED_MARGIN and self._thinned > 1:
-            self._change(self._thinned // 2)
+        if min(self._seconds) > LONGEST_DRAFT and self._thinning < MOST_THINNING:
+            self._set_thinning(2 * self._thinning)
+        elif max(self._seconds) < LONGEST_DRAFT / _SPEED_MARGIN and self._thinning > 1:
+            self._set_thinning(self._thinning // 2)
 
-    def _change(self, thinned: int) -> None:
-        self._thinned = thinned
+    def _set_thinning(self, thinning: int) -> None:
+        self._thinning = thinning
         self._seconds.clear()
 
 
-SMALL_PICTURE = 1_000_000  # most pixels of a picture that is there at once, with whatever effects
+SMALL_PICTURE = 1_000_000  # most pixels of a picture that needs no draft, whatever its effects
 
 
 def reading_by_profile(
     request: SimulationRequest, planned: PlannedScene | None = None
 ) -> Reading | None:
-    """Read a scene without its picture; None where the reading needs pixels."""
+    """Read a scene without its picture; None if the reading needs pixels."""
     more = filter(_is_usable, request.more)
     decoders = (*QUICK_DECODERS, *more)
     view = None if planned is None else planned.view
-    found = read_profile(request.scene, request.settings, decoders, view)
-    if found is None:
+    profile = read_profile(request.scene, request.settings, decoders, view)
+    if profile is None:
         return None
     error = 0.0 if planned is None else planned.plan.error
-    seen = _seen(request, request.scene, found, found.results)
-    return Reading(source="profile", error=error, **seen)
+    fields = _common_fields(request, request.scene, profile, profile.results)
+    return Reading(source="profile", error=error, **fields)
 
 
-def is_soon(planned: PlannedScene) -> bool:
-    """Return whether a picture takes milliseconds: its rows are copies of one."""
+def is_fast(planned: PlannedScene) -> bool:
+    """Return whether a picture takes only milliseconds, because its rows are copies of one."""
     return planned.plan.kinds <= {"column"}
 
 
 def draft_of(request: SimulationRequest, planned: PlannedScene) -> Frame | None:
-    """Simulate some rows of a picture; None where the whole one is as fast."""
+    """Simulate some rows of a picture; None if the whole one is as fast."""
     camera = request.scene.camera
-    if camera.rows * camera.columns <= SMALL_PICTURE or is_soon(planned):
+    if camera.rows * camera.columns <= SMALL_PICTURE or is_fast(planned):
         return None
-    # Noise drawn for each pixel is no nearer to that of the picture, which is drawn anew.
+    # Exact noise would be no closer to that of the picture, for which it is drawn anew.
     settings = replace(request.settings, noise="reused")
     return render_with(request.scene, settings, request.draft_step, planned=planned)
 
@@ -108,14 +106,14 @@ def draft_of(request: SimulationRequest, planned: PlannedScene) -> Frame | None:
 def reading_of_draft(request: SimulationRequest, frame: Frame) -> Reading:
     """Read a draft of a picture, with rows counted in the whole one."""
     scene = frame.scene
-    found = _decode_by_all(occ.decode(frame.image, scene), scene, request.more)
-    results = {name: _in_whole_picture(result, frame) for name, result in found.items()}
-    seen = _seen(request, scene, frame, results)
-    return Reading(source="draft", error=frame.plan.error, **seen)
+    of_draft = _decode_by_all(occ.decode(frame.image, scene), scene, request.more)
+    results = {name: _scale_rows(result, frame) for name, result in of_draft.items()}
+    fields = _common_fields(request, scene, frame, results)
+    return Reading(source="draft", error=frame.plan.error, **fields)
 
 
-def _in_whole_picture(result: DecodeResult, draft: Frame) -> DecodeResult:
-    """Return the region in the rows of the picture; how it was found holds for the draft alone."""
+def _scale_rows(result: DecodeResult, draft: Frame) -> DecodeResult:
+    """Return a draft's result with its region in the rows of the picture, and no location."""
     region, step = result.region, draft.rows_step
     if region is not None:
         last = min(region.last_row * step, draft.scene.camera.rows)
@@ -130,31 +128,33 @@ def snapshot_of(request: SimulationRequest, frame: Frame) -> Snapshot:
     seconds = perf_counter() - start
     return Snapshot(
         source="picture",
-        called_for=name_effects_for_signal(frame.plan, scene),
+        missing_effects=name_effects_for_signal(frame.plan, scene),
         has_picture=True,
         error=frame.plan.error,
         frame=frame,
         reading_seconds=seconds,
-        **_seen(request, scene, frame, _decode_by_all(decoded, scene, request.more)),
+        **_common_fields(request, scene, frame, _decode_by_all(decoded, scene, request.more)),
     )
 
 
-def explained(snapshot: Snapshot, heartbeat: Heartbeat = lambda: None) -> Snapshot:
-    """Find out why decoders have not read a picture; it can take as long as several pictures."""
+def explain_failures(snapshot: Snapshot, heartbeat: Heartbeat = lambda: None) -> Snapshot:
+    """Find why decoders have not read a picture, which may take as long as several pictures."""
     request = snapshot.request
     scene, settings = request.scene, request.settings
-    found = {name: cause_of(scene, name, settings, heartbeat) for name in unread_by(snapshot)}
-    causes = {name: cause for name, cause in found.items() if cause is not None}
+    causes = {}
+    for name in failed_decoders(snapshot):
+        if (cause := cause_of(scene, name, settings, heartbeat)) is not None:
+            causes[name] = cause
     return replace(snapshot, causes=causes)
 
 
-def _seen(
+def _common_fields(
     request: SimulationRequest,
     scene: Scene,
-    found: Frame | ProfileReading,
+    frame: Frame | ProfileReading,
     results: Mapping[str, DecodeResult],
 ) -> dict[str, Any]:
-    """Return the common fields of readings: what was found, the results, and the band model."""
+    """Return the fields that all readings have, among them the band model."""
     band, enhanced_band, undefined, drift = None, None, "", 0.0
     try:
         band = occ.band_profile(scene)
@@ -167,13 +167,13 @@ def _seen(
     return {
         "request": request,
         "scene": scene,
-        "plan": found.plan,
-        "profile": found.profile,
-        "signal": found.signal,
-        "corners": found.corners,
+        "plan": frame.plan,
+        "profile": frame.profile,
+        "signal": frame.signal,
+        "corners": frame.corners,
         "results": results,
-        "has_edges": "led-edges" in found.plan,
-        "overexposed": overexposed_fraction(scene, found.plan, found.profile, found.corners),
+        "has_edges": "led-edges" in frame.plan,
+        "overexposed": overexposed_fraction(scene, frame.plan, frame.profile, frame.corners),
         "sent": () if transmitter.pattern else transmitter.payload_bits,
         "packet_columns": chip_columns * len(occ.packet(scene)),
         "band": band,
@@ -184,7 +184,7 @@ def _seen(
 
 
 def _is_usable(decoder: str) -> bool:
-    """Whether a decoder can be used; a plug-in's error is reported with the picture."""
+    """Return whether a decoder can be used; a plug-in's error is reported with the picture."""
     try:
         decoder_named(decoder)
     except PluginError:
@@ -195,7 +195,7 @@ def _is_usable(decoder: str) -> bool:
 def _decode_by_all(
     first: DecodeResult, scene: Scene, more: tuple[str, ...]
 ) -> dict[str, DecodeResult]:
-    """Decode the signal that the first decoder has located with all others."""
+    """Decode with all decoders the signal that the first one has located."""
     results = {first.decoder: first}
     for name in (*QUICK_DECODERS, *more):
         if name not in results:

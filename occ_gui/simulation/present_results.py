@@ -1,4 +1,4 @@
-"""Present results: what is written to a file shows the scene that the controls show."""
+"""Present results: what is written to a file is of the scene that the controls show."""
 
 from collections.abc import Callable
 
@@ -13,11 +13,11 @@ Use = Callable[[Snapshot], None]
 class PresentResults(QObject):
     """Delivers the results of the present scene, as soon as the panes show them.
 
-    Requests wait while a scene is computed, so that no results of an earlier one are delivered.
-    Where a scene has no picture, they are cancelled with a message.
+    Requests wait while a scene is computed, so that no results of an earlier one are delivered. If
+    a scene has no picture, they are cancelled with a message.
     """
 
-    status_message = Signal(str)  # whether a request waits, or why it was given up
+    status_message = Signal(str)  # that a request waits, or why it was cancelled
 
     def __init__(self, simulation: SimulationController) -> None:
         super().__init__()

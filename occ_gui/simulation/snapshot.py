@@ -1,4 +1,4 @@
-"""Results of one scene: its pictures, and what is read of it, early or from its picture."""
+"""Results of one scene: its pictures, and what is read from them, or before them."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -31,16 +31,15 @@ class ColumnView:
     signal: FloatArray
     # Shape (4, 2): the panel's corners in the picture, each as (column, row)
     corners: FloatArray
-    # What each decoder has read, by its name; the first of them has found the panel for all
+    # The result of each decoder by its name; the first one has located the panel for all
     results: Mapping[str, DecodeResult]
     # The transmitted bits in order of time; empty where a raw pattern is transmitted
     sent: tuple[int, ...]
     packet_columns: float
-    has_edges: bool = False  # whether the light rises and falls in a time that is seen
-    # Shape (columns,), or None: the band model's profile, None where ``band_undefined``
-    # says why there is none
+    has_edges: bool = False  # whether the rise and fall of the light are simulated
+    # Shape (columns,): the band model's profile; None if ``band_undefined`` says why there is none
     band: FloatArray | None = None
-    # Shape (columns,), or None: the same as a receiver would enhance it
+    # Shape (columns,): the same after the receiver's enhancement; None without it
     enhanced_band: FloatArray | None = None
     band_undefined: str = ""  # a sentence, empty where there is a profile
     # Columns by which that profile is ahead of the simulated one after each packet
@@ -48,7 +47,7 @@ class ColumnView:
 
     @property
     def region(self) -> Region | None:
-        """The part of the picture that the decoders have read; None where they found no panel."""
+        """The part of the picture that the decoders have read; None if they found no panel."""
         return next(iter(self.results.values())).region
 
     def levels(self, *, enhanced: bool) -> FloatArray:
@@ -59,7 +58,7 @@ class ColumnView:
 
     @property
     def panel_columns(self) -> tuple[float, float]:
-        """The panel's first and last column in the picture; the picture's where it is outside."""
+        """The panel's first and last column in the picture; the picture's if it is outside."""
         last_column = len(self.profile) - 1
         panel = np.clip(self.corners[:, 0], 0, last_column)
         first, last = float(panel.min()), float(panel.max())
@@ -67,27 +66,27 @@ class ColumnView:
 
     @property
     def panel_origin(self) -> tuple[float, float]:
-        """The panel's upper left corner as (column, row); the picture's where it lies beyond."""
+        """The panel's upper left corner as (column, row), moved into the picture if outside."""
         left, top = self.corners.min(axis=0).tolist()
         return max(left, 0.0), max(top, 0.0)
 
 
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class Reading(ColumnView):
-    """What is read of one scene: its profile, the band model, and the decoders' results."""
+    """The reading of one scene: its profile, the band model, and the decoders' results."""
 
     request: SimulationRequest
-    # What it was read from: ``"profile"``, without pixels; a ``"draft"`` of the picture; or the
-    # exact ``"picture"``, which has the last word
+    # What it was read from: ``"profile"``, without pixels; a ``"draft"`` of the picture; or finally
+    # the exact ``"picture"``
     source: Source
     plan: Plan
-    # Effects that were left out and the studies of the same scene include, by label
-    called_for: tuple[str, ...] = ()
+    # Labels of the effects that were left out, but are included in studies of the same scene
+    missing_effects: tuple[str, ...] = ()
     has_picture: bool = False
     overexposed: float = 0.0  # fraction of the panel's columns
-    # How much what the picture leaves out changes what the tolerance limits, in its unit
+    # Change of the observable by all effects left out, in the unit of the tolerance
     error: float = 0.0
-    # Why decoders have not read the scene, by their names; None before that is searched
+    # Why decoders have not read the scene, by their names; None before it is known
     causes: Mapping[str, Cause] | None = None
 
 
@@ -109,16 +108,16 @@ _MIN_COPY_SIDE = 256
 
 @dataclass(frozen=True, eq=False, slots=True)
 class PictureView:
-    """The pixels of a scene's picture, or of a frame of a film, and their place."""
+    """The pixels of a scene's picture, or of a frame of a film, and their place in it."""
 
     image: ByteArray  # shape (len(rows), columns): The pixels
-    rows: range  # the rows of the whole picture that they show; a draft has some of them
+    rows: range  # their rows in the whole picture, of which a draft has only some
     size: tuple[int, int]
     # Shape (4, 2): the panel's corners in the whole picture, each as (column, row)
     corners: FloatArray
-    smallest: ByteArray  # the same pixels, or a copy of fewer
+    smallest: ByteArray  # the same pixels, or their most reduced copy
 
-    def seen_by(self, _picture_kind: str) -> Self:
+    def view_as(self, _picture_kind: str) -> Self:
         return self
 
 
@@ -126,15 +125,14 @@ class PictureView:
 class Picture:
     frame: Frame
     picture_kind: str  # one of PICTURES
-    # The picture at a half of its size, at a quarter and so on; each pixel is the
-    # mean of four
+    # The picture at half its size, a quarter and so on; each pixel is the mean of four
     halves: tuple[ByteArray, ...]
-    # The scene and the settings that it was simulated from, where they are known
+    # The scene and the settings from which it was simulated, if known
     request: SimulationRequest | None = None
-    # What is shown of the same scene together with the picture, where that is known already
+    # The reading of the same scene to be shown together with the picture, if known already
     reading: Reading | None = None
 
-    def seen_by(self, picture_kind: str) -> PictureView:
+    def view_as(self, picture_kind: str) -> PictureView:
         """Return the pixels of the camera's picture or of the receiver's."""
         frame, camera = self.frame, self.frame.scene.camera
         image = frame.picture(picture_kind)
@@ -151,7 +149,7 @@ class Picture:
         request: SimulationRequest | None = None,
         reading: Reading | None = None,
     ) -> Self:
-        """Compute the reduced copies; slow, for a background thread."""
+        """Compute the reduced copies, which is slow, on a background thread."""
         return cls(frame, picture_kind, halves_of(frame.picture(picture_kind)), request, reading)
 
 
@@ -159,12 +157,12 @@ def halves_of(pixels: ByteArray) -> tuple[ByteArray, ...]:
     """Return smaller copies of a picture, each of half the size of the one before."""
     halves = []
     while min(pixels.shape) >= 2 * _MIN_COPY_SIDE:
-        pixels = halved(pixels)
+        pixels = halve(pixels)
         halves.append(pixels)
     return tuple(halves)
 
 
-def halved(pixels: ByteArray) -> ByteArray:
+def halve(pixels: ByteArray) -> ByteArray:
     """Average squares of four pixels; an odd row or column at the edge is left out.
 
     For this ratio OpenCV is many times faster than for any other.

@@ -12,22 +12,22 @@ from occ_model.results.decoding import DecodeResult
 
 _LONGEST_PAYLOAD = 24  # characters of a payload that a title shows
 
-_AWAITED = "This decoder takes longer: it reads the picture now."
+_WAITING = "This decoder takes longer: it reads the picture now."
 
 _CLAUSE_END = re.compile(r"[:;,.](?= |$)")
 
 
 @dataclass(frozen=True, slots=True)
 class CodeVerdict:
-    # Good where all bits are right, doubtful where some are, bad where none is or no code was read,
-    # neutral where none is sent, waiting while a slow decoder reads
+    # Good if all bits are right, doubtful if some are, bad if none is or no code was read, neutral
+    # if none is sent, waiting while a slow decoder reads
     state: State
     title: str
-    reason: str = ""  # the decoder's sentence that says why no code was read, else empty
+    reason: str = ""  # the decoder's sentence on why no code was read, otherwise empty
 
     @property
     def explanation(self) -> str:
-        """The rest of the reason after the heading; may be empty."""
+        """The rest of the reason, after the heading; may be empty."""
         parts = _CLAUSE_END.split(self.reason, maxsplit=1)
         if self.state is not State.BAD or len(parts) < 2:
             return self.reason
@@ -45,8 +45,8 @@ class CodeVerdict:
 
 
 def result_of(reading: ColumnView, decoder: str) -> DecodeResult:
-    """Return a decoder's result, or that it has not read yet."""
-    return reading.results.get(decoder) or DecodeResult(decoder, failure=_AWAITED)
+    """Return a decoder's result, or one that says that it is still reading."""
+    return reading.results.get(decoder) or DecodeResult(decoder, failure=_WAITING)
 
 
 def wrong_places(sent: Sequence[int], received: Sequence[int]) -> list[int]:
@@ -58,53 +58,54 @@ def is_right(decoded: DecodeResult, sent: Sequence[int]) -> bool:
     return decoded.code is not None and tuple(decoded.bits.tolist()) == tuple(sent)
 
 
-def unread_by(reading: ColumnView) -> tuple[str, ...]:
-    """Name the decoders that have not read the code that is sent; none where none is sent."""
+def failed_decoders(reading: ColumnView) -> tuple[str, ...]:
+    """Return the decoders that have not read the code that is sent; none if none is sent."""
     sent, results = reading.sent, reading.results.items()
     return tuple(name for name, result in results if sent and not is_right(result, sent))
 
 
-def received_in_words(sent: str, received: str, wrong: int) -> str:
+def describe_received(sent: str, received: str, wrong: int) -> str:
     return f"sent {sent or 'no code'}, received {received or 'nothing'}, {wrong} wrong"
 
 
-def left_out_in_words(reading: Reading) -> str:
-    return f"This picture leaves out what map and strips include: {', '.join(reading.called_for)}."
+def describe_missing(reading: Reading) -> str:
+    names = ", ".join(reading.missing_effects)
+    return f"This picture leaves out what map and strips include: {names}."
 
 
 def cause_in(reading: ColumnView, decoded: DecodeResult) -> Cause | None:
-    """Return why a decoder has not read the scene; None where that is not known, or not so."""
+    """Return why a decoder has not read the scene; None if unknown, or if it has read it."""
     causes = reading.causes if isinstance(reading, Reading) else None
     return (causes or {}).get(decoded.decoder)
 
 
 def reason_in(reading: ColumnView, decoded: DecodeResult) -> str:
-    """Return why a decoder has not read the scene, the cause first; empty without a reason."""
+    """Return the cause why a decoder has not read the scene, and its failure; may be empty."""
     cause, failure = cause_in(reading, decoded), decoded.failure or ""
     if cause is None:
         return failure
     return f"{cause} {symptom(failure)}".rstrip()
 
 
-def what_was_read(decoded: DecodeResult) -> str:
-    """Name the code or the payload that a decoder read, as the start of a sentence."""
+def describe_code(decoded: DecodeResult) -> str:
+    """Name the code or payload that a decoder read, as the start of a sentence."""
     if decoded.payload:
         return f"“{one_line(decoded.payload, _LONGEST_PAYLOAD)}”"
     return f"Code {decoded.code}"
 
 
 def verdict_on(decoded: DecodeResult, sent: Sequence[int]) -> CodeVerdict:
-    """Compare a decoder's result with the sent bits, which are empty for a raw pattern."""
+    """Compare a decoder's result with the sent bits; none are given for a raw pattern."""
     if not sent:
         return CodeVerdict(State.NEUTRAL, "No code is sent", decoded.failure or "")
-    if decoded.failure == _AWAITED:
+    if decoded.failure == _WAITING:
         title = f"Reading by the decoder {decoded.decoder}"
         return CodeVerdict(State.WAITING, title, decoded.failure)
     if decoded.code is None:
         return CodeVerdict(State.BAD, "No code read", decoded.failure or "")
     if is_right(decoded, sent):
-        title = f"{what_was_read(decoded)} read, all bits right"
+        title = f"{describe_code(decoded)} read, all bits right"
         return CodeVerdict(State.GOOD, title)
     wrong = len(wrong_places(sent, decoded.bits.tolist()))
-    title = f"{what_was_read(decoded)} read, {wrong} of {len(sent)} bits wrong"
+    title = f"{describe_code(decoded)} read, {wrong} of {len(sent)} bits wrong"
     return CodeVerdict(State.BAD if wrong == len(sent) else State.DOUBTFUL, title)

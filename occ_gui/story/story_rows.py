@@ -3,7 +3,7 @@
 from PySide6.QtCore import QEvent, Qt, Signal
 from PySide6.QtWidgets import QPushButton, QVBoxLayout, QWidget
 
-from occ_gui.simulation.band_drift import drift_of, what_is_compared, why_it_drifts
+from occ_gui.simulation.band_drift import drift_of, explain_comparison, explain_drift
 from occ_gui.simulation.snapshot import ColumnView, Picture, PictureView
 from occ_gui.simulation.verdict import result_of
 from occ_gui.story.code_row import CodeRow
@@ -123,12 +123,12 @@ class StoryRows(QWidget):
         if undefined or profile.band is None:
             why = undefined
         else:
-            why = why_it_drifts() if drift else what_is_compared()
+            why = explain_drift() if drift else explain_comparison()
         self.legend.show_lines(keys, note, why)
 
     def show_picture(self, picture: Picture | PictureView) -> None:
         self._picture = picture
-        self.stripes.show_picture(picture.seen_by(self._picture_kind))
+        self.stripes.show_picture(picture.view_as(self._picture_kind))
 
     def show_reading(self, reading: ColumnView) -> None:
         was_visible = self._is_choice_visible()
@@ -160,7 +160,7 @@ class StoryRows(QWidget):
         self._picture_kind = picture_kind
         self.profile.choose_picture(picture_kind)
         if self._picture is not None:
-            self.stripes.show_picture(self._picture.seen_by(picture_kind))
+            self.stripes.show_picture(self._picture.view_as(picture_kind))
         self._show_legend()
         self._read_out()
 

@@ -10,8 +10,8 @@ from occ_gui.simulation.snapshot import Reading
 from occ_gui.simulation.verdict import (
     CodeVerdict,
     cause_in,
+    describe_missing,
     is_right,
-    left_out_in_words,
     result_of,
     verdict_on,
 )
@@ -43,8 +43,8 @@ def make_badges(reading: Reading, decoder: str) -> Iterator[Badge]:
     if reading.band_undefined:
         yield Badge("band", "band model ends here", reading.band_undefined)
     yield from _list_other_decoders(reading, decoder)
-    if reading.called_for:
-        yield Badge("left out", "effects left out", left_out_in_words(reading), State.DOUBTFUL)
+    if reading.missing_effects:
+        yield Badge("left out", "effects left out", describe_missing(reading), State.DOUBTFUL)
 
 
 def make_computing_badge() -> Badge:

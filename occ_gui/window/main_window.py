@@ -227,9 +227,6 @@ class MainWindow(QMainWindow):
         if name not in self._panes.shown_in(self.modes.mode):
             self.docks[name].hide()
 
-    def is_hidden(self, name: str) -> bool:
-        return self.docks[name].isHidden()
-
     def _show_page(self, page: str) -> None:
         """Show the story in the middle, the whole picture in its place, or neither."""
         self._centre.setVisible(bool(page))

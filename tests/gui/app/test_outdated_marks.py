@@ -127,7 +127,7 @@ class Simulation(QObject):
         self.results_store.show_reading(snapshot)
 
 
-class Verdict:
+class VerdictRecorder:
     """A pane that records whether its verdict is outdated, and the values of a run."""
 
     def __init__(self) -> None:
@@ -154,7 +154,7 @@ class Drag:
             for iso in np.geomspace(50.0, 200.0, 61).tolist()
         ]
         self.latest = self.snapshots[0]
-        self.simulation, self.verdict = Simulation(self.latest), Verdict()
+        self.simulation, self.verdict = Simulation(self.latest), VerdictRecorder()
         results_store = self.simulation.results_store
         self.outdated = OutdatedMarks(results_store, self.simulation, pane)  # type: ignore[arg-type]
         marked: Pane[None] = Pane(pane)

@@ -188,5 +188,5 @@ def test_the_context_menu_copies_values_and_the_bar_opens_a_lesson(
     menu.aboutToHide.emit()
     application.story.verdict.lesson_wanted.emit(AVERAGES_LESSON)
     pane = application.shell.pane("lessons")
-    assert not application.window.is_hidden("lessons")
+    assert not application.window.docks["lessons"].isHidden()
     assert pane.controller.current.name == AVERAGES_LESSON

@@ -12,17 +12,17 @@ from occ_model.scene.scene import Scene
 
 
 class RecordingView:
-    """A view that keeps all that it is shown."""
+    """A view that records all that it receives."""
 
     def __init__(self) -> None:
-        self.shown: list[Snapshot] = []
-        self.read: list[Reading] = []
+        self.snapshots: list[Snapshot] = []
+        self.readings: list[Reading] = []
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
-        self.shown.append(snapshot)
+        self.snapshots.append(snapshot)
 
     def show_reading(self, reading: Reading) -> None:
-        self.read.append(reading)
+        self.readings.append(reading)
 
 
 class Bench:
@@ -45,7 +45,7 @@ class Bench:
 
     @property
     def scenes(self) -> list[Scene]:
-        return [snapshot.frame.scene for snapshot in self.views[0].shown]
+        return [snapshot.frame.scene for snapshot in self.views[0].snapshots]
 
 
 @pytest.fixture

@@ -1,4 +1,4 @@
-"""The panes end with the results of the latest scene; one without a picture keeps the last."""
+"""The panes end with the results of the latest scene, or keep the last if it has no picture."""
 
 from dataclasses import replace
 from itertools import count
@@ -34,24 +34,24 @@ def test_every_change_of_settings_ends_with_a_picture_of_them(bench: Bench) -> N
     bench.settings.set_observable("profile")
     bench.store.force("jpeg", True)
     bench.wait_until_idle()
-    frame = bench.views[0].shown[-1].frame
+    frame = bench.views[0].snapshots[-1].frame
     assert (frame.plan.tolerance, frame.plan.observable) == (50.0, "profile")
     assert frame.plan.included == ("jpeg",)
     bench.store.force("jpeg", None)
     bench.wait_until_idle()
-    assert bench.views[0].shown[-1].frame.plan.included == ()
+    assert bench.views[0].snapshots[-1].frame.plan.included == ()
 
 
 def test_all_views_show_one_result_before_it_is_announced(bench: Bench, qtbot: QtBot) -> None:
     counts: list[int] = []
-    bench.controller.snapshot_shown.connect(lambda _: counts.append(len(bench.views[1].shown)))
-    with qtbot.waitSignal(bench.controller.snapshot_shown) as shown:
+    bench.controller.snapshot_shown.connect(lambda _: counts.append(len(bench.views[1].snapshots)))
+    with qtbot.waitSignal(bench.controller.snapshot_shown) as signal:
         bench.store.change(iso=200.0)
-    assert [shown.args[0]] == [bench.views[0].shown[-1]] == [bench.views[1].shown[-1]]
+    assert [signal.args[0]] == [bench.views[0].snapshots[-1]] == [bench.views[1].snapshots[-1]]
     assert counts == [2]
 
 
-def test_a_scene_without_a_picture_says_why_views_stay_and_the_next_one_is_shown(
+def test_a_scene_without_a_picture_is_reported_and_the_views_keep_the_last_one(
     bench: Bench, small_scene: Scene
 ) -> None:
     bench.store.change(**BEHIND_THE_CAMERA)
@@ -72,11 +72,11 @@ def test_a_scene_without_a_picture_says_why_views_stay_and_the_next_one_is_shown
 def test_after_an_unexpected_failure_the_next_one_is_shown(
     bench: Bench, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def broken(*_arguments: object, **_named: object) -> None:
+    def fail(*_arguments: object, **_options: object) -> None:
         raise ZeroDivisionError("a mistake")
 
     with monkeypatch.context() as patched:
-        patched.setattr(controller, "render_with", broken)
+        patched.setattr(controller, "render_with", fail)
         bench.store.change(iso=333.0)
         bench.wait_until_idle()
     assert bench.failures == ["The simulation failed: ZeroDivisionError: a mistake."]
@@ -85,7 +85,7 @@ def test_after_an_unexpected_failure_the_next_one_is_shown(
     assert bench.scenes[-1] == bench.store.scene
 
 
-def test_the_snapshot_holds_what_the_model_says_of_the_scene(snapshot_of: SnapshotOf) -> None:
+def test_the_snapshot_holds_the_models_results_for_the_scene(snapshot_of: SnapshotOf) -> None:
     snapshot = snapshot_of(code=0b1011001110)
     scene = snapshot.frame.scene
     assert np.array_equal(snapshot.frame.image, occ.render(scene, noise="reused").image)
@@ -104,10 +104,10 @@ def test_the_snapshot_holds_what_the_model_says_of_the_scene(snapshot_of: Snapsh
     assert "200 µs" in snapshot.band_undefined
 
 
-def test_simulation_and_reading_are_timed_apart(
+def test_simulation_and_reading_are_timed_separately(
     small_scene: Scene, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    # A clock that goes on by one at every look: what lies between two looks is one.
+    # A clock that advances by one at every call, so that the time between two calls is one.
     monkeypatch.setattr(jobs, "perf_counter", count().__next__)
     timings = {"transmitter": 2.0, "camera": 3.0}
     frame = replace(occ.render(small_scene), timings=timings)
@@ -129,28 +129,28 @@ def test_the_snapshot_holds_each_decoders_result_of_one_picture(
         assert result.region == alone.region
 
 
-def test_a_decoder_asked_for_reads_this_scene_and_later_ones(bench: Bench) -> None:
-    def read() -> list[str]:
-        return list(bench.views[0].read[-1].results)
+def test_a_chosen_decoder_reads_this_and_later_scenes(bench: Bench) -> None:
+    def decoders() -> list[str]:
+        return list(bench.views[0].readings[-1].results)
 
     bench.wait_until_idle()
-    assert read() == list(QUICK_DECODERS)
+    assert decoders() == list(QUICK_DECODERS)
     bench.controller.read_with("sequence")
     bench.wait_until_idle()
-    assert read() == [*QUICK_DECODERS, "sequence"]
+    assert decoders() == [*QUICK_DECODERS, "sequence"]
     bench.store.change(iso=150.0)
     bench.wait_until_idle()
-    assert read() == [*QUICK_DECODERS, "sequence"]
+    assert decoders() == [*QUICK_DECODERS, "sequence"]
     bench.controller.read_with("matched")
     bench.store.change(iso=160.0)
     bench.wait_until_idle()
-    assert read() == list(QUICK_DECODERS)
+    assert decoders() == list(QUICK_DECODERS)
 
 
-def test_where_no_panel_is_found_every_decoder_says_so(
+def test_every_decoder_reports_that_no_panel_is_found(
     bare_snapshot_of: SnapshotOf,
 ) -> None:
-    snapshot = bare_snapshot_of(offset_x=50.0)  # of noise a decoder finds some brightest pixels
+    snapshot = bare_snapshot_of(offset_x=50.0)  # without noise, which has some brightest pixels
     assert snapshot.results["threshold"].signal is None
     failures = {result.failure for result in snapshot.results.values()}
     assert len(failures) == 1

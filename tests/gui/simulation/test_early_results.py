@@ -1,4 +1,4 @@
-"""What is shown of a scene before its exact picture: a reading by the profile, and a draft."""
+"""Results before the exact picture: a reading of the profile, and a draft."""
 
 import math
 from dataclasses import astuple
@@ -37,15 +37,15 @@ def test_a_scene_is_read_before_its_picture_is_there(
 ) -> None:
     bench.store.change(iso=200.0)
     reader = bench.views[1]
-    qtbot.waitUntil(lambda: reader.read[-1].scene == bench.store.scene)
-    early = reader.read[-1]
+    qtbot.waitUntil(lambda: reader.readings[-1].scene == bench.store.scene)
+    early = reader.readings[-1]
     assert (early.source, len(bench.scenes)) == ("profile", 1)
     held.set()
     bench.wait_until_idle()
-    assert reader.read[-1] is bench.views[0].shown[-1]
-    assert reader.read[-1].source == "picture"
+    assert reader.readings[-1] is bench.views[0].snapshots[-1]
+    assert reader.readings[-1].source == "picture"
     assert [result.code for result in early.results.values()] == [
-        result.code for result in reader.read[-1].results.values()
+        result.code for result in reader.readings[-1].results.values()
     ]
 
 
@@ -53,21 +53,21 @@ def test_no_reading_is_replaced_by_one_of_an_earlier_scene(
     bench: Bench, held: Event, qtbot: QtBot
 ) -> None:
     reader = bench.views[0]
-    before = len(reader.read)
+    before = len(reader.readings)
     bench.store.change(iso=150.0)
     bench.store.change(iso=200.0)
-    qtbot.waitUntil(lambda: reader.read[-1].scene.camera.iso == 150.0)
+    qtbot.waitUntil(lambda: reader.readings[-1].scene.camera.iso == 150.0)
     held.set()
     bench.wait_until_idle()
     assert [scene.camera.iso for scene in bench.scenes[1:]] == [150.0, 200.0]
-    of_pictures = [reading for reading in reader.read[before:] if reading.source == "picture"]
+    of_pictures = [reading for reading in reader.readings[before:] if reading.source == "picture"]
     assert [reading.scene.camera.iso for reading in of_pictures] == [200.0]
-    assert reader.read[-1] is of_pictures[-1]
+    assert reader.readings[-1] is of_pictures[-1]
 
 
 @pytest.fixture
 def pictures(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> list[Picture]:
-    """Draft pictures of any size, and keep all that are delivered."""
+    """Draft pictures of any size, and record all that are delivered."""
     monkeypatch.setattr(jobs, "SMALL_PICTURE", 0)
     return collect(bench.controller.picture_ready)
 
@@ -81,14 +81,14 @@ def test_a_draft_of_the_scene_comes_before_its_exact_picture(
     assert (is_draft(draft), is_draft(exact)) == (True, False)
     assert draft.frame.scene == exact.frame.scene == bench.store.scene
     assert draft.frame.plan == exact.frame.plan
-    assert bench.views[0].shown[-1].frame is exact.frame
+    assert bench.views[0].snapshots[-1].frame is exact.frame
 
 
 @pytest.mark.parametrize("jpeg", [0, 80])
 def test_the_effects_of_a_scene_are_chosen_once_for_draft_and_picture(
     bench: Bench, pictures: list[Picture], monkeypatch: pytest.MonkeyPatch, jpeg: int
 ) -> None:
-    bench.settings.set_tolerance(0.0)  # which leaves out nothing that a signal may call for
+    bench.settings.set_tolerance(0.0)  # no effect is left out that a signal may need
     bench.wait_until_idle()
     pictures.clear()
     observables: list[str] = []
@@ -102,7 +102,7 @@ def test_the_effects_of_a_scene_are_chosen_once_for_draft_and_picture(
     bench.store.change(iso=200.0, jpeg_quality=jpeg)
     bench.wait_until_idle()
     assert [is_draft(picture) for picture in pictures] == [True, False]
-    # An early reading without pixels simulates all that the scene has, and plans nothing.
+    # An early reading without pixels simulates all effects of the scene, without a plan.
     assert sorted(observables) == (["image", "signal"] if jpeg else ["image"])
 
 
@@ -110,36 +110,36 @@ def test_the_effects_of_a_scene_are_chosen_once_for_draft_and_picture(
 def test_a_draft_and_the_verdict_on_it_are_painted_at_once(
     bench: Bench, pictures: list[Picture], jpeg: int
 ) -> None:
-    """Qt paints once no other event waits, so the event that stands for it is posted as low."""
+    """Qt paints when no other event waits, which an event of low priority imitates."""
 
-    class Painted(QObject):
+    class PaintRecorder(QObject):
         def __init__(self) -> None:
             super().__init__()
             self.scenes: list[tuple[Scene, Scene]] = []
 
         def event(self, event: QEvent) -> bool:
             if event.type() == QEvent.Type.User:
-                of_reading = bench.views[1].read[-1].scene
+                of_reading = bench.views[1].readings[-1].scene
                 self.scenes.append((pictures[-1].frame.scene, of_reading))
             return super().event(event)
 
-    painted = Painted()
+    recorder = PaintRecorder()
     bench.controller.picture_ready.connect(
         lambda _: QApplication.postEvent(
-            painted, QEvent(QEvent.Type.User), Qt.EventPriority.LowEventPriority.value
+            recorder, QEvent(QEvent.Type.User), Qt.EventPriority.LowEventPriority.value
         )
     )
     for iso in (110.0, 120.0, 130.0):
         bench.store.change(iso=iso, jpeg_quality=jpeg)
         bench.wait_until_idle()
-    assert len(painted.scenes) >= 3
-    assert all(of_picture == of_reading for of_picture, of_reading in painted.scenes)
+    assert len(recorder.scenes) >= 3
+    assert all(of_picture == of_reading for of_picture, of_reading in recorder.scenes)
 
 
 def test_drafts_have_the_rows_that_the_screen_shows(bench: Bench, pictures: list[Picture]) -> None:
     bench.controller.draft_for(lambda: 7.9)
     bench.store.change(iso=200.0)
-    bench.controller.draft_for(lambda: 0.5)  # fewer rows than four are no sooner there
+    bench.controller.draft_for(lambda: 0.5)  # a step of less than four rows saves no time
     bench.wait_until_idle()
     bench.store.change(iso=300.0)
     bench.wait_until_idle()
@@ -155,12 +155,12 @@ def test_a_picture_without_pixels_that_differ_needs_no_draft(
     assert [is_draft(picture) for picture in pictures] == [False]
 
 
-def test_where_only_pixels_are_read_the_draft_is_first(
+def test_a_scene_that_is_read_from_pixels_is_read_from_its_draft_first(
     bench: Bench, pictures: list[Picture]
 ) -> None:
     bench.store.change(jpeg_quality=80)
     bench.wait_until_idle()
-    early, exact = bench.views[1].read[-2:]
+    early, exact = bench.views[1].readings[-2:]
     assert (early.source, exact.source) == ("draft", "picture")
     assert early.scene == exact.scene == bench.store.scene
     for of_draft, of_picture in zip(early.results.values(), exact.results.values(), strict=True):
@@ -174,7 +174,7 @@ def test_where_only_pixels_are_read_the_draft_is_first(
 def test_while_the_scene_changes_only_drafts_are_made(
     bench: Bench, pictures: list[Picture]
 ) -> None:
-    """Each draft brings about the next change; the second change is replaced by the third."""
+    """Each draft causes the next change; the second change is replaced by the third."""
     isos = iter([110.0, 120.0, 130.0])
 
     def change_again(_picture: Picture) -> None:
@@ -186,9 +186,8 @@ def test_while_the_scene_changes_only_drafts_are_made(
     bench.store.change(iso=90.0)
     bench.store.change(iso=100.0)
     bench.wait_until_idle()
-    assert [is_draft(picture) for picture in pictures] == [True] * 4 + [
-        False
-    ]  # the second was not begun
+    # The second change had no draft.
+    assert [is_draft(picture) for picture in pictures] == [*4 * [True], False]
     assert pictures[-1].frame.scene == bench.store.scene
     assert bench.scenes[1:] == [bench.store.scene]
 
@@ -196,38 +195,38 @@ def test_while_the_scene_changes_only_drafts_are_made(
 def test_a_picture_under_way_gives_way_to_a_newer_scene(
     bench: Bench, pictures: list[Picture], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The scene changes when the exact picture of the one before has been begun."""
-    begun: list[Scene] = []
+    """The scene changes when its exact picture has been begun."""
+    scenes: list[Scene] = []
 
-    def note_and_change(scene: Scene, *arguments: Any, **named: Any) -> Any:
-        begun.append(scene)
-        if len(begun) == 1:
+    def record_and_change(scene: Scene, *arguments: Any, **options: Any) -> Any:
+        scenes.append(scene)
+        if len(scenes) == 1:
             bench.controller.runner.ask(SimulationRequest(scene.replace(iso=300.0), SETTINGS))
-        return render_with(scene, *arguments, **named)
+        return render_with(scene, *arguments, **options)
 
-    monkeypatch.setattr(controller, "render_with", note_and_change)
+    monkeypatch.setattr(controller, "render_with", record_and_change)
     bench.store.change(iso=200.0)
     bench.wait_until_idle()
-    assert [scene.camera.iso for scene in begun] == [200.0, 300.0]
-    shown = [(picture.frame.scene.camera.iso, is_draft(picture)) for picture in pictures]
-    assert shown == [(200.0, True), (300.0, True), (300.0, False)]
+    assert [scene.camera.iso for scene in scenes] == [200.0, 300.0]
+    results = [(picture.frame.scene.camera.iso, is_draft(picture)) for picture in pictures]
+    assert results == [(200.0, True), (300.0, True), (300.0, False)]
 
 
-def test_an_exact_picture_begins_after_what_the_user_waits_for_sooner(
+def test_an_exact_picture_begins_after_more_urgent_work(
     bench: Bench, pictures: list[Picture], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(controller, "CHECK_SECONDS", 0.001)
-    looks: list[int] = []
+    counts: list[int] = []
 
-    def others_first() -> bool:
-        looks.append(len(pictures))
-        return len(looks) < 4
+    def must_wait() -> bool:
+        counts.append(len(pictures))
+        return len(counts) < 4
 
-    bench.controller.defer_while(others_first)
+    bench.controller.defer_while(must_wait)
     bench.store.change(iso=200.0)
     bench.wait_until_idle()
-    assert looks == [1] * 4  # the draft is there, the exact picture is not
-    bench.controller.defer_while(lambda: True)  # for ever, which is not waited for
+    assert counts == [1] * 4  # after the draft, before the exact picture
+    bench.controller.defer_while(lambda: True)  # for ever, longer than the picture waits
     bench.store.change(iso=210.0)
     bench.wait_until_idle()
     assert [is_draft(picture) for picture in pictures] == [True, False] * 2

@@ -1,4 +1,4 @@
-"""What is written shows the scene of the controls: it waits for it, or is given up."""
+"""Files are written from the results of the present scene, wait for them, or are cancelled."""
 
 from pathlib import Path
 
@@ -18,65 +18,64 @@ from occ_gui.simulation.snapshot import Snapshot
 
 
 @pytest.fixture
-def said() -> list[str]:
+def messages() -> list[str]:
     return []
 
 
 @pytest.fixture
-def present(bench: Bench, said: list[str]) -> PresentResults:
-    """Return results of the present scene, the first of which are there."""
+def present(bench: Bench, messages: list[str]) -> PresentResults:
+    """Return present results after the first picture."""
     present = PresentResults(bench.controller)
-    present.status_message.connect(said.append)
+    present.status_message.connect(messages.append)
     bench.store.change(iso=150.0)
     bench.wait_until_idle()
     return present
 
 
-def test_results_of_the_present_scene_are_given_at_once(
+def test_results_of_the_present_scene_are_delivered_at_once(
     bench: Bench, present: PresentResults
 ) -> None:
-    given: list[Snapshot] = []
-    present.ask(given.append)
-    (snapshot,) = given
+    snapshots: list[Snapshot] = []
+    present.ask(snapshots.append)
+    (snapshot,) = snapshots
     assert snapshot.request.scene == bench.store.scene
 
 
-def test_results_of_an_earlier_scene_are_never_given(
-    bench: Bench, present: PresentResults, said: list[str]
+def test_results_of_an_earlier_scene_are_never_delivered(
+    bench: Bench, present: PresentResults, messages: list[str]
 ) -> None:
-    given: list[Snapshot] = []
+    snapshots: list[Snapshot] = []
     for distance in (0.9, 1.0, 1.1):
         bench.store.change(distance=distance)
-        present.ask(given.append)
-    assert given == []
-    assert said[-1] == "Waiting for the picture of this scene…"
+        present.ask(snapshots.append)
+    assert snapshots == []
+    assert messages[-1] == "Waiting for the picture of this scene…"
     bench.wait_until_idle()
-    assert [snapshot.request.scene.pose.distance for snapshot in given] == [1.1] * 3
+    assert [snapshot.request.scene.pose.distance for snapshot in snapshots] == [1.1] * 3
 
 
 def test_a_picture_is_saved_of_the_scene_just_chosen_or_not_at_all(
-    bench: Bench, present: PresentResults, said: list[str], tmp_path: Path
+    bench: Bench, present: PresentResults, messages: list[str], tmp_path: Path
 ) -> None:
     path, store = tmp_path / "picture.png", bench.store
     photos = PhotoController(store.store, ResultsStore())
     files = FileController(None, store, photos, Preferences(), present.ask)  # type: ignore[arg-type]
-    files.status_message.connect(said.append)
+    files.status_message.connect(messages.append)
     store.change(yaw=1.5, panel_width=50.0)  # behind the camera
     files.save_picture(path)
     bench.wait_until_idle()
-    refused = "This scene has no picture: nothing has been written or copied."
-    assert said[-1] == refused
-    given = list[Snapshot]()
-    present.ask(given.append)
-    assert said.count(refused) == 2
+    refusal = "This scene has no picture: nothing has been written or copied."
+    assert messages[-1] == refusal
+    snapshots = list[Snapshot]()
+    present.ask(snapshots.append)
+    assert messages.count(refusal) == 2
     store.change(yaw=0.0, panel_width=0.6, code=0b1100110011)
-    assert (path.exists(), given) == (False, [])
+    assert (path.exists(), snapshots) == (False, [])
     files.save_picture(path)
     bench.wait_until_idle()
-    assert given == []
-    assert said[-1] == "Saved picture.png: the camera's picture"
-    expected = occ.render(store.scene, noise=bench.settings.settings.noise).camera_image
-    written = not_none(cv2.imread(str(path), cv2.IMREAD_UNCHANGED))
-    assert np.array_equal(written, expected)
-    present.ask(given.append)
-    assert len(given) == 1
+    assert snapshots == []
+    assert messages[-1] == "Saved picture.png: the camera's picture"
+    image = occ.render(store.scene, noise=bench.settings.settings.noise).camera_image
+    assert np.array_equal(not_none(cv2.imread(str(path), cv2.IMREAD_UNCHANGED)), image)
+    present.ask(snapshots.append)
+    assert len(snapshots) == 1

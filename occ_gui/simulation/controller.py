@@ -133,13 +133,13 @@ class SimulationController(QObject):
         reading = reading_by_profile(request, planned)
         draft = draft_of(request, planned)
         # Without a draft, every scene that is begun is also shown.
-        heartbeat: Callable[[], None] = lambda: None
+        heartbeat: Callable[[], None] = report.give_way if draft is not None else lambda: None
         if draft is not None:
             reading = reading or reading_of_draft(request, draft)
             self._draft_rows.record_time(perf_counter() - start)
             report(Picture.of(draft, request.picture_kind, request, reading))
             report.wait_for_paint(_LONGEST_PAINT)
-            reading, heartbeat = None, report.give_way
+            reading = None
             report.give_way(self.ages.rest(_REST_TIME))
             self._wait_for_others(report)
         elif reading is not None and not is_fast(planned):

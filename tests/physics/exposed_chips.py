@@ -6,6 +6,7 @@ The signal-to-noise ratio is the chips' variance, 1/4, over the variance of a ro
 import math
 
 import numpy as np
+from lit_fractions import lit_fractions
 
 
 def manchester(bits: np.ndarray) -> np.ndarray:
@@ -14,12 +15,9 @@ def manchester(bits: np.ndarray) -> np.ndarray:
 
 
 def expose_rows(chips: np.ndarray, exposure: float, step: float, phase: float) -> np.ndarray:
-    """Average chips over each row's exposure, by the difference of their running integral."""
+    """Average chips over each row's exposure."""
     rows = int((len(chips) - exposure - phase) / step)
-    starts = phase + step * np.arange(rows)
-    edges, integral = np.arange(len(chips) + 1), np.concatenate([[0.0], np.cumsum(chips)])
-    lit = np.interp(starts + exposure, edges, integral) - np.interp(starts, edges, integral)
-    return lit / exposure
+    return lit_fractions(chips, phase + step * np.arange(rows), exposure)
 
 
 def noise_of(decibels: float) -> float:

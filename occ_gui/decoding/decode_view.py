@@ -133,10 +133,6 @@ class DecodeView(QWidget):
     def _find_result(self, reading: Reading) -> DecodeResult:
         return self._list_results(reading)[max(0, self.decoders.currentIndex())]
 
-    def decoder(self) -> str:
-        """Return the decoder of the shown result; empty before the first one."""
-        return "" if self._reading is None else self._find_result(self._reading).decoder
-
     def choose_decoder(self, name: str) -> None:
         if self._reading is not None:
             names = [result.decoder for result in self._list_results(self._reading)]

@@ -108,7 +108,7 @@ class LessonPane(Pane[None]):
             lambda: self.reports.keep_author(self._end.author.text())
         )
         self.spotlight = Spotlight(controls)
-        self._equations = EquationController(scenes, pane.step.show_equations)
+        self._equations = EquationController(scenes, pane.step.equation.show_equations)
         self.controller.control_wanted.connect(self.spotlight.show_only)
         self.controller.equation_wanted.connect(self._equations.show_only)
         self.controller.report_asked.connect(self._write_report)

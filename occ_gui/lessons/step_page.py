@@ -2,10 +2,8 @@
 
 import html
 import re
-from collections.abc import Sequence
 
 from PySide6.QtCore import QSize, Qt, QTimer, Signal
-from PySide6.QtGui import QPalette
 from PySide6.QtWidgets import (
     QFrame,
     QHBoxLayout,
@@ -27,7 +25,7 @@ from occ_gui.widgets.building import (
 )
 from occ_gui.widgets.event_filters import leave_undo_to_window
 from occ_gui.widgets.text_scale import embolden
-from occ_model.results.teaching import CheckedAnswer, Equation, Lesson
+from occ_model.results.teaching import CheckedAnswer, Lesson
 from occ_model.scene.parameters import PARAMETERS
 
 _SUBSCRIPT = re.compile(r"\b([A-Za-z]+)_([A-Za-z]+)\b")
@@ -110,7 +108,6 @@ class AnswerField(QWidget):
     def show_waiting(self) -> None:
         self.check.setEnabled(False)
         self._outcome = ""
-        self.sentence.setForegroundRole(QPalette.ColorRole.WindowText)
         self.sentence.setText("The model computes…")
         self.sentence.show()
 
@@ -255,9 +252,6 @@ class StepPage(QWidget):
 
     def show_explanation(self, text: str) -> None:
         self.answer.setText(typeset(text))
-
-    def show_equations(self, equations: Sequence[Equation], changed: frozenset[str]) -> None:
-        self.equation.show_equations(equations, changed)
 
     def _show_answer(self, shown: bool) -> None:
         self.answer.setVisible(shown)

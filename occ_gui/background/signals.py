@@ -8,9 +8,8 @@ from PySide6.QtCore import QObject, Qt, QTimer, Signal, Slot
 
 from occ_gui.background.task import sentence_of
 from occ_model.errors import one_line
-from occ_model.parallel.job import Job, Workers
+from occ_model.parallel.job import Job, Workers, WorkerThread
 from occ_model.parallel.scheduler import Run, Scheduler
-from occ_model.parallel.worker_thread import WorkerThread
 
 _PAUSE_MS = 50
 """Milliseconds between reports of a channel's results, so that the window can draw each."""

@@ -1,4 +1,4 @@
-"""The command ``occ-model film``: simulate a film and write it."""
+"""The commands ``film`` and ``animate`` of ``occ-model``: simulate a film or an animation."""
 
 import argparse
 from pathlib import Path
@@ -14,9 +14,13 @@ from occ_model.commands.options import (
     simulation_settings_of,
 )
 from occ_model.commands.progress_bar import progress_bar
+from occ_model.commands.vary import SYNTAX, axes_of
 from occ_model.errors import ParameterError, counted, one_line, shown
+from occ_model.receiver.decoders import DECODERS
+from occ_model.results.decoding import PAPER_DECODER
 from occ_model.results.video import Video
-from occ_model.scene.parameters import quantity
+from occ_model.scene.parameter_kinds import Quantity
+from occ_model.scene.parameters import parameter_named, quantity
 from occ_model.scene.recording import DECLARED, MOTIONS, Recording, Waypoint
 from occ_model.scene.units import SECOND
 from occ_model.video.file.write import FILM_ENDINGS, LOSSLESS, check_film_path, write_video
@@ -59,6 +63,7 @@ def add_to(commands: Commands) -> None:
         help=f"file to write: {', '.join(FILM_ENDINGS)}; all except .mp4 keep every grey level",
     )  # fmt: skip
     parser.set_defaults(command=_run)
+    _add_animation(commands)
 
 
 def _run(options: argparse.Namespace) -> int:
@@ -128,3 +133,39 @@ def _describe_loss(film: Video, path: Path) -> str:
         f"Its codec is lossy: in the first frame pixels differ by {pixels:.2g} levels from the "
         f"simulated ones and column means by {means:.2g} (root mean square)."
     )
+
+
+def _add_animation(commands: Commands) -> None:
+    parser = commands.add_parser("animate", help="write an animation in which a parameter changes")
+    add_scene_options(parser)
+    add_simulation_options(parser)
+    parser.add_argument("--vary", required=True, metavar="AXIS", help=SYNTAX)
+    parser.add_argument("--decoder", choices=DECODERS, default=PAPER_DECODER)
+    add_option(parser, "--rate", 15.0, "frames a second", metavar="N")
+    parser.add_argument("--back", action="store_true", help="also go back to the first value")
+    parser.add_argument(
+        "-o", "--out", type=Path, required=True, help="file to write: .gif, .mp4 or .png"
+    )
+    parser.set_defaults(command=_animate)
+
+
+def _animate(options: argparse.Namespace) -> int:
+    # matplotlib takes half a second to import.
+    from occ_model.figures.animation import write_animation
+
+    scene = scene_of(options)
+    ((name, values),) = axes_of([options.vary]).items()
+    if not isinstance(parameter_named(name), Quantity):
+        raise ParameterError(
+            f"{name} cannot change in an animation; allowed: a parameter with a unit."
+        )
+    run = [float(value) for value in values]
+    if options.back:
+        run += run[-2:0:-1]
+    with progress_bar(total=len(run), unit="frame") as bar:
+        write_animation(
+            options.out, scene, name, run, settings=simulation_settings_of(options),
+            rate=options.rate, decoder=options.decoder, progress=lambda _done: bar.update(),
+        )  # fmt: skip
+    print(f"{one_line(str(options.out))}: {counted(len(run), 'frame')}")
+    return 0

@@ -1,4 +1,4 @@
-"""The command ``occ-model render``: simulate a picture and write it."""
+"""The commands ``render`` and ``plan`` of ``occ-model``: simulate a picture, and list its effects."""
 
 import argparse
 from pathlib import Path
@@ -6,17 +6,20 @@ from pathlib import Path
 from occ_model.commands.files import SCENE_FILE
 from occ_model.commands.options import (
     Commands,
+    add_plan_options,
     add_scene_options,
     add_simulation_options,
     scene_of,
     simulation_settings_of,
     whole_number,
 )
+from occ_model.effects.plan import plan_with
 from occ_model.errors import counted, one_line
 from occ_model.files.writing import check_image_path, write_image
 from occ_model.results.cause import overexposed_text
 from occ_model.results.frame import PICTURES
 from occ_model.scene.from_text import write_scene_file
+from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.simulation.render import overexposed_fraction, render_with
 
 
@@ -41,6 +44,7 @@ def add_to(commands: Commands) -> None:
     parser.add_argument("-o", "--out", type=Path, required=True, help="image file to write")
     parser.add_argument("--save-scene", type=Path, metavar="FILE.toml", help="also write the scene")
     parser.set_defaults(command=_run, writes={"save_scene": SCENE_FILE})
+    _add_plan(commands)
 
 
 def _run(options: argparse.Namespace) -> int:
@@ -64,4 +68,18 @@ def _run(options: argparse.Namespace) -> int:
     lost = overexposed_fraction(scene, frame.plan, frame.profile, frame.corners)
     if lost:
         print(overexposed_text(lost))
+    return 0
+
+
+def _add_plan(commands: Commands) -> None:
+    parser = commands.add_parser("plan", help="list the effects that a scene needs, and why")
+    add_scene_options(parser)
+    add_plan_options(parser)
+    own = SimulationSettings()
+    parser.set_defaults(command=_list_effects, noise=own.noise, seed=own.seed)
+
+
+def _list_effects(options: argparse.Namespace) -> int:
+    scene, settings = scene_of(options), simulation_settings_of(options)
+    print(plan_with(scene, settings))
     return 0

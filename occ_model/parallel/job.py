@@ -1,8 +1,9 @@
-"""Jobs for workers, and the interfaces of workers and of the receivers of their results."""
+"""Jobs for workers, the interfaces of workers and of who receives results, and a worker thread."""
 
+import sys
 import traceback
 from collections.abc import Callable, MutableSequence
-from concurrent.futures import Future
+from concurrent.futures import CancelledError, Future, ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Any, Protocol, TypeAlias
 
@@ -131,3 +132,33 @@ def reason_of(error: BaseException) -> str:
     text = " ".join(str(error).split()).rstrip(".")
     name = type(error).__name__
     return f"{name}: {text}" if text else name
+
+
+class WorkerThread:
+    """A thread of this process, started by the first job; it slows the other threads."""
+
+    count = 1
+    lost_by: tuple[type[Exception], ...] = (CancelledError,)
+
+    def __init__(self) -> None:
+        self._first_runs = [0] * CHANNELS
+        self._counts = [0] * CHANNELS
+        self._executor = ThreadPoolExecutor(1, "work")
+
+    def submit(self, job: Job, channel: int, run: int) -> "Future[JobResult]":
+        heartbeat = make_heartbeat(job, channel, run, self._first_runs, self._counts)
+        return self._executor.submit(do_job, job, heartbeat)
+
+    def abandon(self, channel: int, run: int) -> None:
+        self._first_runs[channel] = run
+
+    def count_heartbeats(self, counter: int) -> int:
+        return self._counts[counter]
+
+    def renew(self) -> None:
+        """Do nothing, as a thread does not die."""
+
+    def close(self) -> None:
+        """Abandon all jobs without waiting for the thread, which ends at the next heartbeat."""
+        self._first_runs[:] = [sys.maxsize] * CHANNELS
+        self._executor.shutdown(wait=False, cancel_futures=True)

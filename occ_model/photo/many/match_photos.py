@@ -206,8 +206,8 @@ def _finished(
 ) -> Rows:
     """Match files in processes; ``sent`` holds those that workers have."""
     # Importing what starts processes takes time.
+    from occ_model.parallel.job import WorkerThread
     from occ_model.parallel.process_pool import ProcessPool
-    from occ_model.parallel.worker_thread import WorkerThread
 
     def made() -> Iterator[Job]:
         for place, path in files:

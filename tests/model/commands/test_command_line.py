@@ -10,7 +10,7 @@ import pytest
 
 import occ_model as occ
 from occ_model.cli import main
-from occ_model.commands import limits, most_bits, sweep
+from occ_model.commands import limits, sweep
 from occ_model.commands.command_line import make_parser, read_command_line
 from occ_model.commands.options import number, simulation_settings_of, whole_number
 
@@ -49,14 +49,19 @@ NAMES = {"pictures": "pictures", "images": "images", "seed": "seed", "rate": "ra
 
 
 @pytest.mark.parametrize(
-    ("module", "function"), [(sweep, occ.sweep), (limits, occ.limits), (most_bits, occ.most_bits)]
+    ("module", "name", "function"),
+    [
+        (sweep, "sweep", occ.sweep),
+        (limits, "limits", occ.limits),
+        (limits, "most-bits", occ.most_bits),
+    ],
 )
 def test_defaults_of_a_command_are_those_of_its_function(
-    module: object, function: Callable[..., object]
+    module: object, name: str, function: Callable[..., object]
 ) -> None:
     commands = argparse.ArgumentParser().add_subparsers()
     module.add_to(commands)  # type: ignore[attr-defined]
-    (parser,) = commands.choices.values()
+    parser = commands.choices[name]
     declared = inspect.signature(function).parameters
     given = {name: parser.get_default(option) for option, name in NAMES.items()}
     compared = {

@@ -21,9 +21,8 @@ from worker_calls import (
     wait_until,
 )
 
-from occ_model.parallel.job import CHANNELS, Job, JobResult, Workers
+from occ_model.parallel.job import CHANNELS, Job, JobResult, Workers, WorkerThread
 from occ_model.parallel.process_pool import ProcessPool
-from occ_model.parallel.worker_thread import WorkerThread
 
 
 @pytest.fixture

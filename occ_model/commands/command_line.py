@@ -13,9 +13,9 @@ from occ_model.commands.options import Parser
 from occ_model.version import __version__
 
 _MODULES = {  # the module of each command
-    "render": "render", "animate": "film", "film": "film", "film-study": "film_study",
-    "plan": "render", "accuracy": "accuracy", "sweep": "sweep", "limits": "limits", "bench": "bench",
-    "most-bits": "limits", "bands": "bands", "decode": "decode", "match": "match",
+    "render": "render", "plan": "render", "film": "film", "animate": "film",
+    "film-study": "film_study", "accuracy": "accuracy", "sweep": "sweep", "limits": "limits",
+    "most-bits": "limits", "bench": "bench", "bands": "bands", "decode": "decode", "match": "match",
     "figures": "figures", "room": "room", "transmit": "transmit", "codes": "listing",
     "presets": "listing", "parameters": "listing",
 }  # fmt: skip

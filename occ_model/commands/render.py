@@ -1,4 +1,4 @@
-"""The commands ``render`` and ``plan`` of ``occ-model``: simulate a picture, and list its effects."""
+"""The commands ``render`` and ``plan`` of ``occ-model``: simulate a picture, list its effects."""
 
 import argparse
 from pathlib import Path

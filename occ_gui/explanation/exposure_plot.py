@@ -135,7 +135,6 @@ class ExposurePlot(QWidget):
         for item in (self.shade, self.lit, self.chips):
             item.hide()
             self.plot.addItem(item, ignoreBounds=True)
-        self.plot.setYRange(-0.12, 1.25, padding=0)
 
     def _make_controls(self) -> None:
         self.column = name_widget(
@@ -162,23 +161,28 @@ class ExposurePlot(QWidget):
         edges = window.edges * _MICRO
         start, end = window.start * _MICRO, window.end * _MICRO
         last = edges[-1]
-        self.chips.setData(edges, window.lit.astype(np.float64), stepMode="center")
+        self.chips.setData(edges, window.levels, stepMode="center")
         self.shade.setRegion((start, min(end, last)))
         parts = window.lit_parts * _MICRO
-        self.lit.setOpts(x0=parts[:, 0], x1=parts[:, 1])
+        self.lit.setOpts(x0=parts[:, 0], x1=parts[:, 1], y1=window.lit_parts[:, 2])
         for item in (self.shade, self.chips):
             item.show()
         self.lit.setVisible(len(parts) > 0)
         self.plot.limit("bottom", 2.0 * last, _LEAST_SPAN * last)
         self.plot.setXRange(0.0, last, padding=0.01)
-        fraction = window.on_time / window.exposure_time
+        # A lamp on the mains is brighter than its mean in a part of each cycle.
+        brightest = max(1.0, float(window.levels.max()))
+        self.plot.setYRange(-0.12 * brightest, 1.25 * brightest, padding=0)
+        fraction = f"{100.0 * window.on_time / window.exposure_time:.0f} %"
+        light = f"light {fraction}"
+        if np.isin(window.levels, (0.0, 1.0)).all():
+            light = f"LED on for {SECOND.format(window.on_time, 4)} ({fraction})"
         text = (
             f"Column {window.column}: {SECOND.format(window.exposure_time, 4)} exposure, "
-            f"LED on for {SECOND.format(window.on_time, 4)} ({100.0 * fraction:.0f} %) "
-            f"→ {level:.1f} grey levels"
+            f"{light} → {level:.1f} grey levels"
         )
         if window.shortened:
-            text += f"; only the first {len(window.lit)} chips are drawn"
+            text += f"; only the first {len(window.levels)} changes of the light are drawn"
         self.sentence.setText(text)
         self._fit_height()
         self.plot.setAccessibleDescription(text)

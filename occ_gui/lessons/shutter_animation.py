@@ -112,6 +112,8 @@ class ShutterDrawing:
         self._width, self._height = widget.width(), widget.height()
         self._ink = widget.palette().color(QPalette.ColorRole.WindowText)
         self._accent = widget.palette().color(QPalette.ColorRole.Highlight)
+        # A lamp on the mains is brighter than its mean in a part of each cycle.
+        self._brightest = max(1.0, float(shutter.levels.max()))
 
     def draw(self) -> None:
         self._draw_lamp()
@@ -125,13 +127,12 @@ class ShutterDrawing:
         return self._width * time / self._shutter.duration
 
     def _draw_lamp(self) -> None:
-        edges, lit = self._shutter.edges, self._shutter.lit
-        for begin, end, on in zip(edges[:-1], edges[1:], lit, strict=True):
+        edges, levels = self._shutter.edges, self._shutter.levels / self._brightest
+        for begin, end, level in zip(edges[:-1], edges[1:], levels, strict=True):
             left, right = self._x(max(begin, 0.0)), self._x(min(end, self._shutter.duration))
             if right > left:
-                self.painter.fillRect(
-                    QRectF(left, 0, right - left, _LAMP_HEIGHT), _LIT if on else _DARK
-                )
+                place = QRectF(left, 0, right - left, _LAMP_HEIGHT)
+                self.painter.fillRect(place, mix_colours(_LIT, _DARK, level))
 
     def draw_bars(self) -> None:
         shutter = self._shutter
@@ -148,7 +149,7 @@ class ShutterDrawing:
             elapsed = min(max(self._now - start, 0.0), shutter.exposure_time)
             bar = QRectF(x, y, width, max(step - 1.0, 1.0))
             filled = QRectF(x, y, width * elapsed / shutter.exposure_time, bar.height())
-            self.painter.fillRect(filled, mix_colours(_LIT, _DARK, fraction))
+            self.painter.fillRect(filled, mix_colours(_LIT, _DARK, fraction / self._brightest))
             self.painter.setPen(QPen(outline, 1))
             self.painter.drawRect(bar)
 
@@ -161,7 +162,8 @@ class ShutterDrawing:
         ):
             if self._now >= start + shutter.exposure_time * (1.0 - 1e-9):
                 self.painter.fillRect(
-                    QRectF(place * width, top, width + 1.0, _STRIPE_HEIGHT), _grey(fraction)
+                    QRectF(place * width, top, width + 1.0, _STRIPE_HEIGHT),
+                    _grey(fraction / self._brightest),
                 )
         self.painter.setPen(QPen(self._ink, 1))
         self.painter.drawRect(QRectF(0.5, top + 0.5, self._width - 1.0, _STRIPE_HEIGHT - 1.0))

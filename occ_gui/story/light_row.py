@@ -106,7 +106,7 @@ class LightRow(StoryRow):
         edges = self.xs_of(curve.edges).tolist()
         cells = [
             (chip, QRectF(left, light.top(), right - left, light.height()))
-            for chip, left, right in zip(curve.lit.tolist(), edges, edges[1:], strict=False)
+            for chip, left, right in zip(curve.levels.tolist(), edges, edges[1:], strict=False)
         ]
         self._draw_glow(painter, light, curve, cells)
         xs = self.xs_of(curve.columns)
@@ -252,7 +252,7 @@ class LightRow(StoryRow):
             QBrush(self.colour(QPalette.ColorRole.Highlight), Qt.BrushStyle.BDiagPattern)
         )
         for chip, start, end in zip(
-            curve.lit.tolist(), curve.edges.tolist(), curve.edges.tolist()[1:], strict=False
+            curve.levels.tolist(), curve.edges.tolist(), curve.edges.tolist()[1:], strict=False
         ):
             left, right = self.x_of(max(start, first)), self.x_of(min(end, last))
             if chip:

@@ -8,7 +8,7 @@ from typing import Literal
 
 import numpy as np
 
-from occ_model.arrays import ByteArray, FloatArray, IndexArray
+from occ_model.arrays import FloatArray, IndexArray
 from occ_model.results.match import Match
 from occ_model.scene.scene import Scene
 
@@ -36,16 +36,19 @@ class Equation:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ExposureWindow:
-    """One column's exposure on the LED's waveform, in seconds from the drawing's first chip."""
+    """One column's exposure on the light's waveform, in seconds from the drawing's first piece.
+
+    A piece is a stretch of equal light, of a code a chip.
+    """
 
     column: int
     start: float
     end: float
-    # Shape (chips + 1,): start of each chip around the exposure, and end of the last one
+    # Shape (pieces + 1,): start of each piece around the exposure, and end of the last one
     edges: FloatArray
-    lit: ByteArray  # Shape (chips,): whether the LED is on in each
+    levels: FloatArray  # Shape (pieces,): light of each, 1 being the panel fully lit
     on_time: float
-    # Whether only the first chips of the exposure are drawn
+    # Whether only the first pieces of the exposure are drawn
     shortened: bool
 
     @property
@@ -55,25 +58,25 @@ class ExposureWindow:
 
     @property
     def lit_parts(self) -> FloatArray:
-        """Start and end of each chip's lit time during the exposure, shape (parts, 2)."""
+        """Start, end and light of each lit piece during the exposure, shape (parts, 3)."""
         begins = np.maximum(self.edges[:-1], self.start)
         ends = np.minimum(self.edges[1:], self.end)
-        seen = (self.lit == 1) & (ends > begins)
-        return np.stack([begins[seen], ends[seen]], axis=1)
+        inside = (self.levels > 0.0) & (ends > begins)
+        return np.stack([begins, ends, self.levels], axis=1)[inside]
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class LightCurve:
     """The light of the LED, on an axis of the columns that begin their exposures at each time."""
 
-    # Shape (knots,): the light, 0 to 1, which is linear between knots; where it jumps, two knots
-    # are at the same column
+    # Shape (knots,): the light, 1 being the panel fully lit, which is linear between knots; where
+    # it jumps, two knots are at the same column
     columns: FloatArray
     light: FloatArray
-    # Shape (chips + 1,): the column at which each chip starts, and at which the last one ends
+    # Shape (pieces + 1,): the column at which each piece starts, and at which the last one ends
     edges: FloatArray
-    lit: ByteArray  # Shape (chips,): whether the LED is on in each
-    places: IndexArray  # Shape (chips,): the number of each chip in the period sent, from 0
+    levels: FloatArray  # Shape (pieces,): light of each, sharp
+    places: IndexArray  # Shape (pieces,): the number of each piece in the period sent, from 0
 
     def light_at(self, column: float) -> float:
         after = int(np.searchsorted(self.columns, column, side="right"))
@@ -96,10 +99,10 @@ class RollingShutter:
     columns: IndexArray  # Shape (shown,): the columns
     starts: FloatArray  # Shape (shown,): when the exposure of each begins, in seconds
     exposure_time: float  # How long each lasts, in seconds
-    lit_fraction: FloatArray  # Shape (shown,): fraction of each exposure for which the LED is on
-    # Shape (chips + 1,): when each chip begins, and when the last one ends, in seconds
+    lit_fraction: FloatArray  # Shape (shown,): mean light of each, 1 being the panel fully lit
+    # Shape (pieces + 1,): when each piece begins, and when the last one ends, in seconds
     edges: FloatArray
-    lit: ByteArray  # Shape (chips,): whether the LED is on in each
+    levels: FloatArray  # Shape (pieces,): light of each
 
     @property
     def duration(self) -> float:

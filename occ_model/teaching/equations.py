@@ -1,42 +1,58 @@
 """The paper's equations with the numbers of a scene."""
 
-from occ_model.camera.photometry import WHITE, level_values, luminance_levels
-from occ_model.errors import BandModelUndefined
+from fractions import Fraction
+
+import numpy as np
+
+from occ_model.camera.photometry import (
+    WHITE,
+    ColumnLight,
+    level_values,
+    luminance_levels,
+    panel_values,
+)
+from occ_model.light.cosine import Cosine
+from occ_model.light.sent import light_of, light_period
 from occ_model.results.teaching import Equation, Term
+from occ_model.scene.light_words import blinking_lamp
 from occ_model.scene.parameters import PARAMETERS
-from occ_model.scene.scene import Scene
+from occ_model.scene.scene import Scene, Transmitter
 from occ_model.scene.units import HERTZ, NIT, SECOND
-from occ_model.simulation.band_model import band_lengths
 from occ_model.study.theory import alternating_swing
 from occ_model.teaching.quantities import COLUMN, result_text
 
 _LIGHT = ("luminance", "illuminance", "reflectance")
 
-_ON_TIME_PARAMETERS = (  # they determine how long the LED is on during a column's exposure
-    "code", "bits", "payload", "line_code", "framing", "preamble", "error_correction", "pattern",
-    "switching_frequency", "readout_time", "exposure_time", "start_time",
-)  # fmt: skip
+_LIT = {"mains": "panel at its mean light"}
 
 _MINUS = Term("−")  # noqa: RUF001 - a minus sign
 _TIMES = Term("×")  # noqa: RUF001 - a multiplication sign
 _EXPOSURE = Term("t", ("exposure_time",))
-_PERIOD = Term("t<sub>LED</sub>", ("switching_frequency",))
 _READOUT = Term("t<sub>r</sub>", ("readout_time",))
+
+_PERIODS = {  # of the lights that are no code: the symbols, and what they depend on
+    "lamp": ("(1/F)", "lamp_frequency"),
+    "mains": ("(1/2F)", "mains_frequency"),
+    "waveform": ("(n t<sub>LED</sub>)", "levels", "switching_frequency"),
+    "pulses": ("(1/F)", "pulse_frequency"),
+}
 
 
 def equations(scene: Scene) -> tuple[Equation, ...]:
     """Return the equations that determine a scene's stripes, with its numbers.
 
-    They are the paper's equations (1) to (3), the band lengths of the band model, the columns of a
-    chip, the readout time of a picture, and the frequency at which an alternating pattern vanishes.
+    They are the paper's equations (1) to (3), the band lengths of the band model where the light
+    has states, the columns of a chip or of a light's period, the readout time of a picture, and
+    where an alternating pattern, or the light, has no stripes.
     """
+    is_code = scene.transmitter.light == "code"
     return (
         *_pixel_values(scene),
         _column_value(scene),
         *_band_lengths(scene),
-        _chip_columns(scene),
+        _chip_columns(scene) if is_code else _period_columns(scene),
         _frame_time(scene),
-        _null(scene),
+        _null(scene) if is_code else _nulls(scene),
     )
 
 
@@ -50,8 +66,33 @@ def _terms(*parts: Term | str | tuple[str, str]) -> tuple[Term, ...]:
     )  # fmt: skip
 
 
-def _period_term(scene: Scene) -> Term:
-    return Term(SECOND.format(scene.transmitter.switching_period), ("switching_frequency",))
+def _period(scene: Scene) -> tuple[Term, Term]:
+    """Return the period of a light that is no code: in symbols, and as a number."""
+    symbols, *names = _PERIODS[scene.transmitter.light]
+    if scene.transmitter.waveform_file:
+        symbols, names = "T", ["waveform_file"]
+    number = SECOND.format(float(light_period(scene.transmitter)))
+    return Term(symbols, tuple(names)), Term(number, tuple(names))
+
+
+def _state(scene: Scene) -> tuple[Term, float, str] | None:
+    """Return the light's shortest lit state, in symbols and seconds, and its name; None if steady.
+
+    That of a code is a chip, that of a blinking lamp its pulse.
+    """
+    sent = scene.transmitter
+    lamp = None if sent.light == "code" else blinking_lamp(sent)
+    if lamp is not None and 0.0 < lamp.duty < 1.0:
+        symbols, *names = (
+            ("D/F", "duty", "lamp_frequency")
+            if sent.light == "lamp"
+            else ("t<sub>flash</sub>", "pulse_length")
+        )
+        return Term(symbols, tuple(names)), lamp.duty / lamp.frequency, "pulse"
+    if PARAMETERS["switching_frequency"].is_of(sent.light) and not sent.waveform_file:
+        term = Term("t<sub>LED</sub>", ("switching_frequency",))
+        return term, sent.switching_period, "switching period"
+    return None
 
 
 def _value(scene: Scene, name: str) -> Term:
@@ -63,7 +104,8 @@ def _pixel_values(scene: Scene) -> tuple[Equation, Equation]:
     low, high = level_values(scene).tolist()
     found = []
     for name, source, meaning, symbol, light, depends, value in (
-        ("lit-panel", "(1)", "Pixel value of the lit panel, PV<sub>max</sub>",
+        ("lit-panel", "(1)",
+         f"Pixel value of the {_LIT.get(scene.transmitter.light, 'lit panel')}, PV<sub>max</sub>",
          "L<sub>v</sub> + E<sub>v</sub>R/π", lit, _LIGHT, high),
         ("dark-panel", "(2)", "Pixel value of the dark panel, PV<sub>min</sub>",
          "E<sub>v</sub>R/π", dark, _LIGHT[1:], low),
@@ -89,7 +131,10 @@ def _pixel_values(scene: Scene) -> tuple[Equation, Equation]:
 def _column_value(scene: Scene) -> Equation:
     low, high = level_values(scene).tolist()
     light = (*_LIGHT, "iso", "f_number", "gamma", "meter_constant", "exposure_time")
-    on, off = (Term(f"t<sub>{state}</sub>", _ON_TIME_PARAMETERS) for state in ("on", "off"))
+    kind = scene.transmitter.light
+    sent = (n for n, d in Transmitter.declarations().items() if d.lights and d.is_of(kind))
+    during = (*sent, "readout_time", "exposure_time", "start_time")
+    on, off = (Term(f"t<sub>{state}</sub>", during) for state in ("on", "off"))
     symbols, numbers = (
         _terms("(", Term(lit, light), on, "+", Term(dark, light), off, ") /", exposure)
         for lit, dark, exposure in (
@@ -97,6 +142,10 @@ def _column_value(scene: Scene) -> Equation:
             (f"{high:.1f}", f"{low:.1f}", _value(scene, "exposure_time")),
         )
     )
+    sends = light_of(scene.transmitter)
+    if isinstance(sends, Cosine):  # its light exceeds its mean
+        swing = sends.depth_in(Fraction(scene.camera.exposure_time)) * np.array([-1.0, 1.0])
+        low, high = panel_values(scene, ColumnLight(1.0 + swing, np.ones(1))).tolist()
     message = f"{min(low, WHITE):.1f} to {min(high, WHITE):.1f} grey levels, column by column"
     if scene.model.averaging == "light":
         message += "; here light is averaged, not pixel values"
@@ -104,25 +153,28 @@ def _column_value(scene: Scene) -> Equation:
     return Equation("column", "(3)", meaning, symbols, numbers, message)
 
 
-def _band_lengths(scene: Scene) -> tuple[Equation, Equation]:
-    period = _period_term(scene)
-    exposure, readout = (
-        _value(scene, "exposure_time"),
-        _value(scene, "readout_time"),
-    )
+def _band_lengths(scene: Scene) -> tuple[Equation, ...]:
+    state = _state(scene)
+    if state is None:
+        return ()
+    symbol, length, name = state
+    camera = scene.camera
+    exposure, readout = _value(scene, "exposure_time"), _value(scene, "readout_time")
     # Only the length of one state can be undefined; a transition always has a length.
-    transition = result_text(COLUMN, scene.camera.exposure_time / scene.camera.readout_time)
-    try:
-        complete = result_text(COLUMN, band_lengths(scene)[0])
-    except BandModelUndefined:
-        complete = (
-            "undefined: the exposure is longer than the switching period; the simulation goes on"
-        )
+    transition = result_text(COLUMN, camera.exposure_time / camera.readout_time)
+    if camera.exposure_time <= length:
+        complete = result_text(COLUMN, (length - camera.exposure_time) / camera.readout_time)
+    else:
+        complete = f"undefined: the exposure is longer than the {name}; the simulation goes on"
+    lit = "fully lit" if name == "pulse" else "of one state"
     return (
         Equation(
-            "one-state", "band model", "Columns of one state, h<sub>c</sub>",
-            _terms("(", _PERIOD, _MINUS, _EXPOSURE, ") /", _READOUT),
-            _terms("(", period, _MINUS, exposure, ") /", readout), complete,
+            "one-state", "band model", f"Columns {lit}, h<sub>c</sub>",
+            _terms("(", symbol, _MINUS, _EXPOSURE, ") /", _READOUT),
+            _terms(
+                "(", Term(SECOND.format(length), symbol.parameters), _MINUS, exposure, ") /",
+                readout,
+            ), complete,
         ),
         Equation(
             "transition", "band model", "Columns of a transition, h<sub>t</sub>",
@@ -132,10 +184,25 @@ def _band_lengths(scene: Scene) -> tuple[Equation, Equation]:
 
 
 def _chip_columns(scene: Scene) -> Equation:
+    period = scene.transmitter.switching_period
+    named = ("switching_frequency",)
+    return _columns_of(
+        scene, "a chip", Term("t<sub>LED</sub>", named), Term(SECOND.format(period), named), period
+    )
+
+
+def _period_columns(scene: Scene) -> Equation:
+    """Return the columns from bar to bar; the name is that of a code's chip, as lessons know it."""
+    return _columns_of(
+        scene, "the light's period", *_period(scene), float(light_period(scene.transmitter))
+    )
+
+
+def _columns_of(scene: Scene, what: str, symbol: Term, number: Term, seconds: float) -> Equation:
     return Equation(
-        "chip-columns", "readout", "Columns of a chip", _terms(_PERIOD, "/", _READOUT),
-        _terms(_period_term(scene), "/", _value(scene, "readout_time")),
-        result_text(COLUMN, scene.transmitter.switching_period / scene.camera.readout_time),
+        "chip-columns", "readout", f"Columns of {what}", _terms(symbol, "/", _READOUT),
+        _terms(number, "/", _value(scene, "readout_time")),
+        result_text(COLUMN, seconds / scene.camera.readout_time),
     )  # fmt: skip
 
 
@@ -162,3 +229,14 @@ def _null(scene: Scene) -> Equation:
         f"{result_text(HERTZ, 2.0 / exposure)}; here, at {in_chips:.3g} chips an exposure, "
         f"{100.0 * contrast:.0f} % of its contrast is left",
     )
+
+
+def _nulls(scene: Scene) -> Equation:
+    """Return the exposures of whole periods, and how many the present one has."""
+    symbol, number = _period(scene)
+    periods = scene.camera.exposure_time / float(light_period(scene.transmitter))
+    return Equation(
+        "null", "exposure", "Exposures at which the light makes no bars",
+        _terms("k", _TIMES, symbol), _terms("k", _TIMES, number),
+        f"k = 1, 2, 3 and so on; here t / period = {periods:.3g}",
+    )  # fmt: skip

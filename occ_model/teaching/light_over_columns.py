@@ -1,72 +1,135 @@
-"""The light of the LED, along the columns of the picture and during some exposures."""
+"""The light over time: along the columns of the picture, and during some exposures."""
 
 import math
+from dataclasses import dataclass
 from fractions import Fraction
+from functools import lru_cache
 
 import numpy as np
 
-from occ_model.arrays import FloatArray
+from occ_model.arrays import FloatArray, IndexArray
 from occ_model.camera.exposure import on_time
 from occ_model.errors import ParameterError, shown
+from occ_model.light.cosine import Cosine
+from occ_model.light.sent import Light, PiecewiseLight, light_of, light_period
+from occ_model.light.waveform import Waveform
 from occ_model.results.teaching import ExposureWindow, LightCurve, RollingShutter
 from occ_model.scene.argument_checks import check_count
 from occ_model.scene.scene import Scene
-from occ_model.transmitter.packet import sent_chips
 
 _RELATIVE_ERROR = 1e-12  # relative error of a ratio from writing its parts as decimals
+
+_FEWEST_STEPS, _MOST_STEPS = 16, 256  # in which a cycle of a cosine is drawn
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Pieces:
+    """Neighbouring pieces of a light, in seconds from some moment on."""
+
+    edges: FloatArray  # Shape (n + 1,): start of each, and end of the last one
+    levels: FloatArray  # Shape (n,)
+    places: IndexArray  # Shape (n,): the number of each in the period
+
+
+class _PieceTable:
+    """The pieces of a light's period."""
+
+    def __init__(self, light: PiecewiseLight) -> None:
+        self.rate = light.rate  # units a second, of which a period has as many as pieces
+        self._count = light.waveform.period
+        self._levels = light.waveform.levels.astype(np.float64)
+        self._starts = np.concatenate([[0.0], np.cumsum(light.waveform.lengths, dtype=np.float64)])
+
+    def around(
+        self, moment: Fraction, before: float, after: float, most: int, *, beside: int = 0
+    ) -> tuple[_Pieces, bool]:
+        """Return the pieces from some seconds before a moment to some after it.
+
+        ``beside``: further pieces on each side. No more than ``most`` are returned, and whether
+        there are more.
+        """
+        # Exact, since the moment may be any number of periods away from time zero.
+        phase = float(moment * self.rate % self._count)
+        first = self._piece_at(phase - before * float(self.rate)) - beside
+        last = self._piece_at(phase + after * float(self.rate)) + beside
+        numbers = np.arange(min(last - first + 1, most) + 1) + first
+        cycles, places = np.divmod(numbers, self._count)
+        starts = cycles * float(self._count) + self._starts[places]
+        places = places[:-1]
+        pieces = _Pieces((starts - phase) / float(self.rate), self._levels[places], places)
+        return pieces, last - first + 1 > most
+
+    def _piece_at(self, unit: float) -> int:
+        """Return the number of the piece at a time in units, counted from the period's first."""
+        cycle = math.floor(unit / self._count)
+        within = unit - cycle * float(self._count)
+        place = int(np.searchsorted(self._starts, within, side="right")) - 1
+        return cycle * self._count + min(max(place, 0), self._count - 1)
+
+
+def _table_of(scene: Scene, seconds: float, most: int) -> _PieceTable:
+    """Return a scene's light in pieces, of which ``most`` are for some ``seconds``.
+
+    Those of a cosine are steps of its mean light.
+    """
+    light = light_of(scene.transmitter)
+    steps = 0
+    if isinstance(light, Cosine):
+        wanted = int(most / max(seconds * light.frequency, 1.0))
+        steps = min(max(wanted, _FEWEST_STEPS), _MOST_STEPS)
+    return _table(light, steps)
+
+
+@lru_cache(maxsize=8)
+def _table(light: Light, steps: int) -> _PieceTable:
+    if isinstance(light, Cosine):
+        step = Fraction(1, steps) / Fraction(light.frequency)
+        light = PiecewiseLight(Waveform(light.means(Fraction(0), step, steps, step)), 1 / step)
+    return _PieceTable(light)
 
 
 def light_over_columns(
     scene: Scene, first: float, last: float, most: int, edged: bool = False
 ) -> LightCurve | None:
-    """Return the light along an axis of columns; None for more than ``most`` chips.
+    """Return the light along an axis of columns; None for more than ``most`` pieces, as chips.
 
     The point ``i`` of the axis, which may be between columns, is the time ``t_0 + i t_r`` at which
     column ``i`` begins its exposure. With ``edged``, the light rises and falls linearly during the
-    scene's edge time, from the start of a chip.
+    scene's edge time, from the start of a piece.
     """
     if not first < last:
         raise ParameterError.of("last", shown(last), f"above {shown(first)}, the first column")
-    frequency = Fraction(scene.transmitter.switching_frequency)
-    step = Fraction(scene.camera.readout_time) * frequency
-    # Exact, since time zero may be any number of chips away.
-    begin = Fraction(scene.model.start_time) * frequency + Fraction(first) * step
-    end = begin + (Fraction(last) - Fraction(first)) * step
-    edge = Fraction(scene.transmitter.edge_time) * frequency if edged else Fraction(0)
-    before = math.ceil(edge)
-    start, stop = math.floor(begin), math.floor(end) + 1
-    if stop - start + before > most:
+    readout = scene.camera.readout_time
+    begin = Fraction(scene.model.start_time) + Fraction(first) * Fraction(readout)
+    span = (last - first) * readout
+    edge = scene.transmitter.edge_time if edged else 0.0
+    table = _table_of(scene, span + edge, most)
+    pieces, is_cut = table.around(begin, edge, span, most)
+    if is_cut:
         return None
-    chips = sent_chips(scene.transmitter)
-    # The first chip's number is a Python integer, as it can be too large for an array.
-    numbers = (start - before) % len(chips) + np.arange(stop - start + before)
-    lit = chips[numbers % len(chips)]
-    edges: FloatArray = first + (
-        np.arange(stop - start + 1, dtype=np.float64) - float(begin - start)
-    ) / float(step)
-    columns, light = _light_knots(lit.astype(np.float64), before, float(edge))
+    # The pieces before are needed for the light's mean over the last edge time only.
+    before = int(np.searchsorted(pieces.edges[1:], 0.0, side="right"))
+    knots, light = _light_knots(pieces, before, edge)
     return LightCurve(
-        columns=first + (columns - float(begin - start)) / float(step),
+        columns=first + knots / readout,
         light=light,
-        edges=edges,
-        lit=lit[before:],
-        places=numbers[before:] % len(chips),
+        edges=first + pieces.edges[before:] / readout,
+        levels=pieces.levels[before:],
+        places=pieces.places[before:],
     )
 
 
-def _light_knots(lit: FloatArray, before: int, edge: float) -> tuple[FloatArray, FloatArray]:
-    """Return the knots of the light, in chips after the first ``before``, and its values there."""
-    count = len(lit) - before
+def _light_knots(pieces: _Pieces, before: int, edge: float) -> tuple[FloatArray, FloatArray]:
+    """Return the knots of the light after the first ``before`` pieces, and its values there."""
+    starts = pieces.edges[before:]
     if edge == 0.0:
-        knots = np.repeat(np.arange(count + 1, dtype=np.float64), 2)[1:-1]
-        return knots, np.repeat(lit, 2)
-    starts = np.arange(count + 1, dtype=np.float64)
-    ends = np.arange(-before, count, dtype=np.float64) + edge
-    knots = np.unique(np.concatenate([starts, ends[(ends > 0.0) & (ends < count)]]))
-    integral = np.concatenate([[0.0], np.cumsum(lit)])
-    at = np.arange(-before, count + 1, dtype=np.float64)
-    light = (np.interp(knots, at, integral) - np.interp(knots - edge, at, integral)) / edge
-    return knots, np.clip(light, 0.0, 1.0)
+        return np.repeat(starts, 2)[1:-1], np.repeat(pieces.levels[before:], 2)
+    ends = pieces.edges[:-1] + edge
+    knots = np.unique(np.concatenate([starts, ends[(ends > starts[0]) & (ends < starts[-1])]]))
+    integral = np.concatenate([[0.0], np.cumsum(pieces.levels * np.diff(pieces.edges))])
+    now, then = (np.interp(knots - lag, pieces.edges, integral) for lag in (0.0, edge))
+    light = (now - then) / edge
+    return knots, np.clip(light, 0.0, float(pieces.levels.max()))
 
 
 def chips_in_exposure(scene: Scene) -> int:
@@ -77,58 +140,58 @@ def chips_in_exposure(scene: Scene) -> int:
     return nearest if math.isclose(ratio, nearest, rel_tol=_RELATIVE_ERROR) else math.ceil(ratio)
 
 
-_MAX_CHIPS = 400  # most chips that a drawing resolves
+_MOST_PIECES = 400  # that a drawing resolves
 
 
 def exposure_window(scene: Scene, column: int) -> ExposureWindow:
-    """Return the chips during a column's exposure, with one before and one after."""
+    """Return the light during a column's exposure, with a piece before and one after."""
     check_count("column", column, 0)
-    if column >= scene.camera.columns:
+    camera = scene.camera
+    if column >= camera.columns:
         raise ParameterError.of(
-            "column", shown(int(column)), f"0 to {scene.camera.columns - 1}, as the picture has"
+            "column", shown(int(column)), f"0 to {camera.columns - 1}, as the picture has"
         )
-    chips = sent_chips(scene.transmitter)
-    period = scene.transmitter.switching_period
-    # Exact, since an exposure may begin any number of chips before or after time zero.
-    begins = Fraction(scene.model.start_time) + column * Fraction(scene.camera.readout_time)
-    begins *= Fraction(scene.transmitter.switching_frequency)
-    first = math.floor(begins)
-    within = float(begins - first)
-    needed = math.ceil(within + scene.camera.exposure_time / period) + 2
-    count = min(needed, _MAX_CHIPS)
-    start = (1.0 + within) * period
-    # The first chip's number is a Python integer, as it can be too large for an array.
-    places = (first - 1) % len(chips) + np.arange(count)
+    begin = Fraction(scene.model.start_time) + column * Fraction(camera.readout_time)
+    exposure = camera.exposure_time
+    pieces, is_cut = _table_of(scene, exposure, _MOST_PIECES - 2).around(
+        begin, 0.0, exposure, _MOST_PIECES, beside=1
+    )
+    start = -float(pieces.edges[0])
     return ExposureWindow(
         column=column,
         start=start,
-        end=start + scene.camera.exposure_time,
-        edges=np.arange(count + 1, dtype=np.float64) * period,
-        lit=chips[places % len(chips)],
+        end=start + exposure,
+        edges=pieces.edges + start,
+        levels=pieces.levels,
         on_time=float(on_time(scene)[column]),
-        shortened=needed > count,
+        shortened=is_cut,
     )
 
 
-_CHIPS = 4  # chips during which the shown columns begin their exposures
+_CHIPS, _PERIODS = 4, 2  # of a code or another light, in which the shown columns begin
 
 
 def rolling_shutter(scene: Scene, shown: int = 25) -> RollingShutter:
-    """Return the exposures of up to ``shown`` columns that begin within the first four chips."""
-    camera, period = scene.camera, scene.transmitter.switching_period
-    last = min(camera.columns - 1, max(int(_CHIPS * period / camera.readout_time), 1))
+    """Return the exposures of up to ``shown`` columns that begin within four chips or two periods.
+
+    Two periods are shown of lights that are no code.
+    """
+    camera, sent = scene.camera, scene.transmitter
+    span = _PERIODS * float(light_period(sent))
+    if sent.light == "code":
+        span = _CHIPS * sent.switching_period
+    last = min(camera.columns - 1, max(int(min(span / camera.readout_time, camera.columns)), 1))
     columns = np.unique(np.linspace(0, last, min(shown, last + 1)).round().astype(np.intp))
     starts = np.multiply(columns, camera.readout_time, dtype=np.float64)
-    chips = sent_chips(scene.transmitter)
-    phase = (scene.model.start_time * scene.transmitter.switching_frequency) % len(chips)
-    first = int(phase)
-    needed = (float(starts[-1]) + camera.exposure_time) / period
-    count = int(min(np.ceil(needed) + 1, _MAX_CHIPS))
+    seconds = float(starts[-1]) + camera.exposure_time
+    pieces, _ = _table_of(scene, seconds, _MOST_PIECES).around(
+        Fraction(scene.model.start_time), 0.0, seconds, _MOST_PIECES
+    )
     return RollingShutter(
         columns=columns,
         starts=starts,
         exposure_time=camera.exposure_time,
         lit_fraction=on_time(scene)[columns] / camera.exposure_time,
-        edges=np.asarray((first - phase + np.arange(count + 1)) * period, dtype=np.float64),
-        lit=chips[(first + np.arange(count)) % len(chips)],
+        edges=pieces.edges,
+        levels=pieces.levels,
     )

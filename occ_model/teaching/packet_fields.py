@@ -26,13 +26,16 @@ class PacketField:
 def packet_fields(scene: Scene) -> tuple[PacketField, ...]:
     """Return the header and the bits of the packet that a scene sends, as fields of its chips.
 
-    Empty if the packet is anything but a header and the bits, or a bit has no chips of its own.
+    Empty if no packet is sent, if it is anything but a header and the bits, or a bit has no chips
+    of its own.
     """
     sent = scene.transmitter
+    if sent.light != "code" or sent.pattern:
+        return ()
     code = scheme_of(sent).line_code
     # A plug-in's code may be slow, and the fields are needed to draw the window.
     is_known = LINE_CODES.is_built_in(code.name) and code.block_bits == 1
-    if sent.pattern or sent.error_correction != "none" or not is_known:
+    if sent.error_correction != "none" or not is_known:
         return ()
     chips, bits = sent_chips(sent), np.array(sent.payload_bits, dtype=np.uint8)
     header = len(chips) - code.chips_for(len(bits))

@@ -15,7 +15,7 @@ from occ_model.scene.units import HERTZ, METRE, NONE, SECOND, Unit
 from occ_model.study.bands.advice import band_advice
 from occ_model.study.bands.depth import band_depth
 from occ_model.study.theory import band_model_frequency, null_frequency, panel_readout_time
-from occ_model.transmitter.packet import sent_chips
+from occ_model.transmitter.packet import check_code, sent_chips
 
 FRAME_RATE = 30.0  # frames a second of the film in questions about films
 
@@ -69,21 +69,25 @@ def _match_photo(scene: Scene, photo: str | Match) -> Scene:
 
 
 def _chip_columns(scene: Scene) -> float:
+    check_code(scene.transmitter)
     return scene.transmitter.switching_period / scene.camera.readout_time
 
 
 def _code(scene: Scene) -> float:
+    check_code(scene.transmitter)
     if scene.transmitter.pattern:
         raise OccError("The photo's chips are a pattern, not a packet: it has no code.")
     return float(scene.transmitter.code)
 
 
 def _exposure_chips(scene: Scene) -> float:
+    check_code(scene.transmitter)
     return scene.camera.exposure_time * scene.transmitter.switching_frequency
 
 
 def _bit_rate(scene: Scene) -> float:
     sent = scene.transmitter
+    check_code(sent)
     if sent.pattern:
         raise OccError("A raw pattern has no bits.")
     return sent.payload_length * sent.switching_frequency / len(sent_chips(sent))

@@ -2,8 +2,10 @@
 
 from collections.abc import Iterable
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from occ_model.arrays import ByteArray, IndexArray
 from occ_model.errors import ParameterError
@@ -82,8 +84,8 @@ def sends_paper_code(transmitter: Transmitter) -> bool:
     return not (transmitter.pattern or transmitter.payload) and scheme_of(transmitter).is_papers
 
 
-def shortest_period(chips: ByteArray) -> int:
-    """Return the number of chips after which a repeated sequence of chips first repeats."""
+def shortest_period(chips: NDArray[Any]) -> int:
+    """Return the number of chips, or levels, after which a repeated sequence first repeats."""
     count = len(chips)
     divisors = (number for number in range(1, count + 1) if count % number == 0)
     return next(number for number in divisors if np.array_equal(np.roll(chips, number), chips))

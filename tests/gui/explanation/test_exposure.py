@@ -28,7 +28,7 @@ def test_chips_window_and_time_on_are_drawn_in_microseconds(
     plot.show_window(window, 42.25)
     x, y = plot.chips.getData()
     assert x == pytest.approx(window.edges * 1e6)
-    assert y.tolist() == window.lit.tolist()
+    assert y.tolist() == window.levels.tolist()
     low, high = plot.shade.getRegion()
     assert high - low == pytest.approx(68.0)
     parts = window.lit_parts * 1e6
@@ -53,7 +53,10 @@ def test_a_column_in_the_dark_has_no_time_on_and_what_is_not_drawn_is_named(
     scene = small_scene.replace(exposure_time=1.0)
     window = exposure_window(scene, 5)
     plot.show_window(window, 9.0)
-    assert f"only the first {len(window.lit)} chips are drawn" in plot.sentence.text()
+    assert (
+        f"only the first {len(window.levels)} changes of the light are drawn"
+        in plot.sentence.text()
+    )
     assert plot.shade.getRegion()[1] <= plot.chips.getData()[0][-1]
 
 

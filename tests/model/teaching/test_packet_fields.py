@@ -98,7 +98,7 @@ def test_a_received_chip_is_where_it_was_sent(
     late = fraction * exposure / frame.scene.camera.readout_time
     curve = light_over_columns(frame.scene, -50.0, len(frame.profile) + 2 * late, 10_000)
     middles = (edges[1:-2] + edges[2:-1]) / 2 + late
-    sent = curve.lit[np.searchsorted(curve.edges, middles) - 1]
+    sent = curve.levels[np.searchsorted(curve.edges, middles) - 1]
     np.testing.assert_array_equal(sent, result.chips[1:-1])
 
 
@@ -129,3 +129,8 @@ def test_columns_beside_the_panel_do_not_hide_the_threshold() -> None:
     assert threshold_levels(profile, result) == threshold_levels(frame.profile, result)
     rng = np.random.default_rng(3)
     assert threshold_levels(rng.normal(size=len(profile)), result) is None
+
+
+def test_lights_that_are_no_code_have_no_packet() -> None:
+    for light in ("lamp", "mains", "waveform", "pulses"):
+        assert packet_fields(occ.Scene().replace(light=light)) == ()

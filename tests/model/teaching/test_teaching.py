@@ -31,6 +31,8 @@ scenes = st.builds(
     averaging=st.sampled_from(["pixel-value", "light"]),
 )  # fmt: skip
 
+lights = st.sampled_from(["code", "lamp", "waveform", "pulses"])
+
 
 _ROUNDED = 5.1e-3
 """Largest relative error of a result with three digits."""
@@ -95,6 +97,46 @@ def test_at_the_equations_null_alternating_stripes_vanish() -> None:
     assert np.ptp(at_null) < 1e-3 * np.ptp(occ.column_profile(scene))
 
 
+@pytest.mark.parametrize(
+    ("light", "columns", "state"),
+    [
+        ({"light": "lamp", "lamp_frequency": 500.0, "duty": 0.3}, 250.0, 58.0),
+        ({"light": "pulses", "pulse_frequency": 500.0, "pulse_length": 2e-4}, 250.0, 8.0),
+        ({"light": "waveform", "levels": "0 1 2 / 2", "switching_frequency": 5e3}, 75.0, 8.0),
+        ({"light": "waveform", "waveform_file": "0,1\n1e-3,0\n2e-3"}, 250.0, None),
+        ({"light": "mains", "mains_frequency": 50.0}, 1250.0, None),
+    ],
+)
+def test_equations_of_other_lights_are_in_their_periods_and_pulses(
+    light: dict[str, ParameterValue], columns: float, state: float | None
+) -> None:
+    scene = Scene().replace(**light, exposure_time=136e-6, readout_time=8e-6)
+    found = {equation.name: equation for equation in equations(scene)}
+    assert numbers_in(found["chip-columns"].result) == [columns]
+    assert ("one-state" in found) == (state is not None) == ("transition" in found)
+    if state is not None:
+        assert numbers_in(found["one-state"].result) == [state]
+        too_long = scene.replace(exposure_time=136e-6 + 1.001 * state * 8e-6)
+        texts = [equation.result for equation in equations(too_long)]
+        assert any(text.startswith("undefined") for text in texts)
+    ratio = float(found["null"].result.rpartition("= ")[2])
+    assert ratio == pytest.approx(136.0 / 8.0 / columns, rel=_ROUNDED)
+    words = " ".join(equation.meaning + equation.result for equation in found.values())
+    assert "chip" not in words
+    for equation in found.values():
+        assert {n for t in equation.symbols for n in t.parameters} == equation.parameters
+        assert all(PARAMETERS[name].is_of(scene.transmitter.light) for name in equation.parameters)
+
+
+def test_the_columns_of_a_mains_lamp_reach_the_levels_of_its_equation() -> None:
+    scene = Scene().replace(light="mains", exposure_time=5e-3, luminance=100.0, columns=2000)
+    equation = next(each for each in equations(scene) if each.name == "column")
+    profile = occ.column_profile(scene.replace(readout_time=1e-5))
+    assert numbers_in(equation.result)[:2] == pytest.approx(
+        [profile.min(), profile.max()], abs=0.06
+    )
+
+
 def test_lessons_know_the_equations_by_their_names() -> None:
     assert tuple(equation.name for equation in equations(Scene())) == tuple(EQUATIONS)
 
@@ -135,23 +177,28 @@ def test_the_on_time_depends_on_exactly_the_parameters_that_its_term_names() -> 
 
 
 @settings(max_examples=120)
-@given(scenes, st.integers(0, 499))
-def test_the_lit_parts_of_a_window_add_up_to_the_models_time_on(scene: Scene, column: int) -> None:
+@given(scenes, lights, st.integers(0, 499))
+def test_the_lit_parts_of_a_window_add_up_to_the_models_time_on(
+    scene: Scene, light: str, column: int
+) -> None:
+    scene = scene.replace(light=light, duty=0.3, depth=0.6)
     window = exposure_window(scene, column)
     assert window.on_time == occ.on_time(scene)[column]
     assert window.exposure_time == pytest.approx(scene.camera.exposure_time, rel=1e-9)
     assert not window.shortened
-    begins, ends = window.lit_parts.T
+    begins, ends, light = window.lit_parts.T
     assert (ends > begins).all()
-    assert (ends - begins).sum() == pytest.approx(window.on_time, abs=1e-9 * window.edges[-1])
+    assert ((ends - begins) * light).sum() == pytest.approx(
+        window.on_time, abs=1e-9 * window.edges[-1]
+    )
     assert window.edges[0] == 0.0 <= window.start <= window.end <= window.edges[-1]
-    assert len(window.edges) == len(window.lit) + 1
+    assert len(window.edges) == len(window.levels) + 1
 
 
 def test_a_window_of_very_many_chips_is_cut_short_and_says_so() -> None:
     window = exposure_window(Scene().replace(exposure_time=1.0, switching_frequency=1e6), 3)
     assert window.shortened
-    assert len(window.lit) <= 1000
+    assert len(window.levels) <= 1000
     assert window.on_time == pytest.approx(0.5, abs=0.05)
 
 
@@ -161,26 +208,26 @@ def test_a_window_is_exact_however_far_from_time_zero(start_time: float) -> None
     for column in (0, 49):
         window = exposure_window(scene, column)
         parts = window.lit_parts
-        assert np.diff(parts).sum() == pytest.approx(occ.on_time(scene)[column], rel=1e-9)
+        assert np.diff(parts[:, :2]).sum() == pytest.approx(occ.on_time(scene)[column], rel=1e-9)
 
 
 @settings(max_examples=60, deadline=None)
 @given(
     st.floats(500.0, 3e4), st.floats(1e-5, 1e-3), st.floats(1e-6, 5e-5), st.floats(-2.0, 2.0),
-    st.sampled_from(["", "10", "1101000"]),
+    st.sampled_from(["", "10", "1101000"]), lights,
 )  # fmt: skip
 def test_the_light_during_each_exposure_is_its_lit_fraction(
-    frequency: float, exposure: float, readout: float, start: float, pattern: str
+    frequency: float, exposure: float, readout: float, start: float, pattern: str, light: str
 ) -> None:
     scene = Scene().replace(
         switching_frequency=frequency, exposure_time=exposure, readout_time=readout,
-        start_time=start, pattern=pattern, columns=400,
+        start_time=start, pattern=pattern, columns=400, light=light, pulse_frequency=700.0,
     )  # fmt: skip
     shown = rolling_shutter(scene)
     assert len(shown.columns) <= 25
     assert shown.edges[0] <= 0.0
     assert shown.edges[-1] >= shown.duration
-    cumulated = np.concatenate([[0.0], np.cumsum(np.diff(shown.edges) * shown.lit)])
+    cumulated = np.concatenate([[0.0], np.cumsum(np.diff(shown.edges) * shown.levels)])
     ends = shown.starts + shown.exposure_time
     gathered = np.interp(ends, shown.edges, cumulated) - np.interp(
         shown.starts, shown.edges, cumulated

@@ -47,7 +47,7 @@ def threads() -> int:
 def each_in_threads(work: Callable[[_Item], _Result], items: Iterable[_Item]) -> Iterator[_Result]:
     """Do some work for each item in threads; yield the results in the order of the items.
 
-    Items are taken in the calling thread, a few in advance, so that random numbers drawn there do
+    Items are read in the calling thread, a few in advance, so that random numbers drawn there do
     not depend on the threads.
     """
     count, left = threads(), iter(items)

@@ -148,7 +148,7 @@ class StepwiseSource(ListedSource):
         return super().read()
 
     def give_one(self) -> None:
-        """Give a picture, and wait until it has been taken in."""
+        """Give a picture, and wait until the pane has received it."""
         assert self.waits.wait(60)
         self.waits.clear()
         self.may.set()

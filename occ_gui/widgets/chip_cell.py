@@ -17,8 +17,8 @@ _FADED_OPACITY = 0.45
 
 
 @cache
-def _digit_text(value: int) -> QStaticText:
-    text = QStaticText(str(value))
+def _digit_text(value: float) -> QStaticText:
+    text = QStaticText(f"{value:g}")
     text.setTextFormat(Qt.TextFormat.PlainText)
     return text
 

@@ -30,9 +30,8 @@ from .photo.reading.load import (
     load_photo as load_photo,
 )
 from .photo.stripes.find import find_stripes as find_stripes
-from .receiver.decode import decode as decode
+from .receiver.decode import decode as decode, decoders as decoders
 from .receiver.decoder import Decoder as Decoder, read_payload as read_payload
-from .receiver.decoders import decoders as decoders
 from .results.bands import (
     BandAdvice as BandAdvice,
     BandDepth as BandDepth,
@@ -125,13 +124,13 @@ from .transmitter.line_codes.line_code import (
     Decoded as Decoded,
     LineCode as LineCode,
 )
-from .transmitter.packet import packet as packet
 from .transmitter.registry import (
     framings as framings,
     line_codes as line_codes,
 )
 from .transmitter.scheme import (
     Scheme as Scheme,
+    packet as packet,
     scheme_of as scheme_of,
 )
 from .version import __version__ as __version__

@@ -11,7 +11,7 @@ from occ_gui.shell.results import ResultsStore
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.simulation.verdict import cause_in
 from occ_gui.values.choices import MODES, Placement
-from occ_model.receiver.decoders import QUICK_DECODERS
+from occ_model.receiver.decode import QUICK_DECODERS
 
 if TYPE_CHECKING:
     from occ_gui.accuracy.pane import AccuracyPane

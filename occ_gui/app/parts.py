@@ -33,7 +33,7 @@ from occ_gui.story.story_view import StoryView
 from occ_gui.window.docks import CurrentPane
 from occ_gui.window.main_window import MainWindow
 from occ_model.effects.registry import EFFECTS
-from occ_model.receiver.decoders import DECODERS
+from occ_model.receiver.decode import DECODERS
 
 
 class Parts(QObject):

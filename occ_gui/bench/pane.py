@@ -13,7 +13,7 @@ from occ_model.camera.projection import panel_corners
 from occ_model.effects.paper_view import region_of
 from occ_model.errors import OccError, ParameterError
 from occ_model.parallel.job import Job
-from occ_model.receiver.decoders import decoders
+from occ_model.receiver.decode import decoders
 from occ_model.results.bit_errors import BenchBounds, BenchPoint, BenchRequest
 from occ_model.scene.scene import Scene
 from occ_model.study.bench.bench import bench_bounds, bench_scene, check_bench, measure_bench_point

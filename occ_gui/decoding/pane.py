@@ -10,7 +10,7 @@ from occ_gui.shell.feature import Pane
 from occ_gui.shell.results import of_reading
 from occ_gui.simulation.snapshot import Reading
 from occ_gui.widgets.building import ScrollPane
-from occ_model.receiver.decoders import decoders
+from occ_model.receiver.decode import decoders
 
 _LEAST = QSize(320, 264)
 

@@ -10,7 +10,7 @@ from occ_gui.detection_map.rate_map import STRIDES, RateMap, lattice
 from occ_gui.detection_map.worker import find_left_out, rate_settings, theory_fields
 from occ_model.arrays import FloatArray, IndexArray
 from occ_model.parallel.job import Job
-from occ_model.receiver.decoders import QUICK_DECODERS
+from occ_model.receiver.decode import QUICK_DECODERS
 from occ_model.results.bit_errors import FRAMES_A_SECOND
 from occ_model.results.sweep import SweepTable
 from occ_model.results.sweep_request import SweepPoint, SweepRequest

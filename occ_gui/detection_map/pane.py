@@ -20,7 +20,7 @@ from occ_gui.detection_map.wiring import BackgroundRates
 from occ_gui.detection_map.worker import UNSEEN_PARAMETERS, find_left_out
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Pane
-from occ_model.receiver.decoders import DECODERS, QUICK_DECODERS
+from occ_model.receiver.decode import DECODERS, QUICK_DECODERS
 from occ_model.results.sweep_request import SweepPoint
 from occ_model.scene.parameters import quantity
 from occ_model.study.sweep.points import MeasuredPoints, rate_intervals

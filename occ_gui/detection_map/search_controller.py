@@ -14,7 +14,7 @@ from occ_gui.detection_map.limit_cards import MostBitsCard
 from occ_gui.detection_map.worker import find_left_out, rate_settings
 from occ_gui.scene.scene_store import SceneStore
 from occ_model.parallel.job import Job
-from occ_model.receiver.decoders import DECODERS
+from occ_model.receiver.decode import DECODERS
 from occ_model.results.bit_errors import MostBits
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.parameters import quantity

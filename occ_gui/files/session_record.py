@@ -28,7 +28,7 @@ from occ_gui.values.simulated import PinnedScene, Pins, SimulationRequest
 from occ_model.camera.projection import MAX_PIXELS
 from occ_model.effects.registry import NAMES
 from occ_model.photo.reading.choices import CHANNELS, SCAN_AXES
-from occ_model.receiver.decoders import DECODERS
+from occ_model.receiver.decode import DECODERS
 from occ_model.results.decoding import Region
 from occ_model.results.frame import PICTURES
 from occ_model.results.sweep_request import SHOWN

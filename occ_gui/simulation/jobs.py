@@ -13,7 +13,7 @@ from occ_gui.values.simulated import LEAST_DRAFT_STEP, SimulationRequest
 from occ_model.effects.plan import name_effects_for_signal
 from occ_model.errors import PluginError
 from occ_model.parallel.job import Heartbeat
-from occ_model.receiver.decoders import QUICK_DECODERS, decoder_named, read_with
+from occ_model.receiver.decode import QUICK_DECODERS, decoder_named, read_with
 from occ_model.results.decoding import DecodeResult
 from occ_model.results.frame import Frame
 from occ_model.scene.scene import Scene

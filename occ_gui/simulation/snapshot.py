@@ -9,8 +9,7 @@ import numpy as np
 
 from occ_gui.values.simulated import SimulationRequest
 from occ_model.arrays import ByteArray, FloatArray
-from occ_model.results.cause import Cause
-from occ_model.results.decoding import DecodeResult, Region
+from occ_model.results.decoding import Cause, DecodeResult, Region
 from occ_model.results.frame import Frame
 from occ_model.results.plan import Plan
 from occ_model.scene.scene import Scene

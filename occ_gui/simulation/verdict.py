@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from occ_gui.simulation.snapshot import ColumnView, Reading
 from occ_gui.widgets.state_look import State
 from occ_model.errors import one_line
-from occ_model.results.cause import Cause, symptom
-from occ_model.results.decoding import DecodeResult
+from occ_model.results.decoding import Cause, DecodeResult, symptom
 
 _LONGEST_PAYLOAD = 24  # characters of a payload that a title shows
 

@@ -3,7 +3,7 @@
 The rows draw it; they compute nothing themselves.
 """
 
-from occ_model.receiver.decoders import QUICK_DECODERS as READ_BY_ALL
+from occ_model.receiver.decode import QUICK_DECODERS as READ_BY_ALL
 from occ_model.teaching.light_over_columns import chips_in_exposure, light_over_columns
 from occ_model.teaching.packet_fields import (
     PacketField,

@@ -14,8 +14,8 @@ from occ_gui.shell.feature import Feature, PiecesPane
 from occ_gui.shell.results import Results, of_picture, of_reading
 from occ_gui.simulation.controller import SimulationController
 from occ_gui.story.story_view import StoryView
-from occ_model.receiver.decoders import decoders
-from occ_model.results.cause import Remedy
+from occ_model.receiver.decode import decoders
+from occ_model.results.decoding import Remedy
 
 _REST_MS = 250  # milliseconds from the first picture to the search for plug-in decoders
 

@@ -20,7 +20,7 @@ from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import HERTZ, SECOND
 from occ_model.transmitter.line_codes.line_code import VISIBLE_LIMIT
-from occ_model.transmitter.packet import packet, shortest_period
+from occ_model.transmitter.scheme import packet, shortest_period
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,10 +9,10 @@ from occ_model.commands.options import (
     Commands,
     add_scene_options,
     add_simulation_options,
+    progress_bar,
     scene_of,
     simulation_settings_of,
 )
-from occ_model.commands.progress_bar import progress_bar
 from occ_model.errors import one_line
 from occ_model.files.writing import make_folder
 from occ_model.results.accuracy import AccuracyPoint

@@ -11,19 +11,17 @@ from occ_model.commands.options import (
     add_option,
     add_scene_options,
     decoder_name,
+    progress_bar,
     scene_of,
 )
-from occ_model.commands.progress_bar import progress_bar
 from occ_model.errors import ParameterError, counted
 from occ_model.files.reading import is_film
 from occ_model.photo.reading.choices import CHANNELS, SCAN_AXES
 from occ_model.photo.reading.load import load_photo
 from occ_model.program import EXIT_FAILURE
-from occ_model.receiver.decode import decode
-from occ_model.receiver.decoders import DECODERS
+from occ_model.receiver.decode import DECODERS, decode
 from occ_model.receiver.signal import white_fraction
-from occ_model.results.cause import overexposed_text
-from occ_model.results.decoding import PAPER_DECODER, DecodeResult
+from occ_model.results.decoding import PAPER_DECODER, DecodeResult, overexposed_text
 from occ_model.results.video import Video
 from occ_model.results.video_reading import FilmProgress, VideoReading
 from occ_model.scene.scene import Scene

@@ -6,12 +6,11 @@ from pathlib import Path
 from typing import Any
 
 from occ_model.commands.files import folder_of_figures
-from occ_model.commands.options import Commands, add_option
-from occ_model.commands.progress_bar import progress_bar
+from occ_model.commands.options import Commands, add_option, progress_bar
 from occ_model.errors import one_line
 from occ_model.files.writing import make_folder
 from occ_model.photo.reading.load import Photo, load_photo
-from occ_model.receiver.decoders import QUICK_DECODERS
+from occ_model.receiver.decode import QUICK_DECODERS
 from occ_model.results.decoding import PAPER_DECODER
 from occ_model.results.sweep import SweepTable
 from occ_model.results.sweep_request import MOST_IMAGES, MOST_JOBS, SweepRequest

@@ -10,13 +10,13 @@ from occ_model.commands.options import (
     add_option,
     add_scene_options,
     add_simulation_options,
+    progress_bar,
     scene_of,
     simulation_settings_of,
 )
-from occ_model.commands.progress_bar import progress_bar
 from occ_model.commands.vary import SYNTAX, axes_of
 from occ_model.errors import ParameterError, counted, one_line, shown
-from occ_model.receiver.decoders import DECODERS
+from occ_model.receiver.decode import DECODERS
 from occ_model.results.decoding import PAPER_DECODER
 from occ_model.results.video import Video
 from occ_model.scene.parameter_kinds import Quantity

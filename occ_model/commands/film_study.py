@@ -12,10 +12,10 @@ from occ_model.commands.options import (
     add_option,
     add_scene_options,
     decoder_name,
+    progress_bar,
     scene_of,
     whole_number,
 )
-from occ_model.commands.progress_bar import progress_bar
 from occ_model.errors import ParameterError, one_line, shown
 from occ_model.files.writing import make_folder
 from occ_model.results.decoding import PAPER_DECODER

@@ -9,12 +9,12 @@ from occ_model.commands.options import (
     add_scene_options,
     decoder_name,
     number,
+    progress_bar,
     scene_of,
 )
-from occ_model.commands.progress_bar import progress_bar
 from occ_model.errors import counted
 from occ_model.program import EXIT_FAILURE
-from occ_model.receiver.decoders import DECODERS
+from occ_model.receiver.decode import DECODERS
 from occ_model.results.bit_errors import FRAMES_A_SECOND, MostBits
 from occ_model.results.limits import (
     Limits,

@@ -5,8 +5,8 @@ from collections.abc import Callable
 
 from occ_model.commands.options import Commands
 from occ_model.errors import OccError, one_line
+from occ_model.receiver.decode import decoder_named, decoders
 from occ_model.receiver.decoder import Decoder
-from occ_model.receiver.decoders import decoder_named, decoders
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.presets import all_presets, preset_named, unreadable_presets
 from occ_model.scene.units import HERTZ

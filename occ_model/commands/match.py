@@ -11,9 +11,9 @@ from occ_model.commands.options import (
     add_option,
     add_scene_options,
     assumption_of,
+    progress_bar,
     scene_of,
 )
-from occ_model.commands.progress_bar import progress_bar
 from occ_model.errors import MatchError, ParameterError, one_line, shown
 from occ_model.photo.chips.read import read_chips
 from occ_model.photo.lamps.match import match_lamps

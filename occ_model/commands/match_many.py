@@ -6,8 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from occ_model.commands.files import SCENE_FILE, TABLE, OutputFiles
-from occ_model.commands.options import assumption_of, whole_number
-from occ_model.commands.progress_bar import progress_bar
+from occ_model.commands.options import assumption_of, progress_bar, whole_number
 from occ_model.errors import ParameterError, counted, one_line
 from occ_model.files.writing import check_replaceable, write_whole
 from occ_model.photo.many.match_photos import MOST_JOBS, match_photos, usual_jobs

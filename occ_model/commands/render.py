@@ -16,7 +16,7 @@ from occ_model.commands.options import (
 from occ_model.effects.plan import plan_with
 from occ_model.errors import counted, one_line
 from occ_model.files.writing import check_image_path, write_image
-from occ_model.results.cause import overexposed_text
+from occ_model.results.decoding import overexposed_text
 from occ_model.results.frame import PICTURES
 from occ_model.scene.from_text import write_scene_file
 from occ_model.scene.simulation_settings import SimulationSettings

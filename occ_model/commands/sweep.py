@@ -19,14 +19,15 @@ from occ_model.commands.options import (
     add_switches,
     decoder_name,
     forced_effects,
+    print_above_bar,
+    progress_bar,
     scene_of,
 )
-from occ_model.commands.progress_bar import print_above_bar, progress_bar
 from occ_model.commands.vary import SYNTAX, axes_of
 from occ_model.errors import OccError, ParameterError, counted, one_line, shown
 from occ_model.files.writing import check_replaceable
 from occ_model.program import EXIT_INTERRUPTED
-from occ_model.receiver.decoders import DECODERS, QUICK_DECODERS
+from occ_model.receiver.decode import DECODERS, QUICK_DECODERS
 from occ_model.results.bit_errors import FRAMES_A_SECOND
 from occ_model.results.decoding import PAPER_DECODER
 from occ_model.results.sweep import SweepTable

@@ -18,8 +18,7 @@ from occ_model.figures.drawing import BAND, SIMULATION, house_style
 from occ_model.figures.page import break_lines
 from occ_model.files.writing import check_replaceable
 from occ_model.receiver.decode import decode
-from occ_model.results.cause import symptom
-from occ_model.results.decoding import PAPER_DECODER, DecodeResult
+from occ_model.results.decoding import PAPER_DECODER, DecodeResult, symptom
 from occ_model.results.frame import Frame
 from occ_model.scene.declaration import in_sentence
 from occ_model.scene.parameter_kinds import Quantity

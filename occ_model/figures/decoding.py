@@ -13,8 +13,7 @@ from occ_model.arrays import FloatArray
 from occ_model.errors import one_line, printable
 from occ_model.figures.drawing import THRESHOLD, Drawing
 from occ_model.figures.window_panes import caption, write_caption
-from occ_model.results.cause import Cause, symptom
-from occ_model.results.decoding import DecodeResult
+from occ_model.results.decoding import Cause, DecodeResult, symptom
 from occ_model.scene.declaration import in_sentence
 from occ_model.scene.scene import Scene
 

@@ -24,7 +24,7 @@ from occ_model.scene.units import HERTZ, METRE
 from occ_model.simulation.band_model import band_profile
 from occ_model.simulation.render import render
 from occ_model.study.paper_grid import DISTANCES, FREQUENCIES
-from occ_model.transmitter.packet import packet
+from occ_model.transmitter.scheme import packet
 
 _PICTURE_STEP = 8  # side in pixels of the averaged cells of a picture, as print resolves no more
 

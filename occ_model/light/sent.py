@@ -11,7 +11,7 @@ from occ_model.light.cosine import Cosine
 from occ_model.light.waveform import Waveform
 from occ_model.scene.light_samples import levels_of, samples_of
 from occ_model.scene.scene import Scene, Transmitter
-from occ_model.transmitter.packet import sent_chips
+from occ_model.transmitter.scheme import sent_chips
 
 HARMONIC = 2  # cycles of a mains lamp's light for each of the mains
 

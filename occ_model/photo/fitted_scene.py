@@ -19,7 +19,7 @@ from occ_model.results.match import Match, Stripes
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import PARAMETERS, quantity
 from occ_model.scene.scene import Scene
-from occ_model.transmitter.packet import sent_chips
+from occ_model.transmitter.scheme import sent_chips
 
 _MOST_DEVIATIONS = 3.0  # standard deviations above which two exposure times contradict each other
 _NOTE_ERROR = 0.012  # relative deviation of a noted exposure time: 1/500 stands for 1/512 s

@@ -33,7 +33,7 @@ from occ_model.results.match import ESTIMATES, Alternative, Match, Stripes
 from occ_model.scene.argument_checks import check_choice
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
-from occ_model.transmitter.packet import sent_chips
+from occ_model.transmitter.scheme import sent_chips
 
 __all__ = ["ESTIMATES", "PATTERN_SOURCES", "match_photo"]
 

@@ -15,8 +15,7 @@ from occ_model.results.decoding import Region
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
-from occ_model.transmitter.packet import code_of, sent_chips
-from occ_model.transmitter.scheme import scheme_of
+from occ_model.transmitter.scheme import code_of, scheme_of, sent_chips
 
 _NOTED = ("iso", "f_number")  # taken from a photo's EXIF data; the exposure time is fitted
 

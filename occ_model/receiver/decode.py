@@ -1,20 +1,218 @@
-"""Decode an image or a profile: check it, locate the panel, and run a decoder on the signal."""
+"""Decode an image or a profile by a decoder: a built-in one or a plug-in's, which is checked."""
 
+import math
 from dataclasses import replace
+from functools import lru_cache
+from numbers import Integral
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from occ_model import plugins
 from occ_model.arrays import FloatArray
 from occ_model.camera.photometry import WHITE
 from occ_model.camera.pixel_arrays import bytes_of, check_pixels
 from occ_model.camera.projection import MAX_PIXELS
-from occ_model.errors import DecodeInputError
-from occ_model.receiver.decoders import decoder_named, read_with
+from occ_model.errors import DecodeInputError, ParameterError, PluginError, shown
+from occ_model.plugins import of_kind
+from occ_model.receiver.decoder import Decoder
+from occ_model.receiver.equalizer import DECODER as EQUALIZER
+from occ_model.receiver.matched.decoder import DECODER as MATCHED
 from occ_model.receiver.signal import column_means, locate
-from occ_model.results.decoding import PAPER_DECODER, DecodeResult, Region
+from occ_model.receiver.threshold import DECODER as THRESHOLD
+from occ_model.results.decoding import PAPER_DECODER, DecodeResult, Region, RunHistogram, Runs
+from occ_model.scene.payload import MAX_PAYLOAD_BITS, form_of, payload_of_bits
 from occ_model.scene.scene import Scene
+from occ_model.transmitter.plugin_checks import (
+    checked_bits,
+    checked_count,
+    checked_counts,
+    checked_failure,
+    checked_number,
+    checked_numbers,
+    checked_places,
+    checked_text,
+)
+from occ_model.transmitter.registry import MOST_CHIPS
+from occ_model.transmitter.scheme import code_of
+
+_SHORTEST_CHIP = 1e-6  # columns
+_FARTHEST_CHIP = 10.0  # lengths of the signal before or after it, within which a chip may begin
+
+
+def checked_result(who: str, result: DecodeResult, columns: int, scene: Scene) -> DecodeResult:
+    """Return a result whose parts all comply with :class:`DecodeResult`, or raise PluginError.
+
+    It must have as many bits as the scene sends, and the code and payload of these bits. The caller
+    adds its place in the picture.
+    """
+    bits = checked_bits(who, "bits", result.bits, MAX_PAYLOAD_BITS)
+    chips = checked_bits(who, "chips", result.chips, max(columns, MOST_CHIPS))
+    failure = checked_failure(who, result.failure)
+    code = None
+    if failure is None:
+        length = scene.transmitter.payload_length
+        if len(bits) != length:
+            raise PluginError(f"{who} gives {len(bits)} bits in place of {length}, and no failure.")
+        code = code_of(bits.tolist())
+        own: object = result.code
+        if not isinstance(own, Integral) or own != code:
+            raise PluginError(f"{who} gives code = {shown(own)} with bits that are {shown(code)}.")
+    sent = scene.transmitter.payload
+    payload = payload_of_bits(bits.tolist(), form_of(sent)) if sent else ""
+    written: object = result.payload
+    if not isinstance(written, str) or written not in ("", payload):
+        raise PluginError(
+            f"{who} gives payload = {shown(written)} with bits that are {shown(payload)}."
+        )
+
+    def number(name: str, low: float = -math.inf, high: float = math.inf) -> float | None:
+        return checked_number(who, name, getattr(result, name), low, high)
+
+    def numbers(
+        name: str, length: int, low: float = -math.inf, high: float = math.inf
+    ) -> FloatArray | None:
+        return checked_numbers(who, name, getattr(result, name), length, low, high)
+
+    farthest = _FARTHEST_CHIP * columns
+    starts = numbers("chip_starts", len(chips), -farthest, farthest)
+    if starts is not None and (np.diff(starts) < 0.0).any():
+        raise PluginError(f"{who} gives chip_starts that do not rise.")
+    folded: object = result.model if result.folded is None else result.folded
+    bins = min(len(folded), MOST_CHIPS) if isinstance(folded, np.ndarray) and folded.ndim else 1
+    return DecodeResult(
+        decoder="",
+        failure=failure,
+        code=code,
+        bits=bits,
+        payload=payload,
+        signal=numbers("signal", columns),
+        threshold=number("threshold"),
+        runs=_runs(who, result.runs, columns),
+        histograms=_histograms(who, result.histograms, columns),
+        chip_length=number("chip_length", low=_SHORTEST_CHIP),
+        chips=chips,
+        chip_starts=starts,
+        headers=checked_places(who, "headers", result.headers, len(chips)),
+        correlation=number("correlation", -1.0, 1.0),
+        confidence=number("confidence", 0.0, 1.0),
+        folded=numbers("folded", max(bins, 1)),
+        model=numbers("model", max(bins, 1)),
+        equalized=numbers("equalized", columns),
+        light=numbers("light", columns),
+        light_model=numbers("light_model", columns),
+        chip_likelihoods=numbers("chip_likelihoods", len(chips), 0.0, 1.0),
+        bit_likelihoods=numbers("bit_likelihoods", len(bits), 0.0, 1.0),
+    )
+
+
+def _runs(who: str, runs: object, columns: int) -> Runs | None:
+    if runs is None:
+        return None
+    found = of_kind(who, Runs)(runs)
+    values = checked_bits(who, "runs of values", found.values, columns)
+    lengths = checked_counts(who, "lengths of runs", found.lengths, columns)
+    if len(values) != len(lengths) or lengths.sum() > columns:
+        raise PluginError(f"{who} gives runs that are not those of {columns:,} columns.")
+    return Runs(values, lengths)
+
+
+def _histograms(
+    who: str, histograms: object, columns: int
+) -> tuple[RunHistogram, RunHistogram] | None:
+    if histograms is None:
+        return None
+    if not isinstance(histograms, tuple) or len(histograms) != 2:
+        raise PluginError(f"{who} gives histograms that are not two of runs.")
+    first, second = (_histogram(who, one, columns) for one in histograms)
+    return first, second
+
+
+def _histogram(who: str, histogram: object, columns: int) -> RunHistogram:
+    found = of_kind(who, RunHistogram)(histogram)
+    counts = checked_counts(who, "counts of runs", found.counts, columns + 1)
+    if not counts.size:
+        raise PluginError(f"{who} gives an empty histogram.")
+    split: object = found.split
+    if split is not None:
+        split = checked_count(who, "split", split, 0, len(counts) - 1)
+    return RunHistogram(counts, split)
+
+
+def _read_sequence(signal: FloatArray, scene: Scene) -> DecodeResult:
+    # Imported when first needed, because most signals are read without it.
+    from occ_model.receiver.sequence.decoder import read_signal
+
+    return read_signal(signal, scene)
+
+
+SEQUENCE = Decoder(
+    "sequence",
+    "Sequence: the most likely chips",
+    _read_sequence,
+    is_quick=False,
+    # A picture takes 0.02 s up to 7 chips, 0.1 s at 10 chips and several seconds at 14.
+    searched_chips=8.0,
+)
+
+DECODERS: dict[str, Decoder] = {  # the built-in decoders by name
+    decoder.name: decoder for decoder in (THRESHOLD, MATCHED, EQUALIZER, SEQUENCE)
+}
+
+
+def decoders() -> tuple[str, ...]:
+    """Return the names of all decoders, with those of plug-ins last."""
+    return tuple(dict.fromkeys((*DECODERS, *plugins.plugin_names(plugins.DECODERS))))
+
+
+QUICK_DECODERS = tuple(name for name, decoder in DECODERS.items() if decoder.is_quick)
+"""The names of the decoders with which every picture of the window is read."""
+
+
+def decoder_named(name: str) -> Decoder:
+    if isinstance(name, str):
+        if name in DECODERS:
+            return DECODERS[name]
+        if name in decoders():
+            return _plugin(name)
+    raise ParameterError.of("decoder", shown(name), ", ".join(decoders()))
+
+
+def read_with(decoder: str, signal: FloatArray, scene: Scene) -> DecodeResult:
+    """Read a signal with a named decoder; a plug-in's fault becomes the result's failure."""
+    read = decoder_named(decoder).read
+    try:
+        result = read(signal, scene)
+    except PluginError as fault:
+        plugins.note_reading(decoder, str(fault))
+        return DecodeResult(decoder, signal=signal, failure=str(fault))
+    plugins.note_reading(decoder, None)
+    return result
+
+
+@lru_cache(maxsize=64)
+def _plugin(name: str) -> Decoder:
+    """Import a plug-in's decoder, whose faults become sentences."""
+    offered = plugins.load_plugin(plugins.DECODERS, name, Decoder)
+    who = plugins.described(plugins.DECODERS, name)
+
+    def read(signal: FloatArray, scene: Scene) -> DecodeResult:
+        def checked(result: object) -> DecodeResult:
+            found = plugins.of_kind(who, DecodeResult)(result)
+            return replace(checked_result(who, found, len(signal), scene), decoder=name)
+
+        try:
+            # A copy, because other decoders read the signal afterwards.
+            return plugins.called(who, "read", checked, offered.read, np.array(signal), scene)
+        except ParameterError as error:
+            raise PluginError(str(error), parameters=error.parameters) from None
+
+    title = plugins.called(
+        who, "be used", lambda title: checked_text(who, "title", title), lambda: offered.title
+    )
+    return Decoder(name, title, read)
+
 
 _LARGEST_LEVEL = 1e5  # largest accepted grey level, above those of any bit depth
 

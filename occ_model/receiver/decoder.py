@@ -10,8 +10,7 @@ from occ_model.scene.payload import form_of, payload_of_bits
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import SECOND
 from occ_model.transmitter.framings.framing import Framed
-from occ_model.transmitter.packet import code_of
-from occ_model.transmitter.scheme import scheme_of
+from occ_model.transmitter.scheme import code_of, scheme_of
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,8 +16,7 @@ from occ_model.receiver.decode import decode
 from occ_model.results.decoding import DecodeResult, Region
 from occ_model.room.room import Room, RoomLamp
 from occ_model.scene.scene import Scene
-from occ_model.transmitter.packet import code_of, packet, sent_chips
-from occ_model.transmitter.scheme import scheme_of
+from occ_model.transmitter.scheme import code_of, packet, scheme_of, sent_chips
 
 _ROWS = 4  # rows that are averaged to search for lamps
 

@@ -25,7 +25,7 @@ from occ_model.effects.registry import NAMES, effects_named
 from occ_model.room.room import Room, RoomLamp
 from occ_model.room.view import scene_with_lamp
 from occ_model.scene.scene import Scene
-from occ_model.transmitter.packet import sent_chips
+from occ_model.transmitter.scheme import sent_chips
 
 _LEVELS = np.linspace(0.0, 2.0 * WHITE, 600)  # pixel values for which means are tabulated
 _MIN_SLOPE = 0.25  # minimum slope of apparent over true light for the true light to be known

@@ -15,7 +15,7 @@ from occ_model.camera.photometry import level_values, saturate
 from occ_model.errors import BandModelUndefined
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import SECOND
-from occ_model.transmitter.packet import sent_chips
+from occ_model.transmitter.scheme import sent_chips
 
 
 def band_lengths(scene: Scene) -> tuple[float, float]:

@@ -33,7 +33,7 @@ from occ_model.simulation.noise import NoiseSpread
 from occ_model.simulation.render import observe, render
 from occ_model.study.effect_differences import CompleteSimulation, plan_of_effects, rms
 from occ_model.study.observation import panel_span
-from occ_model.transmitter.packet import sent_chips
+from occ_model.transmitter.scheme import sent_chips
 
 SAMPLES = tuple(2**power for power in range(13))  # numbers of samples of an exposure
 DRAFT_STEPS = (4, 16, 64)  # row steps of the drafts

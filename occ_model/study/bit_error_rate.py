@@ -19,7 +19,7 @@ from occ_model.scene.simulation_settings import TOLERANCE
 from occ_model.study.confidence import wilson_interval
 from occ_model.study.success_rate import check_rate, plan_of_images, right_bits_of_images
 from occ_model.study.theory import panel_readout_time
-from occ_model.transmitter.packet import code_of, sent_chips
+from occ_model.transmitter.scheme import code_of, sent_chips
 
 MOST_BITS = 100_000_000  # maximum number of bits of a measurement
 _PLANNED_PAYLOADS = 3  # payloads whose plans decide which effects are simulated for all

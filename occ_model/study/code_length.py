@@ -20,7 +20,7 @@ from occ_model.room.view import lamps_in_view
 from occ_model.scene.argument_checks import check_count
 from occ_model.study.room_map import RoomMapRequest, room_map
 from occ_model.study.sweep.sweep import Progress
-from occ_model.transmitter.packet import sent_chips
+from occ_model.transmitter.scheme import sent_chips
 
 MOST_CODES = 4096  # maximum number of lamps, whose codes are compared in pairs
 _EXTRA_BITS = (0, 2, 4)  # bits beyond the minimum that gives each lamp its own code

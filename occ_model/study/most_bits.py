@@ -13,7 +13,7 @@ import numpy as np
 
 from occ_model.parallel.job import Heartbeat
 from occ_model.plugins import Faults
-from occ_model.receiver.decoders import decoder_named
+from occ_model.receiver.decode import decoder_named
 from occ_model.results.bit_errors import FRAMES_A_SECOND, MostBits
 from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.argument_checks import check_count, check_seed

@@ -19,8 +19,7 @@ from occ_model.camera.projection import check_size, panel_corners, row_spans
 from occ_model.effects.paper_view import PaperView, paper_view_of
 from occ_model.effects.plan import signal_plan
 from occ_model.errors import ParameterError
-from occ_model.receiver.decode import decode
-from occ_model.receiver.decoders import QUICK_DECODERS
+from occ_model.receiver.decode import QUICK_DECODERS, decode
 from occ_model.receiver.signal import bright_level, column_means, locate
 from occ_model.results.decoding import DecodeResult, Region
 from occ_model.results.plan import Plan

@@ -15,7 +15,7 @@ from occ_model.effects.registry import NAMES
 from occ_model.errors import ParameterError, PluginError
 from occ_model.parallel.job import Heartbeat
 from occ_model.plugins import Faults
-from occ_model.receiver.decoders import decoder_named
+from occ_model.receiver.decode import decoder_named
 from occ_model.results.decoding import PAPER_DECODER, DecodeResult, Region
 from occ_model.results.plan import Plan
 from occ_model.results.sweep_request import MOST_IMAGES, SIGNAL_PATHS, RateSettings, SignalPath
@@ -23,7 +23,7 @@ from occ_model.scene.argument_checks import check_choice, check_count, check_see
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import TOLERANCE, SimulationSettings
 from occ_model.study.observation import Observation, observe, panel_span
-from occ_model.transmitter.packet import sent_chips
+from occ_model.transmitter.scheme import sent_chips
 
 _KEPT_PICTURES = 512
 """Number of pictures whose signals are kept for the next decoder: those of a search."""

@@ -13,7 +13,7 @@ from occ_model.camera.projection import panel_corners
 from occ_model.effects.paper_view import region_of
 from occ_model.results.bit_errors import FRAMES_A_SECOND
 from occ_model.scene.scene import Scene
-from occ_model.transmitter.packet import sent_chips
+from occ_model.transmitter.scheme import sent_chips
 
 _BOUND_BINS = 2**14  # frequencies over which the bound of the rate is summed
 

@@ -25,7 +25,7 @@ import numpy as np
 
 from occ_model.parallel.job import Heartbeat
 from occ_model.plugins import Faults
-from occ_model.receiver.decoders import decoder_named
+from occ_model.receiver.decode import decoder_named
 from occ_model.results.limits import RangeEnd, ReadInterval, Trial, WorkingRange
 from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.parameter_kinds import Quantity

@@ -10,7 +10,7 @@ from occ_model.errors import OccError, SceneFileError, one_line, printable, show
 from occ_model.files.reading import read_text
 from occ_model.files.resources import files_in, resource_names, resource_text, user_folder
 from occ_model.files.writing import make_folder, write_whole
-from occ_model.receiver.decoders import DECODERS
+from occ_model.receiver.decode import DECODERS
 from occ_model.results.teaching import Check, Lesson, LessonStep, LoadedLessons
 from occ_model.scene.from_text import change_scene
 from occ_model.scene.parameters import PARAMETERS

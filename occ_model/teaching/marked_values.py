@@ -14,8 +14,8 @@ from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene, Transmitter
 from occ_model.study.theory import band_model_frequency, null_frequency
-from occ_model.transmitter.packet import sent_chips, shortest_period
 from occ_model.transmitter.registry import FRAMINGS, LINE_CODES
+from occ_model.transmitter.scheme import sent_chips, shortest_period
 
 _MOST_NULLS = 2  # marked exposures of whole periods
 _LONGEST_WAVEFORM = 512  # levels of which a shorter period within is looked for

@@ -8,9 +8,8 @@ from occ_model.arrays import FloatArray
 from occ_model.results.decoding import DecodeResult
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.framings.paper import FRAMING, HEADER_ONES
-from occ_model.transmitter.packet import sent_chips
 from occ_model.transmitter.registry import LINE_CODES
-from occ_model.transmitter.scheme import scheme_of
+from occ_model.transmitter.scheme import scheme_of, sent_chips
 
 _MAX_EXCEPTIONS = 0.05  # largest fraction of columns that a level may put on the wrong side
 

@@ -15,7 +15,7 @@ from occ_model.scene.units import HERTZ, METRE, NONE, SECOND, Unit
 from occ_model.study.bands.advice import band_advice
 from occ_model.study.bands.depth import band_depth
 from occ_model.study.theory import band_model_frequency, null_frequency, panel_readout_time
-from occ_model.transmitter.packet import check_code, sent_chips
+from occ_model.transmitter.scheme import check_code, sent_chips
 
 FRAME_RATE = 30.0  # frames a second of the film in questions about films
 

@@ -18,8 +18,7 @@ from occ_model.transmitter.framings.framing import (
 from occ_model.transmitter.framings.paper import FRAMING as PAPER, HEADER, find_headers
 from occ_model.transmitter.framings.preamble import FRAMING as PREAMBLE
 from occ_model.transmitter.framings.raw import FRAMING as RAW
-from occ_model.transmitter.packet import sent_chips, shortest_period
-from occ_model.transmitter.scheme import Scheme, scheme_of
+from occ_model.transmitter.scheme import Scheme, scheme_of, sent_chips, shortest_period
 
 _MIN_PREAMBLE_CHIPS = 10  # minimum length of a preamble that a payload rarely contains by chance
 _SAMPLES = 8  # number of payloads compared to find the chips that are the same in all

@@ -9,9 +9,8 @@ from occ_model.arrays import BoolArray, ByteArray, FloatArray
 from occ_model.camera.enhancement import Enhancement
 from occ_model.camera.photometry import WHITE
 from occ_model.photo.chips.edges import Edges, chip_numbers, coherence, lattice_at
-from occ_model.receiver.decode import decode
+from occ_model.receiver.decode import decode, read_with
 from occ_model.receiver.decoder import blame_short_chips, has_short_chips
-from occ_model.receiver.decoders import read_with
 from occ_model.receiver.light import convert_to_light
 from occ_model.receiver.signal import column_means
 from occ_model.results.decoding import PAPER_DECODER, DecodeResult, Region

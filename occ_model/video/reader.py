@@ -9,17 +9,16 @@ from occ_model.arrays import ByteArray
 from occ_model.camera.pixel_arrays import bytes_of, white_of
 from occ_model.errors import DecodeInputError, ParameterError, shown
 from occ_model.plugins import Faults
-from occ_model.receiver.decoders import decoder_named
+from occ_model.receiver.decode import decoder_named
 from occ_model.receiver.sequence.soft_frame import SoftFrame, read_frame as read_soft_frame
-from occ_model.results.cause import overexposed_text
-from occ_model.results.decoding import PAPER_DECODER
+from occ_model.results.decoding import PAPER_DECODER, overexposed_text
 from occ_model.results.sent_packets import SentPackets
 from occ_model.results.video import LATEST_TIME, Video, VideoFrame
 from occ_model.results.video_reading import FilmProgress, VideoReading
 from occ_model.scene.argument_checks import check_count, is_number
 from occ_model.scene.payload import form_of, payload_of_bits
 from occ_model.scene.scene import Scene, check_scene
-from occ_model.transmitter.packet import code_of
+from occ_model.transmitter.scheme import code_of
 from occ_model.video.clock import MOST_READOUT_TOLERANCE, READOUT_TOLERANCE
 from occ_model.video.frame_times import FrameTimes
 from occ_model.video.packets import count_packets

@@ -16,7 +16,7 @@ from occ_model.scene.recording import Recording
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.simulation.render import render_with
-from occ_model.transmitter.packet import sent_chips
+from occ_model.transmitter.scheme import sent_chips
 
 MOST_FRAMES = 100_000_000  # maximum of a film: days even at hundreds per second
 _JITTER, _PICTURE = 0, 1  # numbers of a frame's own streams of random numbers

@@ -39,7 +39,7 @@ from occ_gui.values.choices import (
     RoomChoice,
 )
 from occ_gui.values.modes import MODES
-from occ_model.receiver.decoders import DECODERS
+from occ_model.receiver.decode import DECODERS
 from occ_model.scene.scene import Scene
 
 _SHOWN: dict[type[QWidget], Callable[[Any], object]] = {

@@ -28,7 +28,7 @@ from hard_cases.attack.promise import check_sentence
 from occ_model.boards.sketch import BOARDS
 from occ_model.cli import main
 from occ_model.figures.bands import bands_drawing, flicker_drawing
-from occ_model.receiver.decoders import DECODERS
+from occ_model.receiver.decode import DECODERS
 from occ_model.scene.light_samples import MOST_LEVELS, MOST_SAMPLES
 from occ_model.scene.light_text import LightText
 from occ_model.scene.parameter_kinds import ChipPattern, Choice, ParameterValue, Payload

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 import occ_model as occ
 from hard_cases.laws import cases, record
 from hard_cases.references import decades
-from occ_model.receiver.decoders import DECODERS
+from occ_model.receiver.decode import DECODERS
 from occ_model.receiver.signal import locate
 from occ_model.results.decoding import DecodeResult, Region
 from occ_model.scene.scene import Scene

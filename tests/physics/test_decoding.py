@@ -8,7 +8,7 @@ from amount import amount
 
 import occ_model as occ
 from occ_model.scene.scene import Scene
-from occ_model.transmitter.packet import bits_of
+from occ_model.transmitter.scheme import bits_of
 
 CODES = range(0, 1024, amount(29, 7))
 

@@ -18,7 +18,7 @@ from occ_model.receiver.matched.templates import (
 )
 from occ_model.scene.scene import Scene
 from occ_model.study.success_rate import success_rate
-from occ_model.transmitter.packet import packet_length
+from occ_model.transmitter.scheme import packet_length
 
 HIGH_CONFIDENCE = 0.5
 

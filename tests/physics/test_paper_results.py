@@ -20,7 +20,7 @@ from occ_model.study.paper_grid import (
 )
 from occ_model.study.sweep.sweep import run_sweep
 from occ_model.transmitter.framings.paper import HEADER
-from occ_model.transmitter.packet import packet_length
+from occ_model.transmitter.scheme import packet_length
 
 TRIED = amount((0.6, 1.2, 1.6, 2.0), DISTANCES)
 """The paper's distances at which rates are measured."""

@@ -15,7 +15,7 @@ from occ_model.photo.fit.camera_response import camera_tones
 from occ_model.photo.fit.initial_search import Search
 from occ_model.photo.fit.least_squares import StripeModel
 from occ_model.photo.fit.timing import Timing
-from occ_model.transmitter.packet import sent_chips
+from occ_model.transmitter.scheme import sent_chips
 
 CHIPS = sent_chips(occ.Scene().transmitter)
 

@@ -24,7 +24,7 @@ from occ_model.photo.fitted_scene import at_rate, exposure_time
 from occ_model.photo.photo_scene import with_chips
 from occ_model.results.match import Stripes
 from occ_model.scene.scene import Scene
-from occ_model.transmitter.packet import sent_chips
+from occ_model.transmitter.scheme import sent_chips
 
 _STEP_CHANGES = np.arange(-4, 5) / 8.0  # changes of a known step, in chips at the last column
 _MOST_CORRECTIONS = 6  # maximum number of times that the chips read are replaced by similar ones

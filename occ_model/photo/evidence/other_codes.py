@@ -6,7 +6,7 @@ from occ_model.arrays import ByteArray, FloatArray
 from occ_model.photo.evidence.hypothesis import Hypothesis
 from occ_model.photo.fit.timing import Timing
 from occ_model.scene.scene import Transmitter
-from occ_model.transmitter.packet import packet_length, packets_of_codes, sends_paper_code
+from occ_model.transmitter.scheme import packet_length, packets_of_codes, sends_paper_code
 
 _MOST_BITS = 12  # bits up to which all codes are compared, and not those of one other chip
 _MOST_CHIPS = 512  # number of chips up to which other sequences are compared

@@ -36,8 +36,7 @@ from occ_model.results.decoding import DecodeResult
 from occ_model.scene.parameters.light import MAX_BITS
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.framings.framing import Framed
-from occ_model.transmitter.packet import bits_of, packet_length
-from occ_model.transmitter.scheme import scheme_of
+from occ_model.transmitter.scheme import bits_of, packet_length, scheme_of
 
 _MIN_CORRELATION = 0.7  # minimum for reading a code: half of the signal's variance is explained
 _MIN_CONFIDENCE = 0.05  # minimum for reading a code; below it a code may be best by chance

@@ -14,8 +14,7 @@ from occ_model.arrays import FloatArray, IndexArray, Pixels
 from occ_model.light.times import Duration, PhasesInPeriod
 from occ_model.light.waveform import Waveform
 from occ_model.transmitter.framings.paper import HEADER
-from occ_model.transmitter.packet import bits_of, packet_length, packets_of_codes
-from occ_model.transmitter.scheme import Scheme
+from occ_model.transmitter.scheme import Scheme, bits_of, packet_length, packets_of_codes
 
 BINS_PER_CHIP = 8  # so that an edge is known to a sixteenth of a chip
 

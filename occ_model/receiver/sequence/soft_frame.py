@@ -12,8 +12,7 @@ import numpy as np
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.transmitter.framings.framing import Framed
 from occ_model.transmitter.framings.paper import HEADER
-from occ_model.transmitter.packet import packet_length
-from occ_model.transmitter.scheme import Scheme
+from occ_model.transmitter.scheme import Scheme, packet_length
 
 _MAX_LOG_RATIO = 700.0  # log-likelihood ratio above which the exponential overflows
 _REPETITIONS = 3  # periods given to a framing, so that one lies completely between two headers

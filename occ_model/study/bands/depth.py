@@ -21,7 +21,7 @@ from occ_model.errors import ParameterError, shown
 from occ_model.results.bands import ROUNDING_DEPTH, BandDepth, Depth
 from occ_model.scene.scene import Scene
 from occ_model.study.bands.exposed_light import ExposedLight, exposed_light
-from occ_model.transmitter.packet import sent_chips
+from occ_model.transmitter.scheme import sent_chips
 
 _DISPLAY_EXPONENT = 2.2  # approximates sRGB by one power
 _BLACK = 0.5  # grey levels that a file rounds to 0

@@ -14,7 +14,7 @@ from occ_model.results.bands import EyeFlicker, RiskLines
 from occ_model.scene.scene import Scene
 from occ_model.study.bands.depth import edge_in_chips
 from occ_model.study.bands.exposed_light import exposed_light
-from occ_model.transmitter.packet import sent_chips
+from occ_model.transmitter.scheme import sent_chips
 
 NO_EFFECT, LOW_RISK, ABOVE = "no effect", "low risk", "above low risk"
 

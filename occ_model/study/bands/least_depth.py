@@ -11,7 +11,7 @@ from occ_model.results.bands import DepthMap
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 from occ_model.study.bands.depth import light_fractions
-from occ_model.transmitter.packet import sent_chips
+from occ_model.transmitter.scheme import sent_chips
 
 MAX_NODES = 10_000
 """Chips, and cycles of the flicker, of an exposure up to which bars are computed; beyond they are

@@ -28,8 +28,7 @@ from occ_model.files.reading import read_text
 from occ_model.parallel.job import Heartbeat
 from occ_model.photo.reading.load import load_photo
 from occ_model.plugins import Faults
-from occ_model.receiver.decode import decode
-from occ_model.receiver.decoders import decoder_named, decoders
+from occ_model.receiver.decode import decode, decoder_named, decoders
 from occ_model.results.bit_errors import (
     BenchBounds,
     BenchPlace,

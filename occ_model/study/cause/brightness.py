@@ -10,7 +10,7 @@ from occ_model.camera.photometry import (
     panel_values,
     saturation_value,
 )
-from occ_model.results.cause import Remedy
+from occ_model.results.decoding import Remedy
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import PERCENT

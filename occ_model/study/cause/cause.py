@@ -18,8 +18,8 @@ from occ_model.effects.plan import signal_plan
 from occ_model.effects.registry import EFFECTS
 from occ_model.errors import OccError
 from occ_model.parallel.job import Heartbeat
-from occ_model.receiver.decoders import DECODERS
-from occ_model.results.cause import Cause, Remedy
+from occ_model.receiver.decode import DECODERS
+from occ_model.results.decoding import Cause, Remedy
 from occ_model.results.sweep_request import SignalPath
 from occ_model.scene.declaration import in_sentence
 from occ_model.scene.parameters import quantity

@@ -5,7 +5,7 @@ import math
 from occ_model.camera.projection import panel_corners
 from occ_model.receiver.decoder import columns_of_chip, count_whole_chips
 from occ_model.receiver.matched.templates import MOST_BITS
-from occ_model.results.cause import Remedy
+from occ_model.results.decoding import Remedy
 from occ_model.scene.parameters import PARAMETERS, quantity
 from occ_model.scene.parameters.light import MAX_BITS
 from occ_model.scene.scene import Scene

@@ -5,7 +5,7 @@ import os
 from collections.abc import Iterable, Mapping, Sequence
 
 from occ_model.errors import ParameterError, shown
-from occ_model.receiver.decoders import DECODERS
+from occ_model.receiver.decode import DECODERS
 from occ_model.results.sweep_request import (
     JOBS_A_CORE,
     MOST_AXES,

@@ -19,7 +19,7 @@ from occ_gui.shell.results import ResultsStore, of_picture, of_reading, of_snaps
 from occ_gui.simulation.snapshot import Picture, Snapshot
 from occ_gui.values.simulated import SimulationRequest
 from occ_gui.widgets.outdated_mark import DELAY, OutdatedMark
-from occ_model.receiver.decoders import DECODERS, QUICK_DECODERS
+from occ_model.receiver.decode import DECODERS, QUICK_DECODERS
 from occ_model.scene.scene import Scene
 
 RIGHT = "✓ Code 718 read, all bits right"

@@ -11,8 +11,7 @@ from pytestqt.qtbot import QtBot
 import occ_model as occ
 from occ_gui.decoding.decode_view import DecodeView
 from occ_gui.simulation.jobs import reading_by_profile
-from occ_model.results.cause import symptom
-from occ_model.results.decoding import DecodeResult, Region
+from occ_model.results.decoding import DecodeResult, Region, symptom
 
 
 @pytest.fixture

@@ -18,7 +18,7 @@ from occ_gui.detection_map.advice_sentences import make_advice_lines
 from occ_gui.detection_map.advice_view import AdviceView
 from occ_model.commands.limits import format_row, sentences
 from occ_model.parallel.job import Job, JobResult
-from occ_model.receiver.decoders import DECODERS
+from occ_model.receiver.decode import DECODERS
 from occ_model.results.limits import (
     Advice,
     Limits,

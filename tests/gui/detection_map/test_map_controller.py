@@ -20,7 +20,7 @@ from occ_gui.detection_map.pane import DetectionMapController
 from occ_gui.detection_map.rate_map import RateMap
 from occ_gui.detection_map.worker import IMAGE_EFFECTS
 from occ_model.parallel.job import Job, JobResult
-from occ_model.receiver.decoders import QUICK_DECODERS
+from occ_model.receiver.decode import QUICK_DECODERS
 from occ_model.scene.scene import Scene
 from occ_model.study.confidence import interval_of_pictures
 

@@ -16,7 +16,7 @@ from occ_gui.pins.pin_controller import PinController, PinnedPair
 from occ_gui.simulation.jobs import snapshot_of as snapshot_of_frame
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.widgets.columns import PACKETS_IN_VIEW
-from occ_model.results.cause import symptom
+from occ_model.results.decoding import symptom
 from occ_model.scene.scene import Scene
 
 

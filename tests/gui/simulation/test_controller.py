@@ -14,7 +14,7 @@ from pytestqt.qtbot import QtBot
 import occ_model as occ
 from occ_gui.simulation import controller, jobs
 from occ_gui.simulation.controller import simulate
-from occ_model.receiver.decoders import QUICK_DECODERS
+from occ_model.receiver.decode import QUICK_DECODERS
 from occ_model.scene.scene import Scene
 
 BEHIND_THE_CAMERA: dict[str, Any] = {"distance": 0.1, "yaw": 1.2}

@@ -18,7 +18,7 @@ from occ_gui.simulation.verdict import CodeVerdict
 from occ_gui.story.verdict_bar import VerdictBar
 from occ_gui.widgets.badge_row import BadgeLabel
 from occ_gui.widgets.state_look import State
-from occ_model.results.cause import overexposed_text
+from occ_model.results.decoding import overexposed_text
 from occ_model.scene.scene import Scene
 from occ_model.simulation.render import plan_scene
 from occ_model.teaching.lessons import lessons

@@ -20,7 +20,7 @@ from occ_model.photo.many.table import table_of
 from occ_model.results.photo_table import PhotoRow, PhotoTable
 from occ_model.scene.from_text import read_scene_file
 from occ_model.scene.scene import Scene
-from occ_model.transmitter.packet import sent_chips
+from occ_model.transmitter.scheme import sent_chips
 
 SCENE = occ.load_preset("phone-68us").replace(
     rows=40, columns=600, pattern="10", switching_frequency=5e3, readout_time=9e-6,

@@ -7,12 +7,12 @@ from pathlib import Path
 
 import pytest
 
-from occ_model.commands.progress_bar import print_above_bar, progress_bar
+from occ_model.commands.options import print_above_bar, progress_bar
 
 
 def test_the_users_settings_of_tqdm_do_not_affect_bars() -> None:
     program = (
-        "from occ_model.commands.progress_bar import progress_bar\n"
+        "from occ_model.commands.options import progress_bar\n"
         "with progress_bar(total=1, disable=False) as bar: bar.update()\n"
     )
     settings = {"TQDM_MININTERVAL": "abc", "TQDM_NCOLS": "abc", "TQDM_ASCII": "x"}

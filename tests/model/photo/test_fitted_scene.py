@@ -25,7 +25,7 @@ from occ_model.photo.fitted_scene import (
 from occ_model.photo.photo_scene import with_allowed, with_chips, with_levels
 from occ_model.results.match import ESTIMATES
 from occ_model.scene.scene import Scene
-from occ_model.transmitter.packet import sent_chips
+from occ_model.transmitter.scheme import sent_chips
 
 COLUMNS, FIRST = 901, 40
 TIMING = Timing(0.0123, 0.77, 5.4, 2.2)

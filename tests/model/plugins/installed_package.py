@@ -11,18 +11,18 @@ from types import ModuleType
 import pytest
 
 from occ_model import plugins
-from occ_model.receiver import decoders
+from occ_model.receiver import decode
 from occ_model.receiver.decoder import Decoder
 from occ_model.results.decoding import DecodeResult
-from occ_model.transmitter import packet, scheme
+from occ_model.transmitter import scheme
 from occ_model.transmitter.registry import Registry
 
 _CACHES = (
     plugins._found,
-    decoders._plugin,
+    decode._plugin,
     Registry.get,
     scheme.scheme_named,
-    packet._payload_chips,
+    scheme._payload_chips,
 )
 
 

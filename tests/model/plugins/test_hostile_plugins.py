@@ -19,7 +19,7 @@ from occ_model.arrays import FloatArray
 from occ_model.cli import main
 from occ_model.commands.limits import sentences
 from occ_model.files.writing import write_image
-from occ_model.receiver import decoders
+from occ_model.receiver import decode as decoding
 from occ_model.results.bit_errors import BenchRequest
 from occ_model.results.sweep_request import RateSettings
 from occ_model.study.bench.bench import measure_bench_point
@@ -224,7 +224,7 @@ def test_a_decoder_that_is_none_is_refused_by_name(decoder: str, said: str) -> N
 def test_a_decoder_cannot_change_the_signal_of_others() -> None:
     signal = occ.column_profile(SCENE)
     before = signal.copy()
-    read = decoders.decoder_named("overwrites").read
+    read = decoding.decoder_named("overwrites").read
     assert read(signal, SCENE).failure == r"Nothing\nwas read."
     np.testing.assert_array_equal(signal, before)
 

@@ -20,7 +20,7 @@ from model.plugins.installed_package import importable, install
 import occ_model as occ
 from occ_model import plugins
 from occ_model.cli import main
-from occ_model.receiver.decoders import DECODERS, checked_result
+from occ_model.receiver.decode import DECODERS, checked_result
 from occ_model.results.decoding import RunHistogram, Runs
 
 PAGE = text_of(FOLDER / "developers.md")

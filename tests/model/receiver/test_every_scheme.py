@@ -8,7 +8,7 @@ from amount import amount
 from each_case import each_case
 
 import occ_model as occ
-from occ_model.receiver.decoders import DECODERS
+from occ_model.receiver.decode import DECODERS
 from occ_model.transmitter import registry
 
 LINE_CODES = registry.LINE_CODES.load_built_in()

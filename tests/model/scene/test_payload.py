@@ -16,7 +16,7 @@ from occ_model.scene.payload import (
     form_of,
     payload_of_bits,
 )
-from occ_model.transmitter.packet import bits_of
+from occ_model.transmitter.scheme import bits_of
 
 
 @given(payload=PAYLOADS.filter(bool))

@@ -8,7 +8,7 @@ from amount import amount
 from numpy.typing import NDArray
 
 import occ_model as occ
-from occ_model.receiver.decoders import QUICK_DECODERS
+from occ_model.receiver.decode import QUICK_DECODERS
 from occ_model.receiver.signal import locate
 from occ_model.results.decoding import Region
 from occ_model.scene.scene import Scene

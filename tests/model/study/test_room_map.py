@@ -21,7 +21,7 @@ from occ_model.study.code_length import (
     report_progress,
 )
 from occ_model.study.room_map import RoomMapRequest, RoomMapText, RoomPoint, places_under, room_map
-from occ_model.transmitter.packet import sent_chips
+from occ_model.transmitter.scheme import sent_chips
 
 
 def test_a_place_counts_what_its_picture_shows_which_is_nothing_far_away() -> None:

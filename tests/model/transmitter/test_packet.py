@@ -10,7 +10,7 @@ import occ_model as occ
 from occ_model.scene.parameters.light import MAX_BITS
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.line_codes import differential_manchester
-from occ_model.transmitter.packet import bits_of, code_of, packet_length, sent_chips
+from occ_model.transmitter.scheme import bits_of, code_of, packet_length, sent_chips
 
 BITS = 10
 CODES = range(2**BITS)

@@ -17,9 +17,8 @@ from occ_model.transmitter import registry
 from occ_model.transmitter.error_correction import PARITY_BYTES, count_protected_bits
 from occ_model.transmitter.framings.c_ook import FRAMING as C_OOK
 from occ_model.transmitter.framings.paper import HEADER
-from occ_model.transmitter.packet import sends_paper_code
 from occ_model.transmitter.registry import Registry
-from occ_model.transmitter.scheme import Scheme, scheme_named
+from occ_model.transmitter.scheme import Scheme, scheme_named, sends_paper_code
 
 LINE_CODES = registry.LINE_CODES.load_built_in()
 FRAMINGS = registry.FRAMINGS.load_built_in()

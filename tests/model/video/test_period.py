@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import occ_model as occ
-from occ_model.transmitter.packet import sent_chips
+from occ_model.transmitter.scheme import sent_chips
 from occ_model.video.payload_so_far import format_bits, known_bits
 from occ_model.video.period import SentPeriod
 

@@ -6,7 +6,7 @@ import numpy as np
 
 import occ_model as occ
 from occ_model.results.video_reading import FrameReading
-from occ_model.transmitter.packet import sent_chips
+from occ_model.transmitter.scheme import sent_chips
 from occ_model.video.period import SentPeriod
 from occ_model.video.placed_frames import PART_UNKNOWN, PlacedFrames
 from occ_model.video.read_frame import TimedFrame

@@ -23,14 +23,14 @@ from occ_model.cli import main
 from occ_model.figures.decoding import decode_drawing
 from occ_model.files.writing import write_image
 from occ_model.program import EXIT_FAILURE, EXIT_MISUSE
-from occ_model.receiver.decoders import decoder_named
+from occ_model.receiver.decode import decoder_named
 from occ_model.results.bit_errors import BenchRequest
 from occ_model.results.sweep_request import RateSettings
 from occ_model.study.bench.bench import measure_bench_point
 from occ_model.study.sweep.points import measure_point
 from occ_model.transmitter.framings.preamble import FRAMING
 from occ_model.transmitter.line_codes.manchester import LINE_CODE
-from occ_model.transmitter.packet import code_of
+from occ_model.transmitter.scheme import code_of
 from occ_model.video.reader import VideoReader
 
 NAME = "own"

@@ -17,7 +17,7 @@ from occ_model.photo.fit.chip_runs import canonical
 from occ_model.photo.fit.least_squares import StripeFit
 from occ_model.photo.fit.timing import Timing
 from occ_model.scene.scene import Scene
-from occ_model.transmitter.packet import sent_chips
+from occ_model.transmitter.scheme import sent_chips
 
 NEAR = occ.load_preset("phone-68us").replace(
     rows=60, columns=1200, distance=0.3, enhancement="none", averaging="light", code=345,

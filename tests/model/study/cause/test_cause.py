@@ -9,7 +9,7 @@ from amount import amount
 
 import occ_model as occ
 from occ_model.camera.photometry import level_values
-from occ_model.receiver.decoders import QUICK_DECODERS
+from occ_model.receiver.decode import QUICK_DECODERS
 from occ_model.scene.scene import Scene
 from occ_model.study.cause.brightness import suspect_other_light
 from occ_model.study.cause.cause import cause_of

@@ -11,8 +11,8 @@ from each_case import each_case
 from occ_model.arrays import ByteArray
 from occ_model.scene.payload import MAX_PAYLOAD_BITS
 from occ_model.transmitter.line_codes.line_code import VISIBLE_LIMIT, LineCode
-from occ_model.transmitter.packet import bits_of
 from occ_model.transmitter.registry import LINE_CODES as REGISTRY
+from occ_model.transmitter.scheme import bits_of
 
 LINE_CODES = REGISTRY.load_built_in()
 

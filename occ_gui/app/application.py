@@ -128,7 +128,7 @@ class Application(Parts):
         return self.lessons.user_workspace() or self.store.store.workspace
 
     def _keep_view(self) -> None:
-        """Store how the window looks, unless a lesson has its own panes in it."""
+        """Store the layout of the window, unless a lesson has its own panes in it."""
         if self.lessons.user_workspace() is None:
             self.options.layout.keep()
 

@@ -36,8 +36,8 @@ class Start:
     workspace: Workspace  # that of the command line, or of the last session
     # Whether the command line names a scene, which takes precedence over the last session's
     is_scene_asked: bool
-    preferences: "QSettings | None" = None  # the stored preferences; None where nothing is stored
-    # The file of this window's session; None where nothing is stored
+    preferences: "QSettings | None" = None  # the stored preferences; None if nothing is stored
+    # The file of this window's session; None if nothing is stored
     session_file: "SessionFile | None" = None
     fresh: bool = False  # whether nothing of the last session is to be restored
 

@@ -39,7 +39,7 @@ class Look:
 
     room: Room
     photo: Path | None = None
-    # Equivalent focal length of the photo in metres; None for that of its file, or the room's
+    # Equivalent focal length of the photo in metres; None for that in its file, or the room's
     focal_length: float | None = None
 
 

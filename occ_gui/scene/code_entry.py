@@ -76,7 +76,7 @@ class CodeEntry(QWidget):
 
     def _show_title(self, scene: Scene | None) -> None:
         if scene is not None and scene.transmitter.pattern:
-            text = "Code: not sent, but a raw pattern"
+            text = "Code: replaced by a raw pattern"
         elif scene is not None and scene.transmitter.payload:
             form = form_of(scene.transmitter.payload)
             form = "bytes" if form == "hex" else form

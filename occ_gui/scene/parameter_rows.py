@@ -137,7 +137,7 @@ class QuantityRow(ParameterRow):
         self._announce_value(value)
 
     def _announce_value(self, value: float) -> None:
-        """Announce the value to a screen reader, which else reads the slider's number of steps."""
+        """Announce the value to a screen reader, which would otherwise read the slider's step."""
         self.slider.setAccessibleDescription(self._quantity.format(value, _DIGITS))
 
     def _slide(self, position: int) -> None:

@@ -32,7 +32,7 @@ class ColumnView:
     corners: FloatArray
     # The result of each decoder by its name; the first one has located the panel for all
     results: Mapping[str, DecodeResult]
-    # The transmitted bits in order of time; empty where a raw pattern is transmitted
+    # The transmitted bits in order of time; empty if a raw pattern is transmitted
     sent: tuple[int, ...]
     packet_columns: float
     has_edges: bool = False  # whether the rise and fall of the light are simulated
@@ -40,7 +40,7 @@ class ColumnView:
     band: FloatArray | None = None
     # Shape (columns,): the same after the receiver's enhancement; None without it
     enhanced_band: FloatArray | None = None
-    band_undefined: str = ""  # a sentence, empty where there is a profile
+    band_undefined: str = ""  # a sentence, empty if there is a profile
     # Columns by which that profile is ahead of the simulated one after each packet
     band_drift: float = 0.0
 

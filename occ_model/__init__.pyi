@@ -98,8 +98,7 @@ from .scene.recording import (
     Recording as Recording,
     Waypoint as Waypoint,
 )
-from .scene.scene import Scene as Scene
-from .scene.simulation_settings import SimulationSettings as SimulationSettings
+from .scene.scene import Scene as Scene, SimulationSettings as SimulationSettings
 from .simulation.band_model import (
     band_lengths as band_lengths,
     band_profile as band_profile,

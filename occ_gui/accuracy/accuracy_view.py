@@ -18,7 +18,7 @@ from occ_gui.widgets.building import KeyedComboBox, fill
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_model.results.accuracy import Forecast, MeasuredCosts, TimeFractions
 from occ_model.results.plan import Decision
-from occ_model.scene.simulation_settings import SimulationSettings, unit_of
+from occ_model.scene.scene import SimulationSettings, unit_of
 
 _TABLE_WIDTH, _PLOT_WIDTH, _DETAIL_WIDTH = 560, 344, 312  # pixels of the parts side by side
 

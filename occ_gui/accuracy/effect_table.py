@@ -33,7 +33,7 @@ from occ_gui.accuracy.effect_rows import (
 )
 from occ_gui.widgets.colours import REGION
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
-from occ_model.scene.simulation_settings import TOLERANCE
+from occ_model.scene.scene import TOLERANCE
 
 _Index = QModelIndex | QPersistentModelIndex
 

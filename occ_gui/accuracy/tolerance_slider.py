@@ -13,7 +13,7 @@ from occ_gui.widgets.building import fill
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
 from occ_model.results.plan import EffectSet
 from occ_model.scene.parameter_kinds import Quantity
-from occ_model.scene.simulation_settings import TOLERANCE, unit_of
+from occ_model.scene.scene import TOLERANCE, unit_of
 from occ_model.scene.units import Unit
 
 STEPS = 200  # positions between the slider's ends, infinity and zero, while no marks are known

@@ -13,8 +13,7 @@ from PySide6.QtWidgets import QDialog, QDialogButtonBox, QPlainTextEdit, QVBoxLa
 import occ_model as occ
 from occ_gui.widgets.building import fill, name_widget, paragraph
 from occ_gui.widgets.plain_text import copy_text
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.scene.scene import Scene, SimulationSettings
 
 LIBRARIES = ("PySide6-Essentials", "pyqtgraph", "numpy", "opencv-contrib-python-headless", "Pillow")
 """Packages on whose versions results and appearance depend."""

@@ -11,8 +11,7 @@ from occ_gui.core.workspace import Workspace
 from occ_gui.values.choices import PhotoChoice
 from occ_model.errors import OccError
 from occ_model.files.writing import make_folder, make_private
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.scene.scene import Scene, SimulationSettings
 
 if TYPE_CHECKING:
     from PySide6.QtCore import QSettings

@@ -11,8 +11,7 @@ from occ_model.results.decoding import PAPER_DECODER
 from occ_model.results.frame import PICTURES
 from occ_model.results.sweep_request import Shown
 from occ_model.scene.recording import FRAME_RATE
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.scene.scene import Scene, SimulationSettings
 
 FIRST_SETTINGS = SimulationSettings(noise="reused")
 """The first settings of the window, with noise that is fast enough for sliders."""

@@ -14,8 +14,7 @@ from occ_model.receiver.decode import QUICK_DECODERS
 from occ_model.results.bit_errors import FRAMES_A_SECOND
 from occ_model.results.sweep import SweepTable
 from occ_model.results.sweep_request import SweepPoint, SweepRequest
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.study.sweep.points import measure_points, rate_intervals
 
 SHAPE = (25, 13)

@@ -18,8 +18,7 @@ from occ_model.receiver.decode import DECODERS
 from occ_model.results.bit_errors import MostBits
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.parameters import quantity
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.study import most_bits
 from occ_model.study.limits import SEARCHED, usual_images
 from occ_model.study.working_range import READ_RATE

@@ -21,8 +21,7 @@ from occ_gui.scene.scene_store import SceneStore
 from occ_model.parallel.job import Job
 from occ_model.results.sweep_request import SweepPoint
 from occ_model.scene.parameters import quantity
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.study.confidence import interval_of_pictures
 from occ_model.study.sweep.points import MeasuredPoints, measure_points
 

@@ -14,8 +14,7 @@ from occ_model.parallel.job import Heartbeat
 from occ_model.results.sweep_request import RateSettings, SignalPath, SweepPoint
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.parameters import quantity
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.study import theory
 from occ_model.study.observation import panel_span
 from occ_model.study.sweep.points import measure_points

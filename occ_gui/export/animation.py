@@ -13,8 +13,7 @@ from occ_gui.shell.feature import Service
 from occ_gui.widgets.work_bar import WorkBar
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import PARAMETERS
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.scene.scene import Scene, SimulationSettings
 
 STEPS = 30
 """Steps of the slider from end to end; there and back make twice as many frames."""

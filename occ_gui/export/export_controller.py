@@ -22,8 +22,7 @@ from occ_gui.values.modes import PICTURE
 from occ_model.errors import counted, one_line
 from occ_model.files.writing import check_replaceable, make_folder
 from occ_model.scene.provenance import ENDINGS, Provenance
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.scene.scene import Scene, SimulationSettings
 
 if TYPE_CHECKING:
     from occ_model.figures.drawing import Drawing

@@ -35,11 +35,11 @@ from occ_model.results.sweep_request import SHOWN
 from occ_model.scene.argument_checks import check_seed
 from occ_model.scene.parameters import quantity
 from occ_model.scene.recording import DECLARED, FRAME_RATE
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import (
+from occ_model.scene.scene import (
     NOISE_SOURCES,
     OBSERVABLES,
     TOLERANCE,
+    Scene,
     SimulationSettings,
 )
 from occ_model.scene.square_wave import SQUARE_FREQUENCY

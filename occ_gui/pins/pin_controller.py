@@ -20,8 +20,7 @@ from occ_model.errors import OccError, one_line
 from occ_model.results.decoding import PAPER_DECODER, DecodeResult
 from occ_model.scene.parameter_kinds import Parameter, ParameterValue, format_distinctly
 from occ_model.scene.parameters import PARAMETERS
-from occ_model.scene.scene import GROUPS, Scene
-from occ_model.scene.simulation_settings import TOLERANCE, SimulationSettings
+from occ_model.scene.scene import GROUPS, TOLERANCE, Scene, SimulationSettings
 from occ_model.simulation.render import render_with
 
 

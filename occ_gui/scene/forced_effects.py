@@ -11,7 +11,7 @@ from occ_gui.widgets.badge_row import Badge
 from occ_gui.widgets.building import fill, paragraph, push_button
 from occ_gui.widgets.state_look import State
 from occ_model.errors import counted
-from occ_model.scene.simulation_settings import SimulationSettings, unit_of
+from occ_model.scene.scene import SimulationSettings, unit_of
 
 _MOST_NAMED = 1  # effects switched by hand that a badge names
 

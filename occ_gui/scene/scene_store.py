@@ -13,11 +13,11 @@ from occ_model.errors import OccError
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.refusal import refusal_of
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import (
+from occ_model.scene.scene import (
     TOLERANCE,
     NoiseSource,
     Observable,
+    Scene,
     SimulationSettings,
 )
 

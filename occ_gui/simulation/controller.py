@@ -40,8 +40,7 @@ from occ_gui.simulation.snapshot import SOURCES, Picture, Reading, Snapshot
 from occ_gui.simulation.verdict import failed_decoders
 from occ_gui.values.simulated import LEAST_DRAFT_STEP, SimulationRequest
 from occ_model.receiver.decode import QUICK_DECODERS
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.simulation.render import plan_scene, render_with
 
 _REST_TIME = 0.05  # seconds without a change after which the exact picture is begun

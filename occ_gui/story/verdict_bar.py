@@ -20,7 +20,7 @@ from occ_gui.widgets.badge_row import Badge
 from occ_gui.widgets.state_bar import StateBar
 from occ_gui.widgets.state_look import State
 from occ_model.results.decoding import PAPER_DECODER, Remedy, overexposed_text, symptom
-from occ_model.scene.simulation_settings import TOLERANCE, unit_of
+from occ_model.scene.scene import TOLERANCE, unit_of
 from occ_model.scene.units import PERCENT, SECOND
 
 _COMPUTING = "computing"  # key of the badge for results that are still to come

@@ -4,8 +4,7 @@ from dataclasses import dataclass, field
 from typing import TypeAlias
 
 from occ_model.results.frame import PICTURES
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.scene.scene import Scene, SimulationSettings
 
 LEAST_DRAFT_STEP = 4
 """Least number of picture rows per row of a draft: with fewer, a draft is no faster."""

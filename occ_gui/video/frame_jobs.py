@@ -13,8 +13,7 @@ from occ_model.receiver.signal import column_means
 from occ_model.results.decoding import PAPER_DECODER, DecodeResult, Region
 from occ_model.results.video import Video, VideoFrame
 from occ_model.scene.recording import Recording
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.video.read_frame import read_by_itself
 
 _MOST_DRAFT_PIXELS = 1_000_000  # up to this size, the exact picture is as fast as a draft

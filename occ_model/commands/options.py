@@ -16,10 +16,10 @@ from occ_model.receiver.decode import DECODERS, decoders
 from occ_model.results.photo_table import assumption
 from occ_model.scene.from_text import DEFAULT_PRESET, change_scene, read_scene_file
 from occ_model.scene.presets import load_preset
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import (
+from occ_model.scene.scene import (
     NOISE_SOURCES,
     OBSERVABLES,
+    Scene,
     SimulationSettings,
 )
 from occ_model.scene.units import NONE

@@ -19,7 +19,7 @@ from occ_model.files.writing import check_image_path, write_image
 from occ_model.results.decoding import overexposed_text
 from occ_model.results.frame import PICTURES
 from occ_model.scene.from_text import write_scene_file
-from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.scene.scene import SimulationSettings
 from occ_model.simulation.render import overexposed_fraction, render_with
 
 

@@ -29,7 +29,7 @@ from occ_model.room.render import RoomFrame, render_room
 from occ_model.room.room import Place, Room
 from occ_model.room.rooms import load_room, rooms
 from occ_model.scene.from_text import change_scene
-from occ_model.scene.simulation_settings import TOLERANCE, SimulationSettings
+from occ_model.scene.scene import TOLERANCE, SimulationSettings
 from occ_model.study.code_length import CodeLength, code_lengths
 from occ_model.study.room_map import (
     RoomMapRequest,

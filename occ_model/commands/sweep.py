@@ -38,7 +38,7 @@ from occ_model.results.sweep_request import (
     RateSettings,
 )
 from occ_model.scene.argument_checks import check_choice, check_count
-from occ_model.scene.simulation_settings import TOLERANCE
+from occ_model.scene.scene import TOLERANCE
 from occ_model.study.sweep.request_check import build_request
 from occ_model.study.sweep.sweep import Progress, run_sweep
 

@@ -20,7 +20,7 @@ from occ_model.effects.estimates import Estimates
 from occ_model.effects.paper_view import PaperView
 from occ_model.effects.registry import EFFECTS
 from occ_model.results.plan import EffectSet
-from occ_model.scene.simulation_settings import NoiseSource, SimulationSettings
+from occ_model.scene.scene import NoiseSource, SimulationSettings
 
 _SUM_RATIO = 1.15
 """Largest ratio of added changes to the tolerance at which the effects are tried together: changes

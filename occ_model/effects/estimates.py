@@ -19,7 +19,7 @@ from occ_model.effects.sampled_pixels import SampledPixels, sample_pixels
 from occ_model.effects.simulated_columns import Names
 from occ_model.effects.smoothed_curves import add_unsampled, cut_block_square, unsampled_rim_square
 from occ_model.errors import ProjectionError
-from occ_model.scene.simulation_settings import Observable, SimulationSettings
+from occ_model.scene.scene import Observable, SimulationSettings
 
 _SHARP_NOISE = 1e-9  # noise in grey levels that stands for none
 

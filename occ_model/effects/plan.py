@@ -11,11 +11,11 @@ from occ_model.effects.estimates import Estimates, estimates_of
 from occ_model.effects.paper_view import PaperView, paper_view_of
 from occ_model.effects.registry import EFFECTS, NAMES
 from occ_model.results.plan import Decision, EffectSet, Plan
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import (
+from occ_model.scene.scene import (
     TOLERANCE,
     NoiseSource,
     Observable,
+    Scene,
     SimulationSettings,
     unit_of,
 )

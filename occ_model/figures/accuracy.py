@@ -15,8 +15,7 @@ from occ_model import colours
 from occ_model.figures.drawing import Drawing, settings_notes
 from occ_model.results.accuracy import ACCURACY_PARTS, CHAINED_PARTS, LEAST_ERROR, AccuracyPoint
 from occ_model.scene.provenance import Provenance
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.scene.units import LEVEL
 
 _MARKERS = dict(zip(ACCURACY_PARTS, ("o", "s", "^", "v", "D"), strict=True))

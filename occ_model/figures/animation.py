@@ -24,8 +24,7 @@ from occ_model.scene.declaration import in_sentence
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import parameter_named
 from occ_model.scene.provenance import Provenance
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.simulation.band_model import band_profile
 from occ_model.simulation.render import render_with
 from occ_model.study.cause.cause import cause_of

@@ -16,7 +16,7 @@ from occ_model.errors import OutputError, one_line
 from occ_model.figures.page import fit_texts
 from occ_model.files.writing import make_folder, write_atomically, write_whole
 from occ_model.scene.provenance import Provenance
-from occ_model.scene.simulation_settings import SimulationSettings, unit_of
+from occ_model.scene.scene import SimulationSettings, unit_of
 
 # The line styles differ too, so that the lines can be told apart in grey.
 SIMULATION = {"color": colours.SIMULATION, "linestyle": "-"}

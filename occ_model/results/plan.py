@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 from typing import Literal, TypeAlias
 
-from occ_model.scene.simulation_settings import Observable, unit_of
+from occ_model.scene.scene import Observable, unit_of
 
 Stage: TypeAlias = Literal[
     "light", "optics", "sensor", "processing"

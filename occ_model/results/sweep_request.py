@@ -8,8 +8,7 @@ from typing import Literal, TypeAlias
 
 from occ_model.results.bit_errors import FRAMES_A_SECOND, bits_a_second
 from occ_model.scene.parameter_kinds import ParameterValue
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import TOLERANCE
+from occ_model.scene.scene import TOLERANCE, Scene
 
 SignalPath: TypeAlias = Literal["auto", "profile", "rows", "image"]
 """How a decoder's signal is simulated: "profile" as column means, "rows" from a sample of the

@@ -21,11 +21,12 @@ from occ_model.results.decoding import Region
 from occ_model.results.plan import Plan
 from occ_model.room.room import Room, RoomLamp
 from occ_model.room.view import LampView, lamps_in_view
-from occ_model.scene.scene import Pose, Scene
-from occ_model.scene.simulation_settings import (
+from occ_model.scene.scene import (
     TOLERANCE,
     NoiseSource,
     Observable,
+    Pose,
+    Scene,
     SimulationSettings,
 )
 from occ_model.simulation.columns import expose_columns

@@ -12,8 +12,7 @@ from occ_model.camera.photometry import saturation_value
 from occ_model.camera.picture_rows import Rows
 from occ_model.camera.row_interpolation import find_smooth_columns
 from occ_model.effects.effect import NoiseEffect
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import NoiseSource
+from occ_model.scene.scene import NoiseSource, Scene
 
 Drawn: TypeAlias = Callable[[], Sequence[tuple[Sequence[NoiseEffect], Pixels]]]
 """Returns numbers of the standard normal distribution, shape (rows, columns), which the caller may

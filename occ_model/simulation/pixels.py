@@ -25,7 +25,7 @@ from occ_model.effects.paper_view import PaperView
 from occ_model.effects.registry import effects_planned
 from occ_model.parallel.job import Heartbeat
 from occ_model.results.plan import Plan
-from occ_model.scene.simulation_settings import NoiseSource, Observable
+from occ_model.scene.scene import NoiseSource, Observable
 from occ_model.simulation.columns import ColumnMeans, Columns
 from occ_model.simulation.draft_error import DraftedPanel
 from occ_model.simulation.noise import NOISE_MAKERS, Drawn, NoiseMaker, NoiseSpread

@@ -20,11 +20,11 @@ from occ_model.parallel.job import Heartbeat
 from occ_model.results.frame import Frame
 from occ_model.results.plan import Plan
 from occ_model.scene.argument_checks import check_count
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import (
+from occ_model.scene.scene import (
     TOLERANCE,
     NoiseSource,
     Observable,
+    Scene,
     SimulationSettings,
 )
 from occ_model.simulation.columns import Columns, expose_columns

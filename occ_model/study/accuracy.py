@@ -26,8 +26,7 @@ from occ_model.effects.registry import effects_planned
 from occ_model.results.accuracy import CLOSED_FORM, AccuracyPoint
 from occ_model.results.plan import Plan
 from occ_model.scene.argument_checks import check_seed
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import NOISE_SOURCES, SimulationSettings
+from occ_model.scene.scene import NOISE_SOURCES, Scene, SimulationSettings
 from occ_model.simulation.columns import expose_columns
 from occ_model.simulation.noise import NoiseSpread
 from occ_model.simulation.render import observe, render

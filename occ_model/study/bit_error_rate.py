@@ -14,8 +14,7 @@ from occ_model.results.decoding import PAPER_DECODER
 from occ_model.results.plan import Plan
 from occ_model.results.sweep_request import RateSettings, SignalPath
 from occ_model.scene.argument_checks import check_count
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import TOLERANCE
+from occ_model.scene.scene import TOLERANCE, Scene
 from occ_model.study.confidence import wilson_interval
 from occ_model.study.success_rate import check_rate, plan_of_images, right_bits_of_images
 from occ_model.study.theory import panel_readout_time

@@ -13,8 +13,7 @@ from occ_model.effects.plan import effect_sets_of, plan, plan_with
 from occ_model.effects.registry import EFFECTS
 from occ_model.results.accuracy import EffectCrop, EffectDifference, Forecast, MeasuredCosts
 from occ_model.results.plan import EffectSet, Plan
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import NoiseSource, Observable, SimulationSettings
+from occ_model.scene.scene import NoiseSource, Observable, Scene, SimulationSettings
 from occ_model.simulation.render import observe, render_plan
 from occ_model.simulation.stage_timer import StageTimer
 

@@ -20,8 +20,7 @@ from occ_model.results.limits import Advice, Limits, TheoryLimits
 from occ_model.results.sweep_request import RateSettings, SignalPath
 from occ_model.scene.argument_checks import check_count, is_number
 from occ_model.scene.parameters import PARAMETERS
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import TOLERANCE, SimulationSettings
+from occ_model.scene.scene import TOLERANCE, Scene, SimulationSettings
 from occ_model.study import theory
 from occ_model.study.cause.cause import cause_of
 from occ_model.study.cause.timing import reads_two_headers

@@ -19,8 +19,7 @@ from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.argument_checks import check_count, check_seed
 from occ_model.scene.parameters import quantity
 from occ_model.scene.payload import MAX_PAYLOAD_BITS
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.study.bit_error_rate import check_frame_rate, with_payload
 from occ_model.study.cause.cause import cause_of
 from occ_model.study.success_rate import right_bits_of_images

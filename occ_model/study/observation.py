@@ -24,8 +24,7 @@ from occ_model.receiver.signal import bright_level, column_means, locate
 from occ_model.results.decoding import DecodeResult, Region
 from occ_model.results.plan import Plan
 from occ_model.results.sweep_request import SignalPath
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.simulation.columns import Columns, expose_columns
 from occ_model.simulation.render import render_plan
 from occ_model.simulation.row_sample import SampledPicture, sample_picture

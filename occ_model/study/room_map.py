@@ -19,7 +19,7 @@ from occ_model.room.reading import ReadLamp, code_sent
 from occ_model.room.render import RoomFrame, render_room
 from occ_model.room.room import Room
 from occ_model.scene.argument_checks import check_count, check_seed
-from occ_model.scene.simulation_settings import TOLERANCE
+from occ_model.scene.scene import TOLERANCE
 from occ_model.study.sweep.sweep import Progress, measure_study
 from occ_model.study.sweep.workers import StudyWork
 from occ_model.version import __version__

@@ -20,8 +20,7 @@ from occ_model.results.decoding import PAPER_DECODER, DecodeResult, Region
 from occ_model.results.plan import Plan
 from occ_model.results.sweep_request import MOST_IMAGES, SIGNAL_PATHS, RateSettings, SignalPath
 from occ_model.scene.argument_checks import check_choice, check_count, check_seed, check_switches
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import TOLERANCE, SimulationSettings
+from occ_model.scene.scene import TOLERANCE, Scene, SimulationSettings
 from occ_model.study.observation import Observation, observe, panel_span
 from occ_model.transmitter.scheme import sent_chips
 

@@ -13,8 +13,7 @@ from occ_model.errors import ParameterError
 from occ_model.results.video import Video, VideoFrame
 from occ_model.scene.argument_checks import check_count
 from occ_model.scene.recording import Recording
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.simulation.render import render_with
 from occ_model.transmitter.scheme import sent_chips
 

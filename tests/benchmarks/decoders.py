@@ -32,8 +32,7 @@ from occ_model.effects.paper_view import paper_view_of
 from occ_model.effects.plan import plan_of
 from occ_model.effects.registry import NAMES
 from occ_model.receiver.decode import DECODERS
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.simulation.row_sample import sample_picture
 from occ_model.study.bit_error_rate import with_payload
 from occ_model.study.observation import observe_profile, observe_sample, panel_span

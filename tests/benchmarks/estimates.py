@@ -28,8 +28,7 @@ from physics.effect_world import (
 )
 
 import occ_model as occ
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import Observable
+from occ_model.scene.scene import Observable, Scene
 
 BEFORE_DECISION: tuple[Observable, ...] = ("image", "profile", "signal")
 TOLERANCES = (0.5, 2.0, 8.0)

@@ -24,8 +24,7 @@ import occ_model as occ
 from occ_gui.app.command_line import start
 from occ_gui.core.workspace import Workspace
 from occ_gui.simulation.snapshot import Picture, Reading
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.scene.scene import Scene, SimulationSettings
 
 _WARM_UP = 5
 _DRAG_SECONDS = 3.0

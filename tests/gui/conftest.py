@@ -30,8 +30,7 @@ from occ_gui.simulation import controller
 from occ_model.parallel.job import Job, JobResult, do_job
 from occ_model.photo.reading.load import Photo
 from occ_model.results.match import Match
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.simulation.render import render_with
 
 

@@ -16,8 +16,7 @@ from occ_gui.simulation.controller import simulate
 from occ_gui.simulation.snapshot import Snapshot
 from occ_model.results.decoding import DecodeResult
 from occ_model.results.frame import PICTURES
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.scene.scene import Scene, SimulationSettings
 
 Grey: TypeAlias = NDArray[np.uint8]
 GreyPicture: TypeAlias = Callable[[QWidget], Grey]

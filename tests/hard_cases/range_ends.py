@@ -33,8 +33,7 @@ from occ_model.scene.light_samples import MOST_LEVELS, MOST_SAMPLES
 from occ_model.scene.light_text import LightText
 from occ_model.scene.parameter_kinds import ChipPattern, Choice, ParameterValue, Payload
 from occ_model.scene.parameters import PARAMETERS
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import OBSERVABLES
+from occ_model.scene.scene import OBSERVABLES, Scene
 from occ_model.study import theory
 from occ_model.study.bands.advice import cure_of
 from occ_model.study.bands.least_depth import depth_map

@@ -18,8 +18,7 @@ from occ_model.effects.registry import NAMES
 from occ_model.scene.light_text import LightText
 from occ_model.scene.parameter_kinds import ChipPattern, Choice, Count, Payload
 from occ_model.scene.parameters import PARAMETERS
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import NOISE_SOURCES, OBSERVABLES, NoiseSource, Observable
+from occ_model.scene.scene import NOISE_SOURCES, OBSERVABLES, NoiseSource, Observable, Scene
 
 Made = TypeVar("Made")
 

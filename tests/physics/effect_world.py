@@ -10,8 +10,7 @@ import occ_model as occ
 from occ_model.results.plan import Plan
 from occ_model.scene.parameter_kinds import ParameterValue, Quantity
 from occ_model.scene.parameters import PARAMETERS
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import Observable
+from occ_model.scene.scene import Observable, Scene
 from occ_model.simulation.render import observe
 
 NOTHING: dict[str, ParameterValue] = {

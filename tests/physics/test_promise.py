@@ -18,8 +18,7 @@ from physics.effect_world import (
 )
 
 import occ_model as occ
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import Observable
+from occ_model.scene.scene import Observable, Scene
 
 SCENES = amount(4, 40)
 

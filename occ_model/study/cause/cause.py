@@ -23,8 +23,7 @@ from occ_model.results.decoding import Cause, Remedy
 from occ_model.results.sweep_request import SignalPath
 from occ_model.scene.declaration import in_sentence
 from occ_model.scene.parameters import quantity
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.scene.units import PERCENT
 from occ_model.study import theory
 from occ_model.study.cause.brightness import (

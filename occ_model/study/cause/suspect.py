@@ -5,8 +5,7 @@ from dataclasses import dataclass, replace
 
 from occ_model.results.decoding import Remedy
 from occ_model.scene.parameter_kinds import ParameterValue
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.scene.scene import Scene, SimulationSettings
 
 
 @dataclass(frozen=True, slots=True)

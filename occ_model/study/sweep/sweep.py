@@ -20,8 +20,7 @@ from occ_model.results.sweep_request import (
 )
 from occ_model.scene.argument_checks import check_count
 from occ_model.scene.parameter_kinds import ParameterValue
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import TOLERANCE
+from occ_model.scene.scene import TOLERANCE, Scene
 from occ_model.study.sweep.points import PointValues, SweepCounts, measure_points, rate_intervals
 from occ_model.study.sweep.request_check import build_request, decoders_of, processes_for
 from occ_model.study.sweep.results_file import Point, ResultsFile, TableText

@@ -13,7 +13,7 @@ from occ_gui.accuracy.named_points import choose_points
 from occ_gui.widgets.axes import NUMBER_LENGTH, LogAxis
 from occ_model.effects.plan import effect_sets_of
 from occ_model.results.accuracy import LEAST_ERROR, AccuracyPoint, Forecast
-from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.scene.scene import SimulationSettings
 
 ALL = ("vignetting", "jpeg")
 POINTS = (

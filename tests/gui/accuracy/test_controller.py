@@ -27,8 +27,7 @@ from occ_model.results.accuracy import (
     MeasuredCosts,
     TimeFractions,
 )
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.study import effect_differences
 
 IDLE_MS = 20

@@ -20,8 +20,7 @@ import occ_model as occ
 from occ_gui.app.error_reports import HARMLESS_MESSAGE, ErrorReports, log_qt_messages
 from occ_gui.app.panes import picture
 from occ_gui.app.report import report_text, show_report
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.scene.scene import Scene, SimulationSettings
 
 STILL_THERE = "Your work is still there."
 

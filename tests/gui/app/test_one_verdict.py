@@ -32,8 +32,7 @@ from occ_model.cli import main
 from occ_model.parallel.job import do_job
 from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.parameter_kinds import ParameterValue
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.study import working_range as module
 from occ_model.study.success_rate import count_right_and_whole, right_bits_of_images
 from occ_model.study.sweep.points import measure_points

@@ -25,8 +25,7 @@ from occ_gui.files.session import Session, SessionFile, restore_workspace
 from occ_gui.files.session_record import KeptSession
 from occ_gui.values.choices import RoomChoice
 from occ_gui.values.modes import MODES
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.scene.scene import Scene, SimulationSettings
 
 LEFT = Qt.DockWidgetArea.LeftDockWidgetArea
 

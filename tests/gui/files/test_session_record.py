@@ -24,8 +24,7 @@ from occ_gui.values.choices import (
 from occ_gui.values.simulated import PinnedScene, SimulationRequest
 from occ_model.results.decoding import Region
 from occ_model.scene.recording import Recording
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.scene.scene import Scene, SimulationSettings
 
 HERE = Path(__file__)
 

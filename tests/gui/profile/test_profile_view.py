@@ -20,8 +20,7 @@ from occ_model.camera.enhancement import enhance
 from occ_model.photo.reading.load import Photo
 from occ_model.results.decoding import DecodeResult, Region
 from occ_model.results.match import ChipReading, Comparison
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.scene.scene import Scene, SimulationSettings
 
 
 @pytest.fixture

@@ -10,8 +10,7 @@ from pytestqt.qtbot import QtBot
 from occ_gui.core.store import NO_GESTURE
 from occ_gui.scene import scene_store
 from occ_gui.scene.scene_store import Gestures, SceneStore, new_gesture
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.scene.scene import Scene, SimulationSettings
 
 
 @pytest.fixture

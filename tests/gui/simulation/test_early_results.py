@@ -20,8 +20,7 @@ from occ_model.effects import plan
 from occ_model.effects.paper_view import PaperView
 from occ_model.effects.plan import plan_of
 from occ_model.results.plan import Plan
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.simulation import render
 from occ_model.simulation.render import render_with
 

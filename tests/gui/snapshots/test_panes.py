@@ -37,8 +37,7 @@ from occ_model.results.accuracy import Forecast
 from occ_model.results.bit_errors import BenchPoint, BitErrors
 from occ_model.results.match import Alternative
 from occ_model.results.sweep_request import SweepPoint
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.study.effect_differences import CompleteSimulation
 from occ_model.teaching.equations import equations
 from occ_model.teaching.light_over_columns import exposure_window

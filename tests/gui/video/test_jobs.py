@@ -24,8 +24,7 @@ from occ_model.errors import OccError
 from occ_model.results.sent_packets import FilmPart, PacketReading, SentPackets
 from occ_model.results.video import Video
 from occ_model.results.video_reading import FilmProgress, FrameReading, VideoReading
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.study.reading_facts import error_rate, film_facts
 
 

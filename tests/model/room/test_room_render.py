@@ -15,7 +15,7 @@ from occ_model.effects.plan import plan_of
 from occ_model.room.render import render_room
 from occ_model.room.room import Place, Room, RoomLamp
 from occ_model.room.view import lamps_in_view, seen_outline
-from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.scene.scene import SimulationSettings
 
 SMALL = {"rows": 600, "columns": 800}
 TURNED = {"yaw": 0.2, "pitch": -0.1, "roll": 0.3, "start_time": 1e-3}

@@ -7,8 +7,7 @@ import pytest
 
 import occ_model as occ
 from occ_model.effects.sensor_effects import Jpeg
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.simulation.render import render_with
 
 NOISELESS = {"sensor-noise": False, "fixed-pattern": False, "jpeg": False}

@@ -12,8 +12,7 @@ import pytest
 import occ_model as occ
 from occ_model.camera.exposure import lit_fraction
 from occ_model.camera.projection import panel_corners
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.simulation.render import plan_scene, render_with
 
 COSTLY = {work.__code__: work.__name__ for work in (lit_fraction, panel_corners)}

@@ -7,8 +7,7 @@ import pytest
 
 import occ_model as occ
 from occ_model.results.accuracy import EffectDifference, MeasuredCosts, TimeFractions
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import OBSERVABLES, Observable, SimulationSettings
+from occ_model.scene.scene import OBSERVABLES, Observable, Scene, SimulationSettings
 from occ_model.study.effect_differences import (
     CROP,
     CompleteSimulation,

@@ -11,8 +11,7 @@ import occ_model as occ
 from occ_model.receiver.decode import QUICK_DECODERS
 from occ_model.receiver.signal import locate
 from occ_model.results.decoding import Region
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.study.drawn_region import BrightFractions, _more_than
 from occ_model.study.observation import read_profile
 

@@ -6,7 +6,7 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
-from occ_gui.bands.jobs import ShownBands
+from occ_gui.bands.jobs import SceneBars
 from occ_gui.widgets.axes import LogAxis
 from occ_gui.widgets.building import fill, paragraph
 from occ_gui.widgets.colours import BAND, SIMULATION, lighten_for, thin
@@ -18,7 +18,7 @@ _VALLEYS = 8  # lines that are drawn: those above lie closer than the cells
 
 _DEPTHS = (1e-3, 1.0)
 
-_KINDS = (1.0, 2.0, 5.0)
+_KINDS = (1.0, 3.0)
 
 _MODULATIONS = (0.01, 200.0)
 _FREQUENCIES = (1.0, 1e4)
@@ -38,8 +38,7 @@ class DepthPlot(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self.plot = new_plot(
-            "Least depth of the bars", quantity("switching_frequency").label,
-            quantity("exposure_time").label, self.palette(),
+            "Least depth of the bars", "", quantity("exposure_time").label, self.palette(),
         )  # fmt: skip
         self.image = pg.ImageItem()
         self.image.setLookupTable(pg.colormap.get("viridis").getLookupTable(nPts=256))
@@ -59,27 +58,27 @@ class DepthPlot(QWidget):
         fill(QVBoxLayout(self), (self.plot, 1), self.legend, margins=0)
         self.plot.scene().sigMouseClicked.connect(self._on_click)
 
-    def show_depths(self, found: ShownBands) -> None:
+    def show_depths(self, bars: SceneBars) -> None:
+        depths = bars.map
         low, high = np.log10(_DEPTHS)
-        fractions = (np.log10(np.maximum(found.map.least, _DEPTHS[0])) - low) / (high - low)
+        fractions = (np.log10(np.maximum(depths.least, _DEPTHS[0])) - low) / (high - low)
         self.image.setImage(np.clip(255.0 * fractions, 0.0, 255.0), levels=(0.0, 255.0))
-        left, right = np.log10(found.map.frequencies[[0, -1]])
-        bottom, top = np.log10(found.map.exposures[[0, -1]])
+        left, right = np.log10(depths.frequencies[[0, -1]])
+        bottom, top = np.log10(depths.exposures[[0, -1]])
         self.image.setRect(QRectF(left, bottom, right - left, top - bottom))
+        self.plot.setLabel("bottom", depths.axis.label)
         self._name_ticks("bottom", HERTZ, _KINDS, left, right)
         self._name_ticks("left", SECOND, _KINDS[:1], bottom, top)
         self.plot.setXRange(left, right, padding=0)
         self.plot.setYRange(bottom, top, padding=0)
         for order, line in enumerate(self.valleys, 1):
-            line.setVisible(found.map.period > 0)
-            above = np.log10(order * max(found.map.period, 1))
+            line.setVisible(depths.period > 0)
+            above = np.log10(order * (depths.period or 1.0))
             line.setData([left, right], [above - left, above - right])
-        scene = found.scene
         self.setting.setData(
-            [np.log10(scene.transmitter.switching_frequency)],
-            [np.log10(scene.camera.exposure_time)],
+            [np.log10(depths.axis.frequency)], [np.log10(bars.scene.camera.exposure_time)]
         )
-        self.plot.setAccessibleDescription(found.advice.sentence)
+        self.plot.setAccessibleDescription(bars.advice.sentence)
 
     def _name_ticks(
         self, side: str, unit: Unit, kinds: tuple[float, ...], low: float, high: float
@@ -129,19 +128,19 @@ class RiskPlot(QWidget):
         legends = ((legend, 0, Qt.AlignmentFlag.AlignLeft) for legend in (lines, points))
         fill(QVBoxLayout(self), *legends, (self.plot, 1), self.source, margins=0, spacing=2)
 
-    def show_flicker(self, found: ShownBands) -> None:
-        eye = found.eye
+    def show_flicker(self, bars: SceneBars) -> None:
+        eye = bars.eye
         for curve, line in (
-            (self.no_effect, found.lines.no_effect), (self.low_risk, found.lines.low_risk)
+            (self.no_effect, bars.lines.no_effect), (self.low_risk, bars.lines.low_risk)
         ):  # fmt: skip
             curve.setData(*np.log10(line).T)
         # Sines of nothing have no place on an axis of powers of ten.
-        seen = eye.modulations > _MODULATIONS[0]
-        self.sines.setData(np.log10(eye.frequencies[seen]), np.log10(eye.modulations[seen]))
-        is_seen = eye.percent_flicker > _MODULATIONS[0]
+        drawn = eye.modulations > _MODULATIONS[0]
+        self.sines.setData(np.log10(eye.frequencies[drawn]), np.log10(eye.modulations[drawn]))
+        flickers = eye.percent_flicker > _MODULATIONS[0]
         self.whole.setData(
-            [np.log10(eye.frequency)] if is_seen else [],
-            [np.log10(eye.percent_flicker)] if is_seen else [],
+            [np.log10(eye.frequency)] if flickers else [],
+            [np.log10(eye.percent_flicker)] if flickers else [],
         )
         low, high = _FREQUENCIES
         across = np.log10([low, max(high, _FREQUENCY_MARGIN * eye.frequency)])

@@ -13,7 +13,7 @@ from PySide6.QtWidgets import (
 )
 
 from occ_gui.bands.bands_plots import DepthPlot, RiskPlot
-from occ_gui.bands.jobs import ShownBands
+from occ_gui.bands.jobs import SceneBars
 from occ_gui.widgets.building import fill, make_read_only, paragraph
 from occ_gui.widgets.outdated_mark import OutdatedMark
 from occ_gui.widgets.text_scale import heading_font
@@ -79,13 +79,13 @@ class BandsView(QWidget):
     def show_failure(self, sentence: str) -> None:
         self.headline.setText(sentence)
 
-    def show_bands(self, found: ShownBands) -> None:
-        self.headline.setText(self._headline(found))
-        self.sentences.setText("\n".join(self._sentences(found)))
-        self.map.show_depths(found)
-        self.risk.show_flicker(found)
+    def show_bands(self, bars: SceneBars) -> None:
+        self.headline.setText(self._headline(bars))
+        self.sentences.setText("\n".join(self._sentences(bars)))
+        self.map.show_depths(bars)
+        self.risk.show_flicker(bars)
         is_first = not self._speeds
-        self._speeds = found.advice.speeds
+        self._speeds = bars.advice.speeds
         self.table.setRowCount(len(self._speeds))
         for row, speed in enumerate(self._speeds):
             cells = (
@@ -115,16 +115,17 @@ class BandsView(QWidget):
         )
         self.table.setMinimumWidth(columns + bar.sizeHint().width() + 2 * self.table.frameWidth())
 
-    def _headline(self, found: ShownBands) -> str:
-        depth = found.depth.peak_to_peak
-        exposure = SECOND.format(found.scene.camera.exposure_time, _DIGITS)
-        if depth < found.advice.limit:
+    def _headline(self, bars: SceneBars) -> str:
+        depth = bars.depth.peak_to_peak
+        exposure = SECOND.format(bars.scene.camera.exposure_time, _DIGITS)
+        if depth < bars.advice.limit:
             return f"No bars at {exposure}: {percent(depth)}"
-        bars = f"Bars of {percent(depth)} of the mean light at {exposure}"
-        return f"{bars}, not seen: {found.depth.hidden}" if found.depth.hidden else bars
+        headline = f"Bars of {percent(depth)} of the mean light at {exposure}"
+        hidden = bars.depth.hidden
+        return f"{headline}, not visible: {hidden}" if hidden else headline
 
-    def _sentences(self, found: ShownBands) -> list[str]:
-        depth, advice = found.depth, found.advice
+    def _sentences(self, bars: SceneBars) -> list[str]:
+        depth, advice = bars.depth, bars.advice
         lines = [
             f"RMS {percent(depth.rms)}; in the picture's columns "
             f"{percent(depth.columns.peak_to_peak)}, in pixel values "
@@ -136,9 +137,9 @@ class BandsView(QWidget):
             lines[-1] += (
                 f" From {SECOND.format(advice.all_exposures, 3)} on no exposure shows {limit}."
             )
-        if found.scene.transmitter.edge_time:
+        if bars.scene.transmitter.edge_time:
             lines.append("The map is of sharp edges: the LED's own make weaker bars.")
-        return [*lines, " ".join(found.eye.sentences)]
+        return [*lines, " ".join(bars.eye.sentences)]
 
 
 def _verdict(speed: SpeedDepth) -> tuple[str, str]:

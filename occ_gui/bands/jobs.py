@@ -11,7 +11,7 @@ from occ_model.study.bands.least_depth import depth_map
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class ShownBands:
+class SceneBars:
     """The bars of a scene, what shows none, the map of the least depth, and what the eye sees."""
 
     scene: Scene
@@ -22,8 +22,8 @@ class ShownBands:
     lines: RiskLines
 
 
-def shown_bands(scene: Scene) -> ShownBands:
-    return ShownBands(
+def compute_bars(scene: Scene) -> SceneBars:
+    return SceneBars(
         scene, band_depth(scene), band_advice(scene), depth_map(scene), eye_flicker(scene),
         risk_lines(),
     )  # fmt: skip

@@ -5,7 +5,7 @@ from PySide6.QtCore import QSize
 from occ_gui.background.result_age import ResultAges
 from occ_gui.background.task import Task
 from occ_gui.bands.bands_view import BandsView
-from occ_gui.bands.jobs import ShownBands, shown_bands
+from occ_gui.bands.jobs import SceneBars, compute_bars
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Pane
 from occ_gui.widgets.building import ScrollPane
@@ -23,7 +23,7 @@ class BandsPane(Pane[Scene]):
         super().__init__(ScrollPane(self.view, _LEAST))
         self._scenes = scenes
         self._ages, self._shown = ResultAges(scenes.scene), scenes.scene
-        self._task: Task[Scene, ShownBands] = Task(lambda scene, _: shown_bands(scene), "bars")
+        self._task: Task[Scene, SceneBars] = Task(lambda scene, _: compute_bars(scene), "bars")
         self.tasks = (self._task,)
         self._task.finished.connect(self._show)
         self._task.failed.connect(self._fail)
@@ -34,7 +34,7 @@ class BandsPane(Pane[Scene]):
         self._mark("computing…")
         self._task.ask(part)
 
-    def _show(self, found: ShownBands) -> None:
+    def _show(self, found: SceneBars) -> None:
         self._shown = found.scene
         self.view.show_bands(found)
         self._mark("computing…")

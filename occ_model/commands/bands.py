@@ -37,24 +37,24 @@ def _run(options: argparse.Namespace) -> int:
     return 0
 
 
-def _depth_lines(scene: Scene, found: BandDepth) -> list[str]:
+def _depth_lines(scene: Scene, depth: BandDepth) -> list[str]:
     exposure = SECOND.format(scene.camera.exposure_time)
-    columns = "none" if found.period == math.inf else f"{found.period:.4g} columns"
-    if scene.camera.columns < found.period < math.inf:
+    columns = "none" if depth.period == math.inf else f"{depth.period:.4g} columns"
+    if scene.camera.columns < depth.period < math.inf:
         columns = f"more than the picture's {scene.camera.columns} columns"
     return [
-        f"Bars at {exposure}: {percent(found.peak_to_peak)} of the mean light peak to peak, "
-        f"{percent(found.rms)} RMS;",
-        f"  in the picture's columns {percent(found.columns.peak_to_peak)} and "
-        f"{percent(found.columns.rms)}, in pixel values {percent(found.pixel.peak_to_peak)} and "
-        f"{percent(found.pixel.rms)}; from bar to bar: {columns}.",
-        f"  {found.sentence}",
+        f"Bars at {exposure}: {percent(depth.peak_to_peak)} of the mean light peak to peak, "
+        f"{percent(depth.rms)} RMS;",
+        f"  in the picture's columns {percent(depth.columns.peak_to_peak)} and "
+        f"{percent(depth.columns.rms)}, in pixel values {percent(depth.pixel.peak_to_peak)} and "
+        f"{percent(depth.pixel.rms)}; from bar to bar: {columns}.",
+        f"  {depth.sentence}",
     ]
 
 
 def _advice_lines(scene: Scene, advice: BandAdvice) -> list[str]:
     limit = f"{100.0 * advice.limit:.3g} %"
-    frequency = HERTZ.format(scene.transmitter.switching_frequency, _DIGITS)
+    frequency = HERTZ.format(advice.axis.frequency, _DIGITS)
     exposure = SECOND.format(scene.camera.exposure_time)
     exposures = [_format_range(SECOND, ends) for ends in advice.exposures]
     frequencies = [_format_range(HERTZ, ends) for ends in advice.frequencies]
@@ -62,7 +62,7 @@ def _advice_lines(scene: Scene, advice: BandAdvice) -> list[str]:
         advice.sentence,
         f"At {frequency} exposures with less than {limit}: "
         f"{_list_ranges(exposures, advice.all_exposures, SECOND)}.",
-        f"At {exposure} switching frequencies with less than {limit}: "
+        f"At {exposure}, by {advice.axis.label.lower()}, less than {limit}: "
         f"{_list_ranges(frequencies, advice.all_frequencies, HERTZ)}.",
     ]
     if scene.transmitter.edge_time:

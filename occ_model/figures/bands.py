@@ -23,19 +23,18 @@ _MIN_MODULATION = 0.01  # percent, at the lower end of the chart
 
 
 def bands_drawing(scene: Scene) -> Drawing:
-    found = depth_map(scene)
+    depths = depth_map(scene)
 
     def rows() -> Iterable[tuple[object, ...]]:
-        for i, of_frequency in enumerate(found.least.tolist()):
-            middle = float(np.sqrt(found.frequencies[i] * found.frequencies[i + 1]))
+        for i, of_frequency in enumerate(depths.least.tolist()):
+            middle = float(np.sqrt(depths.frequencies[i] * depths.frequencies[i + 1]))
             for j, depth in enumerate(of_frequency):
-                yield middle, *found.exposures[j : j + 2].tolist(), 100.0 * depth
+                yield middle, *depths.exposures[j : j + 2].tolist(), 100.0 * depth
 
-    header = (
-        "switching frequency (Hz)", "exposure from (s)", "exposure to (s)", "least depth (%)"
-    )  # fmt: skip
+    axis = f"{depths.axis.label.lower()} (Hz)"
+    header = (axis, "exposure from (s)", "exposure to (s)", "least depth (%)")
     title = "Least depth of the bars over frequency and exposure"
-    return Drawing("bands", title, lambda: _draw_map(scene, found), header, rows)
+    return Drawing("bands", title, lambda: _draw_map(scene, depths), header, rows)
 
 
 def flicker_drawing(scene: Scene) -> Drawing:
@@ -58,31 +57,32 @@ def flicker_drawing(scene: Scene) -> Drawing:
     )
 
 
-def _draw_map(scene: Scene, found: DepthMap) -> Figure:
+def _draw_map(scene: Scene, depths: DepthMap) -> Figure:
     figure = Figure(figsize=(5.6, 4.2))
     ax = figure.subplots()
     mesh = ax.pcolormesh(
-        found.frequencies, found.exposures, 100.0 * np.maximum(found.least, 1e-30).T,
+        depths.frequencies, depths.exposures, 100.0 * np.maximum(depths.least, 1e-30).T,
         norm=LogNorm(*_DEPTHS), cmap="viridis", rasterized=True,
     )  # fmt: skip
-    ends = found.frequencies[[0, -1]]
-    for order in range(1, _MAX_VALLEY_LINES + 1 if found.period else 1):
+    ends = depths.frequencies[[0, -1]]
+    for order in range(1, _MAX_VALLEY_LINES + 1 if depths.period else 1):
         label = "exposures of whole periods" if order == 1 else None
-        valley = order * found.period / ends
+        valley = order * depths.period / ends
         ax.plot(ends, valley, color="white", linewidth=0.5, label=label)
     ax.plot(
-        [scene.transmitter.switching_frequency], [scene.camera.exposure_time], "o",
+        [depths.axis.frequency], [scene.camera.exposure_time], "o",
         markerfacecolor="white", markeredgecolor="black", label="the scene", linestyle="",
         clip_on=True,
     )  # fmt: skip
     ax.set_xscale("log")
     ax.set_yscale("log")
     ax.set_xlim(*ends.tolist())
-    ax.set_ylim(*found.exposures[[0, -1]].tolist())
-    for axis, name, unit in (
-        (ax.xaxis, "switching_frequency", HERTZ), (ax.yaxis, "exposure_time", SECOND)
-    ):  # fmt: skip
-        axis.set_label_text(quantity(name).label)
+    ax.set_ylim(*depths.exposures[[0, -1]].tolist())
+    for axis, label, unit in (
+        (ax.xaxis, depths.axis.label, HERTZ),
+        (ax.yaxis, quantity("exposure_time").label, SECOND),
+    ):
+        axis.set_label_text(label)
         axis.set_major_formatter(_format_in(unit))
     ax.legend(loc="upper right", fontsize=7, facecolor="0.75")
     figure.colorbar(mesh, ax=ax, label="least depth (%), peak to peak", extend="both")
@@ -103,9 +103,9 @@ def _draw_chart(scene: Scene, eye: EyeFlicker) -> Figure:
         (lines.no_effect, "below: no observable effect", "--"),
     ):  # fmt: skip
         ax.plot(line[:, 0], line[:, 1], look, color=colours.BAND, label=name)
-    seen = eye.modulations > _MIN_MODULATION
+    drawn = eye.modulations > _MIN_MODULATION
     ax.plot(
-        eye.frequencies[seen], eye.modulations[seen], ".", color=colours.SIMULATION, linestyle="",
+        eye.frequencies[drawn], eye.modulations[drawn], ".", color=colours.SIMULATION, linestyle="",
         label="its sines",
     )  # fmt: skip
     ax.plot(

@@ -44,7 +44,7 @@ class BandDepth:
     contrast
         Depth, peak to peak, of the picture on a display of exponent 2.2.
     threshold
-        Contrast from which bars of this period are seen.
+        Contrast from which bars of this period are visible.
     hidden
         What keeps the picture from showing the light's bars, as a clause; empty where nothing does.
     """
@@ -75,12 +75,12 @@ class BandDepth:
 
     @property
     def sentence(self) -> str:
-        """Whether the picture's bars are seen, or what hides them."""
+        """Whether the picture's bars are visible, or what hides them."""
         if self.hidden:
-            return f"Not seen, since {self.hidden}."
+            return f"Not visible, since {self.hidden}."
         return (
             f"{'Visible' if self.is_visible else 'Not visible'} on a display: there "
-            f"{percent(self.contrast)} of the mean light peak to peak, seen from "
+            f"{percent(self.contrast)} of the mean light peak to peak, visible from "
             f"{percent(self.threshold)}."
         )
 
@@ -109,11 +109,22 @@ class SpeedDepth:
 
 
 @dataclass(frozen=True, slots=True)
+class FrequencyAxis:
+    """The frequency of a light that its owner can vary."""
+
+    parameter: str  # Whose range it has
+    frequency: float  # The scene's, in Hz
+    label: str
+
+
+@dataclass(frozen=True, slots=True)
 class BandAdvice:
     """Exposures without bars at the scene's frequency, and frequencies at its exposure.
 
     Parameters
     ----------
+    axis
+        The frequency to which ``frequencies`` belong.
     limit
         Depth, peak to peak, below which there are no bars.
     valley, flicker_valley
@@ -128,6 +139,7 @@ class BandAdvice:
         Usual shutter speeds, longest first.
     """
 
+    axis: FrequencyAxis
     limit: float
     valley: float
     flicker_valley: float
@@ -154,16 +166,20 @@ class BandAdvice:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class DepthMap:
-    """Least depth of the bars over frequency and exposure, both in even steps of logarithms."""
+    """Least depth of the bars over frequency and exposure, both in even steps of logarithms.
 
+    Where the light has levels between dark and lit, or many pieces, it is an upper bound.
+    """
+
+    axis: FrequencyAxis
     # Shapes (n + 1,), (m + 1,): ends of the cells, in Hz and s
     frequencies: FloatArray
     exposures: FloatArray
     # Shape (n, m): least depth within the exposures of each cell, at its middle frequency
     least: FloatArray
-    # Chips after which the lamp's light repeats: bars vanish at its integer multiples; 0 for a
-    # steady one
-    period: int
+    # Cycles of the frequency after which the lamp's light repeats: bars vanish at its integer
+    # multiples; 0 for a steady one
+    period: float
 
 
 @dataclass(frozen=True, eq=False, slots=True)

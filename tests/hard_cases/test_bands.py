@@ -1,6 +1,7 @@
 """Bars: their depth from a hundredth to a thousand periods of exposure, in exact fractions."""
 
 from fractions import Fraction
+from typing import Any
 
 import mpmath
 from hypothesis import strategies as st
@@ -56,21 +57,30 @@ def test_a_pulse_s_bars_are_as_deep_as_its_closed_form(duty: float, periods: flo
     assert error < 1e-12
 
 
+LAMPS = st.one_of(
+    st.floats(1e-3, 1.0 - 1e-3).map(lambda duty: (duty, {"light": "lamp", "duty": duty}, 1)),
+    st.integers(2, 60).flatmap(lambda n: st.tuples(st.integers(1, n - 1), st.just(n))).map(
+        lambda of: (Fraction(*of), {"pattern": "1" * of[0] + "0" * (of[1] - of[0])}, of[1])
+    ),
+)  # fmt: skip
+
+
 @cases(
-    chips=st.integers(2, 60).flatmap(lambda n: st.tuples(st.integers(1, n - 1), st.just(n))),
-    frequency=decades(1.0, 1e5), periods=st.one_of(PERIODS, st.integers(1, 1000).map(float)),
+    lamp=LAMPS, frequency=decades(1.0, 1e5),
+    periods=st.one_of(PERIODS, st.integers(1, 1000).map(float)),
 )  # fmt: skip
 def test_a_lamp_s_bars_are_as_deep_as_its_closed_form(
-    chips: tuple[int, int], frequency: float, periods: float
+    lamp: tuple[Fraction | float, dict[str, Any], int], frequency: float, periods: float
 ) -> None:
-    lit, count = chips
+    duty, light, chips = lamp
     scene = Scene().replace(
-        pattern="1" * lit + "0" * (count - lit), switching_frequency=frequency * count,
+        **light, lamp_frequency=frequency, switching_frequency=frequency * chips,
         exposure_time=within("exposure_time", periods / frequency), illuminance=0.0,
     )  # fmt: skip
-    rate = Fraction(scene.transmitter.switching_frequency) / count
+    # Of chips, the rounded switching frequency is that which is sent.
+    rate = Fraction(frequency if chips == 1 else scene.transmitter.switching_frequency) / chips
     held = Fraction(scene.camera.exposure_time) * rate
     # Where a rounded time leaves nearly nothing of a period, what counts is small beside the mean.
-    error = worst(light_depth(scene), Fraction(lit, count), held)
+    error = worst(light_depth(scene), Fraction(duty), held)
     record("depth of a lamp's bars, of itself", f"{RANGES}, 1 Hz to 100 kHz", error)
     assert error < 1e-9

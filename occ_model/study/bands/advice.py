@@ -10,8 +10,9 @@ from occ_model.errors import ParameterError
 from occ_model.results.bands import NO_BARS_DEPTH, BandAdvice, Cure, ShutterSpeed, SpeedDepth
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
-from occ_model.study.bands.depth import duty, light_depth
+from occ_model.study.bands.depth import light_depth, mean_light
 from occ_model.study.bands.least_depth import MAX_NODES, DepthOver
+from occ_model.study.bands.sines import repeat_time
 
 _MIN_LIMIT = 1e-4
 
@@ -26,8 +27,9 @@ Ranges = tuple[tuple[float, float], ...]
 def band_advice(scene: Scene, limit: float = NO_BARS_DEPTH) -> BandAdvice:
     """Find exposures, frequencies and shutter speeds with bars below a depth.
 
-    Exposures hold at the scene's switching frequency, frequencies at its exposure time. Both are
-    computed for sharp edges, the worst case; the depth at shutter speeds includes the LED's edges.
+    Exposures hold at the scene's frequency of the lamp or of switching, frequencies at its exposure
+    time. Both are computed for sharp edges, the worst case; the depth at shutter speeds includes
+    the LED's edges. In none of the ranges is the depth above the limit.
 
     Parameters
     ----------
@@ -44,12 +46,12 @@ def band_advice(scene: Scene, limit: float = NO_BARS_DEPTH) -> BandAdvice:
         raise ParameterError.of(
             "limit", f"{100.0 * limit:g} %", f"{100.0 * _MIN_LIMIT:g} % to 100 %"
         )
-    frequency = scene.transmitter.switching_frequency
-    exposures, all_exposures = _exposures(over, frequency, limit)
+    exposures, all_exposures = _exposures(over, limit)
     frequencies, all_frequencies = _frequencies(over, scene.camera.exposure_time, limit)
     return BandAdvice(
+        over.axis,
         limit,
-        over.period / frequency if over.most else 0.0,
+        over.period / over.axis.frequency,
         1.0 / over.flicker_frequency if over.of_flicker else 0.0,
         exposures,
         all_exposures,
@@ -71,32 +73,30 @@ def speed_depths(scene: Scene) -> tuple[SpeedDepth, ...]:
     )
 
 
-def _exposures(over: DepthOver, frequency: float, limit: float) -> tuple[Ranges, float | None]:
-    allowed = quantity("exposure_time")
-    # The code's bars fall as 1 / (f t), the flicker's as 1 / (pi F t).
+def _exposures(over: DepthOver, limit: float) -> tuple[Ranges, float | None]:
+    allowed, frequency = quantity("exposure_time"), over.axis.frequency
+    # The lamp's bars fall as 1 / (f t), the flicker's as 1 / (pi F t).
     end = (over.most / frequency + over.most_flicker / over.flicker_frequency) / limit
-    nodes = [
-        np.arange(1, int(min(end * rate, MAX_NODES)) + 1) / rate
-        for rate in (frequency, over.flicker_frequency)
-    ]
+    nulls = np.arange(1, int(min(end * over.flicker_frequency, MAX_NODES)) + 1)
+    nodes = [over.nodes_to(end * frequency) / frequency, nulls / over.flicker_frequency]
 
     def depths(exposures: FloatArray) -> FloatArray:
-        return over.code_bound(frequency * exposures) + over.flicker_bound(exposures)
+        return over.bound_of_lamp(frequency * exposures) + over.bound_of_flicker(exposures)
 
     return _split(_below(depths, np.concatenate(nodes), limit, allowed.low, end), allowed.high)
 
 
 def _frequencies(over: DepthOver, exposure: float, limit: float) -> tuple[Ranges, float | None]:
-    allowed = quantity("switching_frequency")
-    left = limit - float(over.flicker(np.array([exposure]))[0])
+    allowed = quantity(over.axis.parameter)
+    left = limit - float(over.depth_of_flicker(np.array([exposure]))[0])
     if left <= 0.0:
         return (), None
     end = over.most / left
-    nodes = np.arange(1, int(min(end, MAX_NODES)) + 1) / exposure
 
     def depths(frequencies: FloatArray) -> FloatArray:
-        return over.code_bound(frequencies * exposure)
+        return over.bound_of_lamp(frequencies * exposure)
 
+    nodes = over.nodes_to(end) / exposure
     return _split(_below(depths, nodes, left, allowed.low, end / exposure), allowed.high)
 
 
@@ -185,35 +185,29 @@ _SAMPLES = 65  # exposures within the error at which the depth is sampled
 
 def cure_of(scene: Scene, exposure_error: float = 0.0) -> Cure:
     """Return speeds without bars, and the scene at the shortest; ``exposure_error`` in s."""
-    over, frequency = DepthOver.of(scene), scene.transmitter.switching_frequency
-    repeats = frequency / over.period
-
-    def depth(exposure: float) -> float:
-        exposures = np.array([exposure])
-        return float((over.of_code(frequency * exposures) + over.flicker(exposures))[0])
-
-    as_written = [
-        each for each in reversed(shutter_speeds()) if depth(each.nominal) < NO_BARS_DEPTH
-    ]
-    kept = [each for each in as_written if depth(each.real) < NO_BARS_DEPTH]
+    over, repeats = DepthOver.of(scene), float(1 / repeat_time(scene.transmitter))
+    speeds = shutter_speeds()[::-1]
+    depths = over.depths(np.array([(each.nominal, each.real) for each in speeds]))
+    are_free = list(zip(speeds, (depths < NO_BARS_DEPTH).tolist(), strict=True))
+    as_written = [speed for speed, is_free in are_free if is_free[0]]
+    kept = [speed for speed, is_free in are_free if all(is_free)]
     exposure = as_written[0].nominal if as_written else 1.0 / repeats
     cured = as_bright(scene, exposure)
     return Cure(
-        repeats, duty(scene), _present_depth(scene, over, exposure_error),
+        repeats, mean_light(scene.transmitter), _present_depth(scene, over, exposure_error),
         tuple(as_written[:_MAX_SPEEDS]), tuple(kept[:_MAX_SPEEDS]), cured,
     )  # fmt: skip
 
 
 def _present_depth(scene: Scene, over: DepthOver, error: float) -> tuple[float, float]:
     """Return the range of the present depth of the bars in the lamp's own light."""
-    exposure, frequency = scene.camera.exposure_time, scene.transmitter.switching_frequency
+    exposure, frequency = scene.camera.exposure_time, over.axis.frequency
     ends = frequency * np.clip(exposure + np.array([-2.0, 2.0]) * error, 0.01 * exposure, None)
-    # The swing is linear in the exposure between whole chips.
-    nodes = np.arange(np.ceil(ends[0]), min(ends[1], ends[0] + over.period) + 0.5)
-    chips = np.concatenate(
-        [np.linspace(float(ends[0]), float(ends[1]), _SAMPLES), nodes[nodes < ends[1]]]
-    )
-    depths = over.swing_in(chips) / chips / duty(scene)
+    low, high = ends.tolist()
+    # The swing is linear in the exposure between nodes.
+    nodes = over.nodes_to(min(high, low + over.nodes[-1]), low)
+    cycles = np.concatenate([np.linspace(low, high, _SAMPLES), nodes])
+    depths = over.swing_in(cycles) / cycles / mean_light(scene.transmitter)
     return float(depths.min()), float(depths.max())
 
 

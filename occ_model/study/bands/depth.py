@@ -1,10 +1,12 @@
 """Depth of the bars in a scene's picture, in its light and its pixels, and what of it is seen."""
 
+import cmath
 import math
 from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
+from numpy.typing import NDArray
 
 from occ_model.arrays import FloatArray
 from occ_model.camera.photometry import (
@@ -18,16 +20,18 @@ from occ_model.effects.effect import LightEffect
 from occ_model.effects.light_effects import depth_in_exposure
 from occ_model.effects.registry import NAMES, effects_named
 from occ_model.errors import ParameterError, shown
+from occ_model.light.cosine import Cosine
+from occ_model.light.sent import PiecewiseLight, flicker_of, light_of
 from occ_model.results.bands import ROUNDING_DEPTH, BandDepth, Depth
-from occ_model.scene.scene import Scene
+from occ_model.scene.scene import Scene, Transmitter
 from occ_model.study.bands.exposed_light import ExposedLight, exposed_light
-from occ_model.transmitter.scheme import sent_chips
+from occ_model.study.bands.sines import sines_of
 
 _DISPLAY_EXPONENT = 2.2  # approximates sRGB by one power
 _BLACK = 0.5  # grey levels that a file rounds to 0
 _NO_DEPTH = Depth(0.0, 0.0)
 
-_HARMONICS_PER_CHIP = 4  # harmonics of the code that are searched; higher ones are below a quarter
+_SINES_PER_PIECE = 4  # sines of the light that are searched; higher ones are below a quarter
 _ROUNDING_LIGHT = 1e-12  # part of a column's exposure that is lit by rounding errors
 _PADDING = 4  # times that a spectrum is finer than its columns tell apart
 _WINDOW_BINS = 0.75  # of unpadded columns, within which a sine lies from its peak
@@ -36,8 +40,8 @@ _WINDOW_BINS = 0.75  # of unpadded columns, within which a sine lies from its pe
 def band_depth(scene: Scene) -> BandDepth:
     """Return the depth of the bars of a scene's light, and what of it the scene's picture shows.
 
-    The depth of the light is taken over all starts of an exposure within the code, and over all
-    phases of the ambient flicker, which is not synchronous with the code. Its relative error is
+    The depth of the light is taken over all starts of an exposure within the light's period, and
+    over all phases of the ambient flicker, which is not synchronous with it. Its relative error is
     below 1e-9 with sharp edges; with LED edges it is below 1e-13 of the mean. The picture's columns
     are those of the scene: they start where its readout time and start time put them. LED edges,
     flicker, tone curve, saturation and full well are included; noise, blur and vignetting are not.
@@ -47,8 +51,6 @@ def band_depth(scene: Scene) -> BandDepth:
     BandDepth
         Depths of 0 where there is no light.
     """
-    exposed = exposed_light_of(scene)
-    light = light_depth(scene, exposed)
     columns = _column_light(scene)
     dark, bright = luminance_levels(scene)
     of_columns = dark * columns.ambient + (bright - dark) * columns.lit
@@ -57,8 +59,8 @@ def band_depth(scene: Scene) -> BandDepth:
         frequency, period = _strongest_part(scene, of_columns)
     values = panel_values(scene, columns)
     pixels = np.minimum(saturate(values), saturation_value(scene))
-    found = BandDepth(
-        light=light,
+    depth = BandDepth(
+        light=light_depth(scene),
         columns=_depth(of_columns),
         pixel=_depth(pixels),
         frequency=frequency,
@@ -66,11 +68,11 @@ def band_depth(scene: Scene) -> BandDepth:
         contrast=_contrast(pixels),
         threshold=contrast_threshold(scene, period),
     )
-    return replace(found, hidden=_what_hides(found, pixels, values, _extremes(scene, exposed)))
+    return replace(depth, hidden=_what_hides(depth, pixels, values, _extremes(scene)))
 
 
 def _what_hides(
-    found: BandDepth, pixels: FloatArray, values: FloatArray, extremes: FloatArray
+    depth: BandDepth, pixels: FloatArray, values: FloatArray, extremes: FloatArray
 ) -> str:
     """Return why the picture does not show the light's bars, as a clause; empty if it does.
 
@@ -78,12 +80,12 @@ def _what_hides(
     """
     if float(pixels.max()) < _BLACK:
         return "the picture is black"
-    if found.is_visible:
+    if depth.is_visible:
         return ""
-    if _contrast(values) > found.threshold:
+    if _contrast(values) > depth.threshold:
         return "the picture is overexposed"
-    sees_part = found.columns.peak_to_peak < 0.5 * found.light.peak_to_peak
-    if sees_part and _contrast(extremes) > found.threshold:
+    shows_part = depth.columns.peak_to_peak < 0.5 * depth.light.peak_to_peak
+    if shows_part and _contrast(extremes) > depth.threshold:
         return "the picture's columns all start at like places of the light's period"
     return ""
 
@@ -96,13 +98,6 @@ def _column_light(scene: Scene) -> ColumnLight:
     return replace(light, lit=np.where(light.lit > _ROUNDING_LIGHT, light.lit, 0.0))
 
 
-def _extremes(scene: Scene, exposed: ExposedLight) -> FloatArray:
-    """Return the least and the largest pixel value over all starts, before saturation."""
-    lit = duty(scene) + np.array(exposed.extremes) / float(exposure_in_chips(scene))
-    ambient = 1.0 + depth_in_exposure(scene) * np.array([-1.0, 1.0])
-    return panel_values(scene, ColumnLight(np.clip(lit, 0.0, 1.0), ambient))
-
-
 def _depth(values: FloatArray) -> Depth:
     mean = float(values.mean())
     return Depth(float(np.ptp(values)) / mean, float(values.std()) / mean) if mean else _NO_DEPTH
@@ -113,15 +108,20 @@ def _contrast(values: FloatArray) -> float:
     return _depth(values**_DISPLAY_EXPONENT).peak_to_peak
 
 
-def light_depth(scene: Scene, exposed: ExposedLight | None = None) -> Depth:
+def light_depth(scene: Scene) -> Depth:
     """Return the depth of the light of a scene's exposure, before the tone curve.
 
-    Extremes and variances of the code's light and of the flicker add, as all phases combine.
+    Extremes and variances of the panel's light and of the flicker add, as all phases combine; on
+    the mains both have one phase, but for the LED's edges.
     """
-    exposed = exposed or exposed_light_of(scene)
     of_lamp, of_flicker = light_fractions(scene)
+    light = light_of(scene.transmitter)
+    if isinstance(light, Cosine):
+        amplitude = float(abs(_phasors(scene, light) @ [of_lamp, of_flicker]))
+        return Depth(2.0 * amplitude, amplitude / math.sqrt(2.0))
+    exposed, units = _exposed(scene, light)
     low, high = exposed.extremes
-    of_lamp /= float(exposure_in_chips(scene))
+    of_lamp /= units
     of_flicker *= depth_in_exposure(scene)
     return Depth(
         of_lamp * (high - low) + 2.0 * of_flicker,
@@ -129,38 +129,53 @@ def light_depth(scene: Scene, exposed: ExposedLight | None = None) -> Depth:
     )
 
 
+def _phasors(scene: Scene, light: Cosine) -> NDArray[np.complex128]:
+    """Return the swing of a lamp on the mains and of the surroundings, over their means."""
+    left = light.depth * light.response(Fraction(scene.camera.exposure_time))
+    edge = Fraction(scene.transmitter.edge_time)
+    delay = cmath.exp(-1j * math.pi * float(Fraction(light.frequency) * edge % 2))
+    return np.array([left * light.response(edge) * delay, complex(left)])
+
+
+def _exposed(scene: Scene, light: PiecewiseLight) -> tuple[ExposedLight, float]:
+    """Return the light of the scene's exposure, and the exposure in the waveform's units."""
+    units = Fraction(scene.camera.exposure_time) * light.rate
+    edge = Fraction(scene.transmitter.edge_time) * light.rate
+    return exposed_light(light.waveform, units, edge), float(units)
+
+
+def _extremes(scene: Scene) -> FloatArray:
+    """Return the least and the largest pixel value over all starts, before saturation."""
+    light, ends = light_of(scene.transmitter), np.array([-1.0, 1.0])
+    if isinstance(light, Cosine):
+        swings = _phasors(scene, light)
+        total = swings @ np.array(light_fractions(scene))
+        in_phase = (swings * np.conj(total)).real / (abs(total) or 1.0)
+        return panel_values(scene, ColumnLight(*(1.0 + swing * ends for swing in in_phase)))
+    exposed, units = _exposed(scene, light)
+    lit = light.mean + np.array(exposed.extremes) / units
+    ambient = 1.0 + depth_in_exposure(scene) * ends
+    return panel_values(scene, ColumnLight(np.clip(lit, 0.0, 1.0), ambient))
+
+
 def light_fractions(scene: Scene) -> tuple[float, float]:
     """Return the light of the lit lamp and of the surroundings, relative to the mean of both."""
     dark, bright = (float(each) for each in luminance_levels(scene))
-    mean = dark + (bright - dark) * duty(scene)
+    mean = dark + (bright - dark) * mean_light(scene.transmitter)
     return ((bright - dark) / mean, dark / mean) if mean else (0.0, 0.0)
 
 
-def exposure_in_chips(scene: Scene) -> Fraction:
-    return Fraction(scene.camera.exposure_time) * Fraction(scene.transmitter.switching_frequency)
-
-
-def edge_in_chips(scene: Scene) -> Fraction:
-    """Return the LED's rise time in chips, exactly."""
-    return Fraction(scene.transmitter.edge_time) * Fraction(scene.transmitter.switching_frequency)
-
-
-def duty(scene: Scene) -> float:
-    """Return the fraction of the time in which the lamp is lit."""
-    return float(sent_chips(scene.transmitter).mean())
-
-
-def exposed_light_of(scene: Scene) -> ExposedLight:
-    """Return the light of a scene's exposure minus its mean, over all starts."""
-    chips = sent_chips(scene.transmitter)
-    return exposed_light(chips, exposure_in_chips(scene), edge_in_chips(scene))
+def mean_light(transmitter: Transmitter) -> float:
+    """Return the mean light of a lamp, 1 being the panel fully lit."""
+    light = light_of(transmitter)
+    return 1.0 if isinstance(light, Cosine) else light.mean
 
 
 def _strongest_part(scene: Scene, light: FloatArray) -> tuple[float, float]:
     """Return the frequency in Hz of the strongest part of the columns' light, and its period.
 
     The period is in columns, as these sample the light: above half the row rate, an alias. The
-    columns' spectrum says near which period they vary most, and of the code's harmonics and the
+    columns' spectrum says near which period they vary most, and of the light's sines and the
     flicker the strongest near it is the exact one.
     """
     count = len(light)
@@ -176,25 +191,15 @@ def _strongest_part(scene: Scene, light: FloatArray) -> tuple[float, float]:
 def _parts(scene: Scene) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return the sines of an exposure's light: frequencies in Hz, cycles a column, amplitudes.
 
-    Those of the code, and the flicker. Of the cycles from one column's start to the next whole ones
-    are left out.
+    Those of the panel, and the flicker. Of the cycles from one column's start to the next whole
+    ones are left out.
     """
-    chips = sent_chips(scene.transmitter)
     dark, bright = (float(each) for each in luminance_levels(scene))
-    period = len(chips)
-    cycles = np.arange(1, _HARMONICS_PER_CHIP * period + 1)
-    of_a_chip = cycles / period
-    exposure = exposure_in_chips(scene)
-    amplitudes = 2.0 * (bright - dark) * np.abs(np.fft.fft(chips))[cycles % period] / period
-    amplitudes *= np.abs(np.sinc(of_a_chip) * np.sinc(of_a_chip * float(edge_in_chips(scene))))
-    # |sinc| of the exposure; whole periods are subtracted before the sine.
-    amplitudes *= np.abs(np.sin(np.pi * of_a_chip * float(exposure % period)))
-    amplitudes /= np.pi * of_a_chip * float(exposure)
-    base = Fraction(scene.transmitter.switching_frequency) / period
-    flicker = Fraction(scene.surroundings.flicker_frequency)
-    steps = np.append(_step(scene, base) * cycles, _step(scene, flicker))
+    sines, flicker = sines_of(scene.transmitter, _SINES_PER_PIECE), flicker_of(scene).frequency
+    amplitudes = (bright - dark) * sines.in_exposure(Fraction(scene.camera.exposure_time))
+    steps = np.append(_step(scene, sines.base) * sines.orders, _step(scene, Fraction(flicker)))
     return (
-        np.append(float(base) * cycles, float(flicker)),
+        np.append(sines.frequencies, flicker),
         steps - np.round(steps),
         np.append(amplitudes, dark * depth_in_exposure(scene)),
     )

@@ -6,15 +6,18 @@ published.
 """
 
 from collections.abc import Callable
+from fractions import Fraction
 
 import numpy as np
 
-from occ_model.arrays import ByteArray, FloatArray
+from occ_model.arrays import FloatArray
+from occ_model.light.cosine import Cosine
+from occ_model.light.sent import light_of
 from occ_model.results.bands import EyeFlicker, RiskLines
-from occ_model.scene.scene import Scene
-from occ_model.study.bands.depth import edge_in_chips
+from occ_model.scene.scene import Scene, Transmitter
+from occ_model.study.bands.depth import mean_light
 from occ_model.study.bands.exposed_light import exposed_light
-from occ_model.transmitter.scheme import sent_chips
+from occ_model.study.bands.sines import repeat_time, sines_of
 
 NO_EFFECT, LOW_RISK, ABOVE = "no effect", "low risk", "above low risk"
 
@@ -23,27 +26,30 @@ _LOW_RISK = (0.025, 0.08, 1250.0)
 _NO_EFFECT = (0.01, 0.0333, 3000.0)  # % per Hz below and above 90 Hz, and the line's end in Hz
 _SVM_BAND = (80.0, 2000.0)  # Hz
 _SVM_EXPONENT = 3.7  # of the Minkowski sum over the components
-_MAX_CHIPS = 64  # highest component in switching frequencies; higher ones are below 1 %
+_SINES_PER_PIECE = 64  # of the shortest piece of light; higher ones are below 1 %
 _MAX_SINES = 10_000  # components that are returned; a long payload has millions
 
 
 def eye_flicker(scene: Scene) -> EyeFlicker:
-    """Return the flicker measures of a scene's lamp while its code is repeated.
+    """Return the flicker measures of a scene's lamp while its light is repeated.
 
     They hold for the lamp's own light, including its edges: ambient light reduces them, and a code
     that changes between packets adds slower components.
     """
-    chips = _lit_chips(scene)
-    frequency = scene.transmitter.switching_frequency / len(chips)
-    lit = float(chips.mean())
-    least, most, above = _levels(scene)
+    sent = scene.transmitter
+    mean = mean_light(sent) if sent.luminance else 0.0
+    least, most, above = _levels(sent) if mean else (0.0, 0.0, 0.0)
     percent = 100.0 * (most - least) / (most + least) if most else 0.0
-    frequencies, modulations = _sines(scene)
+    sines = sines_of(sent, _SINES_PER_PIECE, _NO_EFFECT[2])
+    frequencies = sines.frequencies
+    modulations = 100.0 * sines.amplitudes / mean if mean else 0.0 * frequencies
+    period = repeat_time(sent)
+    frequency = float(1 / period) if period else 0.0
     whole = np.array([frequency]), np.array([percent])
     strongest = np.sort(np.argsort(modulations)[-_MAX_SINES:])
     return EyeFlicker(
         percent_flicker=percent,
-        flicker_index=above / lit if lit else 0.0,
+        flicker_index=above / mean if mean else 0.0,
         visibility=_visibility(frequencies, modulations / 100.0, threshold),
         visibility_2016=_visibility(frequencies, modulations / 100.0, threshold_2016),
         frequency=frequency,
@@ -111,38 +117,25 @@ def _risk(frequencies: FloatArray, modulations: FloatArray) -> str:
     return LOW_RISK if (modulations <= low_risk).all() else ABOVE
 
 
-def _lit_chips(scene: Scene) -> ByteArray:
-    """Return the lit chips; none for a lamp without luminance."""
-    chips = sent_chips(scene.transmitter)
-    return chips if scene.transmitter.luminance else np.zeros_like(chips)
-
-
-def _levels(scene: Scene) -> tuple[float, float, float]:
+def _levels(sent: Transmitter) -> tuple[float, float, float]:
     """Return the minimum and maximum light over a period, and the mean excess above the mean."""
-    chips = _lit_chips(scene)
-    lit = float(chips.mean())
-    edge = edge_in_chips(scene)
+    light, edge = light_of(sent), Fraction(sent.edge_time)
+    if isinstance(light, Cosine):
+        swing = light.depth * abs(light.response(edge))
+        return 1.0 - swing, 1.0 + swing, swing / np.pi
+    waveform, mean = light.waveform, light.mean
     if not edge:
-        return float(chips.min()), float(chips.max()), lit * (1.0 - lit)
-    # The ramps are a moving average of the chips over the edge time, as an exposure is.
-    light = exposed_light(chips, edge, edge * 0)
-    lengths, (first, _, last) = light.lengths / len(chips), light.values.T / float(edge)
-    low, high = (value / float(edge) for value in light.extremes)
+        levels = waveform.levels.astype(np.float64)
+        lengths = (waveform.lengths / waveform.period).astype(np.float64)
+        excess = float((lengths * np.maximum(levels - mean, 0.0)).sum())
+        return float(levels.min()), float(levels.max()), excess
+    # The ramps are a moving average of the light over the edge time, as an exposure is.
+    units = edge * light.rate
+    ramps = exposed_light(waveform, units, Fraction(0))
+    lengths, (first, _, last) = ramps.lengths / waveform.period, ramps.values.T / float(units)
+    low, high = (value / float(units) for value in ramps.extremes)
     over, under = np.maximum(first, last), np.minimum(first, last)
-    crossing = (over > 0.0) & (under < 0.0)
+    crosses = (over > 0.0) & (under < 0.0)
     with np.errstate(divide="ignore", invalid="ignore"):
-        part = np.where(crossing, over**2 / (2.0 * (over - under)), 0.5 * (over + under))
-    return lit + low, lit + high, float((lengths * np.maximum(part, 0.0)).sum())
-
-
-def _sines(scene: Scene) -> tuple[FloatArray, FloatArray]:
-    """Return the Fourier components: frequencies in Hz, amplitudes in percent of the mean."""
-    chips = _lit_chips(scene)
-    period, total = len(chips), int(chips.sum())
-    base = scene.transmitter.switching_frequency / period
-    count = int(min(_NO_EFFECT[2] / base, _MAX_CHIPS * period))
-    order = np.arange(1, count + 1)
-    of_a_chip = order / period
-    sent = 2.0 * np.abs(np.fft.fft(chips))[order % period] / max(total, 1)
-    ramp = np.sinc(of_a_chip * float(edge_in_chips(scene)))
-    return np.asarray(order * base), 100.0 * sent * np.abs(np.sinc(of_a_chip) * ramp)
+        part = np.where(crosses, over**2 / (2.0 * (over - under)), 0.5 * (over + under))
+    return mean + low, mean + high, float((lengths * np.maximum(part, 0.0)).sum())

@@ -1,21 +1,31 @@
-"""Depth of the bars over ranges of frequency and exposure, for sharp edges."""
+"""The depth of the bars over ranges of frequency and exposure, for sharp edges."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import lru_cache
 from typing import Self
 
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.results.bands import DepthMap
+from occ_model.light.cosine import Cosine
+from occ_model.light.sent import light_of
+from occ_model.light.waveform import Waveform
+from occ_model.results.bands import DepthMap, FrequencyAxis
+from occ_model.scene.light_words import blinking_lamp
 from occ_model.scene.parameters import quantity
-from occ_model.scene.scene import Scene
+from occ_model.scene.scene import Scene, Transmitter
 from occ_model.study.bands.depth import light_fractions
-from occ_model.transmitter.scheme import sent_chips
+from occ_model.study.bands.exposed_light import is_even
+from occ_model.study.bands.sines import repeat_units
 
 MAX_NODES = 10_000
-"""Chips, and cycles of the flicker, of an exposure up to which bars are computed; beyond they are
-bounded. The flicker's are below 0.01 % there."""
+"""Nodes within an exposure, and cycles of the flicker, up to which bars are computed; beyond they
+are bounded. The flicker's are below 0.01 % there."""
+
+_MOST_PIECES = 16  # of unequal lengths, whose nodes are the differences of any two edges
+_GRID = 512  # nodes of a period of more pieces
 
 _MAP_EXPOSURES = (1e-5, 0.1)  # seconds; to usual shutter speeds, beyond the slider
 _MAP_CELLS = 120
@@ -25,12 +35,18 @@ _MAP_CELLS = 120
 class DepthOver:
     """Peak-to-peak depth of a scene's light at any frequency and exposure.
 
-    The light of an exposure of a chips varies by a number of lit chips that is periodic in a with
-    the code and linear between integers. An LED's edges can only reduce it.
+    Time is counted in cycles of the frequency that is varied: of a code in chips, else in periods.
+    The light of an exposure of a cycles varies by a swing that is periodic in a with the light. It
+    is exact at nodes; between them it is convex, and taken from a line that lies above it. An LED's
+    edges can only reduce it.
     """
 
-    # Shape (chips + 1,): range of the number of lit chips in exposures of 0, 1, ... chips
-    swing: FloatArray
+    axis: FrequencyAxis
+    # Cycles after which the light repeats: such exposures show no bars; 0 for steady light
+    period: float
+    # Shape (nodes,): from 0 to a period, in cycles
+    nodes: FloatArray
+    swing_in: Callable[[FloatArray], FloatArray]
     # Light of the lit lamp, and largest swing of the ambient light, relative to the mean
     of_lamp: float
     of_flicker: float
@@ -39,66 +55,105 @@ class DepthOver:
     @classmethod
     def of(cls, scene: Scene) -> Self:
         of_lamp, around = light_fractions(scene)
-        surroundings = scene.surroundings
-        chips = sent_chips(scene.transmitter).tobytes()
-        swing = 2.0 * surroundings.flicker_depth * around
-        return cls(_swing(chips), of_lamp, swing, surroundings.flicker_frequency)
+        sent, surroundings = scene.transmitter, scene.surroundings
+        light, axis = light_of(sent), frequency_axis(sent)
+        if isinstance(light, Cosine):
+            # The surroundings follow the lamp: both are one cosine, and no flicker is left.
+            of_both = 2.0 / np.pi * light.depth * (of_lamp + around)
+            return cls(
+                axis, float(of_both > 0.0), np.array([0.0, 0.5, 1.0]),
+                lambda cycles: np.asarray(np.abs(np.sin(np.pi * cycles))), of_both, 0.0, 1.0,
+            )  # fmt: skip
+        units = float(light.rate / Fraction(axis.frequency))  # a cycle
+        period = repeat_units(light.waveform)
+        nodes, swing = _swings(light.waveform)
+        nodes = nodes / units
 
-    @property
-    def period(self) -> int:
-        """Fundamental period of the code in chips: such exposures show no bars."""
-        return int(np.flatnonzero(self.swing[1:] == 0.0)[0]) + 1
+        def swing_in(cycles: FloatArray) -> FloatArray:
+            return np.asarray(np.interp(cycles % nodes[-1], nodes, swing) / units)
+
+        return cls(
+            axis, period / units if of_lamp else 0.0, nodes, swing_in, of_lamp,
+            2.0 * surroundings.flicker_depth * around, surroundings.flicker_frequency,
+        )  # fmt: skip
 
     @property
     def most(self) -> float:
-        """Bound of the code's depth times the exposure in chips."""
-        return self.of_lamp * float(self.swing.max())
+        """Bound of the lamp's depth times the exposure in cycles."""
+        return self.of_lamp * float(self.swing_in(self.nodes).max()) if self.period else 0.0
 
     @property
     def most_flicker(self) -> float:
         """Bound of the flicker's depth times the exposure in its cycles."""
         return self.of_flicker / np.pi
 
-    def code_bound(self, chips: FloatArray) -> FloatArray:
-        """Return the depth of the code's bars, or what it is at most in long exposures."""
-        return np.where(chips > MAX_NODES, self.most / chips, self.of_code(chips))
+    @property
+    def _farthest(self) -> float:
+        """Cycles up to which depths are computed."""
+        return float(MAX_NODES * self.nodes[-1] / (len(self.nodes) - 1))
 
-    def flicker_bound(self, exposures: FloatArray) -> FloatArray:
+    def bound_of_lamp(self, cycles: FloatArray) -> FloatArray:
+        """Return the depth of the lamp's bars, or what it is at most in long exposures."""
+        return np.where(cycles > self._farthest, self.most / cycles, self.depth_of_lamp(cycles))
+
+    def bound_of_flicker(self, exposures: FloatArray) -> FloatArray:
         """Return the depth of the flicker's bars, or what it is at most in long exposures."""
         cycles = self.flicker_frequency * exposures
-        return np.where(cycles > MAX_NODES, self.most_flicker / cycles, self.flicker(exposures))
+        bound, depth = self.most_flicker / cycles, self.depth_of_flicker(exposures)
+        return np.where(cycles > MAX_NODES, bound, depth)
 
-    def of_code(self, chips: FloatArray) -> FloatArray:
-        """Return the depth of the code's bars for exposures in chips."""
-        return np.asarray(self.of_lamp * self.swing_in(chips) / chips)
+    def depth_of_lamp(self, cycles: FloatArray) -> FloatArray:
+        """Return the depth of the lamp's bars for exposures in cycles."""
+        return np.asarray(self.of_lamp * self.swing_in(cycles) / cycles)
 
-    def swing_in(self, chips: FloatArray) -> FloatArray:
-        """Return the range of the number of lit chips for exposures in chips."""
-        period = len(self.swing) - 1
-        return np.asarray(np.interp(chips % period, np.arange(period + 1), self.swing))
-
-    def flicker(self, exposures: FloatArray) -> FloatArray:
+    def depth_of_flicker(self, exposures: FloatArray) -> FloatArray:
         """Return the depth of the ambient flicker for exposures in seconds."""
         return np.asarray(self.of_flicker * np.abs(np.sinc(self.flicker_frequency * exposures)))
+
+    def depths(self, exposures: FloatArray) -> FloatArray:
+        """Return the depth of all bars at the scene's frequency, for exposures in seconds."""
+        lamp = self.depth_of_lamp(self.axis.frequency * exposures)
+        return np.asarray(lamp + self.depth_of_flicker(exposures))
+
+    def nodes_to(self, end: float, low: float = 0.0) -> FloatArray:
+        """Return the nodes above 0 between two exposures in cycles, as far as they are computed."""
+        last, period = min(end, self._farthest), self.nodes[-1]
+        periods = np.arange(low // period, last // period + 1.0)
+        nodes = (period * periods[:, None] + self.nodes[1:]).ravel()
+        return np.asarray(nodes[(nodes >= low) & (nodes <= last)])
 
     def least(self, frequency: float, ends: FloatArray) -> FloatArray:
         """Return the smallest depth within each range of exposures, between ``ends`` in seconds.
 
-        It lies at whole chips, at the flicker's nulls or at an end: quasi-concave between. Nodes
+        It lies at a node, at a null of the flicker or at an end: quasi-concave between. Nodes
         beyond the first many are not tried.
         """
-        at_ends = self.of_code(frequency * ends) + self.flicker(ends)
+        at_ends = self.depth_of_lamp(frequency * ends) + self.depth_of_flicker(ends)
         least = np.minimum(at_ends[:-1], at_ends[1:])
-        for rate in (frequency, self.flicker_frequency):
-            first = np.maximum(np.ceil(rate * ends[:-1]), 1.0)
-            last = np.minimum(np.floor(rate * ends[1:]), MAX_NODES)
-            count = np.maximum(last - first + 1.0, 0.0).astype(np.int64)
-            place = np.repeat(np.arange(len(count)), count)
-            node = first[place] + np.arange(len(place)) - (np.cumsum(count) - count)[place]
-            exposures = node / rate
-            chips = node if rate == frequency else frequency * exposures
-            np.minimum.at(least, place, self.of_code(chips) + self.flicker(exposures))
+        nulls = np.arange(1.0, min(self.flicker_frequency * ends[-1], MAX_NODES) + 1.0)
+        own = self.nodes_to(frequency * ends[-1], frequency * ends[0])
+        for cycles, exposures in (
+            (own, own / frequency),
+            (frequency * (nulls / self.flicker_frequency), nulls / self.flicker_frequency),
+        ):
+            place = np.searchsorted(ends, exposures) - 1
+            inside = (place >= 0) & (place < len(least))
+            depths = self.depth_of_lamp(cycles) + self.depth_of_flicker(exposures)
+            np.minimum.at(least, place[inside], depths[inside])
         return np.asarray(least)
+
+
+def frequency_axis(transmitter: Transmitter) -> FrequencyAxis:
+    """Return the frequency that a light's owner can vary: a lamp's, a code's, else the light's."""
+    lamp = blinking_lamp(transmitter)
+    if lamp is not None and transmitter.light != "pulses":
+        return FrequencyAxis("lamp_frequency", lamp.frequency, quantity("lamp_frequency").label)
+    if transmitter.light == "code":
+        switching = quantity("switching_frequency")
+        return FrequencyAxis(switching.name, transmitter.switching_frequency, switching.label)
+    light = light_of(transmitter)
+    of_light = light.frequency if isinstance(light, Cosine) else float(1 / light.period)
+    return FrequencyAxis("lamp_frequency", of_light, "Frequency of the light")
 
 
 def depth_map(scene: Scene) -> DepthMap:
@@ -106,23 +161,65 @@ def depth_map(scene: Scene) -> DepthMap:
     over = DepthOver.of(scene)
     frequencies, exposures = (
         np.geomspace(*ends, _MAP_CELLS + 1)
-        for ends in (quantity("switching_frequency").slider, _MAP_EXPOSURES)
+        for ends in (quantity(over.axis.parameter).slider, _MAP_EXPOSURES)
     )
     middles = np.sqrt(frequencies[:-1] * frequencies[1:])
     least = np.stack([over.least(float(each), exposures) for each in middles])
-    return DepthMap(frequencies, exposures, least, over.period if over.most else 0)
+    return DepthMap(over.axis, frequencies, exposures, least, over.period if over.most else 0.0)
 
 
 @lru_cache(maxsize=16)
-def _swing(chips: bytes) -> FloatArray:
-    """Return the range of the number of lit chips for each integer exposure in chips."""
-    level = np.frombuffer(chips, dtype=np.uint8).astype(np.int64)
+def _swings(waveform: Waveform) -> tuple[FloatArray, FloatArray]:
+    """Return exposures up to a period, in units, and the range of the light in each."""
+    if is_even(waveform):
+        nodes, swing = np.arange(waveform.period + 1.0), _swings_of_units(waveform)
+    else:
+        nodes, swing = _swings_of_pieces(waveform)
+    swing.flags.writeable = False
+    return nodes, swing
+
+
+def _swings_of_units(waveform: Waveform) -> FloatArray:
+    """Return the range of the light in exposures of 0, 1, ... units, for equally long pieces."""
+    level = waveform.levels
+    if level.dtype == object:
+        level = level.astype(np.float64)
     period = len(level)
     before = np.concatenate([[0], np.cumsum(np.tile(level, 2))])
-    # Chips inside and outside an exposure complement each other: the halves are symmetric.
+    # Light inside and outside an exposure complement each other: the halves are symmetric.
     half = [float(np.ptp(before[k : k + period] - before[:period])) for k in range(period // 2 + 1)]
     swing = np.empty(period + 1)
     swing[: len(half)] = half
     swing[period - len(half) + 1 :] = half[::-1]
-    swing.flags.writeable = False
     return swing
+
+
+def _swings_of_pieces(waveform: Waveform) -> tuple[FloatArray, FloatArray]:
+    """Return exposures and the range of the light in each, for pieces of any lengths.
+
+    Of few pieces the nodes are the differences of any two edges, between which the range is convex.
+    Of many it is tried on a grid; between, it grows no faster than by the largest step of light.
+    """
+    period, levels = float(waveform.period), waveform.levels.astype(np.float64)
+    edges = np.concatenate([[0.0], np.cumsum(waveform.lengths.astype(np.float64))])
+    edges[-1] = period
+    before = np.concatenate([[0.0], np.cumsum(levels * np.diff(edges))])
+
+    def swing(length: float) -> float:
+        ends = np.concatenate([edges + length, edges - length])
+        light = np.interp(ends % period, edges, before) + before[-1] * (ends // period)
+        return float(np.ptp(np.abs(light - np.tile(before, 2))))
+
+    if len(levels) <= _MOST_PIECES:
+        nodes = np.unique((edges - edges[:, None]) % period)
+        nodes = np.append(nodes, period)
+        return nodes, np.array([0.0, *map(swing, nodes[1:-1].tolist()), 0.0])
+    nodes = np.linspace(0.0, period, _GRID + 1)
+    values = np.array([0.0, *map(swing, nodes[1:-1].tolist()), 0.0])
+    # The highest place between two nodes, where lines of the largest slope meet.
+    slope, step = float(np.ptp(levels)), period / _GRID
+    rise = 0.5 * np.diff(values) / slope
+    between = nodes[:-1] + 0.5 * step + rise
+    highest = values[:-1] + slope * (0.5 * step + rise)
+    order = np.argsort(np.concatenate([nodes, between]), kind="stable")
+    return (np.concatenate([nodes, between])[order], np.concatenate([values, highest])[order])

@@ -232,5 +232,5 @@ def test_what_hides_the_bars_of_a_picture_is_named(capsys: pytest.CaptureFixture
         first, second, third, *_ = capsys.readouterr().out.splitlines()
         assert f"{bars} of the mean light peak to peak" in first
         assert "in pixel values 0 % and 0 %" in second
-        assert third.startswith("  Not seen, since ")
+        assert third.startswith("  Not visible, since ")
         assert what in third

@@ -1,6 +1,7 @@
 """What shows no bars: ranges, shutter speeds and the map, against the depth itself and pictures."""
 
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 import pytest
@@ -26,67 +27,119 @@ def _depth(scene: Scene, **changes: float) -> float:
     return light_depth(scene.replace(**changes)).peak_to_peak
 
 
+@st.composite
+def _lights(draw: st.DrawFn) -> dict[str, Any]:
+    """Draw a light of each kind that repeats 20 to 2000 times a second."""
+    base, fraction = draw(st.floats(20.0, 2000.0)), st.floats(0.01, 0.99)
+    levels = draw(st.lists(st.sampled_from([0.0, 0.2, 1.0]), min_size=2, max_size=24))
+    ends = np.cumsum(draw(st.lists(fraction, min_size=len(levels), max_size=len(levels))))
+    rows = zip(np.append(0.0, ends / ends[-1] / base).tolist(), [*levels, ""], strict=True)
+    return draw(st.sampled_from([
+        {"light": "lamp", "lamp_frequency": base, "duty": draw(fraction), "depth": draw(fraction)},
+        {"light": "lamp", "lamp_frequency": base, "duty": draw(st.sampled_from([0.3, 0.5]))},
+        {"light": "mains", "mains_frequency": base / 2, "mains_depth": draw(fraction)},
+        {"light": "pulses", "pulse_frequency": base, "pulse_length": draw(fraction) / base},
+        {"light": "waveform", "levels": " ".join(map(str, levels)),
+         "switching_frequency": base * len(levels)},
+        {"light": "waveform", "waveform_file": "\n".join(f"{at},{level}" for at, level in rows)},
+    ]))  # fmt: skip
+
+
+@given(light=_lights(), exposure=st.floats(1e-6, 0.1), flicker=st.sampled_from([0.0, 0.4]))
+@settings(deadline=None, max_examples=amount(60, 1000))
+def test_the_depth_over_ranges_is_that_of_each_scene_or_lies_closely_above(
+    light: dict[str, Any], exposure: float, flicker: float
+) -> None:
+    scene = _PHONE.replace(**light, exposure_time=exposure, flicker_depth=flicker)
+    over = DepthOver.of(scene)
+    found, exact = float(over.depths(np.array([exposure]))[0]), light_depth(scene).peak_to_peak
+    assert found >= exact * (1.0 - 1e-6) - 1e-9
+    if light["light"] != "waveform":
+        assert found == pytest.approx(exact, rel=1e-6, abs=1e-9)
+    at_nodes = over.nodes_to(3.0, 0.5) / over.axis.frequency
+    for at in at_nodes[:: 1 + len(at_nodes) // 4]:
+        if len(over.nodes) <= 25:  # the grid of many unequal pieces is not exact everywhere
+            assert float(over.depths(np.array([at]))[0]) == pytest.approx(
+                _depth(scene, exposure_time=float(at)), rel=1e-6, abs=1e-9
+            )
+
+
 @given(pattern=_CODES, exposure=st.floats(1e-6, 0.1), flicker=st.floats(0.0, 1.0))
 @settings(deadline=None)
-def test_the_depth_over_ranges_is_that_of_each_scene(
+def test_the_depth_over_ranges_is_that_of_each_code(
     pattern: str, exposure: float, flicker: float
 ) -> None:
     scene = _lamp(pattern, 7777.0, exposure_time=exposure, flicker_depth=flicker)
-    over = DepthOver.of(scene)
-    found = over.of_code(np.array([7777.0 * exposure])) + over.flicker(np.array([exposure]))
+    found = DepthOver.of(scene).depths(np.array([exposure]))
     assert float(found[0]) == pytest.approx(light_depth(scene).peak_to_peak, rel=1e-6, abs=1e-9)
 
 
-@given(pattern=_CODES, flicker=st.sampled_from([0.0, 0.4]))
+_PATTERNS = _CODES.map(lambda pattern: {"pattern": pattern, "switching_frequency": 5e3})
+
+
+@given(light=st.one_of(_PATTERNS, _lights()), flicker=st.sampled_from([0.0, 0.4]))
 @settings(deadline=None, max_examples=20)
 def test_the_least_depth_of_a_range_is_not_above_any_within_and_is_reached(
-    pattern: str, flicker: float
+    light: dict[str, Any], flicker: float
 ) -> None:
-    over = DepthOver.of(_lamp(pattern, 5e3, flicker_depth=flicker))
+    over = DepthOver.of(_PHONE.replace(**light, flicker_depth=flicker))
     ends = np.geomspace(1e-5, 3e-2, 30)
-    least = over.least(5e3, ends)
+    least = over.least(over.axis.frequency, ends)
     for index, (low, high) in enumerate(pairwise(ends)):
-        inside = np.linspace(low, high, 4001)
-        depths = over.of_code(5e3 * inside) + over.flicker(inside)
+        depths = over.depths(np.linspace(low, high, 4001))
         assert least[index] <= depths.min() + 1e-12
         assert least[index] == pytest.approx(depths.min(), abs=2.0 * np.abs(np.diff(depths)).max())
 
 
 @pytest.mark.parametrize(
-    ("pattern", "frequency", "flicker"),
-    [("10", 3840.0, 0.0), ("1000", 4000.0, 0.3), ("1101001", 9e3, 0.1)],
-)
+    ("light", "parameter", "factor", "flicker"),
+    [({"pattern": "10", "switching_frequency": 3840.0}, "switching_frequency", 2.0, 0.0),
+     ({"pattern": "1000", "switching_frequency": 4000.0}, "switching_frequency", 4.0, 0.3),
+     ({"pattern": "1101001", "switching_frequency": 9e3}, "switching_frequency", 1.0, 0.1),
+     ({"light": "lamp", "lamp_frequency": 239.0, "duty": 0.3}, "lamp_frequency", 1.0, 0.0),
+     ({"light": "mains", "mains_depth": 0.5}, "mains_frequency", 0.5, 0.0)],
+)  # fmt: skip
 def test_exposures_and_frequencies_without_bars_end_where_the_depth_reaches_the_limit(
-    pattern: str, frequency: float, flicker: float
+    light: dict[str, Any], parameter: str, factor: float, flicker: float
 ) -> None:
-    scene = _lamp(pattern, frequency, flicker_depth=flicker, exposure_time=1 / 50)
+    scene = _PHONE.replace(**light, flicker_depth=flicker, exposure_time=1 / 50)
     advice = occ.band_advice(scene)
-    for name, ranges, rest in (
-        ("exposure_time", advice.exposures, advice.all_exposures),
-        ("switching_frequency", advice.frequencies, advice.all_frequencies),
+    for name, scale, ranges, rest in (
+        ("exposure_time", 1.0, advice.exposures, advice.all_exposures),
+        (parameter, factor, advice.frequencies, advice.all_frequencies),
     ):
-        before = 0.0
+
+        def depth(at: float, name: str = name, scale: float = scale) -> float:
+            return _depth(scene, **{name: scale * at})
+
+        before, least = 0.0, 1e-9 if name[0] == "e" else 1.0
         for low, high in ranges:
-            assert max(
-                _depth(scene, **{name: at}) for at in np.linspace(low, high, amount(2, 9))
-            ) <= NO_BARS_DEPTH * (1 + 1e-9)
-            assert _depth(scene, **{name: low * (1 - 1e-6)}) >= NO_BARS_DEPTH
-            assert _depth(scene, **{name: high * (1 + 1e-6)}) >= NO_BARS_DEPTH
+            inside = np.linspace(low, high, amount(2, 9))
+            assert max(map(depth, inside)) <= NO_BARS_DEPTH * (1 + 1e-9)
+            assert depth(low * (1 - 1e-6)) >= NO_BARS_DEPTH
+            assert depth(high * (1 + 1e-6)) >= NO_BARS_DEPTH
             # Nothing between two ranges was left out.
-            gap = np.linspace(before, low, amount(3, 12))[1:-1]
-            assert (
-                min(
-                    _depth(scene, **{name: max(at, 1e-9)})
-                    for at in gap
-                    if at > 1.0 or name[0] == "e"
-                )
-                >= NO_BARS_DEPTH
-                or before == 0.0
-            )
+            gap = [at for at in np.linspace(before, low, amount(3, 12))[1:-1] if at > least]
+            assert before == 0.0 or min(map(depth, gap)) >= NO_BARS_DEPTH
             before = high
-        for factor in np.geomspace(1.0 + 1e-9, 8.0, amount(4, 50)):
-            assert _depth(scene, **{name: rest * factor}) <= NO_BARS_DEPTH * (1 + 1e-6)
-        assert _depth(scene, **{name: rest * (1 - 1e-6)}) >= NO_BARS_DEPTH
+        # The largest frequencies of the mains do not reach beyond 1 kHz.
+        if rest is None or (name, parameter) == (parameter, "mains_frequency"):
+            continue
+        for factor_above in np.geomspace(1.0 + 1e-9, 8.0, amount(4, 50)):
+            assert depth(rest * factor_above) <= NO_BARS_DEPTH * (1 + 1e-6)
+        assert depth(rest * (1 - 1e-6)) >= NO_BARS_DEPTH
+
+
+@given(light=_lights())
+@settings(deadline=None, max_examples=amount(15, 200))
+def test_no_exposure_that_is_said_to_be_without_bars_has_any(light: dict[str, Any]) -> None:
+    scene = _PHONE.replace(**light)
+    advice = occ.band_advice(scene)
+    for low, high in advice.exposures[:4]:
+        for at in np.linspace(low, high, 5):
+            assert _depth(scene, exposure_time=at) <= NO_BARS_DEPTH * (1 + 1e-9)
+    if advice.valley:
+        assert _depth(scene, exposure_time=3.0 * advice.valley) < 1e-9
 
 
 def test_an_exposure_of_the_advice_s_valley_shows_no_bars_and_none_shorter_does() -> None:
@@ -194,8 +247,8 @@ def test_a_long_exposure_s_bars_are_not_above_their_bounds() -> None:
     over = DepthOver.of(_lamp("1101000", 1e3, flicker_depth=1.0, flicker_frequency=777.0))
     exposures = np.geomspace(1e-3, 1e3, 20_001)
     for found, bound in (
-        (over.of_code(1e3 * exposures), over.code_bound(1e3 * exposures)),
-        (over.flicker(exposures), over.flicker_bound(exposures)),
+        (over.depth_of_lamp(1e3 * exposures), over.bound_of_lamp(1e3 * exposures)),
+        (over.depth_of_flicker(exposures), over.bound_of_flicker(exposures)),
     ):
         assert (found <= bound * (1.0 + 1e-9)).all()
         np.testing.assert_array_equal(found[exposures < 10.0], bound[exposures < 10.0])

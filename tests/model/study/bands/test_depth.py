@@ -3,6 +3,7 @@
 import math
 from fractions import Fraction
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from amount import amount
 import occ_model as occ
 from occ_model.arrays import FloatArray
 from occ_model.camera.photometry import luminance_of
+from occ_model.light.sent import light_period
 from occ_model.results.bands import Depth
 from occ_model.scene.scene import Scene
 from occ_model.study.bands.depth import light_depth
@@ -40,6 +42,38 @@ def test_a_flicker_of_the_surroundings_alone_is_a_sine_behind_the_exposure(
     left = 0.4 * abs(math.sin(math.pi * periods) / (math.pi * periods))
     assert found.peak_to_peak == pytest.approx(2.0 * left, rel=1e-9, abs=1e-15)
     assert found.rms == pytest.approx(left / math.sqrt(2.0), rel=1e-9, abs=1e-15)
+
+
+@pytest.mark.parametrize("edge", [0.0, 0.7e-3])
+@pytest.mark.parametrize(
+    "light",
+    [{"light": "lamp", "lamp_frequency": 239.0, "duty": 0.3, "depth": 0.8},
+     {"light": "mains", "mains_depth": 0.4},
+     {"light": "pulses", "pulse_frequency": 90.0, "pulse_length": 2e-3},
+     {"light": "waveform", "levels": "0 2 1 3 3 / 3", "switching_frequency": 900.0},
+     {"light": "waveform", "waveform_file": "0,0.2\n0.003,1\n0.004,0.5\n0.009\n"}],
+)  # fmt: skip
+def test_columns_that_start_all_over_the_period_show_the_whole_depth_of_any_light(
+    light: dict[str, Any], edge: float
+) -> None:
+    for exposure in (0.3e-3, 2.7e-3, 31.3e-3):
+        scene = _PHONE.replace(**light, edge_time=edge, exposure_time=exposure, columns=20_000)
+        period = float(light_period(scene.transmitter))
+        found = occ.band_depth(scene.replace(readout_time=7.0 * period / 20_000))
+        assert found.columns.peak_to_peak == pytest.approx(found.peak_to_peak, rel=1e-3)
+        assert found.columns.rms == pytest.approx(found.rms, rel=1e-3)
+        assert found.frequency * period == pytest.approx(round(found.frequency * period), rel=1e-9)
+
+
+def test_the_bars_of_a_lamp_on_the_mains_follow_the_sine_behind_exposure_and_edges() -> None:
+    scene = _PHONE.replace(
+        light="mains", mains_frequency=60.0, mains_depth=0.5, exposure_time=3e-3, edge_time=2e-3,
+        illuminance=0.0,
+    )  # fmt: skip
+    left = 0.5 * abs(np.sinc(120.0 * 3e-3) * np.sinc(120.0 * 2e-3))
+    assert light_depth(scene).peak_to_peak == pytest.approx(2.0 * left, rel=1e-12)
+    assert light_depth(scene.replace(exposure_time=1 / 120)).peak_to_peak < 1e-15
+    assert occ.band_depth(scene).frequency == 120.0
 
 
 def test_code_and_flicker_add_up_where_they_meet_at_all_phases() -> None:

@@ -32,6 +32,7 @@ class Application(Parts):
         self.shell.enable_entries()
         connect_story(self)
         self.scene = SceneInWindow(self)
+        self._is_code = self.store.store.select(lambda workspace: workspace.has_code)
         self.session = Session(self.store.store, self._user_workspace)
         self._connect_parts()
 
@@ -105,10 +106,17 @@ class Application(Parts):
     def _connect_strips(self) -> None:
         self.controls.add_foot(self.slider_strips.legend)
         entry = self.window.actions_by_name["slider_strips"]
-        entry.toggled.connect(self.slider_strips.set_shown)
         entry.triggered.connect(self.preferences.keep_slider_strips)
-        self.slider_strips.set_shown(self.preferences.slider_strips)
         entry.setChecked(self.preferences.slider_strips)
+        entry.toggled.connect(self._show_strips)
+        self._is_code.changed.connect(self._show_strips)
+        self._show_strips()
+
+    def _show_strips(self) -> None:
+        """Show the strips if the user wants them, and a code is sent."""
+        entry, is_code = self.window.actions_by_name["slider_strips"], self._is_code.value
+        entry.setEnabled(is_code)
+        self.slider_strips.set_shown(entry.isChecked() and is_code)
 
     @property
     def is_idle(self) -> bool:

@@ -62,6 +62,7 @@ def decoding(store: Store) -> Feature[Any]:
     return Feature(
         name="decode",
         title="Decoding",
+        is_about_codes=True,
         elsewhere="right",
         help="decoding.md",
         make=later("occ_gui.decoding.pane:DecodePane", store),
@@ -176,6 +177,7 @@ def detection_map(scenes: SceneStore, background_rates: BackgroundRates) -> Feat
     return Feature(
         name="map",
         title="Detection map",
+        is_about_codes=True,
         places={"limits": PanePlace("right", is_main=True)},
         help="limits.md#the-detection-map",
         make=later("occ_gui.detection_map.pane:MapPane", scenes, background_rates),
@@ -280,6 +282,7 @@ def bench(scenes: SceneStore, background_rates: BackgroundRates) -> Feature[Any]
     return Feature(
         name="bench",
         title="Bench",
+        is_about_codes=True,
         places={"limits": PanePlace("right")},
         help="limits.md#the-bench",
         make=lambda: later("occ_gui.bench.pane:BenchPane")(

@@ -5,7 +5,7 @@ from PySide6.QtCore import QObject
 from occ_gui.accuracy.plan_changes import PlanChanges, describe_switches
 from occ_gui.app.parts import Parts
 from occ_gui.picture.before_controller import BeforeController
-from occ_gui.scene.control_panel import MAIN
+from occ_gui.scene.control_panel import main_of
 from occ_gui.scene.forced_effects import accuracy_badge, describe_accuracy
 from occ_gui.shell.results import entries_of
 from occ_gui.simulation.snapshot import Snapshot
@@ -73,7 +73,9 @@ class SceneInWindow(QObject):
         parts = self._parts
         parts.controls.show_scene(scene)
         parts.controls.show_preset(*parts.presets.shown)
-        for name in MAIN:  # marks where the picture changes in kind
+        main = main_of(scene.transmitter.light)
+        parts.window.menus.show_animations(main)
+        for name in main:  # marks where the picture changes in kind
             parts.controls.show_marks(name, marked_values(scene, name))
 
     def _show_settings(self, settings: SimulationSettings) -> None:

@@ -60,5 +60,10 @@ class Workspace:
     def undo_state(self) -> UndoState:
         return UndoState(self.scene, dict(self.settings.force), self.room, self.preset)
 
+    @property
+    def has_code(self) -> bool:
+        """Whether the scene's light is a code, which map, bench and decoders are about."""
+        return self.scene.transmitter.light == "code"
+
     def with_force(self, force: Mapping[str, bool]) -> Self:
         return replace(self, settings=replace(self.settings, force=dict(force)))

@@ -200,10 +200,11 @@ class SliderStrips(QObject):
 
     def __init__(self, rows: dict[str, QuantityRow], parent: QObject | None = None) -> None:
         super().__init__(parent)
-        self.rows = rows
+        # Of other lights no bits are read.
+        self.rows = {name: row for name, row in rows.items() if PARAMETERS[name].is_of("code")}
         self.legend = StripLegend()  # shown below the sliders
         self.strips: dict[str, SliderStrip] = {}
-        for name, row in rows.items():
+        for name, row in self.rows.items():
             strip = SliderStrip(row.slider, PARAMETERS[name].in_sentence)
             row.add_track(strip)
             self.strips[name] = strip

@@ -11,6 +11,7 @@ from occ_gui.scene.refusal_notice import RefusalNotice
 from occ_gui.scene.scene_store import Gestures
 from occ_gui.widgets.event_filters import leave_undo_to_window
 from occ_model.errors import ParameterError, counted, one_line, shown
+from occ_model.scene.light_words import describe_light
 from occ_model.scene.parameters import count, payload_parameter
 from occ_model.scene.payload import form_of
 from occ_model.scene.refusal import refusal_of
@@ -62,6 +63,8 @@ class CodeEntry(QWidget):
 
     def show_scene(self, scene: Scene) -> None:
         transmitter = scene.transmitter
+        for part in (self.title, self):
+            part.setVisible(transmitter.light == "code")
         # A raw pattern or a payload is sent in place of the code.
         self.setEnabled(not transmitter.pattern)
         self._show_title(scene)
@@ -76,7 +79,7 @@ class CodeEntry(QWidget):
 
     def _show_title(self, scene: Scene | None) -> None:
         if scene is not None and scene.transmitter.pattern:
-            text = "Code: replaced by a raw pattern"
+            text = f"Sent: {describe_light(scene.transmitter)}"
         elif scene is not None and scene.transmitter.payload:
             form = form_of(scene.transmitter.payload)
             form = "bytes" if form == "hex" else form

@@ -1,16 +1,23 @@
-"""Control panel: the preset, the code, and pages with the controls of all other parameters."""
+"""Control panel: the preset, the light, the code, and pages with all other parameters."""
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from types import MappingProxyType
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QStandardItemModel
-from PySide6.QtWidgets import QComboBox, QLabel, QTabWidget, QVBoxLayout, QWidget
+from PySide6.QtWidgets import (
+    QComboBox,
+    QHBoxLayout,
+    QLabel,
+    QTabWidget,
+    QVBoxLayout,
+    QWidget,
+)
 
 from occ_gui.scene.code_entry import CodeEntry
 from occ_gui.scene.forced_effects import ForcedEffects
 from occ_gui.scene.parameter_panel import ParameterPage, ParameterPanel
-from occ_gui.scene.parameter_rows import CountRow, ParameterRow, QuantityRow
+from occ_gui.scene.parameter_rows import CountRow, ParameterRow, QuantityRow, row_for
 from occ_gui.scene.player import Player
 from occ_gui.scene.scene_editor import SceneEditor
 from occ_gui.widgets.building import fill
@@ -20,8 +27,17 @@ from occ_model.results.teaching import MarkedValue
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import GROUPS, Scene
 
-MAIN = ("exposure_time", "switching_frequency", "readout_time", "iso", "f_number", "distance")
-"""The parameters on the first page."""
+MAIN = (
+    "exposure_time", "lamp_frequency", "duty", "mains_frequency", "mains_depth", "levels",
+    "waveform_file", "pulse_frequency", "pulse_length", "switching_frequency", "readout_time",
+    "iso", "f_number", "distance",
+)  # fmt: skip
+"""The parameters on the first page, of which a scene shows those of its kind of light."""
+
+
+def main_of(light: str) -> tuple[str, ...]:
+    """Return the parameters that the first page shows for a kind of light."""
+    return tuple(name for name in MAIN if PARAMETERS[name].is_of(light))
 
 
 class ControlPanel(QWidget):
@@ -50,9 +66,10 @@ class ControlPanel(QWidget):
         self.preset.activated.connect(
             lambda index: self.preset_chosen.emit(self.preset.itemData(index))
         )
+        self.light = row_for(PARAMETERS["light"])
         self.code = CodeEntry()
         self.forced = ForcedEffects()
-        others = [n for n in PARAMETERS if n not in (*MAIN, *effects, "code")]
+        others = [n for n in PARAMETERS if n not in (*MAIN, *effects, "code", "light")]
         model = [n for n in others if n in GROUPS["model"] or n in GROUPS["receiver"]]
         self._scene: Scene | None = None
         self._editor: SceneEditor | None = None
@@ -105,7 +122,10 @@ class ControlPanel(QWidget):
         pages = QTabWidget()
         for title, page in self._pages.items():
             pages.addTab(page, title)
-        above = (QLabel("Preset"), self.preset, self.forced, self.code.title, self.code)
+        light = fill(QHBoxLayout(), QLabel(PARAMETERS["light"].label), (self.light, 1), margins=0)
+        above = (
+            QLabel("Preset"), self.preset, self.forced, light, self.code.title, self.code
+        )  # fmt: skip
         fill(QVBoxLayout(self), *above, (pages, 1))
 
     def list_presets(
@@ -148,6 +168,7 @@ class ControlPanel(QWidget):
     def show_scene(self, scene: Scene) -> None:
         self._scene = scene
         self.player.follow_scene(scene)
+        self.light.show_value(scene.transmitter.light)
         self.code.show_scene(scene)
         for panel in self._existing_panels:
             panel.show_scene(scene)
@@ -185,7 +206,7 @@ class ControlPanel(QWidget):
         return [fields[name] for name in names if name in fields]
 
     def _fields(self) -> dict[str, CodeEntry | ParameterRow]:
-        fields: dict[str, CodeEntry | ParameterRow] = {"code": self.code}
+        fields: dict[str, CodeEntry | ParameterRow] = {"code": self.code, "light": self.light}
         for panel in self._existing_panels:
             fields.update(panel.rows)
         return fields

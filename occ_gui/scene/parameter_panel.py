@@ -5,7 +5,15 @@ from types import MappingProxyType
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QShowEvent
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QScrollArea, QVBoxLayout, QWidget
+from PySide6.QtWidgets import (
+    QFrame,
+    QHBoxLayout,
+    QLabel,
+    QScrollArea,
+    QSpacerItem,
+    QVBoxLayout,
+    QWidget,
+)
 
 from occ_gui.scene.parameter_rows import ParameterRow, QuantityRow, explain, row_for
 from occ_gui.scene.player import PlayButton
@@ -16,7 +24,9 @@ from occ_gui.widgets.text_scale import embolden
 from occ_model.results.teaching import MarkedValue
 from occ_model.scene.parameter_kinds import Parameter, Quantity
 from occ_model.scene.parameters import PARAMETERS
-from occ_model.scene.scene import Scene
+from occ_model.scene.scene import Scene, Transmitter
+
+_ABOVE = 6  # pixels above the label of each row but the first
 
 _MARGINS = (9, 9, 9, 2)  # pixels beside the rows; below them stands the margin of the pane
 
@@ -36,10 +46,12 @@ class ParameterPanel(QWidget):
         self.play_buttons: dict[str, PlayButton] = {}
         self.rows: dict[str, ParameterRow] = {}
         self.labels: dict[str, QLabel] = {}
+        self._spaces: dict[str, QSpacerItem] = {}
+        self._light = ""
         layout = fill(QVBoxLayout(self), margins=_MARGINS, spacing=2)
-        for place, name in enumerate(names):
-            if place:
-                layout.addSpacing(6)
+        for name in names:
+            self._spaces[name] = QSpacerItem(0, _ABOVE)
+            layout.addItem(self._spaces[name])
             if name in headings:
                 layout.addWidget(_heading(headings[name]))
             row = row_for(PARAMETERS[name])
@@ -52,6 +64,24 @@ class ParameterPanel(QWidget):
             if with_scales and isinstance(row, QuantityRow):
                 self._add_scale(name, row, line)
         layout.addStretch(1)
+        self.show_light(Transmitter().light)
+
+    def show_light(self, light: str) -> None:
+        """Show the rows that scenes with this kind of light have."""
+        if light == self._light:
+            return
+        self._light = light
+        above = 0
+        for name, row in self.rows.items():
+            is_there = PARAMETERS[name].is_of(light)
+            for part in (row, self.labels[name], self.play_buttons.get(name)):
+                if part is not None:
+                    part.setVisible(is_there)
+            self._spaces[name].changeSize(0, above if is_there else 0)
+            above = _ABOVE if is_there else above
+        layout = self.layout()
+        if layout is not None:
+            layout.invalidate()
 
     def _add_scale(self, name: str, row: QuantityRow, line: QHBoxLayout) -> None:
         declared = PARAMETERS[name]
@@ -67,6 +97,10 @@ class ParameterPanel(QWidget):
             foot.addWidget(widget)
 
     def show_scene(self, scene: Scene) -> None:
+        self.show_light(scene.transmitter.light)
+        for name in ("levels", "switching_frequency"):  # a recorded waveform is sent instead
+            if name in self.rows:
+                self.rows[name].setEnabled(not replaces_levels(scene))
         for name, row in self.rows.items():
             value = scene.value(name)
             if value != row.value:
@@ -75,6 +109,11 @@ class ParameterPanel(QWidget):
     def show_marks(self, name: str, marks: Sequence[MarkedValue]) -> None:
         if name in self._scales:
             self._scales[name].show_marks(marks)
+
+
+def replaces_levels(scene: Scene) -> bool:
+    """Whether a recorded waveform is sent in place of levels at the switching frequency."""
+    return scene.transmitter.light == "waveform" and bool(scene.transmitter.waveform_file)
 
 
 def _heading(text: str) -> QLabel:

@@ -1,16 +1,26 @@
 """Parameter rows: the controls of one parameter, a class for each kind of declaration."""
 
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
-from PySide6.QtWidgets import QComboBox, QGridLayout, QLineEdit, QSlider, QVBoxLayout, QWidget
+from PySide6.QtWidgets import (
+    QComboBox,
+    QFileDialog,
+    QGridLayout,
+    QHBoxLayout,
+    QLineEdit,
+    QSlider,
+    QVBoxLayout,
+    QWidget,
+)
 
 from occ_gui.scene.number_edits import CountEdit, QuantityEdit
 from occ_gui.scene.refusal_notice import RefusalNotice
 from occ_gui.scene.scene_store import Gestures
-from occ_gui.widgets.building import fill
+from occ_gui.widgets.building import fill, push_button
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling, leave_undo_to_window
 from occ_model.errors import ParameterError
 from occ_model.scene.declaration import Declaration
 from occ_model.scene.light_text import LightText
+from occ_model.scene.light_words import describe_samples
 from occ_model.scene.parameter_kinds import (
     ChipPattern,
     Choice,
@@ -235,8 +245,11 @@ class PatternRow(ParameterRow):
         self.field.editingFinished.connect(self._read)
         self.notice.dismissed.connect(lambda: self.field.setText(self._value_text))
 
+    def _text_of(self, value: str) -> str:
+        return self._declared.format(value)
+
     def _display(self, value: ParameterValue) -> None:
-        self._value_text = self._declared.format(str(value))
+        self._value_text = self._text_of(str(value))
         self.field.setText(self._value_text)
         self.end_refusal()
 
@@ -249,8 +262,11 @@ class PatternRow(ParameterRow):
         if self.field.text() == self._value_text:
             self.end_refusal()
             return
+        self._take(self.field.text())
+
+    def _take(self, text: str) -> None:
         try:
-            value = self._declared.parse(self.field.text())
+            value = self._declared.parse(text)
         except ParameterError as error:
             self.refused.emit(refusal_of(error))
             return
@@ -258,6 +274,30 @@ class PatternRow(ParameterRow):
         self.show_value(value)
         if is_changed:
             self._enter(value)
+
+
+class WaveformRow(PatternRow):
+    """The path of a CSV file is typed or chosen; how much it has is shown once it is read."""
+
+    def __init__(self, declared: LightText) -> None:
+        super().__init__(declared)
+        self.open = push_button("Open…", "Choose a CSV file of seconds and levels.", self._ask)
+        self.remove = push_button(
+            "Remove", "Send the levels again in place of the file.", lambda: self._take("")
+        )
+        buttons = fill(QHBoxLayout(), self.open, self.remove, (None, 1), margins=0)
+        layout = self.layout()
+        if isinstance(layout, QVBoxLayout):
+            layout.addLayout(buttons)
+
+    def _text_of(self, value: str) -> str:
+        self.remove.setEnabled(bool(value))
+        return describe_samples(value)
+
+    def _ask(self) -> None:
+        path, _ = QFileDialog.getOpenFileName(self, "Open waveform", "", "Tables (*.csv *.txt)")
+        if path:
+            self._take(path)
 
 
 def row_for(declared: Parameter) -> ParameterRow:
@@ -270,6 +310,8 @@ def row_for(declared: Parameter) -> ParameterRow:
             return OpenChoiceRow(declared)
         case Choice():
             return ChoiceRow(declared)
+        case LightText(name="waveform_file"):
+            return WaveformRow(declared)
         case ChipPattern() | Payload() | LightText():
             return PatternRow(declared)
 

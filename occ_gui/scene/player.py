@@ -6,6 +6,7 @@ from PySide6.QtWidgets import QMenu
 
 from occ_gui.scene.parameter_rows import QuantityRow
 from occ_gui.widgets.icons import IconButton
+from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
 
 _FRAME_MS = 40
@@ -89,6 +90,9 @@ class Player(QObject):
 
     def follow_scene(self, scene: Scene) -> None:
         if not self.playing or self._last_value is None:
+            return
+        if not PARAMETERS[self.playing].is_of(scene.transmitter.light):
+            self.stop()
             return
         value = float(scene.value(self.playing))
         if abs(value - self._last_value) > _RELATIVE_TOLERANCE * abs(self._last_value):

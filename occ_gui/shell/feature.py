@@ -145,6 +145,7 @@ class Feature(Generic[Part]):
     make: Callable[[], Any] = Service  # makes a Pane where there is a title, and else a Service
     part: Callable[[Workspace, Results], Part | None] = lambda _workspace, _results: None
     """Selects what the pane shows; None if there is nothing that it could show."""
+    is_about_codes: bool = False  # whether it is away while the light is another one
     updates_hidden: bool = False
     """Whether the pane is kept up to date while it is hidden, because other panes use it."""
     actions: Mapping[str, Callable[[], object]] = field(default_factory=dict)

@@ -3,17 +3,20 @@
 from collections.abc import Mapping
 from typing import Any, Protocol
 
-from PySide6.QtCore import QObject, Signal
+from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtGui import QAction, QHideEvent, QShowEvent
 from PySide6.QtWidgets import QDockWidget, QVBoxLayout, QWidget
 
 from occ_gui.core.store import Store
-from occ_gui.shell.feature import Draw, Feature, Figure, Pane, Service
+from occ_gui.shell.feature import Draw, Feature, Figure, NothingToDraw, Pane, Service
 from occ_gui.shell.results import ResultsStore
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.values.modes import Places, Side
-from occ_gui.widgets.building import fill
+from occ_gui.widgets.building import fill, paragraph
 from occ_gui.widgets.event_filters import leave_drops_to_window
+from occ_model.scene.light_words import describe_light
+
+_MARGIN = 12  # pixels around the sentence in place of a pane
 
 
 class DockWindow(Protocol):
@@ -67,6 +70,9 @@ class Shell(QObject):
             enabled = feature.enabled(self._store.workspace, self._results_store.results)
             for name, is_enabled in enabled.items():
                 actions[name].setEnabled(is_enabled)
+            if feature.is_about_codes:
+                for figure in feature.figures:
+                    actions[f"export_{figure.name}"].setEnabled(self._store.workspace.has_code)
 
     def embed(self, feature: Feature[Any]) -> QWidget:
         """Return a widget for a feature that is part of another pane, which shows and hides it."""
@@ -113,12 +119,16 @@ class Shell(QObject):
     @property
     def different_figures(self) -> list[Figure]:
         return [
-            figure for figure, place in self._figures.values() if figure.is_different(place.pane)
+            figure
+            for figure, place in self._figures.values()
+            if not place.is_away and figure.is_different(place.pane)
         ]
 
     def draw(self, name: str, shown: Snapshot) -> Draw:
         """Return a function that draws a figure of these results; raises NothingToDraw."""
         figure, place = self._figures[name]
+        if place.is_away:
+            raise NothingToDraw(place.reason)
         return figure.draw(place.pane, shown)
 
     @property
@@ -148,13 +158,30 @@ class _PaneHolder(QWidget):
         self._is_seen = False
         self._shown: Any = None
         self.pane: Pane[Any] | None = None
-        self._content = fill(QVBoxLayout(self), margins=0)
+        self._note = paragraph(name=feature.title)
+        self._note.setMargin(_MARGIN)
+        self._note.setAlignment(Qt.AlignmentFlag.AlignTop)
+        self._note.hide()
+        self._content = fill(QVBoxLayout(self), (self._note, 1), margins=0)
+
+    @property
+    def is_away(self) -> bool:
+        return self.feature.is_about_codes and not self._shell._store.workspace.has_code
+
+    @property
+    def reason(self) -> str:
+        light = describe_light(self._shell._store.workspace.scene.transmitter)
+        return (
+            f"“{self.feature.title}” is about codes, and none is sent: {light}. Choose the light "
+            "“code”, or look at its bars in the pane “Bars”."
+        )
 
     def make_pane(self) -> Pane[Any]:
         if self.pane is None:
             pane: Pane[Any] = self.feature.make()
             self.pane = pane
             self._content.addWidget(pane.widget)
+            pane.widget.setHidden(self.is_away)
             pane.status_message.connect(self._shell.said)
             pane.accepted.connect(self._shell.accepted)
             leave_drops_to_window(self)
@@ -163,12 +190,12 @@ class _PaneHolder(QWidget):
         return self.pane
 
     def set_seen(self, seen: bool) -> None:
-        if not seen and self.pane is None:
-            return
         self._is_seen = seen
-        pane = self.make_pane()
+        if seen and not self.is_away:
+            self.make_pane()
         self.show_change()
-        pane.set_seen(seen)
+        if self.pane is not None:
+            self.pane.set_seen(seen and not self.is_away)
 
     def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 - Qt's name
         super().showEvent(event)
@@ -179,8 +206,17 @@ class _PaneHolder(QWidget):
         self.shown.emit(False)
 
     def show_change(self) -> None:
-        """Show the part of the pane, if it is visible and has changed."""
-        if self.pane is None or not (self._is_seen or self.feature.updates_hidden):
+        """Show the part of the pane, if it is visible and has changed; or why it is away."""
+        is_away, was_away = self.is_away, not self._note.isHidden()
+        if is_away:
+            self._note.setText(self.reason)
+        if is_away != was_away:
+            self._note.setVisible(is_away)
+            if self.pane is not None:
+                self.pane.widget.setHidden(is_away)
+            if self._is_seen:
+                self.set_seen(True)
+        if is_away or self.pane is None or not (self._is_seen or self.feature.updates_hidden):
             return
         part = self.feature.part(self._shell._store.workspace, self._shell._results_store.results)
         if part is not None and part != self._shown:

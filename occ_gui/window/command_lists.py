@@ -135,9 +135,11 @@ def commands_of(
         for path, action in entries(bar)
         if action.isEnabled()
     ]
+    commands.append(_jump_command("Scene", "light", controls.light, bring_to_front))
     for page, panel in controls.panels.items():
         for name, row in panel.rows.items():
-            commands.append(_jump_command(page, name, row, bring_to_front))
+            if not row.isHidden():  # one of another kind of light is
+                commands.append(_jump_command(page, name, row, bring_to_front))
     return commands
 
 

@@ -1,7 +1,7 @@
 """The menus of the window; :mod:`occ_gui.app` connects their entries."""
 
 import re
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Container, Iterable, Mapping
 from pathlib import Path
 from typing import NamedTuple
 
@@ -167,6 +167,7 @@ class Menus(QObject):
         self.actions: dict[str, QAction] = {}
         self.tops: dict[str, QMenu] = {}
         self.figures: dict[str, QAction] = {}
+        self._animations: dict[str, QAction] = {}
         self.drop_downs: dict[str, QMenu] = {}  # the menus that the toolbar opens, too
         self._make_file_menu(window)
         self._make_edit_menu(undo_stack)
@@ -251,6 +252,12 @@ class Menus(QObject):
             action.setToolTip("The slider's run from end to end, as GIF, MP4 or PNG.")
             action.triggered.connect(lambda _=False, name=name: ask(name))
             action.setProperty(_SEARCH_WORDS, words)
+            self._animations[name] = action
+
+    def show_animations(self, names: Container[str]) -> None:
+        """Offer those of the sliders that the scene's light has."""
+        for name, action in self._animations.items():
+            action.setVisible(name in names)
 
     def _make_edit_menu(self, undo_stack: QUndoStack) -> None:
         menu = self._add_menu("edit", "&Edit")

@@ -40,6 +40,12 @@ def blinking_lamp(transmitter: Transmitter) -> BlinkingLamp | None:
     return None
 
 
+def describe_samples(samples: str) -> str:
+    """Return how many levels a recorded waveform has, and how long it is; empty without one."""
+    *rows, end = samples.splitlines() or [""]
+    return f"{len(rows):,} levels in {SECOND.format(float(end), 4)}" if end else ""
+
+
 def describe_light(transmitter: Transmitter) -> str:
     """Return what is sent, as a noun in a sentence."""
     sent = transmitter
@@ -49,8 +55,7 @@ def describe_light(transmitter: Transmitter) -> str:
             depth = PERCENT.format(sent.mains_depth, 3)
             return f"lamp on the mains of {HERTZ.format(sent.mains_frequency, 4)}, depth {depth}"
         case "waveform" if sent.waveform_file:
-            *rows, end = sent.waveform_file.splitlines()
-            return f"recorded waveform, {len(rows):,} levels in {SECOND.format(float(end), 4)}"
+            return f"recorded waveform, {describe_samples(sent.waveform_file)}"
         case "waveform":
             count = len(sent.levels.partition("/")[0].split())
             return f"waveform of {count} levels at {frequency}"

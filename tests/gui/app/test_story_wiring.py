@@ -13,7 +13,7 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
 from occ_gui.app.story_wiring import story_menu
-from occ_gui.scene.control_panel import MAIN
+from occ_gui.scene.control_panel import main_of
 from occ_gui.story.verdict_bar import AVERAGES_LESSON
 from occ_gui.widgets.state_look import State
 
@@ -30,14 +30,15 @@ def test_controls_verdict_and_rows_are_on_the_first_screen(
     window, story = application.window, application.story
     window.resize(1280, 800)
     qtbot.waitUntil(lambda: application.is_idle)
-    sliders = [row.slider for row in application.controls.main_rows().values()]
-    assert len(sliders) == len(MAIN) == 6
-    rows = story.rows
-    for part in (*sliders, story.verdict, rows.light, rows.stripes, rows.profile, rows.code):
+    rows = application.controls.main_rows()
+    sliders = [rows[name].slider for name in main_of("code")]
+    assert len(sliders) == 6
+    four = story.rows
+    for part in (*sliders, story.verdict, four.light, four.stripes, four.profile, four.code):
         place = place_in(window, part)
         assert place.size() == part.size(), part
         assert window.rect().contains(place)
-    assert rows.profile.band is not None
+    assert four.profile.band is not None
 
 
 def test_the_bar_and_the_decoding_pane_agree(application: Application, user: User) -> None:

@@ -23,7 +23,7 @@ from occ_gui.detection_map.slider_strip import IMAGES, SliderStrip, SliderStrips
 from occ_gui.detection_map.slider_strip_controller import RateRequest, SliderStripController
 from occ_gui.detection_map.wiring import BackgroundRates
 from occ_gui.detection_map.worker import StripPoints
-from occ_gui.scene.control_panel import MAIN
+from occ_gui.scene.control_panel import main_of
 from occ_gui.scene.parameter_rows import QuantityRow
 from occ_model.results.sweep_request import SweepPoint
 from occ_model.scene.parameters import quantity
@@ -162,7 +162,7 @@ def strips(qtbot: QtBot, small_scene: Scene) -> SliderStrips:
 
 
 def test_a_strip_is_as_long_as_the_path_of_the_handle(strips: SliderStrips) -> None:
-    assert tuple(strips.strips) == MAIN
+    assert tuple(strips.strips) == main_of("code")
     for name, row in strips.rows.items():
         strip = strips.strips[name]
         for end, position in enumerate((row.slider.minimum(), row.slider.maximum())):

@@ -1,21 +1,31 @@
 """All controls of a scene: each parameter once, each control named and explained."""
 
 from collections import Counter
+from itertools import pairwise
 from typing import Any
 
 import pytest
 from gui.kinds import add_widget, collect
 from gui.stores import store_of
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QAbstractSpinBox, QComboBox, QLabel, QLineEdit, QSlider, QWidget
+from PySide6.QtWidgets import (
+    QAbstractSpinBox,
+    QApplication,
+    QComboBox,
+    QLabel,
+    QLineEdit,
+    QSlider,
+    QWidget,
+)
 from pytestqt.qtbot import QtBot
 
-from occ_gui.scene.control_panel import MAIN, ControlPanel
+from occ_gui.scene.control_panel import MAIN, ControlPanel, main_of
 from occ_gui.scene.parameter_panel import ParameterPanel
 from occ_gui.scene.parameter_rows import ChoiceRow, CountRow, PatternRow, QuantityRow
 from occ_gui.scene.scene_editor import SceneEditor
 from occ_gui.scene.scene_store import SceneStore
 from occ_model.scene.parameters import PARAMETERS
+from occ_model.scene.parameters.light import LIGHTS
 from occ_model.scene.scene import Scene
 
 EFFECTS = ("edge_time", "jpeg_quality")
@@ -31,6 +41,11 @@ def panel(qtbot: QtBot) -> ControlPanel:
     return panel
 
 
+def choice_of(panel: ControlPanel) -> QComboBox:
+    assert isinstance(panel.light, ChoiceRow)
+    return panel.light.field
+
+
 def entry_controls(panel: QWidget) -> list[QWidget]:
     """List the controls that accept values, without the line edits inside number fields."""
     kinds = (QAbstractSpinBox, QComboBox, QLineEdit, QSlider)
@@ -40,10 +55,9 @@ def entry_controls(panel: QWidget) -> list[QWidget]:
 
 def test_every_parameter_but_the_code_has_exactly_one_row_on_its_page(panel: ControlPanel) -> None:
     rows = Counter(name for page in panel.panels.values() for name in page.rows)
-    assert rows == Counter(name for name in PARAMETERS if name != "code")
+    assert rows == Counter(name for name in PARAMETERS if name not in ("code", "light"))
     first = next(iter(panel.panels.values()))
     assert tuple(first.rows) == MAIN
-    assert all(isinstance(row, QuantityRow) for row in first.rows.values())
     assert tuple(panel.panels["Effects"].rows) == EFFECTS
 
 
@@ -74,7 +88,9 @@ def test_all_pages_show_the_scene_and_emit_no_edit(panel: ControlPanel) -> None:
         code=5, bits=4, pattern="01", distance=0.7, gamma=1.8, averaging="light", rows=77
     )
     panel.show_scene(scene)
-    values: dict[str, object] = {"code": panel.code.number.value()}
+    values: dict[str, object] = {
+        "code": panel.code.number.value(), "light": choice_of(panel).currentText()
+    }  # fmt: skip
     for page in panel.panels.values():
         for name, row in page.rows.items():
             match row:
@@ -86,6 +102,43 @@ def test_all_pages_show_the_scene_and_emit_no_edit(panel: ControlPanel) -> None:
                     values[name] = row.field.text()
     assert values == {name: scene.value(name) for name in PARAMETERS}
     assert edits == []
+
+
+@pytest.mark.parametrize("light", LIGHTS)
+def test_only_the_rows_of_the_scenes_light_are_shown(panel: ControlPanel, light: str) -> None:
+    shown = Scene().replace(light=light)
+    panel.show_scene(shown)
+    assert choice_of(panel).currentText() == light
+    for page in panel.panels.values():
+        for name, row in page.rows.items():
+            parts = (row, page.labels[name], page.play_buttons.get(name, row))
+            assert {part.isHidden() for part in parts} == {not PARAMETERS[name].is_of(light)}
+    for part in (panel.code, panel.code.title):
+        assert part.isHidden() == (light != "code")
+
+
+def test_other_lights_leave_no_gap_between_the_rows(panel: ControlPanel, qtbot: QtBot) -> None:
+    page = panel.panels["Main"]
+    panel.resize(300, 900)
+    with qtbot.waitExposed(panel):
+        panel.show()
+    for light in ("lamp", "mains", "code"):
+        panel.show_scene(Scene().replace(light=light))
+        qtbot.waitUntil(lambda: page.rows["exposure_time"].isVisible())
+        QApplication.processEvents()
+        there = [name for name, row in page.rows.items() if row.isVisible()]
+        assert tuple(there) == main_of(light)
+        for above, below in pairwise(there):
+            label, row = page.labels[below].geometry(), page.rows[above].geometry()
+            assert label.top() - row.bottom() < 20
+
+
+def test_a_running_slider_stops_where_another_light_has_none(panel: ControlPanel) -> None:
+    panel.connect_editor(SceneEditor(store_of()))
+    panel.player.play("switching_frequency")
+    panel.player._advance()
+    panel.show_scene(Scene().replace(light="lamp"))
+    assert panel.player.playing == ""
 
 
 def test_edits_and_refusals_of_every_part_are_passed_on(
@@ -100,6 +153,7 @@ def test_edits_and_refusals_of_every_part_are_passed_on(
         for name, row in page.rows.items():
             row.edited.emit(name, 1, 1)
     panel.code.edited.emit("code", 1, 1)
+    panel.light.edited.emit("light", "lamp", 1)
     panel.code.refused.emit("No such bits.")
     assert Counter(heard) == Counter([*PARAMETERS, "No such bits."])
 

@@ -1,11 +1,13 @@
 """The controls of one parameter show its value and emit what the user enters."""
 
 import math
+from pathlib import Path
 from typing import Any
 
 import pytest
 from gui.mouse import turn_wheel_at
 from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
 
 from occ_gui.scene.parameter_rows import row_for
@@ -201,3 +203,28 @@ def test_the_wheel_scrolls_the_page_until_a_control_is_chosen(qtbot: QtBot) -> N
     qtbot.waitUntil(slider.hasFocus)
     turn_wheel_at(slider, slider.rect().center())
     assert len(trial.edits) == 1
+
+
+def test_a_recorded_waveform_is_chosen_summed_up_and_removed(
+    qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    trial = RowTrial("waveform_file", qtbot)
+    trial.row.show_value("")
+    assert not trial.row.remove.isEnabled()
+    path = tmp_path / "light.csv"
+    path.write_text("s,level\n0,1\n0.5e-3,0.25\n1e-3\n")
+    monkeypatch.setattr(QFileDialog, "getOpenFileName", lambda *_: (str(path), ""))
+    trial.row.open.click()
+    assert trial.values == ["0.0,1.0\n0.0005,0.25\n0.001\n"]
+    assert trial.row.field.text() == "2 levels in 1 ms"
+    path.write_text("s,level\n0,1\n0.5e-3,7\n")
+    trial.row.open.click()
+    assert trial.values[1:] == []
+    assert "level 7" in trial.refused[0]
+    assert trial.row.field.text() == "2 levels in 1 ms"
+    trial.row.remove.click()
+    assert trial.values[1:] == [""]
+    assert trial.row.field.text() == ""
+    trial.row.field.setText(str(path.with_name("none.csv")))
+    trial.row.field.editingFinished.emit()
+    assert len(trial.refused) == 2

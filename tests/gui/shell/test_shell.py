@@ -140,3 +140,32 @@ def test_entries_idle_and_stop_follow_from_the_declaration(bench: Bench) -> None
     assert bench.shell.is_idle
     bench.shell.stop()
     assert bench.pane.is_stopped
+
+
+def test_a_pane_about_codes_is_away_while_another_light_is_sent(qtbot: QtBot) -> None:
+    store, window = Store(Workspace(Scene().replace(light="lamp"))), PlainWindow()
+    qtbot.addWidget(window)
+    shell = Shell(store, ResultsStore())
+    feature = Feature(
+        name="x", title="Map", make=Noting, part=lambda w, _: w.scene, is_about_codes=True
+    )
+    shell.add(feature, window)
+
+    def send(light: str) -> None:
+        store.put(replace(store.workspace, scene=store.workspace.scene.replace(light=light)))
+
+    window.docks["x"].visibilityChanged.emit(True)
+    assert shell.find_pane("x") is None
+    (note,) = window.docks["x"].widget().findChildren(QLabel)
+    assert "lamp of 1 kHz" in note.text()
+    assert not note.isHidden()
+    send("code")
+    pane = shell.pane("x")
+    assert (note.isHidden(), pane.widget.isHidden()) == (True, False)
+    assert (pane.seen, len(pane.parts)) == ([True], 1)
+    send("mains")
+    assert (note.isHidden(), pane.widget.isHidden()) == (False, True)
+    assert (pane.seen, len(pane.parts)) == ([True, False], 1)
+    send("code")
+    assert pane.seen == [True, False, True]
+    shell.stop()

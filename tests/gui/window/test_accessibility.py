@@ -12,7 +12,6 @@ from PySide6.QtWidgets import QApplication, QGridLayout, QLineEdit, QMainWindow,
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
-from occ_gui.scene.control_panel import MAIN
 from occ_gui.values.modes import MODES
 from occ_gui.window.reading_order import focus_stops
 
@@ -26,8 +25,7 @@ def face_of(widget: QWidget) -> QAccessibleInterface:
 def test_a_slider_and_its_field_announce_the_value_with_its_unit(
     application: Application, user: User
 ) -> None:
-    for name in MAIN:
-        row = application.controls.main_rows()[name]
+    for name, row in application.controls.main_rows().items():
         for step in (100, 700):
             row.slider.setValue(step)
             value = row.field.text()
@@ -91,7 +89,7 @@ def show_mode(application: Application, qtbot: QtBot, mode: str) -> None:
 
 def frequent_controls(application: Application) -> set[QWidget]:
     """Return some of the controls that users need most."""
-    rows = application.controls.main_rows().values()
+    rows = [row for row in application.controls.main_rows().values() if not row.isHidden()]
     buttons = application.window.toolbar.buttons.values()
     return {
         *(row.slider for row in rows), *(row.field for row in rows), application.controls.preset,

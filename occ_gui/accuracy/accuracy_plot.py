@@ -10,9 +10,8 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from occ_gui.accuracy.named_points import NamedPoint, choose_points
 from occ_gui.widgets.axes import LogAxis
-from occ_gui.widgets.building import fill, push_button
+from occ_gui.widgets.building import ElidedLabel, fill, push_button
 from occ_gui.widgets.colours import BAND, NOISE, PHOTO, REGION, SIMULATION, lighten_for, thin
-from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.plot import new_plot
 from occ_model.results.accuracy import (
     ACCURACY_PARTS,

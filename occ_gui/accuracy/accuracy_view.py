@@ -14,8 +14,7 @@ from occ_gui.accuracy.plan_changes import describe_switches
 from occ_gui.accuracy.tolerance_slider import ToleranceSlider, list_marks
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.values.simulated import SimulationRequest
-from occ_gui.widgets.building import KeyedComboBox, fill
-from occ_gui.widgets.elided_label import ElidedLabel
+from occ_gui.widgets.building import ElidedLabel, KeyedComboBox, fill
 from occ_model.results.accuracy import Forecast, MeasuredCosts, TimeFractions
 from occ_model.results.plan import Decision
 from occ_model.scene.scene import SimulationSettings, unit_of

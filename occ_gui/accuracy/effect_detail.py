@@ -8,9 +8,8 @@ from PySide6.QtWidgets import QSizePolicy, QVBoxLayout, QWidget
 
 from occ_gui.accuracy.effect_cells import make_image
 from occ_gui.accuracy.effect_rows import ELSE, EffectRow
-from occ_gui.widgets.building import fill, paragraph
+from occ_gui.widgets.building import embolden, fill, paragraph
 from occ_gui.widgets.guarded_paint import guarded
-from occ_gui.widgets.text_scale import embolden
 from occ_model.results.accuracy import EffectCrop
 
 _GAP = 8

@@ -14,9 +14,8 @@ from PySide6.QtWidgets import (
 
 from occ_gui.bands.bands_plots import DepthPlot, RiskPlot
 from occ_gui.bands.jobs import SceneBars
-from occ_gui.widgets.building import fill, make_read_only, paragraph
+from occ_gui.widgets.building import fill, heading_font, make_read_only, paragraph
 from occ_gui.widgets.outdated_mark import OutdatedMark
-from occ_gui.widgets.text_scale import heading_font
 from occ_model.results.bands import SpeedDepth, percent
 from occ_model.scene.units import SECOND
 

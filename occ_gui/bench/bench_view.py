@@ -9,9 +9,8 @@ from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QStackedWidget, QV
 
 from occ_gui.bench.bench_results import BITS, COLOURS, RATES, SYMBOLS, BenchPlots, BenchTable
 from occ_gui.scene.number_edits import QuantityEdit
-from occ_gui.widgets.building import KeyedComboBox, fill, name_widget, push_button
+from occ_gui.widgets.building import ElidedLabel, KeyedComboBox, fill, name_widget, push_button
 from occ_gui.widgets.colours import thin
-from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.outdated_mark import DELAY, OutdatedMark
 from occ_gui.widgets.plot import LineLegend, marker
 from occ_gui.widgets.work_bar import WorkBar

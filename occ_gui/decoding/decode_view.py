@@ -17,9 +17,8 @@ from occ_gui.simulation.verdict import (
     result_of,
     verdict_on,
 )
-from occ_gui.widgets.building import fill, name_widget, paragraph
+from occ_gui.widgets.building import embolden, fill, name_widget, paragraph
 from occ_gui.widgets.state_look import State
-from occ_gui.widgets.text_scale import embolden
 from occ_model.results.decoding import DecodeResult, Location
 
 _MARKS = {State.GOOD: "✓ ", State.NEUTRAL: "", State.WAITING: "… "}

@@ -15,8 +15,14 @@ from PySide6.QtWidgets import (
 
 from occ_gui.detection_map.advice_sentences import AdviceLine, describe_outdated, make_advice_lines
 from occ_gui.detection_map.limit_cards import LimitCards
-from occ_gui.widgets.building import ScrollPane, fill, name_widget, paragraph, push_button
-from occ_gui.widgets.elided_label import ElidedLabel
+from occ_gui.widgets.building import (
+    ElidedLabel,
+    ScrollPane,
+    fill,
+    name_widget,
+    paragraph,
+    push_button,
+)
 from occ_model.results.bit_errors import FRAMES_A_SECOND
 from occ_model.results.limits import Advice
 

@@ -7,9 +7,14 @@ from PySide6.QtGui import QHideEvent, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QWidget
 
 from occ_gui.detection_map.advice_sentences import make_frequency_line
-from occ_gui.widgets.building import fill, name_widget, paragraph, push_button
-from occ_gui.widgets.elided_label import ElidedLabel
-from occ_gui.widgets.text_scale import heading_font
+from occ_gui.widgets.building import (
+    ElidedLabel,
+    fill,
+    heading_font,
+    name_widget,
+    paragraph,
+    push_button,
+)
 from occ_model.errors import counted
 from occ_model.results.bit_errors import FRAMES_A_SECOND, MostBits
 from occ_model.results.limits import (

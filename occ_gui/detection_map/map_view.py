@@ -11,8 +11,7 @@ from occ_gui.detection_map.decoder_maps import MapLegend, MapPlots
 from occ_gui.detection_map.limit_cards import MostBitsCard
 from occ_gui.detection_map.rate_map import MAP_PARAMETERS, PointFacts, RateMap
 from occ_gui.scene.number_edits import QuantityEdit
-from occ_gui.widgets.building import KeyedComboBox, fill, name_widget, push_button
-from occ_gui.widgets.elided_label import ElidedLabel
+from occ_gui.widgets.building import ElidedLabel, KeyedComboBox, fill, name_widget, push_button
 from occ_gui.widgets.outdated_mark import OutdatedMark
 from occ_model.results.sweep_request import Shown
 from occ_model.scene.parameters import quantity

@@ -18,13 +18,13 @@ from occ_gui.explanation.equation_text import EquationText
 from occ_gui.lessons.shutter_animation import ShutterAnimation
 from occ_gui.widgets.building import (
     ScrollPane,
+    embolden,
     fill,
     name_widget,
     paragraph as plain_paragraph,
     push_button,
 )
 from occ_gui.widgets.event_filters import leave_undo_to_window
-from occ_gui.widgets.text_scale import embolden
 from occ_model.results.teaching import CheckedAnswer, Lesson
 from occ_model.scene.parameters import PARAMETERS
 

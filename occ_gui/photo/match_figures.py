@@ -7,8 +7,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QFontDatabase
 from PySide6.QtWidgets import QGridLayout, QLabel, QToolButton, QVBoxLayout, QWidget
 
-from occ_gui.widgets.building import fill, name_widget, paragraph
-from occ_gui.widgets.elided_label import ElidedLabel
+from occ_gui.widgets.building import ElidedLabel, fill, name_widget, paragraph
 from occ_gui.widgets.plain_text import copy_text
 from occ_model.photo.many.other_programs import note_on
 from occ_model.photo.match_facts import ESTIMATES, LABELS, match_facts

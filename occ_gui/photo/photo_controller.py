@@ -9,8 +9,7 @@ from PySide6.QtCore import QObject, Signal
 import occ_model as occ
 from occ_gui.background.task import Report, Task
 from occ_gui.core.store import Store
-from occ_gui.shell.result_updater import ResultUpdater
-from occ_gui.shell.results import Results, ResultsStore
+from occ_gui.shell.results import Results, ResultsStore, ResultUpdater
 from occ_gui.values.choices import PhotoChoice, PhotoSource
 from occ_gui.values.photo_results import PhotoDocument
 

@@ -14,8 +14,14 @@ from occ_gui.photo.photo_verdict import EARLIER, PhotoSteps, PhotoVerdictBar
 from occ_gui.photo.placement_form import PlacementForm
 from occ_gui.values.choices import PhotoChoice
 from occ_gui.values.photo_results import FoundMatch
-from occ_gui.widgets.building import KeyedComboBox, ScrollPane, fill, paragraph, push_button
-from occ_gui.widgets.elided_label import ElidedLabel
+from occ_gui.widgets.building import (
+    ElidedLabel,
+    KeyedComboBox,
+    ScrollPane,
+    fill,
+    paragraph,
+    push_button,
+)
 from occ_gui.widgets.plain_text import LONGEST_TEXT, in_tool_tip
 from occ_model.errors import one_line
 from occ_model.photo.reading.choices import CHANNELS

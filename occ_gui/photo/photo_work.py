@@ -9,8 +9,7 @@ from occ_gui.background.task import Report, Task
 from occ_gui.core.store import Store
 from occ_gui.core.workspace import Workspace
 from occ_gui.photo.shown_photo import Part, ShownPhoto, part_of
-from occ_gui.shell.result_updater import ResultUpdater
-from occ_gui.shell.results import Results, ResultsStore
+from occ_gui.shell.results import Results, ResultsStore, ResultUpdater
 from occ_gui.simulation.snapshot import Reading
 from occ_gui.values.choices import MatchChoice
 from occ_gui.values.photo_results import FoundMatch, MatchRequest, PhotoProfile, StripeSearch

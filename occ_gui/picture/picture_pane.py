@@ -7,9 +7,8 @@ from PySide6.QtCore import QEvent, QRectF, Qt
 from PySide6.QtWidgets import QGraphicsRectItem, QHBoxLayout, QVBoxLayout, QWidget
 
 from occ_gui.picture.averaged_image import AveragedImage
-from occ_gui.widgets.building import fill
+from occ_gui.widgets.building import ElidedLabel, fill
 from occ_gui.widgets.colours import REGION
-from occ_gui.widgets.elided_label import ElidedLabel
 from occ_model.arrays import ByteArray
 from occ_model.results.decoding import Region
 

@@ -9,10 +9,9 @@ from PySide6.QtGui import QColor, QPainter, QPaintEvent
 from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QToolButton, QVBoxLayout, QWidget
 
 from occ_gui.values.photo_results import PhotoProfile
-from occ_gui.widgets.building import fill
+from occ_gui.widgets.building import ElidedLabel, fill
 from occ_gui.widgets.chip_cell import draw_chips
 from occ_gui.widgets.colours import PHOTO, THRESHOLD, thin
-from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.guarded_paint import guarded
 from occ_gui.widgets.plain_text import copy_text
 from occ_gui.widgets.plot import Plot, new_plot

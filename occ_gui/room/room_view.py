@@ -9,8 +9,7 @@ from PySide6.QtWidgets import QComboBox, QDoubleSpinBox, QHBoxLayout, QVBoxLayou
 
 from occ_gui.room.jobs import SIDE, FloorMap, RoomPlan, ShownRoom
 from occ_gui.room.room_plots import PicturePlot, PlanPlot
-from occ_gui.widgets.building import fill, paragraph, push_button
-from occ_gui.widgets.text_scale import heading_font
+from occ_gui.widgets.building import fill, heading_font, paragraph, push_button
 from occ_model.errors import counted, one_line
 from occ_model.room.locate import RoomReading
 from occ_model.room.room import Room

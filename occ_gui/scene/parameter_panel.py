@@ -18,9 +18,8 @@ from PySide6.QtWidgets import (
 from occ_gui.scene.parameter_rows import ParameterRow, QuantityRow, explain, row_for
 from occ_gui.scene.player import PlayButton
 from occ_gui.scene.slider_scale import SliderScale
-from occ_gui.widgets.building import fill
+from occ_gui.widgets.building import embolden, fill
 from occ_gui.widgets.event_filters import leave_drops_to_window
-from occ_gui.widgets.text_scale import embolden
 from occ_model.results.teaching import MarkedValue
 from occ_model.scene.parameter_kinds import Parameter, Quantity
 from occ_model.scene.parameters import PARAMETERS

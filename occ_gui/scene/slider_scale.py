@@ -8,8 +8,8 @@ from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QFont, QFontMetricsF, QHelpEvent, QPainter, QPaintEvent, QPalette, QPen
 from PySide6.QtWidgets import QSizePolicy, QSlider, QStyle, QStyleOptionSlider, QToolTip, QWidget
 
+from occ_gui.widgets.building import resize_font
 from occ_gui.widgets.guarded_paint import guarded
-from occ_gui.widgets.text_scale import resize_font
 from occ_model.results.teaching import MarkedValue
 from occ_model.scene.parameter_kinds import Quantity
 

@@ -15,8 +15,8 @@ from occ_gui.story.column_facts import PacketField, received_edges, received_fie
 from occ_gui.story.story_row import StoryRow
 from occ_gui.widgets.chip_cell import draw_chips
 from occ_gui.widgets.colours import SIMULATION
+from occ_gui.widgets.guarded_paint import are_same
 from occ_gui.widgets.state_look import State
-from occ_gui.widgets.unchanged import are_same
 from occ_model.arrays import FloatArray
 from occ_model.results.decoding import DecodeResult
 from occ_model.scene.payload import PayloadPiece, compare_payload, form_of

@@ -9,8 +9,7 @@ from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QStackedWidget, QVBoxLay
 from occ_gui.simulation.snapshot import Picture, Reading
 from occ_gui.story.story_rows import StoryRows
 from occ_gui.story.verdict_bar import VerdictBar
-from occ_gui.widgets.building import KeyedComboBox, fill, name_widget, push_button
-from occ_gui.widgets.elided_label import ElidedLabel
+from occ_gui.widgets.building import ElidedLabel, KeyedComboBox, fill, name_widget, push_button
 
 _WHOLE, _WHOLE_TIP = "Whole picture", "Show the whole picture in place of the four rows."
 

@@ -9,8 +9,7 @@ from PySide6.QtCore import QElapsedTimer, QObject, QTimer, Signal
 import occ_model as occ
 from occ_gui.background.task import Report, Task
 from occ_gui.scene.scene_store import SceneStore
-from occ_gui.shell.result_updater import ResultUpdater
-from occ_gui.shell.results import ResultsStore
+from occ_gui.shell.results import ResultsStore, ResultUpdater
 from occ_gui.values.choices import FilmChoice, FilmSource
 from occ_gui.video.frame_jobs import FrameRequest, ShownFrame, process_frame
 from occ_model.photo.reading.choices import SCAN_AXES

@@ -15,8 +15,7 @@ from PySide6.QtWidgets import (
 from occ_gui.picture.picture_pane import PicturePane
 from occ_gui.simulation.snapshot import ColumnView, PictureView
 from occ_gui.story.story_rows import StoryRows
-from occ_gui.widgets.building import fill, name_widget, paragraph
-from occ_gui.widgets.elided_label import ElidedLabel
+from occ_gui.widgets.building import ElidedLabel, fill, name_widget, paragraph
 from occ_model.arrays import ByteArray
 from occ_model.results.decoding import Region
 

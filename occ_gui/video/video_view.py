@@ -23,6 +23,7 @@ from occ_gui.video.frame_views import FilmPictures, FrameRows
 from occ_gui.video.recording_form import RecordingForm
 from occ_gui.video.timeline import Timeline
 from occ_gui.widgets.building import (
+    ElidedLabel,
     KeyedComboBox,
     ScrollPane,
     check_box,
@@ -31,7 +32,6 @@ from occ_gui.widgets.building import (
     paragraph,
     push_button,
 )
-from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.icons import IconButton
 from occ_gui.widgets.outdated_mark import OutdatedMark
 from occ_gui.widgets.plain_text import in_menu, in_tool_tip

@@ -8,9 +8,8 @@ from occ_gui.files.file_controller import FileController
 from occ_gui.files.preferences import Preferences
 from occ_gui.shell.feature import Service
 from occ_gui.shell.shell import Shell
-from occ_gui.widgets.building import fill, paragraph
+from occ_gui.widgets.building import embolden, fill, paragraph
 from occ_gui.widgets.icons import pixmap
-from occ_gui.widgets.text_scale import embolden
 from occ_gui.window.main_window import MainWindow
 
 _PICTURE = 96

@@ -1,9 +1,10 @@
-"""Functions that make, name or lay out widgets in one call; boxes of choices; scrolling panes."""
+"""Make, name, fit and lay out widgets: labels, sizes of text, boxes of choices, scrolling panes."""
 
 from collections.abc import Callable, Mapping
 from typing import Any, TypeAlias, TypeVar
 
 from PySide6.QtCore import QEvent, QObject, QSize, Qt, Signal, SignalInstance
+from PySide6.QtGui import QFont, QResizeEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QBoxLayout,
@@ -21,6 +22,79 @@ from PySide6.QtWidgets import (
 )
 
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
+from occ_gui.widgets.plain_text import LONGEST_TEXT, in_tool_tip
+from occ_model.errors import one_line
+
+Label = TypeVar("Label", bound=QLabel)
+
+
+_HEADING = 16 / 13  # size of a heading relative to text: 16 pixels if text has 13
+
+
+def resize_font(font: QFont, factor: float) -> QFont:
+    found = QFont(font)
+    if font.pointSizeF() > 0.0:
+        found.setPointSizeF(factor * font.pointSizeF())
+    else:  # a font whose size is given in pixels
+        found.setPixelSize(round(factor * font.pixelSize()))
+    return found
+
+
+def heading_font(font: QFont) -> QFont:
+    found = resize_font(font, _HEADING)
+    found.setBold(True)
+    return found
+
+
+def embolden(label: Label, factor: float = 1.0) -> Label:
+    """Make the text of a label bold, and change its size by a factor; return the label."""
+    font = label.font()
+    font.setBold(True)
+    if factor != 1.0:  # a label with a size of its own does not follow the application's size
+        font = resize_font(font, factor)
+    label.setFont(font)
+    return label
+
+
+class ElidedLabel(QLabel):
+    """Shows as much of a text as fits, and the whole text in the tooltip."""
+
+    def __init__(
+        self, text: str = "", *, how: Qt.TextElideMode = Qt.TextElideMode.ElideRight
+    ) -> None:
+        super().__init__()
+        self._how = how
+        self._full = ""
+        self._fitted_to: tuple[str, int] | None = None
+        self.setTextFormat(Qt.TextFormat.PlainText)
+        self.set_full_text(text)
+
+    def set_full_text(self, text: str) -> None:
+        full = one_line(text, LONGEST_TEXT)
+        if full != self._full:
+            self._full = full
+            self.setToolTip(in_tool_tip(full))
+        self._fit()
+
+    def _fit(self) -> None:
+        wanted = (self._full, self.contentsRect().width())
+        if wanted != self._fitted_to:  # setting a text lays out the surrounding widgets again
+            self._fitted_to = wanted
+            self.setText(self.fontMetrics().elidedText(self._full, self._how, wanted[1]))
+
+    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.FontChange and hasattr(self, "_how"):
+            self._fitted_to = None
+            self._fit()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
+        super().resizeEvent(event)
+        self._fit()
+
+    def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Return a width of zero: the label can be narrower than its text."""
+        return QSize(0, super().minimumSizeHint().height())
 
 
 class ScrollPane(QScrollArea):

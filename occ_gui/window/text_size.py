@@ -3,7 +3,7 @@
 from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtWidgets import QApplication, QWidget
 
-from occ_gui.widgets.text_scale import resize_font
+from occ_gui.widgets.building import resize_font
 
 SIZES = (100, 115, 130)  # percent of the system's size of text, the normal one first
 

@@ -21,7 +21,7 @@ import occ_model as occ
 from occ_gui.app.application import Application
 from occ_gui.core.workspace import Workspace
 from occ_gui.scene.parameter_rows import QuantityRow
-from occ_gui.widgets.elided_label import ElidedLabel
+from occ_gui.widgets.building import ElidedLabel
 from occ_model.scene.scene import Scene
 
 

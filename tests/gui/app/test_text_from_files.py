@@ -19,7 +19,7 @@ from occ_gui.app.application import Application
 from occ_gui.lessons.answers import LessonAnswers
 from occ_gui.lessons.lesson_controller import LessonController
 from occ_gui.lessons.lesson_view import LessonView
-from occ_gui.widgets.elided_label import ElidedLabel
+from occ_gui.widgets.building import ElidedLabel
 from occ_gui.widgets.plain_text import in_tool_tip, plain
 from occ_model.results.teaching import LoadedLessons
 from occ_model.scene.presets import USER_FOLDER, delete_preset, save_preset

@@ -22,7 +22,7 @@ from occ_gui.picture.picture_pane import PicturePane
 from occ_gui.profile.profile_view import ProfileView
 from occ_gui.simulation.snapshot import Picture
 from occ_gui.values.choices import MODES, Placement
-from occ_gui.widgets.elided_label import ElidedLabel
+from occ_gui.widgets.building import ElidedLabel
 from occ_gui.window.cursor_readout import follow_pictures
 from occ_model.photo.reading.load import Photo
 from occ_model.results.decoding import DecodeResult, Region

@@ -11,8 +11,7 @@ from gui.stores import store_of
 from pytestqt.qtbot import QtBot
 
 from occ_gui.background.task import Report, Task
-from occ_gui.shell.result_updater import ResultUpdater
-from occ_gui.shell.results import Results, ResultsStore
+from occ_gui.shell.results import Results, ResultsStore, ResultUpdater
 
 PATIENCE_S = 10.0
 

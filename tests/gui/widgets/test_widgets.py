@@ -10,11 +10,17 @@ from PySide6.QtWidgets import QApplication, QLabel, QTabWidget, QVBoxLayout, QWi
 from pytestqt.qtbot import QtBot
 
 from occ_gui.widgets.axes import LogAxis
-from occ_gui.widgets.building import KeyedComboBox, ScrollPane, bring_into_view, fill
-from occ_gui.widgets.elided_label import ElidedLabel
+from occ_gui.widgets.building import (
+    ElidedLabel,
+    KeyedComboBox,
+    ScrollPane,
+    bring_into_view,
+    embolden,
+    fill,
+    resize_font,
+)
+from occ_gui.widgets.guarded_paint import are_same
 from occ_gui.widgets.plain_text import in_tool_tip
-from occ_gui.widgets.text_scale import embolden, resize_font
-from occ_gui.widgets.unchanged import are_same
 
 LONG = "Photo a_name_that_goes_on_and_on_<b>and</b>_on_until_it_ends.png"
 

@@ -12,9 +12,9 @@ from PySide6.QtWidgets import QApplication, QLabel, QPushButton, QStyle, QStyleO
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
+from occ_gui.widgets.building import heading_font
 from occ_gui.widgets.colours import contrast
 from occ_gui.widgets.state_look import State, colours_of
-from occ_gui.widgets.text_scale import heading_font
 from occ_gui.window.docks import floating_place
 from occ_gui.window.style_sheet import SHEET, style_sheet
 from occ_gui.window.text_size import SIZES

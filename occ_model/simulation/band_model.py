@@ -1,40 +1,41 @@
 """The band model, the state of the art with which the paper compares its simulation.
 
 A chip has h_c = (t_LED - t) / t_r columns of one state, and a change of state h_t = t / t_r columns
-of transition. The model is undefined if the exposure is longer than the switching period.
+of transition. The model is undefined if the exposure is longer than the switching period. Of other
+lights it is each time L at one level that has (L - t) / t_r columns.
 """
 
+from dataclasses import dataclass
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from occ_model.arrays import ByteArray, FloatArray
+from occ_model.arrays import FloatArray
 from occ_model.camera.enhancement import enhance
 from occ_model.camera.exposure import column_phases
 from occ_model.camera.photometry import level_values, saturate
 from occ_model.errors import BandModelUndefined
+from occ_model.light.cosine import Cosine
+from occ_model.light.sent import PiecewiseLight, light_of
+from occ_model.light.times import PhasesInPeriod
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import SECOND
-from occ_model.transmitter.scheme import sent_chips
 
 
 def band_lengths(scene: Scene) -> tuple[float, float]:
     """Return h_c and h_t, the columns of a complete band and of a transition, without rounding.
 
+    Of a light that is no code, h_c is that of its shortest band, infinite if it is steady.
+
     Raises
     ------
     BandModelUndefined
-        The exposure time is longer than the switching period.
+        The exposure time is longer than the switching period, or than the shortest time at one
+        level, or the light has no levels, as that of a lamp on the mains.
     """
-    exposure = scene.camera.exposure_time
-    period = scene.transmitter.switching_period
-    if exposure > period:
-        raise BandModelUndefined(
-            f"The band model is undefined here: the exposure time, {SECOND.format(exposure)}, is "
-            f"longer than the switching period, {SECOND.format(period)}."
-        )
-    readout = scene.camera.readout_time
-    return (period - exposure) / readout, exposure / readout
+    return _Bands.of(scene).columns_of_shortest(scene)
 
 
 def band_profile(scene: Scene) -> FloatArray:
@@ -44,7 +45,7 @@ def band_profile(scene: Scene) -> FloatArray:
     without rounding, so that bands begin where they are sent and can be compared in width and
     level. With ``"literal"`` every chip has h_c and every change of state h_t columns, both rounded
     to whole columns, so that the profile drifts along the picture. Both start at the scene's start
-    time.
+    time. Of a light that is no code, each time at one level is a band.
 
     Returns
     -------
@@ -54,43 +55,48 @@ def band_profile(scene: Scene) -> FloatArray:
     Raises
     ------
     BandModelUndefined
-        The exposure time is longer than the switching period, or (if literal) a whole packet rounds
-        to no columns at all.
+        As :func:`band_lengths`, or (if literal) a whole period rounds to no columns at all.
     """
-    complete, transition = band_lengths(scene)
-    chips = sent_chips(scene.transmitter)
-    phases = column_phases(scene, Fraction(scene.transmitter.switching_frequency), len(chips))
-    if scene.model.band_reading == "aligned":
-        exposure = scene.camera.exposure_time * scene.transmitter.switching_frequency
-        positions, lit = _knots(chips, max(0.0, 1.0 - exposure), exposure, between_equal=exposure)
-        columns: FloatArray = phases.whole + phases.fraction
+    bands = _Bands.of(scene)
+    complete, transition = bands.columns_of_shortest(scene)
+    phases = bands.phases(scene)
+    if bands.is_steady:
+        values = np.full(len(phases.whole), bands.levels[0])
     else:
-        positions, lit = _literal_knots(chips, complete, transition)
-        if positions[-1] == 0:
-            raise BandModelUndefined(
-                f"The band model is undefined here: a chip of {complete + transition:.2g} columns "
-                "rounds to none."
+        if scene.model.band_reading == "aligned":
+            exposure = float(Fraction(scene.camera.exposure_time) * bands.light.rate)
+            positions, lit = bands.knots(
+                np.maximum(0.0, bands.lengths - exposure), exposure, between_equal=exposure
             )
-        columns = np.arange(0.5, len(phases.whole))
-        columns += _literal_start(scene, chips, positions)
+            columns: FloatArray = phases.whole + phases.fraction
+        else:
+            positions, lit = bands.literal_knots(scene)
+            if positions[-1] == 0:
+                raise BandModelUndefined(
+                    "The band model is undefined here: a "
+                    f"{'chip' if bands.of_chips else 'band'} of {complete + transition:.2g} "
+                    "columns rounds to none."
+                )
+            columns = np.arange(0.5, len(phases.whole))
+            columns += bands.literal_start(scene, positions)
+        values = np.interp(np.mod(columns, positions[-1]), positions, lit)
     dark, bright = level_values(scene)
-    values = np.interp(np.mod(columns, positions[-1]), positions, lit)
     return saturate(dark + (bright - dark) * values)
 
 
 def band_drift(scene: Scene) -> float:
-    """Return how many columns the band model is ahead of the sent packets after each packet.
+    """Return how many columns the band model is ahead of the sent light after each period.
 
     The literal model rounds every band, and has no columns of transition between equal chips: a run
     of n of them lasts n t_LED, but n h_c + h_t is (n - 1) t less. The result is negative if the
-    model's packet is longer than the sent one, and 0 for the aligned model.
+    model's period is longer than the sent one, and 0 for the aligned model.
     """
-    complete, transition = band_lengths(scene)
-    if scene.model.band_reading == "aligned":
+    bands = _Bands.of(scene)
+    bands.columns_of_shortest(scene)
+    if scene.model.band_reading == "aligned" or bands.is_steady:
         return 0.0
-    chips = sent_chips(scene.transmitter)
-    positions, _ = _literal_knots(chips, complete, transition)
-    return len(chips) * (complete + transition) - float(positions[-1])
+    positions, _ = bands.literal_knots(scene)
+    return float(bands.light.period / Fraction(scene.camera.readout_time)) - float(positions[-1])
 
 
 def enhanced_band_profile(scene: Scene, profile: FloatArray) -> FloatArray:
@@ -98,35 +104,91 @@ def enhanced_band_profile(scene: Scene, profile: FloatArray) -> FloatArray:
     return enhance(profile, scene.model.enhancement).astype(np.float64)
 
 
-def _knots(
-    chips: ByteArray, complete: float, transition: float, *, between_equal: float
-) -> tuple[FloatArray, FloatArray]:
-    """Return the corners of one packet's polyline: positions from 0 to its length, and states.
+@dataclass(frozen=True, eq=False, slots=True)
+class _Bands:
+    """What has a band of its own in one period of light: a chip, or a time at one level."""
 
-    Each chip has its state for ``complete`` columns and then changes to the next chip's, within
-    ``transition`` columns if that differs, or ``between_equal`` columns if it is the same.
-    """
-    following = np.roll(chips, -1)
-    moves = np.where(chips != following, transition, between_equal)
-    ends = np.cumsum(complete + moves)
-    starts = np.concatenate([[0.0], ends[:-1]])
-    positions = np.stack([starts, starts + complete], axis=1).ravel()
-    states = np.repeat(chips.astype(np.float64), 2)
-    return np.append(positions, ends[-1]), np.append(states, states[0])
+    light: PiecewiseLight
+    of_chips: bool
+    levels: FloatArray
+    exact_lengths: NDArray[Any]  # in units of the light's waveform
+    start: Fraction  # of the first one in the period, in units
 
+    @classmethod
+    def of(cls, scene: Scene) -> "_Bands":
+        light = light_of(scene.transmitter)
+        if isinstance(light, Cosine):
+            raise BandModelUndefined(
+                "The band model is undefined here: the light swings without steps, so that it has "
+                "no bands of one level."
+            )
+        levels, lengths = light.waveform.levels, light.waveform.lengths
+        start = Fraction(0)
+        is_code = scene.transmitter.light == "code"
+        if not is_code:
+            changes = np.flatnonzero(levels != np.roll(levels, 1))
+            if not changes.size:
+                changes = np.array([0])
+            first = int(changes[0])
+            start = sum((Fraction(each) for each in lengths[:first].tolist()), start)
+            levels = levels[changes]
+            lengths = np.add.reduceat(np.roll(lengths, -first), changes - first)
+        return cls(light, is_code, levels.astype(np.float64), lengths, start)
 
-def _literal_knots(
-    chips: ByteArray, complete: float, transition: float
-) -> tuple[FloatArray, FloatArray]:
-    """Return the polyline of the literal model: whole columns, and none between equal chips."""
-    return _knots(chips, round(complete), round(transition), between_equal=0.0)
+    @property
+    def is_steady(self) -> bool:
+        """Whether there is but one level; a pattern of one chip counts as bands of chips."""
+        return not self.of_chips and len(self.levels) == 1
 
+    @property
+    def lengths(self) -> FloatArray:
+        return self.exact_lengths.astype(np.float64)
 
-def _literal_start(scene: Scene, chips: ByteArray, positions: FloatArray) -> float:
-    """Return the column of the packet's polyline at which the picture starts."""
-    start = column_phases(
-        scene, Fraction(scene.transmitter.switching_frequency), len(chips), columns=1
-    )
-    chip = int(start.whole[0])
-    into_chip = float(start.fraction[0]) * scene.transmitter.switching_period
-    return float(positions[2 * chip]) + round(into_chip / scene.camera.readout_time)
+    def columns_of_shortest(self, scene: Scene) -> tuple[float, float]:
+        """Return :func:`band_lengths`."""
+        exposure, readout = scene.camera.exposure_time, scene.camera.readout_time
+        if self.is_steady:
+            return np.inf, exposure / readout
+        shortest = float(Fraction(min(self.exact_lengths.tolist())) / self.light.rate)
+        if exposure > shortest:
+            what = "switching period" if self.of_chips else "shortest time at one level"
+            raise BandModelUndefined(
+                f"The band model is undefined here: the exposure time, {SECOND.format(exposure)}, "
+                f"is longer than the {what}, {SECOND.format(shortest)}."
+            )
+        return (shortest - exposure) / readout, exposure / readout
+
+    def phases(self, scene: Scene, columns: int | None = None) -> PhasesInPeriod:
+        """Return where in a period, counted from the first band's start, exposures start."""
+        light = self.light
+        return column_phases(scene, light.rate, light.waveform.period, -self.start, columns)
+
+    def knots(
+        self, complete: FloatArray, transition: float, *, between_equal: float
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return the corners of one period's polyline: positions from 0 to its length, and levels.
+
+        Each band has its level for its ``complete`` columns and then changes to the next one's,
+        within ``transition`` columns if that differs, or ``between_equal`` columns if it does not.
+        """
+        moves = np.where(self.levels != np.roll(self.levels, -1), transition, between_equal)
+        ends = np.cumsum(complete + moves)
+        starts = np.concatenate([[0.0], ends[:-1]])
+        positions = np.stack([starts, starts + complete], axis=1).ravel()
+        return np.append(positions, ends[-1]), np.append(np.repeat(self.levels, 2), self.levels[0])
+
+    def literal_knots(self, scene: Scene) -> tuple[FloatArray, FloatArray]:
+        """Return the polyline of the literal model: whole columns, and none between equal chips."""
+        exposure, readout = scene.camera.exposure_time, scene.camera.readout_time
+        seconds = self.lengths * float(1 / self.light.rate)
+        complete = np.rint((seconds - exposure) / readout)
+        return self.knots(complete, round(exposure / readout), between_equal=0.0)
+
+    def literal_start(self, scene: Scene, positions: FloatArray) -> float:
+        """Return the column of the period's polyline at which the picture starts."""
+        phases = self.phases(scene, columns=1)
+        whole, fraction = int(phases.whole[0]), float(phases.fraction[0])
+        edges = np.concatenate([[0.0], np.cumsum(self.lengths)[:-1]])
+        band = int(np.searchsorted(edges, whole + fraction, side="right")) - 1
+        seconds = ((whole - float(edges[band])) + fraction) * float(1 / self.light.rate)
+        return float(positions[2 * band]) + round(seconds / scene.camera.readout_time)

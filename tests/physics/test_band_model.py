@@ -141,3 +141,74 @@ def test_a_packet_that_rounds_to_no_column_is_refused() -> None:
     )
     with pytest.raises(occ.BandModelUndefined, match="rounds to none"):
         occ.band_profile(scene)
+
+
+def _other_light(kind: str, number: float, frequency: float, duty: float, depth: float) -> Scene:
+    """Return a scene of another light than a code, of the same period."""
+    sent: dict[str, dict[str, float | str]] = {
+        "lamp": {"lamp_frequency": frequency, "duty": duty, "depth": depth},
+        "pulses": {"pulse_frequency": frequency, "pulse_length": duty / frequency},
+        "levels": {"levels": "3 0 0 1 2 3 / 3", "switching_frequency": 6.0 * frequency},
+        "file": {"waveform_file": f"0,1\n{duty / frequency!r},{1 - depth!r}\n{1 / frequency!r}\n"},
+    }
+    light = kind if kind in ("lamp", "pulses") else "waveform"
+    return Scene().replace(light=light, start_time=number, columns=300, **sent[kind])
+
+
+@pytest.mark.parametrize("kind", ["lamp", "pulses", "levels", "file"])
+@given(
+    fraction=st.floats(0.01, 1.0), duty=st.floats(0.05, 0.95), depth=st.floats(0.1, 1.0),
+    frequency=st.floats(50.0, 5e3), start=st.floats(0.0, 1.0), readout=st.floats(1e-6, 1e-4),
+)  # fmt: skip
+def test_bands_of_any_light_are_its_exposure_up_to_the_shortest_time_at_one_level(
+    kind: str, fraction: float, duty: float, depth: float, frequency: float, start: float,
+    readout: float,
+) -> None:  # fmt: skip
+    # Of the levels 3 0 0 1 2 3 the two 0 and, over the period's end, the two 3 are one band each.
+    shortest = 1 / 6 if kind == "levels" else min(duty, 1 - duty)
+    scene = _other_light(kind, start, frequency, duty, depth).replace(
+        readout_time=readout, exposure_time=fraction * shortest * (1 - 1e-9) / frequency
+    )
+    complete, transition = occ.band_lengths(scene)
+    assert complete + transition == pytest.approx(shortest / frequency / readout, rel=1e-6)
+    np.testing.assert_allclose(occ.band_profile(scene), occ.column_profile(scene), atol=1e-8)
+    longer = scene.replace(exposure_time=shortest * (1 + 1e-9) / frequency)
+    with pytest.raises(occ.BandModelUndefined, match="the shortest time at one level"):
+        occ.band_profile(longer)
+
+
+def test_literal_bands_of_a_lamp_have_whole_columns() -> None:
+    # Lit 9.4 columns and dark 20.6, exposed for 3.2: 6 and 17 columns, with two changes of 3.
+    scene = _other_light("lamp", 0.0, 1 / 30e-6, 9.4 / 30, 1.0).replace(
+        readout_time=1e-6, exposure_time=3.2e-6, band_reading="literal"
+    )
+    dark, bright = level_values(scene)
+    profile = occ.band_profile(scene)
+    assert [int((profile[:29] == level).sum()) for level in (bright, dark)] == [6, 17]
+    np.testing.assert_allclose(profile[29:58], profile[:29])
+    assert band_drift(scene) == pytest.approx(30 - 29)
+    late = scene.replace(start_time=9.4e-6)  # where it becomes dark
+    np.testing.assert_array_equal(occ.band_profile(late)[:17], profile[9:26])
+
+
+@pytest.mark.parametrize(
+    "steady",
+    [
+        {"light": "lamp", "duty": 0.0}, {"light": "lamp", "duty": 1.0},
+        {"light": "lamp", "depth": 0.0}, {"light": "waveform", "levels": "1 1 1 / 3"},
+        {"light": "pulses", "pulse_length": 1.0},
+    ],
+)  # fmt: skip
+@pytest.mark.parametrize("reading", ["aligned", "literal"])
+def test_steady_light_is_one_band_however_long_the_exposure(
+    steady: dict[str, float | str], reading: str
+) -> None:
+    scene = Scene().replace(**steady, exposure_time=0.1, columns=20, band_reading=reading)
+    assert occ.band_lengths(scene)[0] == np.inf
+    np.testing.assert_allclose(occ.band_profile(scene), occ.column_profile(scene), atol=1e-9)
+    assert band_drift(scene) == 0.0
+
+
+def test_light_without_steps_has_no_bands() -> None:
+    with pytest.raises(occ.BandModelUndefined, match="swings without steps"):
+        occ.band_profile(Scene().replace(light="mains"))

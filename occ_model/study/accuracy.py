@@ -6,10 +6,13 @@ noise with noise drawn for each pixel. All errors are RMS in the unit of the pla
 stretched profile, or margins of a decision.
 """
 
+from bisect import bisect_right
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from functools import partial
+from itertools import accumulate
+from operator import mul
 from time import perf_counter
 from typing import TypeVar
 
@@ -23,6 +26,8 @@ from occ_model.effects.effect import NoiseEffect
 from occ_model.effects.paper_view import paper_view_of
 from occ_model.effects.plan import plan
 from occ_model.effects.registry import effects_planned
+from occ_model.light.cosine import Cosine
+from occ_model.light.sent import Light, light_of
 from occ_model.results.accuracy import CLOSED_FORM, AccuracyPoint
 from occ_model.results.plan import Plan
 from occ_model.scene.argument_checks import check_seed
@@ -32,7 +37,6 @@ from occ_model.simulation.noise import NoiseSpread
 from occ_model.simulation.render import observe, render
 from occ_model.study.effect_differences import CompleteSimulation, plan_of_effects, rms
 from occ_model.study.observation import panel_span
-from occ_model.transmitter.scheme import sent_chips
 
 SAMPLES = tuple(2**power for power in range(13))  # numbers of samples of an exposure
 DRAFT_STEPS = (4, 16, 64)  # row steps of the drafts
@@ -239,38 +243,58 @@ _SAMPLES_AT_ONCE = 1_000_000
 
 
 def sampled_lit_fraction(scene: Scene, samples: int) -> FloatArray:
-    """Return t_on / t of every column from samples in the middle of equal parts of its exposure."""
-    chips = sent_chips(scene.transmitter)
-    camera, frequency = scene.camera, scene.transmitter.switching_frequency
+    """Return the mean light of every column, from samples in the middle of equal parts of it."""
+    light, camera = light_of(scene.transmitter), scene.camera
     within = (np.arange(samples) + 0.5) * (camera.exposure_time / samples)
     lit = np.empty(camera.columns)
     step = max(1, _SAMPLES_AT_ONCE // samples)
     for first in range(0, camera.columns, step):
         column = np.arange(first, min(first + step, camera.columns))
         start = scene.model.start_time + column * camera.readout_time
-        chip = np.floor((start[:, None] + within) * frequency).astype(np.int64)
-        lit[column] = chips[chip % len(chips)].mean(axis=1)
+        lit[column] = _light_at(light, start[:, None] + within).mean(axis=1)
     return lit
 
 
+def _light_at(light: Light, seconds: FloatArray) -> FloatArray:
+    if isinstance(light, Cosine):
+        phase = 2.0 * np.pi * light.frequency * seconds + light.phase
+        return np.asarray(1.0 + light.depth * np.cos(phase))
+    waveform = light.waveform
+    units = seconds * float(light.rate)
+    if (waveform.lengths == 1).all():
+        piece = np.floor(units).astype(np.int64) % waveform.period
+    else:
+        edges = np.cumsum(waveform.lengths).astype(np.float64)
+        piece = np.searchsorted(edges[:-1], units % waveform.period, side="right")
+    return waveform.levels.astype(np.float64)[piece]
+
+
 def exact_lit_fraction(scene: Scene, columns: IndexArray) -> FloatArray:
-    """Return t_on / t of some columns in rational arithmetic, rounded once at the end."""
-    chips = sent_chips(scene.transmitter).tolist()
-    frequency = Fraction(scene.transmitter.switching_frequency)
-    exposure = Fraction(scene.camera.exposure_time) * frequency
-    before = [0]
-    for chip in chips:
-        before.append(before[-1] + chip)
+    """Return the mean light of some columns from exact times, rounded once at the end.
 
-    def lit_until(time: Fraction) -> Fraction:
-        period, residual = divmod(time, len(chips))
-        chip = int(residual)
-        lit: Fraction = period * before[-1] + before[chip] + (residual - chip) * chips[chip]
-        return lit
+    A cosine, which is no fraction, is computed from an exact phase.
+    """
+    sent = light_of(scene.transmitter)
+    exposure = Fraction(scene.camera.exposure_time)
+    first, step = Fraction(scene.model.start_time), Fraction(scene.camera.readout_time)
+    starts = [first + column * step for column in columns.tolist()]
+    if isinstance(sent, Cosine):
+        return np.array([float(sent.means(start, step, 1, exposure)[0]) for start in starts])
+    waveform = sent.waveform
+    levels, lengths = (
+        [Fraction(each) for each in exact.tolist()] for exact in (waveform.levels, waveform.lengths)
+    )
+    edges = list(accumulate(lengths, initial=Fraction(0)))
+    before = list(accumulate(map(mul, levels, lengths), initial=Fraction(0)))
 
-    fractions = []
-    for column in columns.tolist():
-        start = Fraction(scene.model.start_time) + column * Fraction(scene.camera.readout_time)
-        start *= frequency
-        fractions.append(float((lit_until(start + exposure) - lit_until(start)) / exposure))
-    return np.array(fractions)
+    def light_until(seconds: Fraction) -> Fraction:
+        periods, since = divmod(seconds * sent.rate, waveform.period)
+        piece = bisect_right(edges, since) - 1
+        light: Fraction = periods * before[-1] + before[piece]
+        light += (since - edges[piece]) * levels[piece]
+        return light
+
+    units = exposure * sent.rate
+    return np.array(
+        [float((light_until(start + exposure) - light_until(start)) / units) for start in starts]
+    )

@@ -20,6 +20,8 @@ class Spectrum:
     response: FloatArray
     # Frequencies in Hz at which the response is 0, k / t, up to the last one
     zeros: tuple[float, ...]
+    # Multiples in Hz of the rate at which the light repeats, up to the last one; none of packets
+    harmonics: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -5,11 +5,14 @@ import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.errors import ParameterError
+from occ_model.light.cosine import Cosine
+from occ_model.light.sent import light_of
 from occ_model.results.spectrum import LEVELS, LevelHistogram, Spectrum
-from occ_model.scene.scene import Scene
+from occ_model.scene.light_words import blinking_lamp
+from occ_model.scene.scene import Scene, Transmitter
 
 _MIN_COLUMNS = 8
-_MAX_NULLS = 100
+_MOST_MULTIPLES = 100
 
 
 def profile_spectrum(profile: FloatArray, scene: Scene) -> Spectrum:
@@ -31,13 +34,27 @@ def profile_spectrum(profile: FloatArray, scene: Scene) -> Spectrum:
     frequencies = np.fft.rfftfreq(len(values), scene.camera.readout_time)
     exposure = scene.camera.exposure_time
     last = float(frequencies[-1])
-    count = min(int(last * exposure), _MAX_NULLS)
     return Spectrum(
         frequencies=np.asarray(frequencies, dtype=np.float64),
         amplitudes=np.asarray(amplitudes, dtype=np.float64),
         response=np.abs(np.sinc(frequencies * exposure)),
-        zeros=tuple(k / exposure for k in range(1, count + 1)),
+        zeros=_multiples(1.0 / exposure, last),
+        harmonics=_harmonics(scene.transmitter, last),
     )
+
+
+def _harmonics(transmitter: Transmitter, last: float) -> tuple[float, ...]:
+    if transmitter.light == "code" and blinking_lamp(transmitter) is None:
+        return ()
+    light = light_of(transmitter)
+    if isinstance(light, Cosine):
+        return _multiples(light.frequency, min(light.frequency, last))
+    return _multiples(float(1 / light.period), last)
+
+
+def _multiples(frequency: float, last: float) -> tuple[float, ...]:
+    count = min(int(last / frequency), _MOST_MULTIPLES)
+    return tuple(k * frequency for k in range(1, count + 1))
 
 
 def level_histogram(image: ByteArray) -> LevelHistogram:

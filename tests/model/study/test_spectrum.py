@@ -44,6 +44,29 @@ def test_the_zeros_are_where_the_response_vanishes() -> None:
     assert len(found.zeros) == int(0.5 / 8e-6 * 136e-6)
 
 
+@pytest.mark.parametrize(
+    ("sent", "frequency", "count"),
+    [
+        ({"light": "lamp", "lamp_frequency": 239.0, "duty": 0.3}, 239.0, 100),
+        ({"light": "pulses", "pulse_frequency": 2e3}, 2e3, 31),
+        ({"light": "mains", "mains_frequency": 60.0}, 120.0, 1),
+        ({"light": "waveform", "levels": "0 1 2 / 2", "switching_frequency": 9e3}, 3e3, 20),
+        ({"pattern": "1100", "switching_frequency": 8e3}, 2e3, 31),
+        ({}, 0.0, 0),  # a packet's are too many to be told apart
+    ],
+)
+def test_the_harmonics_are_the_multiples_at_which_the_light_repeats(
+    sent: dict[str, str | float], frequency: float, count: int
+) -> None:
+    scene = occ.load_preset("phone-136us").replace(exposure_time=1e-6, columns=60_000, **sent)
+    found = profile_spectrum(occ.on_time(scene), scene)
+    assert found.harmonics == pytest.approx([k * frequency for k in range(1, count + 1)])
+    if count:
+        peaks = found.frequencies[found.amplitudes > 0.05 * found.amplitudes.max()]
+        off = np.abs(peaks / frequency - np.rint(peaks / frequency)) * frequency
+        assert off.max() < 3 * found.frequencies[1]  # a Hann window's width
+
+
 def test_the_fractions_of_a_histogram_add_up_and_show_what_is_clipped() -> None:
     image = np.array([[0, 0, 7, 255], [255, 9, 9, 255]], dtype=np.uint8)
     found = level_histogram(image)

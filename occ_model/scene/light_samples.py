@@ -1,6 +1,7 @@
 """Lights written as text: a line of levels, and the rows of a CSV file of seconds and levels."""
 
 import math
+from collections.abc import Sequence
 from fractions import Fraction
 from pathlib import Path
 
@@ -96,13 +97,13 @@ def canonical_samples(text: str) -> str:
             raise ValueError(f"has {len(levels)} rows and no end")
         seconds.append(seconds[-1] + (seconds[-1] - seconds[-2]))
     first = seconds[0]
-    return (
-        "".join(
-            f"{second - first!r},{level!r}\n"
-            for second, level in zip(seconds, levels, strict=False)
-        )
-        + f"{seconds[-1] - first!r}\n"
-    )
+    return text_of_samples([second - first for second in seconds], levels)
+
+
+def text_of_samples(seconds: Sequence[float], levels: Sequence[float]) -> str:
+    """Write the times of edges, from 0 to the period, and levels as a canonical text."""
+    rows = (f"{second!r},{level!r}\n" for second, level in zip(seconds, levels, strict=False))
+    return "".join(rows) + f"{seconds[-1]!r}\n"
 
 
 def samples_of(text: str) -> tuple[list[float], list[float]]:

@@ -10,12 +10,15 @@ import numpy as np
 from occ_model.camera.projection import check_size
 from occ_model.effects.registry import NAMES
 from occ_model.errors import ParameterError
+from occ_model.light.sent import light_period
 from occ_model.results.video import Video, VideoFrame
 from occ_model.scene.argument_checks import check_count
+from occ_model.scene.light_samples import samples_of, text_of_samples
+from occ_model.scene.parameter_kinds import ParameterValue, Quantity
 from occ_model.scene.recording import Recording
-from occ_model.scene.scene import Scene, SimulationSettings
+from occ_model.scene.scene import Scene, SimulationSettings, Transmitter
+from occ_model.scene.units import HERTZ, SECOND
 from occ_model.simulation.render import render_with
-from occ_model.transmitter.scheme import sent_chips
 
 MOST_FRAMES = 100_000_000  # maximum of a film: days even at hundreds per second
 _JITTER, _PICTURE = 0, 1  # numbers of a frame's own streams of random numbers
@@ -135,14 +138,12 @@ class SimulatedVideo(Video):
     def scene_of(self, index: int) -> Scene:
         """Return the exact scene that a frame shows: see :class:`occ_model.VideoFrame`.
 
-        Whole packets are subtracted from the start time in exact arithmetic, so that its phase in
-        the packet is as exact after days as at the start; the phase of the mains is kept.
+        Whole periods of the light are subtracted from the start time in exact arithmetic, so that
+        its phase in one is as exact after days as at the start; the phase of the mains is kept.
         """
         scene, recording = self._clocks, self.recording
         start = self.start_of(index)
-        chips = len(sent_chips(scene.transmitter))
-        packet = chips / Fraction(scene.transmitter.switching_frequency)
-        within = float(start % packet)
+        within = float(start % light_period(scene.transmitter))
         changes = {"start_time": within, **self._pose_changes(index)}
         if recording.exposure_times:
             exposure = Fraction(recording.exposure_time(scene, index))
@@ -183,7 +184,26 @@ def _apply_drift(scene: Scene, recording: Recording) -> Scene:
     """Return the scene with its true times and frequencies."""
     camera, led = 1 + Fraction(recording.camera_drift), 1 + Fraction(recording.transmitter_drift)
     return scene.replace(
-        switching_frequency=float(Fraction(scene.transmitter.switching_frequency) * led),
+        **_sent_by_clock(scene.transmitter, led),
         exposure_time=float(Fraction(scene.camera.exposure_time) / camera),
         readout_time=float(Fraction(scene.camera.readout_time) / camera),
     )
+
+
+def _sent_by_clock(sent: Transmitter, clock: Fraction) -> dict[str, ParameterValue]:
+    """Return the frequencies and times of a light by a clock that runs faster by a factor."""
+    changes: dict[str, ParameterValue] = {}
+    for name, declared in sent.declarations().items():
+        # The rest, such as the LED's edges, is set by no clock.
+        if isinstance(declared, Quantity) and sent.light in declared.lights:
+            value = Fraction(getattr(sent, name))
+            if declared.unit is HERTZ:
+                changes[name] = float(value * clock)
+            elif declared.unit is SECOND:
+                changes[name] = float(value / clock)
+    if sent.light == "waveform" and sent.waveform_file and clock != 1:
+        seconds, levels = samples_of(sent.waveform_file)
+        changes["waveform_file"] = text_of_samples(
+            [float(Fraction(second) / clock) for second in seconds], levels
+        )
+    return changes

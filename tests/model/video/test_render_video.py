@@ -1,12 +1,15 @@
 """The frames of a simulated film, their noise, times, motion and exposure times."""
 
 import tracemalloc
+from fractions import Fraction
 from itertools import islice, pairwise
 
 import numpy as np
 import pytest
+from exact_light import ExactLight
 
 import occ_model as occ
+from occ_model.light.sent import light_period
 from occ_model.scene.scene import Scene
 
 SCENE = Scene().replace(rows=120, columns=160, readout_time=1e-4, distance=0.8)
@@ -118,6 +121,52 @@ def test_a_scene_that_cannot_be_filmed_is_refused(
     with pytest.raises(occ.ParameterError) as refusal:
         occ.render_video(scene, recording=occ.Recording(**recording))  # type: ignore[arg-type]
     assert words in str(refusal.value)
+
+
+LIGHTS: dict[str, tuple[dict[str, str | float], dict[str, str | float]]] = {
+    # a light, and the same by a clock that runs too fast by 1/128
+    "code": ({"switching_frequency": 12.8e3}, {"switching_frequency": 12.9e3}),
+    "lamp": ({"light": "lamp", "lamp_frequency": 256.0}, {"lamp_frequency": 258.0}),
+    "pulses": (
+        {"light": "pulses", "pulse_frequency": 128.0, "pulse_length": 129e-5},
+        {"pulse_frequency": 129.0, "pulse_length": 128e-5},
+    ),
+    "mains": ({"light": "mains", "mains_frequency": 64.0}, {"mains_frequency": 64.5}),
+    "levels": (
+        {"light": "waveform", "switching_frequency": 6400.0},
+        {"switching_frequency": 6450.0},
+    ),
+    "recorded": (
+        {"light": "waveform", "waveform_file": "0,0.2\n129e-5,1\n387e-5\n"},
+        {"waveform_file": "0,0.2\n128e-5,1\n384e-5\n"},
+    ),
+}
+
+
+@pytest.mark.parametrize("name", LIGHTS)
+def test_frames_of_any_light_are_at_its_exact_phase_after_days(name: str) -> None:
+    scene = SCENE.replace(**LIGHTS[name][0])
+    film = occ.render_video(scene, recording=occ.Recording(frame_rate=30.0))
+    for index in (0, 1, 7, 10**7 + 1):
+        shown = film.scene_of(index)
+        assert 0.0 <= shown.model.start_time <= float(light_period(scene.transmitter))
+        start = Fraction(index, 30)
+        exact = ExactLight(scene).mean(start, Fraction(1, 10**4), 160)
+        np.testing.assert_allclose(occ.on_time(shown) / 136e-6, exact, atol=1e-10)
+
+
+@pytest.mark.parametrize("name", LIGHTS)
+def test_the_lamp_s_clock_sets_the_frequencies_and_times_of_any_light(name: str) -> None:
+    own, drifted = LIGHTS[name]
+    scene = SCENE.replace(**own, edge_time=1e-6)
+    film = occ.render_video(scene, recording=occ.Recording(transmitter_drift=1 / 128))
+    expected = scene.replace(**drifted).transmitter
+    frame = film.scene_of(0)
+    assert light_period(frame.transmitter) == pytest.approx(light_period(expected), rel=1e-15)
+    np.testing.assert_allclose(
+        occ.on_time(frame), occ.on_time(scene.replace(**drifted)), atol=1e-12
+    )
+    assert frame.transmitter.edge_time == 1e-6
 
 
 def test_a_path_that_leads_out_of_range_is_refused_with_its_frame() -> None:

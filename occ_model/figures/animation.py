@@ -18,9 +18,10 @@ from occ_model.figures.drawing import BAND, SIMULATION, house_style
 from occ_model.figures.page import break_lines
 from occ_model.files.writing import check_replaceable
 from occ_model.receiver.decode import decode
-from occ_model.results.decoding import PAPER_DECODER, DecodeResult, symptom
+from occ_model.results.decoding import PAPER_DECODER, symptom
 from occ_model.results.frame import Frame
 from occ_model.scene.declaration import in_sentence
+from occ_model.scene.light_words import describe_light
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import parameter_named
 from occ_model.scene.provenance import Provenance
@@ -75,6 +76,13 @@ def write_animation(  # noqa: PLR0913 - settings, most of them optional
         raise ParameterError(
             f"{name} cannot change in an animation; allowed: a parameter with a unit."
         )
+    light = scene.transmitter.light
+    if not parameter.is_of(light):
+        raise ParameterError(
+            f"{name} cannot change in an animation: it is of the light "
+            f"{' or '.join(parameter.lights)}, not of {light}.",
+            parameters=(name,),
+        )
     if not 1 <= len(values) <= MOST_FRAMES:
         raise ParameterError.of("frames", f"{len(values)}", f"1 to {MOST_FRAMES}")
     if isinstance(rate, bool) or not 0.0 < rate <= _MAX_GIF_RATE:
@@ -100,13 +108,19 @@ def _draw_frames(
         drawing = AnimatedFigure(parameter, min(_HEADROOM * brightest, _HIGHEST))
         for number, scene in enumerate(scenes, 1):
             frame = render_with(scene, settings)
-            result = decode(frame.image, scene, decoder=decoder)
-            yield drawing.draw(frame, _describe_read(result, scene, settings))
+            yield drawing.draw(frame, _describe_read(frame, decoder, settings))
             progress(number)
 
 
-def _describe_read(result: DecodeResult, scene: Scene, settings: SimulationSettings) -> str:
-    """Return what was read, behind the cause where that is not what was sent."""
+def _describe_read(frame: Frame, decoder: str, settings: SimulationSettings) -> str:
+    """Return what was read, behind the cause where that is not what was sent.
+
+    Of a light that is no code, it is what was sent.
+    """
+    scene = frame.scene
+    if scene.transmitter.light != "code":
+        return describe_light(scene.transmitter)
+    result = decode(frame.image, scene, decoder=decoder)
     read = result.failure or f"code {result.code} read"
     if scene.transmitter.pattern or tuple(result.bits.tolist()) == scene.transmitter.payload_bits:
         return read

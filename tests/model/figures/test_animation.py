@@ -53,6 +53,7 @@ def test_there_is_a_frame_for_each_value(tmp_path: Path, scene: Scene, ending: s
     [
         ({"name": "code"}, "code cannot change in an animation"),
         ({"name": "speed"}, "speed"),
+        ({"name": "duty"}, "duty cannot change in an animation: it is of the light lamp, not of c"),
         ({"values": []}, "frames is 0; allowed: 1 to 300"),
         ({"values": [1e3] * 301}, "frames is 301"),
         ({"values": [-1.0]}, "switching_frequency is -1 Hz"),
@@ -100,3 +101,20 @@ def test_the_legend_says_where_the_band_model_is_undefined(scene: Scene) -> None
         drawing.draw(occ.render(scene.replace(switching_frequency=frequency)), "threshold")
         names.append(drawing.band_name.get_text())
     assert names == ["band model (undefined here)", "band model"]
+
+
+def test_a_lamp_s_duty_moves_and_its_frames_state_what_is_sent(
+    tmp_path: Path, scene: Scene, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    drawn: list[tuple[float, str]] = []
+
+    def draw(_self: object, frame: occ.Frame, read: str) -> np.ndarray:
+        drawn.append((float(frame.profile.mean()), read))
+        return np.zeros((4, 4, 3), np.uint8)
+
+    monkeypatch.setattr(animation.AnimatedFigure, "draw", draw)
+    lamp = scene.replace(light="lamp", lamp_frequency=2e3)
+    write_animation(tmp_path / "a.gif", lamp, "duty", [0.1, 0.5, 0.9])
+    levels, read = zip(*drawn, strict=True)
+    assert read == tuple(f"lamp of 2 kHz, duty {percent} %" for percent in (10, 50, 90))
+    assert np.diff(levels).min() > 20.0

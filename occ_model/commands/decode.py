@@ -28,6 +28,7 @@ from occ_model.scene.scene import Scene
 from occ_model.scene.units import SECOND
 from occ_model.study.cause.cause import cause_of
 from occ_model.study.reading_facts import clock_facts, error_rate, packet_facts
+from occ_model.transmitter.scheme import check_code
 from occ_model.video.clock import MOST_READOUT_TOLERANCE, READOUT_TOLERANCE
 from occ_model.video.file.source import CHANNELS as FILM_CHANNELS
 from occ_model.video.load import load_video
@@ -69,6 +70,7 @@ def add_to(commands: Commands) -> None:
 
 def _run(options: argparse.Namespace) -> int:
     scene = scene_of(options)
+    check_code(scene.transmitter, instead="match its picture")
     percent, most = options.readout_tolerance, 100.0 * MOST_READOUT_TOLERANCE
     if not 0.0 < percent <= most:
         raise ParameterError.of(

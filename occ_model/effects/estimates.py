@@ -20,6 +20,7 @@ from occ_model.effects.simulated_columns import Names
 from occ_model.effects.smoothed_curves import add_unsampled, cut_block_square, unsampled_rim_square
 from occ_model.errors import ProjectionError
 from occ_model.scene.scene import Observable, SimulationSettings
+from occ_model.transmitter.scheme import check_code
 
 _SHARP_NOISE = 1e-9  # noise in grey levels that stands for none
 
@@ -201,7 +202,12 @@ class Estimates:
 
 
 def estimates_of(view: PaperView, settings: SimulationSettings) -> Estimates:
-    """Estimate the change without each effect, where the user has switched some on or off."""
+    """Estimate the change without each effect, where the user has switched some on or off.
+
+    A light that is no code has no decision, which is refused.
+    """
+    if settings.observable == "decision":
+        check_code(view.scene.transmitter, instead="choose the signal, the profile or the image")
     try:
         found = _estimate_from_sample(view, settings.observable, EFFECTS)
     except ProjectionError:  # the simulation of this lens fails too

@@ -65,7 +65,8 @@ def plan(
     Raises
     ------
     ParameterError
-        The tolerance is negative or not a number, or there is no such observable or effect.
+        The tolerance is negative or not a number, there is no such observable or effect, or the
+        decision is asked of a light that is no code.
     ProjectionError
         Part of the panel is behind the camera.
     """

@@ -35,7 +35,7 @@ from occ_model.transmitter.plugin_checks import (
     checked_text,
 )
 from occ_model.transmitter.registry import MOST_CHIPS
-from occ_model.transmitter.scheme import code_of
+from occ_model.transmitter.scheme import check_code, code_of
 
 _SHORTEST_CHIP = 1e-6  # columns
 _FARTHEST_CHIP = 10.0  # lengths of the signal before or after it, within which a chip may begin
@@ -180,8 +180,15 @@ def decoder_named(name: str) -> Decoder:
 
 
 def read_with(decoder: str, signal: FloatArray, scene: Scene) -> DecodeResult:
-    """Read a signal with a named decoder; a plug-in's fault becomes the result's failure."""
+    """Read a signal with a named decoder; a plug-in's fault becomes the result's failure.
+
+    So does a light that is no code: whatever is read from it was not sent.
+    """
     read = decoder_named(decoder).read
+    try:
+        check_code(scene.transmitter)
+    except ParameterError as refusal:
+        return DecodeResult(decoder, signal=signal, failure=str(refusal))
     try:
         result = read(signal, scene)
     except PluginError as fault:

@@ -59,7 +59,7 @@ def bit_error_rate(  # noqa: PLR0913 - a study's settings, most of them optional
     Raises
     ------
     ParameterError
-        An argument is not allowed, or the scene sends a raw pattern.
+        An argument is not allowed, or the scene sends a raw pattern or no code.
     ProjectionError
         The scene has no picture.
     """

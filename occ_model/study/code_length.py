@@ -20,7 +20,7 @@ from occ_model.room.view import lamps_in_view
 from occ_model.scene.argument_checks import check_count
 from occ_model.study.room_map import RoomMapRequest, room_map
 from occ_model.study.sweep.sweep import Progress
-from occ_model.transmitter.scheme import sent_chips
+from occ_model.transmitter.scheme import check_code, sent_chips
 
 MOST_CODES = 4096  # maximum number of lamps, whose codes are compared in pairs
 _EXTRA_BITS = (0, 2, 4)  # bits beyond the minimum that gives each lamp its own code
@@ -70,6 +70,8 @@ def code_lengths(
     room = request.room
     check_count("lamps", lamps, max(len(room.lamps), 2), MOST_CODES)
     check_count("jobs", jobs, 1, MOST_JOBS)
+    for lamp in room.lamps:
+        check_code(lamp.transmitter)
     lengths = tuple(bits) or tuple((lamps - 1).bit_length() + more for more in _EXTRA_BITS)
     for length in lengths:
         if 2**length < lamps:

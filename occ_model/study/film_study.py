@@ -28,6 +28,7 @@ from occ_model.scene.argument_checks import check_count, check_seed
 from occ_model.scene.recording import Recording
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.study.observation import panel_span
+from occ_model.transmitter.scheme import check_code
 from occ_model.video.period import SentPeriod
 from occ_model.video.reader import VideoReader
 from occ_model.video.render import SimulatedVideo, render_video
@@ -101,6 +102,7 @@ class FilmRequest:
 
     def __post_init__(self) -> None:
         check_scene(self.scene)
+        check_code(self.scene.transmitter)
         check_seed(self.seed)
         check_count("frames", self.frames, 3, 1_000_000)
         for gap in self.gaps:

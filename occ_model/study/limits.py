@@ -80,7 +80,7 @@ def limits(  # noqa: PLR0913 - a study's settings, most of them optional
     Raises
     ------
     ParameterError
-        The rate is not from above 0 to 100 %, or another argument is not allowed.
+        The rate is not from above 0 to 100 %, another argument is not allowed, or no code is sent.
     ProjectionError
         The scene has no picture.
     """

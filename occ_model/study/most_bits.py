@@ -25,7 +25,7 @@ from occ_model.study.cause.cause import cause_of
 from occ_model.study.success_rate import right_bits_of_images
 from occ_model.study.theory import is_panel_in_picture, panel_readout_time
 from occ_model.transmitter.registry import LINE_CODES
-from occ_model.transmitter.scheme import scheme_of
+from occ_model.transmitter.scheme import check_code, scheme_of
 
 _TRIED_LINE_CODES = ("manchester", "4b6b", "8b10b")  # only the better known of equally short codes
 DECODERS = ("threshold", "equalizer", "sequence")  # for payloads of any length, fastest first
@@ -83,10 +83,11 @@ def most_bits(
     Raises
     ------
     ParameterError
-        An argument is not allowed.
+        An argument is not allowed, or another light than a code is sent.
     ProjectionError
         The scene has no picture.
     """
+    check_code(scene.transmitter)
     check_count("pictures", pictures, 1, 10_000)
     check_seed(seed)
     check_frame_rate(scene, frames_a_second)

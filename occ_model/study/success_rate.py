@@ -22,7 +22,7 @@ from occ_model.results.sweep_request import MOST_IMAGES, SIGNAL_PATHS, RateSetti
 from occ_model.scene.argument_checks import check_choice, check_count, check_seed, check_switches
 from occ_model.scene.scene import TOLERANCE, Scene, SimulationSettings
 from occ_model.study.observation import Observation, observe, panel_span
-from occ_model.transmitter.scheme import sent_chips
+from occ_model.transmitter.scheme import check_code, sent_chips
 
 _KEPT_PICTURES = 512
 """Number of pictures whose signals are kept for the next decoder: those of a search."""
@@ -72,7 +72,7 @@ def success_rate(
     Raises
     ------
     ParameterError
-        An argument is not allowed, or the path is ``"profile"`` and rows differ.
+        An argument is not allowed, no code is sent, or the path is ``"profile"`` and rows differ.
     ProjectionError
         The scene has no picture.
     PluginError
@@ -205,5 +205,6 @@ def check_rate(scene: Scene, settings: RateSettings) -> None:
     check_switches(settings.force, NAMES)
     for decoder in settings.decoders:
         decoder_named(decoder)
+    check_code(scene.transmitter)
     if scene.transmitter.pattern:
         raise ParameterError("A raw pattern holds no code; a success rate needs packets.")

@@ -18,7 +18,7 @@ from occ_model.results.video_reading import FilmProgress, VideoReading
 from occ_model.scene.argument_checks import check_count, is_number
 from occ_model.scene.payload import form_of, payload_of_bits
 from occ_model.scene.scene import Scene, check_scene
-from occ_model.transmitter.scheme import code_of
+from occ_model.transmitter.scheme import check_code, code_of
 from occ_model.video.clock import MOST_READOUT_TOLERANCE, READOUT_TOLERANCE
 from occ_model.video.frame_times import FrameTimes
 from occ_model.video.packets import count_packets
@@ -62,7 +62,8 @@ def decode_video(
     Raises
     ------
     ParameterError
-        The decoder does not exist, the tolerance is out of range, or the scheme cannot be used.
+        The decoder does not exist, the tolerance is out of range, the scheme cannot be used, or no
+        code is sent.
     VideoError
         The file cannot be read.
     """
@@ -119,6 +120,7 @@ class VideoReader:
         readout_tolerance: float = READOUT_TOLERANCE,
     ) -> None:
         check_scene(scene)
+        check_code(scene.transmitter)
         decoder_named(decoder)
         most = MOST_READOUT_TOLERANCE
         if not is_number(readout_tolerance) or not 0.0 < readout_tolerance <= most:

@@ -16,7 +16,7 @@ from occ_model.effects.effect import Effect
 from occ_model.effects.paper_view import paper_view_of, region_of
 from occ_model.effects.plan import signal_plan
 from occ_model.effects.registry import EFFECTS
-from occ_model.errors import OccError
+from occ_model.errors import OccError, ParameterError
 from occ_model.parallel.job import Heartbeat
 from occ_model.receiver.decode import DECODERS
 from occ_model.results.decoding import Cause, Remedy
@@ -41,7 +41,7 @@ from occ_model.study.cause.timing import (
     suspect_narrow_chips,
 )
 from occ_model.study.observation import observe, panel_span
-from occ_model.transmitter.scheme import scheme_of
+from occ_model.transmitter.scheme import check_code, scheme_of
 
 
 def cause_of(
@@ -162,6 +162,11 @@ _MILD_EXPOSURE = 1.8  # exposure in chips up to which decoders usually read
 def refusal_of(attempt: Attempt) -> Suspect | None:
     """Return why a decoder cannot read the scene, whatever the picture shows; None if it can."""
     scene = attempt.scene
+    try:
+        check_code(scene.transmitter)
+    except ParameterError as refusal:
+        remedy = Remedy("Send a code", {"light": "code"})
+        return Suspect("no code is sent", str(refusal), lambda one: one, (remedy,))
     if not theory.panel_readout_time(scene):
         is_there = theory.is_panel_in_picture(scene)
         what = (

@@ -75,6 +75,12 @@ def _check_axis(name: str, values: object) -> tuple[ParameterValue, ...]:
     parameter = parameter_named(name)
     if name == "pattern":
         raise ParameterError("pattern cannot be varied: a raw pattern holds no code to be read.")
+    if not parameter.is_of("code"):
+        raise ParameterError(
+            f"{name} cannot be varied: it is of the light {parameter.lights[0]}, which holds no "
+            "code to be read.",
+            parameters=(name,),
+        )
     if isinstance(values, str | bytes) or not isinstance(values, Iterable):
         raise parameter.refuse(
             f"varies over {shown(values)}", f"a list of values, {parameter.allowed}"

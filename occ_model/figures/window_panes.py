@@ -16,6 +16,7 @@ from occ_model.figures.drawing import BAND, PHOTO, SIMULATION, THRESHOLD, Drawin
 from occ_model.results.decoding import DecodeResult, Region
 from occ_model.results.frame import PICTURES, Frame
 from occ_model.results.match import Comparison
+from occ_model.scene.light_words import blinking_lamp, describe_light
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
 from occ_model.teaching.packet_fields import threshold_levels
@@ -100,7 +101,8 @@ _CAPTION_SIZE = 7  # points, of a caption's letters
 _MIN_HEIGHT = 1.3  # inches, of the figure of a flat picture with the texts above and below it
 
 _AXIS_OF_RESIDUAL = 2.0  # axis of a residual, as a multiple of the limit for most columns
-_CAPTION_PARAMETERS = ("exposure_time", "switching_frequency", "readout_time", "distance")
+_FREQUENCY = "switching_frequency"
+_CAPTION_PARAMETERS = ("exposure_time", _FREQUENCY, "readout_time", "distance")
 
 
 def caption(scene: Scene) -> str:
@@ -108,12 +110,16 @@ def caption(scene: Scene) -> str:
 
 
 def _caption_values(scene: Scene) -> list[str]:
-    values = []
-    for name in _CAPTION_PARAMETERS:
-        declared = PARAMETERS[name]
-        value = declared.format(scene.value(name))  # type: ignore[arg-type]
-        values.append(f"{declared.in_sentence} {value}")
-    return values
+    return [_caption_value(scene, name) for name in _CAPTION_PARAMETERS]
+
+
+def _caption_value(scene: Scene, name: str) -> str:
+    sent = scene.transmitter
+    if name == _FREQUENCY and (sent.light != "code" or blinking_lamp(sent) is not None):
+        return describe_light(sent)
+    declared = PARAMETERS[name]
+    value = declared.format(scene.value(name))  # type: ignore[arg-type]
+    return f"{declared.in_sentence} {value}"
 
 
 def write_caption(figure: Figure, scene: Scene, about: str = "") -> None:

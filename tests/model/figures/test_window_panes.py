@@ -12,7 +12,7 @@ import occ_model as occ
 from occ_model.figures.decoding import decode_drawing
 from occ_model.figures.drawing import ENDINGS, Drawing, house_style, write_all
 from occ_model.figures.page import fit_texts
-from occ_model.figures.window_panes import picture_drawing, profile_drawing
+from occ_model.figures.window_panes import caption, picture_drawing, profile_drawing
 from occ_model.scene.provenance import Provenance, scene_inside
 from occ_model.study.cause.cause import cause_of
 
@@ -139,3 +139,18 @@ def test_a_decoding_figure_names_the_cause_first_and_its_title_lies_above_the_le
     axes = figure.axes[0]
     title = next(text for text in axes.get_children() if "Overexposed" in str(text))
     assert not title.get_window_extent().overlaps(axes.get_legend().get_window_extent())
+
+
+@pytest.mark.parametrize(
+    ("sent", "words"),
+    [
+        ({}, "switching frequency 10 kHz"),
+        ({"light": "lamp", "lamp_frequency": 239.0, "duty": 0.3}, "lamp of 239 Hz, duty 30 %"),
+        ({"light": "mains"}, "lamp on the mains of 50 Hz, depth 30 %"),
+        ({"pattern": "10"}, "lamp of 5 kHz, duty 50 %"),
+    ],
+)
+def test_a_caption_names_what_the_light_does(sent: dict[str, str | float], words: str) -> None:
+    assert caption(SCENE.replace(**sent)) == (
+        f"exposure time 68 µs, {words}, readout time 8 µs, distance 1.2 m"
+    )

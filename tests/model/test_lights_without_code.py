@@ -16,8 +16,7 @@ import occ_model as occ
 from occ_model.cli import main
 from occ_model.errors import ParameterError
 from occ_model.results.sweep_request import RateSettings
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import OBSERVABLES
+from occ_model.scene.scene import OBSERVABLES, Scene
 from occ_model.study.cause.cause import cause_of
 from occ_model.study.code_length import code_lengths
 from occ_model.study.film_study import FilmRequest

@@ -2,12 +2,17 @@
 
 import argparse
 import math
+import re
 
 from occ_model.commands.options import Commands, add_option, add_scene_options, scene_of
+from occ_model.errors import ParameterError, shown
 from occ_model.results.bands import NO_BARS_DEPTH, BandAdvice, BandDepth, percent
+from occ_model.scene.parameter_kinds import ParameterValue
+from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import HERTZ, SECOND, Unit
 from occ_model.study.bands.advice import band_advice
+from occ_model.study.bands.answer import MOST_ROWS, bars_answer
 from occ_model.study.bands.depth import band_depth
 from occ_model.study.bands.eye import eye_flicker
 
@@ -18,23 +23,61 @@ _RANGES = 6  # most ranges that are listed before the last one
 
 def add_to(commands: Commands) -> None:
     parser = commands.add_parser(
-        "bands", help="report the depth of a picture's bars, and which settings have none"
+        "bands", help="say which shutter speeds show no bars of a lamp, and how deep they are"
     )
     add_scene_options(parser)
     add_option(
         parser, "--limit", 100.0 * NO_BARS_DEPTH, "depth below which there are no bars",
         metavar="PERCENT",
     )  # fmt: skip
+    parser.add_argument("--lamp", metavar="TEXT", help=f"a lamp in place of a scene: {_LAMPS}")
+    parser.add_argument("--shutter", metavar="TIME", help="the shutter time of a camera: 1/100")
+    parser.add_argument("--readout", metavar="TIME", help="the time from line to line: 12us")
     parser.set_defaults(command=_run)
 
 
 def _run(options: argparse.Namespace) -> int:
-    scene = scene_of(options)
+    rows, scene = 0, scene_of(options)
+    if options.lamp is not None:
+        light, rows = _lamp_of(options.lamp)
+        scene = scene.replace(**light, illuminance=0.0)
+    for name, text in (("exposure_time", options.shutter), ("readout_time", options.readout)):
+        if text is not None:
+            scene = scene.replace(**{name: quantity(name).parse(text)})
+    knows_readout = options.lamp is None or options.readout is not None
+    answer = bars_answer(scene, knows_readout=knows_readout, rows=rows)
+    for line in (answer.sentence, *(f"  {detail}" for detail in answer.details)):
+        print(line)
+    if options.lamp is not None:
+        return 0
     advice = band_advice(scene, options.limit / 100.0)
     for line in (*_depth_lines(scene, band_depth(scene)), *_advice_lines(scene, advice)):
         print(line)
     print("\n  ".join(eye_flicker(scene).sentences))
     return 0
+
+
+_LAMPS = "240Hz 30%, mains 50Hz, or 60Hz 1/16 rows for a panel whose rows are lit in turn"
+
+
+def _lamp_of(text: str) -> tuple[dict[str, ParameterValue], int]:
+    """Return the parameters of a lamp, and how many rows of it are lit in turn; 0: all at once."""
+    words = re.sub(r"\s+(k?Hz|%)", r"\1", text).split()
+    kinds = set(words) & {"mains", "rows"}
+    frequency, *others = [word for word in words if word not in kinds] or [""]
+    if kinds == {"mains"} and not others:
+        mains = quantity("mains_frequency").parse(frequency)
+        return {"light": "mains", "mains_frequency": mains}, 0
+    if "mains" in kinds or len(others) != 1:
+        raise ParameterError(f"lamp is {shown(text)}; allowed: {_LAMPS}.")
+    lamp = quantity("lamp_frequency").parse(frequency)
+    if not kinds:
+        duty = quantity("duty").parse(others[0])
+        return {"light": "lamp", "lamp_frequency": lamp, "duty": duty, "depth": 1.0}, 0
+    one, _, rows = others[0].partition("/")
+    if one != "1" or not rows.isdecimal() or not 1 <= int(rows[:9]) <= MOST_ROWS:
+        raise ParameterError.of("rows", shown(others[0]), f"1/1 to 1/{MOST_ROWS}")
+    return {"light": "lamp", "lamp_frequency": lamp, "duty": 1 / int(rows), "depth": 1.0}, int(rows)
 
 
 def _depth_lines(scene: Scene, depth: BandDepth) -> list[str]:

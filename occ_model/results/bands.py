@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from occ_model.arrays import FloatArray
 from occ_model.scene.scene import Scene
-from occ_model.scene.units import HERTZ, SECOND
+from occ_model.scene.units import HERTZ, PERCENT, SECOND
 
 NO_BARS_DEPTH = 0.01  # peak-to-peak depth relative to the mean below which there are no bars
 
@@ -13,7 +13,7 @@ ROUNDING_DEPTH = 1e-9  # depth up to which bars are rounding errors
 
 def percent(fraction: float) -> str:
     """Write a depth in percent, rounding errors as 0."""
-    return f"{100.0 * fraction:.3g} %" if fraction > ROUNDING_DEPTH else "0 %"
+    return PERCENT.format(fraction, 3) if fraction > ROUNDING_DEPTH else "0 %"
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,6 +106,16 @@ class SpeedDepth:
     def is_doubtful(self) -> bool:
         """Whether only one of the two times shows no bars."""
         return not self.is_free and min(self.at_nominal, self.at_real) < NO_BARS_DEPTH
+
+    @property
+    def doubt(self) -> str:
+        """A sentence where a camera that keeps the other time shows bars all the same."""
+        if not self.is_doubtful or self.at_nominal > self.at_real:
+            return ""
+        return (
+            f"Many cameras keep {SECOND.format(self.real, 4)} for {self.name}, which shows bars of "
+            f"{percent(self.at_real)}."
+        )
 
 
 @dataclass(frozen=True, slots=True)

@@ -143,12 +143,17 @@ class DepthOver:
         return np.asarray(least)
 
 
+def is_sent_by_chips(transmitter: Transmitter) -> bool:
+    """Return whether a light is a code's, and no lamp that blinks."""
+    return transmitter.light == "code" and blinking_lamp(transmitter) is None
+
+
 def frequency_axis(transmitter: Transmitter) -> FrequencyAxis:
     """Return the frequency that a light's owner can vary: a lamp's, a code's, else the light's."""
     lamp = blinking_lamp(transmitter)
     if lamp is not None and transmitter.light != "pulses":
         return FrequencyAxis("lamp_frequency", lamp.frequency, quantity("lamp_frequency").label)
-    if transmitter.light == "code":
+    if is_sent_by_chips(transmitter):
         switching = quantity("switching_frequency")
         return FrequencyAxis(switching.name, transmitter.switching_frequency, switching.label)
     light = light_of(transmitter)

@@ -1,10 +1,11 @@
-"""Values that a scene may hold, for hypothesis."""
+"""Values that a scene may hold, for hypothesis, and the presets of codes."""
 
 from hypothesis import strategies as st
 
 from occ_model.scene.light_samples import canonical_samples
 from occ_model.scene.light_text import LightText
 from occ_model.scene.parameter_kinds import ChipPattern, Choice, Count, Parameter, Payload, Quantity
+from occ_model.scene.presets import load_preset, presets
 
 _LETTERS = st.characters(exclude_categories=["Cs"])
 
@@ -53,3 +54,8 @@ def values_of(parameter: Parameter) -> st.SearchStrategy[float | int | str]:
             return PAYLOADS
         case LightText():
             return LIGHT_TEXTS[parameter.name]
+
+
+def presets_of_codes() -> tuple[str, ...]:
+    """Return the names of the presets whose transmitter sends a code."""
+    return tuple(name for name in presets() if load_preset(name).transmitter.light == "code")

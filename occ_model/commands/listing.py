@@ -40,6 +40,8 @@ def _print_presets(options: argparse.Namespace) -> int:
     preset = preset_named(options.name)
     print(one_line(preset.title))
     for name, declaration in PARAMETERS.items():
+        if not declaration.is_of(preset.scene.transmitter.light):
+            continue
         value = declaration.format(preset.scene.value(name))  # type: ignore[arg-type]
         note = preset.sources.get(name, "")
         if name in preset.assumed:
@@ -55,6 +57,8 @@ def _print_parameters(options: argparse.Namespace) -> int:
     for name, declaration in PARAMETERS.items():
         print(f"{name:26}{declaration.meaning}")
         print(f"{'':26}allowed: {declaration.allowed}")
+        if declaration.lights:
+            print(f"{'':26}light: {', '.join(declaration.lights)}")
     return 0
 
 

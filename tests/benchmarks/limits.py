@@ -12,6 +12,7 @@ import argparse
 import time
 
 import numpy as np
+from scene_values import presets_of_codes
 
 import occ_model as occ
 from occ_model.camera.photometry import level_values
@@ -82,7 +83,7 @@ def print_cessation(images: int) -> None:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--preset", action="append", choices=occ.presets())
+    parser.add_argument("--preset", action="append", choices=presets_of_codes())
     parser.add_argument("--decoder", action="append", choices=occ.decoders())
     parser.add_argument("--cessation", action="store_true", help="of the paper's decoder by noise")
     asked = parser.parse_args()
@@ -91,7 +92,7 @@ def main() -> None:
         return
     print(f"| {' | '.join(COLUMNS)} |")
     print("|---" * len(COLUMNS) + "|")
-    for preset in asked.preset or occ.presets():
+    for preset in asked.preset or presets_of_codes():
         for decoder in asked.decoder or ("threshold", "matched", "equalizer", "sequence"):
             print(line(preset, decoder), flush=True)
 

@@ -5,6 +5,7 @@ from collections.abc import Callable
 from functools import cache
 
 import numpy as np
+from scene_values import presets_of_codes
 
 import occ_model as occ
 from occ_model.results.plan import Plan
@@ -29,7 +30,7 @@ NOTHING: dict[str, ParameterValue] = {
 }
 """Values of each effect's parameters that switch it off."""
 
-PRESETS = occ.presets()
+PRESETS = presets_of_codes()
 METHODS = ("equalization", "stretch", "none")
 
 

@@ -13,6 +13,7 @@ from gui.kinds import not_none
 from gui.pane_bench import handle_middle
 from gui.user import User
 from pytestqt.qtbot import QtBot
+from scene_values import presets_of_codes
 
 import occ_model as occ
 from occ_gui.app.application import Application
@@ -44,7 +45,7 @@ from occ_model.study.working_range import working_range
 def frontier_scenes(count: int) -> tuple[Scene, ...]:
     """Return scenes with the paper's cameras near the end of the decoder's working range."""
     random = np.random.default_rng(21)
-    names = [name for name in occ.presets() if not name.endswith("-real")]
+    names = [name for name in presets_of_codes() if not name.endswith("-real")]
     return tuple(_frontier_scene(names[number % len(names)], random) for number in range(count))
 
 

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from amount import amount
 from numpy.typing import NDArray
+from scene_values import presets_of_codes
 
 import occ_model as occ
 from occ_model.receiver.decode import QUICK_DECODERS
@@ -17,7 +18,7 @@ from occ_model.study.observation import read_profile
 
 SETTINGS = SimulationSettings(observable="signal")
 BARE = SimulationSettings(tolerance=math.inf)
-PRESETS = [name for name in occ.presets() if not name.endswith("-real")]
+PRESETS = [name for name in presets_of_codes() if not name.endswith("-real")]
 
 
 def small(preset: str, **changes: float) -> Scene:

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 from amount import amount
+from scene_values import presets_of_codes
 
 import occ_model as occ
 from occ_model.camera.photometry import level_values
@@ -138,7 +139,7 @@ def test_two_headers_are_stated_as_needed_only_for_framings_that_need_them() -> 
 
 
 def test_a_scene_that_is_read_has_no_cause() -> None:
-    for preset in occ.presets():
+    for preset in presets_of_codes():
         for decoder in QUICK_DECODERS:
             assert cause_of(occ.load_preset(preset).replace(**SMALL), decoder) is None
     assert cause_of(occ.load_preset("phone-136us").replace(pattern="10"), "threshold") is None

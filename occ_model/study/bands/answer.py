@@ -25,6 +25,8 @@ FRAME_RATES = {
 
 MOST_ROWS = 10_000  # a panel's rows, or groups of rows, that are lit in turn
 
+_ROUNDING_ROWS = 1e-9  # difference from whole cycles, in rows, that is a rounding error
+
 _NEAR = 32.0  # farthest ratio of a shutter speed that is advised to that asked about
 _MOST_SPEEDS = 2
 _SINES_PER_PIECE = 4
@@ -139,4 +141,5 @@ def unlit_rows(rows: int, frequency: float, exposure: float) -> UnlitRows:
     cycles = Fraction(frequency) * Fraction(exposure)
     lit = (cycles % 1) * rows  # rows long
     none, whole = max(Fraction(0), rows - 1 - lit) / rows, max(Fraction(0), lit - 1) / rows
-    return UnlitRows(float(none) if cycles < 1 else 0.0, float(1 - none - whole) if lit else 0.0)
+    cuts = min(lit, rows - lit) > _ROUNDING_ROWS
+    return UnlitRows(float(none) if cycles < 1 else 0.0, float(1 - none - whole) if cuts else 0.0)

@@ -99,7 +99,8 @@ def test_the_beats_of_each_sine_are_those_of_frames_in_a_film() -> None:
 
 
 @given(
-    rows=st.integers(1, 40), exposure=st.floats(1e-5, 0.05), frequency=st.sampled_from([60.0, 83.0])
+    rows=st.integers(1, 40), exposure=st.one_of(st.floats(1e-5, 0.05), st.just(0.05)),
+    frequency=st.sampled_from([60.0, 83.0]),
 )  # fmt: skip
 @settings(deadline=None, max_examples=50)
 def test_rows_of_a_panel_are_dark_or_cut_as_often_as_counted(
@@ -116,7 +117,6 @@ def test_rows_of_a_panel_are_dark_or_cut_as_often_as_counted(
         lit += np.clip(overlap, 0.0, 1.0)
     assert found.dark == pytest.approx((lit < 1e-12).mean(), abs=2.5 / 997)
     is_cut = np.abs(lit - np.round(lit)) > 1e-9
-    # In a window nearly all around, both ends can cut the same row, which looks whole by chance.
     assert found.cut == pytest.approx(is_cut.mean(), abs=2.5 / 997 + 1e-9)
 
 

@@ -42,7 +42,11 @@ from .results.decoding import (
     DecodeResult as DecodeResult,
     Region as Region,
 )
-from .results.frame import Frame as Frame
+from .results.frame import (
+    Decision as Decision,
+    Frame as Frame,
+    Plan as Plan,
+)
 from .results.lamp import Lamp as Lamp
 from .results.limits import Limits as Limits
 from .results.match import (
@@ -53,10 +57,6 @@ from .results.match import (
     Stripes as Stripes,
 )
 from .results.photo_table import PhotoTable as PhotoTable
-from .results.plan import (
-    Decision as Decision,
-    Plan as Plan,
-)
 from .results.sent_packets import PacketReading as PacketReading
 from .results.sweep import SweepTable as SweepTable
 from .results.video import (

@@ -16,7 +16,7 @@ from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.values.simulated import SimulationRequest
 from occ_gui.widgets.building import ElidedLabel, KeyedComboBox, fill
 from occ_model.results.accuracy import Forecast, MeasuredCosts, TimeFractions
-from occ_model.results.plan import Decision
+from occ_model.results.frame import Decision
 from occ_model.scene.scene import SimulationSettings, unit_of
 
 _TABLE_WIDTH, _PLOT_WIDTH, _DETAIL_WIDTH = 560, 344, 312  # pixels of the parts side by side

@@ -9,8 +9,7 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from occ_model.results.accuracy import EffectCrop, EffectDifference, Forecast, MeasuredCosts
-from occ_model.results.frame import Frame
-from occ_model.results.plan import Decision
+from occ_model.results.frame import Decision, Frame
 from occ_model.scene.scene import unit_of
 
 ELSE = "everything else"  # key of the last row, which is no effect

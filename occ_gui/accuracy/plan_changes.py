@@ -5,8 +5,7 @@ from collections.abc import Sequence
 from PySide6.QtCore import QObject, QTimer, Signal
 
 from occ_gui.simulation.snapshot import Snapshot
-from occ_model.results.frame import Frame
-from occ_model.results.plan import Decision
+from occ_model.results.frame import Decision, Frame
 
 _NEW_MS = 8000  # for how long a change of the plan is marked and stated in the status line
 

@@ -11,7 +11,7 @@ from occ_gui.scene.number_edits import QuantityEdit
 from occ_gui.scene.parameter_rows import explain
 from occ_gui.widgets.building import fill
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
-from occ_model.results.plan import EffectSet
+from occ_model.results.frame import EffectSet
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.scene import TOLERANCE, unit_of
 from occ_model.scene.units import Unit

@@ -9,7 +9,7 @@ from occ_gui.scene.control_panel import main_of
 from occ_gui.scene.forced_effects import accuracy_badge, describe_accuracy
 from occ_gui.shell.results import entries_of
 from occ_gui.simulation.snapshot import Snapshot
-from occ_model.results.plan import Decision
+from occ_model.results.frame import Decision
 from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.teaching.marked_values import marked_values
 

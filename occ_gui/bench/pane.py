@@ -10,7 +10,7 @@ from occ_gui.bench.bench_view import PUBLISHED, BenchChoice, BenchView
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Pane
 from occ_model.camera.projection import panel_corners
-from occ_model.effects.paper_view import region_of
+from occ_model.effects.effect import region_of
 from occ_model.errors import OccError, ParameterError
 from occ_model.parallel.job import Job
 from occ_model.receiver.decode import decoders

@@ -15,7 +15,7 @@ from occ_model.results.bit_errors import FRAMES_A_SECOND
 from occ_model.results.sweep import SweepTable
 from occ_model.results.sweep_request import SweepPoint, SweepRequest
 from occ_model.scene.scene import Scene, SimulationSettings
-from occ_model.study.sweep.points import measure_points, rate_intervals
+from occ_model.study.sweep.sweep import measure_points, rate_intervals
 
 SHAPE = (25, 13)
 """Points along both axes: with two processes, the first points take some 40 ms, and all points

@@ -23,7 +23,7 @@ from occ_gui.shell.feature import Pane
 from occ_model.receiver.decode import DECODERS, QUICK_DECODERS
 from occ_model.results.sweep_request import SweepPoint
 from occ_model.scene.parameters import quantity
-from occ_model.study.sweep.points import MeasuredPoints, rate_intervals
+from occ_model.study.sweep.sweep import MeasuredPoints, rate_intervals
 
 FIRST_AXES = ("switching_frequency", "distance")
 

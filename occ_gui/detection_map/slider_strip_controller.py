@@ -23,7 +23,7 @@ from occ_model.results.sweep_request import SweepPoint
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.study.confidence import interval_of_pictures
-from occ_model.study.sweep.points import MeasuredPoints, measure_points
+from occ_model.study.sweep.sweep import MeasuredPoints, measure_points
 
 
 @dataclass(frozen=True, slots=True)

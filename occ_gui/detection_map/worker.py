@@ -17,7 +17,7 @@ from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.study import theory
 from occ_model.study.observation import panel_span
-from occ_model.study.sweep.points import measure_points
+from occ_model.study.sweep.sweep import measure_points
 
 IMAGE_EFFECTS = tuple(effect.name for effect in EFFECTS if effect.kind == "image")
 """Effects that a profile cannot show: a point with them takes some twenty times as long."""

@@ -7,10 +7,9 @@ from PySide6.QtWidgets import QHBoxLayout, QPushButton, QSizePolicy, QWidget
 
 from occ_gui.photo.match_figures import condition_of
 from occ_gui.photo.match_result import STATES
-from occ_gui.widgets.badge_row import Badge
 from occ_gui.widgets.building import fill, push_button
 from occ_gui.widgets.state_bar import StateBar
-from occ_gui.widgets.state_look import State
+from occ_gui.widgets.state_look import Badge, State
 from occ_model.errors import counted, one_line
 from occ_model.photo.match_facts import estimate_text
 from occ_model.photo.reading.load import Photo

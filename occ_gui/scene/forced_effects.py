@@ -7,9 +7,8 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QWidget
 
 from occ_gui.core.workspace import FIRST_SETTINGS
-from occ_gui.widgets.badge_row import Badge
 from occ_gui.widgets.building import fill, paragraph, push_button
-from occ_gui.widgets.state_look import State
+from occ_gui.widgets.state_look import Badge, State
 from occ_model.errors import counted
 from occ_model.scene.scene import SimulationSettings, unit_of
 

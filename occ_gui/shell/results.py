@@ -13,7 +13,7 @@ from occ_gui.core.workspace import Workspace
 from occ_gui.simulation.snapshot import Picture, Reading, Snapshot
 from occ_gui.values.remarks import Failure, Remark
 from occ_gui.values.simulated import SimulationRequest
-from occ_model.results.plan import Decision
+from occ_model.results.frame import Decision
 
 if TYPE_CHECKING:  # a window without a photo or film starts without them
     from occ_gui.values.photo_results import (

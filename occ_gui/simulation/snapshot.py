@@ -10,8 +10,7 @@ import numpy as np
 from occ_gui.values.simulated import SimulationRequest
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.results.decoding import Cause, DecodeResult, Region
-from occ_model.results.frame import Frame
-from occ_model.results.plan import Plan
+from occ_model.results.frame import Frame, Plan
 from occ_model.scene.scene import Scene
 
 Source: TypeAlias = Literal["profile", "draft", "picture"]

@@ -16,9 +16,8 @@ from occ_gui.simulation.verdict import (
     verdict_on,
 )
 from occ_gui.story.column_facts import READ_BY_ALL, chips_in_exposure
-from occ_gui.widgets.badge_row import Badge
 from occ_gui.widgets.state_bar import StateBar
-from occ_gui.widgets.state_look import State
+from occ_gui.widgets.state_look import Badge, State
 from occ_model.results.decoding import PAPER_DECODER, Remedy, overexposed_text, symptom
 from occ_model.scene.scene import TOLERANCE, unit_of
 from occ_model.scene.units import PERCENT, SECOND

@@ -7,10 +7,9 @@ from PySide6.QtCore import QEvent, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QPainter, QPaintEvent, QPalette, QResizeEvent
 from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
 
-from occ_gui.widgets.badge_row import Badge, BadgeRow
 from occ_gui.widgets.building import ElidedLabel, embolden, push_button
 from occ_gui.widgets.guarded_paint import guarded
-from occ_gui.widgets.state_look import State, StateIcon, colours_of
+from occ_gui.widgets.state_look import Badge, BadgeRow, State, StateIcon, colours_of
 
 _ICON = 32
 _TEXT_SCALE = 1.25

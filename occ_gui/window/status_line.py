@@ -4,9 +4,9 @@ from PySide6.QtCore import QEvent, QObject, QSize
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QLabel, QSizePolicy, QStatusBar
 
-from occ_gui.widgets.badge_row import Badge, BadgeLabel
 from occ_gui.widgets.building import ElidedLabel
 from occ_gui.widgets.plain_text import LONGEST_TEXT
+from occ_gui.widgets.state_look import Badge, BadgeLabel
 from occ_gui.widgets.work_bar import WorkBar
 from occ_model.errors import one_line
 from occ_model.scene.units import SECOND

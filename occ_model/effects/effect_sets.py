@@ -15,11 +15,10 @@ from typing import Self
 import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray
-from occ_model.effects.effect import Effect, FileEffect, NoiseEffect
+from occ_model.effects.effect import Effect, FileEffect, NoiseEffect, PaperView
 from occ_model.effects.estimates import Estimates
-from occ_model.effects.paper_view import PaperView
 from occ_model.effects.registry import EFFECTS
-from occ_model.results.plan import EffectSet
+from occ_model.results.frame import EffectSet
 from occ_model.scene.scene import NoiseSource, SimulationSettings
 
 _SUM_RATIO = 1.15

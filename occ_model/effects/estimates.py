@@ -9,11 +9,10 @@ import numpy as np
 
 from occ_model.arrays import FloatArray
 from occ_model.camera.photometry import FLAT_SPAN, WHITE
-from occ_model.effects.effect import Effect
+from occ_model.effects.effect import Effect, PaperView
 from occ_model.effects.normal_noise import mean_after_clipping, normal_fraction, unclipped_fraction
 from occ_model.effects.observed import SampledObservable
 from occ_model.effects.observed_signal import observe_signal, signal_swing
-from occ_model.effects.paper_view import PaperView
 from occ_model.effects.registry import EFFECTS
 from occ_model.effects.sampled_pixels import SampledPixels, sample_pixels
 from occ_model.effects.simulated_columns import Names

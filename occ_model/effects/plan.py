@@ -5,12 +5,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
 
-from occ_model.effects.effect import Effect
+from occ_model.effects.effect import Effect, PaperView, paper_view_of
 from occ_model.effects.effect_sets import EffectSets
 from occ_model.effects.estimates import Estimates, estimates_of
-from occ_model.effects.paper_view import PaperView, paper_view_of
 from occ_model.effects.registry import EFFECTS, NAMES
-from occ_model.results.plan import Decision, EffectSet, Plan
+from occ_model.results.frame import Decision, EffectSet, Plan
 from occ_model.scene.scene import (
     TOLERANCE,
     NoiseSource,

@@ -9,7 +9,7 @@ from occ_model.effects.effect import Effect
 from occ_model.effects.light_effects import Flicker, LedEdges
 from occ_model.effects.optics_effects import Defocus, Emission, Vignetting
 from occ_model.effects.sensor_effects import FixedPattern, FullWell, Jpeg, SensorNoise
-from occ_model.results.plan import Plan
+from occ_model.results.frame import Plan
 
 EFFECTS: tuple[Effect, ...] = (
     LedEdges(),

@@ -5,7 +5,7 @@ from functools import cached_property
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.effects.paper_view import PaperView
+from occ_model.effects.effect import PaperView
 from occ_model.effects.sample import PixelSample
 
 _SEEN_FRACTION = 0.003  # smallest change of the panel's fraction that can change a pixel's level

@@ -25,12 +25,12 @@ from occ_model.effects.effect import (
     LightEffect,
     NoiseEffect,
     OpticsEffect,
+    PaperView,
     PixelEffect,
 )
 from occ_model.effects.file_change import FileChange
 from occ_model.effects.level_table import LevelTable, Places
 from occ_model.effects.normal_noise import rounding_mean
-from occ_model.effects.paper_view import PaperView
 from occ_model.effects.registry import effects_named
 from occ_model.effects.rims import Rims
 from occ_model.effects.sample import PixelSample, choose_sample

@@ -7,8 +7,7 @@ import numpy as np
 from occ_model.arrays import FloatArray, IndexArray
 from occ_model.camera.enhancement import Enhancement
 from occ_model.camera.photometry import ColumnLight, fast_power, panel_values, saturate
-from occ_model.effects.effect import LightEffect, PixelEffect
-from occ_model.effects.paper_view import PaperView
+from occ_model.effects.effect import LightEffect, PaperView, PixelEffect
 
 Names = frozenset[str]  # effects by name
 

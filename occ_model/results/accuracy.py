@@ -6,8 +6,7 @@ from math import fsum
 from typing import Self
 
 from occ_model.arrays import ByteArray, FloatArray
-from occ_model.results.frame import Frame
-from occ_model.results.plan import EffectSet, Plan
+from occ_model.results.frame import EffectSet, Frame, Plan
 from occ_model.scene.units import LEVEL
 
 ACCURACY_PARTS = {  # titles of the parts of an accuracy study, by name

@@ -13,12 +13,11 @@ from occ_model.camera.enhancement import Enhancement
 from occ_model.camera.optics import Optics
 from occ_model.camera.picture_rows import LitPanel, PictureRows, split_at, split_into_blocks
 from occ_model.camera.projection import check_size
-from occ_model.effects.effect import OpticsEffect
-from occ_model.effects.paper_view import PaperView, paper_view_of, region_of
+from occ_model.effects.effect import OpticsEffect, PaperView, paper_view_of, region_of
 from occ_model.effects.plan import plan_of_any
 from occ_model.effects.registry import NAMES, effects_planned
 from occ_model.results.decoding import Region
-from occ_model.results.plan import Plan
+from occ_model.results.frame import Plan
 from occ_model.room.room import Room, RoomLamp
 from occ_model.room.view import LampView, lamps_in_view
 from occ_model.scene.scene import (

@@ -10,8 +10,8 @@ import numpy as np
 from occ_model.arrays import FloatArray
 from occ_model.camera.projection import image_points, image_rays, rotation_of
 from occ_model.effects.distortion import part_inside, undistort_frame
+from occ_model.effects.effect import PaperView, paper_view_of, region_of
 from occ_model.effects.optics_effects import blur_of
-from occ_model.effects.paper_view import PaperView, paper_view_of, region_of
 from occ_model.errors import ParameterError, ProjectionError, one_line
 from occ_model.room.room import Place, Room, RoomLamp
 from occ_model.scene.scene import Pose, Scene

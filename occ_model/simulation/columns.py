@@ -12,10 +12,9 @@ import numpy as np
 from occ_model.arrays import ByteArray, FloatArray, Pixels
 from occ_model.camera.photometry import panel_values, saturate, surroundings_values
 from occ_model.camera.picture_rows import Rows
-from occ_model.effects.effect import LightEffect, PixelEffect
-from occ_model.effects.paper_view import PaperView
+from occ_model.effects.effect import LightEffect, PaperView, PixelEffect
 from occ_model.effects.registry import effects_planned
-from occ_model.results.plan import Plan
+from occ_model.results.frame import Plan
 from occ_model.simulation.stage_timer import StageTimer
 
 

@@ -20,11 +20,10 @@ from occ_model.camera.enhancement import Enhancement, to_bytes
 from occ_model.camera.optics import Optics
 from occ_model.camera.photometry import WHITE
 from occ_model.camera.picture_rows import LitPanel, PictureRows, Rows, split_at, split_into_blocks
-from occ_model.effects.effect import FileEffect, NoiseEffect, OpticsEffect, PixelEffect
-from occ_model.effects.paper_view import PaperView
+from occ_model.effects.effect import FileEffect, NoiseEffect, OpticsEffect, PaperView, PixelEffect
 from occ_model.effects.registry import effects_planned
 from occ_model.parallel.job import Heartbeat
-from occ_model.results.plan import Plan
+from occ_model.results.frame import Plan
 from occ_model.scene.scene import NoiseSource, Observable
 from occ_model.simulation.columns import ColumnMeans, Columns
 from occ_model.simulation.draft_error import DraftedPanel

@@ -12,13 +12,11 @@ from occ_model.camera.enhancement import Enhancement, to_bytes
 from occ_model.camera.photometry import FLAT_SPAN, WHITE, saturation_value
 from occ_model.camera.picture_rows import split_into_blocks
 from occ_model.camera.projection import check_size, paint
-from occ_model.effects.effect import NoiseEffect
-from occ_model.effects.paper_view import PaperView, paper_view_of
+from occ_model.effects.effect import NoiseEffect, PaperView, paper_view_of
 from occ_model.effects.plan import plan_of
 from occ_model.effects.registry import NAMES, effects_planned
 from occ_model.parallel.job import Heartbeat
-from occ_model.results.frame import Frame
-from occ_model.results.plan import Plan
+from occ_model.results.frame import Frame, Plan
 from occ_model.scene.argument_checks import check_count
 from occ_model.scene.scene import (
     TOLERANCE,

@@ -14,9 +14,8 @@ import numpy as np
 
 from occ_model.arrays import ByteArray, IndexArray, Pixels
 from occ_model.camera.enhancement import Enhancement
-from occ_model.effects.effect import NoiseEffect
-from occ_model.effects.paper_view import PaperView
-from occ_model.results.plan import Plan
+from occ_model.effects.effect import NoiseEffect, PaperView
+from occ_model.results.frame import Plan
 from occ_model.scene.scene import Scene
 from occ_model.simulation.columns import expose_columns
 from occ_model.simulation.noise import Drawn

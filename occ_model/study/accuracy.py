@@ -22,14 +22,13 @@ from occ_model.arrays import FloatArray, IndexArray, Pixels
 from occ_model.camera.exposure import forget_exposures, lit_fraction
 from occ_model.camera.photometry import ColumnLight, panel_values, saturate
 from occ_model.camera.projection import check_size
-from occ_model.effects.effect import NoiseEffect
-from occ_model.effects.paper_view import paper_view_of
+from occ_model.effects.effect import NoiseEffect, paper_view_of
 from occ_model.effects.plan import plan
 from occ_model.effects.registry import effects_planned
 from occ_model.light.cosine import Cosine
 from occ_model.light.sent import Light, light_of
 from occ_model.results.accuracy import CLOSED_FORM, AccuracyPoint
-from occ_model.results.plan import Plan
+from occ_model.results.frame import Plan
 from occ_model.scene.argument_checks import check_seed
 from occ_model.scene.scene import NOISE_SOURCES, Scene, SimulationSettings
 from occ_model.simulation.columns import expose_columns

@@ -11,7 +11,7 @@ from occ_model.parallel.job import Heartbeat
 from occ_model.plugins import Faults
 from occ_model.results.bit_errors import BitErrors
 from occ_model.results.decoding import PAPER_DECODER
-from occ_model.results.plan import Plan
+from occ_model.results.frame import Plan
 from occ_model.results.sweep_request import RateSettings, SignalPath
 from occ_model.scene.argument_checks import check_count
 from occ_model.scene.scene import TOLERANCE, Scene

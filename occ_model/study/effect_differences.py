@@ -8,11 +8,11 @@ import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray, Pixels
 from occ_model.camera.photometry import WHITE
-from occ_model.effects.paper_view import paper_view_of
+from occ_model.effects.effect import paper_view_of
 from occ_model.effects.plan import effect_sets_of, plan, plan_with
 from occ_model.effects.registry import EFFECTS
 from occ_model.results.accuracy import EffectCrop, EffectDifference, Forecast, MeasuredCosts
-from occ_model.results.plan import EffectSet, Plan
+from occ_model.results.frame import EffectSet, Plan
 from occ_model.scene.scene import NoiseSource, Observable, Scene, SimulationSettings
 from occ_model.simulation.render import observe, render_plan
 from occ_model.simulation.stage_timer import StageTimer

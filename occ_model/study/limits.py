@@ -23,7 +23,7 @@ from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import TOLERANCE, Scene, SimulationSettings
 from occ_model.study import theory
 from occ_model.study.cause.cause import cause_of
-from occ_model.study.cause.timing import reads_two_headers
+from occ_model.study.cause.suspects import reads_two_headers
 from occ_model.study.success_rate import check_rate
 from occ_model.study.sure_ends import images_about_an_end, pairs_of, replace_ends, sure_end
 from occ_model.study.working_range import READ_RATE, expected_images, working_range

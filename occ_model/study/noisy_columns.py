@@ -16,7 +16,7 @@ from occ_model.effects.effect import NoiseEffect, PixelEffect
 from occ_model.effects.registry import effects_planned
 from occ_model.receiver.signal import bright_level
 from occ_model.results.decoding import Region
-from occ_model.results.plan import Plan
+from occ_model.results.frame import Plan
 from occ_model.scene.scene import Camera, Scene, Sensor
 from occ_model.simulation.columns import Columns
 from occ_model.simulation.noise import NoiseSpread

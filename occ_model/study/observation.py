@@ -16,13 +16,13 @@ import numpy as np
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.camera.enhancement import Enhancement, fraction_above, to_bytes
 from occ_model.camera.projection import check_size, panel_corners, row_spans
-from occ_model.effects.paper_view import PaperView, paper_view_of
+from occ_model.effects.effect import PaperView, paper_view_of
 from occ_model.effects.plan import signal_plan
 from occ_model.errors import ParameterError
 from occ_model.receiver.decode import QUICK_DECODERS, decode
 from occ_model.receiver.signal import bright_level, column_means, locate
 from occ_model.results.decoding import DecodeResult, Region
-from occ_model.results.plan import Plan
+from occ_model.results.frame import Plan
 from occ_model.results.sweep_request import SignalPath
 from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.simulation.columns import Columns, expose_columns

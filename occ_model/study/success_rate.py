@@ -9,7 +9,7 @@ import numpy as np
 
 from occ_model.arrays import ByteArray
 from occ_model.camera.projection import check_size
-from occ_model.effects.paper_view import paper_view_of
+from occ_model.effects.effect import paper_view_of
 from occ_model.effects.plan import signal_plan
 from occ_model.effects.registry import NAMES
 from occ_model.errors import ParameterError, PluginError
@@ -17,7 +17,7 @@ from occ_model.parallel.job import Heartbeat
 from occ_model.plugins import Faults
 from occ_model.receiver.decode import decoder_named
 from occ_model.results.decoding import PAPER_DECODER, DecodeResult, Region
-from occ_model.results.plan import Plan
+from occ_model.results.frame import Plan
 from occ_model.results.sweep_request import MOST_IMAGES, SIGNAL_PATHS, RateSettings, SignalPath
 from occ_model.scene.argument_checks import check_choice, check_count, check_seed, check_switches
 from occ_model.scene.scene import TOLERANCE, Scene, SimulationSettings

@@ -10,7 +10,7 @@ import numpy as np
 
 from occ_model.camera.photometry import WHITE, luminance_levels, luminance_of
 from occ_model.camera.projection import panel_corners
-from occ_model.effects.paper_view import region_of
+from occ_model.effects.effect import region_of
 from occ_model.results.bit_errors import FRAMES_A_SECOND
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.scheme import sent_chips

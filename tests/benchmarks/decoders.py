@@ -28,7 +28,7 @@ from occ_model.arrays import ByteArray, FloatArray
 from occ_model.camera.enhancement import Enhancement, to_bytes
 from occ_model.camera.photometry import level_values
 from occ_model.camera.projection import row_spans
-from occ_model.effects.paper_view import paper_view_of
+from occ_model.effects.effect import paper_view_of
 from occ_model.effects.plan import plan_of
 from occ_model.effects.registry import NAMES
 from occ_model.receiver.decode import DECODERS

@@ -14,7 +14,7 @@ from hard_cases.laws import cases, record
 from hard_cases.references import decades
 from occ_model.camera.enhancement import Enhancement
 from occ_model.camera.picture_rows import Rim, Rows
-from occ_model.effects.paper_view import paper_view_of
+from occ_model.effects.effect import paper_view_of
 from occ_model.effects.sensor_effects import SensorNoise
 from occ_model.receiver.signal import column_means, locate
 from occ_model.results.decoding import Region

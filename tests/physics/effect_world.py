@@ -8,7 +8,7 @@ import numpy as np
 from scene_values import presets_of_codes
 
 import occ_model as occ
-from occ_model.results.plan import Plan
+from occ_model.results.frame import Plan
 from occ_model.scene.parameter_kinds import ParameterValue, Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Observable, Scene

@@ -8,7 +8,7 @@ import pytest
 from amount import amount
 
 import occ_model as occ
-from occ_model.effects.paper_view import paper_view_of
+from occ_model.effects.effect import paper_view_of
 from occ_model.scene.parameter_kinds import ParameterValue, Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene

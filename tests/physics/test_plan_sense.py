@@ -3,7 +3,7 @@
 import pytest
 
 import occ_model as occ
-from occ_model.effects.paper_view import paper_view_of
+from occ_model.effects.effect import paper_view_of
 from occ_model.effects.registry import EFFECTS
 from occ_model.scene.scene import Scene
 

@@ -12,8 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from occ_model.camera.projection import panel_corners
-from occ_model.effects.effect import Effect
-from occ_model.effects.paper_view import paper_view_of, region_of
+from occ_model.effects.effect import Effect, paper_view_of, region_of
 from occ_model.effects.plan import signal_plan
 from occ_model.effects.registry import EFFECTS
 from occ_model.errors import OccError, ParameterError
@@ -26,19 +25,17 @@ from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.scene.units import PERCENT
 from occ_model.study import theory
-from occ_model.study.cause.brightness import (
-    suspect_darkness,
-    suspect_other_light,
-    suspect_overexposure,
-)
 from occ_model.study.cause.suspect import Attempt, Suspect
-from occ_model.study.cause.timing import (
+from occ_model.study.cause.suspects import (
     compared_bits,
     exposure_in_chips,
+    suspect_darkness,
     suspect_few_chips,
     suspect_few_columns,
     suspect_long_exposure,
     suspect_narrow_chips,
+    suspect_other_light,
+    suspect_overexposure,
 )
 from occ_model.study.observation import observe, panel_span
 from occ_model.transmitter.scheme import check_code, scheme_of

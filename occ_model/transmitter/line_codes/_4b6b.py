@@ -4,8 +4,7 @@ The table is that of IEEE 802.15.7-2018, 10.5.1 (4B6B encoding). Every word has 
 all words are equally bright, and a single wrong chip always gives a word outside the table.
 """
 
-from occ_model.transmitter.line_codes.line_code import LineCode
-from occ_model.transmitter.line_codes.word_table import WordTable, parse_words
+from occ_model.transmitter.line_codes.line_code import LineCode, WordTable, parse_words
 
 WORDS = parse_words(  # for the numbers 0 to 15
     "001110 001101 010011 010110 010101 100011 100110 100101 "

@@ -8,8 +8,7 @@ but a picture shows several symbols, where theirs shows one frequency.
 
 import numpy as np
 
-from occ_model.transmitter.line_codes.line_code import LineCode
-from occ_model.transmitter.line_codes.word_table import WordTable
+from occ_model.transmitter.line_codes.line_code import LineCode, WordTable
 
 SYMBOL_CHIPS = 12  # chips of a symbol, the fewest that have whole periods of all four frequencies
 HALF_PERIODS = (1, 2, 3, 6)  # chips of half a period, for the symbols 0 to 3

@@ -36,7 +36,7 @@ from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.study import working_range as module
 from occ_model.study.success_rate import count_right_and_whole, right_bits_of_images
-from occ_model.study.sweep.points import measure_points
+from occ_model.study.sweep.sweep import measure_points
 from occ_model.study.theory import null_frequency
 from occ_model.study.working_range import working_range
 

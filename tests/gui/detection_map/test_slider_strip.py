@@ -28,7 +28,7 @@ from occ_gui.scene.parameter_rows import QuantityRow
 from occ_model.results.sweep_request import SweepPoint
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
-from occ_model.study.sweep.points import MeasuredPoints
+from occ_model.study.sweep.sweep import MeasuredPoints
 
 POSITIONS = 5
 NAMES = ("switching_frequency", "iso")

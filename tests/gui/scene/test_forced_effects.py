@@ -16,8 +16,7 @@ from occ_gui.core.workspace import FIRST_SETTINGS
 from occ_gui.files import preset_controller
 from occ_gui.scene.forced_effects import accuracy_badge, forced_text
 from occ_gui.values.modes import MODES
-from occ_gui.widgets.badge_row import BadgeLabel
-from occ_gui.widgets.state_look import State
+from occ_gui.widgets.state_look import BadgeLabel, State
 from occ_model.effects.registry import EFFECTS
 from occ_model.scene.presets import Preset, load_preset, preset_named
 from occ_model.scene.scene import Scene

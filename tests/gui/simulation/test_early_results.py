@@ -17,9 +17,9 @@ from occ_gui.simulation import controller, jobs
 from occ_gui.simulation.snapshot import Picture
 from occ_gui.values.simulated import LEAST_DRAFT_STEP, SimulationRequest
 from occ_model.effects import plan
-from occ_model.effects.paper_view import PaperView
+from occ_model.effects.effect import PaperView
 from occ_model.effects.plan import plan_of
-from occ_model.results.plan import Plan
+from occ_model.results.frame import Plan
 from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.simulation import render
 from occ_model.simulation.render import render_with

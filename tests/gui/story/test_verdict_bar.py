@@ -16,8 +16,7 @@ from occ_gui.simulation.jobs import reading_by_profile
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.simulation.verdict import CodeVerdict
 from occ_gui.story.verdict_bar import VerdictBar
-from occ_gui.widgets.badge_row import BadgeLabel
-from occ_gui.widgets.state_look import State
+from occ_gui.widgets.state_look import BadgeLabel, State
 from occ_model.results.decoding import overexposed_text
 from occ_model.scene.scene import Scene
 from occ_model.simulation.render import plan_scene

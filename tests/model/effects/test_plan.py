@@ -8,7 +8,7 @@ import pytest
 
 import occ_model as occ
 from occ_model.effects import plan as module
-from occ_model.effects.paper_view import PaperView, paper_view_of
+from occ_model.effects.effect import PaperView, paper_view_of
 from occ_model.effects.plan import effect_sets_of, name_effects_for_signal, plan_of, plan_of_any
 from occ_model.scene.scene import Observable, Scene, SimulationSettings
 from occ_model.simulation.render import observe

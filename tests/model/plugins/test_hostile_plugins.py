@@ -24,7 +24,7 @@ from occ_model.results.bit_errors import BenchRequest
 from occ_model.results.sweep_request import RateSettings
 from occ_model.study.bench.bench import measure_bench_point
 from occ_model.study.most_bits import most_bits
-from occ_model.study.sweep.points import measure_point
+from occ_model.study.sweep.sweep import measure_point
 
 MODULE = """
 from dataclasses import replace

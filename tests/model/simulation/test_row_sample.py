@@ -7,7 +7,7 @@ import pytest
 from amount import amount
 
 import occ_model as occ
-from occ_model.effects.paper_view import paper_view_of
+from occ_model.effects.effect import paper_view_of
 from occ_model.effects.sensor_effects import SensorNoise
 from occ_model.receiver.signal import column_means, locate
 from occ_model.results.decoding import Region

@@ -9,7 +9,7 @@ from PIL import Image
 
 import occ_model as occ
 from occ_model.cli import main
-from occ_model.effects.paper_view import paper_view_of
+from occ_model.effects.effect import paper_view_of
 from occ_model.results.accuracy import ACCURACY_PARTS, AccuracyPoint
 from occ_model.scene.scene import Scene, SimulationSettings
 from occ_model.study.accuracy import (

@@ -8,7 +8,7 @@ import pytest
 import occ_model as occ
 from occ_model.errors import ParameterError
 from occ_model.results.bit_errors import BenchPoint, table_rows
-from occ_model.results.plan import Plan
+from occ_model.results.frame import Plan
 from occ_model.scene.scene import Scene
 from occ_model.study import success_rate
 from occ_model.study.bit_error_rate import bit_errors_of, error_interval, with_payload

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import occ_model as occ
-from occ_model.effects.paper_view import paper_view_of
+from occ_model.effects.effect import paper_view_of
 from occ_model.results.decoding import DecodeResult
 from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.scene import Scene

@@ -27,7 +27,7 @@ from occ_model.receiver.decode import decoder_named
 from occ_model.results.bit_errors import BenchRequest
 from occ_model.results.sweep_request import RateSettings
 from occ_model.study.bench.bench import measure_bench_point
-from occ_model.study.sweep.points import measure_point
+from occ_model.study.sweep.sweep import measure_point
 from occ_model.transmitter.framings.preamble import FRAMING
 from occ_model.transmitter.line_codes.manchester import LINE_CODE
 from occ_model.transmitter.scheme import code_of

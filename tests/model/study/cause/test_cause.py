@@ -12,9 +12,12 @@ import occ_model as occ
 from occ_model.camera.photometry import level_values
 from occ_model.receiver.decode import QUICK_DECODERS
 from occ_model.scene.scene import Scene
-from occ_model.study.cause.brightness import suspect_other_light
 from occ_model.study.cause.cause import cause_of
-from occ_model.study.cause.timing import reads_two_headers, suspect_long_exposure
+from occ_model.study.cause.suspects import (
+    reads_two_headers,
+    suspect_long_exposure,
+    suspect_other_light,
+)
 
 SMALL = {"rows": 400}
 NULL = "the null at 14.7 kHz"

@@ -13,7 +13,7 @@ import occ_model as occ
 from occ_model.errors import shown
 from occ_model.results.sweep import SweepTable
 from occ_model.scene.scene import Scene
-from occ_model.study.sweep import points
+from occ_model.study.sweep import sweep
 
 BOTH = ("threshold", "matched")
 AXES: dict[str, list[float]] = {"distance": [0.1, 1.0, 1.8], "switching_frequency": [4e3, 15e3]}
@@ -48,13 +48,13 @@ def complete_file(table: SweepTable) -> bytes:
 def measured_points(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     """Record the indices of the points that are measured."""
     indices: list[int] = []
-    real = points.measure_point
+    real = sweep.measure_point
 
     def record(scene: Scene, settings: object, index: int, *others: object) -> object:
         indices.append(index)
         return real(scene, settings, index, *others)  # type: ignore[arg-type]
 
-    monkeypatch.setattr(points, "measure_point", record)
+    monkeypatch.setattr(sweep, "measure_point", record)
     return indices
 
 

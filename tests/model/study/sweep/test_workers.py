@@ -24,7 +24,7 @@ from occ_model.parallel.job import Job, JobResult
 from occ_model.parallel.process_pool import process_context
 from occ_model.results.sweep import SweepTable
 from occ_model.scene.scene import Scene
-from occ_model.study.sweep import points
+from occ_model.study.sweep import sweep
 from occ_model.study.sweep.workers import GivenExecutor
 
 
@@ -154,7 +154,7 @@ def test_an_error_of_the_model_itself_is_passed_on_from_a_worker(
     def fail(*_: object) -> None:
         raise ZeroDivisionError("a bug")
 
-    monkeypatch.setattr(points, "count_right_and_whole", fail)
+    monkeypatch.setattr(sweep, "count_right_and_whole", fail)
     with ThreadPoolExecutor(1) as executor, pytest.raises(ZeroDivisionError, match="a bug"):
         occ.sweep(scene, AXES, executor=executor)
 

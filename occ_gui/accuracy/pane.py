@@ -1,12 +1,139 @@
-"""The pane of accuracy and time: the settings of the simulation, and its measured costs."""
+"""The pane of accuracy and time: its settings, and the study that runs while it is visible."""
+
+from typing import TypeAlias
+
+from PySide6.QtCore import QObject, QTimer
 
 from occ_gui.accuracy.accuracy_view import AccuracyView
-from occ_gui.accuracy.controller import AccuracyController
+from occ_gui.accuracy.cost_measurement import CostMeasurement, MeasuredPoint, SceneCosts
+from occ_gui.background.task import Task
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import PiecesPane
 from occ_gui.shell.results import of_snapshot
 from occ_gui.simulation.controller import SimulationController
 from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.values.simulated import SimulationRequest
+from occ_model.results.accuracy import Forecast, MeasuredCosts, TimeFractions
+from occ_model.study.effect_differences import forecast
+
+IDLE_MS = 700  # milliseconds without a change after which the study starts
+
+_Question: TypeAlias = tuple[SimulationRequest, MeasuredCosts]
+"""A simulation whose time and error are to be predicted from measured costs."""
+
+
+def _predict(question: _Question, _report: object) -> tuple[SimulationRequest, Forecast]:
+    request, costs = question
+    return request, forecast(request.scene, request.settings, costs)
+
+
+class AccuracyController(QObject):
+    """Starts the study when nothing has changed for a while, and cancels it at the next change.
+
+    It never runs during the simulation of a picture: both would be slower, and its times wrong. The
+    time of the next picture is predicted at every change.
+    """
+
+    def __init__(
+        self, scenes: SceneStore, simulation: SimulationController, pane: AccuracyView
+    ) -> None:
+        super().__init__()
+        self._scenes, self._simulation, self._pane = scenes, simulation, pane
+        self._is_visible = False
+        self._finished_request: SimulationRequest | None = None
+        self._count = 0
+        self._costs: SceneCosts | None = None
+        self._snapshot: Snapshot | None = None
+        self._idle_timer = QTimer(self, singleShot=True)
+        self._idle_timer.timeout.connect(self._start)
+        self.runner: Task[SimulationRequest, None] = Task(
+            CostMeasurement(), "accuracy study", impatient=True
+        )
+        self.runner.reported.connect(self._show)
+        self.runner.finished.connect(self._finish)
+        self.runner.failed.connect(self._fail)
+        self.forecasts: Task[_Question, tuple[SimulationRequest, Forecast]] = Task(
+            _predict, "forecast of costs"
+        )
+        self.forecasts.finished.connect(lambda answer: pane.show_forecast(*answer))
+        for store in (scenes, scenes.settings):
+            store.changed.connect(self._restart)
+        simulation.runner.idle.connect(self._wait_until_idle)
+
+    @property
+    def is_idle(self) -> bool:
+        is_busy = self._idle_timer.isActive() or not self.runner.is_idle
+        return not is_busy and self.forecasts.is_idle
+
+    def _request(self) -> SimulationRequest:
+        return SimulationRequest(self._scenes.scene, self._scenes.settings.settings)
+
+    def set_seen(self, seen: bool) -> None:
+        self._is_visible = seen
+        if seen:
+            self._predict()
+            self._wait_until_idle()
+            return
+        self._idle_timer.stop()
+        if not self.runner.is_idle:
+            self.runner.cancel()
+            self._pane.plot.show_study_outdated()
+
+    def _restart(self) -> None:
+        self._idle_timer.stop()
+        self.runner.cancel()
+        self._finished_request = None
+        self._pane.plot.show_study_outdated()
+        self._predict()
+        self._wait_until_idle()
+
+    def show_snapshot(self, snapshot: Snapshot) -> None:
+        """Predict from the times of this picture from now on."""
+        self._snapshot = snapshot
+        self._predict()
+
+    def _predict(self) -> None:
+        """Predict from the last picture if it shows the present scene."""
+        snapshot, request = self._snapshot, self._request()
+        if not self._is_visible or snapshot is None or snapshot.request.scene != request.scene:
+            return
+        times = TimeFractions.of(snapshot.frame)
+        known = self._costs
+        costs = MeasuredCosts(times) if known is None else known.find_costs(request, times)
+        self.forecasts.ask((request, costs))
+
+    def _wait_until_idle(self) -> None:
+        if self._is_visible and self.runner.is_idle and self._finished_request is None:
+            self._idle_timer.start(IDLE_MS)
+
+    def _start(self) -> None:
+        if not self._simulation.runner.is_idle:
+            return  # it starts again when the simulation is idle
+        self._count = 0
+        self.runner.ask(self._request())
+        self._pane.plot.show_study_begun()
+
+    def _show(self, report: SceneCosts | MeasuredPoint) -> None:
+        if isinstance(report, SceneCosts):
+            self._costs = report
+            self._pane.show_costs(report)
+            self._predict()
+            return
+        self._count += 1
+        self._pane.plot.show_point(report.point, self._count, report.total)
+
+    def _finish(self, _result: object) -> None:
+        self._finished_request = self._request()
+        self._pane.plot.show_study_finished()
+
+    def _fail(self, sentence: str) -> None:
+        self._finished_request = self._request()  # it would fail again
+        self._pane.plot.show_study_failed(sentence)
+
+    def stop(self) -> None:
+        self._idle_timer.stop()
+        self.runner.stop()
+        self.forecasts.stop()
 
 
 class AccuracyPane(PiecesPane):

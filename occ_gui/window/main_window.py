@@ -11,9 +11,8 @@ from occ_gui.story.story_view import StoryView
 from occ_gui.values.modes import MODES, PICTURE, PanePlace, Places, Side
 from occ_gui.widgets.building import bring_into_view
 from occ_gui.widgets.event_filters import leave_drops_to_window
-from occ_gui.window.docks import Dock
+from occ_gui.window.docks import DeclaredPane, Dock, ModeSwitch, Panes
 from occ_gui.window.menus import Menus
-from occ_gui.window.modes import DeclaredPane, ModeSwitch, Panes
 from occ_gui.window.reading_order import next_to_focus
 from occ_gui.window.status_line import StatusLine
 from occ_gui.window.style_sheet import style_sheet

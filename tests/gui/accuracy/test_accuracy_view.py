@@ -11,7 +11,7 @@ from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
-from occ_gui.accuracy import controller
+from occ_gui.accuracy import pane
 from occ_gui.accuracy.effect_rows import EffectRow
 from occ_gui.accuracy.pane import AccuracyPane
 from occ_gui.accuracy.plan_changes import PlanChanges
@@ -44,7 +44,7 @@ class Bench(PaneBench):
 @pytest.fixture
 def bench(qtbot: QtBot, small_scene: Scene, monkeypatch: pytest.MonkeyPatch) -> Bench:
     """Bring the pane to the front, and let no study begin."""
-    monkeypatch.setattr(controller, "IDLE_MS", 3_600_000)
+    monkeypatch.setattr(pane, "IDLE_MS", 3_600_000)
     return Bench(qtbot, small_scene)
 
 

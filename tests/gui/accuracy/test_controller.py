@@ -13,9 +13,9 @@ from gui.stores import store_of
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
-from occ_gui.accuracy import controller as module, cost_measurement
-from occ_gui.accuracy.controller import AccuracyController
+from occ_gui.accuracy import cost_measurement, pane as module
 from occ_gui.accuracy.cost_measurement import CostMeasurement, MeasuredPoint, SceneCosts
+from occ_gui.accuracy.pane import AccuracyController
 from occ_gui.background.task import Superseded
 from occ_gui.core.workspace import FIRST_SETTINGS
 from occ_gui.simulation.controller import SimulationController

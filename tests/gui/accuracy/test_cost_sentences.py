@@ -5,7 +5,7 @@ import math
 import pytest
 
 import occ_model as occ
-from occ_gui.accuracy.cost_sentences import describe_ends, describe_forecast, describe_picture
+from occ_gui.accuracy.accuracy_view import describe_ends, describe_forecast, describe_picture
 from occ_model.results.accuracy import Forecast, MeasuredCosts, TimeFractions
 from occ_model.results.frame import Frame
 

@@ -17,8 +17,7 @@ from occ_gui.widgets.colours import contrast
 from occ_gui.widgets.state_look import State, colours_of
 from occ_gui.window.docks import floating_place
 from occ_gui.window.style_sheet import SHEET, style_sheet
-from occ_gui.window.text_size import SIZES
-from occ_gui.window.theme import palette_of
+from occ_gui.window.theme import SIZES, palette_of
 from occ_model.files.resources import resource_names
 
 ROLE = QPalette.ColorRole

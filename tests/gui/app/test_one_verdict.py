@@ -1,19 +1,16 @@
 """The window, the model and the studies agree about a scene."""
 
 import csv
-import math
 from functools import cache
 from pathlib import Path
 
 import numpy as np
 import pytest
-from amount import amount
 from gui.conftest import InlineWorkers
 from gui.kinds import not_none
 from gui.pane_bench import handle_middle
 from gui.user import User
 from pytestqt.qtbot import QtBot
-from scene_values import presets_of_codes
 
 import occ_model as occ
 from occ_gui.app.application import Application
@@ -41,16 +38,9 @@ from occ_model.study.theory import null_frequency
 from occ_model.study.working_range import working_range
 
 
-@cache
-def frontier_scenes(count: int) -> tuple[Scene, ...]:
-    """Return scenes with the paper's cameras near the end of the decoder's working range."""
-    random = np.random.default_rng(21)
-    names = [name for name in presets_of_codes() if not name.endswith("-real")]
-    return tuple(_frontier_scene(names[number % len(names)], random) for number in range(count))
-
-
-def _frontier_scene(name: str, random: np.random.Generator) -> Scene:
-    scene = occ.load_preset(name)
+def frontier_scene() -> Scene:
+    """Return a scene with the paper's phone near the end of the decoder's working range."""
+    scene, random = occ.load_preset("phone-136us"), np.random.default_rng(21)
     changes: dict[str, ParameterValue] = {
         "rows": scene.camera.rows // 12,
         "columns": scene.camera.columns // 2,
@@ -63,23 +53,6 @@ def _frontier_scene(name: str, random: np.random.Generator) -> Scene:
         "iso": float(100.0 * 2.0 ** random.uniform(0.0, 3.0)),
     }
     return scene.replace(**changes)
-
-
-@pytest.mark.whole
-def test_the_study_agrees_with_the_pictures() -> None:
-    """If all or none of 40 images are read, another picture differs once in some dozens."""
-    scenes = frontier_scenes(amount(4, 12))
-    surprises = sure = 0
-    for number, scene in enumerate(scenes):
-        rate = occ.success_rate(scene, images=40, seed=number)
-        result = occ.decode(occ.render(scene, seed=number).image, scene)
-        if 0.0 < rate < 100.0:
-            continue
-        sure += 1
-        surprises += (result.code == scene.transmitter.code) != (rate == 100.0)
-    assert sure > len(scenes) / 2
-    # Rule of three: a rate of which 40 images show nothing is at most 3 in 40.
-    assert surprises <= math.ceil(0.05 * sure)
 
 
 def test_a_picture_that_studies_may_contradict_states_what_it_leaves_out(
@@ -104,7 +77,7 @@ def scene_of(decoder: str) -> Scene:
     """Return a scene near an end of a decoder's working range."""
     few = occ.load_preset("phone-136us").replace(rows=300, switching_frequency=3.4e3)
     if decoder in {"threshold", "matched"}:
-        return frontier_scenes(1)[0]
+        return frontier_scene()
     return few if decoder == "equalizer" else few.replace(switching_frequency=1.85e3)
 
 

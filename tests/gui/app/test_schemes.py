@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 from gui.user import User
-from model.plugins.installed_package import forget_plugins, install
+from model.plugins.installed_package import importable
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
@@ -115,7 +115,7 @@ def test_incompatible_line_code_and_framing_are_refused_at_both_fields(
 
 
 @pytest.fixture
-def plugins_of_decoders(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+def plugins_of_decoders(tmp_path: Path) -> Iterator[None]:
     """Install a decoder that reads nothing and one that cannot be imported."""
     module = (
         "import occ_model as occ\n"
@@ -124,11 +124,8 @@ def plugins_of_decoders(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iter
         "DECODER = occ.Decoder('nothing', 'Nothing', read)\n"
     )
     names = {"nothing": "reads_nothing:DECODER", "gone": "reads_nothing:GONE"}
-    install(tmp_path, "reads-nothing", {plugins.DECODERS: names}, module)
-    monkeypatch.syspath_prepend(tmp_path)
-    forget_plugins()
-    yield
-    forget_plugins()
+    with importable(tmp_path, "reads-nothing", {plugins.DECODERS: names}, module):
+        yield
 
 
 @pytest.mark.usefixtures("plugins_of_decoders")
